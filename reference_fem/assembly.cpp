@@ -320,21 +320,43 @@ ErrorNorms error_norms(const SimplexSpace& space, const Eigen::VectorXd& displac
 
 NodalMatrix::NodalMatrix(const SimplexSpace& space) : matrix_(space.dofs(), space.dofs()), tet_nodes_(space.tet_nodes())
 {
-    const auto adjacent = neighbours(tet_nodes_, space.nodes());
+    set_pattern(neighbours(tet_nodes_, space.nodes()));
+}
+
+void NodalMatrix::set_pattern(std::vector<std::vector<int>> rows_of_column)
+{
     std::size_t blocks = 0;
-    for (const auto& of_node : adjacent) blocks += of_node.size();
+    for (const auto& rows : rows_of_column) blocks += rows.size();
+    matrix_.setZero();
     matrix_.reserve(9 * blocks);
-    for (int column = 0; column < space.dofs(); ++column) {
+    for (int column = 0; column < matrix_.cols(); ++column) {
         matrix_.startVec(column);
-        for (const int row_node : adjacent[column / 3])
+        for (const int row_node : rows_of_column[column / 3])
             for (int c = 0; c < 3; ++c) matrix_.insertBack(3 * row_node + c, column) = 0.0;
     }
     matrix_.finalize();
 
+    tet_places_.clear();
     tet_places_.reserve(tet_nodes_.size() * tet_nodes_.cols());
     for (const auto& tet : tet_nodes_.rowwise())
         for (const int row_node : tet)
             for (const int column_node : tet) tet_places_.push_back(place(row_node, column_node));
+}
+
+bool NodalMatrix::couple(const std::vector<NodePair>& pairs)
+{
+    if (std::all_of(pairs.begin(), pairs.end(), [&](const NodePair& pair) { return has_place(pair[0], pair[1]); })) return false;
+    auto rows = neighbours(tet_nodes_, static_cast<int>(matrix_.cols()) / 3);
+    for (const auto& [one, other] : pairs) {
+        rows[one].push_back(other);
+        rows[other].push_back(one);
+    }
+    for (auto& of_column : rows) {
+        std::sort(of_column.begin(), of_column.end());
+        of_column.erase(std::unique(of_column.begin(), of_column.end()), of_column.end());
+    }
+    set_pattern(std::move(rows));
+    return true;
 }
 
 SparseMatrix::StorageIndex NodalMatrix::place(int row_node, int column_node) const
@@ -342,6 +364,12 @@ SparseMatrix::StorageIndex NodalMatrix::place(int row_node, int column_node) con
     const auto* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[3 * column_node];
     const auto* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[3 * column_node + 1];
     return std::lower_bound(begin, end, 3 * row_node) - begin;
+}
+
+bool NodalMatrix::has_place(int row_node, int column_node) const
+{
+    const auto at = matrix_.outerIndexPtr()[3 * column_node] + place(row_node, column_node);
+    return at < matrix_.outerIndexPtr()[3 * column_node + 1] && matrix_.innerIndexPtr()[at] == 3 * row_node;
 }
 
 template <typename Block>
@@ -366,18 +394,28 @@ void NodalMatrix::add_tet(Eigen::Index tet, const Eigen::Ref<const Eigen::Matrix
         for (Eigen::Index b = 0; b < nodes; ++b) add_at(places[a * nodes + b], tet_nodes_(tet, b), values.block<3, 3>(3 * a, 3 * b));
 }
 
-void NodalMatrix::add(const SparseMatrix& same_pattern, double factor)
+// Both walk along a column; the rows of the tets are among those of the pattern.
+void NodalMatrix::add(const SparseMatrix& of_tets, double factor)
 {
-    matrix_.coeffs() += factor * same_pattern.coeffs();
+    for (Eigen::Index column = 0; column < matrix_.cols(); ++column) {
+        SparseMatrix::InnerIterator here(matrix_, column);
+        for (SparseMatrix::InnerIterator entry(of_tets, column); entry; ++entry, ++here) {
+            while (here.row() != entry.row()) ++here;
+            here.valueRef() += factor * entry.value();
+        }
+    }
 }
 
 void NodalMatrix::add_isotropic(const SparseMatrix& of_nodes, double factor)
 {
-    for (Eigen::Index node = 0; node < of_nodes.cols(); ++node) {
-        SparseMatrix::StorageIndex place = 0;
-        for (SparseMatrix::InnerIterator entry(of_nodes, node); entry; ++entry, place += 3)
-            for (int c = 0; c < 3; ++c) matrix_.valuePtr()[matrix_.outerIndexPtr()[3 * node + c] + place + c] += factor * entry.value();
-    }
+    for (Eigen::Index node = 0; node < of_nodes.cols(); ++node)
+        for (int c = 0; c < 3; ++c) {
+            SparseMatrix::InnerIterator here(matrix_, 3 * node + c);
+            for (SparseMatrix::InnerIterator entry(of_nodes, node); entry; ++entry, ++here) {
+                while (here.row() != 3 * entry.row() + c) ++here;
+                here.valueRef() += factor * entry.value();
+            }
+        }
 }
 
 Lame lame_parameters(double young_pa, double poisson)

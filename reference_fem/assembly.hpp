@@ -6,6 +6,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -116,19 +117,24 @@ struct TetQuadrature {
 };
 ElementTables element_tables(const SimplexSpace& space, const TetQuadrature& quadrature);  // any number of points; ElasticPotential takes 6
 
-// A symmetric sparse matrix over the nodes of a space, of 3 x 3 blocks: block (i, j) exists where a tet has both nodes. It is stored as
-// the plain compressed columns that SuiteSparse reads, so adding a block is nine additions in place.
+using NodePair = std::array<int, 2>;
+
+// A symmetric sparse matrix over the nodes of a space, of 3 x 3 blocks: block (i, j) exists where a tet has both nodes, or where they are
+// coupled. It is stored as the plain compressed columns that SuiteSparse reads, so adding a block is nine additions in place.
 // Degree of freedom 3 n + c is component c at node n.
 class NodalMatrix {
 public:
     explicit NodalMatrix(const SimplexSpace& space);  // zeros; the space may go
 
-    void set_zero() { matrix_.coeffs().setZero(); }                               // the pattern stays
-    void add_block(int row_node, int column_node, const Eigen::Matrix3d& block);  // of two nodes that share a tet
+    void set_zero() { matrix_.coeffs().setZero(); }  // the pattern stays
+    // Makes place for blocks of further pairs of nodes, both ways. If one of them has none yet, places of earlier couplings that are not
+    // among them are dropped, all values become 0, and the answer is true: the pattern has changed.
+    bool couple(const std::vector<NodePair>& pairs);
+    void add_block(int row_node, int column_node, const Eigen::Matrix3d& block);  // of two nodes that share a tet or are coupled
     // Blocks of one tet, k of them a side: values 3 k x 3 k.
     void add_tet(Eigen::Index tet, const Eigen::Ref<const Eigen::MatrixXd>& values);
-    // factor times another NodalMatrix of this space, #dofs x #dofs.
-    void add(const SparseMatrix& same_pattern, double factor);
+    // factor times another NodalMatrix of this space without couplings, #dofs x #dofs.
+    void add(const SparseMatrix& of_tets, double factor);
     // factor times a matrix over the nodes, #nodes x #nodes with an entry where a tet has both: a multiple of the identity in each block.
     void add_isotropic(const SparseMatrix& of_nodes, double factor);
 
@@ -136,7 +142,9 @@ public:
     SparseMatrix matrix() && { return std::move(matrix_); }  // the same, moved out
 
 private:
+    void set_pattern(std::vector<std::vector<int>> rows_of_column);         // of nodes, both sorted
     SparseMatrix::StorageIndex place(int row_node, int column_node) const;  // of the block's first row in its columns
+    bool has_place(int row_node, int column_node) const;
     template <typename Block>
     void add_at(SparseMatrix::StorageIndex place, int column_node, const Block& block);
 

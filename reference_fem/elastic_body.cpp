@@ -45,6 +45,12 @@ public:
             bind_ = std::make_unique<BindPotential>(mesh.rest, attachment.bind_distance, attachment.bind_stiffness);
             terms_.push_back(bind_.get());
         }
+        if (options.contact.range_m > 0.0) {
+            require(options.dynamics != Dynamics::generalized_alpha, "contact.range_m", options.contact.range_m,
+                    "expected 0 with generalized_alpha, whose state at the end of a step is extrapolated");
+            contact_ = std::make_unique<ContactPotential>(held_.space(), options.contact);
+            terms_.push_back(contact_.get());
+        }
         if (options.dynamics == Dynamics::quasi_static) return;
         stepper_ = std::make_unique<TimeStepper>(held_.space(), held_.prescribed(), flesh_, stepper_options(options), newton_);
     }
@@ -58,7 +64,7 @@ public:
             [&](double fraction) {
                 gravity_.set(weight_before + fraction * (weight - weight_before));
                 const Targets targets = targets_at(fraction);
-                if (guide.rows() > 0) displacement_ += held_.prescribed_values(held_.rest() + targets.guide - guide);
+                if (guide.rows() > 0) follow_guide(held_.prescribed_values(held_.rest() + targets.guide - guide));
                 const NewtonSummary summary = newton_.minimise(terms_, move_to(targets), displacement_, options_.newton);
                 last_iterate_ = displacement_;
                 if (summary.converged()) guide = targets.guide;
@@ -80,7 +86,8 @@ public:
         gravity_.set(held_.gravity_load(gravity_m_s2));
         NewtonOptions options = options_.newton;
         options.reuse_contraction = 0.0;  // far from a minimum a kept factor can lead elsewhere
-        const NewtonSummary summary = newton_.minimise(terms_, move_to(targets), displacement_, options);
+        const std::optional<NewtonSummary> refused = refused_guess();
+        const NewtonSummary summary = refused ? *refused : newton_.minimise(terms_, move_to(targets), displacement_, options);
         last_iterate_ = displacement_;
         show();
         return summary;
@@ -101,6 +108,22 @@ public:
         gravity_.set(path.converged() ? weight : weight_before);
         show();
         return path;
+    }
+
+    // The guide may lead the flesh into itself, and the initial guess then stops before.
+    void follow_guide(const Eigen::VectorXd& change)
+    {
+        displacement_ += (contact_ ? contact_->largest_step(displacement_, change) : 1.0) * change;
+    }
+
+    // An outcome of Newton's method that was not begun; nothing: the initial guess may be used.
+    std::optional<NewtonSummary> refused_guess() const
+    {
+        if (!contact_ || !contact_->intersects(displacement_)) return {};
+        NewtonSummary summary;
+        summary.outcome = NewtonOutcome::intersects_itself;
+        summary.iterations.emplace_back();
+        return summary;
     }
 
     void start_at(const Eigen::VectorXd& displacement)
@@ -145,6 +168,7 @@ public:
     std::unique_ptr<StiffnessPotential> linear_flesh_;  // the same by its matrix; null where the law is not linear
     SpringPotential springs_;
     std::unique_ptr<BindPotential> bind_;
+    std::unique_ptr<ContactPotential> contact_;  // null: none
     DeadLoad gravity_;
     bool weighs_ = false;  // a gravity was given before
     NewtonMinimiser newton_;
@@ -172,6 +196,7 @@ LoadPathSummary ElasticBody::solve(const TargetsAt& targets_at, const pbs::Vec3&
 LoadPathSummary ElasticBody::solve_here(const Targets& targets, const pbs::Vec3& gravity_m_s2)
 {
     require(gravity_m_s2.allFinite(), "gravity_m_s2", gravity_m_s2.transpose(), "expected finite components");
+    if (const std::optional<NewtonSummary> refused = implementation_->refused_guess()) return {.steps = {{1.0, *refused}}};
     return implementation_->solve([&](double) { return targets; }, gravity_m_s2, {.smallest_step = 1.0});
 }
 
@@ -255,6 +280,11 @@ Jacobians ElasticBody::jacobians() const
 std::vector<bool> ElasticBody::prescribed_vertices() const
 {
     return implementation_->held_.prescribed_vertices();
+}
+
+ContactState ElasticBody::contact() const
+{
+    return implementation_->contact_ ? implementation_->contact_->state(implementation_->displacement_) : ContactState();
 }
 
 const SetupSummary& ElasticBody::setup() const

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "reference_fem/attachment.hpp"
+#include "reference_fem/contact/contact_potential.hpp"
 #include "reference_fem/laws/constitutive_law.hpp"
 #include "reference_fem/newton/newton.hpp"
 #include "reference_fem/options.hpp"
@@ -31,6 +32,7 @@ struct ElasticOptions {
     double rayleigh_mass_1_s = 0.0;                       // damping C = rayleigh_mass M + rayleigh_stiffness K(rest)
     double rayleigh_stiffness_s = 0.0;                    // both finite, >= 0
     double spectral_radius = 0.8;                         // of generalised-alpha at infinite frequency, 0 to 1
+    ContactOptions contact = {};                          // of the surface with itself; range 0: none. Not with generalized_alpha
     LinearSolver solver = LinearSolver::cholmod;          // of the systems in Newton
     NewtonOptions newton = {};                            // of each attempt on the path
     LoadPathOptions path = {};                            // how solve() and advance() divide the way
@@ -71,7 +73,8 @@ public:
     void start_from_nodes(const pbs::Positions& nodes);
 
     // Newton alone for these targets, from the last state or start_from(), however broken: no load path, nothing taken back. positions()
-    // are then the last iterate, converged or not. pbs::InputError unless quasi-static, and as solve().
+    // are then the last iterate, converged or not. pbs::InputError unless quasi-static, and as solve(). With contact, an initial guess that
+    // intersects itself ends with the outcome intersects_itself: the barrier would keep it as it is. This holds for solve_here(), too.
     NewtonSummary solve_at_once(const Targets& targets, const pbs::Vec3& gravity_m_s2);
 
     const pbs::Positions& positions() const;      // deformed vertices [m], #V x 3
@@ -86,6 +89,7 @@ public:
     double strain_energy_j() const;                 // of the flesh alone
     double kinetic_energy_j() const;                // 0 where quasi-static
     Jacobians jacobians() const;                    // det F at the quadrature points of the elements
+    ContactState contact() const;                   // no pair where there is no contact
     std::vector<bool> prescribed_vertices() const;  // #V
     const SetupSummary& setup() const;              // solver and factor from the first solve on
 

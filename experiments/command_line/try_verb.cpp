@@ -40,15 +40,17 @@ std::string python_that_draws()
                           "no python3 that can import numpy and matplotlib: install python3-numpy and python3-matplotlib");
 }
 
+constexpr std::uintmax_t largest_page_bytes = std::uintmax_t{4} << 30;
+
 // Runs the scene that was just written. If it is refused before the run has written anything, the folder is left as it was.
-RunResult run_new_scene(const std::string& scene_file, const std::string& earlier_scene, const TrialOptions& options,
-                        bool folder_is_new, int threads, const std::vector<std::string>& warnings)
+RunResult run_new_scene(const std::string& scene_file, const std::string& earlier_scene, const TrialOptions& options, bool folder_is_new,
+                        int threads, const Remarks& remarks)
 {
     try {
         Scene scene = read_scene(scene_file, {});
         for (DeformerSpec& spec : scene.deformers) spec.threads = threads;
         scene.output.surface_files = options.paraview;
-        return run_scene(scene, options.folder, warnings);
+        return run_scene(scene, options.folder, remarks);
     } catch (const pbs::InputError&) {
         std::error_code code;
         if (!earlier_scene.empty())
@@ -60,20 +62,21 @@ RunResult run_new_scene(const std::string& scene_file, const std::string& earlie
     }
 }
 
-// Of a trial remain the page, the tables, the .glb files and the artist's surface. The frames for ParaView take most of the space; once the
-// page is written, it has what it shows of them.
+// A trial leaves the page, the tables, the .glb files and the artist's surface. The frames for ParaView take most of the space; once the
+// page has a viewer, it has what it shows of them.
 void leave_what_is_of_use(const TrialOptions& options, bool has_page)
 {
     const fs::path folder = options.folder;
-    const bool leaves_out = has_page && !options.paraview;
-    if (leaves_out) {
+    const std::string page = (folder / "report.html").string();
+    const bool has_viewer = has_page && pbs::read_text_file(page, largest_page_bytes).find("id=\"viewer-block\"") != std::string::npos;
+    const bool leaves_out = has_viewer && !options.paraview;
+    if (leaves_out)
         remove_frames(options.folder);
-        if (pbs::read_text_file((folder / "report.html").string()).find("id=\"viewer-block\"") == std::string::npos)
-            warn(
-                {fmt::format("{}: has no viewer, for the reason above; --paraview keeps the frames of which `pbskin report` makes one, and "
-                             "frames/*.glb have the moving surfaces",
-                             (folder / "report.html").string())});
-    }
+    else if (has_page && !has_viewer)
+        warn(
+            {fmt::format("{}: the page has no viewer, for the reason above; the frames remain, so that `pbskin report {}` can add it once "
+                         "that reason is gone",
+                         page, options.folder)});
     std::uintmax_t bytes = 0;
     int files = 0;
     for (const auto& file : fs::recursive_directory_iterator(folder)) {

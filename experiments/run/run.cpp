@@ -121,11 +121,11 @@ void add_warnings(const std::vector<std::string>& remarks, std::vector<std::stri
     add_remarks(remarks, warnings, "warning");
 }
 
-std::vector<std::string> printed(const std::vector<std::string>& remarks)
+std::vector<std::string> printed(const std::vector<std::string>& remarks, const char* kind)
 {
-    std::vector<std::string> warnings;
-    add_warnings(remarks, warnings);
-    return warnings;
+    std::vector<std::string> recorded;
+    add_remarks(remarks, recorded, kind);
+    return recorded;
 }
 
 // The rendered surface is needed if it is measured or written.
@@ -155,9 +155,10 @@ constexpr double longest_loss_s = 1.0;
 
 class SceneRun {
 public:
-    SceneRun(const Scene& scene, const std::string& folder, const std::vector<std::string>& warnings)
+    SceneRun(const Scene& scene, const std::string& folder, const Remarks& remarks)
         : scene_(scene),
-          warnings_(printed(warnings)),
+          warnings_(printed(remarks.warnings, "warning")),
+          notes_(printed(remarks.notes, "note")),
           character_(cost_.time("character", [&] { return character_with_warnings(scene, warnings_); })),
           motion_case_(cost_.time("motion", [&] { return read_motion(scene, character_, warnings_); })),
           motion_(motion_case_.motion),
@@ -187,7 +188,7 @@ public:
     }
 
 private:
-    // As a root on the ground, from which a rig hangs.
+    // A root on the ground, from which a rig hangs, is such a bone.
     void warn_of_bones_without_flesh()
     {
         for (const Runner& runner : runners_) {
@@ -293,16 +294,21 @@ private:
         const pbs::Positions& rest = character_.artist->model->body.surface;
         const double pct = 100.0 * followed.largest_m / (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
         const pbs::Carrier carrier = pbs::carrier_of(character_, followed.vertex);
-        const auto name = [&](int bone) { return character_.skeleton.bones[static_cast<std::size_t>(bone)].name; };
+        const auto& bones = character_.skeleton.bones;
+        const auto name = [&](int bone) { return bones[static_cast<std::size_t>(bone)].name; };
+        const auto parent = [&](int bone) { return bones[static_cast<std::size_t>(bone)].parent; };
+        const bool at_a_joint =
+            carrier.bone == carrier.of_flesh || parent(carrier.bone) == carrier.of_flesh || parent(carrier.of_flesh) == carrier.bone;
         if (pct > far_from_artist_pct)
             add_warnings(
                 {fmt::format("{}: the surface that LBS carries with the tets is up to {:.1f} % of the model's size away from the "
                              "artist's, in frame {}: ",
                              scene_.file, pct, followed.frame) +
-                 (carrier.bone == carrier.of_flesh
-                      ? fmt::format("the tets at {} are too coarse for its weights; character.vertices asks for more", name(carrier.bone))
-                      : fmt::format("there the flesh of {} carries the surface of {}, with a gap of {:.3g} mm at rest",
-                                    name(carrier.of_flesh), name(carrier.bone), 1e3 * carrier.gap_m))},
+                 (at_a_joint ? fmt::format("the tets at {} are too coarse for its weights; --vertices (character.vertices in a scene) asks "
+                                           "for more",
+                                           name(carrier.bone))
+                             : fmt::format("there the flesh of {} carries the surface of {}, with a gap of {:.3g} mm at rest",
+                                           name(carrier.of_flesh), name(carrier.bone), 1e3 * carrier.gap_m))},
                 warnings_);
         return {{"largest_pct", pct},
                 {"frame", followed.frame},
@@ -435,10 +441,10 @@ private:
 
 }  // namespace
 
-RunResult run_scene(const Scene& scene, const std::string& folder, const std::vector<std::string>& warnings)
+RunResult run_scene(const Scene& scene, const std::string& folder, const Remarks& remarks)
 {
     std::optional<pbs::Stage> preparing("preparing " + scene.name);
-    SceneRun run(scene, folder, warnings);
+    SceneRun run(scene, folder, remarks);
     preparing.reset();
     return run.run();
 }

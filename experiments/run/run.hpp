@@ -28,8 +28,8 @@ struct RunResult {
 
 // Overwrites the records in `folder`. Each file is written whole or not at all, run.json last. A breakdown of a negative control (the
 // printed forms, linear elasticity) is only recorded, under outcome.broken_frames.
-// warnings: what the caller has to say about the scene; they are printed and recorded before those of the run.
-RunResult run_scene(const Scene& scene, const std::string& folder, const std::vector<std::string>& warnings = {});
+// remarks: what the caller has to say about the scene; they are printed and recorded before those of the run.
+RunResult run_scene(const Scene& scene, const std::string& folder, const Remarks& remarks = {});
 
 // The parts of run.json that are the same for all runs.
 //   run["provenance"] = run_provenance(threads);   run["outcome"].update(run_end(stopwatch.seconds()));

@@ -160,12 +160,12 @@ void RunFolder::write_artist_skin(int frame, double time_s, const pbs::Character
     const std::string file = frame_file("artist", frame, ".vtp");
     pbs::write_vtp((fs::path(folder_) / "skin" / file).string(), points, model.body.triangles);
     artist_frames_.emplace_back(time_s, file);
-    if (lbs_surface_.rows() != points.rows() || !lbs_surface_.allFinite()) return;
-    Eigen::Index vertex = 0;
-    Eigen::VectorXd is_on_surface = Eigen::VectorXd::Zero(points.rows());  // some points of a file belong to no triangle
-    for (const int corner : character.artist->model->body.triangles.reshaped()) is_on_surface(corner) = 1.0;
-    const double largest_m = (lbs_surface_ - points).rowwise().norm().cwiseProduct(is_on_surface).maxCoeff(&vertex);
-    if (followed_.frame < 0 || largest_m > followed_.largest_m) followed_ = {largest_m, frame, vertex};
+    const bool has_own_weights = character.weight_kind == pbs::WeightKind::artist;
+    if (!has_own_weights || lbs_surface_.rows() != points.rows() || !lbs_surface_.allFinite()) return;
+    // The artist's surface by the same rigid bones: scale in an animation is not an error of the tets.
+    const Eigen::VectorXd distance_m = (lbs_surface_ - pbs::artist_points(model.body, pose)).rowwise().norm();
+    for (const int corner : model.body.triangles.reshaped())  // some points of a file belong to no triangle
+        if (followed_.frame < 0 || distance_m(corner) > followed_.largest_m) followed_ = {distance_m(corner), frame, corner};
 }
 
 void remove_frames(const std::string& folder)

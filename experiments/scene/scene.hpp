@@ -89,6 +89,11 @@ const std::vector<BuiltInScene>& built_in_scenes();
 // A sweep or a clip on a skeleton. `scene_file` is named in errors.
 pbs::Motion make_motion(const MotionSpec& spec, const pbs::Skeleton& skeleton, const std::string& scene_file);
 
+// What a user should know, a sentence each.
+struct Remarks {
+    std::vector<std::string> warnings, notes;  // a result is doubtful; nothing is wrong
+};
+
 // Any motion, with what looks wrong about it, a sentence each: a motion in which no bone turns, bones that the animation scales,
 // joints and bones that a clip leaves out. An InputError where accepted_match throws one.
 struct CaseMotion {

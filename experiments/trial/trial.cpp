@@ -88,7 +88,7 @@ int bone_to_bend(const pbs::RiggedBody& body)
     return most;
 }
 
-std::string bending(const TrialOptions& options, const pbs::RiggedBody& body, std::vector<std::string>& remarks)
+std::string bending(const TrialOptions& options, const pbs::RiggedBody& body, std::vector<std::string>& notes)
 {
     const int bone = bone_to_bend(body);
     if (bone < 0)
@@ -97,8 +97,8 @@ std::string bending(const TrialOptions& options, const pbs::RiggedBody& body, st
                               "expected --animation CLIP");
     const pbs::Bone& bent = body.skeleton.bones[bone];
     const pbs::Vec3 axis = (bent.tail - bent.head).unitOrthogonal();
-    remarks.push_back(fmt::format("{}: it has no animation: the joint {} is bent by {} degrees (--animation CLIP takes a motion)",
-                                  options.model, bent.name, bend_deg));
+    notes.push_back(fmt::format("{}: it has no animation: the joint {} is bent by {} degrees (--animation CLIP takes a motion)",
+                                options.model, bent.name, bend_deg));
     return fmt::format("joint = {}\naxis = [{}, {}, {}]\nangle_deg = {:.1f}\nframes = {}\n", quoted(bent.name), axis.x(), axis.y(),
                        axis.z(), bend_deg, options.frames);
 }
@@ -114,8 +114,20 @@ std::string clip_file(const TrialOptions& options, const pbs::Rig& rig)
     }
 }
 
-// The largest rotation of a joint from the animation's first frame [deg], and the larger of it [rad] and the largest displacement over the
-// size of the model.
+// The largest rotation of a bone against its parent from the first frame [deg]: the root's turns the whole body. A single bone counts
+// itself.
+double largest_turn_deg(pbs::Motion motion, const pbs::Skeleton& skeleton)
+{
+    for (pbs::Pose& pose : motion.steps)
+        for (std::size_t b = pose.size(); b-- > 0;)  // parents come before their children
+            if (const int parent = skeleton.bones[b].parent; parent >= 0)
+                pose[b] = pose[static_cast<std::size_t>(parent)].inverse() * pose[b];
+            else if (pose.size() > 1)
+                pose[b].setIdentity();
+    return pbs::largest_rotation_deg(motion);
+}
+
+// The largest turn of a joint [deg], and the larger of it [rad] and the largest displacement over the size of the model.
 std::pair<double, double> motion_of(const pbs::Rig& rig, const pbs::RiggedBody& body, const pbs::RigAnimation& animation)
 {
     pbs::MotionSampling sampling;
@@ -123,12 +135,11 @@ std::pair<double, double> motion_of(const pbs::Rig& rig, const pbs::RiggedBody& 
     sampling.time_step_s = 1.0 / sampling.rate_hz;
     const pbs::Motion motion = pbs::rig_motion(rig, body, animation, sampling).motion;
     const double size_m = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).norm();
-    const double turn_deg = pbs::largest_rotation_deg(motion);
+    const double turn_deg = largest_turn_deg(motion, body.skeleton);
     return {turn_deg, std::max(turn_deg * M_PI / 180.0, pbs::largest_displacement_m(motion, body.skeleton) / size_m)};
 }
 
-// The first animation that turns a joint by more than least_turn_deg, else the one that moves most; null: there is none. `made` gets what
-// is known about all of them, and a remark on the choice.
+// The first animation that turns a joint by more than least_turn_deg, else the one that moves most; null: none. `made` describes them all.
 const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs::Rig& rig, const pbs::RiggedBody& body, TrialScene& made)
 {
     const auto& animations = rig.animations;
@@ -153,8 +164,8 @@ const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs
     for (const pbs::RigAnimation& animation : animations)
         if (&animation != &taken) others.push_back(animation.name);
     if (!others.empty() && options.animation.empty())
-        made.remarks.push_back(fmt::format("{}: it has {} animations; {} is taken, {} (--animation NAME takes another one: {})",
-                                           options.model, animations.size(), taken.name, why, fmt::join(others, ", ")));
+        made.remarks.notes.push_back(fmt::format("{}: it has {} animations; {} is taken, {} (--animation NAME takes another one: {})",
+                                                 options.model, animations.size(), taken.name, why, fmt::join(others, ", ")));
     return &taken;
 }
 
@@ -172,7 +183,7 @@ std::string motion(const TrialOptions& options, TrialScene& made)
     if (body.skeleton.bones.empty())
         throw pbs::InputError(options.model, 0, "skins", "0",
                               "the model has no joints and no animation: expected --skeleton FILE and --animation CLIP");
-    return bending(options, body, made.remarks);
+    return bending(options, body, made.remarks.notes);
 }
 
 // The settings of the built-in scenes.
@@ -288,10 +299,12 @@ nlohmann::json nearer_frames(const CsvTable& metrics)
     const FrameErrors errors = errors_of(metrics);
     nlohmann::json nearer = nearer_than("lbs", errors);
     if (nearer.is_null()) return nullptr;
+    // A method that fails in the hard frames would look best by the others: only frames in which all have an error count.
+    const auto most = std::ranges::max_element(errors, {}, [](const auto& frame) { return frame.second.size(); });
     std::map<std::string, std::vector<double>> others;
     for (const auto& [frame, of] : errors)
         for (const auto& [deformer, error] : of)
-            if (deformer != "pbs" && deformer != "lbs") others[deformer].push_back(error);
+            if (of.size() == most->second.size() && deformer != "pbs" && deformer != "lbs") others[deformer].push_back(error);
     const auto best = std::ranges::min_element(others, {}, [](const auto& other) { return analysis::median(other.second); });
     nearer["best_other"] = best == others.end() ? nlohmann::json() : nearer_than(best->first, errors);
     return nearer;
@@ -350,7 +363,7 @@ TrialScene trial_scene(const TrialOptions& options)
     if (has_skeleton_file && !fs::exists(options.skeleton)) throw pbs::InputError(options.skeleton, 0, "", "", "no such file");
     TrialScene made;
     const std::string moved = motion(options, made);
-    const bool reference = options.reference && finds_the_finite_elements(options, made.remarks);
+    const bool reference = options.reference && finds_the_finite_elements(options, made.remarks.warnings);
     std::string character = fmt::format("model = {}\n", quoted(from_folder(options.model, options.folder)));
     if (options.scale != 1.0) character += fmt::format("scale = {}\n", nlohmann::json(options.scale).dump());
     if (options.vertices > 0) character += fmt::format("vertices = {}\n", options.vertices);

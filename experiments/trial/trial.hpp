@@ -27,7 +27,7 @@ struct TrialOptions {
 // and read_clip, fewer than two frames, a scale beyond 1e-6 to 1e6, and names that are not UTF-8, which a scene cannot hold.
 struct TrialScene {
     std::string text;
-    std::vector<std::string> remarks;
+    Remarks remarks;
     nlohmann::json animations;  // those of the model, in the order of the file: [{name, duration_s, largest_rotation_deg of a joint}]
 };
 TrialScene trial_scene(const TrialOptions& options);

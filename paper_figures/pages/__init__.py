@@ -4,14 +4,22 @@
 """
 import importlib
 import math
+import pathlib
 import pkgutil
 import sys
+import tomllib
 
 import records
 from records import kept, whole_file
 
-# Each module of this folder has page(folder) for the study of its name.
-studies = sorted(module.name for module in pkgutil.iter_modules(__path__))
+listed = tomllib.loads(pathlib.Path(__file__).with_name("columns.toml").read_text(encoding="utf-8"))
+
+
+def composers():
+    """For each study that has a page, in order, the function of the study's folder that composes it: those of short.py, and `page` of the
+    module of the study's name."""
+    modules = {module.name: importlib.import_module(f"pages.{module.name}") for module in pkgutil.iter_modules(__path__)}
+    return dict(sorted((modules.pop("short").composers | {study: module.page for study, module in modules.items()}).items()))
 
 
 def write(results):
@@ -23,12 +31,12 @@ def write(results):
         print(f"pbskin: {error}", file=sys.stderr)
         return [], 2
     written, status = [], 0
-    for study in studies:
+    for study, compose in composers().items():
         if not (opened / study / "plan.json").is_file():
             continue
         file = results / study / f"{study}.md"
         try:
-            text = importlib.import_module(f"pages.{study}").page(opened / study)
+            text = compose(opened / study)
             with whole_file.beside(file) as part:
                 part.write_text(text, encoding="utf-8")
             written.append(file)
@@ -38,27 +46,27 @@ def write(results):
     return written, status
 
 
-def table(rows, columns):
-    """A Markdown table. columns: {heading: column, (column, decimals), (column, "g") with three digits or "g4" with four, or a function of
-    the row}."""
-    def cell(row, of):
-        if callable(of):
-            return of(row)
-        name, decimals = of if isinstance(of, tuple) else (of, None)
-        if decimals is None or row[name] == "":
-            return row[name]
-        value = float(row[name])
-        digits = f".{decimals[1:] or 3}g" if isinstance(decimals, str) else f".{decimals}f"
+def table(rows, columns, **functions):
+    """A Markdown table. columns: a table of columns.toml, whose functions are given by their names, or the like: {heading: its text, or a
+    function of the row}."""
+    def cell(row, column, digits):
+        if callable(column):
+            return column(row)
+        if not digits or row[column] == "":
+            return str(row[column])
+        value = float(row[column])
         return "\u2013" if math.isnan(value) else f"{value:{digits}}"
 
-    lines = ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
-    return "\n".join([*lines, *("| " + " | ".join(cell(row, of) for of in columns.values()) + " |" for row in rows)]) + "\n"
-
-
-def own_names(text):
-    """Columns under their own names, for table(): NAME, NAME:DECIMALS or NAME:g4."""
-    parts = (word.partition(":") for word in text.split())
-    return {name: (name, int(digits) if digits.isdigit() else digits) if digits else name for name, _, digits in parts}
+    shown = []  # heading, column or function, format
+    for heading, text in (listed[columns] if isinstance(columns, str) else columns).items():
+        if callable(text) or text.startswith("("):
+            shown.append((heading, text if callable(text) else functions[text[1:-1]], ""))
+            continue
+        for column, _, digits in (word.partition(":") for word in text.split()):
+            form = f".{digits}f" if digits.isdigit() else f".{digits[1:] or 3}g" if digits else ""
+            shown.append((column if " " in text or "\n" in text else heading, column, form))
+    lines = ["| " + " | ".join(heading for heading, *_ in shown) + " |", "|" + "---|" * len(shown)]
+    return "\n".join([*lines, *("| " + " | ".join(cell(row, *of) for _, *of in shown) + " |" for row in rows)]) + "\n"
 
 
 def files(folder, name):

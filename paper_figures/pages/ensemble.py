@@ -5,7 +5,9 @@ import pages
 import records
 from words import looks
 
-pose = {"body": "body", "motion": "motion", "pose": lambda row: row["pose"] or f"{float(row['angle_deg']):g}\u00b0"}
+
+def pose(row):
+    return row["pose"] or f"{float(row['angle_deg']):g}\u00b0"
 
 
 def decided(pairs):
@@ -18,10 +20,8 @@ def of_pairs(pairs):
     text = (f"{decided(notable)} pairs of deformers whose errors differ by more than {records.notable_points} percentage points are "
             f"decided. Without linear finite elements, these are {decided(skinning)} pairs.\n")
     undecided = [pair for pair in notable if pair["decision"] != "decided"]
-    return text + ("\n" + pages.table(undecided, pose | {
-        "first": lambda row: looks.of(row["first"]).name, "second": lambda row: looks.of(row["second"]).name,
-        "largest difference [%]": ("largest_difference_pct", 1), "first closer": "first_is_closer", "second closer": "second_is_closer",
-        "decision": "decision"}) if undecided else "")
+    first, second = (lambda row, name=name: looks.of(row[name]).name for name in ("first", "second"))
+    return text + ("\n" + pages.table(undecided, "undecided", pose=pose, first=first, second=second) if undecided else "")
 
 
 def of_members(members):
@@ -32,15 +32,12 @@ def of_members(members):
     silent = [row for row in members if row["outcome"] != "reached" or not row["error_bound_pct"]]
     if silent:
         text += ("\nThe worst tet is that with the smallest volume ratio in the finest solution. Tets that a solution inverts by their "
-                 "vertices alone are left out of the errors.\n\n" + pages.table(silent, pose | {
-                     "reference": "member", "outcome": "outcome", "worst tet": "worst_tet", "its volume ratio": ("j_min", 3),
-                     "inverted tets": "inverted", "lowest det F": ("lowest_det_f", 3)}))
+                 "vertices alone are left out of the errors.\n\n" + pages.table(silent, "silent", pose=pose))
     minutes = collections.Counter()
     for row in members:
-        minutes[(row["body"], row["motion"], pose["pose"](row))] += float(row["solve_s"]) / 60.0
+        minutes[(row["body"], row["motion"], pose(row))] += float(row["solve_s"]) / 60.0
     return text + "\n## Wall time of all references of a pose\n\n" + pages.table(
-        [{"body": body, "motion": motion, "pose": of, "minutes": spent} for (body, motion, of), spent in minutes.items()],
-        {"body": "body", "motion": "motion", "pose": "pose", "minutes": ("minutes", 1)})
+        [{"body": body, "motion": motion, "pose": of, "minutes": spent} for (body, motion, of), spent in minutes.items()], "minutes")
 
 
 def of_parts(folder):
@@ -52,11 +49,7 @@ def of_parts(folder):
     bound = {tuple(row[name] for name in key): row["model_pct"]
              for row in pages.of_runs(folder, "attachments.csv", {"attachment", "model_pct"}) if row["attachment"] == "bind"}
     rows = [row | {"bind_pct": bound.get(tuple(row[name] for name in key), "")} for row in parts]
-    return "\n## The error of PBS after 24 iterations [% of the bone distance]\n\n" + pages.table(rows, pose | {
-        "k_stretch": "k_stretch", "overlap [% of the volume]": ("masked_share_pct", 1), "error": ("error_joint_pct", 1),
-        "on the whole body": ("whole_joint_pct", 1), "solver": ("solver_pct", 1), "model": ("model_pct", 1),
-        "discretisation (bound)": ("discretisation_pct", 2), "observed order": ("observed_order", 2),
-        "flesh held by bind constraints": ("bind_pct", 1)})
+    return "\n## The error of PBS after 24 iterations [% of the bone distance]\n\n" + pages.table(rows, "parts", pose=pose)
 
 
 def page(folder):

@@ -24,14 +24,12 @@ def page(folder):
     exponents = records.table(folder / "exponents.csv",
                               {"varied", "first", "last", "exponent", "exponent_low", "exponent_high", "left_out"})
     text = "# Effective stiffness\n\nWeight of the jiggling zone, or of a bar's free length, over its mean displacement.\n"
-    columns = {"case": words_of} | {heading: lambda row, name=name: f"{float(row[name]):.4g}"
-                                    for heading, name in (("ratio", "value"), ("least", "low"), ("largest", "high"))}
+    columns = {"case": words_of, "ratio": "value:g4", "least": "low:g4", "largest": "high:g4"}
     for varied, words in doubled.items():
         quantity = "stiffness_ratio_at_" + words.replace("the ", "").replace("vertices", "resolution").replace(" ", "_")
         text += f"\n## Ratio at {words}\n\n" + pages.table([row for row in measured if row["quantity"] == quantity], columns)
-        text += f"\n## Stiffness ~ ({factors[varied]})^p\n\n" + pages.table([row for row in exponents if row["varied"] == varied], {
-            "case": words_of, "from": "first", "to": "last", "p": ("exponent", 3), "p, low": ("exponent_low", 3),
-            "p, high": ("exponent_high", 3), "left out": "left_out"})
+        rows = [row for row in exponents if row["varied"] == varied]
+        text += f"\n## Stiffness ~ ({factors[varied]})^p\n\n" + pages.table(rows, "exponents", case=words_of)
     outside = [row for row in measured if leaves(row)]
     return text + f"\n## Where XPBD, which is meant not to change, leaves {unchanged[0]:g} to {unchanged[1]:g}\n\n" + (
         pages.table(outside, {"quantity": "quantity"} | columns) if outside else "Nowhere.\n")

@@ -43,10 +43,9 @@ def nearest(folder):
                 shown.append(row | {"next": ""})
             elif row["rank"] == "2":
                 shown[-1]["next"] = f"{looks.of(row['group']).name}: {float(row['error_joint_pct']):.1f}"
-        text += f"\n## Nearest within a time: {words}\n\n" + pages.table(shown, {
-            "case": "case", "within [ms]": "budget_ms", "nearest": lambda row: looks.of(row["group"]).name, "setting": words_of,
-            "error [%]": ("error_joint_pct", 1), "next [%]": "next", "decision": "decision",
-            "undecided against": lambda row: ", ".join(looks.of(group).name for group in row["undecided_against"].split())})
+        text += f"\n## Nearest within a time: {words}\n\n" + pages.table(
+            shown, "best_within", group=lambda row: looks.of(row["group"]).name, words_of=words_of,
+            against=lambda row: ", ".join(looks.of(group).name for group in row["undecided_against"].split()))
     return text
 
 
@@ -82,24 +81,18 @@ def tried(folder):
     rows = [{"comparison": comparison, "deformer": deformer, "shown": str(shown), "tried": str(settings)}
             for (comparison, deformer), (shown, settings) in counts.items()]
     return ("\n## Settings tried\n\nA setting is a number of iterations (or an element order) on a mesh with one value of the grid. One "
-            "value for each of these numbers is shown.\n\n" + pages.table(rows, {
-                "comparison": "comparison", "deformer": "deformer", "settings shown": "shown", "settings tried": "tried"}))
+            "value for each of these numbers is shown.\n\n" + pages.table(rows, "settings"))
 
 
 def omissions(folder):
     rows = records.read_rows(folder / "omissions.csv")
-    return "\n## Omissions\n\n" + pages.table(rows, {
-        "comparison": "comparison", "case": "case", "deformer": "deformer", "why": "why", "points missing": "missing", "of": "points",
-        "reason": "reason"}) if rows else ""
+    return "\n## Omissions\n\n" + pages.table(rows, "omissions") if rows else ""
 
 
 def references(points):
     rows = [row | {"case": run, "s": float(row["reach_ms"]) / 1e3} for run, of in points.items() for row in of
             if row["outcome"] in ("reference", "not_reached")]
-    return "\n## References\n\n" + pages.table(rows, {
-        "case": "case", "half": "half", "reference": words_of, "outcome": "outcome", "time of its solutions [s]": ("s", 0),
-        "bound on its error [%]": ("reference_error_joint_pct", 2),
-        "left out, where it overlaps [% of the volume]": ("masked_share_pct", 2)})
+    return "\n## References\n\n" + pages.table(rows, "references", words_of=words_of)
 
 
 def crossings(folder):
@@ -108,10 +101,8 @@ def crossings(folder):
         return ""
     rows = [row for row in records.table(folder / "crossings.csv", {"comparison", "case", "deformer", "other", "outcome", "from_ms"})
             if (row["deformer"], row["other"]) in crossed or row["deformer"] not in looks.listed and row["other"] == "pbs"]
-    return "\n## Who is nearer from which time on\n\n" + pages.table(rows, {
-        "comparison": "comparison", "case": "case", "group": lambda row: looks.of(row["deformer"]).name,
-        "nearer than": lambda row: looks.of(row["other"]).name, "outcome": "outcome", "from [ms]": ("from_ms", 2),
-        "error [%]": ("error_joint_pct", 1), "decision": "decision", "why not": "reason"})
+    return "\n## Who is nearer from which time on\n\n" + pages.table(
+        rows, "crossings", deformer=lambda row: looks.of(row["deformer"]).name, other=lambda row: looks.of(row["other"]).name)
 
 
 def fronts(folder):
@@ -119,9 +110,7 @@ def fronts(folder):
         return ""
     rows = [row for row in records.table(folder / "fronts.csv", {"comparison", "case", "measure", "front"})
             if row["front"] == "all" and row["measure"] == "error_joint_pct"]
-    return "\n## The front of all points\n\n" + pages.table(rows, {
-        "comparison": "comparison", "case": "case", "ms per frame": ("ms_median", 3), "error [%]": ("error_joint_pct", 2),
-        "deformer": words_of, "decision": "decision"})
+    return "\n## The front of all points\n\n" + pages.table(rows, "fronts", words_of=words_of)
 
 
 def remark(gain):
@@ -139,11 +128,8 @@ def gains(folder):
     for group, budget in dict.fromkeys((row["group"], row["budget_iterations"]) for row in rows):
         own = [row for row in rows if (row["group"], row["budget_iterations"]) == (group, budget)]
         poses = "all poses" if group == "all" else f"the poses of the body {group}"
-        text += f"\n## In the time of {budget} iterations of PBS, {poses}\n\n" + pages.table(own, {
-            "change": lambda row: row["change"].replace("_", " "), "relative to": lambda row: row["than"].replace("_", " "),
-            "poses": "poses", "error [%]": ("error_pct", 2), "other's error [%]": ("than_error_pct", 2), "gain [points]": ("gain_pct", 2),
-            "from": ("gain_low_pct", 2), "to": ("gain_high_pct", 2), "decision": "decision", "why not": remark,
-            "iterations": ("iterations", 1), "volume change [%]": ("volume_abs_pct", 2), "settings": "settings"})
+        text += f"\n## In the time of {budget} iterations of PBS, {poses}\n\n" + pages.table(
+            own, "gains", change=lambda row: row["change"].replace("_", " "), than=lambda row: row["than"].replace("_", " "), remark=remark)
         over_pbs = {row["change"]: int(row["poses"]) for row in own if row["than"] == "pbs"}
         most = max(over_pbs.values())
         omitted = [f"{change.replace('_', ' ')} ({over_pbs.get(change, 0)} of {most} poses)" for change in changes

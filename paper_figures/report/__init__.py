@@ -3,6 +3,7 @@
     import report
     status = report.main(results)  # writes results/report.html
 """
+import functools
 import sys
 
 import records
@@ -12,24 +13,28 @@ from report import page, record_set, run_page
 most_mb = 25
 
 
+def refusing(write):
+    """The function, which returns 2 and prints the reason if records are missing or damaged, or a file cannot be written."""
+    @functools.wraps(write)
+    def status_of(*arguments, **options):
+        try:
+            return write(*arguments, **options)
+        except (records.RecordsMissing, whole_file.CannotBeWritten) as error:
+            print(f"pbskin: {error}", file=sys.stderr)
+            return 2
+    return status_of
+
+
+@refusing
 def main(results, quiet=False):
-    """Returns the exit status: 2 if there are no records, damaged ones, or the page cannot be written; 1 if the page is too large."""
-    file = results / "report.html"
+    """Writes the page. Returns the exit status: 1 if it is too large."""
+    is_run, file = (results / "run.json").is_file(), results / "report.html"
     try:
-        is_run = (results / "run.json").is_file()
         text, missing = run_page.page(results) if is_run else page.page(record_set.RecordSet(kept.opened(results)))
-    except records.RecordsMissing as error:
-        print(f"pbskin: {error}", file=sys.stderr)
-        return 2
     except whole_file.CannotBeWritten as error:
-        print(f"pbskin: {file}: cannot be written: {error}", file=sys.stderr)
-        return 2
-    try:
-        with whole_file.beside(file) as part:
-            part.write_text(text)
-    except whole_file.CannotBeWritten as error:
-        print(f"pbskin: {error}", file=sys.stderr)
-        return 2
+        raise whole_file.CannotBeWritten(f"{file}: cannot be written: {error}") from error
+    with whole_file.beside(file) as part:
+        part.write_text(text)
     megabytes = file.stat().st_size / 1e6
     if not quiet:
         for line in missing:
@@ -41,13 +46,10 @@ def main(results, quiet=False):
     return 0
 
 
+@refusing
 def picture(folder):
-    """Writes folder/picture.png, the values of a single run over its frames. Returns the exit status: 2 if it cannot be read or written."""
-    try:
-        figure = run_page.over_frames(run_page.RunRecords(folder))
-        with whole_file.beside(folder / "picture.png") as part:
-            figure.savefig(part, dpi=150)
-    except (records.RecordsMissing, whole_file.CannotBeWritten) as error:
-        print(f"pbskin: {error}", file=sys.stderr)
-        return 2
+    """Writes folder/picture.png, the values of a single run over its frames. Returns the exit status."""
+    figure = run_page.over_frames(run_page.RunRecords(folder))
+    with whole_file.beside(folder / "picture.png") as part:
+        figure.savefig(part, dpi=150)
     return 0

@@ -13,7 +13,7 @@ from drawing import style
 from records import shapes
 from report import origin
 from report.figures import inline_svg
-from report.markup import Markup, details, element, items, joined, table
+from report.markup import Markup, details, element, inline, items, joined, table
 from report.page import navigation, whole, written
 from report.record_set import number
 from words import looks
@@ -68,9 +68,9 @@ def of_deformer(found, label):
     change, error, step = (known(rows, column) for column in ("volume_change_pct", "error_joint_pct", "step_ms"))
     inverted = known(rows, "inverted_tets")
     is_reference = label == found.record["scene"].get("reference", {}).get("name")
-    told_error = "the reference" if is_reference else f"{figure(statistics.median(error))} ({figure(max(error))})" if error else "\u2013"
+    at_joints = "the reference" if is_reference else f"{figure(statistics.median(error))} ({figure(max(error))})" if error else "\u2013"
     return [looks.of(label).name, span_of_thousandths(change), f"{max(inverted, default=0):.0f}",
-            *([told_error] if has_errors(found) else []), figure(statistics.median(step) if step else None)]
+            *([at_joints] if has_errors(found) else []), figure(statistics.median(step) if step else None)]
 
 
 def has_errors(found):
@@ -88,20 +88,23 @@ def summary(found):
 
 
 def joints(found):
-    """The mean change of the volume at each joint, and where other bones meet, in per cent of the volume there."""
+    """The mean change of the volume at each joint, and where other bones meet, in per cent of the volume there. A run without the table of
+    bones does not state which pairs are bone and parent: all are taken for joints."""
     parents = {row["bone"]: row["parent"] for row in found.table("bones_rest.csv")}
-    changes = {}
+    at_joints, at_others = {}, {}
     for row in found.table("regions.csv"):
         one, other = row["bone"], row["second_bone"]
         if row["kind"] == "joint":
-            of = changes.setdefault(parents.get(other) == one or parents.get(one) == other, {})
+            of = at_joints if not parents or parents.get(other) == one or parents.get(one) == other else at_others
             of.setdefault(f"{one} \u2013 {other}", {})[row["deformer"]] = number(row, "own_change_pct")
-    tables = ((True, "at a joint", "joint"), (False, "where two bones meet", "bones"))
-    return joined((volume_table(found, changes[kind], *words) for kind, *words in tables if kind in changes), "\n")
+    tables = volume_table(found, at_joints, "at a joint", "joint"), volume_table(found, at_others, "where two bones meet", "bones")
+    return joined(filter(None, tables), "\n")
 
 
 def volume_table(found, changes, where, what):
     labels = [label for label in found.labels() if any(label in of for of in changes.values())]
+    if not labels:
+        return ""
     ordered = sorted(changes.items(), key=lambda pair: pair[1].get(labels[0]) or 0.0)
     body = [[name, *(figure(of.get(label)) for label in labels)] for name, of in ordered]
     return table(f"Mean change of the volume of the tets {where} [% of their volume at rest]",
@@ -120,33 +123,33 @@ def distances(found):
     return table("Distances between the same points", ["deformers", "of", "median rms [mm]", "largest [mm]", "frames"], body, "tall")
 
 
+# What a run takes from a rigged model. A sentence is on the page where the record has all of its numbers and names.
+of_model = ("File: {file}; {meshes_in_file}: {meshes}.", "Largest extent: {extent_m} m, with {metres_per_unit} m per unit of the file.",
+            "Joints dropped: {dropped}.", "Containers, which only contribute their transform: {containers}.",
+            "From the bind pose to the file's rest pose, bones turn by up to {bind_pose_deg}\u00b0.", "Animations: {animations}.",
+            "The tets carry {weights_transferred_pct} % of the artist's weights.",
+            "The surface that LBS carries with the tets is up to {largest_pct} % of the model's size from the artist's, in frame {frame}.",
+            "{matched_joints} of the clip's {clip_joints} moving joints match.")
+animation_columns = ["animation", "duration [s]", "largest rotation of a joint [degrees]", "shown here"]
+
+
 def model(found):
     """What the run took from a rigged model; nothing for other characters."""
-    record = found.record.get("character", {}).get("model")
+    record, outcome = found.record.get("character", {}).get("model"), found.record["outcome"]
     if not record:
         return ""
-    dropped = [f"{joint['name']} ({joint['reason']})" for joint in record["joints_dropped"]]
-    motion = found.record["outcome"].get("motion", {})
-    facts = [f"File: {record['file']}; {counted(len(record['meshes']), 'mesh', 'meshes')}: {listed(record['meshes'])}.",
-            f"Largest extent: {figure(record['extent_m'])} m, with {figure(record['metres_per_unit'])} m per unit of the file.",
-            f"Joints dropped: {listed(dropped)}.", f"Containers, which only contribute their transform: {listed(record['containers'])}.",
-            f"From the bind pose to the file's rest pose, bones turn by up to {figure(record['bind_pose_deg'])}\u00b0."]
-    of_trial = found.trial.get("animations", []) if found.trial else []
-    if not of_trial:
-        facts.append(f"Animations: {listed(record['animations'])}.")
-    if "weights_transferred_pct" in record:
-        facts.append(f"The tets carry {figure(record['weights_transferred_pct'])} % of the artist's weights.")
-    if "from_artist" in found.record["outcome"]:
-        followed = found.record["outcome"]["from_artist"]
-        facts.append(f"The surface that LBS carries with the tets lies up to {figure(followed['largest_pct'])} % of the model's size "
-                     f"from the artist's, in frame {followed['frame']}.")
-    if "clip_joints" in motion:
-        facts.append(f"{motion['matched_joints']} of the clip's {motion['clip_joints']} moving joints match.")
-    played = record.get("animation") if "clip_joints" not in motion else None
+    values = record | outcome.get("motion", {}) | outcome.get("from_artist", {})
+    values["dropped"] = [f"{joint['name']} ({joint['reason']})" for joint in values.pop("joints_dropped")]
+    values["meshes_in_file"] = counted(len(record["meshes"]), "mesh", "meshes")
+    played = None if "clip_joints" in values else record.get("animation")
     rows = [[one["name"], figure(one["duration_s"]), figure(one["largest_rotation_deg"]), "yes" if one["name"] == played else ""]
-            for one in of_trial]
-    header = ["animation", "duration [s]", "largest rotation of a joint [degrees]", "shown here"]
-    animations = table("Animations of the model; --animation NAME takes another one", header, rows, "tall") if rows else ""
+            for one in (found.trial or {}).get("animations", [])]
+    if rows:
+        del values["animations"]
+    words = {name: listed(value) if isinstance(value, list) else figure(value) if isinstance(value, float) else value
+             for name, value in values.items()}
+    facts = [text.format(**words) for text in of_model if words.keys() >= set(re.findall(r"\{(\w+)\}", text))]
+    animations = table("Animations of the model; --animation NAME takes another one", animation_columns, rows, "tall") if rows else ""
     bones = details(f"{counted(len(record['joints']), 'joint')} that are bones", items(record["joints"]))
     return joined([items(facts), animations, bones], "\n")
 
@@ -221,15 +224,13 @@ def figures_section(found):
 
 
 def viewer_of(found):
-    """The viewer, and the reason if there is none although frames were written. A trial removes its frames after it has made its page; then
-    the viewer of that page is kept."""
+    """The viewer, and why there is none. A trial removes its frames after it has made its page; then the viewer of that page is kept."""
     if not any((found.folder / "frames").glob("*.vtu")):
         page = found.folder / "report.html"
-        kept = page.is_file() and re.search(r'<div id="frame-viewer">.*?(<script.*?</script>\s*){3}', page.read_text(), re.DOTALL)
-        missing = ["viewer: frames/*.vtu: do not exist: `pbskin try --paraview` keeps them"] if found.trial and not kept else []
-        if not found.trial:
-            missing = ["viewer: no frames/*.vtu; run the scene again with `--set output.frames_every=1`"]
-        return Markup(kept[0].strip()) if kept else None, missing
+        if page.is_file() and (kept := re.search(r'<div id="frame-viewer">.*?(<script.*?</script>\s*){3}', page.read_text(), re.DOTALL)):
+            return Markup(kept[0].strip()), []
+        return None, ["viewer: frames/*.vtu: do not exist: `pbskin try --paraview` keeps them" if found.trial else
+                      "viewer: no frames/*.vtu; run the scene again with `--set output.frames_every=1`"]
     try:
         recorded_frames, page_of_viewer = map(importlib.import_module, ("records.recorded_frames", "viewer.page"))
         return Markup(page_of_viewer.fragment_of([recorded_frames.Frames(found.folder)])), []
@@ -244,7 +245,7 @@ def page(folder):
     remarks = found.trial or outcome
     warnings = [*remarks.get("warnings", []), *filter(None, (outcome.get("breakdown"), outcome.get("bad_frame")))]
     viewer, missing = viewer_of(found)
-    unseen = joined(element("p", f"The moving model is missing: {reason}.", class_="missing") for reason in missing)
+    unseen = joined(element("p", inline(f"The moving model is missing: {reason}."), class_="missing") for reason in missing)
     as_set = types.SimpleNamespace(results=folder, runs={found.name: found.record}, left_out=lambda: [])
     sections = [("summary", "What was found", summary(found)), ("warnings", "Warnings", items(warnings, "missing") if warnings else ""),
                 ("viewer", "Viewer", viewer or unseen), ("notes", "Notes", items(remarks["notes"]) if remarks.get("notes") else ""),

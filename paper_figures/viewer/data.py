@@ -31,9 +31,8 @@ def read_frame(file):
     ratio, rest = grid.GetCellData().GetArray("volume_ratio"), grid.GetPointData().GetArray("rest_position")
     if not ratio or not rest:
         raise records.RecordsMissing(f"{file}: no {'rest_position' if ratio else 'volume_ratio'}")
-    positions = vtk_to_numpy(grid.GetPoints().GetData())
-    records.need(numpy.isfinite(positions).all(), f"{file}: a position is not finite: nothing to show")
-    return tuple(numpy.array(array) for array in (positions, rendering.corners_of(grid), vtk_to_numpy(ratio), vtk_to_numpy(rest)))
+    arrays = (vtk_to_numpy(grid.GetPoints().GetData()), rendering.corners_of(grid), vtk_to_numpy(ratio), vtk_to_numpy(rest))
+    return tuple(numpy.array(array) for array in arrays)
 
 
 def grid_over(positions):
@@ -139,14 +138,24 @@ def facts_of(recorded, every):
             "times_s": [float(row["time_s"]) for row in first], "deformers": shown}
 
 
+def without_broken(facts, positions):
+    """The facts without deformers that have a position that is not finite, which are listed under `left_out` with that frame."""
+    broken = {label: facts["frames"][int(is_finite.argmin())] for label, of in positions.items()
+              if not (is_finite := numpy.isfinite(of).all(axis=(1, 2))).all()}
+    parts = {is_kept: [of for of in facts["deformers"] if (of["label"] not in broken) == is_kept] for is_kept in (True, False)}
+    left_out = [{"title": of["title"], "frame": broken[of["label"]]} for of in parts[False]]
+    return {**facts, "deformers": parts[True], "left_out": left_out}
+
+
 def pack_run(recorded, every, block):
     """The header of one run; its arrays are added to the block."""
     facts = facts_of(recorded, every)
-    labels = [deformer["label"] for deformer in facts["deformers"]]
-    read = {label: [read_frame(recorded.tets(label, frame)) for frame in facts["frames"]] for label in labels}
-    positions = {label: numpy.stack([one[0] for one in read[label]]) for label in labels}
-    low, step = grid_over(numpy.stack(list(positions.values())))
-    _, tets, _, rest = read[labels[0]][0]
+    read = {of["label"]: [read_frame(recorded.tets(of["label"], frame)) for frame in facts["frames"]] for of in facts["deformers"]}
+    positions = {label: numpy.stack([one[0] for one in of]) for label, of in read.items()}
+    _, tets, _, rest = next(iter(read.values()))[0]
+    facts = without_broken(facts, positions)
+    records.need(facts["deformers"], f"{recorded.folder / 'frames'}: every deformer has a position that is not finite: nothing to show")
+    low, step = grid_over(numpy.stack([positions[of["label"]] for of in facts["deformers"]]))
     rest_low, rest_step = grid_over(rest)
     for deformer in facts["deformers"]:
         deformer["positions"] = block.put(differences(codes_of(positions[deformer["label"]], low, step)))

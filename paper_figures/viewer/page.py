@@ -5,6 +5,7 @@
     python3 -m viewer.page results/reproduce viewer.html    # in paper_figures: a page with nothing else
 """
 import base64
+import html
 import json
 import math
 import os
@@ -73,8 +74,11 @@ def fragment_of(recorded, claims=None):
     header.update(colours=colours(), poses=poses_of(header["runs"]), claims=claims or {})
     words = json.dumps(header, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
     program = bundle_file().read_text().replace("</script", "<\\/script")
+    broken = [f"{run['title']}: {of['title']} is not shown, for a position in frame {of['frame']} is not finite."
+              for run in header["runs"] for of in run["left_out"]]
     return "\n".join((
         '<div id="frame-viewer"><noscript>The viewer needs JavaScript.</noscript></div>',
+        *(f'<p class="missing">{html.escape(words)}</p>' for words in broken),
         f'<script type="application/json" id="viewer-header">{words}</script>',
         f'<script type="application/octet-stream;base64" id="viewer-block">{block}</script>', f"<script>{program}</script>"))
 

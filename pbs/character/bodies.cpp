@@ -226,7 +226,7 @@ Character make_character(const CharacterSource& source, std::vector<std::string>
     if (source.vertices < 0) throw InputError("", 0, "character.vertices", std::to_string(source.vertices), "expected 0 or more");
     Character character = make_body(source, remarks);
     character.inputs.emplace_back("tets", content_hash(character.mesh));
-    character.binding = bind_to_nearest_bone(character.mesh.rest, character.skeleton);
+    character.binding = nearest_bones(character);
     const Weights paper = paper_weights(character.binding, character.skeleton);
     for (int vertex = 0; vertex < paper.vertices(); ++vertex) character.blended.push_back(paper.blended(vertex));
     character.weight_kind = source.weights.value_or(has_artist_weights(character) ? WeightKind::artist : WeightKind::paper);

@@ -134,20 +134,29 @@ CapsuleSprings capsule_springs(const Character& character, const SmoothSpringOpt
                                const std::function<double(const BoneCapsule&, const Vec3&)>& density)
 {
     CapsuleSprings held{bone_capsules(character, options.core_radius), {}, {}};
+    const PointLocation location(character.mesh);
+    const auto may_hold = [&](const Vec3& point, int bone) {
+        if (!character.artist || !character.artist->is_cut) return true;
+        const Eigen::Index tet = location.locate(point).tet;
+        const Weights& weights = character.artist->weights;
+        return tet < 0 || std::ranges::any_of(character.mesh.tets.row(tet), [&](int v) { return weights.of(v, bone) >= 0.25; });
+    };
     std::vector<double> stiffness;
     for (std::size_t j = 0; j < held.capsules.size(); ++j) {
         const BoneCapsule& capsule = held.capsules[j];
         const Positions points = sample_points(capsule, options.samples);
         const double on_axis = options.spring_factor / (capsule.radius_m * capsule.radius_m);
-        const Eigen::Index springs = held.springs.points.rows();
+        auto springs = static_cast<Eigen::Index>(stiffness.size());
         held.springs.points.conservativeResize(springs + points.rows(), 3);
-        held.springs.points.bottomRows(points.rows()) = points;
-        held.springs.bone.insert(held.springs.bone.end(), points.rows(), static_cast<int>(j));
         for (const auto& point : points.rowwise()) {
+            if (!may_hold(point.transpose(), static_cast<int>(j))) continue;
+            held.springs.points.row(springs++) = point;
+            held.springs.bone.push_back(static_cast<int>(j));
             held.density.push_back(density(capsule, point.transpose()));
             stiffness.push_back(on_axis * held.density.back() * capsule.volume_m3() / static_cast<double>(points.rows()));
         }
     }
+    held.springs.points.conservativeResize(static_cast<Eigen::Index>(stiffness.size()), 3);
     held.springs.stiffness = Eigen::VectorXd::Map(stiffness.data(), static_cast<Eigen::Index>(stiffness.size()));
     return held;
 }

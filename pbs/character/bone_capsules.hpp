@@ -57,6 +57,7 @@ struct CapsuleSprings {
     std::vector<double> density;  // #springs, relative
 };
 
+// Where the flesh is cut between parts, a bone has no springs in tets that it does not move.
 CapsuleSprings smooth_springs(const Character& character, const SmoothSpringOptions& options);
 
 // density: relative, of a point of a capsule [m]. InputError for a bone without length.

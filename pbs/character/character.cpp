@@ -49,16 +49,24 @@ std::vector<bool> jiggle_zone_by_bone(const BoneBinding& binding)
     return zone;
 }
 
+BoneBinding nearest_bones(const Character& character)
+{
+    if (!character.artist || !character.artist->is_cut) return bind_to_nearest_bone(character.mesh.rest, character.skeleton);
+    const Weights& weights = character.artist->weights;
+    return bind_to_nearest_bone(character.mesh.rest, character.skeleton,
+                                [&](int vertex, int bone) { return weights.of(vertex, bone) >= 0.25; });  // at most four bones
+}
+
 Character refined(const Character& character)
 {
     const Refinement fine = refine(character.mesh);
     Character result = character;
     result.mesh = fine.mesh;
-    result.binding = bind_to_nearest_bone(fine.mesh.rest, character.skeleton);
+    if (character.artist) result.artist->weights = mean_of_parents(character.artist->weights, fine.parents);
+    result.binding = nearest_bones(result);
     const Weights paper = paper_weights(result.binding, character.skeleton);
     result.blended.clear();
     for (int vertex = 0; vertex < paper.vertices(); ++vertex) result.blended.push_back(paper.blended(vertex));
-    if (character.artist) result.artist->weights = mean_of_parents(character.artist->weights, fine.parents);
     if (character.weight_kind == WeightKind::paper || character.weight_kind == WeightKind::rigid ||
         character.weight_kind == WeightKind::either_end)
         result.weights = weights_by(character.weight_kind, result);

@@ -24,6 +24,7 @@ struct ArtistSkin {
     Weights weights;                           // the artist's weights in the tets, #V; none of a file without joints
     std::shared_ptr<const RiggedModel> model;  // the file with its animations (model_character.hpp)
     double largest_distance_m = 0.0;           // from a vertex of the tets' boundary to the surface of the model
+    bool is_cut = false;                       // between parts that move apart: only bones with a weight in flesh hold it
 };
 
 // make_character returns a whole one; whoever fills one in directly is responsible for matching sizes.
@@ -49,6 +50,10 @@ std::vector<bool> jiggle_zone(const BoneBinding& binding);
 
 // Another reading of it: farther than the mean over the vertices of their own bone, #V.
 std::vector<bool> jiggle_zone_by_bone(const BoneBinding& binding);
+
+// The nearest bone of each vertex; where the flesh is cut between parts, the nearest of those that move it: a jaw's bone does not hold the
+// upper teeth.
+BoneBinding nearest_bones(const Character& character);
 
 // The same character on finer tets: what any deformer is run on to learn how much its own mesh matters.
 //   const Character fine = refined(character);   // its first #V vertices are those of `character`

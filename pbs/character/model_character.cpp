@@ -22,7 +22,6 @@ constexpr double smallest_m = 0.05, largest_m = 20.0;  // of a body whose unit i
 constexpr double far_from_tets = 0.01;                 // over the diagonal of the body; the wrap alone takes up to 0.008
 constexpr int most_poses = 24;                         // of an animation, evenly in time
 constexpr const char* open_surface = "; the surface is open, and the tets fill a layer along it: close it where it should enclose flesh";
-constexpr int samples_per_bone = 5;  // on its middle, the part that Eq. 2 gives to it alone
 
 // Parts of the tets through which no bone passes would be held by nothing.
 void leave_out_parts_without_bone(Character& character, const std::string& file, std::vector<std::string>& remarks)
@@ -40,7 +39,7 @@ void leave_out_parts_without_bone(Character& character, const std::string& file,
                       " separate parts have no bone inside; they are left out, with " + number_text(lost_pct, 3) + " % of the volume");
 }
 
-// Of the animation: its poses are where parts move apart.
+// Parts move apart in the poses of the animation.
 std::vector<Pose> sampled_poses(const RiggedModel& model)
 {
     std::vector<Pose> poses;
@@ -76,6 +75,7 @@ void add_skin(const RiggedModel& model, const std::string& file, Character& char
         transfer_weights(character.mesh, body.surface, body.triangles, body.skin, static_cast<int>(body.skeleton.bones.size()), may_move);
     character.artist->weights = transferred.weights;
     character.artist->largest_distance_m = transferred.largest_distance_m;
+    character.artist->is_cut = !flesh.cuts.empty();
 }
 
 void add_size(const RiggedBody& body, const std::string& file, std::vector<std::string>& remarks)
@@ -94,6 +94,27 @@ void add_sheet(const RiggedBody& body, const std::string& file, std::vector<std:
                           " m on both sides of it");
 }
 
+// Of a watertight surface, from V - E + F = 2 (parts - handles); 0 of an open one, which has no handles of its own to count.
+int handles_of(const Triangles& triangles)
+{
+    if (!is_watertight(triangles)) return 0;
+    const int points = 1 + triangles.maxCoeff();
+    Classes classes(static_cast<std::size_t>(points));
+    std::vector<bool> is_used(static_cast<std::size_t>(points));
+    for (const auto& triangle : triangles.rowwise())
+        for (const int v : triangle) {
+            classes.unite(triangle(0), v);
+            is_used[static_cast<std::size_t>(v)] = true;
+        }
+    int parts = 0, vertices = 0;
+    for (int v = 0; v < points; ++v) {
+        vertices += is_used[static_cast<std::size_t>(v)];
+        parts += is_used[static_cast<std::size_t>(v)] && classes.find(v) == v;
+    }
+    const int euler = vertices - static_cast<int>(triangles.rows()) / 2;  // 3 F = 2 E
+    return parts - euler / 2;
+}
+
 // What the verb `mesh` refuses: tets of another volume or another shape than the surface. A surface without volume has its own remark.
 void add_shape(const RiggedBody& body, const TetMesh& mesh, const std::string& file, std::vector<std::string>& remarks)
 {
@@ -101,24 +122,24 @@ void add_shape(const RiggedBody& body, const TetMesh& mesh, const std::string& f
     const double ratio = tet_volumes(mesh.rest, mesh.tets).sum() / std::abs(fan_volume(body.surface, body.triangles));
     if (ratio < 0.5 || ratio > 2.0)
         remarks.push_back(file + ": the tets hold " + number_text(ratio, 3) +
-                          " times the volume that the surface seems to enclose: it is open, or its triangles are not oriented one way");
+                          " times the volume that the surface seems to enclose: it is open, or its triangles are not oriented one way; "
+                          "close the surface or orient its triangles outward in the program that made it");
     const Topology shape = topology_of(mesh.tets, mesh.rest.rows());
-    if (const int handles = shape.boundary_components - shape.boundary_euler / 2; handles > 0)
+    const int handles = shape.boundary_components - shape.boundary_euler / 2,
+              own = handles_of(joined_triangles(body.surface, body.triangles));
+    if (handles > own)
         remarks.push_back(file + ": the boundary of the tets has the Euler number " + std::to_string(shape.boundary_euler) + ", " +
-                          std::to_string(handles) + " handles: unless the model has them, parts that nearly touch have grown together");
+                          std::to_string(handles) + " handles, and the model has " + std::to_string(own) +
+                          ": parts that nearly touch have grown together; --vertices (character.vertices in a scene) asks for finer tets");
 }
 
 void add_bones_outside(const RiggedBody& body, const TetMesh& mesh, const std::string& file, std::vector<std::string>& remarks)
 {
     std::vector<std::string> outside;
-    for (const Bone& bone : body.skeleton.bones) {
-        bool is_inside = false;
-        for (int s = 0; s < samples_per_bone; ++s) {
-            const Vec3 point = bone.head + (1.0 / 6.0 + 4.0 / 6.0 * (s + 0.5) / samples_per_bone) * (bone.tail - bone.head);
-            for (Eigen::Index t = 0; t < mesh.tets.rows() && !is_inside; ++t) is_inside = tet_holds(mesh, t, point);
-        }
-        if (!is_inside) outside.push_back(bone.name);
-    }
+    std::vector<bool> is_inside(body.skeleton.bones.size(), false);
+    for (const auto& [bone, tet] : bones_in_tets(mesh, body.skeleton, 1.0 / 6.0)) is_inside[static_cast<std::size_t>(bone)] = true;
+    for (std::size_t b = 0; b < is_inside.size(); ++b)
+        if (!is_inside[b]) outside.push_back(body.skeleton.bones[b].name);
     const bool is_layer = outside.size() == body.skeleton.bones.size() && !is_watertight(joined_triangles(body.surface, body.triangles));
     if (!outside.empty())
         remarks.push_back(file + ": " + std::to_string(outside.size()) + " of " + std::to_string(body.skeleton.bones.size()) +
@@ -196,7 +217,6 @@ Character make_model_character(const ModelSource& source, std::vector<std::strin
                                   },
                               .is_foreign = true};
     Character character = meshed(surface, source);
-    add_shape(body, character.mesh, source.file, remarks);
     const Stage weighting("carrying the weights of " + source.file + " to the tets");
     leave_out_parts_without_bone(character, source.file, remarks);
     character.inputs = hashed;
@@ -206,6 +226,7 @@ Character make_model_character(const ModelSource& source, std::vector<std::strin
         add_skin(*model, source.file, character, remarks);
     else
         character.surface = embed(body.surface, body.triangles, character.mesh);
+    add_shape(body, character.mesh, source.file, remarks);
     const auto found = remarks_on_model(body, character, source.file);
     remarks.insert(remarks.end(), found.begin(), found.end());
     return character;

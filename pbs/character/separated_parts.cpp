@@ -14,8 +14,8 @@ namespace pbs {
 namespace {
 
 const double moved_by_30_deg = 2.0 * std::sin(M_PI / 12.0);  // the way of a point over its distance from the joint
+constexpr int least_places = 5, most_places = 1000;          // on a bone, at least two per tet
 constexpr double longest_way = 3.0;                          // along the skin, over the straight one; around an arm it is pi / 2
-constexpr int passes = 4;                                    // in which pieces without a bone join their neighbours
 
 // The difference of the weights at two points, by bone.
 using WeightDifference = std::map<int, double>;
@@ -84,7 +84,7 @@ void keep_pieces_without_bone(const TetMesh& mesh, const SkinParts& parts, const
                               const std::vector<SharedFace>& faces, std::vector<bool>& is_cut)
 {
     const auto moves_skin = [&](int tet, int bone) { return parts.weight_at(skin[static_cast<std::size_t>(tet)], bone) > 0.0; };
-    for (int pass = 0; pass < passes; ++pass) {
+    while (true) {  // each pass joins pieces
         const std::vector<int> part = parts_without(faces, is_cut, static_cast<std::size_t>(mesh.tets.rows()));
         const std::vector<bool> has_bone = has_bone_inside(mesh, part, skeleton, moves_skin);
         std::map<int, std::map<int, int>> shared;  // faces of a piece without a bone with each other piece
@@ -310,30 +310,29 @@ Carrier carrier_of(const Character& character, Eigen::Index vertex)
     return carrier;
 }
 
-bool tet_holds(const TetMesh& mesh, Eigen::Index tet, const Vec3& point)
+std::vector<std::pair<int, int>> bones_in_tets(const TetMesh& mesh, const Skeleton& skeleton, double margin)
 {
-    std::array<Vec3, 4> corners;
-    for (int corner = 0; corner < 4; ++corner) corners[static_cast<std::size_t>(corner)] = mesh.rest.row(mesh.tets(tet, corner));
-    for (int corner = 0; corner < 4; ++corner) {
-        std::array<Vec3, 4> with_point = corners;
-        with_point[static_cast<std::size_t>(corner)] = point;
-        if (tet_volume(with_point[0], with_point[1], with_point[2], with_point[3]) < 0.0) return false;
+    const PointLocation location(mesh);
+    const double size_m = std::cbrt(tet_volumes(mesh.rest, mesh.tets).sum() / static_cast<double>(mesh.tets.rows()));
+    std::vector<std::pair<int, int>> found;
+    for (std::size_t b = 0; b < skeleton.bones.size(); ++b) {
+        const Vec3 way = skeleton.bones[b].tail - skeleton.bones[b].head;
+        const int places = std::clamp(static_cast<int>(std::ceil(2.0 * way.norm() / size_m)), least_places, most_places);
+        for (int k = 0; k < places; ++k) {
+            const double along = margin + (1.0 - 2.0 * margin) * (k + 0.5) / places;
+            if (const int tet = location.locate(skeleton.bones[b].head + along * way).tet; tet >= 0)
+                found.emplace_back(static_cast<int>(b), tet);
+        }
     }
-    return true;
+    return found;
 }
 
 std::vector<bool> has_bone_inside(const TetMesh& mesh, const std::vector<int>& part, const Skeleton& skeleton,
                                   const std::function<bool(int, int)>& may_count)
 {
     std::vector<bool> has_bone(part.empty() ? 0 : static_cast<std::size_t>(1 + *std::ranges::max_element(part)));
-    for (std::size_t b = 0; b < skeleton.bones.size(); ++b)
-        for (const double along : {0.25, 0.5, 0.75}) {
-            const Vec3 point = skeleton.bones[b].head + along * (skeleton.bones[b].tail - skeleton.bones[b].head);
-            for (std::size_t t = 0; t < part.size(); ++t)
-                if (tet_holds(mesh, static_cast<Eigen::Index>(t), point) &&
-                    (!may_count || may_count(static_cast<int>(t), static_cast<int>(b))))
-                    has_bone[static_cast<std::size_t>(part[t])] = true;
-        }
+    for (const auto& [bone, tet] : bones_in_tets(mesh, skeleton, 0.25))
+        if (!may_count || may_count(tet, bone)) has_bone[static_cast<std::size_t>(part[static_cast<std::size_t>(tet)])] = true;
     return has_bone;
 }
 

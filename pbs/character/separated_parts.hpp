@@ -76,8 +76,9 @@ struct Carrier {
 };
 Carrier carrier_of(const Character& character, Eigen::Index vertex);  // of a model with joints
 
-// Whether a tet at rest holds the point [m], its faces included. For parts whose boundary is not closed, as where two tets meet in an edge.
-bool tet_holds(const TetMesh& mesh, Eigen::Index tet, const Vec3& point);
+// The tets that bones pass through, (bone, tet) at places along the bone that are at most half a tet apart, without a margin at each end (a
+// share of its length).
+std::vector<std::pair<int, int>> bones_in_tets(const TetMesh& mesh, const Skeleton& skeleton, double margin);
 
 // For each part (parts_of), whether the middle half of a bone passes through it. may_count(tet, bone): only there; by default everywhere.
 std::vector<bool> has_bone_inside(const TetMesh& mesh, const std::vector<int>& part, const Skeleton& skeleton,

@@ -297,8 +297,10 @@ NodeTransform transform_of(const tinygltf::Node& node, const std::string& path, 
         matrix.matrix() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());  // by columns
         if (!node.translation.empty() || !node.rotation.empty() || !node.scale.empty())
             throw InputError(path, 0, field + "/matrix", "", "expected a matrix or translation, rotation and scale, not both");
-        if (matrix.matrix().row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
+        const Eigen::RowVector4d last(0.0, 0.0, 0.0, 1.0);
+        if (!(matrix.matrix().row(3) - last).isZero(1e-6))  // single precision
             throw InputError(path, 0, field + "/matrix", "", "expected the last row 0, 0, 0, 1");
+        matrix.matrix().row(3) = last;
         transform.matrix = matrix;
     }
     transform.translation = vec3_or(node.translation, Vec3::Zero());

@@ -68,7 +68,7 @@ Laplacian held_laplacian(const TetMesh& mesh, const std::vector<bool>& known, co
 
 }  // namespace
 
-BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton)
+BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton, const std::function<bool(int, int)>& may_bind)
 {
     if (skeleton.bones.empty()) throw InputError("skeleton", 0, "bones", "0", "expected at least one bone");
     BoneBinding binding{std::vector<int>(rest.rows()), Eigen::VectorXd(rest.rows()), Positions(rest.rows(), 3),
@@ -76,13 +76,15 @@ BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton
     for (Eigen::Index i = 0; i < rest.rows(); ++i) {
         const Vec3 vertex = rest.row(i);
         int nearest = 0;
-        Projection best = project_on_bone(vertex, skeleton.bones[0]);
-        for (int j = 1; j < static_cast<int>(skeleton.bones.size()); ++j) {
+        bool may_be_bound = false;
+        Projection best;
+        for (int j = 0; j < static_cast<int>(skeleton.bones.size()); ++j) {
             const Projection candidate = project_on_bone(vertex, skeleton.bones[j]);
-            if (candidate.distance < best.distance) {
-                nearest = j;
-                best = candidate;
-            }
+            const bool may = !may_bind || may_bind(static_cast<int>(i), j);
+            if (j > 0 && (may < may_be_bound || (may == may_be_bound && !(candidate.distance < best.distance)))) continue;
+            nearest = j;
+            may_be_bound = may;
+            best = candidate;
         }
         binding.bone[i] = nearest;
         binding.parameter(i) = best.parameter;

@@ -4,6 +4,8 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/pose.hpp"
 
+#include <functional>
+
 namespace pbs {
 
 // How each vertex is bound to the skeleton in rest pose: its nearest bone and its projection on that bone.
@@ -17,8 +19,8 @@ struct BoneBinding {
 };
 
 // rest: rest positions [m], #V x 3. A bone without length is the point at its head, with parameter 0. InputError where the skeleton has no
-// bone.
-BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton);
+// bone. may_bind(vertex, bone), if given: the nearest of these bones; of all where a vertex has none.
+BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton, const std::function<bool(int, int)>& may_bind = {});
 
 // The projection points q_i carried by their posed bones [m], #V x 3. The pose has every bone of the binding (unchecked).
 Positions posed_bind_points(const BoneBinding& binding, const Pose& pose);
@@ -36,6 +38,12 @@ struct Weights {
 
     int vertices() const { return static_cast<int>(first.size()) - 1; }               // #V; -1 of default-made weights
     bool blended(int vertex) const { return first[vertex + 1] - first[vertex] > 1; }  // between two bones or more
+    double of(int vertex, int of_bone) const
+    {
+        double sum = 0.0;
+        for (int e = first[vertex]; e < first[vertex + 1]; ++e) sum += bone[e] == of_bone ? weight[e] : 0.0;
+        return sum;
+    }
     // Appends an entry to the vertex behind the last one, and ends that vertex.
     void add(int of_bone, double of_weight) { bone.push_back(of_bone), weight.push_back(of_weight); }
     void end_vertex() { first.push_back(static_cast<int>(bone.size())); }

@@ -11,6 +11,8 @@ constexpr double armijo = 1e-4;  // share of the predicted decrease that a step 
 constexpr double energy_rounding = 1e-12;
 constexpr double truncation = 0.1;  // share of the first residual at which conjugate gradients end
 constexpr int most_gradients = 40;
+constexpr double blocked_share = 1e-3;  // of a step: where contact allows no more, the step makes no progress
+constexpr int most_blocked_in_a_row = 5;
 
 // The last of the iterations is the present state, whose Hessian is not known yet.
 bool is_far_from_convex(const NewtonSummary& summary, const NewtonOptions& options)
@@ -18,6 +20,22 @@ bool is_far_from_convex(const NewtonSummary& summary, const NewtonOptions& optio
     const auto last = summary.iterations.rbegin() + 1;
     const auto convex = std::find_if(last, summary.iterations.rend(), [](const NewtonIteration& it) { return !it.projected; });
     return options.indefinite_in_a_row > 0 && convex - last >= options.indefinite_in_a_row;
+}
+
+// Contact allows almost nothing of the steps, one after the other.
+bool is_blocked(const NewtonSummary& summary)
+{
+    const auto& all = summary.iterations;
+    return static_cast<int>(all.size()) > most_blocked_in_a_row &&
+           std::all_of(all.end() - 1 - most_blocked_in_a_row, all.end() - 1,
+                       [](const auto& it) { return it.allowed_step < blocked_share; });
+}
+
+double largest_step(const Terms& terms, const Eigen::VectorXd& displacement, const Eigen::VectorXd& step)
+{
+    double largest = 1.0;
+    for (const Potential* term : terms) largest = std::min(largest, term->largest_step(displacement, step));
+    return largest;
 }
 
 bool all_quadratic(const Terms& terms)
@@ -29,7 +47,8 @@ bool all_quadratic(const Terms& terms)
 
 const char* name_of(NewtonOutcome outcome)
 {
-    constexpr const char* names[] = {"converged", "iterations_exhausted", "no_descent", "not_positive_definite", "not_finite"};
+    constexpr const char* names[] = {"converged", "iterations_exhausted", "no_descent", "not_positive_definite", "not_finite",
+                                     "blocked",   "intersects_itself"};
     return names[static_cast<int>(outcome)];
 }
 
@@ -113,6 +132,12 @@ bool NewtonMinimiser::is_converged(const State& state, const NewtonOptions& opti
 void NewtonMinimiser::assemble(const Terms& terms, const Eigen::VectorXd& displacement, Definiteness definiteness)
 {
     work_.tet_visits += tets_;
+    std::vector<NodePair> couplings;
+    for (const Potential* term : terms) {
+        const std::vector<NodePair> own = term->couplings(displacement);
+        couplings.insert(couplings.end(), own.begin(), own.end());
+    }
+    if (hessian_.couple(couplings)) system_.reset();  // its analysis is of the earlier pattern
     hessian_.set_zero();
     for (const Potential* term : terms) term->add_hessian(displacement, definiteness, hessian_);
 }
@@ -154,16 +179,16 @@ bool NewtonMinimiser::may_reuse_factor(const NewtonSummary& summary, const Newto
     return last.step_length == 1.0 && now.residual_n <= options.reuse_contraction * last.residual_n;
 }
 
-// The largest of 1, 1/2, 1/4, ... that lowers the energy by Armijo's share; where that is below rounding, that lowers the residual. 0:
-// none.
-double NewtonMinimiser::step_length(const Terms& terms, const State& state, const Eigen::VectorXd& displacement,
-                                    const Eigen::VectorXd& step, const NewtonOptions& options)
+// The largest of L, L/2, L/4, ... that lowers the energy by Armijo's share; where that is below rounding, that lowers the residual. L is
+// the step that the terms allow, at most 1. 0: none.
+double NewtonMinimiser::step_length(const Terms& terms, const State& state, const Eigen::VectorXd& displacement, const Step& step,
+                                    const NewtonOptions& options)
 {
-    const double slope = state.gradient.dot(step);
+    const double slope = state.gradient.dot(step.direction);
     const double rounding = energy_rounding * state.energy_scale_j;
-    double length = 1.0;
+    double length = step.allowed;
     for (int halving = 0; halving <= options.halvings; ++halving, length /= 2.0) {
-        const Eigen::VectorXd trial = displacement + length * step;
+        const Eigen::VectorXd trial = displacement + length * step.direction;
         if (length * std::abs(slope) > rounding) {
             if (slope < 0.0 && energy_at(terms, trial) <= state.energy_j + armijo * length * slope) return length;
         } else if (const State at_trial = state_at(terms, trial); at_trial.finite() && at_trial.residual_n < state.residual_n) {
@@ -209,7 +234,11 @@ NewtonMinimiser::Step NewtonMinimiser::step_from(const Terms& terms, const State
     Step step{truncates ? truncated_step(state) : solution(-state.gradient, increment), 0.0};
     if (!step.direction.allFinite()) return step;
     const bool is_whole = !increment.isZero(0.0) || all_quadratic(terms);
-    step.length = is_whole ? 1.0 : step_length(terms, state, displacement, step.direction, options);
+    step.allowed = largest_step(terms, displacement, step.direction);
+    if (is_whole)
+        step.length = step.allowed < 1.0 ? 0.0 : 1.0;
+    else
+        step.length = step_length(terms, state, displacement, step, options);
     return step;
 }
 
@@ -234,6 +263,7 @@ NewtonSummary NewtonMinimiser::minimise(const Terms& terms, const Eigen::VectorX
         if (!state.finite()) return end(NewtonOutcome::not_finite);
         if (!carries_increment && is_converged(state, options)) return end(NewtonOutcome::converged);
         if (k == options.iterations || is_far_from_convex(summary, options)) break;
+        if (is_blocked(summary)) return end(NewtonOutcome::blocked);
         Step step;
         if (may_reuse_factor(summary, options)) step = step_from(terms, state, displacement, increment, options);
         summary.iterations.back().reuses_factor = step.length > 0.0;
@@ -245,6 +275,7 @@ NewtonSummary NewtonMinimiser::minimise(const Terms& terms, const Eigen::VectorX
         if (step.length == 0.0) return end(is_converged(state, options) ? NewtonOutcome::converged : NewtonOutcome::no_descent);
         displacement += step.length * step.direction;
         summary.iterations.back().step_length = step.length;
+        summary.iterations.back().allowed_step = step.allowed;
         increment.setZero();
     }
     return end(NewtonOutcome::iterations_exhausted);

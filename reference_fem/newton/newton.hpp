@@ -4,9 +4,9 @@
 // The increment of the prescribed data goes into the first linear solve. Where the Hessian is not positive definite, the step is that of
 // truncated conjugate gradients (T. Steihaug, SIAM Journal on Numerical Analysis 20, 1983): preconditioned by the factor of the Hessian
 // projected tet by tet, they end where they meet a direction of negative curvature. A step that does not lower the energy enough (Armijo)
-// is halved. Every iteration is recorded, and a step that does not converge is an outcome. The symbolic analysis is kept; so is the factor
-// where every term is quadratic, and on request where the last step with it was good enough (V. E. Shamanskii, Ukrainian Mathematical
-// Journal 19, 1967).
+// is halved; with contact, the first trial is the longest step in which nothing meets. Every iteration is recorded, and a step that does
+// not converge is an outcome. The symbolic analysis is kept; so is the factor where every term is quadratic, and on request where the last
+// step with it was good enough (V. E. Shamanskii, Ukrainian Mathematical Journal 19, 1967).
 #pragma once
 
 #include "pbs/geometry/cost.hpp"
@@ -43,11 +43,13 @@ struct NewtonIteration {
     bool projected = false;          // the Hessian was not positive definite, or a direction of negative curvature was met just before
     bool carries_increment = false;  // the linear solve that moves the prescribed data
     bool reuses_factor = false;      // of an earlier step, see NewtonOptions::reuse_contraction
+    double allowed_step = 1.0;       // the length that contact allows
 };
 
 // no_descent: no length of the step lowers the energy enough; not_positive_definite: not even the projected Hessian can be factored;
-// not_finite: an energy, a gradient or a step is not.
-enum class NewtonOutcome { converged, iterations_exhausted, no_descent, not_positive_definite, not_finite };
+// not_finite: an energy, a gradient or a step is not; blocked: contact allows almost nothing of five steps in a row; intersects_itself: the
+// initial guess does, with contact, and no step was tried.
+enum class NewtonOutcome { converged, iterations_exhausted, no_descent, not_positive_definite, not_finite, blocked, intersects_itself };
 const char* name_of(NewtonOutcome outcome);  // as it is spelt in the enum
 
 // Breakdown is an outcome: nothing is thrown.
@@ -84,7 +86,7 @@ private:
     struct State;
     struct Step {
         Eigen::VectorXd direction;
-        double length = 0.0;
+        double length = 0.0, allowed = 1.0;
     };
     double energy_at(const Terms& terms, const Eigen::VectorXd& displacement);
     State state_at(const Terms& terms, const Eigen::VectorXd& displacement);
@@ -99,7 +101,7 @@ private:
     double free_norm(const Eigen::VectorXd& force) const;  // without the prescribed degrees of freedom
     Step step_from(const Terms& terms, const State& state, const Eigen::VectorXd& displacement, const Eigen::VectorXd& increment,
                    const NewtonOptions& options);
-    double step_length(const Terms& terms, const State& state, const Eigen::VectorXd& displacement, const Eigen::VectorXd& step,
+    double step_length(const Terms& terms, const State& state, const Eigen::VectorXd& displacement, const Step& step,
                        const NewtonOptions& options);
 
     std::vector<bool> prescribed_;

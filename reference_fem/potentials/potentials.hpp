@@ -33,6 +33,11 @@ public:
         return energy;
     }
 
+    // The largest share of `step` [m], 0 to 1, after which the term is still defined, where `value` alone does not show it.
+    virtual double largest_step(const Eigen::VectorXd&, const Eigen::VectorXd& /*step*/) const { return 1.0; }
+    // Pairs of nodes without a common tet that the Hessian has blocks of, there and near that displacement.
+    virtual std::vector<NodePair> couplings(const Eigen::VectorXd&) const { return {}; }
+
     virtual bool is_quadratic() const = 0;  // its Hessian is the same everywhere, so that a factor of it may be kept
 };
 

@@ -140,17 +140,17 @@ std::string exceeded(const std::string& what, int value, int most, const std::st
 const std::vector<Budget>& budgets()
 {
     static const std::vector<Budget> all = {
-        {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 22'700, .least_mean = 120},
-        {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 9'300, .least_mean = 120},
+        {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 22'760, .least_mean = 120},
+        {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 10'300, .least_mean = 120},
         {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'300, .least_mean = 120},
         {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 26'250, .least_mean = 120},
         {.what = "production C++",
          .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"},
          .endings = cpp,
-         .most_lines = 64'100},
-        {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 42'900, .least_mean = 120},
-        {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'325},
-        {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 8'010},
+         .most_lines = 65'300},
+        {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 43'300, .least_mean = 120},
+        {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'400},
+        {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 7'990},
         {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 150},
     };
     return all;

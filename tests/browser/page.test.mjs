@@ -1,6 +1,8 @@
-// Reference: the records and the definition of the page. The values under the pointer are in each figure's CSV, nothing overlaps or exceeds
-// the window, every part is reachable by keyboard, and the page can be printed.
+// Reference: the records and the definition of the page. It opens from disk, without other files, in a desktop and a phone window, and
+// contains the viewer. The values under the pointer are in each figure's CSV, nothing overlaps or exceeds the window, every part is
+// reachable by keyboard, and the page can be printed. Tests whose names begin with "the report" need no figures (browser_test.py).
 import assert from "node:assert/strict";
+import fs from "node:fs";
 import { test } from "node:test";
 import { in_window, open_viewer, page, settle, test_in_windows, test_that_nothing_was_reported, use_page } from "./browser.mjs";
 import { file, pictures, rows_about, rows_of, stand_in, undrawn } from "./records.mjs";
@@ -10,6 +12,34 @@ use_page(async () => {
     // Otherwise it scrolls for a while, which hides the values under the pointer.
     await shown.page.emulateMedia({ reducedMotion: "reduce" });
     return shown;
+});
+
+test("the report stays below 25 MB and carries the licence of three.js", () => {
+    assert.ok(fs.statSync(file).size < 25e6, `${fs.statSync(file).size} bytes`);
+    assert.match(fs.readFileSync(file, "utf8"), /three\.js authors[^]*Permission is hereby granted, free of charge/);
+});
+
+test_in_windows("the report", file, "", async (other, name, width, height) => {
+    assert.ok(await other.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "it scrolls sideways");
+    if (pictures) await other.screenshot({ path: `${pictures}/report_${name}.png` });
+    await other.evaluate(() => { location.hash = "claim=C01"; });
+    await other.waitForFunction(() => window.viewer.state.now.claim === "C01");
+    await other.waitForTimeout(1500);  // smooth scrolling
+    await settle(other);
+    const { top, bottom } = await other.evaluate(() => document.getElementById("frame-viewer").getBoundingClientRect().toJSON());
+    assert.ok(top < height && bottom > 0, `the viewer is at ${top} to ${bottom} px`);
+    const ids = await other.evaluate(() => [...document.querySelectorAll("[id]")].map((one) => one.id));
+    assert.ok(await other.locator("h2").count() > 3);
+    assert.equal(new Set(ids).size, ids.length, "an id twice");
+    if (pictures) await other.screenshot({ path: `${pictures}/report_viewer_${name}.png` });
+});
+
+test("all four answers are seen before anything is scrolled", async () => {
+    assert.deepEqual(page.viewportSize(), { width: 1280, height: 900 });
+    const ends = await page.locator(".first-screen > .card").evaluateAll((all) => all.map((one) =>
+        [one.className, one.getBoundingClientRect().bottom + scrollY, one.scrollHeight - one.clientHeight]));
+    assert.equal(ends.length, 4);
+    for (const [name, bottom, hidden] of ends) assert.ok(bottom <= 900 && hidden <= 0, `${name} ends at ${bottom} px, ${hidden} px hidden`);
 });
 
 test("every drawn figure is there, inline; of the others, and of no more, why not", async () => {

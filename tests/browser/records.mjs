@@ -5,7 +5,8 @@ import path from "node:path";
 export const file = process.env.PBS_REPORT_PAGE, pictures = process.env.PBS_VIEWER_PICTURES;
 export const results = path.dirname(file);
 
-export const undrawn = JSON.parse(fs.readFileSync(process.env.PBS_VIEWER_TRUTH)).undrawn;  // figures that do not exist
+const { PBS_VIEWER_TRUTH } = process.env;
+export const undrawn = PBS_VIEWER_TRUTH ? JSON.parse(fs.readFileSync(PBS_VIEWER_TRUTH)).undrawn : [];  // figures that do not exist
 
 // A figure's CSV: for each row its numbers, an array of [column, number] pairs, and its texts; "1654 / 1716" is two numbers of one column.
 export function rows_of(name) {

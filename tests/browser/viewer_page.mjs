@@ -1,4 +1,5 @@
 // The viewer's page for the tests of one file. browser_test.py names the page and a file with samples of the records.
+import assert from "node:assert/strict";
 import fs from "node:fs";
 import { open_viewer, page, settle, use_page } from "./browser.mjs";
 
@@ -49,6 +50,18 @@ export function apart(drawn, recorded) {
 // The rounding of single precision, in multiples of 2 ** -24 of the largest coordinate [m].
 export function roundings(recorded, many) {
     return many * Math.max(...recorded.map(Math.abs)) * 2 ** -24;
+}
+
+// The rendered surface is drawn where the tets carry it: half a step of each corner times the absolute weights. The record, the weights,
+// the corners, four products and four sums are rounded.
+export async function assert_carried({ skin_m, positions_m }) {
+    const { step_m, points, largest_sum } = await page.evaluate(() => {
+        const { step_m: step, surface } = window.viewer.viewer.run;
+        return { step_m: step, points: surface.points, largest_sum: surface.largest_sum };
+    });
+    const drawn = await drawn_positions(), { count, largest_m } = apart(drawn, skin_m);
+    assert.deepEqual([drawn.length, count], [skin_m.length, 3 * points]);
+    assert.ok(largest_m <= largest_sum * (step_m / 2 + roundings(positions_m, 12)), `${largest_m} m apart`);
 }
 
 export function legend_words() {

@@ -1,4 +1,4 @@
-"""`cmake --workflow --preset ci` is what ./check runs. Reference: the files themselves, compared with each other."""
+"""`cmake --workflow --preset ci` is what ./check runs, and ./check is what continuous integration runs. Reference: the files themselves."""
 import json
 import os
 import pathlib
@@ -24,6 +24,7 @@ class Presets(unittest.TestCase):
         self.assertEqual(self.steps["ci"], [("configure", "ci"), ("build", "ci"), ("test", "ci")])
         self.assertEqual(re.findall(r"configure cmake --preset (\S+)", text("check")), ["ci"])
         self.assertNotRegex(text("check"), r"--preset ci[^|]* -D")
+        self.assertRegex(text(".ci/run"), r'(?m)^exec ".*/\.\./check" "\$@"$')
 
     def test_both_in_one_folder(self):
         folder = re.search(r"^build_folder=(\S+)$", text("cmake/setup.sh"), re.MULTILINE)[1]

@@ -1,4 +1,4 @@
-"""Rigs of blocks whose parts nearly touch at rest, as those of artists do: two shoes side by side, and a closed mouth.
+"""Rigs of blocks: two shoes side by side and a closed mouth, which nearly touch at rest as those of artists do, and a ring.
 
     block_rigs.write_shoes(path)      # PATH.glb
 """
@@ -39,38 +39,35 @@ def lines(*ends, step=0.02):
 
 def written(path, surface, joints, weights, moving, turns):
     """joints: (name, parent's number, place [m]). The joint with the number `moving` turns by these quaternions within a second."""
-    gltf, nodes = rig_files.Gltf(), []
-    for name, parent, place in joints:
-        above = numpy.zeros(3) if parent is None else numpy.array(joints[parent][2])
-        nodes.append(gltf.node(None if parent is None else nodes[parent], name=name, translation=(numpy.array(place) - above).tolist()))
-    bind = [[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, *(-numpy.array(place)), 1] for _, _, place in joints]
-    gltf.document["skins"].append({"joints": nodes, "inverseBindMatrices": gltf.put(bind, "MAT4", rig_files.FLOAT)})
+    gltf = rig_files.Gltf()
+    nodes = rig_files.add_joints(gltf, [(*joint, {}) for joint in joints])
     gltf.node(name="body", mesh=rig_files.add_mesh(gltf, *surface, weights, 1.0, False), skin=0)
     rig_files.add_animation(gltf, "Move", [(nodes[moving], "rotation", numpy.linspace(0.0, 1.0, len(turns)), turns, "LINEAR")])
-    with open(path, "wb") as file:
-        file.write(rig_files.glb(*gltf.written()))
-    return path
+    return rig_files.write_glb(path, *gltf.written())
 
 
 def ramp(at, begin, end):
     return numpy.clip((at - begin) / (end - begin), 0.0, 1.0)
 
 
-def write_shoes(path):
-    """Hips with two legs, whose shoes are SHOES_GAP apart. The left leg steps forward."""
+def write_shoes(path, far_bone=False):
+    """Hips with two legs, whose shoes are SHOES_GAP apart. The left leg steps forward. far_bone: the shoes alone, with the bone of the
+    right one 1 m above it."""
     inner = SHOES_GAP / 2
 
     def is_filled(x, y, z):
         side = abs(x)
         hips = (y > 0.8) & (side < 0.15) & (abs(z) < 0.06)
         leg = (y > 0.1) & (side > 0.05) & (side < 0.15) & (abs(z) < 0.06)
-        return hips | leg | ((y < 0.1) & (side > inner))
+        shoe = (y < 0.1) & (side > inner)
+        return shoe if far_bone else hips | leg | shoe
     surface = surface_of((lines(-0.15, -0.05, -inner, inner, 0.05, 0.15), lines(0.0, 0.1, 0.8, 1.0, step=0.05),
                           lines(-0.06, 0.06, 0.2)), is_filled)
     x, y, _ = surface[0].T
     leg = 1.0 - ramp(y, 0.75, 0.85)
     weights = numpy.stack([1.0 - leg, leg * (x > 0), leg * (x <= 0)], axis=1)
-    joints = [("hips", None, (0.0, 0.9, 0.0)), ("leg.L", 0, (0.1, 0.8, 0.0)), ("leg.R", 0, (-0.1, 0.8, 0.0))]
+    left, right = (0.05, 1.05) if far_bone else (0.8, 0.8)
+    joints = [("hips", None, (0.0, 0.9, 0.0)), ("leg.L", 0, (0.1, left, 0.0)), ("leg.R", 0, (-0.1, right, 0.0))]
     return written(path, surface, joints, weights, 1, [rig_files.turn((1, 0, 0), -angle) for angle in (0, 15, 30)])
 
 
@@ -90,6 +87,19 @@ def write_mouth(path):
     jaw = numpy.where(below, 0.5 + 0.5 * lip + away * (0.5 - 0.5 * lip), (0.5 - 0.5 * lip) * (1.0 - away))
     jaw *= ramp(z, -0.06, -0.02) * ramp(y, -0.05, 0.0)
     neck = (1.0 - ramp(y, -0.03, 0.03)) * (1.0 - jaw)
-    weights = numpy.stack([neck, 1.0 - neck - jaw, jaw], axis=1)
-    joints = [("neck", None, (0.0, -0.12, -0.07)), ("head", 0, (0.0, 0.02, -0.07)), ("jaw", 1, (0.0, 0.05, -0.04))]
+    weights = numpy.stack([neck, 1.0 - neck - jaw, jaw, 0.0 * jaw], axis=1)
+    joints = [("neck", None, (0.0, -0.12, -0.07)), ("head", 0, (0.0, 0.02, -0.07)), ("jaw", 1, (0.0, 0.05, -0.04)),
+              ("crown", 1, (0.0, 0.24, 0.0))]
     return written(path, surface, joints, weights, 2, [rig_files.turn((1, 0, 0), angle) for angle in (0, 12, 25)])
+
+
+def write_ring(path, gap=0.0):
+    """A square ring, whose upper half turns. With a gap [m] in its lower half it has no hole."""
+    line, middle = lines(-0.2, -0.1, 0.1, 0.2, step=0.05), (-gap / 2, gap / 2) if gap else ()
+
+    def is_filled(x, y, z):
+        return (numpy.maximum(abs(x), abs(y)) > 0.1) & ((y > 0) | (abs(x) > gap / 2))
+    surface = surface_of((lines(-0.2, -0.1, *middle, 0.1, 0.2, step=0.05), line, lines(-0.05, 0.05, step=0.05)), is_filled)
+    above = ramp(surface[0][:, 1], -0.05, 0.05)
+    joints = [("root", None, (-0.15, -0.15, 0.0)), ("top", 0, (-0.15, 0.0, 0.0))]
+    return written(path, surface, joints, numpy.stack([1.0 - above, above], axis=1), 1, [rig_files.turn((1, 0, 0), a) for a in (0, 20)])

@@ -1,19 +1,51 @@
 """Runs the program under test as a user does."""
 import csv
+import glob
 import io
 import json
 import os
+import pathlib
+import resource
 import subprocess
 import tempfile
 import unittest
 
 PBSKIN = os.environ["PBSKIN"]
 SOURCE = os.environ["PBS_SOURCE"]
+MODULES = glob.glob(os.path.join(os.path.dirname(PBSKIN), "..", "lib", "**", "libpbskin_*.so"), recursive=True)
+HAS_FEM = any(file.endswith("_fem.so") for file in MODULES)
+
+
+MOST_BYTES = 2 << 30  # of memory, for one model
+
+
+def processor_s():
+    """Of all processes that have ended so far [s]."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def most_memory_bytes():
+    """The peak of the process that took most."""
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024
 
 
 def run(*arguments, **options):
     """The finished process of `pbskin ARGUMENTS`, its output as text."""
     return subprocess.run([PBSKIN, *map(str, arguments)], capture_output=True, text=True, timeout=800, **options)
+
+
+def statuses():
+    """Process -> (state, parent, session) of all processes of this machine, from /proc."""
+    found = {}
+    for entry in os.listdir("/proc"):
+        try:
+            fields = pathlib.Path("/proc", entry, "stat").read_text().rsplit(")", 1)[1].split() if entry.isdigit() else None
+        except OSError:  # the process has ended meanwhile
+            continue
+        if fields:
+            found[int(entry)] = (fields[0], int(fields[1]), int(fields[3]))
+    return found
 
 
 class ProgramTest(unittest.TestCase):

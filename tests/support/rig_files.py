@@ -101,6 +101,18 @@ class Gltf:
         return {**document, "buffers": [{"byteLength": len(self.bytes)}]}, self.bytes
 
 
+def add_joints(gltf, joints, parent=None, unit=1.0):
+    """The nodes of joints, each (name, number of the joint above or None, place [m], further members), and their skin. The joints without
+    one above are below the node `parent`."""
+    places, nodes = numpy.array([place for _, _, place, _ in joints]), []
+    for place, (name, above, _, members) in zip(places, joints):
+        shift, below = (place, parent) if above is None else (place - places[above], nodes[above])
+        nodes.append(gltf.node(below, name=name, translation=(shift / unit).tolist(), **members))
+    bind = [[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, *(0.0 - place / unit), 1] for place in places]  # inverse, column by column
+    gltf.document["skins"].append({"joints": nodes, "inverseBindMatrices": gltf.put(bind, "MAT4", FLOAT)})
+    return nodes
+
+
 def quantised(weights):
     """Weights as bytes that sum to 255."""
     codes = numpy.rint(weights * 255).astype(int)
@@ -159,25 +171,19 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
     containers: transforms of the nodes above the root joint, outermost first. unit: metres per unit of the points and joints. rest_deg:
     angle of the elbow in the file's rest pose, which then is not the bind pose. extra: further animations, as add_animation takes them.
     shifted_m: distance of the joints from the tube. first_deg: angle of the elbow in the first frame. tiny_tip: the tip
-    moves a bead inside the tube alone. on_ground: the root hangs on a joint `ground` 0.5 m below the tube, which has a hundredth of its
+    moves a bead inside the tube alone. on_ground: the root is below a joint `ground`, 0.5 m under the tube, which has a hundredth of its
     weight. one_joint: the root alone, which the animation Sway turns. surface: points and triangles in
     place of the tube.
     """
-    gltf, parent, joints = Gltf(), None, []
+    gltf, parent = Gltf(), None
     for name, members in containers:
         parent = gltf.node(parent, name=name, **members)
     names, places = JOINTS[:1] if one_joint else JOINTS, numpy.array(PLACES) + shifted_m
     if on_ground:
         names, places = ("ground", *names), numpy.vstack([places[:1] - [0.0, 0.5, 0.0], places])
-    places = places[:len(names)]
-    for number, (name, place) in enumerate(zip(names, places)):
-        members = {"name": name, "translation": ((place - (places[number - 1] if number else 0.0)) / unit).tolist()}
-        if name == "elbow" and rest_deg:
-            members["rotation"] = turn((0, 0, 1), rest_deg)
-        parent = gltf.node(parent, **members)
-        joints.append(parent)
-    bind = [[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, *(0.0 - place / unit), 1] for place in places]  # inverse, column by column
-    gltf.document["skins"].append({"joints": joints, "inverseBindMatrices": gltf.put(bind, "MAT4", FLOAT)})
+    members = {"elbow": {"rotation": turn((0, 0, 1), rest_deg)}} if rest_deg else {}
+    joints = add_joints(gltf, [(name, number - 1 if number else None, place, members.get(name, {}))
+                               for number, (name, place) in enumerate(zip(names, places))], parent, unit)
     for half in range(halves):
         begin, end = LENGTH * half / halves, LENGTH * (half + 1) / halves
         overlap = 0.05 if halves > 1 else 0.0
@@ -215,6 +221,10 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
 VARIANTS = tomllib.loads(pathlib.Path(__file__).with_name("rig_variants.toml").read_text())
 
 
-def write(variant, path, **options):
-    pathlib.Path(path).write_bytes(glb(*rig(**{**VARIANTS[variant], **options})))
+def write_glb(path, document, data):
+    pathlib.Path(path).write_bytes(glb(document, data))
     return path
+
+
+def write(variant, path, **options):
+    return write_glb(path, *rig(**{**VARIANTS[variant], **options}))

@@ -16,7 +16,7 @@ import subprocess
 import tempfile
 import time
 
-import processes
+import program
 
 PROGRAMS = ("munged", "mungekey", "slurmctld", "slurmd", "sbatch", "scancel", "srun", "sinfo", "squeue", "scontrol")
 PATH = os.environ["PATH"] + ":/usr/sbin:/sbin"
@@ -48,7 +48,7 @@ def wait_for(what, condition, seconds=60):
 
 def children():
     """The process ids of this process's children, including orphans that it inherited."""
-    return [process for process, (_, parent, _) in processes.statuses().items() if parent == os.getpid()]
+    return [process for process, (_, parent, _) in program.statuses().items() if parent == os.getpid()]
 
 
 class SlurmCluster:

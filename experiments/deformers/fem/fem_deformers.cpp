@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace experiments {
 
@@ -70,7 +71,18 @@ constexpr double largest_turn_deg = 45.0;     // of a bone in one solve
 constexpr int most_indefinite_in_a_row = 40;  // where Newton's steps are limited
 constexpr double far_turn_deg = 15.0;         // beyond it the solution with fewer nodes is a better initial guess than the last pose's
 
-reference_fem::ElasticOptions solver_options(const FemOptions& options)
+reference_fem::ContactOptions contact_options(const FemOptions& options, const pbs::Character& character)
+{
+    if (!options.contact) return {};
+    constexpr double whole_limb = 1.0;
+    double sum_m = 0.0;
+    const auto limbs = pbs::bone_capsules(character, whole_limb);
+    for (const pbs::BoneCapsule& limb : limbs) sum_m += limb.radius_m;
+    return {.range_m = options.contact_range * sum_m / static_cast<double>(limbs.size()),
+            .stiffness_pa = options.contact_stiffness * options.young_pa};
+}
+
+reference_fem::ElasticOptions solver_options(const FemOptions& options, const pbs::Character& character)
 {
     reference_fem::ElasticOptions elastic{.model = options.model,
                                           .element_order = options.element_order,
@@ -81,6 +93,7 @@ reference_fem::ElasticOptions solver_options(const FemOptions& options)
                                           .dynamics = options.dynamics,
                                           .rayleigh_mass_1_s = options.rayleigh_mass_1_s,
                                           .rayleigh_stiffness_s = options.rayleigh_stiffness_s,
+                                          .contact = contact_options(options, character),
                                           .solver = options.solver,
                                           .path = {.most_newton_steps = options.most_newton_steps}};
     if (options.dynamics == reference_fem::Dynamics::quasi_static) elastic.newton.reuse_contraction = 0.1;
@@ -119,7 +132,7 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
 {
     character_ = &character;
     bones_ = bone_attachment(character, options_);
-    body_ = std::make_unique<reference_fem::ElasticBody>(character.mesh, solver_options(options_), bones_.attachment);
+    body_ = std::make_unique<reference_fem::ElasticBody>(character.mesh, solver_options(options_, character), bones_.attachment);
     guide_weights_ = {};
     if (options_.attachment != FemAttachment::bind)
         guide_weights_ = pbs::harmonic_weights(character.mesh, gripping_bones(bones_, character.mesh.tets, body_->setup().spring_tet),
@@ -135,6 +148,8 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
     start_ = {};
     is_started_ = false;
     failures_in_a_row_ = 0;
+    frames_in_contact_ = most_contact_pairs_ = 0;
+    smallest_gap_m_ = std::numeric_limits<double>::infinity();
     newton_record_ = NewtonRecord(pbs::tet_volumes(character.mesh.rest, character.mesh.tets).sum());
     has_tried_ = true;
     start(body_->setup().spring_tet, body_->prescribed_vertices());
@@ -181,6 +196,11 @@ void ElasticFemDeformer::record_solve(const FrameSolve& solve)
     }
     newton_record_.add_frame(solve, solve.converged() ? jacobians : body_->jacobians_of_last_iterate());
     if (!solve.converged()) return;
+    if (const reference_fem::ContactState contact = body_->contact(); contact.pairs > 0) {
+        ++frames_in_contact_;
+        most_contact_pairs_ = std::max(most_contact_pairs_, contact.pairs);
+        smallest_gap_m_ = std::min(smallest_gap_m_, contact.smallest_distance_m);
+    }
     const reference_fem::Targets held = targets_of(reached_pose_);
     if (held.springs.rows() > 0) record_grip(held.springs, (held.springs - body_->spring_points_deformed()).rowwise().norm());
     if (options_.attachment == FemAttachment::bind)
@@ -273,6 +293,10 @@ FrameSolve ElasticFemDeformer::settle_from_start(const pbs::RootFrame& frame)
     const reference_fem::NewtonSummary newton = body_->solve_at_once(targets_of(frame.pose()), frame.from_world(options_.gravity_m_s2));
     reached_pose_ = frame.pose();
     failures_in_a_row_ = 0;
+    if (newton.outcome == reference_fem::NewtonOutcome::intersects_itself) {
+        body_->start_from(character_->mesh.rest);
+        reached_pose_ = rest_pose(character_->skeleton);
+    }
     const double reached = newton.converged() ? 1.0 : 0.0;
     return {{{reached, {{1.0, newton}}, newton.seconds}}, reached};
 }
@@ -304,6 +328,13 @@ nlohmann::json ElasticFemDeformer::record() const
     if (!body_) return nullptr;
     nlohmann::json json = recorded(body_->setup());
     json["newton"] = newton_record_.to_json();
+    if (!options_.contact) return json;
+    const reference_fem::ContactOptions contact = contact_options(options_, *character_);
+    json["contact"] = {{"range_m", contact.range_m},
+                       {"stiffness_pa", contact.stiffness_pa},
+                       {"frames", frames_in_contact_},
+                       {"most_pairs", most_contact_pairs_},
+                       {"smallest_distance_m", frames_in_contact_ > 0 ? nlohmann::json(smallest_gap_m_) : nullptr}};
     return json;
 }
 

@@ -122,7 +122,8 @@ private:
 // follows the path itself only where that fails. It has order 1 on the same tets if this body has order 2, and otherwise the unrefined
 // tets. F is constant in a tet of order 1 and thus the same at all quadrature points of the finer elements, so that an energy which is
 // infinite at det F <= 0 is finite in every initial guess. start_from(): the next frame is Newton's method alone, in the frame's own pose,
-// from that shape. Where it does not converge, the positions are its last iterate, and the following frame continues from there.
+// from that shape. Where it does not converge, the positions are its last iterate, and the following frame continues from there. With
+// contact, a shape that intersects itself is refused (intersects_itself), and the body goes back to rest.
 //
 // In time: the body rests in equilibrium in the first pose; then every step is a time step. A step that does not converge is undone, and
 // the next step covers its time too.
@@ -157,6 +158,8 @@ private:
     std::unique_ptr<ElasticFemDeformer> fewer_nodes_;  // nested_start
     bool has_tried_ = true;  // to reach the last pose by Newton's method; if not, the solution with fewer nodes was not reached
     NewtonRecord newton_record_;
+    int frames_in_contact_ = 0, most_contact_pairs_ = 0;
+    double smallest_gap_m_ = 0.0;  // of these pairs
 };
 
 }  // namespace experiments

@@ -85,6 +85,27 @@ void add_attachment_fields(OptionFields<FemOptions>& fields)
                          "and the 24 points of a ring"});
 }
 
+void add_contact_fields(OptionFields<FemOptions>& fields)
+{
+    fields
+        .add("contact", &FemOptions::contact,
+             {.meaning =
+                  "nonlinear model: frictionless contact of the surface with itself, by a barrier between its triangles (M. Li et al., "
+                  "Incremental Potential Contact, ACM TOG 39(4), 2020), so that no equilibrium intersects itself"})
+        .add("contact_range", &FemOptions::contact_range,
+             {.unit = "r",
+              .range = {1e-4, 1},
+              .meaning =
+                  "contact: the distance below which the surface presses on itself, over the mean r of the local limb radii; at most half "
+                  "of the distance at rest. The default is a choice of this project"})
+        .add("contact_stiffness", &FemOptions::contact_stiffness,
+             {.unit = "E",
+              .range = {1e-4, 1e4},
+              .meaning =
+                  "contact: the stiffness of the barrier over Young's modulus E: at 0.57 of the range the pressure is E. The default is "
+                  "a choice of this project"});
+}
+
 void add_solver_fields(OptionFields<FemOptions>& fields)
 {
     fields
@@ -137,6 +158,10 @@ void check(const SceneValues& values, const std::string& table, FemOptions& opti
     refuse_if(quasi_static && damped, "rayleigh", "expected [0, 0] with dynamics quasi_static: nothing moves there");
     refuse_if(!may_be_nested, "nested_start",
               "expected false unless element_order is 2 or character.refine > 0, the model nonlinear and dynamics quasi_static");
+    refuse_if(options.contact && (linear || options.dynamics == reference_fem::Dynamics::generalized_alpha), "contact",
+              "expected false with model linear and with generalized_alpha, whose state at the end of a step is extrapolated");
+    for (const char* key : {"contact_range", "contact_stiffness"})
+        refuse_if(!options.contact && given(key), key, "expected contact = true, which alone has it");
     refuse_if(!quasi_static && !(options.density_kg_m3 > 0.0), "density_kg_m3", "expected a density > 0 with dynamics");
 }
 
@@ -148,6 +173,7 @@ const OptionFields<FemOptions>& fem_fields()
         OptionFields<FemOptions> declared("fem", true);
         add_material_fields(declared);
         add_attachment_fields(declared);
+        add_contact_fields(declared);
         add_solver_fields(declared);
         return declared;
     }();

@@ -46,8 +46,8 @@ export function panels_for(run, wanted) {
 }
 
 // The nearest and farthest distance [m] that a camera draws which is this far from the middle of a run, whose points lie within the radius:
-// both follow the size of the model, from millimetres to kilometres. Nearer than a thousandth of the farthest, depths would not be told
-// apart.
+// both follow the size of the model, from millimetres to kilometres. Nearer than a thousandth of the farthest, depths could not be
+// distinguished.
 export function range_of_sight(distance_m, radius_m) {
     const far = distance_m + radius_m;
     return { near: Math.max(distance_m - radius_m, far / 1000), far };

@@ -5,8 +5,6 @@ import math
 import os
 import random
 import re
-import resource
-import time
 import unittest
 
 import numpy
@@ -17,9 +15,9 @@ import skin_formula
 from written_frames import points_of
 
 CHANGES = 1000 if os.environ.get("PBS_LONG") else 50
-MOST_S, MOST_BYTES = 300.0, 2 << 30  # on a busy machine; 60 s on an idle one
-SINGLE_PRECISION = 1e-6  # of the model's size
+COUNTED, SOUND = 50, 31  # so many of the first seeds; the others break a rule of glTF, except two whose surfaces cannot be meshed
 FAR_FROM_ARTIST_PCT = 2.0
+MOST_PROCESSOR_S = 60.0  # which other work stretches less than the wall time; run() has a limit on that
 NAMES = ["", " ", "a/b", "..", "%s", "\n", "Ωmega", "x" * 5000, "elbow", 'say "so"', "[0]", "null"]
 
 
@@ -69,22 +67,20 @@ class Rig:
             if not node["children"]:
                 del node["children"]
 
+    def change_of(self, name, change, width=3):
+        """Of an attribute of the mesh, or of its indices."""
+        self.change(self.primitive["attributes"].get(name, self.primitive["indices"]), width, change)
+
+    def put_in(self, name, shares, value):
+        self.change_of(name, lambda numbers: self.put(numbers, shares, value))
+
     def change_unit(self):
         factor = abs(self.factor())
-        self.change(self.primitive["attributes"]["POSITION"], 3, lambda points: factor * points)
+        self.change_of("POSITION", lambda points: factor * points)
         self.change(self.document["skins"][0]["inverseBindMatrices"], 16, lambda bind: bind * ([1] * 12 + [factor] * 3 + [1]))
         for node in self.document["nodes"]:
             if "translation" in node:
                 node["translation"] = [factor * x for x in node["translation"]]
-
-    def change_weights(self, change):
-        self.change(self.primitive["attributes"]["WEIGHTS_0"], 4, change)
-
-    def change_triangles(self, shares, value):
-        self.change(self.primitive["indices"], 3, lambda triangles: self.put(triangles, shares, value))
-
-    def change_points(self, change):
-        self.change(self.primitive["attributes"]["POSITION"], 3, change)
 
 
 CHANGE = {
@@ -94,22 +90,23 @@ CHANGE = {
     "scales": lambda r: r.node().update(scale=[r.factor() for _ in range(3)]),
     "place": lambda r: r.node().update(translation=[r.factor() * x for x in r.normal(3)]),
     "turn": lambda r: r.node().update(rotation=r.normal(4)),
-    "matrix beside its parts": lambda r: r.node().update(matrix=r.normal(16)),
+    "matrix and its parts": lambda r: r.node().update(matrix=r.normal(16)),
     "parent": Rig.move_child,
     "joint": lambda r: r.document["skins"][0]["joints"].append(r.random.randrange(len(r.document["nodes"]) + 1)),
     "unit": Rig.change_unit,
-    "weights": lambda r: r.change_weights(lambda w: r.put(w, (0.01, 0.3, 1.0), lambda _: r.random.choice((0, 1, r.factor(), math.nan)))),
-    "bones of weights": lambda r: r.change_weights(lambda w: w[:, r.random.sample(range(4), 4)]),
-    "small holes": lambda r: r.change_triangles((0.003, 0.05, 0.4, 0.99), lambda t: t[:, :1]),
-    "large hole": lambda r: r.change(r.primitive["indices"], 3, lambda t: numpy.repeat(t[:1], len(t), axis=0)
-                                     if r.random.random() < 0.1 else numpy.where(numpy.arange(len(t))[:, None] < len(t) / 3, t[:, :1], t)),
-    "orientation": lambda r: r.change_triangles((0.01, 0.5, 1.0), lambda t: t[:, ::-1]),
-    "corners": lambda r: r.change_triangles((0.002, 0.1), lambda t: t + r.random.randrange(-3, 20)),
-    "some points": lambda r: r.change_points(lambda p: r.put(p, (0.005, 0.1), lambda q: q + r.factor() * numpy.reshape(r.normal(q.size),
-                                                                                                                  q.shape))),
-    "rough points": lambda r: r.change_points(lambda p: p + r.random.choice((0.001, 0.02)) * numpy.reshape(r.normal(p.size), p.shape)),
-    "endless points": lambda r: r.change_points(lambda p: r.put(p, (0.005,), lambda _: r.random.choice((math.inf, math.nan)))),
-    "flat": lambda r: r.change_points(lambda p: p * [1, 1, r.random.choice((0.0, 0.01, -1.0))]),
+    "weights": lambda r: r.change_of("WEIGHTS_0", lambda w: r.put(w, (0.01, 0.3, 1.0), lambda _: r.random.choice(
+        (0, 1, r.factor(), math.nan))), 4),
+    "bones of weights": lambda r: r.change_of("WEIGHTS_0", lambda w: w[:, r.random.sample(range(4), 4)], 4),
+    "small holes": lambda r: r.put_in("indices", (0.003, 0.05, 0.4, 0.99), lambda t: t[:, :1]),
+    "large hole": lambda r: r.change_of("indices", lambda t: numpy.repeat(t[:1], len(t), axis=0) if r.random.random() < 0.1 else
+                                        numpy.where(numpy.arange(len(t))[:, None] < len(t) / 3, t[:, :1], t)),
+    "orientation": lambda r: r.put_in("indices", (0.01, 0.5, 1.0), lambda t: t[:, ::-1]),
+    "corners": lambda r: r.put_in("indices", (0.002, 0.1), lambda t: t + r.random.randrange(-3, 20)),
+    "some points": lambda r: r.put_in("POSITION", (0.005, 0.1), lambda p: p + r.factor() * numpy.reshape(r.normal(p.size), p.shape)),
+    "rough points": lambda r: r.change_of("POSITION", lambda p: p + r.random.choice((0.001, 0.02)) * numpy.reshape(r.normal(p.size),
+                                                                                                                  p.shape)),
+    "endless points": lambda r: r.put_in("POSITION", (0.005,), lambda _: r.random.choice((math.inf, math.nan))),
+    "flat": lambda r: r.change_of("POSITION", lambda p: p * [1, 1, r.random.choice((0.0, 0.01, -1.0))]),
     "times": lambda r: r.change(r.sampler()["input"], 1, r.random.choice((lambda t: t[::-1], lambda t: 0 * t, lambda t: t - 5,
                                                                          lambda t: 1e6 * t, lambda t: t * math.nan))),
     "turns": lambda r: r.change(r.sampler()["output"], 1, lambda turns: turns * r.random.choice((0.0, -1.0, 3.0))),
@@ -124,8 +121,7 @@ class ChangedRigs(program.ProgramTest):
         kinds = choices.sample(sorted(CHANGE), choices.choice((1, 1, 2, 3)))
         for kind in kinds:
             CHANGE[kind](rig)
-        with open(self.path("rig.glb"), "wb") as file:
-            file.write(rig_files.glb(rig.document, rig.data))
+        rig_files.write_glb(self.path("rig.glb"), rig.document, rig.data)
         return ", ".join(kinds)
 
     def check_sound(self, changes_times):
@@ -142,24 +138,26 @@ class ChangedRigs(program.ProgramTest):
             with numpy.errstate(all="ignore"):
                 expected = model.points(name[1], facts["motion"]["time_zero_s"])
             known = numpy.isfinite(expected).all(axis=1)  # points without weight are left to the program
-            size = numpy.linalg.norm(numpy.ptp(expected[known], axis=0))
             found = points_of(self.path("out", "skin", "artist_000000.vtp"))
-            self.assertLess(abs(found - expected)[known].max(), SINGLE_PRECISION * size)
+            self.assertLessEqual(abs(found - expected)[known].max(), skin_formula.ROUNDED * abs(expected[known]).max())
 
     def test_every_change_ends_in_a_sound_result_or_an_error_with_its_rule(self):
+        sound = []
         for number in range(CHANGES):
             changes = self.changed(number)
             with self.subTest(number, changes=changes):
-                start = time.monotonic()
+                start_s = program.processor_s()
                 process = program.run("try", self.path("rig.glb"), "-o", self.path("out"), "--no-reference", "--frames", 2,
                                       "--vertices", "300")
-                self.assertLess(time.monotonic() - start, MOST_S)
+                self.assertLess(program.processor_s() - start_s, MOST_PROCESSOR_S)
                 if process.returncode == 0:
                     self.check_sound("times" in changes.split(", "))
+                    sound.append(number)
                 else:
                     self.assertEqual(process.returncode, 2, process.stderr)
                     self.assertRegex(process.stderr.splitlines()[-1], r"^pbskin: .*rig\.glb\b.*: .")
-        self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024, MOST_BYTES)
+        self.assertGreaterEqual(sum(number < COUNTED for number in sound), SOUND)
+        self.assertLess(program.most_memory_bytes(), program.MOST_BYTES)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,6 @@ import tempfile
 import time
 import unittest
 
-import processes
 import program
 import reliability
 import run_records
@@ -30,7 +29,7 @@ QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
 
 def children(of):
-    return [process for process, (state, parent, _) in processes.statuses().items() if parent == of and state != "Z"]
+    return [process for process, (state, parent, _) in program.statuses().items() if parent == of and state != "Z"]
 
 
 def send(process, kill, aim, chance):
@@ -97,7 +96,7 @@ class Kills(program.ProgramTest):
 
     def expect_nothing_goes_on(self, session):
         deadline = time.monotonic() + 1  # shorter than a run
-        while left := [pid for pid, (state, _, its_session) in processes.statuses().items() if its_session == session and state != "Z"]:
+        while left := [pid for pid, (state, _, its_session) in program.statuses().items() if its_session == session and state != "Z"]:
             if time.monotonic() > deadline:
                 break
             time.sleep(0.01)

@@ -2,7 +2,6 @@
 half-written. Reference: the bounds in pbs/geometry/meshing_surface.cpp and the exit statuses in experiments/command_line/README.md."""
 import os
 import re
-import resource
 import signal
 import subprocess
 import time
@@ -14,7 +13,6 @@ import program
 import rig_files
 import run_records
 
-MOST_BYTES, MOST_S = 2 << 30, 300  # on a busy machine; 60 s on an idle one
 LARGE = ("--vertices", "99900")  # meshing takes minutes
 
 
@@ -43,18 +41,19 @@ class MeshingEnds(program.ProgramTest):
         return rig_files.write("plain", self.path("rig.glb"), surface=surface)
 
     def test_open_surfaces_end_in_a_layer_with_a_warning_or_are_refused(self):
-        """What cannot be meshed is refused; an open tube becomes a layer, and the warning says what to do."""
-        start, tube, boxes = time.monotonic(), self.rig(open_tube()), rig_files.write("plain", self.path("boxes.glb"), surface=open_boxes())
+        """What cannot be meshed is refused; an open tube becomes a layer, and the warning states what to do."""
+        start_s, tube = program.processor_s(), self.rig(open_tube())
         process = self.succeeds("try", tube, "-o", self.path("out"), "--no-reference", "--frames", "2", env=self.environment)
         self.assertIn("3 of 3 bones lie outside the body: root, elbow, tip; the surface is open, and the tets fill a layer along it: "
                       "close it", process.stderr)
-        tube_s = time.monotonic() - start
+        tube_s, boxes = program.processor_s() - start_s, rig_files.write("plain", self.path("boxes.glb"), surface=open_boxes())
         process = self.refuses("", "try", boxes, "-o", self.path("none"), "--no-reference", env=self.environment)
         self.assertRegex(process.stderr.splitlines()[-1],
                          re.escape(f"pbskin: {boxes}: ") + r"(surface|vertices of the tets).*(close it|ask for more vertices)")
         self.assertFalse(os.path.exists(self.path("none")))
-        self.assertLess(max(tube_s, time.monotonic() - start - tube_s), MOST_S)
-        self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024, MOST_BYTES)
+        # All attempts make up to 60,000 vertices, which take 1 ms each, and up to twice as long where other work fills the caches.
+        self.assertLess(max(tube_s, program.processor_s() - start_s - tube_s), 2 * 60.0)
+        self.assertLess(program.most_memory_bytes(), program.MOST_BYTES)
 
     def interrupted(self, kill, *arguments):
         """What was printed by a program that got the signal in the stage `filling the wrap`, whose line it had printed."""
@@ -64,10 +63,11 @@ class MeshingEnds(program.ProgramTest):
             line = process.stderr.readline()
             self.assertNotEqual(line, "", f"it ended: {printed}")
             printed += line
-        start = time.monotonic()
+        start_s = time.monotonic()
         process.send_signal(kill)
         _, rest = process.communicate(timeout=60)
-        self.assertLess(time.monotonic() - start, 2.0)
+        # Within a second. The program waits for 0.7 s of it; the rest is for its end, which other work on the processor stretches.
+        self.assertLess(time.monotonic() - start_s, 1.0 + 0.3 * os.getloadavg()[0] / os.cpu_count())
         self.assertEqual(process.returncode, 130, printed + rest)
         self.assertEqual(rest.splitlines()[-1], "pbskin: interrupted; what was finished is kept")
 

@@ -10,7 +10,6 @@ import make_all
 import records
 import synthetic_frames
 import synthetic_records
-import synthetic_tables
 from drawing import bodies
 from figures import timing
 from records import entries, kept, recorded_frames
@@ -245,8 +244,8 @@ class OwnFigures(ResultsTest):
         self.assertAlmostEqual(float(rows["pbs"]["length_34_mm"]), 1000 * growth * 2 ** 0.5, places=6)
 
     def write_timing(self, orders=timing.orders):
-        synthetic_tables.write_origin(self.results / "timing")
-        synthetic_tables.write_table(self.results / "timing" / "timing.csv", [
+        synthetic_records.write_origin(self.results / "timing")
+        synthetic_records.write_table(self.results / "timing" / "timing.csv", [
             {"mesh": mesh, "body": mesh[:-2], "model": model, "stands_in": stands_in, "vertices": 200, "edges": 600, "tets": 400,
              "vertices_over_table_1": 0.5, "edges_over_table_1": 0.75, "tets_over_table_1": 0.8, "variant": order, "precision": precision,
              "total_ms": 4.0 if order == "plain" else 0.5, "frames_per_s": 250, "paper_frames_per_s": 90.5, "paper_ms": 11.05,
@@ -273,7 +272,7 @@ class OwnFigures(ResultsTest):
 class Origin(ResultsTest):
     def test_it_is_of_the_runs_behind_the_figure_and_no_others(self):
         synthetic_records.write_study(self.results)
-        synthetic_tables.write_origin(self.results / "volume" / "a_first", of="f" * 40)  # before them in alphabetical order
+        synthetic_records.write_origin(self.results / "volume" / "a_first", of="f" * 40)  # before them in alphabetical order
         scenes = {}
         for name in ("limb_twist", "limb_bend"):
             run = self.results / "volume" / name / "run.json"

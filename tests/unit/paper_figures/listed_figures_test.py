@@ -15,7 +15,6 @@ import unittest
 
 from results_case import ResultsTest, root
 import synthetic_records
-import synthetic_tables
 from records import entries, whole_file
 from words import captions
 
@@ -43,7 +42,7 @@ class Listing(ResultsTest):
     def test_without_its_records_every_figure_refuses_with_the_reason(self):
         for entry in entries.read():
             for study in entry.studies():
-                synthetic_tables.write_origin(self.results / study / "run")
+                synthetic_records.write_origin(self.results / study / "run")
         said = self.make_all(status=1)[1]
         for entry in entries.read():
             self.assertIn(f"figures: {entry.name} not drawn: {self.results}", said)
@@ -79,7 +78,7 @@ class Planned(ResultsTest):
     """Runs that a plan names and that have no records."""
     def setUp(self):
         super().setUp()
-        synthetic_tables.write_error_parts(self.results / "work_precision")
+        synthetic_records.write_error_parts(self.results / "work_precision")
         self.entry = {entry.name: entry for entry in entries.read()}
 
     def plan(self, *names, study="work_precision"):
@@ -94,18 +93,18 @@ class Planned(ResultsTest):
 
     def test_what_is_not_on_record_stands_in_the_caption(self):
         self.plan("limb_twist_90", "human_crouch", "man_crouch")
-        synthetic_tables.write_origin(self.results / "work_precision" / "man_crouch")  # a run whose table was not kept
+        synthetic_records.write_origin(self.results / "work_precision" / "man_crouch")  # a run whose table was not kept
         self.assertEqual(self.make_all("error_parts")[1], "")
         self.assertTrue((self.results / "figures" / "error_parts.caption.txt").read_text()
                         .endswith(" Planned runs without records, 2 of 3: human_crouch, man_crouch.\n"))
 
     def test_of_a_pattern_those_that_it_matches(self):
-        synthetic_tables.write_jiggle(self.results / "jiggle")
+        synthetic_records.write_jiggle(self.results / "jiggle")
         self.plan("limb_jolt", "limb_reference", "human_jolt", "human_walk", study="jiggle")
         self.assertEqual(self.entry["jiggle_response"].absent(self.results), (["human_jolt"], 2))
 
     def test_a_table_of_the_study_sums_up_all_runs(self):
-        synthetic_tables.write_timing(self.results / "timing")
+        synthetic_records.write_timing_of_sizes(self.results / "timing")
         self.plan("man_1654", "lady_1829", study="timing")
         self.assertEqual(self.entry["timing_sizes"].absent(self.results), (["lady_1829"], 2))
         self.assertEqual(self.entry["section_profiles"].absent(self.results), ([], 0))
@@ -129,7 +128,7 @@ class Staleness(ResultsTest):
         self.assertFalse(list(self.results.glob("figures/volume_over_angle.*")))
 
     def test_two_revisions_in_one_figure(self):
-        synthetic_tables.write_origin(self.volume / "limb_bend", of="f" * 40)
+        synthetic_records.write_origin(self.volume / "limb_bend", of="f" * 40)
         self.assert_stale(f"of revision 0123456789, {self.volume / 'limb_bend'} of ffffffffff")
         self.make_all("volume_over_clip")  # all runs have one revision
 

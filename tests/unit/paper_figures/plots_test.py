@@ -1,16 +1,23 @@
-"""Reference: the definition. A plot shows the rows that it names, with their numbers in the CSV behind it and under the pointer."""
+"""Reference: the definition. A plot shows the rows that it names, with their numbers in the CSV behind it and under the pointer. A still
+shows tets in the colours of its bar and hides nothing in front of them, and a clip plays at the speed of the records. VTK needs a display;
+xvfb-run provides one."""
 import re
 import unittest
 import unittest.mock
 from xml.etree import ElementTree
 
+import numpy
+from PIL import Image
+
 from results_case import ResultsTest
+import synthetic_frames
 import synthetic_records
-import synthetic_tables
-from drawing import omission_boxes, style
-from figures import mechanics, pbs_errors, volume
+from drawing import bodies, omission_boxes, rendering, style
+from figures import mechanics, pbs_errors, stills, volume
+from records import recorded_frames
 
 svg = "{http://www.w3.org/2000/svg}"
+still = (120, 90)  # size of a picture [px]
 
 
 class Plots(ResultsTest):
@@ -47,7 +54,7 @@ class Plots(ResultsTest):
             self.assertLess(min(abs(x - u) + abs(y - v) for u, v in circles), 0.2)
 
     def test_convergence(self):
-        synthetic_tables.write_convergence(self.results / "convergence")
+        synthetic_records.write_convergence(self.results / "convergence")
         rows = self.drawn("convergence_iterations")
         self.assertEqual(len(rows), 3 * 2 * 4 * 4)  # cases, measures, initial guesses, iterations
         values = {(row["case"], row["start"], row["measure"], float(row["iteration"])): float(row["value"]) for row in rows}
@@ -59,7 +66,7 @@ class Plots(ResultsTest):
         self.assertIn("twist 90\u00b0, not reached: 500, 1000", self.titles("vertices of the limb"))
 
     def test_error_parts(self):
-        synthetic_tables.write_error_parts(self.results / "work_precision")
+        synthetic_records.write_error_parts(self.results / "work_precision")
         drawn = self.drawn("error_parts")
         rows = [row for row in drawn if row["part"]]
         self.assertEqual([row["omission"] for row in drawn if not row["part"]], ["over the time limit: PBS 1 of 15"])
@@ -74,14 +81,14 @@ class Plots(ResultsTest):
         reference = {**vbd, "deformer": "reference", "outcome": "reference"}
         for case, rows in {"a": [vbd, diverged, diverged, plain, reference], "b": [vbd] * 3 + [reference], "c": [plain],
                            "other": [vbd] * 7}.items():
-            synthetic_tables.write_table(study / case / "points.csv", rows)
-        synthetic_tables.write_table(study / "omissions.csv", [{"comparison": "packed_f32", "case": "a", "deformer": "vbd",
+            synthetic_records.write_table(study / case / "points.csv", rows)
+        synthetic_records.write_table(study / "omissions.csv", [{"comparison": "packed_f32", "case": "a", "deformer": "vbd",
                                                                 "why": "not_finite", "missing": 2, "points": 3, "reason": ""}])
         added = omission_boxes.added_up(self.results, "packed_f32", ("a", "b", "c"))
         self.assertEqual([(row["deformer"], row["missing"], row["points"]) for row in added], [("vbd", 2, 6)])
 
     def test_improvements(self):
-        synthetic_tables.write_improvements(self.results / "work_precision")
+        synthetic_records.write_improvements(self.results / "work_precision")
         rows = self.drawn("improvements")
         self.assertEqual(len([row for row in rows if row["shown"] == "curve"]), 2 * 4)
         gains = {row["budget_iterations"]: row for row in rows if row["shown"] == "gain"}
@@ -97,7 +104,7 @@ class Plots(ResultsTest):
                                                        "not ranked: volumes of regions in the time of 24 iterations: 0 of 8 poses"])
 
     def test_an_attachment_that_was_not_reached_keeps_its_place_and_says_so(self):
-        synthetic_tables.write_error_split(self.results / "ensemble")
+        synthetic_records.write_error_split(self.results / "ensemble")
         axes, save = [], style.save
 
         def kept(figure, *others):
@@ -115,7 +122,7 @@ class Plots(ResultsTest):
         self.assertEqual(self.stem.with_suffix(".svg").read_text().count("not reached"), 1)
 
     def test_sections_are_of_one_mesh_and_the_best_elements(self):
-        synthetic_tables.write_artefacts(self.results / "artefacts")
+        synthetic_records.write_artefacts(self.results / "artefacts")
         rows = self.drawn("section_profiles")
         self.assertEqual(len(rows), 6 * 4 * 3)  # panels, deformers, sections
         self.assertEqual({(row["deformer"], round(float(row["area_over_rest_pct"]), 6)) for row in rows},
@@ -123,7 +130,7 @@ class Plots(ResultsTest):
         self.assertEqual([float(row["offset_cm"]) for row in rows[:3]], [-10.0, 0.0, 10.0])
 
     def test_stability(self):
-        synthetic_tables.write_stability(self.results / "stability")
+        synthetic_records.write_stability(self.results / "stability")
         self.assertEqual(len(self.drawn("stability_maps")), 2 * 6)
         shown = self.titles("iterations")
         self.assertIn("diverged: 10, 90", shown)  # the names of the cell as on the axes
@@ -134,7 +141,7 @@ class Plots(ResultsTest):
         self.assertIn("gravity: 1 g to 10 g", self.stem.with_suffix(".svg").read_text())
 
     def test_jiggle_leaves_out_swings_that_were_not_found(self):
-        synthetic_tables.write_jiggle(self.results / "jiggle")
+        synthetic_records.write_jiggle(self.results / "jiggle")
         rows = [row for row in self.drawn("jiggle_response") if row["varied"] == "k_stretch"]
         self.assertEqual([(float(row["k_stretch"]), float(row["frequency_hz"])) for row in rows], [(0.1, 10.0), (0.4, 20.0)])
         shown = [title for title in self.titles("k_stretch [1]") if title.startswith("neo-Hookean FEM")]
@@ -142,7 +149,7 @@ class Plots(ResultsTest):
         self.assertEqual([title for title in self.titles("") if "FEM" in title], [])  # their frequency was chosen
 
     def test_stiffness_is_of_answers_that_converged_and_that_of_xpbd_of_one_material(self):
-        synthetic_tables.write_stiffness(self.results / "stiffness")
+        synthetic_records.write_stiffness(self.results / "stiffness")
         drawn = self.drawn("stiffness")
         rows = [row for row in drawn if (row["body"], row["varied"], row["method"]) == ("limb", "time_step_ms", "pbs")]
         self.assertEqual([(row["time_step_ms"], float(row["stiffness_n_m"])) for row in rows], [("5", 960.0), ("10", 240.0)])
@@ -151,7 +158,7 @@ class Plots(ResultsTest):
         self.assertEqual({float(row["stiffness_n_m"]) for row in rows}, {50.0})
 
     def test_stiffness_beyond_rounding_is_left_out_and_counted(self):
-        synthetic_tables.write_stiffness(self.results / "stiffness")
+        synthetic_records.write_stiffness(self.results / "stiffness")
         with unittest.mock.patch.object(mechanics, "stiffest_n_m", 500.0):
             rows = self.drawn("stiffness")
         rows = [row for row in rows if (row["body"], row["varied"], row["method"]) == ("limb", "time_step_ms", "pbs")]
@@ -159,7 +166,7 @@ class Plots(ResultsTest):
         self.assertEqual(self.stem.with_suffix(".svg").read_text().count("1 stiffer, left out"), 3)  # once per body
 
     def test_momentum(self):
-        synthetic_tables.write_momentum(self.results / "momentum")
+        synthetic_records.write_momentum(self.results / "momentum")
         rows = self.drawn("momentum_drift")
         self.assertEqual(len(rows), 2 * 3 * 3 * 2 * 2)  # bodies, masses, classes, momenta, precisions, without the rows of a whole pass
         unweighted = [row for row in rows if row["constraints"] == "volume" and row["masses"] == "unequal_by_eq_8_9"]
@@ -174,7 +181,7 @@ class Plots(ResultsTest):
                          ["left upper arm", "chest\u2013right clavicle", "right thigh\u2013shin"])
 
     def test_timing(self):
-        synthetic_tables.write_timing(self.results / "timing")
+        synthetic_records.write_timing_of_sizes(self.results / "timing")
         rows = self.drawn("timing_sizes")
         stretch_ms = next(float(row["stretch_ms"]) for row in rows if (row["variant"], row["mesh"]) == ("plain", "man_1654"))
         # LBS and bind are not included
@@ -185,10 +192,74 @@ class Plots(ResultsTest):
         self.assertIn("paper, by CT: 1654, 0.52", shown)
 
     def test_costs_of_features(self):
-        synthetic_tables.write_features(self.results / "timing")
+        synthetic_records.write_features(self.results / "timing")
         self.assertEqual(len(self.drawn("features_cost")), 3)
         shown = self.titles("processor time per frame, with over without [1]")
         self.assertEqual(shown, ["limb: 0.5, sleep", "human: 0.5, sleep", "human: 1.5, rendered surface"])
+
+
+class Stills(ResultsTest):
+    def write(self, scene):
+        synthetic_frames.write_frames(self.results, scene)
+        return recorded_frames.Frames(self.results, scene)
+
+    def shot(self, actors, shift_m=0.0):
+        """One metre around the first tet, whose first corner faces the camera."""
+        view = rendering.Camera((0.2 + shift_m, 0.2, 0.2), 0.5, (-1.0, -1.0, -1.0))
+        return rendering.Stage(*still, background=(0.0, 0.0, 1.0)).shot(actors, view)
+
+    def assert_hue(self, pixel, color):
+        """Compares hues without shading: the channels have the proportions of the colour."""
+        numpy.testing.assert_allclose(pixel / pixel.max(), numpy.array(color) / max(color), atol=0.05)
+
+    def test_tets_have_the_colours_of_the_bar(self):
+        frames = self.write("limb_twist")
+        for frame in (0, 2, 3):  # it is inverted in frame 2
+            ratio = synthetic_frames.ratios_of("lbs", frame)[0]
+            color = rendering.inverted_color if ratio < 0 else rendering.ratio_colors(rendering.ratio_scale(ratio))[:3]
+            around = self.shot([rendering.tets(frames.tets("lbs", frame))], 0.3 * frame)[30:60, 45:75].reshape(-1, 3)
+            self.assert_hue(around[around.sum(axis=1).argmax()], color)  # the brightest pixel: a highlight would change its hue
+
+    def test_the_scale_reads_in_grey_and_inverted_is_darker_than_all_of_it(self):
+        colors = numpy.array([*rendering.ratio_colors(numpy.linspace(0, 1, 50))[:, :3], rendering.inverted_color])
+        linear = numpy.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)  # IEC 61966-2-1
+        *scale, inverted = linear @ (0.2126, 0.7152, 0.0722)
+        self.assertTrue((numpy.diff(scale) > 0).all())
+        self.assertLess(2 * inverted, scale[0])
+
+    def test_what_is_beside_the_body_is_background(self):
+        frames = self.write("limb_twist")
+        self.assertEqual(self.shot([bodies.skin(frames.tets("lbs", 0))])[0, 0].tolist(), [0, 0, 255])
+
+    def test_bones_moved_towards_the_camera_stay_where_they_are_in_the_still(self):
+        bone = recorded_frames.Bone("bone", numpy.array([0.2, 0.2, 0.2]), numpy.array([0.2, 0.4, 0.2]))
+        plain = self.shot(bodies.bones([bone], 0.02))
+        moved = self.shot(bodies.bones([bone], 0.02, towards=(-1.0, -1.0, -1.0)))
+        self.assertLess(numpy.count_nonzero((plain != moved).any(axis=2)), 10)
+        self.assertGreater(numpy.count_nonzero((plain != [0, 0, 255]).any(axis=2)), 100)
+        hidden = self.shot([*bodies.bones([bone], 0.02), bodies.skin(self.write("limb_bend").tets("lbs", 0))])
+        self.assertTrue((hidden[still[1] // 2, still[0] // 2] > 60).any())  # the bone, which is black, lies within the tet
+
+    def test_the_cut_keeps_the_tets_behind_it(self):
+        data = rendering.read(self.write("limb_bend").tets("lbs", 0))
+        ahead_m = numpy.array([-1.0, -0.1, -0.1, -0.1, 2.0])  # the second tet extends far in front of the cut
+        kept = bodies.cut_open(data, ahead_m).GetMapper().GetInput()
+        self.assertEqual(kept.GetNumberOfCells(), 4)
+        self.assertEqual(kept.GetBounds(), (0, 1, 0, 1, 0, 1))
+        self.assertEqual(bodies.cut_open(data, ahead_m - 2).GetMapper().GetInput().GetNumberOfCells(), 6)
+
+    def test_the_clip_plays_at_the_records_speed_and_says_its_source(self):
+        frames = self.write("human_jump")
+        file = self.results / "clip.webp"
+        origin = {"version": "0.1.0", "git_revision": "abc", "rights": "whose it is"}
+        stills.draw_clip(file, frames, origin)
+        with Image.open(file) as clip:
+            self.assertEqual((clip.n_frames, clip.width), (4, 3 * stills.pixels[0]))
+            clip.seek(1)
+            clip.load()
+            self.assertEqual(clip.info["duration"], 10)  # frames at intervals of 0.01 s
+        self.assertIn(b"abc", file.read_bytes())
+        self.assertIn(b"whose it is", file.read_bytes())
 
 
 if __name__ == "__main__":

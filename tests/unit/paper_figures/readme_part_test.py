@@ -2,7 +2,6 @@
 rest stays, and a README without the markers is refused; a run that disagrees with the records is refused. Reference: the definition, the
 kept records, and tables made by hand."""
 import csv
-import importlib
 import json
 import math
 import shutil
@@ -14,7 +13,7 @@ from results_case import ResultsTest, listening, root
 import make_readme
 import pages
 import synthetic_records
-from pages import ambiguity, artefacts, ensemble, work_precision
+from pages import ambiguity, ensemble, short, work_precision
 from readme import findings as readme_findings, pages as readme_pages, part as readme_part, tables as readme_tables
 from readme import same_pose
 from records import kept
@@ -247,10 +246,10 @@ KEPT = root / "experiments" / "records" / "full"
 class Pages(ResultsTest):
     def test_those_of_the_kept_records_are_current(self):
         opened = kept.opened(KEPT)
-        self.assertLessEqual({"ambiguity", "timing", "work_precision"}, set(pages.studies))
-        for study in (study for study in pages.studies if (KEPT / study).is_dir()):
-            page = importlib.import_module(f"pages.{study}").page
-            self.assertEqual((KEPT / study / f"{study}.md").read_text(encoding="utf-8"), page(opened / study), study)
+        composers = {study: compose for study, compose in pages.composers().items() if (KEPT / study).is_dir()}
+        self.assertLessEqual({"ambiguity", "artefacts", "audit", "convergence", "jiggle", "stability", "timing"}, set(composers))
+        for study, compose in composers.items():
+            self.assertEqual((KEPT / study / f"{study}.md").read_text(encoding="utf-8"), compose(opened / study), study)
 
     def test_pairs_that_differ_notably_are_counted_and_the_others_left_out(self):
         pair = {"body": "human", "motion": "01_01", "pose": "crouch", "angle_deg": "", "first_is_closer": "1", "second_is_closer": "0"}
@@ -301,7 +300,7 @@ class Pages(ResultsTest):
 
     def test_sections_are_counted_by_outcome_and_those_left_out_named(self):
         row = {"claim": "C05", "body": "human", "joint": "elbow", "remark": ""}
-        text = artefacts.of_sections([row | {"pose": "bend_45", "outcome": "measured"}, row | {"pose": "bend_90", "outcome": "too_far"},
+        text = short.of_sections([row | {"pose": "bend_45", "outcome": "measured"}, row | {"pose": "bend_90", "outcome": "too_far"},
                                       row | {"pose": "crouch", "outcome": "measured", "remark": "pbs is wide"}])
         self.assertEqual(text, "- C05: 2 sections measured\n- C05: 1 sections too_far: human bend_90 elbow\n\n## Remarks\n\n"
                          "- C05: human crouch elbow, measured: pbs is wide\n")

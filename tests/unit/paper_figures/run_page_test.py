@@ -1,6 +1,5 @@
 """The page of a single run. Reference: its records, which are written here with numbers that can be predicted. Each number of a table is
 that of a record, warnings are shown, and except the frames nothing is missing that the run was not asked for."""
-import csv
 import json
 import re
 import sys
@@ -23,8 +22,8 @@ MODEL = {"file": "hero.glb", "meshes": ["body", "hat"], "extent_m": 1.75, "metre
 
 
 class RunPage(ResultsTest):
-    def write(self, labels=("lbs", "pbs", "mine", "nh_p1"), reference="nh_p1", outcome=None, model=None, angles=True, blank=()):
-        """blank: columns without a value."""
+    def write(self, labels=("lbs", "pbs", "mine", "nh_p1"), reference="nh_p1", outcome=None, model=None, angles=True, **cells):
+        """cells: a value for all rows of a column."""
         runs = [{"label": label, "name": label, "variant": "default"} for label in labels]
         scene = {"name": "walk", "runs": runs, "reference": {"name": reference}}
         record = {"scene": scene, "provenance": {"version": "1", "git_revision": "0" * 40, "git_dirty": False},
@@ -37,16 +36,16 @@ class RunPage(ResultsTest):
                 row = {"scene": "walk", "deformer": label, "variant": "default", "iterations": "", "frame": frame, "time_s": frame / 25,
                        "volume_change_pct": change, "inverted_tets": inverted, "step_ms": ms,
                        "error_joint_pct": error if reference else "", "angle_deg": 10 * frame if angles else ""}
-                rows.append(row | {column: "" for column in blank})
+                rows.append(row | cells)
         write_table(self.results / "metrics.csv", rows)
 
     def page(self):
-        """Of a run or trial without frames: the page says that, and how to get them."""
+        """Of a run or trial without frames: the page states that, and how to get them."""
         text, missing = run_page.page(self.results)
         is_trial = (self.results / "try.json").exists()
         self.assertEqual(missing, ["viewer: frames/*.vtu: do not exist: `pbskin try --paraview` keeps them" if is_trial else
                                    "viewer: no frames/*.vtu; run the scene again with `--set output.frames_every=1`"])
-        self.assertIn("The moving model is missing: viewer", text)
+        self.assertRegex(text, r"The moving model is missing: viewer.*<code>(pbskin try --paraview|--set output.frames_every=1)</code>")
         return text
 
     # The tables.
@@ -75,6 +74,9 @@ class RunPage(ResultsTest):
                           ["hips \u2013 knee", "\u22123.5", "\u22120.5"]])
         self.assertEqual(tables["Mean change of the volume of the tets where two bones meet [% of their volume at rest]"],
                          [["bones", "LBS"], ["knee \u2013 arm", "\u22121"]])
+        (self.results / "bones_rest.csv").unlink()  # now nothing states which pairs are bone and parent
+        tables = {name: rows for name, rows in tables_of(self.page()).items() if name.startswith("Mean change")}
+        self.assertEqual([(name.split(" of the tets ")[1][:10], len(rows)) for name, rows in tables.items()], [("at a joint", 4)])
 
     def test_distances_are_the_median_and_the_largest_over_the_frames(self):
         self.write()
@@ -113,10 +115,7 @@ class RunPage(ResultsTest):
         self.assertNotIn("not on record", text)
 
     def test_a_body_without_a_joint_has_no_column_of_errors_there(self):
-        self.write(labels=("lbs", "nh_p1"))
-        with open(self.results / "metrics.csv", newline="") as stream:
-            rows = [row | {"error_joint_pct": "nan"} for row in csv.DictReader(stream)]
-        write_table(self.results / "metrics.csv", rows)
+        self.write(labels=("lbs", "nh_p1"), error_joint_pct="nan")
         header, first, _ = tables_of(self.page())["Over all frames"]
         self.assertEqual(len(header), len(first))
         self.assertFalse([name for name in header if "error" in name])
@@ -133,14 +132,18 @@ class RunPage(ResultsTest):
         self.assertTrue(missing[0].startswith("viewer: "), missing)
         self.assertRegex(text, r'id="viewer"(.|\n)*The moving model is missing: ')
 
-    def test_the_viewer_of_a_trial_without_frames_is_that_of_its_earlier_page(self):
+    def test_without_frames_the_viewer_is_that_of_the_earlier_page(self):
         self.write()
-        (self.results / "try.json").write_text(json.dumps({"summary": "PBS keeps it.", "warnings": []}))
-        self.assertEqual(run_page.page(self.results)[1], ["viewer: frames/*.vtu: do not exist: `pbskin try --paraview` keeps them"])
-        viewer = '<div id="frame-viewer">a</div>\n<script type="b">{}</script>\n<script id="viewer-block">c</script>\n<script>d</script>'
-        (self.results / "report.html").write_text(f"<html>{viewer}\n<script>e</script></html>")
-        text, missing = run_page.page(self.results)
-        self.assertEqual((text.count(viewer), text.count("<script>e"), missing), (1, 0, []))
+        viewer = ('<div id="frame-viewer">a</div>\n<p class="missing">PBS is not shown</p>\n<script type="b">{}</script>\n'
+                  '<script id="viewer-block">c</script>\n<script>d</script>')
+        for is_trial in (False, True):
+            if is_trial:
+                (self.results / "try.json").write_text(json.dumps({"summary": "PBS keeps it.", "warnings": []}))
+            self.page()  # without an earlier page it is missing
+            (self.results / "report.html").write_text(f"<html>{viewer}\n<script>e</script></html>")
+            text, missing = run_page.page(self.results)
+            self.assertEqual((text.count(viewer), text.count("<script>e"), missing), (1, 0, []))
+            (self.results / "report.html").unlink()
 
     # Warnings and sentences.
 
@@ -219,10 +222,7 @@ class RunPage(ResultsTest):
 
     def test_a_deformer_that_broke_down_in_every_frame(self):
         for value in ("", "nan"):
-            self.write(reference="", labels=("lbs",))
-            with open(self.results / "metrics.csv", newline="") as stream:
-                rows = [row | {"volume_change_pct": value, "step_ms": value} for row in csv.DictReader(stream)]
-            write_table(self.results / "metrics.csv", rows)
+            self.write(reference="", labels=("lbs",), volume_change_pct=value, step_ms=value)
             self.assertEqual(tables_of(self.page())["Over all frames"][1], ["LBS", "\u2013", "4", "\u2013"])
 
 

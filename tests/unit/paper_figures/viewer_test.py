@@ -131,11 +131,30 @@ class Viewer(ResultsTest):
                 with self.subTest(words, outcome=outcome):
                     self.assertEqual("pose not reached" in stills.filled({**row, "outcome": outcome}, words), marked)
 
-    def test_positions_that_are_not_finite_are_refused_by_file(self):
-        file = self.run / "frames" / "pbs_000001.vtu"
-        first = " ".join(map(str, synthetic_frames.positions_of("pbs", 1)[1]))
-        file.write_text(file.read_text().replace(first, "nan nan nan", 1))
-        with self.refused("pbs_000001.vtu: a position is not finite"):
+    def break_down(self, label):
+        """A position of the deformer becomes infinite in frame 1 and is not a number in frame 2."""
+        for frame, number in ((1, "inf"), (2, "nan")):
+            file = self.run / "frames" / f"{label}_{frame:06}.vtu"
+            first = " ".join(map(str, synthetic_frames.positions_of(label, frame)[1]))
+            file.write_text(file.read_text().replace(first, f"{number} 0 0", 1))
+
+    def test_a_deformer_that_broke_down_is_left_out_and_named_and_the_others_are_shown(self):
+        os.environ["PBS_VIEWER_BUILD"] = str(self.results)
+        self.addCleanup(os.environ.pop, "PBS_VIEWER_BUILD")
+        (self.results / "viewer.js").write_text("")
+        shown = self.unpacked()[0]["deformers"]
+        self.assertEqual([deformer["label"] for deformer in shown], ["lbs", "dqs", "pbs", "nh_p1"])
+        for number, (label, title) in enumerate((("pbs", "PBS"), ("nh_p1", looks.of("nh_p1").name))):
+            self.break_down(label)
+            run, _ = self.unpacked()
+            self.assertEqual([deformer["label"] for deformer in run["deformers"]], ["lbs", "dqs", *(["nh_p1"] if number == 0 else [])])
+            self.assertIn({"title": title, "frame": 1}, run["left_out"])
+            page = viewer_html.fragment(self.results)
+            words = f'<p class="missing">limb, twist: {title} is not shown, for a position in frame 1 is not finite.</p>'
+            self.assertIn(words, page.split("<script", 1)[0])
+        for label in ("lbs", "dqs"):
+            self.break_down(label)
+        with self.refused("frames: every deformer has a position that is not finite"):
             self.pack()
 
     def test_panels_of_a_claim_are_those_on_record(self):

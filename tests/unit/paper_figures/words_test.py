@@ -222,6 +222,11 @@ class Looks(unittest.TestCase):
         for deformer in looks.listed:
             self.assertEqual(case_words.of_field("deformer", deformer), looks.of(deformer).name)
 
+    def test_no_script_has_a_colour_of_a_deformer_of_its_own(self):
+        named = re.compile(r"""["'](lbs|dqs|pbs|xpbd|vbd|nh_p[12]|delta_mush)["']\s*:\s*\(?[^\n]*(#[0-9A-Fa-f]{6}|style\.\w+)""")
+        for file in (root / "paper_figures").rglob("*.py"):
+            self.assertIsNone(named.search(file.read_text(encoding="utf-8")), file)
+
     def test_a_line_of_a_deformer_in_another_colour_is_found(self):
         figure, axes = style.panels(1, 1)
         look = looks.of("dqs")

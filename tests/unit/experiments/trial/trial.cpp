@@ -56,7 +56,7 @@ TEST_F(TrialSceneTest, IsASceneOfTheModelAndItsFirstAnimation)
     EXPECT_EQ(names, (std::vector<std::string>{"lbs", "dqs", "lbs_paper", "delta_mush", "pbs", "nh_p1"}));
     EXPECT_EQ(scene.reference, "nh_p1");
     EXPECT_TRUE(scene.output.writes(7));
-    EXPECT_TRUE(trial_scene(options).remarks.empty());
+    EXPECT_TRUE(trial_scene(options).remarks.notes.empty());
 }
 
 TEST_F(TrialSceneTest, TakesTheFirstAnimationThatTurnsAJoint)
@@ -68,20 +68,20 @@ TEST_F(TrialSceneTest, TakesTheFirstAnimationThatTurnsAJoint)
         options_for(test_support::write_rigged_gltf(folder, "arm.gltf", {"Take 001", "Take 001", "Bend"}, 2.0f, {0.0f, 6.0f, 90.0f}));
     EXPECT_EQ(read(options).motion.animation, "Take 001 (2)");
     const TrialScene made = trial_scene(options);
-    EXPECT_EQ(made.remarks, names_with(options.model,
-                                       "Take 001 (2) is taken, the first one that turns a joint by more than 5 degrees "
-                                       "(--animation NAME takes another one: Take 001, Bend)"));
+    EXPECT_EQ(made.remarks.notes, names_with(options.model,
+                                             "Take 001 (2) is taken, the first one that turns a joint by more than 5 degrees "
+                                             "(--animation NAME takes another one: Take 001, Bend)"));
     EXPECT_EQ(made.animations.at(2).at("name"), "Bend");
     EXPECT_EQ(made.animations.at(2).at("duration_s"), 2.0);
     EXPECT_NEAR(made.animations.at(2).at("largest_rotation_deg").get<double>(), 90.0, 1e-3);  // glTF's numbers are single precision
     options.animation = "Take 001";
     EXPECT_EQ(read(options).motion.animation, "Take 001");
-    EXPECT_TRUE(trial_scene(options).remarks.empty());
+    EXPECT_TRUE(trial_scene(options).remarks.notes.empty());
 
     options = options_for(test_support::write_rigged_gltf(folder, "calm.gltf", {"Idle", "Breathe", "Blink"}, 2.0f, {0.0f, 4.0f, 2.0f}));
-    EXPECT_EQ(trial_scene(options).remarks, names_with(options.model,
-                                                       "Breathe is taken, which moves most: none turns a joint by more than "
-                                                       "5 degrees (--animation NAME takes another one: Idle, Blink)"));
+    EXPECT_EQ(trial_scene(options).remarks.notes, names_with(options.model,
+                                                             "Breathe is taken, which moves most: none turns a joint by more than "
+                                                             "5 degrees (--animation NAME takes another one: Idle, Blink)"));
 }
 
 TEST_F(TrialSceneTest, ReplacesOnlyTheTrialOfTheSameModel)
@@ -141,7 +141,7 @@ TEST_F(TrialSceneTest, BendsAModelWithoutAnimation)
     const pbs::Bone& elbow = model->body.skeleton.bones.at(1);
     EXPECT_NEAR(scene.motion.axis.dot((elbow.tail - elbow.head).normalized()), 0.0, 4 * std::numeric_limits<double>::epsilon());
     EXPECT_NEAR(scene.motion.axis.norm(), 1.0, 4 * std::numeric_limits<double>::epsilon());
-    EXPECT_NE(trial_scene(options).remarks.at(0).find("the joint elbow is bent by 60 degrees"), std::string::npos);
+    EXPECT_NE(trial_scene(options).remarks.notes.at(0).find("the joint elbow is bent by 60 degrees"), std::string::npos);
 }
 
 TEST_F(TrialSceneTest, NamesOfAnyCharactersAreKept)

@@ -55,6 +55,15 @@ TEST(BoneBinding, IsTheNearestPointWithAnUnclampedParameter)
     EXPECT_THROW(bind_one({0, 0, 0}, {}), pbs::InputError) << "no bones";
 }
 
+TEST(BindToNearestBone, TakesTheNearestOfTheBonesThatMayHoldAVertex)
+{
+    const pbs::Positions rest = (pbs::Positions(2, 3) << -0.5, 0.1, 0, -0.5, 0.1, 0).finished();
+    const auto forearm_holds_the_second = [](int vertex, int bone) { return vertex == 1 && bone == 1; };
+    const pbs::BoneBinding binding = pbs::bind_to_nearest_bone(rest, limb, forearm_holds_the_second);
+    EXPECT_EQ(binding.bone, (std::vector<int>{0, 1})) << "no bone may hold the first: the nearest one does";
+    EXPECT_EQ(Vec3(binding.rest_point.row(1)), Vec3(0, 0, 0));
+}
+
 TEST(PosedBindPoints, AreCarriedByTheirBones)
 {
     const pbs::Positions rest = (pbs::Positions(2, 3) << -0.5, 0.1, 0, 0.5, 0.1, 0).finished();

@@ -1,6 +1,7 @@
 // How the deformer reaches frames, and what it reports of those that it does not reach. The verification tests show that it deforms
 // correctly. Tolerances between two solutions for one pose: newton_error_m, the error that Newton's method leaves, for each of them.
 
+#include "pbs/character/overlap_and_jiggle.hpp"
 #include "tests/support/fem_bar.hpp"
 #include "tests/support/json_facts.hpp"
 #include "tests/support/newton_rounding.hpp"
@@ -81,6 +82,51 @@ TEST(FemDeformer, ABoneOutsideTheFleshMovesNothingAndIsOnRecord)
     EXPECT_EQ(grips[2]["bone"], "ground");
     EXPECT_EQ(grips[2]["tets_gripped"], 0);
     EXPECT_GT(grips[1]["tets_gripped"], 0);
+}
+
+FemOptions with_contact(FemOptions options)
+{
+    options.contact = true;
+    return options;
+}
+
+int overlapping_vertices(const pbs::Positions& positions)
+{
+    return static_cast<int>(std::ranges::count(pbs::OverlapMask(bar()).of(positions), true));
+}
+
+// The bar folds at its joint. Reference: pbs::OverlapMask, which knows nothing of contact.
+TEST(ElasticFemDeformer, WithContactAFoldDoesNotOverlapItself)
+{
+    for (const int order : {1, 2}) {
+        const FemOptions folds{.model = Model::neo_hookean, .element_order = order};
+        ElasticBar alone(folds), contact(with_contact(folds));
+        ASSERT_EQ(alone.at(turned(160.0)), Outcome::finished);
+        ASSERT_EQ(contact.at(turned(160.0)), Outcome::finished);
+        EXPECT_GT(overlapping_vertices(alone.positions()), 0) << "without contact";
+        EXPECT_EQ(overlapping_vertices(contact.positions()), 0) << "order " << order;
+        const nlohmann::json record = contact.record()["contact"];
+        EXPECT_EQ(record["frames"], 1);
+        EXPECT_GT(record["smallest_distance_m"].get<double>(), 0.0);
+        EXPECT_LT(record["smallest_distance_m"].get<double>(), record["range_m"].get<double>());
+        EXPECT_FALSE(alone.record().contains("contact"));
+    }
+}
+
+TEST(ElasticFemDeformer, WithoutAFoldContactChangesNothing)
+{
+    const FemOptions options{.model = Model::neo_hookean, .element_order = 2};
+    EXPECT_EQ(deformed(bar(), with_contact(options), {turned(20.0)}), deformed(bar(), options, {turned(20.0)}));
+}
+
+// The barrier would keep the windings interlocked.
+TEST(ElasticFemDeformer, WithContactAnInitialGuessThatIntersectsItselfIsRefused)
+{
+    ElasticBar contact(with_contact({.model = Model::stable_neo_hookean, .element_order = 1}));
+    contact.start_from(wound(bar().mesh.rest));
+    EXPECT_EQ(contact.at(turned(0.0)), Outcome::not_converged);
+    EXPECT_EQ(contact.failure()["newton"], "intersects_itself");
+    EXPECT_EQ(contact.at(turned(10.0)), Outcome::finished) << "along the bones, from rest";
 }
 
 FemOptions with_nested_start(FemOptions options)

@@ -1,0 +1,292 @@
+#include "reference_fem/contact/near_pairs.hpp"
+
+#include "pbs/geometry/topology.hpp"
+
+#include <unsupported/Eigen/BVH>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+namespace reference_fem {
+namespace {
+
+using pbs::Vec3;
+using Box = Eigen::AlignedBox3d;
+
+constexpr double edge_range_share = 0.5;  // of a pair's range, for pairs of edges
+constexpr double slack_in_ranges = 1.0;   // by which nodes may move before the next search
+
+Vec3 position(const pbs::Positions& rest, const Eigen::VectorXd& displacement, int node)
+{
+    return rest.row(node).transpose() + displacement.segment<3>(3 * node);
+}
+
+// Calls `found` for each two boxes that overlap, one of each tree.
+template <typename Found>
+struct OverlapSearch {
+    const std::vector<Box>&one_boxes, &other_boxes;
+    Found found;
+
+    bool intersectVolumeVolume(const Box& one, const Box& other) const { return one.intersects(other); }
+    bool intersectVolumeObject(const Box& one, int other) const { return one.intersects(other_boxes[other]); }
+    bool intersectObjectVolume(int one, const Box& other) const { return other.intersects(one_boxes[one]); }
+    bool intersectObjectObject(int one, int other)
+    {
+        if (one_boxes[one].intersects(other_boxes[other])) found(one, other);
+        return false;  // the search goes on
+    }
+};
+
+using BoxTree = Eigen::KdBVH<double, 3, int>;
+
+BoxTree tree_of(const std::vector<Box>& boxes)
+{
+    std::vector<int> numbers(boxes.size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    return {numbers.begin(), numbers.end(), boxes.begin(), boxes.end()};
+}
+
+template <typename Found>
+void for_each_overlap(const std::vector<Box>& one, const std::vector<Box>& other, const Found& found)
+{
+    OverlapSearch<Found> search{one, other, found};
+    const BoxTree tree = tree_of(one);
+    if (&one == &other)
+        Eigen::BVIntersect(tree, tree, search);
+    else
+        Eigen::BVIntersect(tree, tree_of(other), search);
+}
+
+// The first simplex of a pair has this many points.
+int first_points(PairKind kind)
+{
+    return kind == PairKind::point_triangle ? 1 : 2;
+}
+
+// The distance of a pair cannot change by more.
+double relative_motion(PairKind kind, const FourPoints& motion)
+{
+    double squared = 0.0;
+    for (int i = 0; i < first_points(kind); ++i)
+        for (int j = first_points(kind); j < 4; ++j) squared = std::max(squared, (motion.col(i) - motion.col(j)).squaredNorm());
+    return std::sqrt(squared);
+}
+
+// A lower bound of the distance: the gap along the line from the centre of the second simplex to that of the first one.
+double gap_between_centres(PairKind kind, const FourPoints& points)
+{
+    const int n = first_points(kind);
+    const Vec3 between = points.leftCols(n).rowwise().mean() - points.rightCols(4 - n).rowwise().mean();
+    const Eigen::RowVector4d along = between.transpose() * points;
+    const double length = between.norm();
+    return length > 0.0 ? (along.head(n).minCoeff() - along.tail(4 - n).maxCoeff()) / length : 0.0;
+}
+
+// The displacements of four nodes.
+FourPoints motion_of(const std::array<int, 4>& nodes, const Eigen::VectorXd& displacement)
+{
+    FourPoints motion;
+    for (int i = 0; i < 4; ++i) motion.col(i) = displacement.segment<3>(3 * nodes[i]);
+    return motion;
+}
+
+bool share_a_node(const auto& one, const auto& other)
+{
+    return std::ranges::any_of(one, [&](int node) { return std::ranges::find(other, node) != other.end(); });
+}
+
+// Four triangles in place of a face, over its corners and the middles of its edges.
+void add_face(const std::array<int, 3>& corner, const std::map<std::pair<int, int>, int>& middles, ContactSurface& surface)
+{
+    if (middles.empty()) {
+        surface.triangles.push_back(corner);
+        return;
+    }
+    std::array<int, 3> middle;  // of the edge from corner k to the next one
+    for (int k = 0; k < 3; ++k) middle[k] = middles.at(std::minmax(corner[k], corner[(k + 1) % 3]));
+    for (int k = 0; k < 3; ++k) surface.triangles.push_back({corner[k], middle[k], middle[(k + 2) % 3]});
+    surface.triangles.push_back(middle);
+}
+
+// Whether the segment from a to b passes through the inside of the triangle in columns 0 to 2.
+bool passes_through(const Vec3& a, const Vec3& b, const Eigen::Matrix3d& triangle)
+{
+    const Vec3 p = triangle.col(0), q = triangle.col(1), r = triangle.col(2);
+    const auto volume = [](const Vec3& o, const Vec3& x, const Vec3& y, const Vec3& z) { return (x - o).dot((y - o).cross(z - o)); };
+    if (volume(a, p, q, r) * volume(b, p, q, r) >= 0.0) return false;
+    const double pq = volume(a, b, p, q), qr = volume(a, b, q, r), rp = volume(a, b, r, p);
+    return (pq > 0.0 && qr > 0.0 && rp > 0.0) || (pq < 0.0 && qr < 0.0 && rp < 0.0);
+}
+
+}  // namespace
+
+ContactSurface contact_surface(const SimplexSpace& space)
+{
+    const TetNodes& nodes = space.tet_nodes();
+    std::map<std::pair<int, int>, int> middles;
+    for (Eigen::Index t = 0; space.element_order() == 2 && t < nodes.rows(); ++t)
+        for (int k = 0; k < 6; ++k) {
+            const auto& [a, b] = SimplexSpace::edge_corners[k];
+            const int one = nodes(t, a), other = nodes(t, b);
+            middles[std::minmax(one, other)] = nodes(t, 4 + k);
+        }
+    ContactSurface surface;
+    const pbs::Triangles faces = pbs::boundary_of(nodes.leftCols<4>());
+    for (const auto& face : faces.rowwise()) add_face({face(0), face(1), face(2)}, middles, surface);
+
+    surface.node_area = Eigen::VectorXd::Zero(space.nodes());
+    std::map<std::array<int, 2>, double> edges;
+    for (const auto& [a, b, c] : surface.triangles) {
+        const auto at = [&](int node) -> Vec3 { return space.node_positions().row(node); };
+        const double third = (at(b) - at(a)).cross(at(c) - at(a)).norm() / 6.0;
+        for (const int node : {a, b, c}) surface.node_area(node) += third;
+        for (const auto& [one, other] : {std::array{a, b}, std::array{b, c}, std::array{c, a}})
+            edges[{std::min(one, other), std::max(one, other)}] += third;
+    }
+    for (const auto& [edge, area] : edges) {
+        surface.edges.push_back(edge);
+        surface.edge_area.push_back(area);
+    }
+    for (int node = 0; node < space.nodes(); ++node)
+        if (surface.node_area(node) > 0.0) surface.nodes.push_back(node);
+    return surface;
+}
+
+NearPairs::NearPairs(const SimplexSpace& space, double range_m)
+    : range_m_(range_m), rest_(space.node_positions()), surface_(contact_surface(space))
+{
+}
+
+std::array<int, 4> NearPairs::nodes_of(const NearPair& pair) const
+{
+    if (pair.kind == PairKind::point_triangle) {
+        const auto& [a, b, c] = surface_.triangles[pair.second];
+        return {pair.first, a, b, c};
+    }
+    const auto &one = surface_.edges[pair.first], &other = surface_.edges[pair.second];
+    return {one[0], one[1], other[0], other[1]};
+}
+
+FourPoints NearPairs::points_of(const std::array<int, 4>& nodes, const Eigen::VectorXd& displacement) const
+{
+    FourPoints points;
+    for (int i = 0; i < 4; ++i) points.col(i) = position(rest_, displacement, nodes[i]);
+    return points;
+}
+
+FourPoints NearPairs::at_rest(const std::array<int, 4>& nodes) const
+{
+    FourPoints points;
+    for (int i = 0; i < 4; ++i) points.col(i) = rest_.row(nodes[i]).transpose();
+    return points;
+}
+
+// Three quick bounds come before the distance: the boxes, the gap along the line between the centres, and how far the points move against
+// each other on the way.
+void NearPairs::search(const Eigen::VectorXd& displacement, const Eigen::VectorXd& step) const
+{
+    from_ = displacement;
+    step_ = step;
+    const double slack_m = slack_in_ranges * range_m_, margin_m = slack_m + 0.5 * range_m_;
+    std::vector<Box> of_node(rest_.rows());
+    for (const int node : surface_.nodes) {
+        Box way(position(rest_, displacement, node));
+        way.extend(Vec3(way.min() + step.segment<3>(3 * node)));
+        of_node[node] = Box(Vec3(way.min().array() - margin_m), Vec3(way.max().array() + margin_m));
+    }
+    const auto boxes_of = [&](const auto& simplices) {
+        std::vector<Box> boxes;
+        for (const auto& simplex : simplices) {
+            boxes.push_back(of_node[simplex.front()]);
+            for (const int node : simplex) boxes.back().extend(of_node[node]);
+        }
+        return boxes;
+    };
+    near_.clear();
+    const auto add = [&](NearPair pair) {
+        const std::array<int, 4> nodes = nodes_of(pair);
+        const FourPoints points = points_of(nodes, displacement);
+        const double reach_m = range_m_ + 2.0 * slack_m + relative_motion(pair.kind, motion_of(nodes, step));
+        if (gap_between_centres(pair.kind, points) > reach_m) return;
+        pair.distance_m = closest_points(pair.kind, points).distance_m;
+        if (pair.distance_m > reach_m) return;
+        pair.range_m = std::min(range_m_, 0.5 * closest_points(pair.kind, at_rest(nodes)).distance_m);
+        if (pair.kind == PairKind::edge_edge) pair.range_m *= edge_range_share;
+        if (pair.range_m > 0.0) near_.push_back(pair);
+    };
+    std::vector<Box> node_boxes;
+    for (const int node : surface_.nodes) node_boxes.push_back(of_node[node]);
+    for_each_overlap(node_boxes, boxes_of(surface_.triangles), [&](int k, int triangle) {
+        const std::array<int, 1> node{surface_.nodes[k]};
+        if (!share_a_node(node, surface_.triangles[triangle])) add({PairKind::point_triangle, node[0], triangle});
+    });
+    const std::vector<Box> edge_boxes = boxes_of(surface_.edges);
+    for_each_overlap(edge_boxes, edge_boxes, [&](int one, int other) {
+        if (one < other && !share_a_node(surface_.edges[one], surface_.edges[other])) add({PairKind::edge_edge, one, other});
+    });
+    std::ranges::sort(near_, {}, [](const NearPair& pair) { return std::tuple(pair.kind, pair.first, pair.second); });
+}
+
+// The pairs of the last search are all that can press where each node is within the slack of one place on its way.
+bool NearPairs::is_covered(const Eigen::VectorXd& displacement) const
+{
+    if (from_.size() == 0) return false;
+    const double squared = step_.squaredNorm(), along = step_.dot(displacement - from_);
+    const double share = squared > 0.0 ? std::clamp(along / squared, 0.0, 1.0) : 0.0;
+    const double slack_m = slack_in_ranges * range_m_;
+    return std::ranges::all_of(surface_.nodes, [&](int node) {
+        const Vec3 off = displacement.segment<3>(3 * node) - from_.segment<3>(3 * node) - share * step_.segment<3>(3 * node);
+        return off.squaredNorm() <= slack_m * slack_m;
+    });
+}
+
+const std::vector<NearPair>& NearPairs::at(const Eigen::VectorXd& displacement) const
+{
+    if (!is_covered(displacement)) search(displacement, Eigen::VectorXd::Zero(rest_.size()));
+    return near_;
+}
+
+bool NearPairs::may_be_within(const NearPair& pair, const std::array<int, 4>& nodes, const Eigen::VectorXd& displacement,
+                              double distance_m) const
+{
+    return pair.distance_m - relative_motion(pair.kind, motion_of(nodes, displacement) - motion_of(nodes, from_)) < distance_m;
+}
+
+// The longest step for which every pair keeps a tenth of its distance.
+double NearPairs::largest_step(const Eigen::VectorXd& displacement, const Eigen::VectorXd& step) const
+{
+    if (!step.allFinite()) return 0.0;
+    if (!is_covered(displacement) || !is_covered(displacement + step)) search(displacement, step);
+    double largest = 1.0;
+    for (const NearPair& pair : near_) {
+        const std::array<int, 4> nodes = nodes_of(pair);
+        largest = std::min(largest, safe_share(pair.kind, points_of(nodes, displacement), motion_of(nodes, step), largest));
+    }
+    return largest;
+}
+
+bool NearPairs::intersects(const Eigen::VectorXd& displacement) const
+{
+    const auto box_of = [&](const auto& simplex) {
+        Box box(position(rest_, displacement, simplex.front()));
+        for (const int node : simplex) box.extend(position(rest_, displacement, node));
+        return box;
+    };
+    std::vector<Box> edges, triangles;
+    for (const auto& edge : surface_.edges) edges.push_back(box_of(edge));
+    for (const auto& triangle : surface_.triangles) triangles.push_back(box_of(triangle));
+    bool is_found = false;
+    for_each_overlap(edges, triangles, [&](int e, int t) {
+        const auto& edge = surface_.edges[e];
+        const auto& triangle = surface_.triangles[t];
+        if (is_found || share_a_node(edge, triangle)) return;
+        Eigen::Matrix3d corners;
+        for (int k = 0; k < 3; ++k) corners.col(k) = position(rest_, displacement, triangle[k]);
+        is_found = passes_through(position(rest_, displacement, edge[0]), position(rest_, displacement, edge[1]), corners);
+    });
+    return is_found;
+}
+
+}  // namespace reference_fem
