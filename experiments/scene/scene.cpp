@@ -222,7 +222,7 @@ CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& characte
     made.motion = pbs::retarget(clip, character.skeleton, clip_sampling(spec));
     made.time_zero = "start of the clip after its first frame, a T pose, plus motion.start_s";
     made.time_zero_s = clip.frame_time_s + spec.start_s;
-    made.clip_joints = match.moving;
+    made.clip_joints = match.moving - match.small;
     made.matched_joints = match.matched;
     made.remarks = remarks_on_match(match, spec.clip);
     return made;

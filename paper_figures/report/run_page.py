@@ -129,7 +129,7 @@ of_model = ("File: {file}; {meshes_in_file}: {meshes}.", "Largest extent: {exten
             "From the bind pose to the file's rest pose, bones turn by up to {bind_pose_deg}\u00b0.", "Animations: {animations}.",
             "The tets carry {weights_transferred_pct} % of the artist's weights.",
             "The surface that LBS carries with the tets is up to {largest_pct} % of the model's size from the artist's, in frame {frame}.",
-            "{matched_joints} of the clip's {clip_joints} moving joints match.")
+            "{matched_joints} of the clip's {clip_joints} moving joints match, without fingers and the like.")
 animation_columns = ["animation", "duration [s]", "largest rotation of a joint [degrees]", "shown here"]
 
 

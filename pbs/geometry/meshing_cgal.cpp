@@ -72,6 +72,23 @@ using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::Corner_index, Domain::Curve_index>;
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
+}  // namespace
+}  // namespace pbs
+
+namespace CGAL {
+
+// Mesh_3 calls it where a point that it is to insert is a vertex already, before it fails. CGAL's own writes two files into the current
+// folder; argument-dependent lookup prefers this one.
+[[noreturn]] static void dump_c3t3(const pbs::Complex& complex, const std::string&)
+{
+    throw pbs::PointTwice{complex.triangulation().number_of_vertices()};
+}
+
+}  // namespace CGAL
+
+namespace pbs {
+namespace {
+
 // Refines and no more. make_mesh_3 would limit the optimisers to the seconds that the refinement took; called by themselves they end by
 // themselves, and the same way each time.
 Complex refined(const Domain& domain, const MeshCriteria& wanted)
@@ -144,8 +161,7 @@ public:
         return std::visit(clipped, line);
     }
 
-    // CGAL would begin with a dozen random points; where two fall close together a short edge stays, whatever the cell size. Here these are
-    // the poles and three rings of three.
+    // The poles and three rings of three.
     std::vector<SkinPoint> initial_points() const override
     {
         std::vector<SkinPoint> points = {{Point(-half_length - radius, 0, 0), 1}, {Point(half_length + radius, 0, 0), 1}};

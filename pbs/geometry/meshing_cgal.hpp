@@ -33,7 +33,7 @@ public:
     virtual std::optional<SkinPoint> crossing(const Line& line) const = 0;
     virtual std::vector<Edge> edges() const { return {}; }
 
-    // Where the refinement begins if there are no edges.
+    // Where the refinement begins if there are no edges. CGAL's own points are random: where two fall close together, a short edge stays.
     virtual std::vector<SkinPoint> initial_points() const = 0;
     // Asked where the refinement cannot begin with these points; false if there are no more.
     virtual bool double_initial_points() { return false; }
@@ -56,6 +56,9 @@ struct MeshCriteria {
 };
 struct TooManyVertices {
     std::string vertices;  // how many, in words
+};
+struct PointTwice {  // a refinement would put a point where a vertex is: rounding in a layer that is too thin
+    std::size_t vertices = 0;
 };
 TetMesh mesh_body(MeshedBody& body, const MeshCriteria& criteria);
 

@@ -80,8 +80,7 @@ public:
         return edges;
     }
 
-    // CGAL would begin with random points; where two fall close together a short edge stays, whatever the cell size. Here these are
-    // vertices of the surface as far from each other as can be. A part on which there are none would be lost.
+    // Vertices of the surface as far from each other as can be. A part on which there are none would be lost.
     std::vector<SkinPoint> initial_points() const override
     {
         std::vector<SkinPoint> points;
@@ -130,12 +129,10 @@ constexpr double sheet_thickness = 0.05;  // over the diagonal: some tets across
 constexpr const char *boundary_not_manifold = "the boundary is not manifold", *no_tets = "no tets";
 
 // Bounds on the work, far above what a sound mesh takes. They count points, so that a slow machine makes the same meshes. A thin layer is
-// refined down to its thickness, whatever cells are wanted: an open tube gets 18,000 vertices instead of 2,000, and 25,000 at the first
-// size. Otherwise the search overshoots most where the first size fits 2,000 vertices and far more are wanted: its slope of -2.5 instead of
-// -3 gives 2.2 times 99,900 and 5.5 times 10 million. A vertex takes up to 3 kB. A search takes up to 10 refinements, and
-// most bodies are meshed at the first or second of 6 distances. The wrap of a thin layer, at the default alpha, has 10,000 points, that of
-// a bulky body some 40,000.
-constexpr std::size_t least_bound = 30'000, bound_over_wanted = 6, least_in_all = 60'000, in_all_over_wanted = 30,
+// refined down to its thickness, whatever cells are wanted: an open tube gets 18,000 vertices instead of 2,000. Otherwise the search
+// overshoots most where the first size fits 2,000 vertices and far more are wanted: its slope of -2.5 instead of -3 gives 2.2 times 99,900
+// and 5.5 times 10 million. A vertex takes up to 3 kB. The wrap of a thin layer has 10,000 points, that of a bulky body some 40,000.
+constexpr std::size_t least_bound = 30'000, bound_over_wanted = 6, least_in_all = 45'000, in_all_over_wanted = 30,
                       most_wrap_points = 1'000'000;
 
 double diagonal_of(const Positions& points)
@@ -214,8 +211,7 @@ public:
     double volume() const { return CGAL::to_double(pmp::volume(surface_)); }
     int euler() const
     {
-        return static_cast<int>(surface_.number_of_vertices()) - static_cast<int>(surface_.number_of_edges()) +
-               static_cast<int>(surface_.number_of_faces());
+        return static_cast<int>(num_vertices(surface_)) - static_cast<int>(num_edges(surface_)) + static_cast<int>(num_faces(surface_));
     }
 
     double relative_size(const Point& p) const override
@@ -241,24 +237,24 @@ private:
     std::vector<double> thickness_;
 };
 
-// What each refinement of a wrap may take, and what all together may still take.
 struct Effort {
-    explicit Effort(std::size_t wanted)
-        : most(std::max(least_bound, bound_over_wanted * wanted)), left(std::max(least_in_all, in_all_over_wanted * wanted))
-    {
-    }
-    std::size_t most, left;
+    std::size_t most, left;  // of vertices: what each refinement of a wrap may take, and what all together may still take
 };
 
-// TooManyVertices where a bound is reached.
+// Empty where the refinement fails; TooManyVertices where a bound is reached.
 TetMesh mesh_within(Effort& effort, MeshedBody& body, MeshCriteria criteria)
 {
     criteria.most_vertices = std::min(effort.most, effort.left);
     if (effort.left == 0) throw TooManyVertices{"too many in all attempts"};
-    effort.left -= criteria.most_vertices;  // all of them, if it ends with an exception
-    TetMesh mesh = mesh_body(body, criteria);
-    effort.left += criteria.most_vertices - static_cast<std::size_t>(mesh.rest.rows());
-    return mesh;
+    effort.left -= criteria.most_vertices;  // all of them, if it ends with TooManyVertices
+    try {
+        TetMesh mesh = mesh_body(body, criteria);
+        effort.left += criteria.most_vertices - static_cast<std::size_t>(mesh.rest.rows());
+        return mesh;
+    } catch (const PointTwice& failed) {
+        effort.left += criteria.most_vertices - std::min(criteria.most_vertices, failed.vertices);
+        return {};
+    }
 }
 
 // An open sheet is wrapped on both sides: its wrap holds far less, or far more, than the surface seems to enclose.
@@ -336,7 +332,8 @@ std::string breach_of(const TetMesh& mesh, const SurfaceMeshing& options)
 std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, double offset, bool is_open, const SurfaceMeshing& options,
                                     bool& is_exceeded, std::optional<InputError>& why)
 {
-    Effort effort(static_cast<std::size_t>(options.vertices));
+    const auto wanted = static_cast<std::size_t>(options.vertices);
+    Effort effort = {std::max(least_bound, bound_over_wanted * wanted), std::max(least_in_all, in_all_over_wanted * wanted)};
     WrappedBody body(surface, alpha, offset);
     const double ratio = body.volume() / std::abs(fan_volume(surface.points, surface.triangles));
     if (options.is_closed && is_far_off(ratio))
@@ -401,8 +398,7 @@ TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
 {
     check_surface(surface, options);
     const double sheet_m = sheet_offset_m(surface);
-    const double default_alpha = sheet_m > 0.0 ? sheet_m : diagonal_of(surface.points) / 170.0;
-    const double alpha = options.wrap_alpha_m > 0.0 ? options.wrap_alpha_m : default_alpha;
+    const double alpha = options.wrap_alpha_m > 0.0 ? options.wrap_alpha_m : sheet_m > 0.0 ? sheet_m : diagonal_of(surface.points) / 170.0;
     const double offset = options.wrap_offset_m > 0.0 ? options.wrap_offset_m : sheet_m > 0.0 ? sheet_m : alpha / 3.0;
 
     // A sheet of the surface, such as hair or a cape, becomes a layer between the offsets on both sides. Where that is too thin to be

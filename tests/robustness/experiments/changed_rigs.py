@@ -14,8 +14,8 @@ import rig_files
 import skin_formula
 from written_frames import points_of
 
-CHANGES = 1000 if os.environ.get("PBS_LONG") else 50
-COUNTED, SOUND = 50, 31  # so many of the first seeds; the others break a rule of glTF, except two whose surfaces cannot be meshed
+SEEDS = range(1000) if os.environ.get("PBS_LONG") else [*range(49), 56]  # Mesh_3 is asked to insert a point of seed 56 twice
+COUNTED, SOUND = 49, 30  # so many of the first seeds; the others break a rule of glTF, except two whose surfaces cannot be meshed
 FAR_FROM_ARTIST_PCT = 2.0
 MOST_PROCESSOR_S = 60.0  # which other work stretches less than the wall time; run() has a limit on that
 NAMES = ["", " ", "a/b", "..", "%s", "\n", "Ωmega", "x" * 5000, "elbow", 'say "so"', "[0]", "null"]
@@ -143,13 +143,14 @@ class ChangedRigs(program.ProgramTest):
 
     def test_every_change_ends_in_a_sound_result_or_an_error_with_its_rule(self):
         sound = []
-        for number in range(CHANGES):
+        for number in SEEDS:
             changes = self.changed(number)
             with self.subTest(number, changes=changes):
                 start_s = program.processor_s()
                 process = program.run("try", self.path("rig.glb"), "-o", self.path("out"), "--no-reference", "--frames", 2,
-                                      "--vertices", "300")
+                                      "--vertices", "300", cwd=self.folder)
                 self.assertLess(program.processor_s() - start_s, MOST_PROCESSOR_S)
+                self.assertLessEqual(set(os.listdir(self.folder)), {"rig.glb", "out"})
                 if process.returncode == 0:
                     self.check_sound("times" in changes.split(", "))
                     sound.append(number)
