@@ -78,10 +78,10 @@ using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 namespace CGAL {
 
 // Mesh_3 calls it where a point that it is to insert is a vertex already, before it fails. CGAL's own writes two files into the current
-// folder; argument-dependent lookup prefers this one.
-[[noreturn]] static void dump_c3t3(const pbs::Complex& complex, const std::string&)
+// folder; argument-dependent lookup prefers this one. Mesh_3 also calls it with an empty prefix, for a dump that was not asked for.
+static void dump_c3t3(const pbs::Complex& complex, const std::string& prefix)
 {
-    throw pbs::PointTwice{complex.triangulation().number_of_vertices()};
+    if (!prefix.empty()) throw pbs::PointTwice{complex.triangulation().number_of_vertices()};
 }
 
 }  // namespace CGAL
