@@ -29,12 +29,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double highest_rate_hz = 30.0;  // of a motion that is shorter than its frames
-constexpr double lowest_scale = 1e-6, highest_scale = 1e6;
-constexpr double bend_deg = 60.0;       // of the joint of a model without a motion
-constexpr double least_turn_deg = 5.0;  // of a joint in an animation that is worth a trial
-constexpr int frames_looked_at = 31;    // of each animation, to find the one that moves
-constexpr double shortest_motion_s = 1e-3;
+constexpr double lowest_rate_hz = 1e-3, highest_rate_hz = 30.0;  // of a scene; of a motion that is shorter than its frames
+constexpr double lowest_scale = 1e-6, highest_scale = 1e6, shortest_motion_s = 1e-3;
+constexpr double bend_deg = 60.0, least_turn_deg = 5.0;  // of a model without a motion; of a joint in an animation that is worth a trial
+constexpr int frames_looked_at = 31;                     // of each animation, to find the one that moves
 // The last line of a trial's scene, with the hash of all lines before it: the scene was written by a trial and not changed since.
 constexpr const char* seal = "# As `pbskin try` wrote it: ";
 
@@ -53,9 +51,12 @@ std::string from_folder(const std::string& file, const std::string& folder)
     return fs::proximate(fs::absolute(file), fs::absolute(folder)).string();
 }
 
-std::string sampled(double duration_s, int frames)
+std::string sampled(double duration_s, const TrialOptions& options, const std::string& file)
 {
-    const double rate_hz = duration_s > 0.0 ? std::min(highest_rate_hz, (frames - 1) / duration_s) : highest_rate_hz;
+    const double rate_hz = duration_s > 0.0 ? std::min(highest_rate_hz, (options.frames - 1) / duration_s) : highest_rate_hz;
+    if (rate_hz < lowest_rate_hz)
+        throw pbs::InputError(file, 0, "duration of the motion [s]", pbs::number_text(duration_s),
+                              fmt::format("expected at most {} for {} frames", (options.frames - 1) / lowest_rate_hz, options.frames));
     return fmt::format("rate_hz = {}\n", nlohmann::json(rate_hz).dump());
 }
 
@@ -67,10 +68,9 @@ std::string clip_motion(const TrialOptions& options, const std::string& clip_fil
     spec.clip = clip_file;
     spec.allow_partial = options.allow_partial;
     if (!joints_of_the_model.bones.empty()) accepted_match(spec, clip, joints_of_the_model);
-    const bool is_here = fs::exists(options.animation);
-    std::string text = fmt::format("clip = {}\n", quoted(is_here ? from_folder(clip_file, options.folder) : options.animation));
-    if (options.allow_partial) text += "allow_partial = true\n";
-    return text + sampled((clip.frames() - 2) * clip.frame_time_s, options.frames);  // without the first frame, which is a T pose
+    const std::string name = fs::exists(options.animation) ? from_folder(clip_file, options.folder) : options.animation;
+    return fmt::format("clip = {}\n{}", quoted(name), options.allow_partial ? "allow_partial = true\n" : "") +
+           sampled((clip.frames() - 2) * clip.frame_time_s, options, clip_file);  // the first frame is a T pose
 }
 
 // The bone with a parent that moves most of the skin together with all bones below it.
@@ -179,7 +179,7 @@ std::string motion(const TrialOptions& options, TrialScene& made)
         taken = &*named;
     else if (!options.animation.empty())
         return clip_motion(options, clip_file(options, rig), body.skeleton);
-    if (taken) return fmt::format("animation = {}\n", quoted(taken->name)) + sampled(taken->end_s - taken->start_s, options.frames);
+    if (taken) return fmt::format("animation = {}\n", quoted(taken->name)) + sampled(taken->end_s - taken->start_s, options, options.model);
     if (body.skeleton.bones.empty())
         throw pbs::InputError(options.model, 0, "skins", "0",
                               "the model has no joints and no animation: expected --skeleton FILE and --animation CLIP");

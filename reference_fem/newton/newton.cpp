@@ -225,7 +225,7 @@ Eigen::VectorXd NewtonMinimiser::truncated_step(const State& state)
     return step;
 }
 
-// `system_` must have been factorised. The step that moves the data cannot be shortened: it is taken whole or the increment is too large.
+// `system_` must have been factorised. The step that moves the data may raise the energy: contact alone shortens it.
 // The step of a quadratic energy ends in its minimum. Length 0: the direction is not finite, or no length lowers the energy enough.
 NewtonMinimiser::Step NewtonMinimiser::step_from(const Terms& terms, const State& state, const Eigen::VectorXd& displacement,
                                                  const Eigen::VectorXd& increment, const NewtonOptions& options)
@@ -236,7 +236,7 @@ NewtonMinimiser::Step NewtonMinimiser::step_from(const Terms& terms, const State
     const bool is_whole = !increment.isZero(0.0) || all_quadratic(terms);
     step.allowed = largest_step(terms, displacement, step.direction);
     if (is_whole)
-        step.length = step.allowed < 1.0 ? 0.0 : 1.0;
+        step.length = std::min(1.0, step.allowed);
     else
         step.length = step_length(terms, state, displacement, step, options);
     return step;
@@ -272,11 +272,17 @@ NewtonSummary NewtonMinimiser::minimise(const Terms& terms, const Eigen::VectorX
             step = step_from(terms, state, displacement, increment, options);
         }
         if (!step.direction.allFinite()) return end(NewtonOutcome::not_finite);
-        if (step.length == 0.0) return end(is_converged(state, options) ? NewtonOutcome::converged : NewtonOutcome::no_descent);
+        if (step.length == 0.0) {
+            const bool is_minimum = !carries_increment && is_converged(state, options);
+            return end(is_minimum ? NewtonOutcome::converged : NewtonOutcome::no_descent);
+        }
         displacement += step.length * step.direction;
         summary.iterations.back().step_length = step.length;
         summary.iterations.back().allowed_step = step.allowed;
-        increment.setZero();
+        if (step.length < 1.0 && carries_increment)
+            increment = increment_to(prescribed_values, displacement);
+        else
+            increment.setZero();
     }
     return end(NewtonOutcome::iterations_exhausted);
 }

@@ -29,6 +29,7 @@ const std::vector<VerificationProblem>& verification_problems()
         {"nested_convergence", 6.0, 6.0, nested_convergence_rows},
         {"dynamics", 2.0, 8.0, dynamics_rows},
         {"moving_skeleton", 2.0, 2.0, moving_skeleton_rows},
+        {"contact", 10.0, 40.0, contact_rows},
         {"calculix", 90.0, 170.0, calculix_rows},
         {"distributed", 5.0, 5.0, distributed_rows},
     };

@@ -28,7 +28,8 @@ const std::map<std::string, std::function<VerificationRows(const Effort&)>> prob
     {"half_turn", [](const Effort&) { return half_turn_rows({.full = true}); }},
     {"thick_plate", thick_plate_rows},
     {"dynamics", dynamics_rows},
-    {"moving_skeleton", moving_skeleton_rows}};
+    {"moving_skeleton", moving_skeleton_rows},
+    {"contact", contact_rows}};
 
 class VerificationProblem : public testing::TestWithParam<std::string> {};
 

@@ -6,6 +6,7 @@
 #include "tests/support/fem_rounding.hpp"
 #include "tests/support/structured_bar.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace {
@@ -230,6 +231,37 @@ TEST_F(NewtonAtASaddle, EndsAfterSoManyIndefiniteHessiansInARow)
     EXPECT_EQ(ended.outcome, NewtonOutcome::iterations_exhausted);
     EXPECT_EQ(ended.steps(), 3);
     EXPECT_TRUE(allowed.converged()) << "fewer than 15 steps lead to the saddle";
+}
+
+// Nothing but the largest step: this share in the first two, then a whole one.
+class ShortSteps : public Potential {
+public:
+    explicit ShortSteps(double share) : share_(share) {}
+    double value(const Eigen::VectorXd&) const override { return 0.0; }
+    void add_gradient(const Eigen::VectorXd&, Eigen::VectorXd&) const override {}
+    void add_hessian(const Eigen::VectorXd&, Definiteness, NodalMatrix&) const override {}
+    double largest_step(const Eigen::VectorXd&, const Eigen::VectorXd&) const override { return asked_++ < 2 ? share_ : 1.0; }
+    bool is_quadratic() const override { return false; }
+
+private:
+    double share_;
+    mutable int asked_ = 0;
+};
+
+TEST(Newton, DataThatMoveFartherThanContactAllowsArriveLaterOrTheStepFails)
+{
+    HeldBar bar(Model::linear);
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(bar.space.dofs());
+    Eigen::VectorXd u = bar.zero, unmoved = bar.zero;
+    const ShortSteps shortened(0.4), none(0.0);
+    const NewtonSummary moved = bar.newton.minimise({&bar.flesh, &shortened}, ones, u, {});
+    EXPECT_TRUE(moved.converged());
+    EXPECT_EQ(std::ranges::count(moved.iterations, true, &NewtonIteration::carries_increment), 3);
+    // A rigid translation strains nothing. Its last step is one solve, and the two before have moved it in the same direction.
+    const Spectrum of_flesh = spectrum(rest_stiffness(bar.space, bar.flesh).matrix(), held_end(bar.space));
+    EXPECT_LT((u - ones).norm(), 3.0 * rounding_bound(of_flesh) * ones.norm());
+    EXPECT_EQ(bar.newton.minimise({&bar.flesh, &none}, ones, unmoved, {}).outcome, NewtonOutcome::no_descent);
+    EXPECT_EQ(unmoved, bar.zero);
 }
 
 TEST(Newton, OutcomesOfFailure)
