@@ -64,18 +64,18 @@ fuzz_target(fuzz/texts.cpp experiments
     experiments/deformers/fem/fem_kind.cpp experiments/process/machine.cpp pbs/geometry/module.cpp
     pbs/character/clip.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/files.cpp pbs_character
-    pbs/character/frankie.cpp pbs/character/skinning_weights.cpp pbs/skinning/pose.cpp pbs/geometry/tetgen_and_tobj.cpp
+    pbs/character/frankie.cpp pbs/character/skinning_weights.cpp pbs/skinning/pose.cpp pbs/geometry/mesh_io.cpp
     pbs/geometry/content_format.cpp pbs/geometry/msh_files.cpp pbs/geometry/mesh_checks.cpp pbs/geometry/mesh_repairs.cpp
     pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/assimp.cpp pbs_rig
-    pbs/rig/assimp_rig.cpp pbs/rig/rigged_body.cpp pbs/rig/collada_and_fbx.cpp pbs/rig/rig_pose.cpp
+    pbs/rig/assimp_rig.cpp pbs/rig/rigged_body.cpp pbs/rig/rig_pose.cpp
     pbs/rig/rig_reader.cpp pbs/skinning/pose.cpp pbs/geometry/content_format.cpp
     pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_libraries(assimp assimp::assimp pugixml::pugixml ${MINIZIP_LIBRARY} ZLIB::ZLIB)
 fuzz_target(fuzz/content.cpp pbs_mesh_io
     pbs/geometry/content_format.cpp pbs/geometry/mesh_io.cpp pbs/geometry/mesh_checks.cpp pbs/geometry/mesh_repairs.cpp
     pbs/geometry/msh_files.cpp pbs/geometry/files.cpp pbs/geometry/vtk_files.cpp pbs/geometry/surface_reader.cpp
-    pbs/geometry/tet_mesh.cpp pbs/geometry/tetgen_and_tobj.cpp pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
+    pbs/geometry/tet_mesh.cpp pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
 fuzz_libraries(content assimp::assimp ${VTK_LIBRARIES})
 if(PBS_WITH_FUZZ)
     set(settings PBS_SOURCE=${PROJECT_SOURCE_DIR} PBS_FUZZ_PROGRAMS=${CMAKE_BINARY_DIR}/tests PBS_FUZZ_FOLDER=${CMAKE_BINARY_DIR}/fuzz

@@ -15,10 +15,10 @@ pbs_tests(unit pbs_skinning FOLDERS pbs/skinning pbs/constraints
     ALONE pbs/skinning/blend pbs/skinning/delta_mush pbs/skinning/pose pbs/skinning/pose_path pbs/skinning/weights
         pbs/constraints/contract pbs/constraints/region_volume pbs/constraints/volume_printed
     LIBRARIES pbs_method)
-pbs_tests(unit pbs_solver FOLDERS pbs/packed pbs/solver pbs/author
+pbs_tests(unit pbs_solver FOLDERS pbs/packed pbs/contact pbs/solver pbs/author
     ALONE pbs/solver/batched/batch_program pbs/solver/batched/batched_projection pbs/solver/batched/kernels
         pbs/solver/batched/sequence pbs/packed/groups pbs/packed/vertex_order pbs/solver/constraint_set
-        pbs/solver/pbs_solver pbs/solver/projection pbs/solver/steps
+        pbs/solver/pbs_solver pbs/solver/projection pbs/solver/steps pbs/contact/depth_constraint pbs/contact/self_contact
     LIBRARIES pbs_method ${threads})
 pbs_tests(unit analysis FOLDERS analysis
     ALONE analysis/statistics/minimise analysis/records/tables analysis/metrics/frame_metrics analysis/metrics/error_norms
@@ -27,7 +27,7 @@ set_source_files_properties(unit/analysis/verdicts/claims.cpp unit/analysis/verd
     COMPILE_DEFINITIONS ${claims_file})
 pbs_tests(properties method FOLDERS pbs analysis
     EXCEPT pbs/geometry/meshing_repeats pbs/solver/orders
-    ALONE pbs/skinning/invariance pbs/solver/invariance pbs/solver/left_out pbs/solver/threads
+    ALONE pbs/contact/separation pbs/skinning/invariance pbs/solver/invariance pbs/solver/left_out pbs/solver/threads
     LIBRARIES analysis ${threads})
 pbs_tests(verification method FOLDERS pbs/solver pbs/near_rest analysis LIBRARIES analysis pbs_near_rest GSL::gsl)
 pbs_tests(robustness method FOLDERS pbs/solver LIBRARIES pbs_method)

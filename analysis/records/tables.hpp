@@ -4,6 +4,10 @@
 //   const CsvTable table = read_csv("metrics.csv");  double change = table.number(0, "volume_change_pct");
 #pragma once
 
+#include <boost/preprocessor/seq/for_each.hpp>
+#include <boost/preprocessor/stringize.hpp>
+#include <boost/preprocessor/variadic/to_seq.hpp>
+
 #include <algorithm>
 #include <concepts>
 #include <functional>
@@ -190,18 +194,25 @@ void require_unit(const std::string& name, const std::string& unit);
 
 template <typename Row>
 struct Column {
-    // access: a pointer to the member, or a generic function from the row to a reference inside it. unit: "" for a pure number.
+    // access: a pointer to the member, or a generic function from the row to a reference inside it.
     template <typename Access>
-    Column(std::string its_name, Access access, std::string its_unit, std::string its_meaning)
-        : name(std::move(its_name)), unit(std::move(its_unit)), meaning(std::move(its_meaning))
+    Column(std::string its_name, Access access) : name(std::move(its_name))
     {
         using Value = std::remove_cvref_t<std::invoke_result_t<Access, Row&>>;
-        require_unit(name, unit);
-        if constexpr (std::is_same_v<Value, bool> || std::is_same_v<Value, std::optional<bool>>) unit = "0/1";
         cell = [access](const Row& row) { return CellOf<Value>::cell(std::invoke(access, row)); };
         read = [access, column = name](Row& row, const CsvTable& table, int r) {
             std::invoke(access, row) = CellOf<Value>::read(table, r, column);
         };
+    }
+    // With what the program prints of it. unit: "" for a pure number.
+    template <typename Access>
+    Column(std::string its_name, Access access, std::string its_unit, std::string its_meaning) : Column(std::move(its_name), access)
+    {
+        using Value = std::remove_cvref_t<std::invoke_result_t<Access, Row&>>;
+        require_unit(name, its_unit);
+        constexpr bool is_truth = std::is_same_v<Value, bool> || std::is_same_v<Value, std::optional<bool>>;
+        unit = is_truth ? "0/1" : std::move(its_unit);
+        meaning = std::move(its_meaning);
     }
     // A column of a member that is itself a struct.
     template <typename Part>
@@ -223,16 +234,17 @@ struct Column {
         };
     }
 
-    std::string name, unit, meaning;
-    std::string group = {};  // "": in every file; the columns of a group occur in a file together or not at all
+    std::string name;
+    std::string unit = {}, meaning = {};  // of the metrics, which `pbskin explain` prints; experiments/records/columns.md has the others
+    std::string group = {};               // "": in every file; the columns of a group occur in a file together or not at all
     std::function<CsvTable::Cell(const Row&)> cell;
     std::function<void(Row&, const CsvTable&, int)> read;
 };
 
-// A CSV record that is declared once: a row is a plain struct, and one list of columns names, explains, writes and reads its members.
-//   struct Distance { int frame; double rms_mm; };
-//   const Columns<Distance> distance_columns = {{"frame", &Distance::frame, "", "number of the frame, from 0"},
-//                                               {"rms_mm", &Distance::rms_mm, "mm", "root mean square over the points"}};
+// A CSV record that is declared once: a row is a plain struct, and one list of columns names, writes and reads its members.
+//   struct Distance { int frame; double rms_mm, largest; };
+//   const Columns<Distance> distance_columns = MEMBER_COLUMNS(Distance, frame, rms_mm) +            // members under their own names
+//                                              Columns<Distance>{{"most_mm", &Distance::largest}};
 //   table_of(distance_columns, rows).write("distances.csv");
 //   const std::vector<Distance> rows = rows_of(distance_columns, read_csv("distances.csv"));
 // A member is a double, int, long, long long, bool (0 or 1), std::string, an enum with EnumNames, std::optional of one (nothing: an empty
@@ -274,6 +286,9 @@ public:
         return all;
     }
 };
+
+#define MEMBER_COLUMN(_, Row, member) {BOOST_PP_STRINGIZE(member), &Row::member},
+#define MEMBER_COLUMNS(Row, ...) (analysis::Columns<Row>{BOOST_PP_SEQ_FOR_EACH(MEMBER_COLUMN, Row, BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__))})
 
 // The columns of a member struct, which may be optional: within(&Frame::errors, error_columns).
 template <typename Row, typename Member, typename Part>
@@ -317,7 +332,7 @@ std::vector<Row> rows_of(const Columns<Row>& columns, const CsvTable& table)
 }
 
 // Columns that a file has only if some row has a value for them.
-//   const auto columns = Columns<Row>{{"value", &Row::value, "", "..."}} + optional({{"n", &Row::n, "", "number of trials"}});
+//   const auto columns = Columns<Row>{{"value", &Row::value}} + optional({{"n", &Row::n}});
 //   table_of(used_columns(columns, rows), rows).write("values.csv");
 // Each column becomes a group of its own: files without it are read, and its member keeps its default value.
 template <typename Row>
@@ -342,9 +357,9 @@ Columns<Row> used_columns(Columns<Row> columns, const std::vector<Row>& rows)
 
 // A column whose cell is empty for one value: a count of 0, a bound at infinity.
 template <typename Row, typename Value>
-Column<Row> column_with_empty(Value empty, const std::string& name, Value Row::*member, const std::string& unit, const std::string& meaning)
+Column<Row> column_with_empty(Value empty, const std::string& name, Value Row::*member)
 {
-    Column<Row> column(name, member, unit, meaning);
+    Column<Row> column(name, member);
     column.cell = [member, empty, filled = column.cell](const Row& row) {
         return row.*member == empty ? CsvTable::Cell(std::nullopt) : filled(row);
     };

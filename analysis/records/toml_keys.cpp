@@ -24,15 +24,19 @@ std::string value_text(const toml::node& node)
 
 }  // namespace
 
-toml::table parse_toml_document(const std::string& text, const std::string& file, const std::set<std::string>& known)
+toml::table parse_toml(const std::string& text, const std::string& file)
 {
     pbs::check_toml_keys(text, file);
-    toml::table document;
     try {
-        document = toml::parse(text, file);
+        return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
         throw pbs::InputError(file, static_cast<int>(error.source().begin.line), "", "", std::string(error.description()));
     }
+}
+
+toml::table parse_toml_document(const std::string& text, const std::string& file, const std::set<std::string>& known)
+{
+    const toml::table document = parse_toml(text, file);
     for (const auto& [key, node] : document)
         if (key.str() != "schema" && !known.contains(std::string(key.str())))
             throw pbs::InputError(file, static_cast<int>(node.source().begin.line), std::string(key.str()), "",

@@ -15,7 +15,9 @@
 
 namespace analysis {
 
-// InputError with the line for a text that is not TOML, or for a top-level key that is not in `known`; schema = 1 is required.
+// InputError with the line for a text that is not TOML.
+toml::table parse_toml(const std::string& text, const std::string& file);
+// The same for a top-level key that is not in `known`; schema = 1 is required.
 toml::table parse_toml_document(const std::string& text, const std::string& file, const std::set<std::string>& known);
 
 // The tables of [[name]]; none if the name is missing. InputError if it is something else.

@@ -49,13 +49,12 @@ Columns<Group> all_columns()
     Columns<Group> columns;
     for (std::size_t i = 0; i < settings.size(); ++i)
         columns.emplace_back(
-            settings[i], [i](auto& group) -> decltype(auto) { return (group.setting[i]); }, "", "as in metrics.csv");
-    columns.emplace_back("frames", &Group::frames, "", "number of frames");
+            settings[i], [i](auto& group) -> auto& { return group.setting[i]; });
+    columns.emplace_back("frames", &Group::frames);
     for (std::size_t q = 0; q < quantities.size(); ++q)
         for (std::size_t i = 0; i < shares.size(); ++i)
             columns.emplace_back(
-                quantities[q] + "_" + shares[i].first + "_pct", [q, i](auto& group) -> decltype(auto) { return (group.statistics[q][i]); },
-                "%", fmt::format("{} quantile of {}_pct over the finite frames", shares[i].second, quantities[q]));
+                quantities[q] + "_" + shares[i].first + "_pct", [ q, i ](auto& group) -> auto& { return group.statistics[q][i]; });
     return columns;
 }
 

@@ -14,50 +14,40 @@ namespace analysis {
 
 const std::vector<CaseKeyField>& case_key_fields()
 {
-    using Key = CaseKey;
-    using Text = std::string Key::*;
-    using Number = std::optional<double> Key::*;
     using enum CaseKeyField::Shown;
-    const auto text = [](const char* name, Text member, const char* meaning, CaseKeyField::Shown shown = with_name) {
-        return CaseKeyField{name, "", meaning, shown, member, nullptr};
-    };
-    const auto number = [](const char* name, Number member, const char* unit, const char* meaning, CaseKeyField::Shown shown = with_name) {
-        return CaseKeyField{name, unit, meaning, shown, nullptr, member};
-    };
-    static const std::vector<CaseKeyField> fields = {
-        text("body", &Key::body, "name of the body: limb, bar, ring, human, man, lady, frankie, or a character of the user's", alone),
-        text("motion", &Key::motion, "twist, bend, or the name of a clip such as 01_01", alone),
-        text("pose", &Key::pose, "pose in a clip: crouch, landing, in_the_air", alone),
-        text("joint", &Key::joint, "the names of the joint's two bones, as in upper|forearm", alone),
-        number("angle_deg", &Key::angle_deg, "deg", "angle of a joint that is twisted or bent", alone),
-        number("time_s", &Key::time_s, "s", "time in the clip"),
-        text("deformer", &Key::deformer, "the deformer that is measured", alone),
-        text("variant", &Key::variant, "its variant, as jiggle", alone),
-        text("reference", &Key::reference, "the deformer that the value is compared with"),
-        text("order", &Key::order, "order of projection", alone),
-        text("precision", &Key::precision, "f32 or f64", alone),
-        number("vertices", &Key::vertices, "", "size of the mesh; of a ratio over a range, its first setting"),
-        number("vertices_to", &Key::vertices_to, "", "last setting of the range", as_end_of_range),
-        number("k_stretch", &Key::k_stretch, "", "stiffness of the stretch constraints; of a range, its first setting"),
-        number("k_stretch_to", &Key::k_stretch_to, "", "last setting of the range", as_end_of_range),
-        number("k_bind", &Key::k_bind, "", "stiffness of the bind constraints"),
-        number("young_pa", &Key::young_pa, "Pa", "Young's modulus"),
-        text("masses", &Key::masses, "how the particles' masses are set"),
-        number("iterations", &Key::iterations, "", "iterations per step; of a range, its first setting"),
-        number("iterations_to", &Key::iterations_to, "", "last setting of the range", as_end_of_range),
-        number("time_step_s", &Key::time_step_s, "s", "time step; of a range, its first setting"),
-        number("time_step_to_s", &Key::time_step_to_s, "s", "last setting of the range", as_end_of_range),
-        text("constraint", &Key::constraint, "stretch, volume, bind"),
-        text("initial_guess", &Key::initial_guess, "previous_frame, rest_pose, rigid_bind; of controls: lbs, random"),
-        text("tolerance", &Key::tolerance, "residual: within 5 % of its floor; volume: absolute change within 0.5 %"),
-        text("load", &Key::load, "load of a stiffness test"),
-        text("ladder", &Key::ladder, "how its mesh sizes are made, if not as wanted"),
-        text("factor", &Key::factor, "the parameter that a sweep of the stability study varies"),
-        text("second_factor", &Key::second_factor, "the second parameter that a map varies"),
-        text("model", &Key::model, "a row of Table 1 in the paper"),
-        text("equation", &Key::equation, "an equation of the paper"),
-        text("gradient_of", &Key::gradient_of, "a particle p1 to p4"),
-        text("reading", &Key::reading, "as_printed, relative_to_p1, derived_gradients")};
+    static const std::vector<CaseKeyField> fields = {{"body", "", alone, &CaseKey::body},
+                                                     {"motion", "", alone, &CaseKey::motion},
+                                                     {"pose", "", alone, &CaseKey::pose},
+                                                     {"joint", "", alone, &CaseKey::joint},
+                                                     {"angle_deg", "deg", alone, nullptr, &CaseKey::angle_deg},
+                                                     {"time_s", "s", with_name, nullptr, &CaseKey::time_s},
+                                                     {"deformer", "", alone, &CaseKey::deformer},
+                                                     {"variant", "", alone, &CaseKey::variant},
+                                                     {"reference", "", with_name, &CaseKey::reference},
+                                                     {"order", "", alone, &CaseKey::order},
+                                                     {"precision", "", alone, &CaseKey::precision},
+                                                     {"vertices", "", with_name, nullptr, &CaseKey::vertices},
+                                                     {"vertices_to", "", as_end_of_range, nullptr, &CaseKey::vertices_to},
+                                                     {"k_stretch", "", with_name, nullptr, &CaseKey::k_stretch},
+                                                     {"k_stretch_to", "", as_end_of_range, nullptr, &CaseKey::k_stretch_to},
+                                                     {"k_bind", "", with_name, nullptr, &CaseKey::k_bind},
+                                                     {"young_pa", "Pa", with_name, nullptr, &CaseKey::young_pa},
+                                                     {"masses", "", with_name, &CaseKey::masses},
+                                                     {"iterations", "", with_name, nullptr, &CaseKey::iterations},
+                                                     {"iterations_to", "", as_end_of_range, nullptr, &CaseKey::iterations_to},
+                                                     {"time_step_s", "s", with_name, nullptr, &CaseKey::time_step_s},
+                                                     {"time_step_to_s", "s", as_end_of_range, nullptr, &CaseKey::time_step_to_s},
+                                                     {"constraint", "", with_name, &CaseKey::constraint},
+                                                     {"initial_guess", "", with_name, &CaseKey::initial_guess},
+                                                     {"tolerance", "", with_name, &CaseKey::tolerance},
+                                                     {"load", "", with_name, &CaseKey::load},
+                                                     {"ladder", "", with_name, &CaseKey::ladder},
+                                                     {"factor", "", with_name, &CaseKey::factor},
+                                                     {"second_factor", "", with_name, &CaseKey::second_factor},
+                                                     {"model", "", with_name, &CaseKey::model},
+                                                     {"equation", "", with_name, &CaseKey::equation},
+                                                     {"gradient_of", "", with_name, &CaseKey::gradient_of},
+                                                     {"reading", "", with_name, &CaseKey::reading}};
     return fields;
 }
 
@@ -105,9 +95,9 @@ const Columns<CaseKey>& case_key_columns()
         Columns<CaseKey> all;
         for (const CaseKeyField& field : case_key_fields()) {
             if (field.text)
-                all.emplace_back(field.name, field.text, field.unit, field.meaning);
+                all.emplace_back(field.name, field.text);
             else
-                all.emplace_back(field.name, field.number, field.unit, field.meaning);
+                all.emplace_back(field.name, field.number);
             all.back().group = field.name;
         }
         return all;
@@ -158,21 +148,9 @@ struct MetricsRow {
 
 const Columns<MetricsRow>& metrics_columns()
 {
-    static const Columns<MetricsRow> columns =
-        Columns<MetricsRow>{{"scene", &MetricsRow::scene, "", "name of the scene"},
-                            {"deformer", &MetricsRow::deformer, "", "name of the deformer"},
-                            {"variant", &MetricsRow::variant, "", "its variant"},
-                            {"order", &MetricsRow::order, "", "order of projection"},
-                            {"precision", &MetricsRow::precision, "", "f32 or f64"},
-                            {"iterations", &MetricsRow::iterations, "", "iterations per step"},
-                            {"threads", &MetricsRow::threads, "", "number of threads"},
-                            {"frame", &MetricsRow::frame, "", "number of the frame, from 0"},
-                            {"time_s", &MetricsRow::time_s, "s", "time in the motion"},
-                            {"volume_change_pct", &MetricsRow::volume_change_pct, "%", "signed change of the whole volume"},
-                            {"volume_abs_change_pct", &MetricsRow::volume_abs_change_pct, "%", "sum of the absolute changes of each tet"},
-                            {"inverted_tets", &MetricsRow::inverted_tets, "", "number of inverted tets"}} +
-        optional(Columns<MetricsRow>{{"angle_deg", &MetricsRow::angle_deg, "deg", "angle of the joint, in a sweep"},
-                                     {"outcome", &MetricsRow::outcome, "", "of the frame"}});
+    static const Columns<MetricsRow> columns = MEMBER_COLUMNS(MetricsRow, scene, deformer, variant, order, precision, iterations, threads,
+                                                              frame, time_s, volume_change_pct, volume_abs_change_pct, inverted_tets) +
+                                               optional(MEMBER_COLUMNS(MetricsRow, angle_deg, outcome));
     return columns;
 }
 
@@ -183,15 +161,13 @@ auto case_of(const MetricsRow& row)
 
 CaseRecord empty_record(const MetricsRow& row, const std::string& run)
 {
-    CaseRecord record;
-    record.scene = row.scene;
-    record.deformer = row.deformer;
-    record.variant = row.variant;
-    record.order = row.order;
-    record.precision = row.precision;
-    record.iterations = row.iterations.value_or(0);
-    record.run = run;
-    return record;
+    return {.scene = row.scene,
+            .deformer = row.deformer,
+            .variant = row.variant,
+            .order = row.order,
+            .precision = row.precision,
+            .iterations = row.iterations.value_or(0),
+            .run = run};
 }
 
 void add_frame(CaseRecord& record, const MetricsRow& row)
@@ -207,13 +183,10 @@ void add_frame(CaseRecord& record, const MetricsRow& row)
 const Columns<PrintedValue>& printed_columns()
 {
     static const Columns<PrintedValue> columns =
-        Columns<PrintedValue>{{"claim", &PrintedValue::claim, "", "id of the claim"},
-                              {"quantity", &PrintedValue::quantity, "", "what is printed"}} +
-        within(&PrintedValue::of, case_key_columns()) +
-        Columns<PrintedValue>{{"printed", &PrintedValue::printed, "", "the printed value"},
-                              {"least", &PrintedValue::least, "", "its lower bound"},
-                              column_with_empty(std::numeric_limits<double>::infinity(), "most", &PrintedValue::most, "",
-                                                "its upper bound; empty if there is none")};
+        MEMBER_COLUMNS(PrintedValue, claim, quantity) + within(&PrintedValue::of, case_key_columns()) +
+        Columns<PrintedValue>{{"printed", &PrintedValue::printed},
+                              {"least", &PrintedValue::least},
+                              column_with_empty(std::numeric_limits<double>::infinity(), "most", &PrintedValue::most)};
     return columns;
 }
 

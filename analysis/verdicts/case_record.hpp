@@ -45,7 +45,7 @@ struct CaseKey {
 // A field of the key, which is either a text or a number.
 struct CaseKeyField {
     const char* name;
-    const char *unit, *meaning;
+    const char* unit;
     enum class Shown {
         alone,
         with_name,

@@ -12,17 +12,11 @@ namespace {
 const Columns<Measurement>& measurement_columns()
 {
     static const Columns<Measurement> columns =
-        Columns<Measurement>{{"claim", &Measurement::claim, "", "id of the claim"},
-                             {"quantity", &Measurement::quantity, "", "what is measured"}} +
-        within(&Measurement::of, case_key_columns()) +
-        Columns<Measurement>{{"value", &Measurement::value, "", "in `unit`"},
-                             {"low", &Measurement::low, "", "lower end of its range"},
-                             {"high", &Measurement::high, "", "upper end of its range"},
-                             {"unit", &Measurement::unit, "", "unit of value, low and high"}} +
-        optional(Columns<Measurement>{
-            column_with_empty(Limit::none, "limit", &Measurement::limit, "", "how the value limits the quantity"),
-            column_with_empty(0, "n", &Measurement::n, "", "settings, cells or comparisons from which the value is computed"),
-            column_with_empty(0, "not_reached", &Measurement::not_reached, "", "how many of these reach the tolerance from no guess")});
+        MEMBER_COLUMNS(Measurement, claim, quantity) + within(&Measurement::of, case_key_columns()) +
+        MEMBER_COLUMNS(Measurement, value, low, high, unit) +
+        optional(Columns<Measurement>{column_with_empty(Limit::none, "limit", &Measurement::limit),
+                                      column_with_empty(0, "n", &Measurement::n),
+                                      column_with_empty(0, "not_reached", &Measurement::not_reached)});
     return columns;
 }
 

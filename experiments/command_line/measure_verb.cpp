@@ -143,14 +143,11 @@ analysis::FrameValues values_of(const RestMesh& rest, const analysis::MeshMetric
 
 using analysis::Columns;
 
-const Columns<analysis::FrameValues> value_columns =
-    analysis::within(&analysis::FrameValues::metrics, frame_metric_columns()) +
-    Columns<analysis::FrameValues>{{"j_max", &analysis::FrameValues::j_max, "", "largest volume of a tet over its volume at rest"},
-                                   {"edge_strain_max", &analysis::FrameValues::edge_strain_max, "", "largest |l / l0 - 1| of an edge"}};
+const Columns<analysis::FrameValues> value_columns = analysis::within(&analysis::FrameValues::metrics, frame_metric_columns()) +
+                                                     MEMBER_COLUMNS(analysis::FrameValues, j_max, edge_strain_max);
 
-const Columns<analysis::MeasuredFrame> columns =
-    Columns<analysis::MeasuredFrame>{{"frame", &analysis::MeasuredFrame::name, "", "name of the frame's file"}} +
-    analysis::within(&analysis::MeasuredFrame::values, value_columns);
+const Columns<analysis::MeasuredFrame> columns = analysis::Columns<analysis::MeasuredFrame>{{"frame", &analysis::MeasuredFrame::name}} +
+                                                 analysis::within(&analysis::MeasuredFrame::values, value_columns);
 
 void print_row(const analysis::MeasuredFrame& frame)
 {

@@ -55,6 +55,11 @@ OptionFields<Options> flesh_fields(const std::string& kind)
                                 {"plain_f64", {"precision=f64", "packed=false"}}});
 }
 
+FieldText contact_text()
+{
+    return {.meaning = "a penalty on skin that lies in flesh of another part of the body, as stiff as the column of flesh below that skin"};
+}
+
 // CHOLMOD is linked with BLAS, whose kernels have to be selected before the first module that brings it.
 pbs::HeldFlesh held_flesh(const pbs::Character& character, const pbs::SmoothSpringOptions& springs, const pbs::HeldFleshOptions& options)
 {
@@ -256,9 +261,10 @@ DeformerKind quasi_newton_kind()
                  {.range = {0, 100}, .meaning = "pairs of steps and changes of the gradient that L-BFGS keeps"})
             .add("volume_share", &Options::volume_share,
                  {.range = {0.0, 100.0}, .meaning = "share of lambda in the first matrix; it changes the iterates, not the minimum"})
-            .add("stop_gradient", &Options::stop_gradient,
-                 {.range = {0.0, 1.0},
-                  .meaning = "stop where the preconditioned gradient is below this share of its first value; 0: never"}));
+            .add(
+                "stop_gradient", &Options::stop_gradient,
+                {.range = {0.0, 1.0}, .meaning = "stop where the preconditioned gradient is below this share of its first value; 0: never"})
+            .add("contact", &Options::contact, contact_text()));
 }
 
 DeformerKind vbd_kind()
@@ -271,7 +277,8 @@ DeformerKind vbd_kind()
             .add("omega", &VbdFlesh::omega,
                  {.range = {above_zero, 1.999}, .meaning = "each vertex moves by omega times the way to its minimum; 1 with chebyshev"})
             .add("rho", &VbdFlesh::rho,
-                 {.range = {0.0, 0.9999}, .meaning = "the spectral radius of a sweep that chebyshev assumes; unused otherwise"}));
+                 {.range = {0.0, 0.9999}, .meaning = "the spectral radius of a sweep that chebyshev assumes; unused otherwise"})
+            .add("contact", &VbdFlesh::contact, contact_text()));
 }
 
 DeformerKind xpbd_neo_hookean_kind()

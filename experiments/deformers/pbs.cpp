@@ -102,7 +102,7 @@ private:
                                      options_.lbs_entry != pbs::LbsEntry::start || options_.bind_on_bone != pbs::BindOnBone::pinned;
         const bool other_constraints = options_.bind_to != pbs::BindTo::bone_distance || options_.volume_of != pbs::VolumeOf::tets ||
                                        options_.k_stretch_length_m != 0.0;
-        const bool each_its_own = another_reading || other_constraints || options_.jiggle || options_.sleep ||
+        const bool each_its_own = another_reading || other_constraints || options_.contact || options_.jiggle || options_.sleep ||
                                   options_.stop_residual > 0.0 || options_.record_iterations;
         return options_.threads > 1 && options_.order != pbs::Order::plain && !each_its_own &&
                !pbs::shared_among_threads(static_cast<int>(character_->mesh.rest.rows()));

@@ -41,6 +41,9 @@ void add_keys(OptionFields<PbsOptions>& fields)
             "sleep_tolerance", &PbsOptions::sleep_tolerance,
             {.range = {0, 1},
              .meaning = "the error that a sleeping constraint may have: |l / l0 - 1|, |V / V0 - 1|, and for bind a share of the mean edge"})
+        .add("contact", &PbsOptions::contact,
+             {.meaning = "skin that lies in flesh of another part of the body is pushed out of it, by a constraint after the volume "
+                         "constraints of each iteration"})
         .add("record_iterations", &PbsOptions::record_iterations, {.meaning = "writes iterations.csv: residuals per frame and iteration"});
 }
 
@@ -123,6 +126,7 @@ std::string variant_of(const PbsOptions& options)
     const PbsOptions paper;
     if (options.k_stretch_length_m != paper.k_stretch_length_m) return "k_by_edge_length";
     if (options.volume_of != paper.volume_of) return std::string("volume_of_") + name_of(options.volume_of);
+    if (options.contact) return "contact";
     if (options.bind_to != paper.bind_to) return name_of(options.bind_to);
     if (options.volume_form != paper.volume_form) return name_of(options.volume_form);
     if (options.bind_point != paper.bind_point) return name_of(options.bind_point);

@@ -1,7 +1,6 @@
 #include "experiments/deformers/registry.hpp"
 
 #include "experiments/deformers/deformer_options.hpp"
-#include "experiments/settings/scene_values.hpp"
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/cost.hpp"
 

@@ -140,12 +140,11 @@ void broadcast(const reference_fem::MpiSession& session, LoadedBody& body)
     session.broadcast(body.problem.vertex_targets);
 }
 
-const analysis::Columns<DisplacedNode> node_columns = {
-    {"first", &DisplacedNode::first, "", "the vertex that the node lies on, or the first of the two that it lies halfway between"},
-    {"second", &DisplacedNode::second, "", "the second of the two, or the same vertex"},
-    {"x_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.x()); }, "m", "x of its displacement"},
-    {"y_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.y()); }, "m", "y of its displacement"},
-    {"z_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.z()); }, "m", "z of its displacement"}};
+const analysis::Columns<DisplacedNode> node_columns = {{"first", &DisplacedNode::first},
+                                                       {"second", &DisplacedNode::second},
+                                                       {"x_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.x()); }},
+                                                       {"y_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.y()); }},
+                                                       {"z_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.z()); }}};
 
 // Mean displacement [m] of the vertices with the greatest x.
 pbs::Vec3 tip_displacement(const pbs::TetMesh& mesh, const reference_fem::ElasticSolution& solution)

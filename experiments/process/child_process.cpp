@@ -27,7 +27,6 @@
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace experiments {

@@ -14,7 +14,6 @@
 #include <iterator>
 #include <mutex>
 #include <sstream>
-#include <string>
 #include <string_view>
 #include <thread>
 #include <vector>

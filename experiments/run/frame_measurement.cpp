@@ -1,7 +1,5 @@
 #include "experiments/run/frame_measurement.hpp"
 
-#include "analysis/metrics/cross_section.hpp"
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

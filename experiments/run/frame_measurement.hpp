@@ -6,8 +6,8 @@
 #include "analysis/metrics/error_norms.hpp"
 #include "analysis/metrics/frame_metrics.hpp"
 #include "experiments/scene/scene.hpp"
+#include "pbs/character/bone_capsules.hpp"
 #include "pbs/character/character.hpp"
-#include "pbs/character/overlap_and_jiggle.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/step_summary.hpp"
 

@@ -6,7 +6,6 @@
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/reference_error_bar.hpp"
 #include "experiments/run/run_folder.hpp"
-#include "experiments/scene/scene.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/separated_parts.hpp"

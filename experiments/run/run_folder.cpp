@@ -4,7 +4,6 @@
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/run/run.hpp"
-#include "experiments/scene/scene.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/model_character.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -28,15 +27,9 @@ struct IterationRow {
     int frame = 0, iteration = 0;
     pbs::Residuals residuals;
 };
-const analysis::Columns<pbs::Residuals> residual_columns = {
-    {"stretch_rms", &pbs::Residuals::stretch_rms, "", "root mean square of l / l0 - 1 over the edges"},
-    {"volume_rms", &pbs::Residuals::volume_rms, "", "root mean square of V / V0 - 1 over the tets"},
-    {"bind_rms_m", &pbs::Residuals::bind_rms_m, "m", "root mean square of |x_i - q_i| - d_i over the vertices"}};
+const analysis::Columns<pbs::Residuals> residual_columns = MEMBER_COLUMNS(pbs::Residuals, stretch_rms, volume_rms, bind_rms_m);
 const analysis::Columns<IterationRow> iteration_columns =
-    analysis::Columns<IterationRow>{{"deformer", &IterationRow::deformer, "", "label of the deformer"},
-                                    {"frame", &IterationRow::frame, "", "number of the frame, from 0"},
-                                    {"iteration", &IterationRow::iteration, "", "number of the iteration in the frame's step, from 1"}} +
-    analysis::within(&IterationRow::residuals, residual_columns);
+    MEMBER_COLUMNS(IterationRow, deformer, frame, iteration) + analysis::within(&IterationRow::residuals, residual_columns);
 
 std::string frame_file(const std::string& name, int frame, const char* ending)
 {

@@ -15,29 +15,20 @@
 
 namespace experiments {
 
-const analysis::Columns<BonePlace> bone_columns = {
-    {"bone", &BonePlace::bone, "", "name of the bone"},
-    {"parent", &BonePlace::parent, "", "name of its parent; empty for a root"},
-    {"head_x_m", [](auto& bone) -> decltype(auto) { return (bone.head.x()); }, "m", "x of the bone's beginning"},
-    {"head_y_m", [](auto& bone) -> decltype(auto) { return (bone.head.y()); }, "m", "y of the bone's beginning"},
-    {"head_z_m", [](auto& bone) -> decltype(auto) { return (bone.head.z()); }, "m", "z of the bone's beginning"},
-    {"tail_x_m", [](auto& bone) -> decltype(auto) { return (bone.tail.x()); }, "m", "x of the bone's end"},
-    {"tail_y_m", [](auto& bone) -> decltype(auto) { return (bone.tail.y()); }, "m", "y of the bone's end"},
-    {"tail_z_m", [](auto& bone) -> decltype(auto) { return (bone.tail.z()); }, "m", "z of the bone's end"}};
+const analysis::Columns<BonePlace> bone_columns = [] {
+    auto columns = MEMBER_COLUMNS(BonePlace, bone, parent);
+    for (const auto& [name, end] : {std::pair("head_", &BonePlace::head), std::pair("tail_", &BonePlace::tail)})
+        for (int axis = 0; axis < 3; ++axis)
+            columns.emplace_back(
+                std::string(name) + "xyz"[axis] + "_m", [ end = end, axis ](auto& bone) -> auto& { return (bone.*end)(axis); });
+    return columns;
+}();
 
 const analysis::Columns<PosedBone> posed_bone_columns =
-    analysis::Columns<PosedBone>{
-        {"frame", &PosedBone::frame, "", "number of the frame, from 0"},
-        {"time_s", &PosedBone::time_s, "s", "time since the motion began; outcome.motion.time_zero of run.json states when that is"}} +
-    analysis::within(&PosedBone::place, bone_columns);
+    MEMBER_COLUMNS(PosedBone, frame, time_s) + analysis::within(&PosedBone::place, bone_columns);
 
-const analysis::Columns<BoundVertex> bound_vertex_columns = {
-    {"vertex", &BoundVertex::vertex, "", "number of the vertex, from 0"},
-    {"bone", &BoundVertex::bone, "", "the vertex's nearest bone (Sec. 2.1)"},
-    {"parameter", &BoundVertex::parameter, "", "position of the vertex's projection on that bone: 0 at its head, 1 at its tail"},
-    {"rest_distance_m", &BoundVertex::rest_distance_m, "m", "distance to the bone at rest"},
-    {"blended", &BoundVertex::blended, "", "Eq. 2 blends the vertex between bones"},
-    {"jiggles", &BoundVertex::jiggles, "", "the vertex is farther from its bone than the mean"}};
+const analysis::Columns<BoundVertex> bound_vertex_columns =
+    MEMBER_COLUMNS(BoundVertex, vertex, bone, parameter, rest_distance_m, blended, jiggles);
 
 namespace {
 
@@ -57,9 +48,7 @@ int loaded_shared_objects()
     return count;
 }
 
-const analysis::Columns<RegionBones> region_bone_columns = {
-    {"bone", &RegionBones::bone, "", "name of the bone, or of the joint's first bone"},
-    {"second_bone", &RegionBones::second_bone, "", "name of the joint's second bone; empty where the region belongs to one bone"}};
+const analysis::Columns<RegionBones> region_bone_columns = MEMBER_COLUMNS(RegionBones, bone, second_bone);
 
 constexpr double nearest_bonus = 1e-6;  // decides for a corner's nearest bone if weights are equal
 
@@ -133,15 +122,8 @@ nlohmann::json CostRecord::json() const
             {"shared_objects", loaded_shared_objects()}};
 }
 
-const analysis::Columns<DeformerDistance> distance_columns = {
-    {"frame", &DeformerDistance::frame, "", "number of the frame, from 0"},
-    {"time_s", &DeformerDistance::time_s, "s", "time since the motion began; outcome.motion.time_zero of run.json states when that is"},
-    {"deformer", &DeformerDistance::deformer, "", "label of one deformer"},
-    {"other", &DeformerDistance::other, "", "label of the other deformer"},
-    {"of", &DeformerDistance::of, "", "what the points belong to: rendered surface, or mesh where the body has none"},
-    {"points", &DeformerDistance::points, "", "number of points"},
-    {"rms_mm", &DeformerDistance::rms_mm, "mm", "root mean square of the distances"},
-    {"largest_mm", &DeformerDistance::largest_mm, "mm", "largest distance"}};
+const analysis::Columns<DeformerDistance> distance_columns =
+    MEMBER_COLUMNS(DeformerDistance, frame, time_s, deformer, other, of, points, rms_mm, largest_mm);
 
 void DistanceRecord::add(int frame, double time_s, const std::string& label, const std::string& of, const pbs::Positions& points)
 {
@@ -157,18 +139,8 @@ void DistanceRecord::add(int frame, double time_s, const std::string& label, con
 
 using Changes = analysis::Columns<RegionChange>;
 const Changes region_columns =
-    Changes{{"deformer", &RegionChange::deformer, "", "label of the deformer"},
-            {"kind", &RegionChange::kind, "", "what the region belongs to: bone or joint"}} +
-    within(&RegionChange::bones, region_bone_columns) +
-    Changes{
-        {"rest_share_pct", &RegionChange::rest_share_pct, "%", "the region's share of the body's rest volume"},
-        {"change_pct", &RegionChange::change_pct, "%",
-         "mean change of volume over the frames, of the body's rest volume; the bones' add up"},
-        {"abs_change_pct", &RegionChange::abs_change_pct, "%", "mean sum of the tets' absolute changes, of the body's rest volume"},
-        {"lowest_pct", &RegionChange::lowest_pct, "%", "lowest change_pct of a frame"},
-        {"highest_pct", &RegionChange::highest_pct, "%", "highest change_pct of a frame"},
-        {"own_change_pct", &RegionChange::own_change_pct, "%", "mean change of volume over the frames, of the region's own rest volume"},
-        {"frames", &RegionChange::frames, "", "number of frames whose positions are finite"}};
+    MEMBER_COLUMNS(RegionChange, deformer, kind) + within(&RegionChange::bones, region_bone_columns) +
+    MEMBER_COLUMNS(RegionChange, rest_share_pct, change_pct, abs_change_pct, lowest_pct, highest_pct, own_change_pct, frames);
 
 BodyRegions regions_by_bone(const pbs::Character& character)
 {
@@ -270,14 +242,13 @@ nlohmann::json model_record(const pbs::Character& character)
     return record;
 }
 
-const analysis::Columns<EmbeddedPoint> embedding_columns = {
-    {"point", &EmbeddedPoint::point, "", "number of the surface's point, from 0"},
-    {"tet", &EmbeddedPoint::tet, "", "number of the tet that carries it"},
-    {"barycentric_0", [](auto& at) -> decltype(auto) { return (at.barycentric[0]); }, "",
-     "share of the tet's first corner, in the frames' order"},
-    {"barycentric_1", [](auto& at) -> decltype(auto) { return (at.barycentric[1]); }, "", "share of its second corner"},
-    {"barycentric_2", [](auto& at) -> decltype(auto) { return (at.barycentric[2]); }, "", "share of its third corner"},
-    {"barycentric_3", [](auto& at) -> decltype(auto) { return (at.barycentric[3]); }, "", "share of its last corner"}};
+const analysis::Columns<EmbeddedPoint> embedding_columns = [] {
+    auto columns = MEMBER_COLUMNS(EmbeddedPoint, point, tet);
+    for (const int k : {0, 1, 2, 3})
+        columns.emplace_back(
+            "barycentric_" + std::to_string(k), [k](auto& at) -> auto& { return at.barycentric[k]; });
+    return columns;
+}();
 
 analysis::CsvTable embedding_table(const pbs::EmbeddedSurface& surface)
 {

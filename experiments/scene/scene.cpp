@@ -6,13 +6,11 @@
 #include "experiments/process/terminal.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "generated/scenes_texts.hpp"
-#include "pbs/character/clip.hpp"
 #include "pbs/character/model_character.hpp"
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/rig/rig_reader.hpp"
-#include "pbs/skinning/pose.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,13 +1,12 @@
 #include "experiments/settings/scene_values.hpp"
 
 #include "analysis/records/record_files.hpp"
+#include "analysis/records/toml_keys.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <charconv>
@@ -94,16 +93,6 @@ bool obeys(const json& value, const SceneKey& key)
 std::string joined(const std::string& table, const std::string& name)
 {
     return table.empty() ? name : table + "." + name;
-}
-
-toml::table parse(const std::string& text, const std::string& file)
-{
-    pbs::check_toml_keys(text, file);
-    try {
-        return toml::parse(text, file);
-    } catch (const toml::parse_error& error) {
-        throw pbs::InputError(file, static_cast<int>(error.source().begin.line), "", "", std::string(error.description()));
-    }
 }
 
 // The VALUE of --set, as TOML or else as a bare text.
@@ -302,7 +291,7 @@ SceneValues::SceneValues(const std::string& text, const std::string& file, const
     : schema_(std::move(schema)), file_(file)
 {
     SceneReader reader(*this);
-    reader.take_table(parse(text, file), "");
+    reader.take_table(analysis::parse_toml(text, file), "");
     for (const std::string& override : overrides) reader.take_override(override);
     if (!values_.count("schema")) throw pbs::InputError(file, 0, "schema", "", "missing; write schema = 1");
     reader.add_defaults();

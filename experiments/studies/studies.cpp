@@ -68,10 +68,8 @@ std::optional<double> number_at(const nlohmann::json& run, const char* pointer)
 }
 
 const analysis::Columns<RunCost> cost_columns =
-    analysis::Columns<RunCost>{{"run", &RunCost::run, "", "name of the run"},
-                               {"expected_cpu_s", &RunCost::expected_s, "s", "processor time that the plan expects"},
-                               {"cpu_s", &RunCost::cpu_s, "s", "processor time that it took"}} +
-    analysis::Columns<RunCost>{{"wall_s", &RunCost::wall_s, "s", "wall time that it took"}}.in_group("wall");
+    analysis::Columns<RunCost>{{"run", &RunCost::run}, {"expected_cpu_s", &RunCost::expected_s}, {"cpu_s", &RunCost::cpu_s}} +
+    analysis::Columns<RunCost>{{"wall_s", &RunCost::wall_s}}.in_group("wall");
 
 // Nothing if the run did not finish.
 std::optional<RecordedCost> recorded_cost(const fs::path& folder)

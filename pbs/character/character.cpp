@@ -1,7 +1,6 @@
 #include "pbs/character/character.hpp"
 
 #include "pbs/character/skinning_weights.hpp"
-#include "pbs/geometry/tet_mesh.hpp"
 
 #include <algorithm>
 #include <map>

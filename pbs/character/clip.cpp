@@ -159,13 +159,6 @@ void sample_frame(const std::vector<Node>& nodes, double tick, int frame, Clip& 
                          "its position is not a finite number");
 }
 
-void check_names(const Clip& clip)
-{
-    std::set<std::string> seen;
-    for (const std::string& joint : clip.joints)
-        if (!seen.insert(joint).second) throw InputError(clip.name, 0, "JOINT", joint, "two joints have this name");
-}
-
 const aiScene& import(Assimp::Importer& importer, const std::string& path)
 {
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
@@ -197,7 +190,9 @@ std::vector<Node> read_hierarchy(const aiScene& scene, Clip& clip)
     }
     std::vector<Node> nodes;
     collect_nodes(scene.mRootNode, -1, channels, clip, nodes);
-    check_names(clip);
+    std::set<std::string> seen;
+    for (const std::string& joint : clip.joints)
+        if (!seen.insert(joint).second) throw InputError(clip.name, 0, "JOINT", joint, "two joints have this name");
     clip.zero_pose.resize(static_cast<Eigen::Index>(nodes.size()), 3);
     for (std::size_t j = 0; j < nodes.size(); ++j) clip.zero_pose.row(j) = nodes[j].rest_global.translation();
     if (!clip.zero_pose.allFinite()) throw InputError(clip.name, 0, "OFFSET", "", "expected finite numbers");

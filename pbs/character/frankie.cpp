@@ -3,31 +3,19 @@
 #include "pbs/character/skeleton_file.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/topology.hpp"
 
 #include <Eigen/Geometry>
 
-#include <array>
 #include <cstdint>
 #include <cstring>
-#include <map>
 
 namespace pbs {
 namespace {
 
-// The header's words after the magic, in order; those that are read here.
-enum Word {
-    version = 0,
-    file_size,
-    text_bytes = 3,
-    text_at,
-    array_count = 7,
-    vertex_count,
-    arrays_at,
-    triangle_count,
-    triangles_at,
-    joint_count = 13,
-    joints_at
-};
+// The header's words after the magic by their places; those that are read here.
+constexpr std::size_t version = 0, file_size = 1, text_bytes = 3, text_at = 4, array_count = 7, vertex_count = 8, arrays_at = 9;
+constexpr std::size_t triangle_count = 10, triangles_at = 11, joint_count = 13, joints_at = 14;
 constexpr const char* magic = "INTERQUAKEMODEL";  // and a zero
 constexpr std::size_t magic_bytes = 16, header_bytes = 124, array_bytes = 20, triangle_bytes = 12, joint_bytes = 48;
 constexpr std::uint32_t position_type = 0, float_format = 7;
@@ -43,7 +31,7 @@ public:
             refuse("filesize", std::to_string(header(file_size)), "the file has " + std::to_string(bytes_.size()) + " bytes: cut short?");
     }
 
-    std::uint32_t header(Word word) const { return word_at(magic_bytes + 4 * static_cast<std::size_t>(word)); }
+    std::uint32_t header(std::size_t word) const { return word_at(magic_bytes + 4 * word); }
     std::uint32_t word_at(std::size_t byte) const { return value_at<std::uint32_t>(byte); }
     float float_at(std::size_t byte) const { return value_at<float>(byte); }
 
@@ -117,25 +105,12 @@ Triangles read_triangles(const IqmFile& file)
 // Points of equal coordinates become one; triangles that lose a corner by it are dropped.
 SurfaceMesh joined(const Positions& points, const Triangles& triangles)
 {
-    std::map<std::array<double, 3>, int> index_of;
-    std::vector<int> index(static_cast<std::size_t>(points.rows()));
-    SurfaceMesh surface;
-    surface.points.resize(points.rows(), 3);
-    for (Eigen::Index i = 0; i < points.rows(); ++i) {
-        const auto [entry, is_new] =
-            index_of.emplace(std::array{points(i, 0), points(i, 1), points(i, 2)}, static_cast<int>(index_of.size()));
-        index[i] = entry->second;
-        if (is_new) surface.points.row(entry->second) = points.row(i);
-    }
-    surface.points.conservativeResize(static_cast<Eigen::Index>(index_of.size()), 3);
-    surface.triangles.resize(triangles.rows(), 3);
+    Triangles all = joined_triangles(points, triangles);
     Eigen::Index kept = 0;
-    for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-        const int a = index[triangles(t, 0)], b = index[triangles(t, 1)], c = index[triangles(t, 2)];
-        if (a != b && b != c && c != a) surface.triangles.row(kept++) << a, b, c;
-    }
-    surface.triangles.conservativeResize(kept, 3);
-    return surface;
+    for (Eigen::Index t = 0; t < all.rows(); ++t)
+        if (all(t, 0) != all(t, 1) && all(t, 1) != all(t, 2) && all(t, 2) != all(t, 0)) all.row(kept++) = all.row(t).eval();
+    all.conservativeResize(kept, 3);
+    return {points(renumbered(all, points.rows()), Eigen::all), all};
 }
 
 // A joint: name, parent, translation, rotation (x, y, z, w) and scale relative to its parent.

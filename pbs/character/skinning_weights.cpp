@@ -1,9 +1,7 @@
 #include "pbs/character/skinning_weights.hpp"
 
-#include "pbs/character/embedding.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "pbs/skinning/weights.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -18,6 +18,7 @@ QuasiNewton<Scalar>::QuasiNewton(const TetMesh& mesh, const FleshEnergy& energy,
       next_x_(x_),
       next_gradient_(x_)
 {
+    if (options.contact) contact_.emplace(mesh, energy, system_->place());
 }
 
 template <typename Scalar>
@@ -27,9 +28,13 @@ QuasiNewtonSummary QuasiNewton<Scalar>::minimise(const Positions& centres, Posit
     pairs_.clear();
     system_->set_centres(centres);
     system_->load(x, x_);
-    summary.energy = system_->value_and_gradient(x_, gradient_);
+    int searches_left = contact_ ? 2 : 0;
+    if (contact_) contact_->forget();
+    summary.energy = value_and_gradient(x_, gradient_);
     summary.evaluations = 1;
     while (summary.iterations < options_.iterations && !summary.converged) {
+        if (searches_left > 0 && 2 * summary.iterations >= (2 - searches_left) * options_.iterations)
+            --searches_left, seek_contacts(summary);
         const double slope = set_direction();
         ++summary.solves;
         summary.steps.push_back(std::sqrt(system_->dot(direction_, direction_)));
@@ -38,9 +43,29 @@ QuasiNewtonSummary QuasiNewton<Scalar>::minimise(const Positions& centres, Posit
         const bool is_below = options_.stop_gradient > 0.0 && summary.steps.back() <= smallest;
         summary.converged = is_below || !search(slope, summary);
         if (!summary.converged) ++summary.iterations;
+        if (summary.converged && searches_left > 0) --searches_left, summary.converged = !seek_contacts(summary);
     }
     system_->store(x_, x);
     return summary;
+}
+
+template <typename Scalar>
+double QuasiNewton<Scalar>::value_and_gradient(const Rows<Scalar>& x, Rows<Scalar>& gradient)
+{
+    const double of_flesh = system_->value_and_gradient(x, gradient);
+    return contact_ ? of_flesh + contact_->add_value_and_gradient(x, gradient) : of_flesh;
+}
+
+// Contacts are sought at the beginning and after half of the iterations, or at a minimum before. The energy is then another
+// one, about which the kept pairs know nothing. False: it is still the same.
+template <typename Scalar>
+bool QuasiNewton<Scalar>::seek_contacts(QuasiNewtonSummary& summary)
+{
+    if (!contact_->find(x_)) return false;
+    pairs_.clear();
+    summary.energy = value_and_gradient(x_, gradient_);
+    ++summary.evaluations;
+    return true;
 }
 
 // The direction is -H_k g by the two loops of L-BFGS (J. Nocedal, S. Wright, Numerical Optimization, algorithm 7.4). Returns the slope.
@@ -74,7 +99,7 @@ bool QuasiNewton<Scalar>::search(double slope, QuasiNewtonSummary& summary)
     for (int attempt = 0; attempt <= halvings; ++attempt, length /= 2.0) {
         next_x_ = x_;
         system_->add(-length, direction_, next_x_);
-        const double energy = system_->value_and_gradient(next_x_, next_gradient_);
+        const double energy = value_and_gradient(next_x_, next_gradient_);
         ++summary.evaluations;
         const bool is_lower = energy <= summary.energy + sufficient * length * slope;
         const bool is_equal = std::abs(energy - summary.energy) <= rounding;

@@ -4,9 +4,11 @@
 //   QuasiNewtonSummary summary = solver.minimise(centres, x);   // x: the initial guess in, the minimum out
 #pragma once
 
+#include "pbs/flesh/flesh_contact.hpp"
 #include "pbs/flesh/flesh_system.hpp"
 
 #include <deque>
+#include <optional>
 
 namespace pbs {
 
@@ -16,6 +18,7 @@ struct QuasiNewtonOptions {
     double stop_gradient = 0.0;  // stop where the norm of H^-1 g is below this share of its first value, or is rounding; 0: never
     bool packed = true;          // several elements side by side; false: plain code, one after the other, in double
     int threads = 1;
+    bool contact = false;  // a penalty on skin in flesh of another part (FleshContact)
 };
 
 struct QuasiNewtonSummary {
@@ -41,12 +44,15 @@ private:
         double product;             // their inner product, above 0
     };
 
+    double value_and_gradient(const Rows<Scalar>& x, Rows<Scalar>& gradient);
+    bool seek_contacts(QuasiNewtonSummary& summary);
     double set_direction();
     bool search(double slope, QuasiNewtonSummary& summary);
     void remember();
 
     QuasiNewtonOptions options_;
     std::unique_ptr<FleshSystem<Scalar>> system_;
+    std::optional<FleshContact<Scalar>> contact_;
     Rows<Scalar> x_, gradient_, direction_, next_x_, next_gradient_;
     std::deque<Pair> pairs_;
 };

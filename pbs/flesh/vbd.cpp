@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 namespace pbs {
 namespace {
@@ -46,6 +47,13 @@ public:
             for (const int i : colour) x_.row(i) -= omega * block_step(vertex_block(stars_[i], i, x_, centres_)).transpose();
         load(x_, x);
     }
+    VertexHold hold(int vertex) const override { return {centres_.row(vertex), stars_[vertex].hold, stars_[vertex].diagonal}; }
+    void set_hold(int vertex, const VertexHold& hold) override
+    {
+        centres_.row(vertex) = hold.centre;
+        stars_[vertex].hold = hold.stiffness;
+        stars_[vertex].diagonal = hold.diagonal;
+    }
     void extrapolate(double omega, const Rows<double>& before, Rows<double>& x) const override
     {
         for (const int i : place_)
@@ -68,6 +76,7 @@ public:
         : VertexSweep<Scalar>(breadth_first(mesh.tets, static_cast<int>(mesh.rest.rows())).new_of_old,
                               static_cast<int>(mesh.rest.rows()) + batch_size),
           parallel_(mesh.rest.rows() >= vertices_for_threads ? threads : 1),
+          lane_of_(mesh.rest.rows()),
           centres_(this->rows_)
     {
         const std::vector<VertexStar> stars = vertex_stars(energy);
@@ -90,6 +99,20 @@ public:
                 move_vertices(batches_.data() + chunks[c].first, chunks[c].count, incidences_.data(), centres_.data(), Scalar(omega),
                               x.data());
             });
+    }
+    VertexHold hold(int vertex) const override
+    {
+        const Scalar* centre = centres_[this->place_[vertex]];
+        const auto [batch, lane] = lane_of_[vertex];
+        return {Vec3(centre[0], centre[1], centre[2]), centre[3], batches_[batch].diagonal[lane]};
+    }
+    void set_hold(int vertex, const VertexHold& hold) override
+    {
+        Scalar* centre = centres_[this->place_[vertex]];
+        const auto [batch, lane] = lane_of_[vertex];
+        for (int axis = 0; axis < 3; ++axis) centre[axis] = Scalar(hold.centre(axis));
+        centre[3] = Scalar(hold.stiffness);
+        batches_[batch].diagonal[lane] = Scalar(hold.diagonal);
     }
     void extrapolate(double omega, const Rows<Scalar>& before, Rows<Scalar>& x) const override
     {
@@ -119,6 +142,7 @@ private:
         for (int lane = 0; lane < batch_size; ++lane) {
             const VertexStar none, &star = lane < count ? stars[vertices[lane]] : none;
             const std::uint32_t own = 4u * (lane < count ? this->place_[vertices[lane]] : this->rows_ - batch_size + lane);
+            if (lane < count) lane_of_[vertices[lane]] = {static_cast<int>(batches_.size()) - 1, lane};
             batch.offset[lane] = own;
             batch.diagonal[lane] = Scalar(star.diagonal);
             for (int t = 0; t < batch.count; ++t) {
@@ -133,6 +157,7 @@ private:
     }
 
     Parallel parallel_;
+    std::vector<std::pair<int, int>> lane_of_;  // the batch and the lane of each vertex, #V
     std::vector<std::vector<Chunk>> colours_;
     std::vector<VertexBatch<Scalar>> batches_;
     std::vector<VertexIncidence<Scalar>> incidences_;
@@ -153,6 +178,7 @@ template <typename Scalar>
 VertexBlockDescent<Scalar>::VertexBlockDescent(const TetMesh& mesh, const FleshEnergy& energy, const VertexBlockOptions& options)
     : options_(checked(options)), sweep_(make_vertex_sweep<Scalar>(mesh, energy, options.packed, options.threads)), x_(sweep_->rows())
 {
+    if (options.contact) contact_.emplace(mesh, energy, sweep_->place());
     if (options.acceleration == Acceleration::chebyshev) weights_ = chebyshev_weights(options.rho, options.iterations);
 }
 
@@ -163,17 +189,41 @@ VertexBlockSummary VertexBlockDescent<Scalar>::minimise(const Positions& centres
     sweep_->load(x, x_);
     if (options_.acceleration == Acceleration::chebyshev) {
         before_ = x_;
-        for (const double weight : weights_) {
+        for (int k = 0; k < options_.iterations; ++k) {
             before_that_ = before_;
             before_ = x_;
-            sweep_->move(1.0, x_);
-            if (weight != 1.0) sweep_->extrapolate(weight, before_that_, x_);
+            sweep(k, 1.0);
+            if (weights_[k] != 1.0) sweep_->extrapolate(weights_[k], before_that_, x_);
         }
     } else {
-        for (int k = 0; k < options_.iterations; ++k) sweep_->move(options_.omega, x_);
+        for (int k = 0; k < options_.iterations; ++k) sweep(k, options_.omega);
     }
     sweep_->store(x_, x);
     return {options_.iterations, x.allFinite()};
+}
+
+// Contacts are sought at the beginning and after half of the sweeps. In a sweep, the springs of ContactPull stand for their
+// energy: where the sweep lowers the sum of flesh and springs, it lowers the sum of flesh and contact. A spring of stiffness A and gradient
+// g at x_i and the hold of a vertex make one spring, of stiffness a_i + A and centre (a_i c_i + A x_i - g) / (a_i + A).
+template <typename Scalar>
+void VertexBlockDescent<Scalar>::sweep(int iteration, double omega)
+{
+    if (contact_ && iteration == 0) contact_->forget();
+    if (contact_ && (iteration == 0 || iteration == options_.iterations / 2)) contact_->find(x_);
+    std::vector<std::pair<int, VertexHold>> own;
+    if (contact_)
+        for (const ContactPull& pull : contact_->pulls(x_)) {
+            const VertexHold hold = sweep_->hold(pull.vertex);
+            const Scalar* p = x_[sweep_->place()[pull.vertex]];
+            const Vec3 x(p[0], p[1], p[2]);
+            const double stiffness = hold.stiffness + pull.stiffness;
+            if (!(stiffness > 0.0)) continue;
+            own.emplace_back(pull.vertex, hold);
+            sweep_->set_hold(pull.vertex, {(hold.stiffness * hold.centre + pull.stiffness * x - pull.gradient) / stiffness, stiffness,
+                                           hold.diagonal + pull.stiffness});
+        }
+    sweep_->move(omega, x_);
+    for (const auto& [vertex, hold] : own) sweep_->set_hold(vertex, hold);
 }
 
 template class VertexBlockDescent<float>;

@@ -6,6 +6,7 @@
 //   VertexBlockSummary summary = solver.minimise(centres, x);   // x: the initial guess in, the last iterate out
 #pragma once
 
+#include "pbs/flesh/flesh_contact.hpp"
 #include "pbs/flesh/flesh_energy.hpp"
 #include "pbs/flesh/flesh_kernels.hpp"
 #include "pbs/packed/parallel.hpp"
@@ -14,9 +15,16 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace pbs {
+
+// The spring that holds a vertex, relative to the origin of the rows.
+struct VertexHold {
+    Vec3 centre;                 // c_i [m]
+    double stiffness, diagonal;  // a_i, and that of VertexStar [m]
+};
 
 // Sweeps of vertex block descent on rows of numbers. One implementation is plain, the other one packed; both move the vertices by the same
 // colours (vertex_colours), one colour after the other.
@@ -29,6 +37,8 @@ class VertexSweep : public RowSystem<Scalar> {
 public:
     virtual void set_centres(const Positions& centres) = 0;  // c_i [m], #V x 3; packed: their mean becomes the origin of the rows
     virtual void move(double omega, Rows<Scalar>& x) = 0;
+    virtual VertexHold hold(int vertex) const = 0;
+    virtual void set_hold(int vertex, const VertexHold& hold) = 0;  // until set_centres; the diagonal, until it is set again
     virtual void extrapolate(double omega, const Rows<Scalar>& before, Rows<Scalar>& x) const = 0;  // x = before + omega (x - before)
 
 protected:
@@ -55,6 +65,7 @@ struct VertexBlockOptions {
     double rho = 0.95;   // the estimated spectral radius of a sweep, from 0 inclusive to 1 exclusive
     bool packed = true;  // several elements side by side; false: plain code, one after the other, in double
     int threads = 1;
+    bool contact = false;  // a penalty on skin in flesh of another part (FleshContact)
 };
 
 struct VertexBlockSummary {
@@ -75,9 +86,12 @@ public:
     VertexBlockSummary minimise(const Positions& centres, Positions& x);
 
 private:
+    void sweep(int iteration, double omega);
+
     VertexBlockOptions options_;
     std::vector<double> weights_;  // of Chebyshev, #iterations; empty: over-relaxation
     std::unique_ptr<VertexSweep<Scalar>> sweep_;
+    std::optional<FleshContact<Scalar>> contact_;
     Rows<Scalar> x_, before_, before_that_;
 };
 

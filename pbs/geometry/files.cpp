@@ -4,7 +4,6 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -14,22 +13,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <random>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 namespace pbs {
 namespace {
-
-struct OpenFile {
-    ~OpenFile()
-    {
-        if (number >= 0) ::close(number);
-    }
-
-    int number;
-};
 
 std::string reason()
 {
@@ -52,23 +41,6 @@ std::size_t after_quotes(const std::string& text, std::size_t place)
     }
     return text.size();
 }
-
-// Dots of the keys that lead to a place of the text, those of the inline tables around it among them. Dots of numbers are counted with
-// the key before them.
-class DotsOfKeys {
-public:
-    int after(char bare)
-    {
-        if (bare == '{') around_.push_back(dots_);
-        if (bare == '}' && around_.size() > 1) around_.pop_back();
-        if (bare == '{' || bare == '}' || bare == ',' || bare == '\n') dots_ = around_.back();
-        return dots_ += bare == '.';
-    }
-
-private:
-    std::vector<int> around_ = {0};
-    int dots_ = 0;
-};
 
 [[noreturn]] void refuse(const std::string& text, std::size_t place, const std::string& file, const std::string& field,
                          const std::string& value, const std::string& rule)
@@ -163,7 +135,10 @@ std::string read_text_file(const std::string& path, std::uintmax_t most_bytes)
 
 void check_toml_keys(const std::string& text, const std::string& file)
 {
-    DotsOfKeys dots;
+    // Dots of the keys that lead to a place of the text, and to the inline tables around it. Dots of numbers are counted with the key
+    // before them.
+    int dots = 0;
+    std::vector<int> around = {0};
     for (std::size_t place = 0; place < text.size();) {
         const char c = text[place];
         if (c == '"' || c == '\'') {
@@ -175,7 +150,10 @@ void check_toml_keys(const std::string& text, const std::string& file)
         } else {
             if ((c < ' ' && c != '\t' && c != '\r' && c != '\n') || c > '~')  // TOML's bare words are ASCII
                 refuse(text, place, file, "byte", std::to_string(static_cast<unsigned char>(c)), "expected ASCII outside of texts");
-            if (dots.after(c) >= most_parts)
+            if (c == '{') around.push_back(dots);
+            if (c == '}' && around.size() > 1) around.pop_back();
+            if (std::string_view("{},\n").find(c) != std::string_view::npos) dots = around.back();
+            if ((dots += c == '.') >= most_parts)
                 refuse(text, place, file, "key", beginning_of_line(text, place), "nested too deep: expected at most 64 parts");
             ++place;
         }

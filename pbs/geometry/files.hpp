@@ -2,6 +2,8 @@
 // memory. A file may have any size at no cost (holes), so the size is checked before a byte is read.
 #pragma once
 
+#include <unistd.h>
+
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -11,6 +13,16 @@ namespace pbs {
 constexpr std::uintmax_t most_settings_bytes = std::uintmax_t(16) << 20;  // TOML: skeletons, scenes, rules
 constexpr std::uintmax_t most_text_bytes = std::uintmax_t(256) << 20;     // weights, clips, records, .msh, .mesh, .node, .ele
 constexpr std::uintmax_t most_mesh_bytes = std::uintmax_t(1) << 30;       // .vtu, .vtk, surfaces: read by libraries, in a child process
+
+// Is closed with this; below 0: it could not be opened.
+struct OpenFile {
+    ~OpenFile()
+    {
+        if (number >= 0) ::close(number);
+    }
+
+    int number;
+};
 
 // An InputError where the file has more bytes.
 void require_size(const std::string& path, std::uintmax_t bytes, std::uintmax_t most_bytes);

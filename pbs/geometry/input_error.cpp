@@ -90,8 +90,7 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
 {
     if (known.empty()) return {};
     const std::string beginning = name.substr(0, most_letters);
-    return *std::min_element(known.begin(), known.end(),
-                             [&](const auto& a, const auto& b) { return edit_distance(beginning, a) < edit_distance(beginning, b); });
+    return *std::ranges::min_element(known, {}, [&](const std::string& one) { return edit_distance(beginning, one); });
 }
 
 }  // namespace pbs

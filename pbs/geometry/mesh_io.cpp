@@ -5,6 +5,14 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+
 namespace pbs {
 namespace {
 
@@ -46,7 +54,168 @@ TetMesh read_by_content(const std::string& path)
     return read_by_gmsh(path);
 }
 
+// TetGen's pair NAME.node and NAME.ele: plain numbers, '#' begins a comment, vertices counted from 0 or 1 as the first one says.
+// Format: Si, "TetGen, a Delaunay-based quality tetrahedral mesh generator", ACM TOMS 41 (2015), and its manual, section 5.2.
+
+// The lines of numbers of one file, one at a time.
+class NumberLines {
+public:
+    explicit NumberLines(const std::string& path) : path_(path)
+    {
+        require_readable(path, most_text_bytes);
+        file_.open(path);
+    }
+
+    // The next line that holds numbers; at least `least` of them.
+    const std::vector<double>& next(const char* field, std::size_t least)
+    {
+        do read_line(field);
+        while (numbers_.empty());
+        if (numbers_.size() < least) fail(field, text_, "expected at least " + std::to_string(least) + " numbers");
+        return numbers_;
+    }
+
+    // A whole number from the current line.
+    long long whole(const char* field, std::size_t column, long long low, long long high) const
+    {
+        const double number = numbers_[column];
+        if (!(number >= static_cast<double>(low) && number <= static_cast<double>(high)) ||
+            number != static_cast<double>(static_cast<long long>(number)))
+            fail(field, number_text(number, 15), expected_whole("a whole number", low, high));
+        return static_cast<long long>(number);
+    }
+
+    [[noreturn]] void fail(const std::string& field, const std::string& value, const std::string& rule) const
+    {
+        throw InputError(path_, line_, field, value, rule);
+    }
+
+private:
+    void read_line(const char* field)
+    {
+        if (!std::getline(file_, text_)) fail(field, "", "truncated: the file ends here");
+        ++line_;
+        text_.erase(std::min(text_.find('#'), text_.size()));
+        numbers_.clear();
+        const char* at = text_.c_str();
+        for (char* end = nullptr;; at = end) {
+            const double number = std::strtod(at, &end);
+            if (end == at) break;
+            numbers_.push_back(number);
+        }
+        if (std::string_view(at).find_first_not_of(" \t\r") != std::string_view::npos) fail(field, text_.substr(0, 40), "expected numbers");
+    }
+
+    std::string path_, text_;
+    std::ifstream file_;
+    int line_ = 0;
+    std::vector<double> numbers_;
+};
+
+// A file of n bytes holds fewer than n entries: a larger count is damage. There may be fewer entries than the count: memory is reserved as
+// they are read.
+long long most_entries(const std::string& path)
+{
+    return static_cast<long long>(std::filesystem::file_size(path));
+}
+
+Positions read_nodes(const std::string& path, long long& first)
+{
+    NumberLines lines(path);
+    lines.next("header", 2);
+    const long long count = lines.whole("#points", 0, 0, most_entries(path));
+    lines.whole("dimension", 1, 3, 3);
+    require_points(path, count);
+    std::vector<double> coordinates;
+    first = 0;
+    for (long long i = 0; i < count; ++i) {
+        const std::vector<double>& numbers = lines.next("point", 4);
+        if (i == 0) first = lines.whole("first point", 0, 0, 1);
+        lines.whole("point", 0, first + i, first + i);
+        coordinates.insert(coordinates.end(), numbers.begin() + 1, numbers.begin() + 4);
+    }
+    return Eigen::Map<const Positions>(coordinates.data(), count, 3);
+}
+
+Tets read_elements(const std::string& path, long long points, long long first)
+{
+    NumberLines lines(path);
+    lines.next("header", 2);
+    const long long count = lines.whole("#tets", 0, 0, most_entries(path));
+    lines.whole("nodes per tet", 1, 4, 4);
+    std::vector<int> corners;
+    for (long long t = 0; t < count; ++t) {
+        lines.next("tet", 5);
+        for (std::size_t k = 1; k <= 4; ++k)
+            corners.push_back(static_cast<int>(lines.whole("tet vertex", k, first, first + points - 1) - first));
+    }
+    return Eigen::Map<const Tets>(corners.data(), count, 4);
+}
+
+// .tobj, the tet meshes of HOBAK: lines "v x y z" and "t a b c d", vertices counted from 0; '#' begins a comment, other lines (the
+// triangles of the surface) are left out.
+
+// `count` numbers after the first word of a line.
+std::vector<double> numbers_of(const std::string& line, std::size_t count, const std::string& path, int number)
+{
+    std::istringstream words(line.substr(1));
+    std::vector<double> numbers;
+    for (std::string word; words >> word;) {
+        char* end = nullptr;
+        numbers.push_back(std::strtod(word.c_str(), &end));
+        if (*end != '\0') throw InputError(path, number, line.substr(0, 1), word, "expected a number");
+    }
+    if (numbers.size() != count)
+        throw InputError(path, number, line.substr(0, 1), line.substr(0, 40), "expected " + std::to_string(count) + " numbers");
+    return numbers;
+}
+
+bool is_of_kind(const std::string& line, char kind)
+{
+    return line.size() > 1 && line[0] == kind && (line[1] == ' ' || line[1] == '\t');
+}
+
 }  // namespace
+
+TetMesh read_tetgen(const std::string& path)
+{
+    long long first = 0;
+    TetMesh mesh;
+    mesh.rest = read_nodes(std::filesystem::path(path).replace_extension(".node").string(), first);
+    mesh.tets = read_elements(std::filesystem::path(path).replace_extension(".ele").string(), mesh.rest.rows(), first);
+    return mesh;
+}
+
+TetMesh read_tobj(const std::string& path)
+{
+    std::ifstream file(path);
+    std::vector<double> coordinates;
+    std::vector<int> corners, lines;
+    int number = 0;
+    for (std::string line; std::getline(file, line);) {
+        ++number;
+        if (is_of_kind(line, 'v')) {
+            for (const double coordinate : numbers_of(line, 3, path, number)) coordinates.push_back(coordinate);
+        } else if (is_of_kind(line, 't')) {
+            for (const double index : numbers_of(line, 4, path, number)) {
+                if (!(index >= 0.0 && index <= 2e9 && index == std::floor(index)))
+                    throw InputError(path, number, "t", number_text(index, 12), "expected the number of a vertex, from 0");
+                corners.push_back(static_cast<int>(index));
+            }
+            lines.push_back(number);
+        }
+    }
+    TetMesh mesh;
+    mesh.rest = Eigen::Map<const Positions>(coordinates.data(), static_cast<Eigen::Index>(coordinates.size() / 3), 3);
+    mesh.tets = Eigen::Map<const Tets>(corners.data(), static_cast<Eigen::Index>(corners.size() / 4), 4);
+    require_points(path, mesh.rest.rows());
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
+        for (const int vertex : mesh.tets.row(t))
+            if (vertex >= mesh.rest.rows())
+                throw InputError(path, lines[static_cast<std::size_t>(t)], "t", std::to_string(vertex),
+                                 expected_whole("an index", 0, mesh.rest.rows() - 1));
+    return mesh;
+}
 
 TetMesh read_tet_frame(const std::string& path)
 {

@@ -14,17 +14,9 @@ namespace {
 
 constexpr int tet_type = 4;  // Gmsh's element type of the four-node tetrahedron
 
-// Gmsh between initialize and finalize: silent, no configuration files.
-class GmshSession {
-public:
-    GmshSession()
-    {
-        gmsh::initialize(0, nullptr, false);
-        gmsh::option::setNumber("General.Terminal", 0);
-    }
+// From the first step until its end Gmsh is silent, and reads no configuration files.
+struct GmshSession {
     ~GmshSession() { gmsh::finalize(); }
-    GmshSession(const GmshSession&) = delete;
-    GmshSession& operator=(const GmshSession&) = delete;
 };
 
 void refuse_other_volumes(const std::string& path)
@@ -89,7 +81,9 @@ TetMesh current_tets(const std::string& path, std::vector<std::size_t>& tags)
 // named: what Gmsh opens; path: what errors name.
 extern "C" void pbskin_gmsh_read(const std::string& path, const std::string& named, pbs::TetMesh& mesh, std::vector<std::size_t>& tags)
 {
+    gmsh::initialize(0, nullptr, false);
     const pbs::GmshSession session;
+    gmsh::option::setNumber("General.Terminal", 0);
     try {
         gmsh::open(named);
         pbs::refuse_other_volumes(path);

@@ -56,8 +56,7 @@ const Diagonal& shortest_diagonal(const Positions& rest, const Nodes& nodes)
     const auto squared_length = [&](const Diagonal& diagonal) {
         return (rest.row(nodes[diagonal.from]) - rest.row(nodes[diagonal.to])).squaredNorm();
     };
-    return *std::min_element(diagonals.begin(), diagonals.end(),
-                             [&](const Diagonal& a, const Diagonal& b) { return squared_length(a) < squared_length(b); });
+    return *std::ranges::min_element(diagonals, {}, squared_length);
 }
 
 // A point this close to a face counts as on it.

@@ -1,7 +1,5 @@
 #include "pbs/geometry/topology.hpp"
 
-#include "pbs/geometry/tet_mesh.hpp"
-
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -12,7 +10,6 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -296,17 +293,11 @@ std::vector<int> parts_of(const Tets& tets)
 
 TetMesh kept_tets(const TetMesh& mesh, const std::vector<bool>& kept)
 {
-    std::vector<int> tets, vertices, new_index(static_cast<std::size_t>(mesh.rest.rows()), -1);
+    std::vector<int> tets;
     for (int tet = 0; tet < mesh.tets.rows(); ++tet)
         if (kept[static_cast<std::size_t>(tet)]) tets.push_back(tet);
-    const Tets of_file = mesh.tets(tets, Eigen::all);
-    for (const int vertex : of_file.reshaped()) new_index[vertex] = 0;
-    for (std::size_t v = 0; v < new_index.size(); ++v) {
-        if (new_index[v] < 0) continue;
-        new_index[v] = static_cast<int>(vertices.size());
-        vertices.push_back(static_cast<int>(v));
-    }
-    return {mesh.rest(vertices, Eigen::all), of_file.unaryExpr([&](int v) { return new_index[v]; })};
+    Tets own = mesh.tets(tets, Eigen::all);
+    return {mesh.rest(renumbered(own, mesh.rest.rows()), Eigen::all), own};
 }
 
 std::array<double, 6> dihedral_angles_deg(const Vec3& p1, const Vec3& p2, const Vec3& p3, const Vec3& p4)

@@ -26,6 +26,21 @@ Adjacency adjacency_of(const Tets& tets, int vertices);
 // The triangles with each corner replaced by the first point at its place. Files of models repeat points along texture seams.
 Triangles joined_triangles(const Positions& points, const Triangles& triangles);
 
+// The vertices that the cells use, ascending, after which the cells name them by their places among these.
+template <typename Cells>
+std::vector<int> renumbered(Cells& cells, Eigen::Index vertices)
+{
+    std::vector<int> used, place(static_cast<std::size_t>(vertices), -1);
+    for (const int vertex : cells.reshaped()) place[static_cast<std::size_t>(vertex)] = 0;
+    for (std::size_t v = 0; v < place.size(); ++v) {
+        if (place[v] < 0) continue;
+        place[v] = static_cast<int>(used.size());
+        used.push_back(static_cast<int>(v));
+    }
+    for (int& vertex : cells.reshaped()) vertex = place[static_cast<std::size_t>(vertex)];
+    return used;
+}
+
 // A face of a tet: its vertices, ascending, and whether they are an even permutation of its outward order.
 struct TetFace {
     std::array<int, 3> sorted;

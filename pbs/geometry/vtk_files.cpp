@@ -1,5 +1,5 @@
 // VTK reports errors as text on a global window. They are collected here instead of printed, a thread at a time.
-//   VtkMessages messages;  reader->Update();  messages.throw_if_any(path);
+//   collect_messages();  reader->Update();  throw_if_any_message(path);
 
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -71,33 +71,30 @@ std::string words_of(const std::string& message)
     return words;
 }
 
-// Collects what VTK reports on this thread from the construction of the object on.
-class VtkMessages {
-public:
-    VtkMessages()
-    {
-        static std::once_flag installed;
-        std::call_once(installed, [] {
-            vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-            vtkOutputWindow::SetInstance(vtkSmartPointer<CollectingWindow>::New());
-        });
-        collected.clear();
-    }
+// What VTK reports on this thread from here on is collected.
+void collect_messages()
+{
+    static std::once_flag installed;
+    std::call_once(installed, [] {
+        vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+        vtkOutputWindow::SetInstance(vtkSmartPointer<CollectingWindow>::New());
+    });
+    collected.clear();
+}
 
-    // An InputError with VTK's words, its file and line numbers taken off.
-    void throw_if_any(const std::string& path) const
-    {
-        if (!collected.empty()) throw InputError(path, 0, "", "", "VTK: " + words_of(collected));
-    }
-};
+// An InputError with VTK's words, its file and line numbers taken off.
+void throw_if_any_message(const std::string& path)
+{
+    if (!collected.empty()) throw InputError(path, 0, "", "", "VTK: " + words_of(collected));
+}
 
 template <typename Reader>
 vtkSmartPointer<vtkUnstructuredGrid> grid_of(const std::string& path, Reader& reader)
 {
-    const VtkMessages messages;
+    collect_messages();
     reader.SetFileName(path.c_str());
     reader.Update();
-    messages.throw_if_any(path);
+    throw_if_any_message(path);
     vtkSmartPointer<vtkUnstructuredGrid> grid = reader.GetOutput();
     if (!grid) throw InputError(path, 0, "", "", "expected a VTK unstructured grid");
     return grid;
@@ -194,12 +191,12 @@ void add_fields(const std::string& path, const FrameFields& fields, vtkUnstructu
 // Into memory: VTK does not say what a file system refuses.
 void write_xml(const std::string& path, vtkXMLWriter& writer)
 {
-    const VtkMessages messages;
+    collect_messages();
     writer.WriteToOutputStringOn();
     writer.SetDataModeToAppended();
     writer.SetCompressorTypeToZLib();
     const int written = writer.Write();
-    messages.throw_if_any(path);
+    throw_if_any_message(path);
     if (!written) throw InputError(path, 0, "", "", "cannot be written");
     write_atomically(path, writer.GetOutputString());
 }

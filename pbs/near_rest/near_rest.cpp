@@ -2,7 +2,6 @@
 
 #include "pbs/constraints/volume.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/tet_mesh.hpp"
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/OrderingMethods>

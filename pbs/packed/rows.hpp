@@ -72,12 +72,13 @@ public:
     virtual Rows<Scalar> rows() const { return Rows<Scalar>(rows_); }  // zeros, of vertices and what the kernels need behind them
     void load(const Positions& x, Rows<Scalar>& rows) const { load_rows(x, place_, origin_, rows); }
     void store(const Rows<Scalar>& rows, Positions& x) const { store_rows(rows, place_, origin_, x); }
+    const std::vector<int>& place() const { return place_; }  // the row of each vertex, #V
 
 protected:
     RowSystem(std::vector<int> place, int rows) : place_(std::move(place)), rows_(rows) {}
     explicit RowSystem(int vertices) : place_(vertices), rows_(vertices) { std::iota(place_.begin(), place_.end(), 0); }  // plain
 
-    std::vector<int> place_;  // the row of each vertex, #V
+    std::vector<int> place_;
     int rows_;
     Vec3 origin_ = Vec3::Zero();
 };

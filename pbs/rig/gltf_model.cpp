@@ -1,5 +1,5 @@
 #define TINYGLTF_IMPLEMENTATION
-#include "pbs/rig/gltf_rig.hpp"
+#include "pbs/rig/rig_formats.hpp"
 
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/files.hpp"
@@ -187,11 +187,6 @@ void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& access
 }
 
 }  // namespace
-
-void read_gltf_model(const std::string& path, tinygltf::Model& model)
-{
-    read_gltf_model(read_text_file(path, most_mesh_bytes), path, model);
-}
 
 void read_gltf_model(const std::string& bytes, const std::string& path, tinygltf::Model& model)
 {

@@ -1,7 +1,7 @@
-#include "pbs/rig/gltf_rig.hpp"
+#include "pbs/rig/rig_formats.hpp"
 
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/rig/rig.hpp"
 #include "pbs/rig/rig_reader.hpp"
 #include "pbs/rig/tiny_gltf.hpp"
 
@@ -29,7 +29,7 @@ public:
             add(source_.primitives[p], field_ + "/primitives/" + std::to_string(p), joints);
         mesh_.points = Eigen::Map<const Positions>(points_.data(), static_cast<Eigen::Index>(points_.size() / 3), 3);
         mesh_.triangles = Eigen::Map<const Triangles>(triangles_.data(), static_cast<Eigen::Index>(triangles_.size() / 3), 3);
-        if (joints > 0) mesh_.skin = skin_.normalised(rig_.file, mesh_.name, rig_.remarks);
+        if (joints > 0) mesh_.skin = normalised_skin(shares_, rig_.file, mesh_.name, rig_.remarks);
         return mesh_;
     }
 
@@ -107,7 +107,8 @@ private:
     // All sets JOINTS_0 and WEIGHTS_0, JOINTS_1 and WEIGHTS_1, ... of a primitive.
     void add_weights(const tinygltf::Primitive& primitive, int points, int joints, const std::string& field)
     {
-        std::vector<std::vector<JointShare>> shares(static_cast<std::size_t>(points));
+        const std::size_t first = shares_.size();
+        shares_.resize(first + static_cast<std::size_t>(points));
         for (int set = 0; primitive.attributes.count("JOINTS_" + std::to_string(set)) > 0; ++set) {
             const std::string names = "JOINTS_" + std::to_string(set), weights_name = "WEIGHTS_" + std::to_string(set);
             const AccessorNumbers numbers = attribute(primitive, names, 4, field), weights = attribute(primitive, weights_name, 4, field);
@@ -121,10 +122,9 @@ private:
                     if (!(numbers(p, k) >= 0.0 && numbers(p, k) < joints))
                         throw InputError(rig_.file, 0, field + "/attributes/" + names, number_text(numbers(p, k), 12),
                                          expected_whole("the number of a joint", 0, joints - 1));
-                    shares[static_cast<std::size_t>(p)].push_back({static_cast<int>(numbers(p, k)), weights(p, k)});
+                    shares_[first + static_cast<std::size_t>(p)].push_back({static_cast<int>(numbers(p, k)), weights(p, k)});
                 }
         }
-        for (const auto& point : shares) skin_.add_point(point);
     }
 
     const tinygltf::Model& model_;
@@ -134,7 +134,7 @@ private:
     RigMesh mesh_;
     std::vector<double> points_;
     std::vector<int> triangles_;
-    SkinWeights skin_;
+    std::vector<std::vector<JointShare>> shares_;  // of the points, if they are weighted
 };
 
 std::vector<SkinJoint> joints_of(const tinygltf::Model& model, int skin_index, const std::vector<int>& rig_node, const std::string& path)
@@ -212,74 +212,57 @@ KeyTrack track_of(const tinygltf::Model& model, const tinygltf::AnimationSampler
     return track;
 }
 
-class AnimationReader {
-public:
-    AnimationReader(const tinygltf::Model& model, std::size_t index, const std::vector<int>& rig_node, Rig& rig)
-        : model_(model), source_(model.animations[index]), field_("animations/" + std::to_string(index)), rig_node_(rig_node), rig_(rig)
-    {
-        animation_.name = source_.name.empty() ? "animation " + std::to_string(index) : source_.name;
-        animation_.start_s = std::numeric_limits<double>::max();
-    }
+void check(const tinygltf::AnimationChannel& channel, const tinygltf::Model& model, std::size_t samplers, const std::string& path,
+           const std::string& field)
+{
+    if (channel.target_node >= static_cast<int>(model.nodes.size()))
+        throw InputError(path, 0, field + "/target/node", std::to_string(channel.target_node), "expected a node of the file");
+    if (!model.nodes[channel.target_node].matrix.empty())
+        throw InputError(path, 0, field + "/target/node", std::to_string(channel.target_node),
+                         "expected a node without a matrix: its animation replaces translation, rotation or scale");
+    if (channel.sampler < 0 || channel.sampler >= static_cast<int>(samplers))
+        throw InputError(path, 0, field + "/sampler", std::to_string(channel.sampler), "expected a sampler of the animation");
+    if (channel.target_path != "translation" && channel.target_path != "rotation" && channel.target_path != "scale")
+        throw InputError(path, 0, field + "/target/path", channel.target_path, "expected translation, rotation, scale or weights");
+}
 
-    RigAnimation read()
-    {
-        for (std::size_t c = 0; c < source_.channels.size(); ++c) add(source_.channels[c], field_ + "/channels/" + std::to_string(c));
-        for (auto& [node, tracks] : tracks_) {
-            tracks.node = node;
-            animation_.nodes.push_back(std::move(tracks));
-        }
-        return animation_;
-    }
-
-private:
-    // A channel without a node is to be ignored (glTF 2.0, Sec. 3.11).
-    void add(const tinygltf::AnimationChannel& channel, const std::string& field)
-    {
+RigAnimation animation_of(const tinygltf::Model& model, std::size_t index, const std::vector<int>& rig_node, Rig& rig)
+{
+    const tinygltf::Animation& source = model.animations[index];
+    const std::string field = "animations/" + std::to_string(index);
+    RigAnimation animation;
+    animation.name = source.name.empty() ? "animation " + std::to_string(index) : source.name;
+    animation.start_s = std::numeric_limits<double>::max();
+    std::map<int, NodeTracks> tracks_of;  // by node
+    bool morphs = false;
+    for (std::size_t c = 0; c < source.channels.size(); ++c) {
+        const tinygltf::AnimationChannel& channel = source.channels[c];
         if (channel.target_path == "weights") {
-            if (!morphs_) rig_.remarks.push_back("animation " + animation_.name + ": the changes of morph targets are left out");
-            morphs_ = true;
-            return;
+            if (!std::exchange(morphs, true))
+                rig.remarks.push_back("animation " + animation.name + ": the changes of morph targets are left out");
+            continue;
         }
-        if (channel.target_node < 0) return;
-        check(channel, field);
+        if (channel.target_node < 0) continue;  // to be ignored (glTF 2.0, Sec. 3.11)
+        check(channel, model, source.samplers.size(), rig.file, field + "/channels/" + std::to_string(c));
         const bool rotation = channel.target_path == "rotation";
-        KeyTrack track = track_of(model_, source_.samplers[channel.sampler], rotation ? 4 : 3, rig_.file,
-                                  field_ + "/samplers/" + std::to_string(channel.sampler));
-        animation_.start_s = std::min(animation_.start_s, track.times_s.front());
-        animation_.end_s = std::max(animation_.end_s, track.times_s.back());
-        NodeTracks& node = tracks_[rig_node_[channel.target_node]];
+        KeyTrack track = track_of(model, source.samplers[channel.sampler], rotation ? 4 : 3, rig.file,
+                                  field + "/samplers/" + std::to_string(channel.sampler));
+        animation.start_s = std::min(animation.start_s, track.times_s.front());
+        animation.end_s = std::max(animation.end_s, track.times_s.back());
+        NodeTracks& node = tracks_of[rig_node[channel.target_node]];
+        node.node = rig_node[channel.target_node];
         (rotation ? node.rotation : channel.target_path == "scale" ? node.scale : node.translation) = std::move(track);
     }
-
-    void check(const tinygltf::AnimationChannel& channel, const std::string& field) const
-    {
-        if (channel.target_node >= static_cast<int>(rig_node_.size()))
-            throw InputError(rig_.file, 0, field + "/target/node", std::to_string(channel.target_node), "expected a node of the file");
-        if (!model_.nodes[channel.target_node].matrix.empty())
-            throw InputError(rig_.file, 0, field + "/target/node", std::to_string(channel.target_node),
-                             "expected a node without a matrix: its animation replaces translation, rotation or scale");
-        if (channel.sampler < 0 || channel.sampler >= static_cast<int>(source_.samplers.size()))
-            throw InputError(rig_.file, 0, field + "/sampler", std::to_string(channel.sampler), "expected a sampler of the animation");
-        if (channel.target_path != "translation" && channel.target_path != "rotation" && channel.target_path != "scale")
-            throw InputError(rig_.file, 0, field + "/target/path", channel.target_path, "expected translation, rotation, scale or weights");
-    }
-
-    const tinygltf::Model& model_;
-    const tinygltf::Animation& source_;
-    std::string field_;
-    const std::vector<int>& rig_node_;
-    Rig& rig_;
-    RigAnimation animation_;
-    std::map<int, NodeTracks> tracks_;  // by node
-    bool morphs_ = false;
-};
+    for (auto& [node, tracks] : tracks_of) animation.nodes.push_back(std::move(tracks));
+    return animation;
+}
 
 // Appends to `rig.animations` those that move a node, and to `rig.remarks` what was left out. An animation without a name gets
 // "animation N".
 void add_gltf_animations(const tinygltf::Model& model, const std::vector<int>& rig_node, Rig& rig)
 {
     for (std::size_t index = 0; index < model.animations.size(); ++index) {
-        RigAnimation animation = AnimationReader(model, index, rig_node, rig).read();
+        RigAnimation animation = animation_of(model, index, rig_node, rig);
         if (!animation.nodes.empty()) rig.animations.push_back(std::move(animation));
     }
 }
@@ -379,7 +362,7 @@ std::vector<int> nodes_of_scene(const tinygltf::Model& model, const std::string&
 Rig read_gltf_rig(const std::string& path)
 {
     tinygltf::Model model;
-    read_gltf_model(path, model);
+    read_gltf_model(read_text_file(path, most_mesh_bytes), path, model);
     Rig rig;
     rig.file = path;
     const std::vector<int> rig_node = add_nodes(model, rig);

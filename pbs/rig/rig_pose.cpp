@@ -115,8 +115,7 @@ std::vector<RigMesh> moved_meshes(const Rig& rig, const std::vector<Eigen::Affin
 // The joint of a mesh that comes first in the tree: no other one is above it.
 const SkinJoint& root_joint(const RigMesh& mesh)
 {
-    return *std::min_element(mesh.joints.begin(), mesh.joints.end(),
-                             [](const SkinJoint& a, const SkinJoint& b) { return a.node < b.node; });
+    return *std::ranges::min_element(mesh.joints, {}, &SkinJoint::node);
 }
 
 // From the mesh's coordinates to rest space: by a joint whose bind pose is known from a larger mesh, or else by its own root joint.
@@ -126,6 +125,15 @@ Eigen::Affine3d mesh_to_rest(const RigMesh& mesh, const RigBinding& binding, con
         if (const auto known = binding.bind.find(joint.node); known != binding.bind.end()) return known->second * joint.inverse_bind;
     const SkinJoint& root = root_joint(mesh);
     return rest[root.node] * root.inverse_bind;
+}
+
+Positions blended(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& of_joint)
+{
+    Positions points = Positions::Zero(mesh.points.rows(), 3);
+    for (int p = 0; p < mesh.skin.vertices(); ++p)
+        for (int e = mesh.skin.first[p]; e < mesh.skin.first[p + 1]; ++e)
+            points.row(p) += mesh.skin.weight[e] * (of_joint[mesh.skin.bone[e]] * Vec3(mesh.points.row(p))).transpose();
+    return points;
 }
 
 void add_bind_pose(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& rest, RigBinding& binding)
@@ -216,11 +224,7 @@ Positions skinned_points(const RigMesh& mesh, const std::vector<Eigen::Affine3d>
     }
     std::vector<Eigen::Affine3d> from_mesh;  // W_j B_j^-1
     for (const SkinJoint& joint : mesh.joints) from_mesh.push_back(node_transforms[joint.node] * joint.inverse_bind);
-    moved.setZero();
-    for (int p = 0; p < mesh.skin.vertices(); ++p)
-        for (int e = mesh.skin.first[p]; e < mesh.skin.first[p + 1]; ++e)
-            moved.row(p) += mesh.skin.weight[e] * (from_mesh[mesh.skin.bone[e]] * Vec3(mesh.points.row(p))).transpose();
-    return moved;
+    return blended(mesh, from_mesh);
 }
 
 RigBinding bind_rig(const Rig& rig, const RigAnimation* animation, double scale)
@@ -251,11 +255,7 @@ Positions rest_points(const RigMesh& mesh, const RigBinding& binding)
 {
     std::vector<Eigen::Affine3d> to_rest;
     for (const SkinJoint& joint : mesh.joints) to_rest.push_back(binding.bind.at(joint.node) * joint.inverse_bind);
-    Positions points = Positions::Zero(mesh.points.rows(), 3);
-    for (int p = 0; p < mesh.skin.vertices(); ++p)
-        for (int e = mesh.skin.first[p]; e < mesh.skin.first[p + 1]; ++e)
-            points.row(p) += mesh.skin.weight[e] * (to_rest[mesh.skin.bone[e]] * Vec3(mesh.points.row(p))).transpose();
-    return points;
+    return blended(mesh, to_rest);
 }
 
 }  // namespace pbs

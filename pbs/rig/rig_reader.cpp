@@ -4,8 +4,7 @@
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
-#include "pbs/rig/assimp_rig.hpp"
-#include "pbs/rig/gltf_rig.hpp"
+#include "pbs/rig/rig_formats.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -71,6 +70,20 @@ bool is_sound(const RigAnimation& animation, std::size_t nodes)
            std::ranges::all_of(animation.nodes, [&](const NodeTracks& tracks) {
                return is_index(tracks.node, nodes) && is_sound(tracks.translation) && is_sound(tracks.rotation) && is_sound(tracks.scale);
            });
+}
+
+// One share per joint.
+std::vector<JointShare> merged(const std::vector<JointShare>& shares)
+{
+    std::vector<JointShare> merged;
+    for (const JointShare& share : shares) {
+        const auto same = std::ranges::find(merged, share.joint, &JointShare::joint);
+        if (same == merged.end())
+            merged.push_back(share);
+        else
+            same->weight += share.weight;
+    }
+    return merged;
 }
 
 // The first of equal names stays, the others are "NAME (2)", "NAME (3)", ..., without a number that makes the name of another animation.
@@ -161,27 +174,16 @@ Rig checked(Rig rig)
     return rig;
 }
 
-void SkinWeights::add_point(const std::vector<JointShare>& shares)
-{
-    std::vector<JointShare> merged;
-    for (const JointShare& share : shares) {
-        const auto same = std::find_if(merged.begin(), merged.end(), [&](const JointShare& other) { return other.joint == share.joint; });
-        if (same == merged.end())
-            merged.push_back(share);
-        else
-            same->weight += share.weight;
-    }
-    points_.push_back(merged);
-}
-
-Weights SkinWeights::normalised(const std::string& file, const std::string& mesh, std::vector<std::string>& remarks) const
+Weights normalised_skin(const std::vector<std::vector<JointShare>>& points, const std::string& file, const std::string& mesh,
+                        std::vector<std::string>& remarks)
 {
     Weights skin;
     skin.first.push_back(0);
     int without_weight = 0, other_sums = 0;
-    for (std::size_t p = 0; p < points_.size(); ++p) {
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const std::vector<JointShare> shares = merged(points[p]);
         double sum = 0.0;
-        for (const JointShare& share : points_[p]) {
+        for (const JointShare& share : shares) {
             if (!(share.weight >= 0.0 && std::isfinite(share.weight)))
                 throw InputError(file, 0, "mesh " + mesh + ", weight of point " + std::to_string(p), number_text(share.weight),
                                  "expected a finite number of 0 or more");
@@ -192,14 +194,14 @@ Weights SkinWeights::normalised(const std::string& file, const std::string& mesh
             skin.add(0, 1.0);
         } else {
             other_sums += std::abs(sum - 1.0) > sum_tolerance;
-            for (const JointShare& share : points_[p])
+            for (const JointShare& share : shares)
                 if (share.weight != 0.0) skin.add(share.joint, share.weight / sum);
         }
         skin.end_vertex();
     }
-    if (without_weight > 0 && without_weight == static_cast<int>(points_.size()))
+    if (without_weight > 0 && without_weight == static_cast<int>(points.size()))
         throw InputError(file, 0, "mesh " + mesh + ", weights", "0", "expected a point with a weight: the mesh has a skin");
-    const std::string of_mesh = " of the " + std::to_string(points_.size()) + " points of mesh " + mesh;
+    const std::string of_mesh = " of the " + std::to_string(points.size()) + " points of mesh " + mesh;
     if (without_weight > 0)
         remarks.push_back(std::to_string(without_weight) + of_mesh + " have no weight; they follow the first joint of the skin");
     if (other_sums > 0)

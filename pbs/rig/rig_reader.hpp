@@ -27,23 +27,15 @@ RigMaterials read_materials(const std::string& path);
 // of range. Rotations of nodes are returned with unit length, and animations with different names: the second of equal names is "NAME (2)".
 Rig checked(Rig rig);
 
-// The skin weights of a mesh while its points are read one after another.
 struct JointShare {
     int joint = 0;  // index into RigMesh::joints
     double weight = 0.0;
 };
 
-class SkinWeights {
-public:
-    // One joint may occur several times; its weights are added.
-    void add_point(const std::vector<JointShare>& shares);
-
-    // Sums of one. Points whose weights are all zero follow joint 0, and sums that are not one within 1e-3 are counted: both are remarks.
-    // An InputError names a weight that is negative or not finite.
-    Weights normalised(const std::string& file, const std::string& mesh, std::vector<std::string>& remarks) const;
-
-private:
-    std::vector<std::vector<JointShare>> points_;
-};
+// The skin weights of a mesh, with sums of one. points: the shares of each point; one joint may occur several times, and its weights are
+// added. Points whose weights are all zero follow joint 0, and sums that are not one within 1e-3 are counted: both are remarks. An
+// InputError names a weight that is negative or not finite.
+Weights normalised_skin(const std::vector<std::vector<JointShare>>& points, const std::string& file, const std::string& mesh,
+                        std::vector<std::string>& remarks);
 
 }  // namespace pbs

@@ -32,12 +32,14 @@ struct JointBelow {
 //   of its parent if that middle is at the joint.
 class Tails {
 public:
-    Tails(const Rig& rig, RiggedBody& body) : rig_(rig), body_(body)
+    Tails(const Rig& rig, RiggedBody& body) : rig_(rig), body_(body), weight_(rig.nodes.size()), has_mesh_(rig.nodes.size())
     {
-        const std::vector<Eigen::Affine3d> rest = node_transforms(rig, nullptr, 0.0);
-        place_ = bind_places(rest);
+        place_ = bind_places(node_transforms(rig, nullptr, 0.0));
         extent_m_ = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).norm();
-        add_weights();
+        for (const RigMesh& mesh : rig.meshes) has_mesh_[mesh.node] = true;
+        for (std::size_t e = 0; e < body.skin.bone.size(); ++e) weight_[body.node[body.skin.bone[e]]] += body.skin.weight[e];
+        for (std::size_t n = rig.nodes.size(); n-- > 0;)  // children come after their parents: one pass sums the subtrees
+            if (const int parent = rig.nodes[n].parent; parent >= 0) weight_[parent] += weight_[n];
     }
 
     void set()
@@ -62,17 +64,6 @@ private:
                 places[n] = places[parent] * rest[parent].inverse() * rest[n];
         }
         return places;
-    }
-
-    // Children come after their parents, so that one pass from the end sums the subtrees.
-    void add_weights()
-    {
-        weight_.assign(rig_.nodes.size(), 0.0);
-        has_mesh_.assign(rig_.nodes.size(), false);
-        for (const RigMesh& mesh : rig_.meshes) has_mesh_[mesh.node] = true;
-        for (std::size_t e = 0; e < body_.skin.bone.size(); ++e) weight_[body_.node[body_.skin.bone[e]]] += body_.skin.weight[e];
-        for (std::size_t n = rig_.nodes.size(); n-- > 0;)
-            if (const int parent = rig_.nodes[n].parent; parent >= 0) weight_[parent] += weight_[n];
     }
 
     std::vector<JointBelow> joints_below(int node) const
@@ -100,8 +91,7 @@ private:
             distance += (joint.place - head).norm() / static_cast<double>(below.size());
         }
         if ((middle - head).norm() >= least_agreement * distance) return middle;
-        return std::max_element(below.begin(), below.end(), [](const JointBelow& a, const JointBelow& b) { return a.weight < b.weight; })
-            ->place;
+        return std::ranges::max_element(below, {}, &JointBelow::weight)->place;
     }
 
     Vec3 tail_from_points(int b) const

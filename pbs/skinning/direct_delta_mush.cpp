@@ -3,7 +3,6 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/nearest_rotation.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "pbs/skinning/delta_mush.hpp"
 
 #include <Eigen/SparseCholesky>
 

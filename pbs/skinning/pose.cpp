@@ -38,9 +38,8 @@ constexpr double rounding = 1e-6;  // of a step or frame: times given in decimal
 
 int find_bone(const Skeleton& skeleton, const std::string& name)
 {
-    for (std::size_t j = 0; j < skeleton.bones.size(); ++j)
-        if (skeleton.bones[j].name == name) return static_cast<int>(j);
-    return -1;
+    const auto found = std::ranges::find(skeleton.bones, name, &Bone::name);
+    return found == skeleton.bones.end() ? -1 : static_cast<int>(found - skeleton.bones.begin());
 }
 
 std::vector<int> bones_meeting(const Skeleton& skeleton, int bone, BoneEnd end)

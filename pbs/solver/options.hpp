@@ -102,6 +102,9 @@ struct PbsOptions {
     // The edge length at which a stretch constraint has the stiffness k as stated [m]; others have that of stiffness_at_length
     // (constraint_set.hpp). 0: all have k.
     double k_stretch_length_m = 0.0;
+    // Skin that lies in flesh of another part is pushed out of it, by a constraint per such vertex that follows the volume constraints of
+    // each iteration (SelfContact). Not for many poses at once.
+    bool contact = false;
 };
 
 // XpbdSolver (extended position based dynamics, XPBD) has these options. It refuses with an InputError: poisson outside [1/4, 1/2),

@@ -95,6 +95,7 @@ void check_poses(const std::vector<PbsOptions>& options)
             refuse("poses", "expected Algorithm 1's own reading (class_order, lbs_entry, bind_on_bone, jiggle.k_bind) for many at once");
         if (pose.bind_to != BindTo::bone_distance || pose.volume_of != VolumeOf::tets || pose.k_stretch_length_m != 0.0)
             refuse("poses", "expected the paper's constraints (bind_to, volume_of, k_stretch_length_m) for many at once");
+        if (pose.contact) refuse("contact", "expected false for many poses at once");
         if (pose.stop_residual > 0.0 || pose.record_iterations || pose.sleep)
             refuse("poses", "expected no stop_residual, record_iterations or sleep for many at once");
     }

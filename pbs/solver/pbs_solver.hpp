@@ -61,7 +61,7 @@ public:
     // As PbsSolver; options: one per pose; threads of the first are shared out over blocks of sixteen poses. InputError as there, and
     // where there is no pose, poses differ in order, precision, masses or whether they jiggle, or ask for what is not for many at once:
     // order plain, another reading than Algorithm 1's (volume_form, class_order, lbs_entry, bind_on_bone, Jiggle::k_bind), a change to
-    // the paper's constraints (bind_to, volume_of, k_stretch_length_m), stop_residual, record_iterations, sleep.
+    // the paper's constraints (bind_to, volume_of, k_stretch_length_m), contact, stop_residual, record_iterations, sleep.
     PosesSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
                 const std::vector<PbsOptions>& options, const std::vector<bool>& held = {});
     ~PosesSolver();

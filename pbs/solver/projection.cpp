@@ -5,6 +5,7 @@
 #include "pbs/solver/project_plain.hpp"
 
 #include <array>
+#include <numeric>
 
 namespace pbs {
 namespace {
@@ -51,6 +52,12 @@ public:
     {
         for (std::size_t i = 0; i < p_.size(); ++i) p.row(i) = p_[i].template cast<double>() + origin;
     }
+    PositionRows<Scalar> rows() override
+    {
+        std::vector<int> place(p_.size());
+        std::iota(place.begin(), place.end(), 0);
+        return {p_.empty() ? nullptr : p_.front().data(), 3, std::move(place)};
+    }
     Residuals residuals() const override { return residuals_of(constraints_, p_, q_); }
 
 private:
@@ -88,6 +95,7 @@ public:
     void project_stretch_constraints() override { (projection_.get()->*in_place_[1])(); }
     void project_volume_constraints() override { (projection_.get()->*in_place_[2])(); }
     void store(const Vec3& origin, Positions& p) const override { projection_->store(origin, p); }
+    PositionRows<Scalar> rows() override { return projection_->rows(); }
     Residuals residuals() const override { return projection_->residuals(); }
     void sleep(const SleepTolerance& tolerance) override { projection_->sleep(tolerance); }
     int wake(const SleepTolerance& tolerance) override { return projection_->wake(tolerance); }

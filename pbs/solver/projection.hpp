@@ -18,6 +18,14 @@ struct SleepTolerance {
     double length_m = 0.0;  // of bind constraints, and what counts as moved
 };
 
+// Where positions lie between load and store: x, y and z of vertex i are the first numbers of row place[i]. Rows have `stride` numbers.
+template <typename Scalar>
+struct PositionRows {
+    Scalar* data;
+    int stride;
+    std::vector<int> place;  // #V
+};
+
 // One mesh's constraints, with its positions between load and store. Scalar: float or double.
 template <typename Scalar>
 class Projection {
@@ -31,6 +39,8 @@ public:
     virtual void project_volume_constraints() = 0;   // line 13, Eq. 11
     // Positions back in p [m], #V x 3; origin as it was given to load.
     virtual void store(const Vec3& origin, Positions& p) const = 0;
+
+    virtual PositionRows<Scalar> rows() = 0;
 
     virtual Residuals residuals() const = 0;  // of the positions as they are now, summed in double
 

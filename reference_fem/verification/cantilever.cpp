@@ -45,25 +45,15 @@ VerificationRow cantilever_row(const Effort& effort, double nu, int element_orde
                               }}},
                .formulation = formulation});
     const BeamTheory theory = timoshenko(nu);
-    VerificationRow row = {.problem = "cantilever",
-                           .quantity = {"tip_deflection", "tip deflection"},
-                           .elements = elements_of(element_order, formulation),
-                           .material = linear_material(nu),
-                           .mesh = text_of(divisions),
-                           .h_m = depth_m / divisions[1],
-                           .dofs = solution.space->dofs(),
-                           .value = solution.work_of_load_j() / force_n,
-                           .reference = theory.deflection_m,
-                           .unit = "m",
-                           .source = "closed form: Timoshenko's beam, shear coefficient of G. R. Cowper, J. Appl. Mech. 33 (1966) 335-340"};
-    if (element_order == 1) {
+    VerificationRow row = row_about({"cantilever", elements_of(element_order, formulation), linear_material(nu), text_of(divisions),
+                                     depth_m / divisions[1], solution.space->dofs()},
+                                    {"tip_deflection", "tip deflection"}, solution.work_of_load_j() / force_n, theory.deflection_m, "m",
+                                    "closed form: Timoshenko's beam, shear coefficient of G. R. Cowper, J. Appl. Mech. 33 (1966) 335-340");
+    if (element_order == 1)
         row.note = "P1 is too stiff in bending; its convergence is judged by the manufactured solution";
-        return row;
-    }
-    row.low = theory.deflection_m - theory.clamp_m - theory.shear_m;
-    row.high = theory.deflection_m + theory.shear_m;
-    row.bound_from =
-        "solid against beam: 3 nu^2 h / L of the bending for the held anticlastic curvature, the shear deflection of one depth";
+    else
+        bound(row, theory.deflection_m - theory.clamp_m - theory.shear_m, theory.deflection_m + theory.shear_m,
+              "solid against beam: 3 nu^2 h / L of the bending for the held anticlastic curvature, the shear deflection of one depth");
     return row;
 }
 
@@ -99,10 +89,7 @@ VerificationRow as_locking(VerificationRow row, const Element& element)
 {
     row.problem = "locking";
     row.note.clear();
-    if (element.formulation == Formulation::displacement) {
-        row.low = row.high = std::nullopt;
-        row.bound_from.clear();
-    }
+    if (element.formulation == Formulation::displacement) unbound(row);
     return row;
 }
 
@@ -150,28 +137,17 @@ VerificationRow row_of(const Effort& effort, int element_order, int n)
     const double weight_n_m = density_kg_m3 * gravity_m_s2 * area, k_g_a = 10.0 * material.young_pa / (2.0 * (12.0 + 11.0 * nu)) * area;
     const double bending = weight_n_m * std::pow(length_m, 4) / (8.0 * material.young_pa * inertia);
     const double shear = weight_n_m * length_m * length_m / (2.0 * k_g_a);
-    VerificationRow row = {.problem = "gravity_cantilever",
-                           .quantity = {"end_deflection", "deflection of the end's middle"},
-                           .elements = elements_of(element_order),
-                           .material = linear_material(nu),
-                           .mesh = text_of(divisions),
-                           .h_m = depth_m / n,
-                           .dofs = solution.space->dofs(),
-                           .value = -solution.displacement_at({length_m, depth_m / 2.0, depth_m / 2.0}).z(),
-                           .reference = bending + shear,
-                           .unit = "m",
-                           .source =
-                               "closed form: Timoshenko's beam under uniform load, shear coefficient of G. R. Cowper, J. Appl. Mech. 33 "
-                               "(1966) 335-340"};
-    if (element_order == 1) {
-        row.note = "P1 is too stiff in bending";
-        return row;
-    }
     const double shear_of_a_depth = weight_n_m * length_m * depth_m / k_g_a;
-    row.low = row.reference - 4.0 * nu * nu * depth_m / length_m * bending - shear_of_a_depth;
-    row.high = row.reference + shear_of_a_depth;
-    row.bound_from =
-        "solid against beam: 4 nu^2 h / L of the bending for the held anticlastic curvature, the shear deflection of one depth";
+    VerificationRow row = row_about(
+        {"gravity_cantilever", elements_of(element_order), linear_material(nu), text_of(divisions), depth_m / n, solution.space->dofs()},
+        {"end_deflection", "deflection of the end's middle"}, -solution.displacement_at({length_m, depth_m / 2.0, depth_m / 2.0}).z(),
+        bending + shear, "m",
+        "closed form: Timoshenko's beam under uniform load, shear coefficient of G. R. Cowper, J. Appl. Mech. 33 (1966) 335-340");
+    if (element_order == 1)
+        row.note = "P1 is too stiff in bending";
+    else
+        bound(row, row.reference - 4.0 * nu * nu * depth_m / length_m * bending - shear_of_a_depth, row.reference + shear_of_a_depth,
+              "solid against beam: 4 nu^2 h / L of the bending for the held anticlastic curvature, the shear deflection of one depth");
     return row;
 }
 

@@ -5,7 +5,6 @@
 #include "reference_fem/verification/problems.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace reference_fem {
 namespace {
@@ -50,8 +49,6 @@ struct PressedBodies {
     LoadPathSummary path;
 };
 
-constexpr double not_reached = std::numeric_limits<double>::quiet_NaN();
-
 // Two cubes of 1 m, one above the other, nu = 0. The lower one stands on the floor, and the top of the upper one is pressed down by way_m
 // beyond their gap. Nothing moves sideways, so that each is compressed to the length s with the pressure mu (1/s - s), and the gap d
 // follows from the barrier: E |b'(d)| is that pressure. (Free to slide, they would buckle.)
@@ -89,29 +86,17 @@ VerificationRow row_of(const Effort& effort, int element_order, int below, int a
         joined({box_mesh({0, 0, 0}, {1, 1, 1}, {below, below, 2}), box_mesh({0, 0, 1 + gap_m}, {1, 1, 2 + gap_m}, {above, above, 2})});
     const PressedBodies bodies(effort, mesh, element_order, {young_pa, 0.0}, {.range_m = range_m, .stiffness_pa = young_pa},
                                {.displacement = [](const Vec3& x) { return Vec3(0, 0, x.z() > 1.5 ? -gap_m - way_m : 0.0); },
-                                .held =
-                                    [](const Vec3& x) {
-                                        const bool end = x.z() < 1e-9 || x.z() > 2 + gap_m - 1e-9;
-                                        return Held(true, true, end);
-                                    },
+                                .held = [](const Vec3& x) { return Held(true, true, x.z() < 1e-9 || x.z() > 2 + gap_m - 1e-9); },
                                 .element_order = element_order});
     const double exact_pa = closed_form().pressure_pa;
-    VerificationRow row{.problem = "contact",
-                        .quantity = {"pressure_of_blocks", "pressure between two blocks"},
-                        .elements = elements_of(element_order),
-                        .material = material_of("neo_hookean", 0.0),
-                        .mesh = text_of({below, below, 2}) + " on " + text_of({above, above, 2}),
-                        .h_m = 1.0 / std::max(below, above),
-                        .dofs = bodies.space.dofs(),
-                        .value = bodies.path.converged() ? bodies.reaction_n(0.0) : not_reached,
-                        .reference = exact_pa,
-                        .unit = "Pa",
-                        .source = "closed form: uniaxial compression and the barrier's own law"};
+    VerificationRow row =
+        row_about({"contact", elements_of(element_order), material_of("neo_hookean", 0.0),
+                   text_of({below, below, 2}) + " on " + text_of({above, above, 2}), 1.0 / std::max(below, above), bodies.space.dofs()},
+                  {"pressure_of_blocks", "pressure between two blocks"}, bodies.path.converged() ? bodies.reaction_n(0.0) : not_reached,
+                  exact_pa, "Pa", "closed form: uniaxial compression and the barrier's own law");
     // Every gap is between 0 and the range, so that the blocks together are between 0 and one range too short: dp/ds = -mu (1 + 1/s^2).
     const double s = 1.0 - way_m / 2.0, bound_pa = young_pa / 2.0 * (1.0 + 1.0 / (s * s)) * range_m / 2.0;
-    row.low = exact_pa - bound_pa;
-    row.high = exact_pa + bound_pa;
-    row.bound_from = "the gap is at most the contact's range, wherever the rims of the blocks press";
+    bound(row, exact_pa - bound_pa, exact_pa + bound_pa, "the gap is at most the contact's range, wherever the rims of the blocks press");
     return row;
 }
 
@@ -149,17 +134,12 @@ VerificationRow row_of(const Effort& effort, int element_order, int n)
             moment_nm2 -= 4.0 * pressing(3 * node + 2) * at.head<2>().squaredNorm();
         }
     const double modulus_pa = young_pa / (2.0 * (1.0 - poisson * poisson));
-    VerificationRow row{.problem = "contact",
-                        .quantity = {"radius_of_contact", "radius of the contact of two spheres"},
-                        .elements = elements_of(element_order),
-                        .material = material_of("neo_hookean", poisson),
-                        .mesh = text_of({n, n, n}),
-                        .h_m = side_m / (n * n),
-                        .dofs = bodies.space.dofs(),
-                        .value = bodies.path.converged() ? std::sqrt(2.5 * moment_nm2 / force_n) : not_reached,
-                        .reference = std::cbrt(3.0 * force_n * radius_m / 2.0 / (4.0 * modulus_pa)),
-                        .unit = "m",
-                        .source = "H. Hertz, J. reine angew. Math. 92, 1881, for the force of the same solution"};
+    VerificationRow row = row_about({"contact", elements_of(element_order), material_of("neo_hookean", poisson), text_of({n, n, n}),
+                                     side_m / (n * n), bodies.space.dofs()},
+                                    {"radius_of_contact", "radius of the contact of two spheres"},
+                                    bodies.path.converged() ? std::sqrt(2.5 * moment_nm2 / force_n) : not_reached,
+                                    std::cbrt(3.0 * force_n * radius_m / 2.0 / (4.0 * modulus_pa)), "m",
+                                    "H. Hertz, J. reine angew. Math. 92, 1881, for the force of the same solution");
     if (element_order == 2) bound_by_grade_a(row);
     return row;
 }

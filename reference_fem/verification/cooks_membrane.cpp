@@ -3,8 +3,6 @@
 
 #include "reference_fem/verification/problems.hpp"
 
-#include <limits>
-
 namespace reference_fem {
 
 using pbs::Vec3;
@@ -35,48 +33,35 @@ BoundaryValueProblem membrane_problem(double shear, bool plane_strain, int eleme
 
 namespace small_strain {
 
-BoundaryValueSolution bend(const Effort& effort, const ElasticMaterial& material, double shear, bool plane_strain, int element_order, int n)
+RowSolution solved(int element_order, int n, const BoundaryValueSolution& solution)
 {
-    return solve(membrane(n), solver_material(effort, material), membrane_problem(shear, plane_strain, element_order));
-}
-
-VerificationRow row_of(int element_order, int n, const BoundaryValueSolution& solution)
-{
-    return {.problem = "cooks_membrane",
-            .elements = elements_of(element_order),
-            .material = linear_material(1.0 / 3.0),
-            .mesh = text_of({n, n, 1}),
-            .h_m = 16.0 / n * 1e-3,
-            .dofs = solution.space->dofs(),
-            .unit = "mm"};
+    return {"cooks_membrane", elements_of(element_order), linear_material(1.0 / 3.0), text_of({n, n, 1}),
+            16.0 / n * 1e-3,  solution.space->dofs()};
 }
 
 VerificationRow plane_strain_row(const Effort& effort, int element_order, int n)
 {
-    const BoundaryValueSolution solution = bend(effort, {70.0, 1.0 / 3.0}, 6.25, true, element_order, n);
-    VerificationRow row = row_of(element_order, n, solution);
-    row.quantity = {"corner_rise_plane_strain", "rise of the corner (48,60), plane strain"};
-    row.value = solution.displacement_at({48, 60, 0}).y();
-    row.reference = 32.24;
-    row.source =
+    const BoundaryValueSolution solution =
+        solve(membrane(n), solver_material(effort, {70.0, 1.0 / 3.0}), membrane_problem(6.25, true, element_order));
+    VerificationRow row = row_about(
+        solved(element_order, n, solution), {"corner_rise_plane_strain", "rise of the corner (48,60), plane strain"},
+        solution.displacement_at({48, 60, 0}).y(), 32.24, "mm",
         "CoFEA benchmark 'Cook's membrane' (cofea.readthedocs.io), quadratic tets, very fine mesh: CalculiX 32.27, Code_Aster 32.20, "
-        "Elmer 32.27 to 32.28 mm; the middle of their range";
-    row.low = row.reference - 0.08;
-    row.high = row.reference + 0.08;
-    row.bound_from = "published scatter: no farther from the middle than the three codes are from each other";
+        "Elmer 32.27 to 32.28 mm; the middle of their range");
+    bound(row, row.reference - 0.08, row.reference + 0.08,
+          "published scatter: no farther from the middle than the three codes are from each other");
     return row;
 }
 
 VerificationRow plane_stress_row(const Effort& effort, int element_order, int n)
 {
-    const BoundaryValueSolution solution = bend(effort, {1.0, 1.0 / 3.0}, 1.0 / 16.0, false, element_order, n);
-    VerificationRow row = row_of(element_order, n, solution);
-    row.quantity = {"edge_middle_rise_plane_stress", "rise of the right edge's middle (48,52), plane stress"};
-    row.value = solution.displacement_at({48, 52, 0}).y();
-    row.reference = 23.96;
-    row.source =
+    const BoundaryValueSolution solution =
+        solve(membrane(n), solver_material(effort, {1.0, 1.0 / 3.0}), membrane_problem(1.0 / 16.0, false, element_order));
+    VerificationRow row = row_about(
+        solved(element_order, n, solution), {"edge_middle_rise_plane_stress", "rise of the right edge's middle (48,52), plane stress"},
+        solution.displacement_at({48, 52, 0}).y(), 23.96, "mm",
         "R. Cook, D. Malkus, M. Plesha, R. Witt, Concepts and applications of finite element analysis, 4th ed., Wiley 2002: 23.96, as "
-        "widely used";
+        "widely used");
     bound_by_grade_a(row);
     row.note =
         "a slab of 1 mm with free faces for plane stress; texts that give 23.96 for the corner mean this point: the corner rises by 25.1";
@@ -90,15 +75,11 @@ VerificationRows cooks_membrane_rows(const Effort& effort)
     using namespace small_strain;
     VerificationRows rows;
     for (const auto make_row : {plane_strain_row, plane_stress_row}) {
-        VerificationRow linear = make_row(effort, 1, effort.full ? 32 : 16);
-        linear.low = linear.high = std::nullopt;
-        linear.bound_from.clear();
-        rows.push_back(linear);
+        rows.push_back(make_row(effort, 1, effort.full ? 32 : 16));
+        unbound(rows.back());
         for (const int n : {8, 16, 32}) {
             rows.push_back(make_row(effort, 2, n));
-            if (n == 32) continue;
-            rows.back().low = rows.back().high = std::nullopt;
-            rows.back().bound_from.clear();
+            if (n < 32) unbound(rows.back());
         }
     }
     return rows;
@@ -119,17 +100,18 @@ VerificationRow row_of(const Effort& effort, bool plane_strain, int element_orde
     const FiniteStrainSolution solution =
         solve_at_finite_strain(membrane(n), solver_material(effort, material), Model::isochoric_neo_hookean,
                                membrane_problem(1.0 / 16.0, plane_strain, element_order), {.first_step = 0.2});
-    return {.problem = "cooks_membrane_finite_strain",
-            .quantity = plane_strain ? RowQuantity{"corner_rise_plane_strain", "rise of the corner (48,60), plane strain"}
-                                     : RowQuantity{"corner_rise_free_faces", "rise of the corner (48,60), free faces"},
-            .elements = elements_of(element_order),
-            .material = material_of("isochoric_neo_hookean", poisson),
-            .mesh = text_of({n, n, 1}),
-            .h_m = 16.0 / n * 1e-3,
-            .dofs = solution.space->dofs(),
-            .value = solution.path.converged() ? solution.displacement_at({48, 60, 0}).y() : std::numeric_limits<double>::quiet_NaN(),
-            .unit = "mm",
-            .note = std::to_string(solution.path.newton_steps()) + " Newton steps"};
+    VerificationRow row = row_about(
+        {"cooks_membrane_finite_strain", elements_of(element_order), material_of("isochoric_neo_hookean", poisson), text_of({n, n, 1}),
+         16.0 / n * 1e-3, solution.space->dofs()},
+        plane_strain ? RowQuantity{"corner_rise_plane_strain", "rise of the corner (48,60), plane strain"}
+                     : RowQuantity{"corner_rise_free_faces", "rise of the corner (48,60), free faces"},
+        solution.path.converged() ? solution.displacement_at({48, 60, 0}).y() : not_reached, plane_strain ? 13.77 : 14.33, "mm",
+        plane_strain
+            ? "our earlier implementation of the same problem with u_z held: regression, no outside truth"
+            : "deal.II code gallery, Quasi-Static Finite-Strain Compressible Elasticity (J.-P. Pelteret, A. McBride, 2016), fine mesh");
+    row.note = std::to_string(solution.path.newton_steps()) + " Newton steps";
+    if (element_order == 2 && !plane_strain) bound_by_grade_a(row);
+    return row;
 }
 
 }  // namespace finite_strain
@@ -139,15 +121,7 @@ VerificationRows cooks_membrane_finite_strain_rows(const Effort& effort)
     using namespace finite_strain;
     VerificationRows rows;
     for (const bool plane_strain : {false, true})
-        for (const int element_order : {1, 2}) {
-            VerificationRow row = row_of(effort, plane_strain, element_order, effort.full ? 32 : 16);
-            row.reference = plane_strain ? 13.77 : 14.33;
-            row.source =
-                "deal.II code gallery, Quasi-Static Finite-Strain Compressible Elasticity (J.-P. Pelteret, A. McBride, 2016), fine mesh";
-            if (plane_strain) row.source = "our earlier implementation of the same problem with u_z held: regression, no outside truth";
-            if (element_order == 2 && !plane_strain) bound_by_grade_a(row);
-            rows.push_back(row);
-        }
+        for (const int element_order : {1, 2}) rows.push_back(row_of(effort, plane_strain, element_order, effort.full ? 32 : 16));
     return rows;
 }
 

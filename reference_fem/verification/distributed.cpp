@@ -10,7 +10,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 
 namespace reference_fem {
 namespace {
@@ -73,22 +72,22 @@ private:
     fs::path path_;
 };
 
-// setting: the identifier of these processes.
-VerificationRow row_of(int element_order, const std::string& processes, const std::string& setting)
+const Divisions divisions = {31, 4, 4};
+const std::string source = "CHOLMOD, one process";
+
+// setting: the identifier of these processes. residuals: the sum of both solutions' relative ones.
+VerificationRow row_of(int element_order, const std::string& processes, const std::string& setting, int dofs, double difference,
+                       double residuals)
 {
-    return {.problem = "distributed",
-            .quantity = {"node_difference", "node differences over displacements, root mean square, " + processes, setting},
-            .elements = elements_of(element_order),
-            .material = linear_material(0.3),
-            .unit = "1",
-            .source = "CHOLMOD, one process",
-            .low = 0.0,
-            .bound_from = bound_text};
+    VerificationRow row = row_about(
+        {"distributed", elements_of(element_order), linear_material(0.3), text_of(divisions), 1.0 / divisions[1], dofs},
+        {"node_difference", "node differences over displacements, root mean square, " + processes, setting}, difference, 0.0, "1", source);
+    bound(row, 0.0, residuals / mode_share, bound_text);
+    return row;
 }
 
 VerificationRow multigrid_row(const Effort& effort, int element_order)
 {
-    const Divisions divisions = {31, 4, 4};
     const pbs::TetMesh mesh = box_mesh({0, 0, 0}, {10, 1, 1}, divisions);
     BoundaryValueProblem problem;
     problem.body_force = [](const pbs::Vec3&) -> pbs::Vec3 { return {0, 0, -9810.0}; };
@@ -97,28 +96,18 @@ VerificationRow multigrid_row(const Effort& effort, int element_order)
     const BoundaryValueSolution direct = solve(mesh, {1e5, 0.3}, problem);
     problem.solver = LinearSolver::cg_ml;
     const BoundaryValueSolution iterative = solve(mesh, solver_material(effort, {1e5, 0.3}), problem);
-    VerificationRow row = row_of(element_order, "cg_ml in one process", "cg_ml");
-    row.mesh = text_of(divisions);
-    row.h_m = 1.0 / divisions[1];
-    row.dofs = direct.space->dofs();
-    row.value = (iterative.displacement - direct.displacement).norm() / direct.displacement.norm();
-    row.high = (iterative.residual + direct.residual) / mode_share;
-    return row;
+    return row_of(element_order, "cg_ml in one process", "cg_ml", direct.space->dofs(),
+                  (iterative.displacement - direct.displacement).norm() / direct.displacement.norm(), iterative.residual + direct.residual);
 }
 
 VerificationRow distributed_row(int element_order, int ranks, const std::optional<Answer>& direct, const std::optional<Answer>& distributed)
 {
-    VerificationRow row =
-        row_of(element_order, std::to_string(ranks) + (ranks == 1 ? " rank" : " ranks"), "ranks_" + std::to_string(ranks));
-    row.mesh = "31 x 4 x 4";
-    row.h_m = 0.25;
-    row.high = 0.0;
-    row.value = std::numeric_limits<double>::quiet_NaN();
-    if (!direct || !distributed) return row;
-    const auto number = [](const Answer& answer, const char* name) { return answer.record[name].get<double>(); };
-    row.dofs = direct->record["dofs"].get<int>();
-    row.value = (distributed->displacement - direct->displacement).norm() / direct->displacement.norm();
-    row.high = (number(*direct, "relative_residual") + number(*distributed, "relative_residual")) / mode_share;
+    const std::string processes = std::to_string(ranks) + (ranks == 1 ? " rank" : " ranks"), setting = "ranks_" + std::to_string(ranks);
+    if (!direct || !distributed) return row_of(element_order, processes, setting, 0, not_reached, 0.0);
+    const auto residual_of = [](const Answer& answer) { return answer.record["relative_residual"].get<double>(); };
+    VerificationRow row = row_of(element_order, processes, setting, direct->record["dofs"].get<int>(),
+                                 (distributed->displacement - direct->displacement).norm() / direct->displacement.norm(),
+                                 residual_of(*direct) + residual_of(*distributed));
     row.note = std::to_string(distributed->record["iterations"].get<int>()) + " iterations; at least " +
                std::to_string(distributed->record["tets_of_rank_min"].get<int>()) + " tets a rank";
     return row;
@@ -130,14 +119,10 @@ VerificationRows distributed_rows(const Effort& effort)
 {
     VerificationRows rows = {multigrid_row(effort, 1), multigrid_row(effort, 2)};
     const Program program;
-    const VerificationRow left_out = {.problem = "distributed",
-                                      .quantity = {"several_processes", "several processes, P1 and P2"},
-                                      .mesh = "31 x 4 x 4",
-                                      .unit = "1",
-                                      .source = "CHOLMOD, one process",
-                                      .note = "pbskin_distributed is not in the folder of this program, or mpirun is not installed"};
     if (!program.is_installed()) {
-        rows.push_back(left_out);
+        rows.push_back(row_about({"distributed", {}, {}, text_of(divisions), 0.0, 0}, {"several_processes", "several processes, P1 and P2"},
+                                 0.0, 0.0, "1", source));
+        rows.back().note = "pbskin_distributed is not in the folder of this program, or mpirun is not installed";
         return rows;
     }
     const ElasticMaterial material = solver_material(effort, {1e5, 0.3});

@@ -55,8 +55,6 @@ double free_end_determinant(const Beam& beam, double omega)
 
 constexpr double young_pa = 1.0e5, poisson = 0.3, density_kg_m3 = 1000.0;
 const Divisions coarse = {10, 1, 1};
-const std::string newmark_source = "closed form: phi cos(omega t), phi and omega of the semi-discrete problem";
-const std::string scheme_theory = "theory of the scheme: J. Chung, G. Hulbert, J. Appl. Mech. 60(2) (1993) 371-375";
 
 struct NamedScheme {
     std::string name, key;
@@ -76,16 +74,12 @@ VibratingBody cantilever(const Effort& effort, double nu, int element_order, con
              .held = [](const pbs::Vec3& x) { return x.x() < 1e-9; }}};
 }
 
-VerificationRow row_of(const VibratingBody& body, const Divisions& divisions, const RowQuantity& quantity)
+VerificationRow row_of(const VibratingBody& body, double nu, const Divisions& divisions, const RowQuantity& quantity, double value,
+                       double reference, const std::string& source)
 {
-    return {.problem = "dynamics",
-            .quantity = quantity,
-            .elements = elements_of(body.space().element_order()),
-            .material = linear_material(poisson),
-            .mesh = text_of(divisions),
-            .h_m = 0.1 / divisions[1],
-            .dofs = body.space().dofs(),
-            .unit = "1"};
+    return row_about({"dynamics", elements_of(body.space().element_order()), linear_material(nu), text_of(divisions), 0.1 / divisions[1],
+                      body.space().dofs()},
+                     quantity, value, reference, "1", source);
 }
 
 void add_orders(const Effort& effort, VerificationRows& rows)
@@ -99,17 +93,13 @@ void add_orders(const Effort& effort, VerificationRows& rows)
             stepper.start(mode.shape);
             body.run(stepper, end_s / steps, steps);
             VerificationRow row =
-                row_of(body, coarse,
+                row_of(body, poisson, coarse,
                        {"first_mode_error", fmt::format("error of the first mode, {}, omega h = {:.3g}", scheme.name, 4.0 / steps),
-                        fmt::format("{}_omega_h_{:.3g}", scheme.key, 4.0 / steps)});
-            row.value = (stepper.motion().displacement - std::cos(4.0) * mode.shape).norm() / mode.shape.norm();
-            row.source = newmark_source;
+                        fmt::format("{}_omega_h_{:.3g}", scheme.key, 4.0 / steps)},
+                       (stepper.motion().displacement - std::cos(4.0) * mode.shape).norm() / mode.shape.norm(), 0.0,
+                       "closed form: phi cos(omega t), phi and omega of the semi-discrete problem");
             row.note = "order in the time step h";
-            if (steps > 40) {
-                row.observed_order = order_between(rows.back().value, row.value);
-                row.expected_order = 2.0;
-                row.bound_from = scheme_theory;
-            }
+            if (steps > 40) expect_order(row, order_between(rows.back().value, row.value), 2.0, scheme_theory);
             rows.push_back(row);
         }
 }
@@ -131,14 +121,10 @@ void add_energy(const Effort& effort, VerificationRows& rows)
     const int steps = 1000;
     double drift = 0.0;
     body.run(stepper, 0.01, steps, [&](int) { drift = std::max(drift, std::abs(body.energy_j(stepper) / before - 1.0)); });
-    VerificationRow row =
-        row_of(body, coarse, {"energy_drift", fmt::format("largest relative drift of the energy in {} steps of 0.01 s, Newmark", steps)});
-    row.value = drift;
-    row.source = "closed form: average acceleration keeps the energy (T. Hughes, The Finite Element Method, 1987, ch. 9)";
-    row.low = 0.0;
-    row.high = 1e-12;
-    row.bound_from = "rounding: eps times the condition of c_m M + K, here some 100, of random sign in 1000 steps";
-    rows.push_back(row);
+    rows.push_back(row_of(
+        body, poisson, coarse, {"energy_drift", fmt::format("largest relative drift of the energy in {} steps of 0.01 s, Newmark", steps)},
+        drift, 0.0, "closed form: average acceleration keeps the energy (T. Hughes, The Finite Element Method, 1987, ch. 9)"));
+    bound(rows.back(), 0.0, 1e-12, "rounding: eps times the condition of c_m M + K, here some 100, of random sign in 1000 steps");
 }
 
 // The amplification matrix of (u, h v, h^2 a) for u'' + omega^2 u = 0, Omega = omega h: the scheme's three equations as they stand.
@@ -176,15 +162,13 @@ void add_dissipation(const Effort& effort, VerificationRows& rows)
         body.run(stepper, Omega / mode.omega_rad_s, steps);
         const Decay theory = decay(scheme, Omega, steps);
         VerificationRow row =
-            row_of(body, coarse,
+            row_of(body, poisson, coarse,
                    {"energy_left", fmt::format("energy left after {} steps, generalised-alpha, rho = 0.8, omega h = {:.3g}", steps, Omega),
-                    fmt::format("omega_h_{:.3g}", Omega)});
-        row.value = body.energy_j(stepper) / before;
-        row.reference = theory.energy_left;
-        row.source = "closed form: powers of the scheme's 3 x 3 amplification matrix (Chung and Hulbert 1993)";
-        row.low = row.reference * (1.0 - 1e-9);
-        row.high = row.reference * (1.0 + 1e-9);
-        row.bound_from = "rounding: 1e-13 of the mode a step, seen in an energy that fell by up to 1e-4";
+                    fmt::format("omega_h_{:.3g}", Omega)},
+                   body.energy_j(stepper) / before, theory.energy_left,
+                   "closed form: powers of the scheme's 3 x 3 amplification matrix (Chung and Hulbert 1993)");
+        bound(row, row.reference * (1.0 - 1e-9), row.reference * (1.0 + 1e-9),
+              "rounding: 1e-13 of the mode a step, seen in an energy that fell by up to 1e-4");
         row.note = fmt::format("spectral radius {:.6f}", theory.spectral_radius);
         rows.push_back(row);
     }
@@ -205,17 +189,13 @@ void add_rayleigh(const Effort& effort, VerificationRows& rows)
         const double one = body.amplitude(stepper, mode);
         body.run(stepper, 2.0 * pi / omega_d / a_period, a_period);
         const double decrement = std::log(one / body.amplitude(stepper, mode));
-        VerificationRow row = row_of(
-            body, coarse,
+        rows.push_back(row_of(
+            body, poisson, coarse,
             {"damping_ratio", fmt::format("damping ratio of the first mode, {:.2f} by mass and {:.2f} by stiffness", of_mass, of_stiffness),
-             fmt::format("mass_{:.2f}_stiffness_{:.2f}", of_mass, of_stiffness)});
-        row.value = decrement / std::hypot(2.0 * pi, decrement);
-        row.reference = zeta;
-        row.source = "closed form: zeta = (a / omega + b omega) / 2, by the logarithmic decrement";
-        row.low = zeta * (1.0 - 2e-3);
-        row.high = zeta * (1.0 + 2e-3);
-        row.bound_from = "second order of the scheme: (omega h)^2 / 2 at 100 steps a period";
-        rows.push_back(row);
+             fmt::format("mass_{:.2f}_stiffness_{:.2f}", of_mass, of_stiffness)},
+            decrement / std::hypot(2.0 * pi, decrement), zeta,
+            "closed form: zeta = (a / omega + b omega) / 2, by the logarithmic decrement"));
+        bound(rows.back(), zeta * (1.0 - 2e-3), zeta * (1.0 + 2e-3), "second order of the scheme: (omega h)^2 / 2 at 100 steps a period");
     }
 }
 
@@ -229,22 +209,18 @@ void add_frequency(const Effort& effort, VerificationRows& rows)
                 const Divisions divisions = {10 * n, n, n};
                 const VibratingBody body = cantilever(effort, nu, element_order, divisions);
                 const Beam beam{1.0, 0.1, young_pa, nu, density_kg_m3};
-                VerificationRow row = row_of(body, divisions, {"bending_frequency_ratio", "first bending frequency over Timoshenko's"});
-                row.material = linear_material(nu);
-                row.value = body.first_mode().omega_rad_s / timoshenko_rad_s(beam);
-                row.reference = 1.0;
-                row.source =
+                VerificationRow row = row_of(
+                    body, nu, divisions, {"bending_frequency_ratio", "first bending frequency over Timoshenko's"},
+                    body.first_mode().omega_rad_s / timoshenko_rad_s(beam), 1.0,
                     "closed form: Timoshenko's beam with rotary inertia, shear coefficient of G. R. Cowper, J. Appl. Mech. 33 (1966) "
-                    "335-340";
+                    "335-340");
                 row.note =
                     fmt::format("Bernoulli and Euler's is {:.4f} of Timoshenko's", bernoulli_euler_rad_s(beam) / timoshenko_rad_s(beam));
                 if (element_order == 2) {
                     const double clamp = 3.0 * nu * nu * 0.1, shear = 0.75 * (12.0 + 11.0 * nu) / 15.0 * 1e-3;
-                    row.low = 1.0 - shear / 2.0;
-                    row.high = 1.0 + (clamp + shear) / 2.0;
-                    row.bound_from =
-                        "solid against beam, halved by the root: 3 nu^2 h / L for the held anticlastic curvature, the shear deflection of "
-                        "one depth";
+                    bound(row, 1.0 - shear / 2.0, 1.0 + (clamp + shear) / 2.0,
+                          "solid against beam, halved by the root: 3 nu^2 h / L for the held anticlastic curvature, the shear deflection "
+                          "of one depth");
                 }
                 rows.push_back(row);
             }

@@ -63,21 +63,13 @@ struct Point {
 
 VerificationRow row_of(const Law& law, const RowQuantity& quantity, double value)
 {
-    return {.problem = "laws",
-            .quantity = quantity,
-            .elements = {.formulation = "one_point"},
-            .material = material_of(law.name, 0.4),
-            .mesh = "none",
-            .value = value,
-            .unit = "1",
-            .source = "closed form: calculus, theory of elasticity"};
+    return row_about({"laws", {.formulation = "one_point"}, material_of(law.name, 0.4), "none", 0.0, 0}, quantity, value, 0.0, "1",
+                     "closed form: calculus, theory of elasticity");
 }
 
 VerificationRow bounded(VerificationRow row, double high, const std::string& from)
 {
-    row.low = 0.0;
-    row.high = high;
-    row.bound_from = from;
+    bound(row, 0.0, high, from);
     return row;
 }
 
@@ -87,9 +79,7 @@ VerificationRow slope_row(const Law& law, const RowQuantity& quantity, double co
     constexpr double rounding = 1e-10;  // of values of order 1 over steps of 1e-3, a thousand times eps
     VerificationRow row = row_of(law, quantity, fine);
     if (coarse < rounding) return bounded(row, rounding, "a polynomial of degree 2 has no error but rounding over the step, 1e-10");
-    row.observed_order = std::log10(coarse / fine);
-    row.expected_order = 2.0;
-    row.bound_from = "order 2 of a central difference within 0.1";
+    expect_order(row, std::log10(coarse / fine), 2.0, "order 2 of a central difference within 0.1");
     row.note = "order in the step of the difference";
     return row;
 }
@@ -109,16 +99,15 @@ VerificationRows rows_of(const Effort& effort, const Law& law)
         frame.note = "negative control: linear strain takes rotation for strain";
     else
         frame = bounded(frame, 1e-12, "rounding of some 100 operations on stretches of order 1, times their cancellation");
+    const double asymmetry = (tangent - tangent.transpose()).norm() / tangent.norm(), distance = (at_rest - linear).norm() / linear.norm();
     return {slope_row(law, {"stress_error", "stress against the slope of the energy"}, point.energy_slope_error(1e-2),
                       point.energy_slope_error(1e-3)),
             slope_row(law, {"tangent_error", "tangent against the slope of the stress"}, point.stress_slope_error(1e-2),
                       point.stress_slope_error(1e-3)),
-            bounded(row_of(law, {"tangent_asymmetry", "asymmetry of the tangent"}, (tangent - tangent.transpose()).norm() / tangent.norm()),
-                    1e-13, "rounding of a second derivative"),
+            bounded(row_of(law, {"tangent_asymmetry", "asymmetry of the tangent"}, asymmetry), 1e-13, "rounding of a second derivative"),
             frame,
-            bounded(row_of(law, {"distance_from_linear_elasticity", "distance from linear elasticity at rest"},
-                           (at_rest - linear).norm() / linear.norm()),
-                    1e-12, "rounding; the same Lame parameters")};
+            bounded(row_of(law, {"distance_from_linear_elasticity", "distance from linear elasticity at rest"}, distance), 1e-12,
+                    "rounding; the same Lame parameters")};
 }
 
 }  // namespace

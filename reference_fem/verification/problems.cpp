@@ -52,11 +52,47 @@ double order_between(double coarse, double fine)
     return std::log2(std::abs(coarse) / std::abs(fine));
 }
 
+VerificationRow row_about(const RowSolution& solution, const RowQuantity& quantity, double value, double reference, const std::string& unit,
+                          const std::string& source)
+{
+    const auto& [problem, elements, material, mesh, h_m, dofs] = solution;
+    return {problem, quantity, elements, material, mesh, h_m, dofs, value, reference, unit, source};
+}
+
+void bound(VerificationRow& row, std::optional<double> low, std::optional<double> high, const std::string& from)
+{
+    row.low = low;
+    row.high = high;
+    row.bound_from = from;
+}
+
+void unbound(VerificationRow& row)
+{
+    bound(row, {}, {}, "");
+}
+
+void expect_order(VerificationRow& row, double observed, double expected, const std::string& from)
+{
+    row.observed_order = observed;
+    row.expected_order = expected;
+    row.bound_from = from;
+}
+
+VerificationRows ladder(const std::function<VerificationRow(int n)>& row_of, int coarsest, int levels)
+{
+    VerificationRows rows;
+    const auto difference = [&](int level) { return rows[level].value - rows[level].reference; };
+    for (int level = 0; level < levels; ++level) {
+        rows.push_back(row_of(coarsest << level));
+        if (level > 0) rows[level].observed_order = order_between(difference(level - 1), difference(level));
+    }
+    return rows;
+}
+
 void bound_by_grade_a(VerificationRow& row)
 {
-    row.low = row.reference - grade_a * std::abs(row.reference);
-    row.high = row.reference + grade_a * std::abs(row.reference);
-    row.bound_from = grade_a_text;
+    const double tolerance = grade_a * std::abs(row.reference);
+    bound(row, row.reference - tolerance, row.reference + tolerance, grade_a_text);
 }
 
 namespace {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -40,11 +41,36 @@ RowMaterial linear_material(double poisson);                      // {"linear", 
 std::string identifier_of(const std::string& words);              // Newmark, step 40 ms: newmark_step_40_ms
 double order_between(double coarse, double fine);                 // of errors on two meshes, one twice as fine
 
+// What the rows of one solution share.
+struct RowSolution {
+    std::string problem;
+    RowElements elements;
+    RowMaterial material;
+    std::string mesh;  // divisions
+    double h_m;        // edge of a cell
+    int dofs;
+};
+
+// The row of a value and its reference, both in `unit`; without bounds.
+VerificationRow row_about(const RowSolution& solution, const RowQuantity& quantity, double value, double reference, const std::string& unit,
+                          const std::string& source);
+void bound(VerificationRow& row, std::optional<double> low, std::optional<double> high, const std::string& from);
+void unbound(VerificationRow& row);
+void expect_order(VerificationRow& row, double observed, double expected, const std::string& from);
+
+// Rows of meshes of n, 2n, ... cells, each with the observed order of its difference from the reference.
+VerificationRows ladder(const std::function<VerificationRow(int n)>& row_of, int coarsest, int levels);
+
+// The value of a row whose solution was not reached.
+inline constexpr double not_reached = std::numeric_limits<double>::quiet_NaN();
+
 // R. MacNeal, R. Harder, A proposed standard set of problems to test finite element accuracy, Finite Elements in Analysis and Design 1
 // (1985) 3-20, Table 13: an element that is within 2 % of the reference is given an A.
 inline constexpr double grade_a = 0.02;
 inline const std::string grade_a_text = "within 2 %: grade A of MacNeal and Harder 1985";
 void bound_by_grade_a(VerificationRow& row);
+
+inline const std::string scheme_theory = "theory of the scheme: J. Chung, G. Hulbert, J. Appl. Mech. 60(2) (1993) 371-375";
 
 // Meshes of boxes, bent and joined to the shapes of the benchmarks: no mesher, so that every run has the same tets.
 using Divisions = std::array<int, 3>;  // cells along x, y, z

@@ -7,8 +7,8 @@
 #include "reference_fem/potentials/potentials.hpp"
 #include "reference_fem/verification/problems.hpp"
 
-#include <cstdio>
-#include <limits>
+#include <fmt/format.h>
+
 #include <numbers>
 
 namespace reference_fem {
@@ -41,30 +41,18 @@ VerificationRow torsion_row(const Effort& effort, double nu, int element_order, 
         solve(box_mesh({0, -side_m / 2.0, -side_m / 2.0}, {length_m, side_m / 2.0, side_m / 2.0}, {n, n, n}), solved,
               {.displacement = turned, .held = held, .element_order = element_order, .formulation = formulation});
     const double shear_pa = young_pa / (2.0 * (1.0 + nu));
-    return {.problem = "torsion",
-            .quantity = {"torque", "torque"},
-            .elements = elements_of(element_order, formulation),
-            .material = linear_material(nu),
-            .mesh = text_of({n, n, n}),
-            .h_m = side_m / n,
-            .dofs = solution.space->dofs(),
-            .value = 2.0 * solution.strain_energy_j(solved) / angle,
-            .reference = shear_pa * torsion_constant() * angle / length_m,
-            .unit = "N m",
-            .source = "closed form: Saint-Venant's series (Timoshenko and Goodier, Theory of elasticity, art. 109)"};
+    return row_about(
+        {"torsion", elements_of(element_order, formulation), linear_material(nu), text_of({n, n, n}), side_m / n, solution.space->dofs()},
+        {"torque", "torque"}, 2.0 * solution.strain_energy_j(solved) / angle, shear_pa * torsion_constant() * angle / length_m, "N m",
+        "closed form: Saint-Venant's series (Timoshenko and Goodier, Theory of elasticity, art. 109)");
 }
 
 namespace torsion {
 
-VerificationRows ladder(const Effort& effort, int element_order, int coarsest, int levels)
+VerificationRows bounded_ladder(const Effort& effort, int element_order, int coarsest, int levels)
 {
-    VerificationRows rows;
-    for (int level = 0; level < levels; ++level) {
-        rows.push_back(torsion_row(effort, 0.3, element_order, Formulation::displacement, coarsest << level));
-        if (level == 0) continue;
-        const VerificationRow& coarser = rows[level - 1];
-        rows.back().observed_order = order_between(coarser.value - coarser.reference, rows.back().value - rows.back().reference);
-    }
+    const auto row_of = [&](int n) { return torsion_row(effort, 0.3, element_order, Formulation::displacement, n); };
+    VerificationRows rows = ladder(row_of, coarsest, levels);
     VerificationRow& finest = rows.back();
     finest.low = finest.reference * (1.0 - 1e-9);
     if (element_order == 1) {
@@ -83,8 +71,8 @@ VerificationRows ladder(const Effort& effort, int element_order, int coarsest, i
 VerificationRows torsion_rows(const Effort& effort)
 {
     using namespace torsion;
-    VerificationRows rows = ladder(effort, 1, 4, effort.full ? 4 : 3);
-    for (const auto& row : ladder(effort, 2, 2, effort.full ? 4 : 3)) rows.push_back(row);
+    VerificationRows rows = bounded_ladder(effort, 1, 4, effort.full ? 4 : 3);
+    for (const auto& row : bounded_ladder(effort, 2, 2, effort.full ? 4 : 3)) rows.push_back(row);
     return rows;
 }
 
@@ -140,21 +128,15 @@ VerificationRow row_of(const Effort& effort, const Vec3& load, int element_order
                .tractions = {{[](const Vec3& centre) { return centre.x() > length_in - 1e-6; },
                               [&](const Vec3&, const Vec3&) -> Vec3 { return load / (width_in * thickness_in); }}}});
     const bool in_plane = load.z() != 0.0;
-    char note[120];
-    std::snprintf(note, sizeof note, "beam theory, bending alone: %.6f in", beam_theory(load));
-    return {.problem = "twisted_beam",
-            .quantity = in_plane ? RowQuantity{"tip_deflection_in_plane", "tip deflection, load along the tip's width (in plane)"}
-                                 : RowQuantity{"tip_deflection_out_of_plane", "tip deflection, load across the tip's width (out of plane)"},
-            .elements = elements_of(element_order),
-            .material = linear_material(material.poisson),
-            .mesh = text_of(divisions),
-            .h_m = width_in / divisions[1] * 0.0254,
-            .dofs = solution.space->dofs(),
-            .value = solution.work_of_load_j(),
-            .reference = in_plane ? 0.005424 : 0.001754,
-            .unit = "in",
-            .source = "R. MacNeal, R. Harder, Finite Elements in Analysis and Design 1 (1985) 3-20, Table 7",
-            .note = note};
+    VerificationRow row =
+        row_about({"twisted_beam", elements_of(element_order), linear_material(material.poisson), text_of(divisions),
+                   width_in / divisions[1] * 0.0254, solution.space->dofs()},
+                  in_plane ? RowQuantity{"tip_deflection_in_plane", "tip deflection, load along the tip's width (in plane)"}
+                           : RowQuantity{"tip_deflection_out_of_plane", "tip deflection, load across the tip's width (out of plane)"},
+                  solution.work_of_load_j(), in_plane ? 0.005424 : 0.001754, "in",
+                  "R. MacNeal, R. Harder, Finite Elements in Analysis and Design 1 (1985) 3-20, Table 7");
+    row.note = fmt::format("beam theory, bending alone: {:.6f} in", beam_theory(load));
+    return row;
 }
 
 }  // namespace twisted_beam
@@ -180,6 +162,8 @@ VerificationRows twisted_beam_rows(const Effort& effort)
 // Venant-Kirchhoff gives way.
 
 namespace half_turn {
+
+using pbs::Vec3;
 
 const Divisions divisions = {27, 8, 8};
 constexpr double length_m = 3.375, young_pa = 1e5;
@@ -209,40 +193,28 @@ const std::vector<Law> laws = {
     {Model::st_venant_kirchhoff, "st_venant_kirchhoff", 0.3, {50, -2.1304995670, -8.4372925420, 8.902397719894e3}},
     {Model::linear, "linear", 0.3, {10, 30.753109139, -4.8410438713, 8.406643111517e4}}};
 
-bool at_far_end(const SimplexSpace& space, int node)
+// Both ends are held, the one at x = 0 at rest.
+PrescribedData turned_end(const SimplexSpace& space, double angle)
 {
-    return space.node_positions()(node, 0) > length_m - 1e-9;
-}
-
-std::vector<bool> held_ends(const SimplexSpace& space)
-{
-    std::vector<bool> held(space.dofs(), false);
-    for (int node = 0; node < space.nodes(); ++node)
-        for (int c = 0; c < 3; ++c) held[3 * node + c] = at_far_end(space, node) || space.node_positions()(node, 0) < 1e-9;
-    return held;
-}
-
-Eigen::VectorXd turned_end(const SimplexSpace& space, double angle)
-{
-    Eigen::VectorXd values = Eigen::VectorXd::Zero(space.dofs());
-    for (int node = 0; node < space.nodes(); ++node) {
-        if (!at_far_end(space, node)) continue;
-        const double y = space.node_positions()(node, 1), z = space.node_positions()(node, 2);
-        values.segment<3>(3 * node) << 0.0, std::cos(angle) * y - std::sin(angle) * z - y, std::sin(angle) * y + std::cos(angle) * z - z;
-    }
-    return values;
+    const auto displacement = [angle](const Vec3& x) -> Vec3 {
+        if (x.x() < length_m - 1e-9) return Vec3::Zero();
+        const double c = std::cos(angle), s = std::sin(angle);
+        return {0.0, c * x.y() - s * x.z() - x.y(), s * x.y() + c * x.z() - x.z()};
+    };
+    const auto held = [](const Vec3& x) { return x.x() < 1e-9 || x.x() > length_m - 1e-9; };
+    return prescribed_data(space, {.displacement = displacement, .held = held});
 }
 
 // Not a number from the step on that did not converge.
 TurnValues turn(const SimplexSpace& space, const ElasticPotential& flesh)
 {
-    NewtonMinimiser newton(space, held_ends(space), LinearSolver::cholmod);
+    NewtonMinimiser newton(space, turned_end(space, 0.0).held, LinearSolver::cholmod);
     Eigen::VectorXd displacement = Eigen::VectorXd::Zero(space.dofs());
     const auto volume_change_pct = [&] { return 100.0 * (flesh.jacobians(displacement).volume / length_m - 1.0); };
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    TurnValues turned{0.0, none, none, none};
+    TurnValues turned{0.0, not_reached, not_reached, not_reached};
     for (int step = 1; step <= steps; ++step) {
-        const NewtonSummary summary = newton.minimise({&flesh}, turned_end(space, std::numbers::pi * step / steps), displacement, {});
+        const NewtonSummary summary =
+            newton.minimise({&flesh}, turned_end(space, std::numbers::pi * step / steps).values, displacement, {});
         if (!summary.converged()) return turned;
         turned.iterations += summary.steps();
         if (2 * step == steps) turned.volume_change_at_90_pct = volume_change_pct();
@@ -252,42 +224,33 @@ TurnValues turn(const SimplexSpace& space, const ElasticPotential& flesh)
     return turned;
 }
 
-VerificationRow row_of(const Law& law, const RowQuantity& quantity, const std::string& unit, double value, double reference)
-{
-    constexpr double same = 1e-6;  // both stop at forces of 1e-8, Newton's last step being quadratic
-    return {.problem = "half_turn",
-            .quantity = quantity,
-            .elements = elements_of(1),
-            .material = material_of(law.name, law.poisson),
-            .mesh = text_of(divisions),
-            .h_m = length_m / divisions[0],
-            .value = value,
-            .reference = reference,
-            .unit = unit,
-            .source = source,
-            .low = reference - same * std::abs(reference),
-            .high = reference + same * std::abs(reference),
-            .bound_from = "the same discrete problem: 1e-6 of the value, for both stop at a residual of 1e-8 of the forces"};
-}
+struct TurnQuantity {
+    RowQuantity quantity;
+    std::string unit;
+    double TurnValues::*value;
+};
+const std::vector<TurnQuantity> quantities = {
+    {{"newton_iterations", "Newton iterations of ten steps to 180 degrees"}, "1", &TurnValues::iterations},
+    {{"volume_change_at_90_deg", "volume change at 90 degrees"}, "%", &TurnValues::volume_change_at_90_pct},
+    {{"volume_change_at_180_deg", "volume change at 180 degrees"}, "%", &TurnValues::volume_change_at_180_pct},
+    {{"strain_energy_at_180_deg", "strain energy at 180 degrees"}, "J", &TurnValues::energy_j}};
 
 VerificationRows rows_of(const Effort& effort, const SimplexSpace& space, const Law& law)
 {
     const ElasticMaterial material = solver_material(effort, {young_pa, law.poisson});
     const TurnValues ours =
         turn(space, ElasticPotential(space, law.model, lame_parameters(material.young_pa, material.poisson), Formulation::displacement));
-    VerificationRow iterations =
-        row_of(law, {"newton_iterations", "Newton iterations of ten steps to 180 degrees"}, "1", ours.iterations, law.reference.iterations);
-    iterations.low = 1.0;
-    iterations.high = 1.5 * law.reference.iterations;
-    iterations.bound_from = "at most 1.5 times the other implementation's";
-    VerificationRows rows = {
-        iterations,
-        row_of(law, {"volume_change_at_90_deg", "volume change at 90 degrees"}, "%", ours.volume_change_at_90_pct,
-               law.reference.volume_change_at_90_pct),
-        row_of(law, {"volume_change_at_180_deg", "volume change at 180 degrees"}, "%", ours.volume_change_at_180_pct,
-               law.reference.volume_change_at_180_pct),
-        row_of(law, {"strain_energy_at_180_deg", "strain energy at 180 degrees"}, "J", ours.energy_j, law.reference.energy_j)};
-    for (VerificationRow& row : rows) row.dofs = space.dofs();
+    const RowSolution solution{"half_turn",        elements_of(1),          material_of(law.name, law.poisson),
+                               text_of(divisions), length_m / divisions[0], space.dofs()};
+    VerificationRows rows;
+    for (const auto& [quantity, unit, value] : quantities) {
+        const double reference = law.reference.*value;
+        const double same = 1e-6 * std::abs(reference);  // both stop at forces of 1e-8, Newton's last step being quadratic
+        rows.push_back(row_about(solution, quantity, ours.*value, reference, unit, source));
+        bound(rows.back(), reference - same, reference + same,
+              "the same discrete problem: 1e-6 of the value, for both stop at a residual of 1e-8 of the forces");
+    }
+    bound(rows.front(), 1.0, 1.5 * law.reference.iterations, "at most 1.5 times the other implementation's");
     return rows;
 }
 

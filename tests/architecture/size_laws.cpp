@@ -19,6 +19,7 @@ const std::map<std::string, std::string> named_interfaces = {
     {"experiments/trial/trial.hpp", "the interface of a library"},
     {"experiments/verdicts/check/check_run.hpp", "the interface of a library"},
     {"pbs/character/character_unavailable.cpp", "in place of a library that is left out"},
+    {"pbs/contact/depth_constraint.hpp", "one constraint, as its equations"},
     {"pbs/flesh/cholmod_module.cpp", "a module that the program loads"},
     {"pbs/geometry/installed_eigen.hpp", "included by every file of another project"},
     {"pbs/geometry/mesh_io_unavailable.cpp", "in place of a library that is left out"},
@@ -140,15 +141,15 @@ std::string exceeded(const std::string& what, int value, int most, const std::st
 const std::vector<Budget>& budgets()
 {
     static const std::vector<Budget> all = {
-        {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 22'760, .least_mean = 120},
+        {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 23'360, .least_mean = 120},
         {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 10'300, .least_mean = 120},
-        {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'300, .least_mean = 120},
-        {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 26'250, .least_mean = 120},
+        {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'200, .least_mean = 120},
+        {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 25'652, .least_mean = 120},
         {.what = "production C++",
          .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"},
          .endings = cpp,
          .most_lines = 65'300},
-        {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 43'300, .least_mean = 120},
+        {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 43'600, .least_mean = 120},
         {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'400},
         {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 7'990},
         {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 150},

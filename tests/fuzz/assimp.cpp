@@ -2,7 +2,7 @@
 // whose weights sum to one, or an InputError. A breakdown of assimp itself is counted, since the child contains it for users too; one of
 // the project's conversion is a finding.
 #include "pbs/geometry/content_format.hpp"
-#include "pbs/rig/assimp_rig.hpp"
+#include "pbs/rig/rig_formats.hpp"
 #include "pbs/rig/rig_reader.hpp"
 #include "tests/fuzz/library_child.hpp"
 #include "tests/fuzz/sound_rig.hpp"

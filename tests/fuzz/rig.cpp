@@ -1,6 +1,6 @@
 // Any bytes as a rig, selected by their first byte: glTF as text (g) or as .glb. The result is a rig whose skeleton, surface and poses are
 // finite and whose weights sum to one, or an InputError.
-#include "pbs/rig/gltf_rig.hpp"
+#include "pbs/rig/rig_formats.hpp"
 #include "pbs/rig/rig_reader.hpp"
 #include "tests/fuzz/sound_rig.hpp"
 

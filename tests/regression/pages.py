@@ -141,6 +141,18 @@ class Pages(program.ProgramTest):
                     self.assertTrue(tables, "no such table among the kept records")
                     self.assertEqual([column for column in columns if not any(column in header(table) for table in tables)], [])
 
+    def test_each_column_on_record_is_explained(self):
+        """By columns.md under the name of the study or for all of them; `pbskin explain` has those of metrics.csv."""
+        page = (SOURCE / "experiments" / "records" / "columns.md").read_text(encoding="utf-8")
+        explained = {title: re.findall(r"^\| `(\w+)` \|", text, re.M) for title, text in re.findall(r"^## (.+)$([^#]+)", page, re.M)}
+        for study in self.studies():
+            names = [re.sub("[A-Z]+", r"[\\w.]+", name) for name in explained["All studies"] + explained.get(study, [])]
+            pattern = re.compile(rf"({'|'.join(names)})(_low|_high|_lower|_upper)?")
+            for table in (KEPT / study).rglob("*.csv"):
+                if table.name not in ("metrics.csv", "frame_statistics.csv", "not_kept.csv"):
+                    with self.subTest(table.relative_to(KEPT)):
+                        self.assertEqual([column for column in header(table) if not pattern.fullmatch(column)], [])
+
     def test_the_table_of_features_is_that_of_the_kept_records(self):
         _, told, _ = readme_part.cut(readme_tables.features_page, "features")
         self.assertEqual(told.splitlines()[1:], readme_tables.features_lines(KEPT))

@@ -3,7 +3,6 @@
 #include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/blend.hpp"
-#include "pbs/skinning/pose.hpp"
 #include "pbs/skinning/weights.hpp"
 
 #include <algorithm>

@@ -16,15 +16,8 @@
 
 namespace experiments {
 
-const analysis::Columns<VolumeChange> volume_change_columns = {
-    {"scene", &VolumeChange::scene, "", "name of the scene"},
-    {"place", &VolumeChange::place, "", "place of the paper that can be read in two ways"},
-    {"reading_a", &VolumeChange::reading_a, "", "the baseline"},
-    {"reading_b", &VolumeChange::reading_b, "", "the other reading"},
-    {"quantity", &VolumeChange::quantity, "", "what is compared; its name ends with its unit"},
-    {"a", &VolumeChange::a, "", "value by reading A"},
-    {"b", &VolumeChange::b, "", "value by reading B"},
-    {"change", &VolumeChange::change, "", "b less a"}};
+const analysis::Columns<VolumeChange> volume_change_columns =
+    MEMBER_COLUMNS(VolumeChange, scene, place, reading_a, reading_b, quantity, a, b, change);
 
 namespace {
 

@@ -73,25 +73,10 @@ const analysis::Columns<ClaimChange>& claim_change_columns()
     static const Changes columns = [] {
         analysis::Columns<analysis::CaseKey> of_case = analysis::case_key_columns();
         auto& body = *std::ranges::find(of_case, "body", &analysis::Column<analysis::CaseKey>::name);
-        body = {"case_body", &analysis::CaseKey::body, "", "body of the value's case, or its scene"};
+        body = {"case_body", &analysis::CaseKey::body};
         body.group = body.name;
-        return Changes{{"body", &ClaimChange::body, "", "name of the body"},
-                       {"place", &ClaimChange::place, "", "place of the paper that can be read in two ways"},
-                       {"reading_a", &ClaimChange::reading_a, "", "the baseline"},
-                       {"reading_b", &ClaimChange::reading_b, "", "the other reading"},
-                       {"claim", &ClaimChange::claim, "", "id of the claim"},
-                       {"quantity", &ClaimChange::quantity, "", "quantity that the claim is judged by"}} +
-               within(&ClaimChange::of, of_case) +
-               Changes{{"unit", &ClaimChange::unit, "", "unit of a, b and change"},
-                       {"bound", &ClaimChange::bound, "", "the claim's bound, in words"},
-                       {"a", &ClaimChange::a, "", "value by reading A"},
-                       {"b", &ClaimChange::b, "", "value by reading B"},
-                       {"change", &ClaimChange::change, "", "b less a"},
-                       {"b_over_a", &ClaimChange::b_over_a, "", "b over a"},
-                       {"holds_a", &ClaimChange::holds_a, "", "yes, or no: a lies within the bound, or not"},
-                       {"holds_b", &ClaimChange::holds_b, "", "the same for b"},
-                       {"verdict_flips", &ClaimChange::verdict_flips, "", "yes, no, not_touched or no_value"},
-                       {"reason", &ClaimChange::reason, "", "why there is no value, or why it is only a limit, in words"}};
+        return MEMBER_COLUMNS(ClaimChange, body, place, reading_a, reading_b, claim, quantity) + within(&ClaimChange::of, of_case) +
+               MEMBER_COLUMNS(ClaimChange, unit, bound, a, b, change, b_over_a, holds_a, holds_b, verdict_flips, reason);
     }();
     return columns;
 }

@@ -21,24 +21,18 @@ using analysis::Columns;
 using analysis::within;
 
 const Columns<ProfileRow> profile_columns =
-    within(&ProfileRow::place, artefact_place_columns) + Columns<ProfileRow>{{"joint", &ProfileRow::joint, "", "name of the joint"}} +
+    within(&ProfileRow::place, artefact_place_columns) + Columns<ProfileRow>{{"joint", &ProfileRow::joint}} +
     within(&ProfileRow::deformer, artefact_deformer_columns) +
-    within(&ProfileRow::section,
-           Columns<JointSection>{
-               {"offset_m", &JointSection::offset_m, "m",
-                "distance of the cross-section from the joint along the bones; negative: on the parent"},
-               {"area_over_rest", &JointSection::area, "", "area of the cross-section over that at rest"},
-               {"smallest_radius_over_rest", &JointSection::smallest_radius, "", "smallest radius of its outline over that at rest"},
-               {"largest_radius_over_rest", &JointSection::largest_radius, "", "largest radius of its outline over that at rest"},
-               {"outlines", &JointSection::outlines, "", "number of closed outlines in the plane"},
-               {"limb_share", &JointSection::limb_share, "", "share of the outline that belongs to the limb itself"}});
+    within(&ProfileRow::section, Columns<JointSection>{{"offset_m", &JointSection::offset_m},
+                                                       {"area_over_rest", &JointSection::area},
+                                                       {"smallest_radius_over_rest", &JointSection::smallest_radius},
+                                                       {"largest_radius_over_rest", &JointSection::largest_radius},
+                                                       {"outlines", &JointSection::outlines},
+                                                       {"limb_share", &JointSection::limb_share}});
 
-const Columns<IntersectionRow> intersection_columns =
-    within(&IntersectionRow::place, artefact_place_columns) + within(&IntersectionRow::deformer, artefact_deformer_columns) +
-    Columns<IntersectionRow>{{"surface", &IntersectionRow::surface, "", "rendered, or tets_boundary"},
-                             {"triangles", &IntersectionRow::triangles, "", "number of its triangles"},
-                             {"pairs", &IntersectionRow::pairs, "", "pairs of triangles that intersect in the pose"},
-                             {"pairs_at_rest", &IntersectionRow::pairs_at_rest, "", "pairs of triangles that intersect at rest"}};
+const Columns<IntersectionRow> intersection_columns = within(&IntersectionRow::place, artefact_place_columns) +
+                                                      within(&IntersectionRow::deformer, artefact_deformer_columns) +
+                                                      MEMBER_COLUMNS(IntersectionRow, surface, triangles, pairs, pairs_at_rest);
 
 ArtefactPlace place_of(const ArtefactCase& of, const ArtefactBody& body, std::size_t pose)
 {

@@ -149,13 +149,8 @@ struct ArtefactPlace {
 struct ArtefactDeformer {
     std::string deformer, order, precision;  // order and precision: for PBS only
 };
-inline const analysis::Columns<ArtefactPlace> artefact_place_columns = {{"body", &ArtefactPlace::body, "", "name of the body"},
-                                                                        {"vertices", &ArtefactPlace::vertices, "", "vertices of its mesh"},
-                                                                        {"pose", &ArtefactPlace::pose, "", "name of the pose"}};
-inline const analysis::Columns<ArtefactDeformer> artefact_deformer_columns = {
-    {"deformer", &ArtefactDeformer::deformer, "", "name of the deformer"},
-    {"order", &ArtefactDeformer::order, "", "PBS: order of projection"},
-    {"precision", &ArtefactDeformer::precision, "", "PBS: f32 or f64"}};
+inline const analysis::Columns<ArtefactPlace> artefact_place_columns = MEMBER_COLUMNS(ArtefactPlace, body, vertices, pose);
+inline const analysis::Columns<ArtefactDeformer> artefact_deformer_columns = MEMBER_COLUMNS(ArtefactDeformer, deformer, order, precision);
 ArtefactPlace place_of(const ArtefactCase& of, const ArtefactBody& body, std::size_t pose);
 ArtefactDeformer recorded(const DeformerSpec& spec);
 

@@ -96,10 +96,9 @@ nlohmann::json joints_by_hand_of(const ArtefactCase& of)
     return joints;
 }
 
-Columns<Reached> reached_columns(const std::string& name, const std::string& weights)
+Columns<Reached> reached_columns(const std::string& name)
 {
-    return {{"iterations_" + name, &Reached::iterations, "", "iterations to tolerance with " + weights},
-            {"reached_" + name, &Reached::within, "", "they reached it"}};
+    return {{"iterations_" + name, &Reached::iterations}, {"reached_" + name, &Reached::within}};
 }
 
 constexpr double rounding = 1e-12;  // a smaller value is that of the rest pose
@@ -301,14 +300,7 @@ RECORD_SETTINGS_AND(ArtefactCase,
                         .derived("joints_by_hand", joints_by_hand_of),
                     scene, poses, joint, claim, second_order_poses)
 
-const analysis::Columns<SectionRow> section_columns = {
-    {"claim", &SectionRow::claim, "", "id of the claim that the section is measured for"},
-    {"body", &SectionRow::body, "", "name of the body"},
-    {"pose", &SectionRow::pose, "", "name of the pose"},
-    {"joint", &SectionRow::joint, "", "name of the joint"},
-    {"reference", &SectionRow::reference, "", "name of the reference; empty where none was reached"},
-    {"outcome", &SectionRow::outcome, "", "measured, or why not"},
-    {"remark", &SectionRow::remark, "", "remark on the section; empty: none"}};
+const analysis::Columns<SectionRow> section_columns = MEMBER_COLUMNS(SectionRow, claim, body, pose, joint, reference, outcome, remark);
 
 std::vector<SectionRow> section_rows(const ArtefactCase& of, const ArtefactBody& body, const std::vector<JudgedSection>& sections)
 {
@@ -328,22 +320,13 @@ std::vector<SectionRow> section_rows(const ArtefactCase& of, const ArtefactBody&
 }
 
 const Columns<SmoothnessRow> smoothness_columns =
-    Columns<SmoothnessRow>{{"body", &SmoothnessRow::body, "", "name of the body"},
-                           {"vertices", &SmoothnessRow::vertices, "", "vertices of its mesh"},
-                           {"weights", &SmoothnessRow::weights, "", "paper: Eq. 2; rigid: every vertex on its nearest bone alone"},
-                           {"pose", &SmoothnessRow::pose, "", "name of the pose"},
-                           {"joint", &SmoothnessRow::joint, "", "name of the joint"}} +
-    within(&SmoothnessRow::deformer, artefact_deformer_columns) +
-    within(
-        &SmoothnessRow::smoothness,
-        Columns<Smoothness>{
-            {"strain_jump_rms", &Smoothness::strain_jump_rms, "", "root mean square jump of strain between neighbouring tets at the joint"},
-            {"bending_rms_rad", &Smoothness::bending_rms_rad, "rad", "root mean square bending of the skin at the joint"}}) +
-    Columns<SmoothnessRow>{{"volume_abs_change_pct", &SmoothnessRow::volume_abs_change_pct, "%", "sum of the tets' absolute changes"}};
+    MEMBER_COLUMNS(SmoothnessRow, body, vertices, weights, pose, joint) + within(&SmoothnessRow::deformer, artefact_deformer_columns) +
+    within(&SmoothnessRow::smoothness, MEMBER_COLUMNS(Smoothness, strain_jump_rms, bending_rms_rad)) +
+    Columns<SmoothnessRow>{{"volume_abs_change_pct", &SmoothnessRow::volume_abs_change_pct}};
 
 const Columns<WeightIterations> weight_iteration_columns = within(&WeightIterations::place, artefact_place_columns) +
-                                                           within(&WeightIterations::paper, reached_columns("paper", "Eq. 2")) +
-                                                           within(&WeightIterations::rigid, reached_columns("rigid", "rigid weights"));
+                                                           within(&WeightIterations::paper, reached_columns("paper")) +
+                                                           within(&WeightIterations::rigid, reached_columns("rigid"));
 
 WeightsComparison compare_weights(const ArtefactCase& of)
 {

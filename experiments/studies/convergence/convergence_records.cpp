@@ -17,15 +17,7 @@ namespace {
 using analysis::Columns;
 using analysis::within;
 
-const Columns<PathCase> case_columns = {{"body", &PathCase::body, "", "name of the body"},
-                                        {"pose", &PathCase::pose, "", "name of the pose"},
-                                        {"vertices", &PathCase::vertices, "", "vertices of the mesh"},
-                                        {"tets", &PathCase::tets, "", "tets of the mesh"},
-                                        {"own_mesh", &PathCase::own_mesh, "", "the mesh is the scene's own"},
-                                        {"order", &PathCase::order, "", "order of projection"},
-                                        {"precision", &PathCase::precision, "", "f32 or f64"},
-                                        {"k_stretch", &PathCase::k_stretch, "", "stiffness of the stretch constraints"},
-                                        {"start", &PathCase::start, "", "initial guess: lbs, previous_frame, rest_pose or rigid_bind"}};
+const Columns<PathCase> case_columns = MEMBER_COLUMNS(PathCase, body, pose, vertices, tets, own_mesh, order, precision, k_stretch, start);
 
 PathCase case_of(PathCase of, std::size_t start)
 {
@@ -80,34 +72,19 @@ RateRow rate_row(const ConvergencePaths& of, std::size_t start, double floor)
     return row;
 }
 
-const Columns<Look> residual_look_columns = {
-    {"iteration", &Look::iteration, "", "number of the iteration; 0: the initial guess"},
-    {"stretch_rms", &Look::stretch_rms, "", "root mean square of l / l0 - 1 over the edges"},
-    {"volume_rms", &Look::volume_rms, "", "root mean square of V / V0 - 1 over the tets"},
-    {"bind_rms_m", &Look::bind_rms_m, "m", "root mean square of |x_i - q_i| - d_i over the vertices"},
-    {"combined", &Look::combined, "", "root mean square of the three, the last one over the mean distance to the bone"},
-    {"volume_change_pct", &Look::volume_change_pct, "%", "signed change of the whole volume"},
-    {"volume_abs_change_pct", &Look::volume_abs_change_pct, "%", "sum of the absolute changes of each tet"},
-    {"inverted_tets", &Look::inverted_tets, "", "number of inverted tets"}};
+const Columns<Look> residual_look_columns =
+    MEMBER_COLUMNS(Look, iteration, stretch_rms, volume_rms, bind_rms_m, combined, volume_change_pct, volume_abs_change_pct, inverted_tets);
 
-const Columns<Look> error_look_columns = {
-    {"iteration", &Look::iteration, "", "number of the iteration; 0: the initial guess"},
-    {"error_joint_pct", &Look::error_joint_pct, "%", "distance to the reference over the blended vertices outside its mask"},
-    {"whole_joint_pct", &Look::whole_joint_pct, "%", "distance to the reference over all blended vertices"}};
+const Columns<Look> error_look_columns = MEMBER_COLUMNS(Look, iteration, error_joint_pct, whole_joint_pct);
 
-const Columns<analysis::Interval> rate_interval = {
-    {"rate_per_iteration", &analysis::Interval::estimate, "", "factor per iteration of residual - floor"},
-    {"rate_low", &analysis::Interval::low, "", "lower end of its interval"},
-    {"rate_high", &analysis::Interval::high, "", "upper end of its interval"}};
-const Columns<Rate> fitted_rate = Columns<Rate>{{"stalls_at_iteration", &Rate::stalls_at, "", "where it stalls; empty: nowhere"}} +
-                                  within(&Rate::rate, rate_interval) +
-                                  Columns<Rate>{{"rate_log_rms_off", &Rate::log_rms_off, "", "root mean square logarithm over the fit"}};
+const Columns<analysis::Interval> rate_interval = {{"rate_per_iteration", &analysis::Interval::estimate},
+                                                   {"rate_low", &analysis::Interval::low},
+                                                   {"rate_high", &analysis::Interval::high}};
+const Columns<Rate> fitted_rate = Columns<Rate>{{"stalls_at_iteration", &Rate::stalls_at}} + within(&Rate::rate, rate_interval) +
+                                  Columns<Rate>{{"rate_log_rms_off", &Rate::log_rms_off}};
 
-const Columns<ReferenceQuality> quality_columns = {
-    {"masked_share_pct", &ReferenceQuality::masked_share_pct, "%", "share of the volume that is left out because the reference overlaps"},
-    {"observed_order", &ReferenceQuality::observed_order, "", "of convergence of the reference's linear elements"},
-    {"order_is_reliable", &ReferenceQuality::order_is_reliable, "", "the order is credible, and the safety factor 1.25 instead of 3"},
-    {"reference_bound_pct", &ReferenceQuality::bound_pct, "%", "bound of the reference's own error at the joints outside the mask"}};
+const Columns<ReferenceQuality> quality_columns = MEMBER_COLUMNS(ReferenceQuality, masked_share_pct, observed_order, order_is_reliable) +
+                                                  Columns<ReferenceQuality>{{"reference_bound_pct", &ReferenceQuality::bound_pct}};
 
 // A value of one setting, and what it bounds where a tolerance was not reached.
 struct PathValue {
@@ -273,40 +250,24 @@ const Columns<LookRow> towards_columns = within(&LookRow::of, case_columns) + wi
 using Rates = Columns<RateRow>;
 using Looks = Columns<Look>;
 const Columns<RateRow> rate_columns =
-    within(&RateRow::of, case_columns) +
-    Rates{{"iterations", &RateRow::iterations, "", "iterations that were done"},
-          {"outcome", &RateRow::outcome, "", "finished or not_finite"},
-          {"floor", &RateRow::floor, "", "lowest combined residual that any initial guess leads to"}} +
-    within(&RateRow::first, Looks{{"start_residual", &Look::combined, "", "combined residual of the initial guess"}}) +
-    within(&RateRow::paper, Looks{{"residual_24", &Look::combined, "", "combined residual after 24 iterations"}}) +
-    within(&RateRow::last, Looks{{"last_residual", &Look::combined, "", "combined residual after the last iteration"}}) +
-    Rates{{"last_half_change_pct", &RateRow::last_half_change_pct, "%", "change of the residual over the second half of the iterations"}} +
+    within(&RateRow::of, case_columns) + MEMBER_COLUMNS(RateRow, iterations, outcome, floor) +
+    within(&RateRow::first, Looks{{"start_residual", &Look::combined}}) + within(&RateRow::paper, Looks{{"residual_24", &Look::combined}}) +
+    within(&RateRow::last, Looks{{"last_residual", &Look::combined}}) + Rates{{"last_half_change_pct", &RateRow::last_half_change_pct}} +
     within(&RateRow::rate, fitted_rate) +
-    within(&RateRow::residual,
-           Columns<Reached>{{"iterations_to_residual", &Reached::iterations, "", "iterations to the residual's tolerance"},
-                            {"residual_reached", &Reached::within, "", "they reached it"}}) +
-    within(&RateRow::volume,
-           Columns<Reached>{{"iterations_to_volume", &Reached::iterations, "", "iterations to the paper's 0.5 % of volume"},
-                            {"volume_reached", &Reached::within, "", "they reached it"}}) +
-    Rates{{"iteration_cpu_ms", &RateRow::iteration_cpu_ms, "ms", "mean processor time per iteration"},
-          {"cpu_ms_to_residual", &RateRow::cpu_ms_to_residual, "ms", "processor time to the residual's tolerance; empty: not reached"},
-          {"cpu_ms_to_volume", &RateRow::cpu_ms_to_volume, "ms", "processor time to the volume's tolerance; empty: not reached"}} +
-    within(&RateRow::paper, Looks{{"volume_change_24_pct", &Look::volume_change_pct, "%", "volume change after 24 iterations"},
-                                  {"volume_abs_change_24_pct", &Look::volume_abs_change_pct, "%",
-                                   "sum of the tets' absolute changes after 24 iterations"}}) +
-    within(&RateRow::last, Looks{{"last_volume_change_pct", &Look::volume_change_pct, "%", "volume change at the end"},
-                                 {"last_volume_abs_change_pct", &Look::volume_abs_change_pct, "%", "sum of the tets' changes at the end"},
-                                 {"last_inverted_tets", &Look::inverted_tets, "", "inverted tets at the end"}}) +
-    Rates{{"reference", &RateRow::reference, "", "name of the reference, or why there is none"}} +
-    within(&RateRow::first, Looks{{"start_error_pct", &Look::error_joint_pct, "%", "error of the initial guess outside the mask"}}) +
-    within(&RateRow::paper, Looks{{"error_24_pct", &Look::error_joint_pct, "%", "error after 24 iterations"}}) +
-    within(&RateRow::nearest, Looks{{"least_error_pct", &Look::error_joint_pct, "%", "least error on the way"},
-                                    {"least_error_iteration", &Look::iteration, "", "iteration of the least error"}}) +
-    within(&RateRow::last, Looks{{"last_error_pct", &Look::error_joint_pct, "%", "error at the end"}}) +
+    within(&RateRow::residual, Columns<Reached>{{"iterations_to_residual", &Reached::iterations}, {"residual_reached", &Reached::within}}) +
+    within(&RateRow::volume, Columns<Reached>{{"iterations_to_volume", &Reached::iterations}, {"volume_reached", &Reached::within}}) +
+    MEMBER_COLUMNS(RateRow, iteration_cpu_ms, cpu_ms_to_residual, cpu_ms_to_volume) +
     within(&RateRow::paper,
-           Looks{{"whole_error_24_pct", &Look::whole_joint_pct, "%", "error after 24 iterations with the masked joints"}}) +
-    within(&RateRow::quality, quality_columns) +
-    Rates{{"limit_from_lbs_pct", &RateRow::limit_from_lbs_pct, "%", "distance of the last shape from the one that LBS leads to"}};
+           Looks{{"volume_change_24_pct", &Look::volume_change_pct}, {"volume_abs_change_24_pct", &Look::volume_abs_change_pct}}) +
+    within(&RateRow::last, Looks{{"last_volume_change_pct", &Look::volume_change_pct},
+                                 {"last_volume_abs_change_pct", &Look::volume_abs_change_pct},
+                                 {"last_inverted_tets", &Look::inverted_tets}}) +
+    Rates{{"reference", &RateRow::reference}} + within(&RateRow::first, Looks{{"start_error_pct", &Look::error_joint_pct}}) +
+    within(&RateRow::paper, Looks{{"error_24_pct", &Look::error_joint_pct}}) +
+    within(&RateRow::nearest, Looks{{"least_error_pct", &Look::error_joint_pct}, {"least_error_iteration", &Look::iteration}}) +
+    within(&RateRow::last, Looks{{"last_error_pct", &Look::error_joint_pct}}) +
+    within(&RateRow::paper, Looks{{"whole_error_24_pct", &Look::whole_joint_pct}}) + within(&RateRow::quality, quality_columns) +
+    Rates{{"limit_from_lbs_pct", &RateRow::limit_from_lbs_pct}};
 
 std::vector<LookRow> look_rows(const ConvergenceResult& result)
 {

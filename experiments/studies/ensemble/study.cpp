@@ -24,83 +24,27 @@ using analysis::within;
 
 const Columns<MemberRow> member_columns =
     within(&MemberRow::of, pose_columns()) + within(&MemberRow::member, family_member_columns()) +
-    Columns<MemberRow>{
-        {"outcome", &MemberRow::outcome, "", "reached; inverted: det F <= 0 somewhere in each solution; not_converged"},
-        {"element_order", &MemberRow::element_order, "", "of the finest solution with det F > 0, which is the reference"},
-        {"refinements", &MemberRow::refinements, "", "how often its tets are cut into eight"},
-        {"error_bound_pct", &MemberRow::error_bound_pct, "%", "bound of its distance from the limit, at the joints outside the overlap"},
-        {"error_bound_l2_pct", &MemberRow::error_bound_l2_pct, "%", "bound of its distance from the limit, outside the overlap"},
-        {"observed_order", &MemberRow::observed_order, "", "of convergence of linear elements, with the finest solution as the limit"},
-        {"reliable", &MemberRow::reliable, "", "the observed order is credible, and the safety factor 1.25 instead of 3"},
-        {"masked_share_pct", &MemberRow::masked_share_pct, "%", "share of the volume that is left out because the body overlaps itself"},
-        {"volume_change_pct", &MemberRow::volume_change_pct, "%", "of the reference"},
-        {"lowest_det_f", &MemberRow::lowest_det_f, "", "of the finest solution, at the quadrature points of its elements"},
-        {"inverted", &MemberRow::inverted_tets, "", "the body's tets that it inverts by their vertices alone; they are left out"},
-        {"j_min", &MemberRow::j_min, "", "the smallest volume ratio of such a tet"},
-        {"worst_tet", &MemberRow::worst_tet, "", "that tet"},
-        {"newton_steps", &MemberRow::newton_steps, "", "of the finest solution, from the one with fewer nodes"},
-        {"projected", &MemberRow::projected, "",
-         "those with a projected Hessian, as it was not positive definite or the step before met negative curvature"},
-        {"solve_s", &MemberRow::solve_s, "s", "wall time of all solutions"}};
+    MEMBER_COLUMNS(MemberRow, outcome, element_order, refinements, error_bound_pct, error_bound_l2_pct, observed_order, reliable,
+                   masked_share_pct, volume_change_pct, lowest_det_f) +
+    Columns<MemberRow>{{"inverted", &MemberRow::inverted_tets}} +
+    MEMBER_COLUMNS(MemberRow, j_min, worst_tet, newton_steps, projected, solve_s);
 
 const Columns<ErrorRow> error_columns =
     within(&ErrorRow::of, pose_columns()) +
-    Columns<ErrorRow>{{"member", &ErrorRow::member, "", "name of the member"},
-                      {"deformer", &ErrorRow::deformer, "", "name of the deformer"},
-                      {"error_joint_pct", &ErrorRow::error_joint_pct, "%", "error over the blended vertices outside the overlap"},
-                      {"error_l2_pct", &ErrorRow::error_l2_pct, "%", "error over all vertices outside the overlap"},
-                      {"whole_joint_pct", &ErrorRow::whole_joint_pct, "%", "error over all blended vertices"},
-                      {"volume_change_pct", &ErrorRow::volume_change_pct, "%", "signed change of the volume"}};
+    MEMBER_COLUMNS(ErrorRow, member, deformer, error_joint_pct, error_l2_pct, whole_joint_pct, volume_change_pct);
 
 const Columns<PairRow> pair_columns =
-    within(&PairRow::of, pose_columns()) +
-    Columns<PairRow>{
-        {"first", &PairRow::first, "", "name of a deformer"},
-        {"second", &PairRow::second, "", "name of the other one"},
-        {"difference_pct", &PairRow::difference_pct, "%", "error of the second minus that of the first, against the first member reached"},
-        {"largest_difference_pct", &PairRow::largest_difference_pct, "%", "the largest difference of any member, without its sign"},
-        {"members", &PairRow::members, "", "number of members"},
-        {"not_reached", &PairRow::not_reached, "", "members that were not reached, which decide nothing"},
-        {"first_is_closer", &PairRow::first_is_closer, "", "members for which the first is closer by more than their own error allows"},
-        {"second_is_closer", &PairRow::second_is_closer, "", "members for which the second is"},
-        {"decision", &PairRow::decision, "", "decided, reference_error (a member does not decide or was not reached) or models_disagree"}};
+    within(&PairRow::of, pose_columns()) + MEMBER_COLUMNS(PairRow, first, second, difference_pct, largest_difference_pct, members,
+                                                          not_reached, first_is_closer, second_is_closer, decision);
 
 const Columns<PartsRow> part_columns =
     within(&PartsRow::of, pose_columns()) +
-    Columns<PartsRow>{
-        {"k_stretch", &PartsRow::k_stretch, "", "stiffness of the stretch constraints"},
-        {"iterations", &PartsRow::iterations, "", "iterations of PBS"},
-        {"error_joint_pct", &PartsRow::error_joint_pct, "%", "distance of PBS from the reference, at the joints outside the overlap"},
-        {"solver_pct", &PartsRow::solver_pct, "%", "distance of PBS from its own converged shape"},
-        {"model_pct", &PartsRow::model_pct, "%", "distance of PBS's converged shape from the reference"},
-        {"discretisation_pct", &PartsRow::discretisation_pct, "%",
-         "bound of the reference's distance from its limit on ever finer tets; nan: a nested solution is missing"},
-        {"not_converged_pct", &PartsRow::not_converged_pct, "%",
-         "distance of PBS's converged shape from that after half of the iterations"},
-        {"pbs_refinement_pct", &PartsRow::pbs_refinement_pct, "%", "distance of PBS's converged shape from that on refined tets"},
-        {"error_l2_pct", &PartsRow::error_l2_pct, "%", "distance of PBS from the reference, over all vertices outside the overlap"},
-        {"error_linf_m", &PartsRow::error_linf_m, "m", "largest distance of a vertex of PBS from the reference outside the overlap"},
-        {"whole_joint_pct", &PartsRow::whole_joint_pct, "%", "distance of PBS from the reference at the joints of the whole body"},
-        {"masked_share_pct", &PartsRow::masked_share_pct, "%",
-         "share of the volume that is left out because the reference overlaps itself"},
-        {"observed_order", &PartsRow::observed_order, "", "of convergence of the reference's linear elements; empty: not known"},
-        {"order_is_reliable", &PartsRow::order_is_reliable, "",
-         "the order is credible, and the bound has the safety factor 1.25 instead of 3"}};
+    MEMBER_COLUMNS(PartsRow, k_stretch, iterations, error_joint_pct, solver_pct, model_pct, discretisation_pct, not_converged_pct,
+                   pbs_refinement_pct, error_l2_pct, error_linf_m, whole_joint_pct, masked_share_pct, observed_order, order_is_reliable);
 
 const Columns<AttachmentRow> attachment_columns =
     within(&AttachmentRow::of, pose_columns()) +
-    Columns<AttachmentRow>{
-        {"reference", &AttachmentRow::reference, "", "label of the flesh; the reference's own comes first"},
-        {"model", &AttachmentRow::model, "", "its law"},
-        {"attachment", &AttachmentRow::attachment, "", "how it is held by the bones"},
-        {"spring_factor", &AttachmentRow::spring_factor, "",
-         "q of its springs or of the bind constraint; empty: prescribed nodes have none"},
-        {"core_radius", &AttachmentRow::core_radius, "",
-         "radius of the bones' capsules over the limb's; empty: the bind constraint has none"},
-        {"difference_pct", &AttachmentRow::difference_pct, "%", "its distance from the reference, at the joints outside the overlap"},
-        {"k_stretch", &AttachmentRow::k_stretch, "", "stiffness of the stretch constraints of PBS"},
-        {"model_pct", &AttachmentRow::model_pct, "%", "distance of PBS's converged shape from this flesh"},
-        {"finished", &AttachmentRow::finished, "", "the flesh reached its pose"}};
+    MEMBER_COLUMNS(AttachmentRow, reference, model, attachment, spring_factor, core_radius, difference_pct, k_stretch, model_pct, finished);
 
 RECORD_SETTINGS(EnsembleCase, of, scene, frame, flesh, members, deformers, pbs, other_flesh, k_stretch, iterations, converged_iterations)
 

@@ -127,29 +127,11 @@ YoungFit fit_young(const Cantilever& cantilever, const ElasticSag& elastic, cons
 }
 
 const analysis::Columns<SagRow> sag_columns =
-    within(&SagRow::setting,
-           analysis::Columns<BarSetting>{{"vertices", &BarSetting::vertices, "", "number of vertices"},
-                                         {"mean_edge_m", &BarSetting::mean_edge_m, "m", "mean length of the edges"},
-                                         {"k_stretch", &BarSetting::k_stretch, "", "stiffness of the stretch constraints"},
-                                         {"k_volume", &BarSetting::k_volume, "", "stiffness of the volume constraints"},
-                                         {"iterations", &BarSetting::iterations, "", "iterations per step"},
-                                         {"time_step_s", &BarSetting::time_step_s, "s", "time step"},
-                                         {"masses", &BarSetting::masses, "", "masses of PBS"},
-                                         {"density_kg_m3", &BarSetting::density_kg_m3, "kg/m^3", "density of the elastic body"},
-                                         {"poisson", &BarSetting::poisson, "", "Poisson's ratio of the elastic body"}}) +
-    analysis::Columns<SagRow>{
-        {"young_pa", &SagRow::young_pa, "Pa", "Young's modulus of the elastic bar that sags as PBS does"},
-        {"young_low_pa", &SagRow::young_low_pa, "Pa", "lower end of its interval"},
-        {"young_high_pa", &SagRow::young_high_pa, "Pa", "upper end of its interval"},
-        {"misfit_pct", &SagRow::misfit_pct, "%", "what no value of the parameter removes"},
-        {"rise", &SagRow::rise, "", "share by which the misfit rises when the parameter changes by 10 %"},
-        {"outcome", &SagRow::outcome, "", "how the search ended"},
-        {"identifiable", &SagRow::identifiable, "", "the misfit has a minimum that determines the parameter"},
-        {"young_dt2_over_density_edge2_iterations", &SagRow::scaled_young, "", "E dt^2 / (density edge^2 iterations)"},
-        {"tip_sag_over_g_dt2", &SagRow::tip_sag_over_g_dt2, "", "sag of the tip over gravity times the square of the time step"},
-        {"settled", &SagRow::settled, "", "a state of rest was found"},
-        {"residual", &SagRow::residual, "", "what is left of the equation of rest"},
-        {"solver_steps", &SagRow::solver_steps, "", "applications of the linear map"}};
+    within(&SagRow::setting, MEMBER_COLUMNS(BarSetting, vertices, mean_edge_m, k_stretch, k_volume, iterations, time_step_s, masses,
+                                            density_kg_m3, poisson)) +
+    MEMBER_COLUMNS(SagRow, young_pa, young_low_pa, young_high_pa, misfit_pct, rise, outcome, identifiable) +
+    analysis::Columns<SagRow>{{"young_dt2_over_density_edge2_iterations", &SagRow::scaled_young}} +
+    MEMBER_COLUMNS(SagRow, tip_sag_over_g_dt2, settled, residual, solver_steps);
 
 RECORD_SETTINGS_AND(SagCase,
                     .constant("time_step_s", sag_time_step_s).constant("density_kg_m3", sag_density_kg_m3).constant("poisson", sag_poisson),

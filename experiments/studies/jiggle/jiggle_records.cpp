@@ -23,29 +23,20 @@ using analysis::within;
 
 namespace {
 
-const Columns<JiggleSetting> stiffness_columns = {
-    {"k_stretch", &JiggleSetting::k_stretch, "", "stiffness of the stretch constraints in the zone"}};
-const Columns<JiggleSetting> solver_columns = {{"iterations", &JiggleSetting::iterations, "", "iterations per step"},
-                                               {"masses", &JiggleSetting::masses, "", "unit or lumped"},
-                                               {"k_bind", &JiggleSetting::k_bind, "", "stiffness of the bind constraints"}};
+const Columns<JiggleSetting> stiffness_columns = {{"k_stretch", &JiggleSetting::k_stretch}};
+const Columns<JiggleSetting> solver_columns = MEMBER_COLUMNS(JiggleSetting, iterations, masses, k_bind);
 
-const Columns<Interval> frequency_columns = {{"frequency_hz", &Interval::estimate, "Hz", "frequency of the swing"},
-                                             {"frequency_low_hz", &Interval::low, "Hz", "lower end of its interval"},
-                                             {"frequency_high_hz", &Interval::high, "Hz", "upper end of its interval"}};
-const Columns<Interval> damping_columns = {{"damping_ratio", &Interval::estimate, "", "damping over critical damping"},
-                                           {"damping_low", &Interval::low, "", "lower end of its interval"},
-                                           {"damping_high", &Interval::high, "", "upper end of its interval"}};
-const Columns<DampedOscillation> swing_columns =
-    within(&DampedOscillation::frequency_hz, frequency_columns) + within(&DampedOscillation::damping_ratio, damping_columns) +
-    Columns<DampedOscillation>{{"explained", &DampedOscillation::explained, "", "share of the variance that the fit explains"}};
+const Columns<Interval> frequency_columns = {
+    {"frequency_hz", &Interval::estimate}, {"frequency_low_hz", &Interval::low}, {"frequency_high_hz", &Interval::high}};
+const Columns<Interval> damping_columns = {
+    {"damping_ratio", &Interval::estimate}, {"damping_low", &Interval::low}, {"damping_high", &Interval::high}};
+const Columns<DampedOscillation> swing_columns = within(&DampedOscillation::frequency_hz, frequency_columns) +
+                                                 within(&DampedOscillation::damping_ratio, damping_columns) +
+                                                 Columns<DampedOscillation>{{"explained", &DampedOscillation::explained}};
 
 const Columns<JoltResponse> jolt_columns =
     within(&JoltResponse::swing, swing_columns) +
-    Columns<JoltResponse>{{"peak_over_jolt", &JoltResponse::peak_over_jolt, "", "largest excursion, either way, over the jolt's length"},
-                          {"overshoot_over_jolt", &JoltResponse::overshoot_over_jolt, "", "overshoot over the jolt's length"},
-                          {"left_over_peak", &JoltResponse::left_over_peak, "", "largest excursion of the last tenth over the peak"},
-                          {"speed_growth", &JoltResponse::speed_growth, "", "largest speed after the first tenth over that within it"},
-                          {"finished", &JoltResponse::finished, "", "all positions are finite"}};
+    MEMBER_COLUMNS(JoltResponse, peak_over_jolt, overshoot_over_jolt, left_over_peak, speed_growth, finished);
 
 constexpr double first_young_pa = 1e5;         // of the reference, before its frequency is matched
 constexpr double rayleigh_stiffness_s = 0.02;  // of the control with damping
@@ -298,44 +289,28 @@ void add_half_step(std::vector<Measurement>& measurements, const std::string& bo
 }  // namespace
 
 const Columns<ResponseRow> response_columns =
-    Columns<ResponseRow>{{"deformer", &ResponseRow::deformer, "", "pbs, or nh_p1: finite elements in time that swing as fast"}} +
-    within(&ResponseRow::setting, stiffness_columns) +
-    Columns<ResponseRow>{{"time_step_ms", &ResponseRow::time_step_ms, "ms", "time step"}} + within(&ResponseRow::setting, solver_columns) +
-    Columns<ResponseRow>{{"young_pa", &ResponseRow::young_pa, "Pa", "Young's modulus of the reference; nan for pbs"},
-                         {"outcome", &ResponseRow::outcome, "", "what the fit of a damped oscillation found"}} +
-    within(&ResponseRow::response, jolt_columns);
+    Columns<ResponseRow>{{"deformer", &ResponseRow::deformer}} + within(&ResponseRow::setting, stiffness_columns) +
+    Columns<ResponseRow>{{"time_step_ms", &ResponseRow::time_step_ms}} + within(&ResponseRow::setting, solver_columns) +
+    MEMBER_COLUMNS(ResponseRow, young_pa, outcome) + within(&ResponseRow::response, jolt_columns);
 
-const Columns<SeriesRow> jolt_series_columns = {
-    {"of", &SeriesRow::of, "", "the setting in words"},
-    {"time_s", &SeriesRow::time_s, "s", "time since the jolt"},
-    {"excursion_m", &SeriesRow::excursion_m, "m",
-     "mean displacement of the piece along the jolt, from where it lay, moved with the skeleton"},
-    {"speed_rms_m_s", &SeriesRow::speed_rms_m_s, "m/s", "root mean square speed of the body's vertices"}};
+const Columns<SeriesRow> jolt_series_columns = MEMBER_COLUMNS(SeriesRow, of, time_s, excursion_m, speed_rms_m_s);
 
-const Columns<SeriesRow> walk_series_columns = {
-    {"of", &SeriesRow::of, "", "the setting in words"},
-    {"time_s", &SeriesRow::time_s, "s", "time since the motion began"},
-    {"lag_rms_m", &SeriesRow::excursion_m, "m", "root mean square distance of the zone from the shape without jiggle"},
-    {"speed_rms_m_s", &SeriesRow::speed_rms_m_s, "m/s", "root mean square speed of the zone's vertices"}};
+const Columns<SeriesRow> walk_series_columns = {{"of", &SeriesRow::of},
+                                                {"time_s", &SeriesRow::time_s},
+                                                {"lag_rms_m", &SeriesRow::excursion_m},
+                                                {"speed_rms_m_s", &SeriesRow::speed_rms_m_s}};
 
-const Columns<ZoneRow> zone_columns =
-    Columns<ZoneRow>{{"share_of_vertices", &ZoneRow::share_of_vertices, "", "share of the body's vertices in the jiggling zone"},
-                     {"share_on_skin", &ZoneRow::share_on_skin, "", "share of the zone's vertices on the skin"},
-                     {"pieces", &ZoneRow::pieces, "", "number of connected pieces of the zone"},
-                     {"largest_piece", &ZoneRow::largest_piece, "", "vertices of the largest piece"}} +
-    within(&ZoneRow::bone,
-           Columns<pbs::BoneInZone>{{"bone", &pbs::BoneInZone::name, "", "name of a bone"},
-                                    {"share_of_zone", &pbs::BoneInZone::share_of_zone, "", "share of the zone that is bound to it"},
-                                    {"share_of_bone", &pbs::BoneInZone::share_of_bone, "", "share of the bone's vertices in the zone"}});
+const Columns<ZoneRow> zone_columns = MEMBER_COLUMNS(ZoneRow, share_of_vertices, share_on_skin, pieces, largest_piece) +
+                                      within(&ZoneRow::bone, Columns<pbs::BoneInZone>{{"bone", &pbs::BoneInZone::name},
+                                                                                      {"share_of_zone", &pbs::BoneInZone::share_of_zone},
+                                                                                      {"share_of_bone", &pbs::BoneInZone::share_of_bone}});
 
 const Columns<WalkRow> walk_columns =
-    Columns<WalkRow>{{"k_stretch", &WalkRow::k_stretch, "", "stiffness of the stretch constraints in the zone"}} +
-    within(&WalkRow::response,
-           Columns<WalkResponse>{{"moving_lag_rms_mm", &WalkResponse::moving_lag_mm, "mm", "root mean square lag over the motion"},
-                                 {"most_lag_rms_mm", &WalkResponse::most_lag_mm, "mm", "largest lag of a step of the motion"},
-                                 {"last_speed_share", &WalkResponse::last_speed_share, "",
-                                  "speed of the last tenth of the still steps over the motion's mean"},
-                                 {"finished", &WalkResponse::finished, "", "all positions are finite"}});
+    Columns<WalkRow>{{"k_stretch", &WalkRow::k_stretch}} +
+    within(&WalkRow::response, Columns<WalkResponse>{{"moving_lag_rms_mm", &WalkResponse::moving_lag_mm},
+                                                     {"most_lag_rms_mm", &WalkResponse::most_lag_mm},
+                                                     {"last_speed_share", &WalkResponse::last_speed_share},
+                                                     {"finished", &WalkResponse::finished}});
 
 RECORD_SETTINGS(Jolt, direction, length_m, time_step_s, still_steps, steps)
 

@@ -9,7 +9,7 @@
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/character/overlap_and_jiggle.hpp"
+#include "pbs/character/bone_capsules.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <optional>

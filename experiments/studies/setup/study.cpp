@@ -70,12 +70,9 @@ std::vector<Measurement> measured_in(const fs::path& run_folder, const BodySetup
 
 }  // namespace
 
-const analysis::Columns<TrialRow> trial_columns = {
-    {"trial", &TrialRow::trial, "", "number of the trial, from 0"},
-    {"further_keys", &TrialRow::further_keys, "", "key=value: what else was changed in the scene"},
-    {"failure", &TrialRow::failure, "", "why it did not run; empty where it did"}};
+const analysis::Columns<TrialRow> trial_columns = MEMBER_COLUMNS(TrialRow, trial, further_keys, failure);
 
-const analysis::Columns<std::string> key_columns = {{"key", std::identity{}, "", "a key that differs from the shared scene's"}};
+const analysis::Columns<std::string> key_columns = {{"key", std::identity{}}};
 
 Scene shared_scene(double rate_hz, const std::string& deformer)
 {

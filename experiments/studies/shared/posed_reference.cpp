@@ -5,7 +5,7 @@
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/reference_error_bar.hpp"
 #include "experiments/settings/recorded_settings.hpp"
-#include "pbs/character/overlap_and_jiggle.hpp"
+#include "pbs/character/bone_capsules.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 
@@ -169,11 +169,8 @@ std::size_t place_among_further(const std::string& member)
 
 const analysis::Columns<EnsembleMember>& family_member_columns()
 {
-    static const analysis::Columns<EnsembleMember> columns = {
-        {"member", &EnsembleMember::name, "", "name of the reference in the family"},
-        {"spring_factor", &EnsembleMember::spring_factor, "", "q of the attachment"},
-        {"core_radius", &EnsembleMember::core_radius, "", "radius of the bones' capsules over the limb's"},
-        {"poisson", &EnsembleMember::poisson, "", "Poisson's ratio"}};
+    static const analysis::Columns<EnsembleMember> columns = analysis::Columns<EnsembleMember>{{"member", &EnsembleMember::name}} +
+                                                             MEMBER_COLUMNS(EnsembleMember, spring_factor, core_radius, poisson);
     return columns;
 }
 

@@ -55,12 +55,9 @@ void put_spread(nlohmann::json& json, const std::string& name, const Spread& spr
     json["rounds"] = spread.rounds;
 }
 
-analysis::Columns<Spread> spread_columns(const std::string& name, const std::string& unit, const std::string& meaning,
-                                         const QuartileEndings& endings)
+analysis::Columns<Spread> spread_columns(const std::string& name, const QuartileEndings& endings)
 {
-    return {{name, &Spread::median, unit, meaning + ", median of the rounds"},
-            {name + endings.lower, &Spread::lower, unit, meaning + ", lower quartile"},
-            {name + endings.upper, &Spread::upper, unit, meaning + ", upper quartile"}};
+    return {{name, &Spread::median}, {name + endings.lower, &Spread::lower}, {name + endings.upper, &Spread::upper}};
 }
 
 nlohmann::json run_scene_alone(const Scene& scene, const std::string& folder, const std::function<void()>& prepare)

@@ -48,8 +48,7 @@ void put_spread(nlohmann::json& json, const std::string& name, const Spread& spr
 struct QuartileEndings {
     std::string lower = "_low", upper = "_high";
 };
-analysis::Columns<Spread> spread_columns(const std::string& name, const std::string& unit, const std::string& meaning,
-                                         const QuartileEndings& endings = {});
+analysis::Columns<Spread> spread_columns(const std::string& name, const QuartileEndings& endings = {});
 
 // Processor time of the calling thread for this work [s].
 template <typename Work>

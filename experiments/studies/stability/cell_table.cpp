@@ -162,36 +162,14 @@ StartRow row_of(const StabilityCell& cell)
 
 using Cells = analysis::Columns<StabilityCell>;
 const analysis::Columns<CellRow> cell_columns =
-    within(&CellRow::of, Cells{{"body", &StabilityCell::body, "", "name of the body"},
-                               {"model", &StabilityCell::model, "", "method: pbs, pbs_jiggle, xpbd, ..."},
-                               {"factor", &StabilityCell::factor, "", "what is varied"},
-                               {"value", &StabilityCell::value, "", "its value, in the unit of the next column"},
-                               {"unit", &StabilityCell::unit, "", "unit of the value; empty: none"},
-                               {"named", &StabilityCell::named, "", "value of a factor without numbers: flattened"},
-                               {"second_factor", &StabilityCell::second_factor, "", "what else a map varies; empty elsewhere"}}) +
-    analysis::Columns<CellRow>{{"second_value", &CellRow::second_value, "", "its value"}} +
-    within(&CellRow::of, Cells{{"second_unit", &StabilityCell::second_unit, "", "unit of that value"}}) +
-    analysis::Columns<CellRow>{{"precision", &CellRow::precision, "", "f32 or f64"}} +
-    within(&CellRow::of, Cells{{"time_step_s", &StabilityCell::time_step_s, "s", "time step"}}) +
-    analysis::Columns<CellRow>{
-        {"steps", &CellRow::steps, "", "steps that were run"},
-        {"outcome", &CellRow::outcome, "", "converged, bounded, inverted, diverged or not_finite; criteria.md defines them"},
-        {"recovery_steps", &CellRow::recovery_steps, "", "still steps until the body was at rest; empty: it was not"},
-        {"recovery_s", &CellRow::recovery_s, "s", "the same as time"},
-        {"iterations_until_reached", &CellRow::iterations_until_reached, "",
-         "from a broken initial state: iterations until the pose was reached"},
-        {"undisturbed_at_rest", &CellRow::undisturbed_at_rest, "", "yes: the same body comes to rest if nothing disturbs it"},
-        {"largest_reach_diagonals", &CellRow::largest_reach_diagonals, "diagonals",
-         "largest distance of a vertex from its place on the bones"},
-        {"last_reach_diagonals", &CellRow::last_reach_diagonals, "diagonals", "the same in the last step; empty where it is not finite"},
-        {"last_motion_diagonals", &CellRow::last_motion_diagonals, "diagonals", "how far a vertex moved in the last step"},
-        {"last_from_undisturbed_diagonals", &CellRow::last_from_undisturbed_diagonals, "diagonals",
-         "distance from the undisturbed body in the last step"},
-        {"most_inverted_tets", &CellRow::most_inverted_tets, "", "largest number of inverted tets in a step"},
-        {"last_inverted_tets", &CellRow::last_inverted_tets, "", "inverted tets in the last step"},
-        {"steps_not_reached", &CellRow::steps_not_reached, "", "steps whose solver did not converge"},
-        {"as_published", &CellRow::as_published, "", "yes: the method of the paper with settings that it allows"},
-        {"cpu_s", &CellRow::cpu_s, "s", "processor time"}};
+    within(&CellRow::of, MEMBER_COLUMNS(StabilityCell, body, model, factor, value, unit, named, second_factor)) +
+    analysis::Columns<CellRow>{{"second_value", &CellRow::second_value}} +
+    within(&CellRow::of, Cells{{"second_unit", &StabilityCell::second_unit}}) +
+    analysis::Columns<CellRow>{{"precision", &CellRow::precision}} +
+    within(&CellRow::of, Cells{{"time_step_s", &StabilityCell::time_step_s}}) +
+    MEMBER_COLUMNS(CellRow, steps, outcome, recovery_steps, recovery_s, iterations_until_reached, undisturbed_at_rest,
+                   largest_reach_diagonals, last_reach_diagonals, last_motion_diagonals, last_from_undisturbed_diagonals,
+                   most_inverted_tets, last_inverted_tets, steps_not_reached, as_published, cpu_s);
 
 CellRow cell_row(const MeasuredCell& measured)
 {
@@ -274,26 +252,9 @@ CsvTable map_csv(const std::vector<CellRow>& cells, const std::string& factor, c
     return table_of(columns, map);
 }
 
-const analysis::Columns<StartRow> start_columns = {
-    {"body", &StartRow::body, "", "name of the body"},
-    {"model", &StartRow::model, "", "deformer"},
-    {"precision", &StartRow::precision, "", "f32 or f64"},
-    {"pose", &StartRow::pose, "", "bend_90 or twist_90: the pose whose shape is sought"},
-    {"start", &StartRow::start, "", "flattened, mirrored, random or point: the initial shape"},
-    {"setting", &StartRow::setting, "", "the option that is changed; empty: all have their defaults"},
-    {"setting_value", &StartRow::setting_value, "", "its value"},
-    {"outcome", &StartRow::outcome, "", "reached, not_reached, diverged, not_finite or not_applicable; criteria.md defines them"},
-    {"iterations_until_reached", &StartRow::iterations_until_reached, "",
-     "the first tried number of iterations from which on all end within the bound; the tried numbers are powers of two"},
-    {"most_iterations", &StartRow::most_iterations, "", "the largest number of iterations that was tried"},
-    {"from_own_result_pct", &StartRow::from_own_result_pct, "%",
-     "distance at the joints from the deformer's own result after these iterations; empty: not finite"},
-    {"own_change_pct", &StartRow::own_change_pct, "%",
-     "how far the own result moves at the joints in the second half of its iterations; empty: not finite"},
-    {"inverted_tets", &StartRow::inverted_tets, "", "inverted tets after these iterations"},
-    {"own_inverted_tets", &StartRow::own_inverted_tets, "", "inverted tets in the own result"},
-    {"reason", &StartRow::reason, "", "why a broken start is not applicable"},
-    {"cpu_s", &StartRow::cpu_s, "s", "processor time"}};
+const analysis::Columns<StartRow> start_columns =
+    MEMBER_COLUMNS(StartRow, body, model, precision, pose, start, setting, setting_value, outcome, iterations_until_reached,
+                   most_iterations, from_own_result_pct, own_change_pct, inverted_tets, own_inverted_tets, reason, cpu_s);
 
 StartRow run_broken_start(const StabilityCell& cell, int most_iterations)
 {

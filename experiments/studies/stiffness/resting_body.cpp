@@ -18,23 +18,9 @@ using Row = StiffnessRow;
 using Setting = StiffnessSetting;
 
 const Columns<Row> stiffness_columns =
-    Columns<Row>{{"body", &Row::body, "", "name of the body"},
-                 {"load", &Row::load, "", "zone, zone_on_held or cantilever: what is loaded and what holds it"},
-                 {"vertices", &Row::vertices, "", "number of vertices"},
-                 {"edges", &Row::edges, "", "number of edges"},
-                 {"tets", &Row::tets, "", "number of tets"},
-                 {"mesh", &Row::mesh, "", "size that was asked for: wanted, or tenth_finer than that"}} +
-    within(&Row::setting, Columns<Setting>{{"method", &Setting::method, "", "solver"},
-                                           {"k_stretch", &Setting::k_stretch, "", "stiffness of PBS; of no meaning for XPBD"},
-                                           {"young_pa", &Setting::young_pa, "Pa", "stiffness of XPBD; of no meaning for PBS"},
-                                           {"iterations", &Setting::iterations, "", "iterations per step"},
-                                           {"time_step_ms", &Setting::time_step_ms, "ms", "time step"},
-                                           {"order_seed", &Setting::order_seed, "", "seed of the order of constraints; 0: file order"}}) +
-    Columns<Row>{{"by", &Row::by, "", "linear: the map of a step near rest; stepped: the solver in time"},
-                 {"force_n", &Row::force_n, "N", "weight of what hangs"},
-                 {"stiffness_n_m", &Row::stiffness_n_m, "N/m", "that weight over the mean displacement"},
-                 {"converged", &Row::converged, "", "the body came to rest"},
-                 {"steps", &Row::steps, "", "applications of the linear map, or time steps"}};
+    MEMBER_COLUMNS(Row, body, load, vertices, edges, tets, mesh) +
+    within(&Row::setting, MEMBER_COLUMNS(Setting, method, k_stretch, young_pa, iterations, time_step_ms, order_seed)) +
+    MEMBER_COLUMNS(Row, by, force_n, stiffness_n_m, converged, steps);
 
 namespace {
 

@@ -21,16 +21,10 @@ namespace experiments {
 const analysis::Columns<StiffnessExponent>& exponent_columns()
 {
     using Row = StiffnessExponent;
-    static const analysis::Columns<Row> columns =
-        analysis::Columns<Row>{{"varied", &Row::varied, "", "iterations, time_step or resolution"}} +
-        within(&Row::of, analysis::case_key_columns()) +
-        analysis::Columns<Row>{{"first", &Row::first, "", "first value of what is varied; time steps in ms"},
-                               {"last", &Row::last, "", "its last value"},
-                               {"points", &Row::points, "", "settings that the line is fitted to"},
-                               {"left_out", &Row::left_out, "", "settings that did not converge, or hang upwards"},
-                               {"exponent", &Row::exponent, "", "slope of log stiffness over the log of vertices, iterations or 1 / step"},
-                               {"exponent_low", &Row::low, "", "lower end of its 95 % range"},
-                               {"exponent_high", &Row::high, "", "upper end of its 95 % range"}};
+    static const analysis::Columns<Row> columns = analysis::Columns<Row>{{"varied", &Row::varied}} +
+                                                  within(&Row::of, analysis::case_key_columns()) +
+                                                  MEMBER_COLUMNS(Row, first, last, points, left_out, exponent) +
+                                                  analysis::Columns<Row>{{"exponent_low", &Row::low}, {"exponent_high", &Row::high}};
     return columns;
 }
 

@@ -143,21 +143,13 @@ std::vector<Target> targets(const std::vector<MeasuredOrder>& measured, const st
             {"volume_05_pct", &Look::volume_abs_change_pct, volume_tolerance_pct}};
 }
 
-const Columns<CaseKey> order_key_columns = {{"body", &CaseKey::body, "", "name of the body"},
-                                            {"motion", &CaseKey::motion, "", "twist, or the name of a clip"},
-                                            {"pose", &CaseKey::pose, "", "name of a pose in a clip"},
-                                            {"angle_deg", &CaseKey::angle_deg, "deg", "angle of the joint that is twisted"},
-                                            {"order", &CaseKey::order, "", "plain, ordered, grouped or poses"},
-                                            {"precision", &CaseKey::precision, "", "f32 or f64"}};
+const Columns<CaseKey> order_key_columns = MEMBER_COLUMNS(CaseKey, body, motion, pose, angle_deg, order, precision);
 
-Columns<OrderRow> look_columns(Look OrderRow::*look, const std::string& name, const std::string& when)
+Columns<OrderRow> look_columns(Look OrderRow::*look, const std::string& name)
 {
     return within(
-        look, Columns<Look>{{"residual_" + name, &Look::combined, "", "combined residual " + when},
-                            {"volume_abs_change_" + name + "_pct", &Look::volume_abs_change_pct, "%", "absolute volume change " + when}});
+        look, Columns<Look>{{"residual_" + name, &Look::combined}, {"volume_abs_change_" + name + "_pct", &Look::volume_abs_change_pct}});
 }
-
-const char* const sequence_meaning = "of the constraints: file, spread, random_SEED";
 
 }  // namespace
 
@@ -196,32 +188,19 @@ std::vector<MeasuredOrder> measure_orders(const EqualQualityCase& of)
     return measured;
 }
 
-const Columns<OrderRow> order_columns =
-    within(&OrderRow::of, order_key_columns) + Columns<OrderRow>{{"sequence", &OrderRow::sequence, "", sequence_meaning}} +
-    within(&OrderRow::ms_iteration, spread_columns("iteration_ms", "ms", "one iteration of one pose, processor time of one thread")) +
-    look_columns(&OrderRow::after_24, "24", "after 24 iterations") + look_columns(&OrderRow::limit, "limit", "after the last iteration") +
-    look_columns(&OrderRow::half, "half", "after half of the iterations") +
-    within(&OrderRow::limit, Columns<Look>{{"iterations", &Look::iteration, "", "number of the last iteration"}});
+const Columns<OrderRow> order_columns = within(&OrderRow::of, order_key_columns) + Columns<OrderRow>{{"sequence", &OrderRow::sequence}} +
+                                        within(&OrderRow::ms_iteration, spread_columns("iteration_ms")) +
+                                        look_columns(&OrderRow::after_24, "24") + look_columns(&OrderRow::limit, "limit") +
+                                        look_columns(&OrderRow::half, "half") +
+                                        within(&OrderRow::limit, Columns<Look>{{"iterations", &Look::iteration}});
 
 const Columns<TargetRow> target_columns =
-    within(&TargetRow::of, order_key_columns) +
-    Columns<TargetRow>{{"sequence", &TargetRow::sequence, "", sequence_meaning},
-                       {"target", &TargetRow::target, "",
-                        "residual_of_plain or volume_of_plain after 24 iterations in file order; volume_2_pct, volume_05_pct"},
-                       {"bound", &TargetRow::bound, "", "value of the target: a ratio, of a volume in %"},
-                       {"reached", &TargetRow::reached, "", "whether the value was ever at or below the bound"},
-                       {"iterations", &TargetRow::iterations, "", "until then"},
-                       {"ms", &TargetRow::ms, "ms", "time of these iterations, one thread, per pose"},
-                       {"limit", &TargetRow::limit, "", "the value after the last iteration: a ratio, of a volume in %"}};
+    within(&TargetRow::of, order_key_columns) + MEMBER_COLUMNS(TargetRow, sequence, target, bound, reached, iterations, ms, limit);
 
 const Columns<EqualAnswer> answer_columns = [] {
     Columns<TargetRow> in_file_order = target_columns;
     std::erase_if(in_file_order, [](const auto& column) { return column.name == "sequence" || column.name == "reached"; });
-    return within(&EqualAnswer::row, in_file_order) +
-           Columns<EqualAnswer>{
-               {"speedup_to_plain", &EqualAnswer::speedup_to_plain, "", "time of plain in file order to the same target over this one's"},
-               {"speedup_to_plain_spread", &EqualAnswer::speedup_to_plain_spread, "",
-                "time of plain in the spread sequence over this one's"}};
+    return within(&EqualAnswer::row, in_file_order) + MEMBER_COLUMNS(EqualAnswer, speedup_to_plain, speedup_to_plain_spread);
 }();
 
 std::optional<int> first_within(const IterationPath& path, double Look::*value, double bound)

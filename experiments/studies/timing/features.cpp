@@ -51,28 +51,18 @@ using analysis::Columns;
 using analysis::within;
 
 // The costs that are compared, in the order of costs_of_run.
-struct Cost {
-    Compared FeatureRow::*part;
-    const char *name, *unit, *meaning;
-};
-constexpr Cost compared_costs[] = {
-    {&FeatureRow::frame_ms, "frame_ms", "ms", "wall time per frame, everything included"},
-    {&FeatureRow::frame_cpu_ms, "frame_cpu_ms", "ms", "processor time of all threads per frame, everything included"},
-    {&FeatureRow::step_ms, "step_ms", "ms", "wall time of PBS's step"},
-    {&FeatureRow::step_cpu_ms, "step_cpu_ms", "ms", "processor time of PBS's step"},
-    {&FeatureRow::start_s, "start_s", "s", "wall time before the first frame"},
-    {&FeatureRow::peak_mb, "peak_mb", "MB", "peak memory, 10^6 bytes"}};
+constexpr std::pair<Compared FeatureRow::*, const char*> compared_costs[] = {
+    {&FeatureRow::frame_ms, "frame_ms"},       {&FeatureRow::frame_cpu_ms, "frame_cpu_ms"}, {&FeatureRow::step_ms, "step_ms"},
+    {&FeatureRow::step_cpu_ms, "step_cpu_ms"}, {&FeatureRow::start_s, "start_s"},           {&FeatureRow::peak_mb, "peak_mb"}};
 
 Columns<FeatureRow> cost_columns()
 {
     const QuartileEndings endings = {"_lower", "_upper"};
     Columns<FeatureRow> all;
-    for (const auto& [part, name, unit, meaning] : compared_costs)
-        for (const auto& [of, ending, of_unit, words] :
-             {std::tuple(&Compared::without, "_without", unit, ", without"), std::tuple(&Compared::with, "_with", unit, ", with"),
-              std::tuple(&Compared::ratio, "_ratio", "", ", with / without")})
-            all =
-                all + within(part, within(of, spread_columns(std::string(name) + ending, of_unit, std::string(meaning) + words, endings)));
+    for (const auto& [part, name] : compared_costs)
+        for (const auto& [of, ending] :
+             {std::pair(&Compared::without, "_without"), std::pair(&Compared::with, "_with"), std::pair(&Compared::ratio, "_ratio")})
+            all = all + within(part, within(of, spread_columns(std::string(name) + ending, endings)));
     return all;
 }
 
@@ -116,16 +106,10 @@ std::optional<ResultChange> change_by(const Feature& feature, const FeaturesCase
 
 using Rows = Columns<FeatureRow>;
 const Rows feature_columns =
-    Rows{{"scene", &FeatureRow::scene, "", "name of the run"},
-         {"feature", &FeatureRow::feature, "", "what the second scene of the pair has"},
-         {"rounds", &FeatureRow::rounds, "", "runs of each scene"}} +
-    cost_columns() +
-    Rows{{"shared_objects_without", &FeatureRow::shared_objects_without, "", "loaded libraries, without"},
-         {"shared_objects_with", &FeatureRow::shared_objects_with, "", "loaded libraries, with"}} +
-    within(&FeatureRow::change,
-           Columns<ResultChange>{
-               {"largest_distance_m", &ResultChange::distance_m, "m", "largest distance of a vertex between the two results"},
-               {"volume_difference_pct", &ResultChange::volume_difference_pct, "%", "largest difference of the two volume changes"}});
+    MEMBER_COLUMNS(FeatureRow, scene, feature, rounds) + cost_columns() +
+    MEMBER_COLUMNS(FeatureRow, shared_objects_without, shared_objects_with) +
+    within(&FeatureRow::change, Columns<ResultChange>{{"largest_distance_m", &ResultChange::distance_m},
+                                                      {"volume_difference_pct", &ResultChange::volume_difference_pct}});
 
 RECORD_SETTINGS(Variant, overrides, threads, progress)
 RECORD_SETTINGS(Feature, name, without, with, changes_result)
@@ -160,7 +144,7 @@ FeatureRow feature_row(const std::string& scene, const std::string& feature, con
     row.feature = feature;
     row.change = change;
     std::size_t cost = 0;
-    for (const Cost& one : compared_costs) row.*one.part = compare(without.at(cost), with.at(cost)), ++cost;
+    for (const auto& [part, name] : compared_costs) row.*part = compare(without.at(cost), with.at(cost)), ++cost;
     row.rounds = row.frame_ms.ratio.rounds;
     row.shared_objects_without = static_cast<int>(without.at(cost).back());
     row.shared_objects_with = static_cast<int>(with.at(cost).back());

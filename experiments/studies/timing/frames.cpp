@@ -95,17 +95,16 @@ private:
 struct RecordedPart {
     FramePart sample;
     Spread FrameTiming::*ms;
-    const char *name, *meaning;
+    const char* name;
     bool is_value = false;
 };
-constexpr RecordedPart recorded_parts[] = {
-    {lbs_s, &FrameTiming::lbs_ms, "lbs_ms", "LBS, processor time", true},
-    {bind_s, &FrameTiming::bind_ms, "bind_ms", "bind constraints, 24 iterations, processor time", true},
-    {stretch_s, &FrameTiming::stretch_ms, "stretch_ms", "stretch constraints, 24 iterations, processor time", true},
-    {volume_s, &FrameTiming::volume_ms, "volume_ms", "volume constraints, 24 iterations, processor time", true},
-    {rest_s, &FrameTiming::rest_ms, "rest_ms", "a step without iterations, processor time"},
-    {total_s, &FrameTiming::total_ms, "total_ms", "the whole frame, processor time", true},
-    {total_wall_s, &FrameTiming::total_wall_ms, "total_wall_ms", "the whole frame, wall time"}};
+constexpr RecordedPart recorded_parts[] = {{lbs_s, &FrameTiming::lbs_ms, "lbs_ms", true},
+                                           {bind_s, &FrameTiming::bind_ms, "bind_ms", true},
+                                           {stretch_s, &FrameTiming::stretch_ms, "stretch_ms", true},
+                                           {volume_s, &FrameTiming::volume_ms, "volume_ms", true},
+                                           {rest_s, &FrameTiming::rest_ms, "rest_ms"},
+                                           {total_s, &FrameTiming::total_ms, "total_ms", true},
+                                           {total_wall_s, &FrameTiming::total_wall_ms, "total_wall_ms"}};
 
 using analysis::Columns;
 using analysis::within;
@@ -117,12 +116,11 @@ constexpr int most_rounds = 61;
 using Frame = Columns<FrameTiming>;
 Frame frame_columns()
 {
-    Frame all = {{"variant", &FrameTiming::variant, "", "plain or ordered"},
-                 {"precision", &FrameTiming::precision, "", "f32 or f64"},
-                 {"rounds", [](auto& timing) -> decltype(auto) { return (timing.total_ms.rounds); }, "", "timed rounds"}};
-    for (const RecordedPart& part : recorded_parts) all = all + within(part.ms, spread_columns(part.name, "ms", part.meaning));
-    return all + within(&FrameTiming::surface_ms, spread_columns("surface_ms", "ms", "the embedded surface, processor time")) +
-           within(&FrameTiming::drawn_wall_ms, spread_columns("drawn_wall_ms", "ms", "frame and surface, wall time"));
+    Frame all =
+        MEMBER_COLUMNS(FrameTiming, variant, precision) + within(&FrameTiming::total_ms, Columns<Spread>{{"rounds", &Spread::rounds}});
+    for (const RecordedPart& part : recorded_parts) all = all + within(part.ms, spread_columns(part.name));
+    return all + within(&FrameTiming::surface_ms, spread_columns("surface_ms")) +
+           within(&FrameTiming::drawn_wall_ms, spread_columns("drawn_wall_ms"));
 }
 
 analysis::Measurement measured(const TimingRow& row, const std::string& quantity, double value, double low, double high,
@@ -187,24 +185,10 @@ const TableOneRow* table_1_row(const std::string& model)
 
 using TimingRows = Columns<TimingRow>;
 const TimingRows timing_columns =
-    TimingRows{{"mesh", &TimingRow::mesh, "", "name of the mesh"},
-               {"body", &TimingRow::body, "", "name of the body"},
-               {"model", &TimingRow::model, "", "row of Table 1 that it is made to; empty: a step of the ladder of sizes"},
-               {"stands_in", &TimingRow::stands_in, "", "the body is not the one that the model names"},
-               {"vertices", &TimingRow::vertices, "", "vertices of the tet mesh"},
-               {"edges", &TimingRow::edges, "", "edges of the tet mesh"},
-               {"tets", &TimingRow::tets, "", "tets of the mesh"},
-               {"surface_vertices", &TimingRow::surface_vertices, "", "vertices of the embedded surface"},
-               {"vertices_over_table_1", &TimingRow::vertices_over_table_1, "", "vertices over those of the model"},
-               {"edges_over_table_1", &TimingRow::edges_over_table_1, "", "edges over the model's stretch constraints"},
-               {"tets_over_table_1", &TimingRow::tets_over_table_1, "", "tets over those of the model"}} +
+    MEMBER_COLUMNS(TimingRow, mesh, body, model, stands_in, vertices, edges, tets, surface_vertices, vertices_over_table_1,
+                   edges_over_table_1, tets_over_table_1) +
     within(&TimingRow::timing, frame_columns()) +
-    TimingRows{{"frames_per_s", &TimingRow::frames_per_s, "1/s", "frame rate by wall time"},
-               {"drawn_frames_per_s", &TimingRow::drawn_frames_per_s, "1/s", "frame rate by wall time, with the surface"},
-               {"paper_frames_per_s", &TimingRow::paper_frames_per_s, "1/s", "frame rate in Table 1"},
-               {"paper_ms", &TimingRow::paper_ms, "ms", "time per frame by that frame rate"},
-               {"paper_ct_ms", &TimingRow::paper_ct_ms, "ms", "time per step by the CT total of Table 1, which is of 100 steps"},
-               {"cpu_model", &TimingRow::cpu_model, "", "the processor"}};
+    MEMBER_COLUMNS(TimingRow, frames_per_s, drawn_frames_per_s, paper_frames_per_s, paper_ms, paper_ct_ms, cpu_model);
 
 std::vector<TimingRow> timing_rows(const TimingRow& mesh, const std::vector<FrameTiming>& timings)
 {
@@ -262,12 +246,7 @@ analysis::Measurement author_frame_rate(const TimingRow& mesh, const pbs::Charac
     return rate;
 }
 
-const Columns<RealTimeEnd> real_time_columns = {
-    {"variant", &RealTimeEnd::variant, "", "plain or ordered"},
-    {"precision", &RealTimeEnd::precision, "", "f32 or f64"},
-    {"vertices", &RealTimeEnd::vertices, "", "up to which it reaches 30 frames per second by wall time, on the line through the ladder"},
-    {"is_beyond", &RealTimeEnd::is_beyond, "", "more vertices than those of the largest mesh"},
-    {"exponent", &RealTimeEnd::exponent, "", "of that line: time per frame ~ vertices^exponent"}};
+const Columns<RealTimeEnd> real_time_columns = MEMBER_COLUMNS(RealTimeEnd, variant, precision, vertices, is_beyond, exponent);
 
 std::vector<RealTimeEnd> real_time_ends(const std::vector<TimingRow>& rows)
 {

@@ -21,7 +21,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace experiments {
@@ -52,7 +51,7 @@ pbs::Positions shape(const pbs::Character& limb, const FemOptions& options, cons
     ElasticFemDeformer deformer(options);
     deformer.reset(limb);
     if (deformer.advance(pose, 0.01).outcome == pbs::Outcome::finished) return deformer.positions();
-    return pbs::Positions::Constant(limb.mesh.rest.rows(), 3, std::numeric_limits<double>::quiet_NaN());
+    return pbs::Positions::Constant(limb.mesh.rest.rows(), 3, not_reached);
 }
 
 // Root mean square distance over that of `to` from rest.
@@ -64,19 +63,12 @@ double distance(const pbs::Character& limb, const pbs::Positions& one, const pbs
 VerificationRow row_of(const pbs::Character& limb, const RowQuantity& quantity, double value, double reference, double tolerance,
                        const std::string& from)
 {
-    return {.problem = "attached_limb",
-            .quantity = quantity,
-            .elements = elements_of(1),
-            .material = material_of("neo_hookean", 0.45),
-            .mesh = "limb, " + std::to_string(limb.mesh.rest.rows()) + " vertices",
-            .dofs = static_cast<int>(3 * limb.mesh.rest.rows()),
-            .value = value,
-            .reference = reference,
-            .unit = "1",
-            .source = "closed form: theory of elasticity",
-            .low = reference - tolerance,
-            .high = reference + tolerance,
-            .bound_from = from};
+    VerificationRow row =
+        row_about({"attached_limb", elements_of(1), material_of("neo_hookean", 0.45),
+                   "limb, " + std::to_string(limb.mesh.rest.rows()) + " vertices", 0.0, static_cast<int>(3 * limb.mesh.rest.rows())},
+                  quantity, value, reference, "1", "closed form: theory of elasticity");
+    bound(row, reference - tolerance, reference + tolerance, from);
+    return row;
 }
 
 VerificationRow young_cancels(const pbs::Character& limb)
@@ -115,9 +107,8 @@ VerificationRow found_poisson(const Effort& effort, const pbs::Character& limb)
     const pbs::Positions made = of(solver_material(effort, {1e5, made_with}).poisson);
     const analysis::Minimum fit =
         analysis::minimise([&](double poisson) { return distance(limb, of(poisson), made); }, 0.3, 0.45, {.samples = 4, .tolerance = 1e-4});
-    return row_of(limb, {"fitted_poisson", "Poisson's ratio fitted to a shape of 0.37"},
-                  fit.identifiable() ? fit.x : std::numeric_limits<double>::quiet_NaN(), made_with, 1e-4,
-                  "the minimiser's tolerance: 1e-4 of an interval of 0.15, and as much again where the misfit bends");
+    return row_of(limb, {"fitted_poisson", "Poisson's ratio fitted to a shape of 0.37"}, fit.identifiable() ? fit.x : not_reached,
+                  made_with, 1e-4, "the minimiser's tolerance: 1e-4 of an interval of 0.15, and as much again where the misfit bends");
 }
 
 VerificationRow kept_factor(const pbs::Character& limb)
@@ -132,8 +123,7 @@ VerificationRow kept_factor(const pbs::Character& limb)
     std::nth_element(later_s.begin(), later_s.begin() + 3, later_s.end());
     VerificationRow row = row_of(limb, {"time_of_further_frame", "time of a further frame over that of the first, set-up included"},
                                  later_s[3] / first_s, 0.0, 0.0, "");
-    row.low.reset();
-    row.high.reset();
+    unbound(row);
     row.elements = elements_of(2);
     row.material = linear_material(0.45);
     row.source = "none: a cost of this run; at most 1/50 is wanted of a factor that is kept";
@@ -178,16 +168,13 @@ public:
         return norms_.measure(one.topRows(limb_.mesh.rest.rows()), other.topRows(limb_.mesh.rest.rows())).joint_pct;
     }
 
-    VerificationRow row(const RowQuantity& quantity, const std::string& unit, double value) const
+    VerificationRow row(const RowQuantity& quantity, double value, double reference, const std::string& unit,
+                        const std::string& source) const
     {
-        return {.problem = "error_split",
-                .quantity = quantity,
-                .elements = elements_of(1),
-                .material = material_of("neo_hookean", 0.45),
-                .mesh = fmt::format("limb, {} vertices, twist of {:.0f} degrees", limb_.mesh.rest.rows(), twist_deg),
-                .dofs = static_cast<int>(3 * limb_.mesh.rest.rows()),
-                .value = value,
-                .unit = unit};
+        const std::string mesh = fmt::format("limb, {} vertices, twist of {:.0f} degrees", limb_.mesh.rest.rows(), twist_deg);
+        return row_about(
+            {"error_split", elements_of(1), material_of("neo_hookean", 0.45), mesh, 0.0, static_cast<int>(3 * limb_.mesh.rest.rows())},
+            quantity, value, reference, unit, source);
     }
 
 private:
@@ -204,11 +191,9 @@ VerificationRow whole_and_parts(const TwistedLimb& limb, const pbs::Positions& f
     VerificationRow row =
         limb.row({"error_over_parts", fmt::format("error after {} iterations over the sum of its solver and model parts", iterations),
                   fmt::format("iterations_{}", iterations)},
-                 "1", limb.distance_pct(stopped, flesh) / (solver + model));
-    row.reference = 1.0;
-    row.low = std::abs(solver - model) / (solver + model) - 1e-12;
-    row.high = 1.0 + 1e-12;
-    row.source = row.bound_from = "closed form: triangle inequality of a norm; 1 where the parts point the same way";
+                 limb.distance_pct(stopped, flesh) / (solver + model), 1.0, "1",
+                 "closed form: triangle inequality of a norm; 1 where the parts point the same way");
+    bound(row, std::abs(solver - model) / (solver + model) - 1e-12, 1.0 + 1e-12, row.source);
     return row;
 }
 
@@ -220,21 +205,20 @@ VerificationRow bound_covers(const TwistedLimb& limb, const TwistedLimb& refined
 {
     FemOptions quadratic = limb_flesh;
     quadratic.element_order = 2;
-    const double bound = analysis::two_fields(limb.distance_pct(refined.flesh(limb_flesh), flesh), 2.0, order_of_smooth_springs).bounds[1];
-    VerificationRow row = limb.row({"distance_over_bound", "distance from refined P2 flesh over the bound from two meshes of P1"}, "1",
-                                   limb.distance_pct(refined.flesh(quadratic), flesh) / bound);
-    row.low = 0.0;
-    row.high = 1.0;
-    row.source = row.bound_from = "P. J. Roache, Journal of Fluids Engineering 116, 1994: the index bounds the distance from the limit";
+    const double of_two_meshes =
+        analysis::two_fields(limb.distance_pct(refined.flesh(limb_flesh), flesh), 2.0, order_of_smooth_springs).bounds[1];
+    VerificationRow row = limb.row({"distance_over_bound", "distance from refined P2 flesh over the bound from two meshes of P1"},
+                                   limb.distance_pct(refined.flesh(quadratic), flesh) / of_two_meshes, 0.0, "1",
+                                   "P. J. Roache, Journal of Fluids Engineering 116, 1994: the index bounds the distance from the limit");
+    bound(row, 0.0, 1.0, row.source);
     return row;
 }
 
 VerificationRow variant(const TwistedLimb& limb, const pbs::Positions& flesh, const FemOptions& options, const std::string& key)
 {
-    VerificationRow row = limb.row({"distance_of_variant", "distance from flesh held by smooth springs, q 10, core 0.7: " + key, key},
-                                   "% of the bone distance", limb.distance_pct(limb.flesh(options), flesh));
-    row.source = "none: the effect of a choice, for information";
-    return row;
+    return limb.row({"distance_of_variant", "distance from flesh held by smooth springs, q 10, core 0.7: " + key, key},
+                    limb.distance_pct(limb.flesh(options), flesh), 0.0, "% of the bone distance",
+                    "none: the effect of a choice, for information");
 }
 
 constexpr double spring_factor = 100.0, amplitude = 0.1;
@@ -297,24 +281,6 @@ Springs springs_of_bone(const ManufacturedSprings& of)
     return springs;
 }
 
-// The exact values at the nodes on the surface of the cube are prescribed.
-struct Prescribed {
-    Eigen::VectorXd values;
-    std::vector<bool> dofs;
-};
-
-Prescribed prescribed_on_surface(const SimplexSpace& space)
-{
-    Prescribed prescribed{Eigen::VectorXd(space.dofs()), std::vector<bool>(space.dofs(), false)};
-    for (int node = 0; node < space.nodes(); ++node) {
-        const Vec3 at = space.node_positions().row(node);
-        prescribed.values.segment<3>(3 * node) = exact(at);
-        const bool on_surface = at.minCoeff() < 1e-12 || at.maxCoeff() > 1.0 - 1e-12;
-        for (int c = 0; c < 3; ++c) prescribed.dofs[3 * node + c] = on_surface;
-    }
-    return prescribed;
-}
-
 }  // namespace
 
 VerificationRows attached_limb_rows(const Effort& effort)
@@ -362,9 +328,9 @@ AttachedSolution solve_manufactured(const pbs::TetMesh& mesh, int element_order,
     held.move_to(springs.targets);
     const DeadLoad load(load_vector(space, [&](const Vec3& x) { return body_force(x, of.offset_m); }));
 
-    const Prescribed prescribed = prescribed_on_surface(space);
+    const PrescribedData prescribed = prescribed_data(space, {.displacement = exact});
     Eigen::VectorXd displacement = Eigen::VectorXd::Zero(space.dofs());
-    NewtonMinimiser newton(space, prescribed.dofs, LinearSolver::cholmod);
+    NewtonMinimiser newton(space, prescribed.held, LinearSolver::cholmod);
     const bool converged = newton.minimise({&flesh, &held, &load}, prescribed.values, displacement, {}).converged();
 
     const double error = error_norms(space, displacement, exact, exact_gradient).l2;

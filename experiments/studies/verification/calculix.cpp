@@ -36,15 +36,11 @@ VerificationRow limb_row(const CalculixComparison& comparison, const pbs::Charac
     VerificationRow row = calculix_row(comparison, (smooth ? "limb, smooth attachment, " : "limb, ") + pose.name,
                                        linear ? "linear" : "st_venant_kirchhoff", answer, deck_options(body));
     row.mesh = std::to_string(limb.mesh.rest.rows()) + " vertices";
-    if (smooth) {
-        row.high = difference_bound(limb.mesh, body, answer.displacements);
-        row.bound_from = difference_bound_text(pose.model);
-    }
+    if (smooth) bound(row, {}, difference_bound(limb.mesh, body, answer.displacements), difference_bound_text(pose.model));
     if (pose.model == BodyModel::st_venant_kirchhoff_at_four_points) row.note += "P2 integrated by C3D10's four points";
     if (pose.model == BodyModel::st_venant_kirchhoff && pose.element_order == 2) {
         row.quantity.setting += "_six_points";
-        row.high.reset();
-        row.bound_from.clear();
+        unbound(row);
         row.note += "six quadrature points against C3D10's four";
     }
     return row;

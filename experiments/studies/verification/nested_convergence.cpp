@@ -8,7 +8,6 @@
 #include "reference_fem/verification/problems.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace experiments {
 
@@ -18,7 +17,6 @@ namespace {
 
 constexpr int cells = 4;  // along each edge of the cube
 constexpr double formal_order = 2.0;
-const std::string source = "closed form: u_i = A sin(a_i . x + phi_i) with the springs and the body force that belong to it";
 
 // Root mean square over the vertices [m].
 double rms(const pbs::Positions& one, const pbs::Positions& other)
@@ -43,7 +41,7 @@ NestedSolutions solve_nested(const Effort& effort)
         const AttachedSolution solution = solve_manufactured(on, element_order, {}, solver_material(effort, manufactured_material));
         solutions.dofs = solution.dofs;
         if (solution.converged) return solution.positions.topRows(mesh.rest.rows());
-        return pbs::Positions::Constant(mesh.rest.rows(), 3, std::numeric_limits<double>::quiet_NaN());
+        return pbs::Positions::Constant(mesh.rest.rows(), 3, not_reached);
     };
     solutions.linear = solved(mesh, 1);
     solutions.linear_refined = solved(refined, 1);
@@ -52,18 +50,12 @@ NestedSolutions solve_nested(const Effort& effort)
     return solutions;
 }
 
-VerificationRow row_of(const RowQuantity& quantity, int element_order, const std::string& unit, double value, int dofs)
+VerificationRow row_of(const RowQuantity& quantity, int element_order, double value, double reference, const std::string& unit, int dofs)
 {
-    return {.problem = "nested_convergence",
-            .quantity = quantity,
-            .elements = elements_of(element_order),
-            .material = material_of("stable_neo_hookean", manufactured_material.poisson),
-            .mesh = text_of({cells, cells, cells}) + " jittered, and cut into eight",
-            .h_m = 0.5 / cells,
-            .dofs = dofs,
-            .value = value,
-            .unit = unit,
-            .source = source};
+    return row_about({"nested_convergence", elements_of(element_order), material_of("stable_neo_hookean", manufactured_material.poisson),
+                      text_of({cells, cells, cells}) + " jittered, and cut into eight", 0.5 / cells, dofs},
+                     quantity, value, reference, unit,
+                     "closed form: u_i = A sin(a_i . x + phi_i) with the springs and the body force that belong to it");
 }
 
 // The finest solution stands for the limit. Its error changes the two distances of the linear ones by at most itself.
@@ -71,35 +63,31 @@ VerificationRow order_row(const NestedSolutions& solutions, const analysis::Nest
 {
     const double linear = solutions.error_of(solutions.linear), refined = solutions.error_of(solutions.linear_refined),
                  finest = solutions.error_of(solutions.finest);
-    VerificationRow row = row_of({"observed_order", "order of linear elements by their distances from the finest solution"}, 1, "1",
-                                 order.observed, solutions.dofs);
-    row.reference = std::log2(linear / refined);
-    row.low = row.reference + std::log2((1.0 - finest / linear) / (1.0 + finest / refined));
-    row.high = row.reference + std::log2((1.0 + finest / linear) / (1.0 - finest / refined));
+    VerificationRow row = row_of({"observed_order", "order of linear elements by their distances from the finest solution"}, 1,
+                                 order.observed, std::log2(linear / refined), "1", solutions.dofs);
+    bound(row, row.reference + std::log2((1.0 - finest / linear) / (1.0 + finest / refined)),
+          row.reference + std::log2((1.0 + finest / linear) / (1.0 - finest / refined)),
+          "the order of the true errors; the error of the finest solution changes each distance by at most itself");
     row.note = order.reliable ? "reliable" : "not reliable";
-    row.bound_from = "the order of the true errors; the error of the finest solution changes each distance by at most itself";
     return row;
 }
 
 // The bound must cover the true error and be smaller than the error of the next coarser solution.
-VerificationRow bound_row(const NestedSolutions& solutions, const RowQuantity& quantity, double bound, const pbs::Positions& of,
+VerificationRow bound_row(const NestedSolutions& solutions, const RowQuantity& quantity, double value, const pbs::Positions& of,
                           const pbs::Positions& coarser)
 {
-    VerificationRow row = row_of(quantity, 2, "m", bound, solutions.dofs);
-    row.low = row.reference = solutions.error_of(of);
-    row.high = solutions.error_of(coarser);
-    row.bound_from = "the true errors of the solution and of the refined linear one";
+    VerificationRow row = row_of(quantity, 2, value, solutions.error_of(of), "m", solutions.dofs);
+    bound(row, row.reference, solutions.error_of(coarser), "the true errors of the solution and of the refined linear one");
     return row;
 }
 
 VerificationRow limit_row(const NestedSolutions& solutions, const analysis::NestedOrder& order)
 {
     const pbs::Positions limit = analysis::extrapolated(solutions.finest, solutions.quadratic, order.order + 1.0);
-    VerificationRow row =
-        row_of({"extrapolated_error", "error of the extrapolated quadratic solutions"}, 2, "m", solutions.error_of(limit), solutions.dofs);
-    row.low = 0.0;
-    row.high = solutions.error_of(solutions.finest);
-    row.bound_from = "the true error of the finest solution, from which it must extrapolate towards the limit";
+    VerificationRow row = row_of({"extrapolated_error", "error of the extrapolated quadratic solutions"}, 2, solutions.error_of(limit), 0.0,
+                                 "m", solutions.dofs);
+    bound(row, 0.0, solutions.error_of(solutions.finest),
+          "the true error of the finest solution, from which it must extrapolate towards the limit");
     return row;
 }
 
@@ -116,14 +104,12 @@ VerificationRow least_squares_row(const Effort& effort)
         dofs = solution.dofs;
         mesh = pbs::refine(mesh).mesh;
     }
-    VerificationRow row = row_of({"least_squares_order", "order of the error in L2 on three meshes, by least squares"}, 1, "1",
-                                 analysis::observed_order(h_m, errors).slope.estimate, dofs);
+    VerificationRow row = row_of({"least_squares_order", "order of the error in L2 on three meshes, by least squares"}, 1,
+                                 analysis::observed_order(h_m, errors).slope.estimate, formal_order, "1", dofs);
     row.mesh = text_of({cells, cells, cells}) + " jittered, and cut into eight twice";
     row.h_m = h_m.back();
-    row.reference = formal_order;
-    row.low = formal_order - 2.0 * order_tolerance;
-    row.high = formal_order + 2.0 * order_tolerance;
-    row.bound_from = "order of interpolation (Brenner and Scott 2008, ch. 5) within 0.2: errors C h^2 (1 + c h) on the coarser meshes";
+    bound(row, formal_order - 2.0 * order_tolerance, formal_order + 2.0 * order_tolerance,
+          "order of interpolation (Brenner and Scott 2008, ch. 5) within 0.2: errors C h^2 (1 + c h) on the coarser meshes");
     return row;
 }
 
@@ -131,18 +117,11 @@ constexpr double published_order = 1.786170, published_index_pct = 0.103083, pub
 
 VerificationRow row_of(const RowQuantity& quantity, const std::string& unit, double value, double reference, double half_a_digit)
 {
-    return {.problem = "grid_convergence",
-            .quantity = quantity,
-            .elements = {.formulation = "two_grids"},
-            .material = {"none"},
-            .mesh = "ratio 2",
-            .value = value,
-            .reference = reference,
-            .unit = unit,
-            .source = "NPARC Alliance CFD Verification and Validation, Examining spatial (grid) convergence",
-            .low = reference - half_a_digit,
-            .high = reference + half_a_digit,
-            .bound_from = "half of the last printed digit"};
+    VerificationRow row =
+        row_about({"grid_convergence", {.formulation = "two_grids"}, {"none"}, "ratio 2", 0.0, 0}, quantity, value, reference, unit,
+                  "NPARC Alliance CFD Verification and Validation, Examining spatial (grid) convergence");
+    bound(row, reference - half_a_digit, reference + half_a_digit, "half of the last printed digit");
+    return row;
 }
 
 }  // namespace

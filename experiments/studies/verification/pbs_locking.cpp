@@ -52,17 +52,10 @@ Positions end_load(const pbs::TetMesh& bar)
     return load;
 }
 
-VerificationRow row_on(const Clamped& clamped, const RowQuantity& quantity)
+RowSolution on(const Clamped& clamped, const std::string& formulation, const RowMaterial& material)
 {
-    VerificationRow row;
-    row.problem = "locking";
-    row.quantity = quantity;
-    row.elements = {.formulation = "volume_constraints"};
-    row.mesh = text_of(clamped.divisions);
-    row.h_m = 1.0 / clamped.divisions[1];
-    row.dofs = 3 * static_cast<int>(clamped.bar.rest.rows());
-    row.unit = "1";
-    return row;
+    const int dofs = 3 * static_cast<int>(clamped.bar.rest.rows());
+    return {"locking", {.formulation = formulation}, material, text_of(clamped.divisions), 1.0 / clamped.divisions[1], dofs};
 }
 
 // The deflection is linear in 1 / lambda as lambda grows, with an error of the second order. A tenth of the difference between two
@@ -75,22 +68,18 @@ VerificationRows deflection_rows(const Effort& effort, const Clamped& clamped)
     const auto p1 = [&](double nu) { return cantilever_row(effort, nu, 1, Formulation::displacement, clamped.divisions); };
     const VerificationRow near = p1(0.4999), nearer = p1(0.49999);
 
-    VerificationRow beam = row_on(clamped, {"tip_deflection", "tip deflection"});
-    beam.material = linear_material(0.5);
-    beam.value = deflection_m;
-    beam.reference = nearer.reference;
-    beam.unit = "m";
-    beam.source = nearer.source + ", at nu = 0.49999";
+    const RowSolution solution = on(clamped, "volume_constraints", linear_material(0.5));
+    VerificationRow beam =
+        row_about(solution, {"tip_deflection", "tip deflection"}, deflection_m, nearer.reference, "m", nearer.source + ", at nu = 0.49999");
     beam.note = "the share of bending that one volume constraint a tet leaves";
 
-    VerificationRow limit = beam;
-    limit.quantity = {"tip_deflection_of_p1_limit", "tip deflection, against P1's limit"};
     const double per_difference = (1.0 - 2.0 * 0.49999) / (2.0 * (0.49999 - 0.4999));  // 1 - 2 nu is in proportion to mu / lambda
-    limit.reference = nearer.value - per_difference * (near.value - nearer.value);
-    limit.low = limit.reference - 0.1 * std::abs(near.value - nearer.value);
-    limit.high = limit.reference + 0.1 * std::abs(near.value - nearer.value);
-    limit.source = "P1 at nu = 0.4999 and 0.49999, extrapolated along 1 / lambda to 0";
-    limit.bound_from = "a tenth of the difference of the two: the line's error is of the second order";
+    const double tolerance_m = 0.1 * std::abs(near.value - nearer.value);
+    VerificationRow limit = row_about(solution, {"tip_deflection_of_p1_limit", "tip deflection, against P1's limit"}, deflection_m,
+                                      nearer.value - per_difference * (near.value - nearer.value), "m",
+                                      "P1 at nu = 0.4999 and 0.49999, extrapolated along 1 / lambda to 0");
+    bound(limit, limit.reference - tolerance_m, limit.reference + tolerance_m,
+          "a tenth of the difference of the two: the line's error is of the second order");
     limit.note = "the same constraints: grad C of the paper is the divergence of P1";
     return {beam, limit};
 }
@@ -98,11 +87,11 @@ VerificationRows deflection_rows(const Effort& effort, const Clamped& clamped)
 VerificationRow count_row(const Clamped& clamped)
 {
     const pbs::VolumeConstraints volumes(clamped.bar, clamped.held);
-    VerificationRow row = row_on(clamped, {"share_of_motions_left", "motions left, share of all"});
     const int rank = volumes.rank();
-    row.value = 1.0 - static_cast<double>(rank) / volumes.dofs();
-    row.reference = 1.0 - static_cast<double>(volumes.constraints()) / volumes.dofs();
-    row.source = "counting one constraint a tet, as if all were independent";
+    VerificationRow row =
+        row_about(on(clamped, "volume_constraints", {}), {"share_of_motions_left", "motions left, share of all"},
+                  1.0 - static_cast<double>(rank) / volumes.dofs(), 1.0 - static_cast<double>(volumes.constraints()) / volumes.dofs(), "1",
+                  "counting one constraint a tet, as if all were independent");
     row.note = fmt::format("{} constraints of rank {} on {} free components", volumes.constraints(), rank, volumes.dofs());
     return row;
 }
@@ -115,7 +104,7 @@ double sag_over_dt2(const Clamped& clamped, double k_stretch, double k_volume)
     options.k_volume = k_volume;
     options.masses = pbs::Masses::lumped;
     const pbs::RestingState state = pbs::settle(clamped.bar, clamped.held, options, -Vec3::UnitZ());
-    return state.converged ? state.displacement.cwiseAbs().maxCoeff() : std::nan("");
+    return state.converged ? state.displacement.cwiseAbs().maxCoeff() : not_reached;
 }
 
 VerificationRows sag_rows(const Clamped& clamped, double k_stretch)
@@ -124,13 +113,10 @@ VerificationRows sag_rows(const Clamped& clamped, double k_stretch)
     const double without = sag_over_dt2(clamped, k_stretch, 0.0);
     for (const double k_volume : {0.01, 0.1, 1.0}) {
         const std::string setting = fmt::format("k_stretch_{:g}_k_volume_{:g}_{}_iterations", k_stretch, k_volume, iterations);
-        VerificationRow row = row_on(clamped, {"sag_ratio", "sag over sag without volume constraints, " + setting, setting});
-        row.elements = {.formulation = "pbs"};
-        row.value = sag_over_dt2(clamped, k_stretch, k_volume) / without;
-        row.reference = 5.0 / 6.0;
-        row.source = "closed form: E = 2.5 mu of central forces, 3 mu where no volume changes";
-        row.note = "below the reference: locking";
-        rows.push_back(row);
+        rows.push_back(row_about(on(clamped, "pbs", {}), {"sag_ratio", "sag over sag without volume constraints, " + setting, setting},
+                                 sag_over_dt2(clamped, k_stretch, k_volume) / without, 5.0 / 6.0, "1",
+                                 "closed form: E = 2.5 mu of central forces, 3 mu where no volume changes"));
+        rows.back().note = "below the reference: locking";
     }
     return rows;
 }

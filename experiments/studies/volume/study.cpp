@@ -98,8 +98,7 @@ StudyPlan plan(bool full)
 bool conclude(const FinishedRuns& finished)
 {
     static const analysis::Columns<RegionOfRun> columns =
-        analysis::Columns<RegionOfRun>{{"run", &RegionOfRun::run, "", "name of the run"}} +
-        analysis::within(&RegionOfRun::region, region_columns);
+        analysis::Columns<RegionOfRun>{{"run", &RegionOfRun::run}} + analysis::within(&RegionOfRun::region, region_columns);
     std::vector<RegionOfRun> all;
     for (const std::string& file : finished.files("regions.csv")) {
         const std::string run = std::filesystem::path(file).parent_path().filename().string();

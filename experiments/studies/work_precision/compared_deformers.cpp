@@ -324,26 +324,15 @@ SettingKey without_grid_value(SettingKey key)
 const analysis::Columns<SettingKey>& setting_columns()
 {
     static const analysis::Columns<SettingKey> columns =
-        analysis::Columns<SettingKey>{
-            {"iterations", &SettingKey::iterations, "", "iterations per step"},
-            {"k_stretch", &SettingKey::k_stretch, "", "PBS: stiffness of the stretch constraints"},
-            {"order", &SettingKey::order, "", "PBS: order of projection"},
-            {"precision", &SettingKey::precision, "", "f32 or f64"},
-            {"substeps", &SettingKey::substeps, "", "PBS and XPBD: substeps per frame"},
-            {"element_order", &SettingKey::element_order, "", "finite elements: 1 linear, 2 quadratic"},
-            {"wanted_vertices", &SettingKey::wanted_vertices, "", "wanted size of another mesh of the body; empty on the case's own"},
-            {"refined", &SettingKey::refined, "", "solved on the case's own tets, each cut into eight"}} +
-        analysis::Columns<SettingKey>{
-            {"tuned", &SettingKey::tuned, "", "the value of the deformer's grid, as an identifier; empty: the default one"},
-            {"packed", &SettingKey::packed, "", "code that computes several constraints, vertices or tets per instruction"}}
-            .in_group("code");
+        MEMBER_COLUMNS(SettingKey, iterations, k_stretch, order, precision, substeps, element_order, wanted_vertices, refined) +
+        MEMBER_COLUMNS(SettingKey, tuned, packed).in_group("code");
     return columns;
 }
 
 const analysis::Columns<SettingKey>& point_key_columns()
 {
     static const analysis::Columns<SettingKey> columns =
-        analysis::Columns<SettingKey>{{"deformer", &SettingKey::deformer, "", "name of the deformer"}} + setting_columns();
+        analysis::Columns<SettingKey>{{"deformer", &SettingKey::deformer}} + setting_columns();
     return columns;
 }
 

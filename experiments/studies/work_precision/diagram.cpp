@@ -45,12 +45,12 @@ std::optional<ChosenSetting> choose(Comparison comparison, const std::vector<Set
     if (settings.size() == 1 || training.empty()) return chosen;
     for (const SettingKey& setting : settings) {
         const std::optional<double> error_pct = training_error_pct(training, setting);
-        if (!error_pct || (chosen.training_error_pct && *error_pct >= *chosen.training_error_pct)) continue;
-        chosen.training_error_pct = error_pct;
+        if (!error_pct || (chosen.training_error_joint_pct && *error_pct >= *chosen.training_error_joint_pct)) continue;
+        chosen.training_error_joint_pct = error_pct;
         chosen.key = setting;
     }
     chosen.training_poses = static_cast<int>(training.size());
-    return chosen.training_error_pct ? std::optional(chosen) : std::nullopt;
+    return chosen.training_error_joint_pct ? std::optional(chosen) : std::nullopt;
 }
 
 // A mean is known where all of its values are.
@@ -158,13 +158,9 @@ int code_rank(const SettingKey& key)
 
 }  // namespace
 
-const Columns<ChosenSetting> chosen_columns =
-    Columns<ChosenSetting>{{"comparison", &ChosenSetting::comparison, "", "packed_f32 or plain_f64"}} +
-    within(&ChosenSetting::key, point_key_columns()) +
-    Columns<ChosenSetting>{
-        {"tried", &ChosenSetting::tried, "", "number of settings that differ in the value of the grid alone"},
-        {"training_poses", &ChosenSetting::training_poses, "", "poses on which it was chosen; 0: there was no choice"},
-        {"training_error_joint_pct", &ChosenSetting::training_error_pct, "%", "its geometric mean error over these poses"}};
+const Columns<ChosenSetting> chosen_columns = Columns<ChosenSetting>{{"comparison", &ChosenSetting::comparison}} +
+                                              within(&ChosenSetting::key, point_key_columns()) +
+                                              MEMBER_COLUMNS(ChosenSetting, tried, training_poses, training_error_joint_pct);
 
 BestCodes best_codes(const std::vector<CaseRows>& cases)
 {
@@ -210,19 +206,17 @@ std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases)
 
 const analysis::Columns<DiagramPoint>& measures()
 {
-    static const analysis::Columns<DiagramPoint> columns = {
-        {"error_joint_pct", &DiagramPoint::error_pct, "%", "error over the blended vertices"},
-        {"error_l2_pct", &DiagramPoint::l2_pct, "%", "error over all vertices"},
-        {"error_linf_m", &DiagramPoint::linf_m, "m", "largest distance to the reference"},
-        {"volume_abs_change_pct", &DiagramPoint::volume_abs_change_pct, "%", "sum of the absolute changes of each tet"}};
+    static const analysis::Columns<DiagramPoint> columns = {{"error_joint_pct", &DiagramPoint::error_pct},
+                                                            {"error_l2_pct", &DiagramPoint::l2_pct},
+                                                            {"error_linf_m", &DiagramPoint::linf_m},
+                                                            {"volume_abs_change_pct", &DiagramPoint::volume_abs_change_pct}};
     return columns;
 }
 
 const analysis::Columns<DiagramPoint>& diagram_point_columns()
 {
     static const Columns<DiagramPoint> columns =
-        within(&DiagramPoint::key, point_key_columns()) +
-        Columns<DiagramPoint>{{"ms_median", &DiagramPoint::ms, "ms", "median of the processor time per frame"}};
+        within(&DiagramPoint::key, point_key_columns()) + Columns<DiagramPoint>{{"ms_median", &DiagramPoint::ms}};
     return columns;
 }
 

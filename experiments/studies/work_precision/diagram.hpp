@@ -44,7 +44,7 @@ struct ChosenSetting {
     SettingKey key;
     int tried = 0;           // settings of this choice
     int training_poses = 0;  // that decided; 0: there was no choice, or no training pose has its settings
-    std::optional<double> training_error_pct = {};
+    std::optional<double> training_error_joint_pct = {};
 };
 extern const analysis::Columns<ChosenSetting> chosen_columns;  // settings.csv
 

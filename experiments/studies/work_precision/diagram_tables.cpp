@@ -15,61 +15,37 @@ using analysis::within;
 constexpr int ranks_of_a_pose = 3;
 constexpr double budgets_ms[] = {0.1, 1.0, 3.0, 10.0, 100.0}, profile_tolerances_pct[] = {10.0, 5.0, 2.0};
 
-const char* const comparison_meaning = "packed_f32 or plain_f64";
-const char* const decision_meaning = "decided, reference_error (a reference does not decide) or models_disagree";
-
 struct FrontRow {
     Comparison comparison;
     std::string diagram, measure, front;
     DiagramPoint point;
     double value = 0.0;
-    std::optional<double> reference_error_pct;
+    std::optional<double> reference_error_joint_pct;
     std::optional<analysis::PairDecision> decision = {};
     std::string reason = {};
 };
 const Columns<FrontRow> front_columns =
-    Columns<FrontRow>{{"comparison", &FrontRow::comparison, "", comparison_meaning},
-                      {"case", &FrontRow::diagram, "", "name of the case's run, or of the mean over several"},
-                      {"measure", &FrontRow::measure, "", "what the front is the best of: a column of points.csv"},
-                      {"front", &FrontRow::front, "", "whose front it is: a deformer's, or all"}} +
-    within(&FrontRow::point, diagram_point_columns() + Columns<DiagramPoint>{{"ms_q1", &DiagramPoint::ms_q1, "ms", "its lower quartile"},
-                                                                             {"ms_q3", &DiagramPoint::ms_q3, "ms", "its upper quartile"}}) +
-    Columns<FrontRow>{{"value", &FrontRow::value, "", "the point's value of the measure, in the measure's unit"}} +
-    within(&FrontRow::point, Columns<DiagramPoint>{measures().front(),
-                                                   {"below_reference_error", &DiagramPoint::below_reference_error, "",
-                                                    "the error is not above the reference's own bound"}}) +
     Columns<FrontRow>{
-        {"reference_error_joint_pct", &FrontRow::reference_error_pct, "%", "bound of the reference's own error at the joints"},
-        {"decision", &FrontRow::decision, "",
-         std::string("front all by error_joint_pct alone: whether it is nearer than any other group within its time: ") + decision_meaning},
-        {"reason", &FrontRow::reason, "", "why it is not decided, for readers"}};
+        {"comparison", &FrontRow::comparison}, {"case", &FrontRow::diagram}, {"measure", &FrontRow::measure}, {"front", &FrontRow::front}} +
+    within(&FrontRow::point, diagram_point_columns() + MEMBER_COLUMNS(DiagramPoint, ms_q1, ms_q3)) +
+    Columns<FrontRow>{{"value", &FrontRow::value}} +
+    within(&FrontRow::point, Columns<DiagramPoint>{measures().front(), {"below_reference_error", &DiagramPoint::below_reference_error}}) +
+    MEMBER_COLUMNS(FrontRow, reference_error_joint_pct, decision, reason);
 
 struct CrossingRow {
     Comparison comparison;
     std::string diagram, deformer, other, outcome = "never";
     std::optional<double> from_ms = {}, from_ms_q1 = {}, from_ms_q3 = {};
     std::optional<SettingKey> setting = {};
-    std::optional<double> error_pct = {}, other_error_pct = {}, reference_error_pct = {};
+    std::optional<double> error_joint_pct = {}, other_error_joint_pct = {}, reference_error_joint_pct = {};
     std::optional<analysis::PairDecision> decision = {};
     std::string reason = {};
 };
 const Columns<CrossingRow> crossing_columns =
-    Columns<CrossingRow>{{"comparison", &CrossingRow::comparison, "", comparison_meaning},
-                         {"case", &CrossingRow::diagram, "", "name of the case's run, or of the mean over several"},
-                         {"deformer", &CrossingRow::deformer, "", "key of a group of deformers"},
-                         {"other", &CrossingRow::other, "", "another group"},
-                         {"outcome", &CrossingRow::outcome, "",
-                          "whether the first group's best is nearer to the reference: always, from some time on, never"},
-                         {"from_ms", &CrossingRow::from_ms, "ms", "time per frame from which on it is nearer"},
-                         {"from_ms_q1", &CrossingRow::from_ms_q1, "ms", "lower quartile of the time of the point that is nearer"},
-                         {"from_ms_q3", &CrossingRow::from_ms_q3, "ms", "its upper quartile"}} +
-    within(&CrossingRow::setting, Columns<SettingKey>{{"point", &SettingKey::deformer, "", "deformer of that point"}} + setting_columns()) +
-    Columns<CrossingRow>{
-        {"error_joint_pct", &CrossingRow::error_pct, "%", "error of that point"},
-        {"other_error_joint_pct", &CrossingRow::other_error_pct, "%", "least error of the other group within that time"},
-        {"reference_error_joint_pct", &CrossingRow::reference_error_pct, "%", "bound of the reference's own error at the joints"},
-        {"decision", &CrossingRow::decision, "", std::string("the worst from that time on: ") + decision_meaning},
-        {"reason", &CrossingRow::reason, "", "why it is not decided, for readers"}};
+    Columns<CrossingRow>{{"comparison", &CrossingRow::comparison}, {"case", &CrossingRow::diagram}} +
+    MEMBER_COLUMNS(CrossingRow, deformer, other, outcome, from_ms, from_ms_q1, from_ms_q3) +
+    within(&CrossingRow::setting, Columns<SettingKey>{{"point", &SettingKey::deformer}} + setting_columns()) +
+    MEMBER_COLUMNS(CrossingRow, error_joint_pct, other_error_joint_pct, reference_error_joint_pct, decision, reason);
 
 std::optional<double> known(double value)
 {
@@ -106,7 +82,7 @@ void add_crossing(std::vector<CrossingRow>& rows, const Diagram& diagram, const 
     const auto ones = diagram.of(one.deformers, of_one), others = diagram.of(other.deformers, of_other);
     if (ones.empty() || others.empty()) return;
     CrossingRow& row = rows.emplace_back(CrossingRow{diagram.comparison, diagram.key, one.key, other.key});
-    row.reference_error_pct = diagram.reference_error_pct;
+    row.reference_error_joint_pct = diagram.reference_error_pct;
     const auto crossing = analysis::nearer_from(ones, others);
     if (!crossing) return;
     const DiagramPoint& point = diagram.points[of_one[crossing->one]];
@@ -115,8 +91,8 @@ void add_crossing(std::vector<CrossingRow>& rows, const Diagram& diagram, const 
     row.from_ms_q1 = point.ms_q1;
     row.from_ms_q3 = point.ms_q3;
     row.setting = point.key;
-    row.error_pct = point.error_pct;
-    row.other_error_pct = known(crossing->other_error);
+    row.error_joint_pct = point.error_pct;
+    row.other_error_joint_pct = known(crossing->other_error);
     const std::optional<Decision> decision = decision_from(diagram, one, other, crossing->from);
     if (!decision) return;
     row.decision = decision->decision;
@@ -220,17 +196,10 @@ std::vector<Omission> omissions_in(const std::vector<const CaseRows*>& some, Com
 
 }  // namespace
 
-const Columns<BudgetRow> budget_columns =
-    Columns<BudgetRow>{{"comparison", &BudgetRow::comparison, "", comparison_meaning},
-                       {"case", &BudgetRow::diagram, "", "name of the case's run, or of the mean over several"},
-                       {"budget_ms", &BudgetRow::budget_ms, "ms", "time per frame"},
-                       {"rank", &BudgetRow::rank, "", "1: the group that is nearest to the reference within the budget"},
-                       {"group", &BudgetRow::group, "", "key of a group of deformers"}} +
-    within(&BudgetRow::point, diagram_point_columns() + Columns<DiagramPoint>{measures().front()}) +
-    Columns<BudgetRow>{
-        {"decision", &BudgetRow::decision, "", std::string("whether it is nearer than every group of a later rank: ") + decision_meaning},
-        {"undecided_against", &BudgetRow::undecided_against, "", "keys of the groups against which it is undecided"},
-        {"reason", &BudgetRow::reason, "", "why it is not decided, for readers"}};
+const Columns<BudgetRow> budget_columns = Columns<BudgetRow>{{"comparison", &BudgetRow::comparison}, {"case", &BudgetRow::diagram}} +
+                                          MEMBER_COLUMNS(BudgetRow, budget_ms, rank, group) +
+                                          within(&BudgetRow::point, diagram_point_columns() + Columns<DiagramPoint>{measures().front()}) +
+                                          MEMBER_COLUMNS(BudgetRow, decision, undecided_against, reason);
 
 analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams)
 {
@@ -283,16 +252,8 @@ std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams)
     return rows;
 }
 
-const analysis::Columns<ProfileStep> data_profile_columns = {
-    {"comparison", &ProfileStep::comparison, "", "packed_f32 or plain_f64"},
-    {"tolerance_pct", &ProfileStep::tolerance_pct, "%", "largest error at the joints of a pose that counts as solved"},
-    {"group", &ProfileStep::group, "", "key of a group of deformers"},
-    {"ms", &ProfileStep::ms, "ms", "time per frame at which `solved` or `certain` increases"},
-    {"solved", &ProfileStep::solved, "", "number of poses that are solved"},
-    {"certain", &ProfileStep::certain, "",
-     "number of those with an error that is within the tolerance after the bound on the reference's own error is added"},
-    {"poses", &ProfileStep::poses, "", "number of evaluated poses"},
-    {"share_pct", &ProfileStep::share_pct, "%", "share of the poses that are solved"}};
+const analysis::Columns<ProfileStep> data_profile_columns =
+    MEMBER_COLUMNS(ProfileStep, comparison, tolerance_pct, group, ms, solved, certain, poses, share_pct);
 
 std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams)
 {
@@ -307,14 +268,9 @@ std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams)
     return steps;
 }
 
-const analysis::Columns<Omission> omission_columns = {
-    {"comparison", &Omission::comparison, "", "packed_f32 or plain_f64"},
-    {"case", &Omission::of, "", "name of the case's run, or of the mean over several, which has the omissions of all of its poses"},
-    {"deformer", &Omission::deformer, "", "name of the deformer"},
-    {"why", &Omission::why, "", "not_finite, not_converged, over_time_limit, not_applicable, no_such_code, not_run or no_reference"},
-    {"missing", &Omission::missing, "", "number of its points that are missing for this reason"},
-    {"points", &Omission::points, "", "number of its points in this case, or in all poses of the mean"},
-    {"reason", &Omission::reason, "", "of the first of them, for readers; of no_reference: the worst tet of the reference's last state"}};
+const analysis::Columns<Omission> omission_columns =
+    analysis::Columns<Omission>{{"comparison", &Omission::comparison}, {"case", &Omission::of}} +
+    MEMBER_COLUMNS(Omission, deformer, why, missing, points, reason);
 
 std::vector<Omission> omissions_of(const std::vector<CaseRows>& cases)
 {

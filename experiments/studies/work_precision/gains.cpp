@@ -58,7 +58,7 @@ std::optional<EqualTimeRow> value_at(const Curve& curve, int budget_iterations, 
     row.error_pct = std::lerp(before.error->joint_pct, after.error->joint_pct, share);
     const auto column = std::ranges::find(experiments::budget_iterations, budget_iterations) - experiments::budget_iterations.begin();
     const auto one = before.from_pbs_pct.at(column), other = after.from_pbs_pct.at(column);
-    if (one && other) row.distance_pct = std::max(*one, *other);
+    if (one && other) row.from_pbs_pct = std::max(*one, *other);
     row.reference_error_pct = before.reference_error_joint_pct;
     row.volume_change_pct = before.metrics ? before.metrics->volume_change_pct : 0.0;
     return row;
@@ -151,7 +151,7 @@ GainRow over_baseline(const std::string& change, const ByPose& rows)
     for (const auto& [pose, row] : rows) {
         poses.push_back(
             {row.error_pct, row.baseline_error_pct,
-             analysis::shift_of_difference({row.error_pct, row.baseline_error_pct, row.distance_pct, row.reference_error_pct})});
+             analysis::shift_of_difference({row.error_pct, row.baseline_error_pct, row.from_pbs_pct, row.reference_error_pct})});
         if (!row.setting.empty()) settings.insert(row.setting);
         iterations += row.iterations / double(rows.size());
         volume += std::abs(row.volume_change_pct) / double(rows.size());
@@ -173,7 +173,7 @@ GainRow over_other(const std::string& change, const ByPose& rows, const std::str
         if (!others.contains(pose)) continue;
         const EqualTimeRow& other = others.at(pose);
         std::optional<double> distance;
-        if (row.distance_pct && other.distance_pct) distance = *row.distance_pct + *other.distance_pct;
+        if (row.from_pbs_pct && other.from_pbs_pct) distance = *row.from_pbs_pct + *other.from_pbs_pct;
         poses.push_back({row.error_pct, other.error_pct,
                          analysis::shift_of_difference({row.error_pct, other.error_pct, distance, row.reference_error_pct})});
     }
@@ -218,19 +218,9 @@ std::map<BodyAndChange, std::string> usual_settings(const std::vector<EqualTimeR
 }  // namespace
 
 const Columns<EqualTimeRow> equal_time_columns =
-    Columns<EqualTimeRow>{{"group", &EqualTimeRow::group, "", "the poses on which settings are chosen: all, or those of a body"}} +
-    within(&EqualTimeRow::of, pose_columns()) +
-    Columns<EqualTimeRow>{
-        {"budget_iterations", &EqualTimeRow::budget_iterations, "", "iterations of the baseline whose time is the budget"},
-        {"budget_ms", &EqualTimeRow::budget_ms, "ms", "that time"},
-        {"change", &EqualTimeRow::change, "", "name of the change"},
-        {"setting", &EqualTimeRow::setting, "", "of its parameter, chosen on the other poses"},
-        {"iterations", &EqualTimeRow::iterations, "", "of the change that fit into the budget, interpolated"},
-        {"baseline_error_pct", &EqualTimeRow::baseline_error_pct, "%", "error of the baseline at the joints"},
-        {"error_pct", &EqualTimeRow::error_pct, "%", "error of the change at the joints"},
-        {"from_pbs_pct", &EqualTimeRow::distance_pct, "%", "distance of the two shapes at the joints"},
-        {"reference_error_pct", &EqualTimeRow::reference_error_pct, "%", "bound on the reference's own error at the joints"},
-        {"volume_change_pct", &EqualTimeRow::volume_change_pct, "%", "signed change of the volume of the change's shape"}};
+    Columns<EqualTimeRow>{{"group", &EqualTimeRow::group}} + within(&EqualTimeRow::of, pose_columns()) +
+    MEMBER_COLUMNS(EqualTimeRow, budget_iterations, budget_ms, change, setting, iterations, baseline_error_pct, error_pct, from_pbs_pct,
+                   reference_error_pct, volume_change_pct);
 
 std::vector<EqualTimeRow> at_equal_time(const std::vector<PointRow>& points)
 {
@@ -245,23 +235,9 @@ std::vector<EqualTimeRow> at_equal_time(const std::vector<PointRow>& points)
     return rows;
 }
 
-const analysis::Columns<GainRow> gain_columns = {
-    {"group", &GainRow::group, "", "the poses: all, or those of a body"},
-    {"budget_iterations", &GainRow::budget_iterations, "", "iterations of the baseline whose time is the budget"},
-    {"change", &GainRow::change, "", "name of the change"},
-    {"than", &GainRow::than, "", "what it is compared with: pbs, the baseline, or another change"},
-    {"poses", &GainRow::poses, "", "number of poses"},
-    {"error_pct", &GainRow::error_pct, "%", "mean error of the change at the joints"},
-    {"than_error_pct", &GainRow::than_error_pct, "%", "mean error of what it is compared with"},
-    {"gain_pct", &GainRow::gain_pct, "%", "mean of the difference of the two errors, in percentage points"},
-    {"gain_low_pct", &GainRow::gain_low_pct, "%", "lower end of its 95 % interval over the poses (bootstrap)"},
-    {"gain_high_pct", &GainRow::gain_high_pct, "%", "upper end"},
-    {"reference_error_pct", &GainRow::reference_error_pct, "%", "by which the reference's own error may change the mean"},
-    {"decision", &GainRow::decision, "",
-     "decided, few_poses (fewer than four), poses_disagree (the interval includes zero), reference_error"},
-    {"settings", &GainRow::settings, "", "settings that were chosen on the other poses, joined by +"},
-    {"iterations", &GainRow::iterations, "", "mean number of iterations within the budget"},
-    {"volume_abs_pct", &GainRow::volume_abs_pct, "%", "mean of the absolute change of the volume"}};
+const analysis::Columns<GainRow> gain_columns =
+    MEMBER_COLUMNS(GainRow, group, budget_iterations, change, than, poses, error_pct, than_error_pct, gain_pct, gain_low_pct, gain_high_pct,
+                   reference_error_pct, decision, settings, iterations, volume_abs_pct);
 
 std::vector<GainRow> gains_of(const std::vector<EqualTimeRow>& rows)
 {
@@ -283,14 +259,8 @@ std::vector<GainRow> gains_of(const std::vector<EqualTimeRow>& rows)
     return all;
 }
 
-const Columns<CurveRow> curve_columns = {
-    {"body", &CurveRow::body, "", "name of the body"},
-    {"change", &CurveRow::change, "", "pbs, which is the baseline, or the name of a change"},
-    {"setting", &CurveRow::setting, "", "of its parameter: the one chosen for most poses at the time of 96 iterations"},
-    {"iterations", &CurveRow::iterations, "", "of Algorithm 1"},
-    {"poses", &CurveRow::poses, "", "number of poses in the mean"},
-    {"mean_ms", &CurveRow::ms, "ms", "mean of the median times per frame"},
-    {"error_joint_pct", &CurveRow::error_pct, "%", "mean error at the joints outside the overlap"}};
+const Columns<CurveRow> curve_columns = MEMBER_COLUMNS(CurveRow, body, change, setting, iterations, poses) +
+                                        Columns<CurveRow>{{"mean_ms", &CurveRow::ms}, {"error_joint_pct", &CurveRow::error_pct}};
 
 std::vector<CurveRow> mean_curves(const std::vector<PointRow>& points, const std::vector<EqualTimeRow>& rows)
 {

@@ -27,7 +27,7 @@ struct EqualTimeRow {
     std::string change, setting;
     double iterations = 0.0;  // that fit into the budget, interpolated
     double baseline_error_pct = 0.0, error_pct = 0.0;
-    std::optional<double> distance_pct = {};         // from the baseline: the larger one of the points that are interpolated
+    std::optional<double> from_pbs_pct = {};         // from the baseline: the larger one of the points that are interpolated
     std::optional<double> reference_error_pct = {};  // bound on the reference's own error
     double volume_change_pct = 0.0;                  // at the nearest number of iterations within the budget
 

@@ -1,6 +1,5 @@
 #include "experiments/verdicts/check/check_run.hpp"
 
-#include "analysis/check/check.hpp"
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
 #include "experiments/run/metrics_table.hpp"

@@ -53,6 +53,7 @@ public:
     void project_stretch_constraints() override;
     void project_volume_constraints() override;
     void store(const Vec3& origin, Positions& p) const override { particles_.store(origin, p); }
+    PositionRows<Scalar> rows() override { return {vertices(), 4, batched_.order.new_of_old}; }
     Residuals residuals() const override;
 
     void sleep(const SleepTolerance& tolerance) override;

@@ -6,7 +6,6 @@
 #include "reference_fem/potentials/potentials.hpp"
 
 #include <ctime>
-#include <limits>
 
 namespace reference_fem {
 namespace {
@@ -209,21 +208,16 @@ VerificationRow calculix_row(const CalculixComparison& comparison, const std::st
 {
     const int element_order = answer.problem.tets.cols() == 4 ? 1 : 2;
     answer.problem.material = calculix_flesh;  // CalculiX has the right material, whatever error the effort asks of the reference
-    VerificationRow row = {
-        .problem = "calculix",
-        .quantity = {"largest_node_difference", "largest node difference over largest displacement, " + pose, identifier_of(pose)},
-        .elements = elements_of(element_order),
-        .material = material_of(law, calculix_flesh.poisson),
-        .dofs = 3 * static_cast<int>(answer.problem.nodes.rows()),
-        .reference = 0.0,
-        .unit = "1",
-        .source = comparison.version + ", " + (element_order == 1 ? "C3D4" : "C3D10")};
     const SecondOpinion opinion = second_opinion(comparison.program, answer, options);
-    row.value = answer.answered ? opinion.relative_difference() : std::numeric_limits<double>::quiet_NaN();
-    row.high = largest_difference;
-    row.bound_from = largest_difference_from;
+    VerificationRow row =
+        row_about({"calculix", elements_of(element_order), material_of(law, calculix_flesh.poisson), "", 0.0,
+                   3 * static_cast<int>(answer.problem.nodes.rows())},
+                  {"largest_node_difference", "largest node difference over largest displacement, " + pose, identifier_of(pose)},
+                  answer.answered ? opinion.relative_difference() : not_reached, 0.0, "1",
+                  comparison.version + ", " + (element_order == 1 ? "C3D4" : "C3D10"));
+    bound(row, {}, largest_difference, largest_difference_from);
     if (opinion.outcome != CalculixOutcome::finished) {
-        row.value = std::numeric_limits<double>::quiet_NaN();
+        row.value = not_reached;
         row.note = std::string("CalculiX has no answer (") + name_of(opinion.outcome) + "): " + opinion.last_words;
     } else if (!opinion.in_double)
         row.note = "CalculiX's displacements to 7 digits only";
@@ -246,18 +240,11 @@ VerificationRows calculix_timing_rows(const CalculixComparison& comparison)
 {
     const FirstSolveTiming timing = time_first_solve(comparison.program, cantilever_mesh(), 1, cantilever_of(comparison.effort), 9);
     const auto row = [&](const RowQuantity& quantity, double value, const std::string& note) {
-        return VerificationRow{.problem = "calculix",
-                               .quantity = quantity,
-                               .elements = elements_of(1),
-                               .material = linear_material(calculix_flesh.poisson),
-                               .mesh = text_of(divisions),
-                               .h_m = 1.0 / divisions[1],
-                               .dofs = timing.dofs,
-                               .value = value,
-                               .reference = 3.0,
-                               .unit = "1",
-                               .source = comparison.version + ", one thread, SPOOLES; processor time, the smallest of nine",
-                               .note = note};
+        VerificationRow timed = row_about(
+            {"calculix", elements_of(1), linear_material(calculix_flesh.poisson), text_of(divisions), 1.0 / divisions[1], timing.dofs},
+            quantity, value, 3.0, "1", comparison.version + ", one thread, SPOOLES; processor time, the smallest of nine");
+        timed.note = note;
+        return timed;
     };
     const auto ms = [](double seconds) { return std::to_string(static_cast<int>(std::lround(1e3 * seconds))) + " ms"; };
     return {row({"time_ratio", "time of CalculiX over ours, first solve"}, timing.speedup(),

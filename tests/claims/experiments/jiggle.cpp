@@ -3,7 +3,7 @@
 
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
-#include "pbs/character/overlap_and_jiggle.hpp"
+#include "pbs/character/bone_capsules.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/jiggle_responses.hpp"

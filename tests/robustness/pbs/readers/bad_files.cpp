@@ -2,7 +2,7 @@
 // format that the program refuses are in tests/support/bad_*.toml; here are those whose defects only the readers know.
 #include "tests/support/file_readers.hpp"
 
-#include "pbs/rig/gltf_rig.hpp"
+#include "pbs/rig/rig_formats.hpp"
 #include "tests/support/gltf_document.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"

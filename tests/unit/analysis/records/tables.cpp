@@ -177,6 +177,9 @@ TEST(TypedTable, RowsAreWrittenUnderTheirColumnsNamesAndReadBackAsTheyWere)
         << "by name in any order";
     EXPECT_EQ(row_columns[3].name, "is_masked");
     EXPECT_EQ(row_columns[3].unit, "0/1");
+    const Columns<Place> of_members = MEMBER_COLUMNS(Place, height_m, body);
+    EXPECT_EQ(of_members.names(), (std::vector<std::string>{"height_m", "body"}));
+    EXPECT_EQ(rows_of(of_members, parse_csv("height_m,body\n0.5,limb\n", "m.csv")), (std::vector<Place>{{"limb", 0.5}}));
 }
 
 TEST(TypedTable, AListOfNamesIsOneCell)

@@ -4,7 +4,7 @@
 #include "analysis/metrics/cross_section.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "pbs/character/bodies.hpp"
-#include "pbs/character/overlap_and_jiggle.hpp"
+#include "pbs/character/bone_capsules.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/rounding_error.hpp"
 

@@ -1,5 +1,5 @@
-// The projections of the published code. Reference: the rules in author_constraints.hpp, by hand, and pbs/constraints.
-#include "pbs/author/author_constraints.hpp"
+// The projections of the published code. Reference: the rules in author_solver.hpp, by hand, and pbs/constraints.
+#include "pbs/author/author_solver.hpp"
 #include "pbs/constraints/stretch.hpp"
 #include "tests/support/rounding_error.hpp"
 

@@ -1,7 +1,7 @@
 // Reference: a bar that is folded by hand so that its ends overlap.
 
 #include "pbs/character/bodies.hpp"
-#include "pbs/character/overlap_and_jiggle.hpp"
+#include "pbs/character/bone_capsules.hpp"
 #include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>

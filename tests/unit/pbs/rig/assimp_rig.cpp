@@ -1,7 +1,7 @@
 // Reference: an arm of two joints whose skinned points are computed by hand, as COLLADA and as FBX. assimp computes in single precision: at
 // most 64 roundings of numbers of at most 8 of the files' units.
 
-#include "pbs/rig/assimp_rig.hpp"
+#include "pbs/rig/rig_formats.hpp"
 #include "pbs/rig/rigged_body.hpp"
 #include "tests/support/arm_in_formats.hpp"
 #include "tests/support/rounding_error.hpp"

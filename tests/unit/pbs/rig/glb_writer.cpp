@@ -2,7 +2,7 @@
 #include "pbs/rig/glb_writer.hpp"
 
 #include "pbs/geometry/files.hpp"
-#include "pbs/rig/gltf_rig.hpp"
+#include "pbs/rig/rig_formats.hpp"
 #include "pbs/rig/tiny_gltf.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"

@@ -1,6 +1,6 @@
 // Reference: glTF 2.0, Sec. 3.5 (scenes and nodes), on small trees.
 
-#include "pbs/rig/gltf_rig.hpp"
+#include "pbs/rig/rig_formats.hpp"
 #include "tests/support/gltf_document.hpp"
 #include "tests/support/scratch_folder.hpp"
 

@@ -145,9 +145,7 @@ TEST_F(RigReader, TheNameOfAGltfDoesNotMatterAndRemarksReachTheCaller)
 
 Weights weights_of_one_point(const std::vector<JointShare>& shares, std::vector<std::string>& remarks)
 {
-    SkinWeights skin;
-    skin.add_point(shares);
-    return skin.normalised("a.glb", "arm", remarks);
+    return normalised_skin({shares}, "a.glb", "arm", remarks);
 }
 
 TEST(SkinWeights, SumToOneAfterThoseOfAJointWereAddedAndZerosLeftOut)
@@ -172,11 +170,8 @@ TEST(SkinWeights, SumToOneAfterThoseOfAJointWereAddedAndZerosLeftOut)
 TEST(SkinWeights, APointWithoutAnyFollowsTheFirstJointWithARemark)
 {
     for (const std::vector<JointShare>& shares : {std::vector<JointShare>{}, {{1, 0.0}, {2, 0.0}}}) {
-        SkinWeights skin;
-        skin.add_point({{2, 1.0}});
-        skin.add_point(shares);
         std::vector<std::string> remarks;
-        const Weights weights = skin.normalised("a.glb", "arm", remarks);
+        const Weights weights = normalised_skin({{{2, 1.0}}, shares}, "a.glb", "arm", remarks);
         EXPECT_EQ(weights.bone, (std::vector<int>{2, 0}));
         EXPECT_EQ(weights.weight, (std::vector<double>{1.0, 1.0}));
         ASSERT_EQ(remarks.size(), 1u);
@@ -191,11 +186,9 @@ TEST(SkinWeights, ThatAreNegativeNotFiniteOrNoneAreRefused)
     expect_input_error([&] { weights_of_one_point(zero, none); }, "a.glb: mesh arm, weights = 0: ", "expected a point with a weight");
     constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [weight, text] : {std::pair(-0.5, "-0.5"), std::pair(nan, "nan"), std::pair(infinity, "inf")}) {
-        SkinWeights skin;
-        skin.add_point({{0, 1.0}});
-        skin.add_point({{0, 1.0}, {1, weight}});
+        const std::vector<std::vector<JointShare>> points = {{{0, 1.0}}, {{0, 1.0}, {1, weight}}};
         std::vector<std::string> remarks;
-        expect_input_error([&] { skin.normalised("a.glb", "arm", remarks); },
+        expect_input_error([&] { normalised_skin(points, "a.glb", "arm", remarks); },
                            std::string("a.glb: mesh arm, weight of point 1 = ") + text + ": ", "expected a finite number of 0 or more");
     }
 }

@@ -1,7 +1,7 @@
 // How the deformer reaches frames, and what it reports of those that it does not reach. The verification tests show that it deforms
 // correctly. Tolerances between two solutions for one pose: newton_error_m, the error that Newton's method leaves, for each of them.
 
-#include "pbs/character/overlap_and_jiggle.hpp"
+#include "pbs/character/bone_capsules.hpp"
 #include "tests/support/fem_bar.hpp"
 #include "tests/support/json_facts.hpp"
 #include "tests/support/newton_rounding.hpp"

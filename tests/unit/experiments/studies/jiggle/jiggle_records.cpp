@@ -2,7 +2,7 @@
 
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "pbs/character/bodies.hpp"
-#include "pbs/character/overlap_and_jiggle.hpp"
+#include "pbs/character/bone_capsules.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/jiggle_responses.hpp"
 #include "tests/support/rounding_error.hpp"

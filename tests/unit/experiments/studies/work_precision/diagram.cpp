@@ -54,7 +54,7 @@ TEST(ChosenSettings, HaveTheLeastGeometricMeanOverTheTrainingPoses)
     EXPECT_EQ(chosen[0].tried, 2);
     EXPECT_EQ(chosen[0].training_poses, 2);
     // Two logarithms, their sum, its half and the exponential, each in error by a rounding of at most log(32).
-    EXPECT_NEAR(chosen[0].training_error_pct.value(), 16.0, 16.0 * rounding_error(5, std::log(40.0)));
+    EXPECT_NEAR(chosen[0].training_error_joint_pct.value(), 16.0, 16.0 * rounding_error(5, std::log(40.0)));
 }
 
 TEST(ChosenSettings, HaveAnAnswerInEachTrainingPose)

@@ -1,0 +1,110 @@
+// Detection of self-contact: the skin vertices of a deformed body that lie in tets of another part of it, each with its depth constraint.
+//   SelfContact<float> contact(mesh, place, 4);
+//   contact.forget();                      // at the beginning of a frame
+//   contact.find(x);                       // the constraints of these positions, once or more in a frame
+//   contact.project(inverse_mass, x);      // once per iteration
+// A pair of a vertex and a tet counts where X*, the point of the tet at rest that has come to the vertex, is farther than half of the mean
+// edge from the vertex at rest. Positions decide alone, so that frames do not depend on each other, and there are no threads.
+//
+// Most of the body cannot meet itself, and is not searched: tets lie in blocks, skin vertices in groups. A group is compared with the
+// blocks whose boxes it meets. Those near it at rest are left out if the neighbourhood deforms like an affine map A up to e, the largest
+// |A^-1 x_i - X_i|: points at rest more than 2 e from each other do not meet then, since x - A X is linear in each tet.
+//
+// No constraint where no direction can be trusted: in tets that are flat or mirrored, or strained more than tenfold along the way out, as
+// after a teleport; and where a position is not finite.
+#pragma once
+
+#include "pbs/contact/depth_constraint.hpp"
+
+#include <Eigen/Geometry>
+
+#include <vector>
+
+namespace pbs {
+
+// The skin of a body at rest, with the point of it that is nearest to a point inside.
+class RestSkin {
+public:
+    explicit RestSkin(const TetMesh& mesh);
+
+    const std::vector<int>& vertices() const { return vertices_; }  // ascending
+
+    // The nearest point of the skin [m], sought from the skin near these vertices of the mesh: from skin vertex to skin vertex as long as
+    // that is nearer, then on the triangles around. Between two sides that are about equally near it may be that of the other one.
+    Vec3 nearest(const Vec3& point, const Eigen::Vector4i& near) const;
+
+private:
+    int descend(const Vec3& point, int skin_vertex) const;
+
+    Positions rest_;
+    Triangles triangles_;
+    std::vector<int> vertices_;
+    std::vector<int> first_, fan_;  // the triangles around vertex v: fan_[first_[v]] .. fan_[first_[v + 1] - 1]
+    std::vector<int> near_;         // a skin vertex near each vertex, #V; -1: a part without skin, which has no tets
+};
+
+// Points divided into sets of neighbours by planes through the median across their longest extent.
+struct PointSets {
+    PointSets(const Positions& points, const std::vector<int>& members, int most_in_a_set);
+
+    std::vector<int> first, member;  // #sets + 1; the members of a set ascend
+    int sets() const { return static_cast<int>(first.size()) - 1; }
+};
+
+template <typename Scalar>
+class SelfContact {
+public:
+    // place: the row of each vertex, #V; stride: numbers per row, x, y and z first.
+    SelfContact(const TetMesh& mesh, const std::vector<int>& place, int stride);
+
+    void forget() { constraints_.clear(); }  // at the beginning of a frame
+    // The constraints at these positions, by vertex, then by tet. Vertices of constraints are those of the mesh. A vertex that is in no tet
+    // now keeps the constraints it had, which hold it outside.
+    void find(const Scalar* x);
+    const std::vector<DepthConstraint<Scalar>>& constraints() const { return constraints_; }
+
+    // Projects them once, one after the other. inverse_mass: of the vertices, #V.
+    void project(const std::vector<Scalar>& inverse_mass, Scalar* x) const;
+
+    std::array<Vector3<Scalar>, 5> points(const DepthConstraint<Scalar>& constraint, const Scalar* x) const;
+    const RestSkin& skin() const { return skin_; }
+
+private:
+    static constexpr int tets_of_block = 16, vertices_of_group = 8, blocks_of_cluster = 16;
+
+    struct Box {
+        Scalar low[4], high[4];  // the last of each is 0
+    };
+    struct Neighbourhood {
+        std::vector<int> blocks;      // near at rest, ascending
+        std::vector<int> offset;      // of its vertices
+        std::vector<Scalar> rest[3];  // their X - X_0, by coordinates
+        std::array<int, 4> frame;     // offsets of four vertices that span it; the first is X_0
+        Eigen::Matrix3d rest_edges;   // from the first of them to the others, columns
+    };
+    struct Hit {
+        int vertex, tet;
+    };
+
+    void find_hits(const Scalar* x);
+    Neighbourhood neighbourhood(int group, const std::vector<Eigen::AlignedBox3d>& rest_boxes) const;
+    Box box_of(const int* begin, const int* end, const Scalar* x) const;
+    bool is_affine(const Neighbourhood& near, const Scalar* x) const;
+    void find_in_block(int group, int block, const Scalar* x);
+    void add_constraint(const Hit& hit, const Scalar* x);
+
+    TetMesh mesh_;
+    RestSkin skin_;
+    double half_edge_m_;
+    PointSets groups_, blocks_;
+    std::vector<int> offset_;                                             // of each vertex in x, #V
+    std::vector<int> first_of_group_, of_group_;                          // offsets of the vertices of a group
+    std::vector<int> first_of_block_, of_block_;                          // offsets of the vertices of a block, each once
+    std::vector<std::array<std::array<int, tets_of_block>, 4>> corners_;  // offsets in each block; the first tet fills up the last lanes
+    std::vector<Neighbourhood> neighbourhoods_;                           // of each group
+    std::vector<Box> box_of_block_, box_of_cluster_;                      // as deformed
+    std::vector<Hit> hits_;
+    std::vector<DepthConstraint<Scalar>> constraints_;
+};
+
+}  // namespace pbs

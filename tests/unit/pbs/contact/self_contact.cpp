@@ -1,0 +1,177 @@
+// Reference: every skin vertex tried in every tet, and every triangle of the rest skin. Tolerances: both sides compute in double, and a
+// point is sought in a tet by some fifty roundings.
+#include "pbs/contact/self_contact.hpp"
+
+#include "pbs/geometry/topology.hpp"
+#include "tests/support/overlapping_blocks.hpp"
+#include "tests/support/random_points.hpp"
+#include "tests/support/rounding_error.hpp"
+#include "tests/support/two_bone_limb.hpp"
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace {
+
+using namespace test_support;
+using pbs::Positions;
+using pbs::Vec3;
+using Pairs = std::set<std::array<int, 5>>;
+
+const TwoBoneLimb limb = two_bone_limb({24, 4, 4}, Vec3::UnitZ(), 150.0);
+// Without its symmetry, which puts vertices on faces of tets.
+const Positions bent = [] {
+    RandomPoints random(3);
+    Positions x = limb.lbs;
+    for (auto row : x.rowwise()) row += random.point(1e-3).transpose();
+    return x;
+}();
+const OverlappingBlocks blocks = overlapping_blocks(0.1);
+
+std::vector<pbs::DepthConstraint<double>> found(const pbs::TetMesh& mesh, const Positions& x)
+{
+    pbs::SelfContact<double> contact(mesh, in_order(mesh.rest.rows()), 3);
+    contact.find(x.data());
+    return contact.constraints();
+}
+
+Pairs pairs(const std::vector<pbs::DepthConstraint<double>>& constraints)
+{
+    Pairs pairs;
+    for (const auto& constraint : constraints) pairs.insert(constraint.vertex);
+    return pairs;
+}
+
+// half_edge_m: half of the mean edge.
+Pairs by_trying_all(const pbs::TetMesh& mesh, const Positions& x, double half_edge_m)
+{
+    const std::vector<bool> on_skin = pbs::boundary_vertices(mesh.tets, x.rows());
+    Pairs pairs;
+    for (const auto tet : mesh.tets.rowwise()) {
+        Eigen::Matrix4d corners, rest_corners;
+        for (int i = 0; i < 4; ++i) {
+            corners.col(i) << x.row(tet(i)).transpose(), 1.0;
+            rest_corners.col(i) << mesh.rest.row(tet(i)).transpose(), 1.0;
+        }
+        if (!(corners.determinant() < 0.0)) continue;  // so that the tet is neither flat nor mirrored
+        for (int v = 0; v < x.rows(); ++v) {
+            const Eigen::Vector4d beta = corners.inverse() * (Eigen::Vector4d() << x.row(v).transpose(), 1.0).finished();
+            const Vec3 rest = (rest_corners * beta).head<3>();
+            if (on_skin[v] && beta.minCoeff() >= 0.0 && (rest - mesh.rest.row(v).transpose()).norm() > half_edge_m)
+                pairs.insert({v, tet(0), tet(1), tet(2), tet(3)});
+        }
+    }
+    return pairs;
+}
+
+double half_edge_m(const pbs::TetMesh& mesh)
+{
+    double sum = 0.0;
+    const pbs::Edges edges = pbs::edges_of(mesh.tets);
+    for (const auto edge : edges.rowwise()) sum += (mesh.rest.row(edge(0)) - mesh.rest.row(edge(1))).norm();
+    return sum / double(edges.rows()) / 2.0;
+}
+
+// A tet so strained that its constraint is left out is not there.
+TEST(SelfContact, FindsWhatTryingAllPairsFinds)
+{
+    const Pairs of_blocks = by_trying_all(blocks.mesh, blocks.pushed, half_edge_m(blocks.mesh));
+    EXPECT_EQ(pairs(found(blocks.mesh, blocks.pushed)), of_blocks);
+    EXPECT_GE(of_blocks.size(), 9u);
+
+    Pairs of_limb = by_trying_all(limb.mesh, bent, half_edge_m(limb.mesh));
+    const Pairs found_in_limb = pairs(found(limb.mesh, bent));
+    EXPECT_GE(found_in_limb.size(), 50u);
+    for (const auto& pair : found_in_limb) EXPECT_TRUE(of_limb.contains(pair));
+    EXPECT_GE(double(found_in_limb.size()), 0.8 * double(of_limb.size()));
+}
+
+TEST(SelfContact, FindsNothingAtRestInRigidMotionAndInFlesh)
+{
+    EXPECT_TRUE(found(limb.mesh, limb.mesh.rest).empty());
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.0, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    Positions turned = limb.mesh.rest * turn.transpose();
+    turned.rowwise() += Eigen::RowVector3d(100, -50, 20);
+    EXPECT_TRUE(found(limb.mesh, turned).empty());
+    Positions sheared = limb.mesh.rest;
+    sheared.col(0) += 0.7 * sheared.col(1);
+    EXPECT_TRUE(found(limb.mesh, sheared).empty());
+}
+
+TEST(SelfContact, DepthAndDirectionAreThoseOfTheNearestSkin)
+{
+    int of_second = 0;
+    for (const auto& constraint : found(blocks.mesh, blocks.pushed)) {
+        if (constraint.vertex[0] < blocks.vertices_of_first) continue;  // the pushed block's own skin is not flat around its corners
+        ++of_second;
+        EXPECT_NEAR(constraint.depth, 0.1, rounding_error(50.0, 4.0));
+        EXPECT_LE((constraint.m - Vec3::UnitZ()).norm(), rounding_error(50.0, 40.0));
+    }
+    EXPECT_GE(of_second, 9);
+}
+
+TEST(RestSkin, FindsTheNearestPointOfABox)
+{
+    const pbs::TetMesh box = structured_bar({0, 0, 0}, {3, 2, 1}, {6, 4, 2});
+    const pbs::RestSkin skin(box);
+    const Vec3 size(3, 2, 1);
+    RandomPoints random(11);
+    for (int t = 0; t < box.tets.rows(); ++t) {
+        const Eigen::Vector4i tet = box.tets.row(t);
+        Vec3 point = Vec3::Zero();
+        for (const int v : tet) point += box.rest.row(v).transpose() / 4.0;
+        point += random.point(0.02);
+        const double depth = std::min(point.minCoeff(), (size - point).minCoeff());
+        const double found = (skin.nearest(point, tet) - point).norm(), rounding = rounding_error(50.0, 4.0);
+        EXPECT_GE(found, depth - rounding);
+        EXPECT_LE(found, depth < 0.3 ? depth + rounding : 1.1 * depth) << depth;  // in the middle, two sides are almost as near
+    }
+}
+
+// Named degenerate states: what cannot be trusted gives no constraint, and no state gives one that is not finite.
+TEST(SelfContact, CollapsedMirroredTornAndNotFiniteStatesGiveFiniteConstraints)
+{
+    const Positions& rest = limb.mesh.rest;
+    Positions point = Positions::Constant(rest.rows(), 3, 0.5), plane = rest, mirrored = rest, teleported = limb.lbs, not_finite = limb.lbs;
+    plane.col(2).setZero();
+    mirrored.col(1) *= -1.0;
+    for (Eigen::Index v = 0; v < rest.rows(); v += 7) teleported.row(v).array() += 1e3;
+    for (Eigen::Index v = 0; v < rest.rows(); v += 5) not_finite(v, v % 3) = v % 2 ? NAN : INFINITY;
+    RandomPoints random(5);
+    Positions shaken = rest;
+    for (auto row : shaken.rowwise()) row += random.point(10.0).transpose();
+    EXPECT_TRUE(found(limb.mesh, point).empty());
+    EXPECT_TRUE(found(limb.mesh, plane).empty());
+    EXPECT_TRUE(found(limb.mesh, mirrored).empty());
+    for (const Positions& x : {teleported, not_finite, shaken})
+        for (const auto& constraint : found(limb.mesh, x)) {
+            EXPECT_TRUE(std::isfinite(constraint.depth));
+            EXPECT_GT(constraint.m.norm(), 0.1);
+            EXPECT_LT(constraint.m.norm(), 10.0);
+        }
+}
+
+TEST(SelfContact, FindsTheSamePairsAtEveryScaleAndInBothPrecisions)
+{
+    const Pairs at_one = pairs(found(limb.mesh, bent));
+    for (const double scale : {1e-3, 1e3}) {
+        pbs::TetMesh scaled = limb.mesh;
+        scaled.rest *= scale;
+        EXPECT_EQ(pairs(found(scaled, scale * bent)), at_one) << scale;
+    }
+    pbs::SelfContact<float> in_float(blocks.mesh, in_order(blocks.mesh.rest.rows()), 3);
+    const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> x = blocks.pushed.cast<float>();
+    in_float.find(x.data());
+    Pairs found_in_float;
+    for (const auto& constraint : in_float.constraints()) found_in_float.insert(constraint.vertex);
+    EXPECT_EQ(found_in_float, pairs(found(blocks.mesh, blocks.pushed)));
+}
+
+TEST(SelfContact, MeshWithoutTetsHasNone)
+{
+    EXPECT_TRUE(found({Positions::Zero(3, 3), pbs::Tets(0, 4)}, Positions::Zero(3, 3)).empty());
+}
+
+}  // namespace
