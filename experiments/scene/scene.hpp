@@ -89,7 +89,7 @@ const std::vector<BuiltInScene>& built_in_scenes();
 // A sweep or a clip on a skeleton. `scene_file` is named in errors.
 pbs::Motion make_motion(const MotionSpec& spec, const pbs::Skeleton& skeleton, const std::string& scene_file);
 
-// What a user should know, a sentence each.
+// Messages for the user; each is one sentence.
 struct Remarks {
     std::vector<std::string> warnings, notes;  // a result is doubtful; nothing is wrong
 };

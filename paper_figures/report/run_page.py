@@ -123,7 +123,7 @@ def distances(found):
     return table("Distances between the same points", ["deformers", "of", "median rms [mm]", "largest [mm]", "frames"], body, "tall")
 
 
-# What a run takes from a rigged model. A sentence is on the page where the record has all of its numbers and names.
+# Sentences about the rigged model of a run. The page shows a sentence if the record has a value for each of its placeholders.
 of_model = ("File: {file}; {meshes_in_file}: {meshes}.", "Largest extent: {extent_m} m, with {metres_per_unit} m per unit of the file.",
             "Joints dropped: {dropped}.", "Containers, which only contribute their transform: {containers}.",
             "From the bind pose to the file's rest pose, bones turn by up to {bind_pose_deg}\u00b0.", "Animations: {animations}.",

@@ -94,7 +94,7 @@ void add_sheet(const RiggedBody& body, const std::string& file, std::vector<std:
                           " m on both sides of it");
 }
 
-// Of a watertight surface, from V - E + F = 2 (parts - handles); 0 of an open one, which has no handles of its own to count.
+// The number of handles of a watertight surface, by V - E + F = 2 (parts - handles). It is 0 for an open surface.
 int handles_of(const Triangles& triangles)
 {
     if (!is_watertight(triangles)) return 0;
@@ -215,7 +215,7 @@ Character make_model_character(const ModelSource& source, std::vector<std::strin
                                   [&] {
                                       return SurfaceMesh{body.surface, body.triangles};
                                   },
-                              // Of a file that nobody here made: any handles and parts, joints may be outside.
+                              // The model may have any number of handles and parts, and its joints may lie outside.
                               .meshing = {.boundary_euler = {}, .is_closed = false, .is_one_piece = false, .inside = {}}};
     Character character = meshed(surface, source);
     const Stage weighting("carrying the weights of " + source.file + " to the tets");

@@ -4,7 +4,10 @@
 // direction to the nearest point of that skin, and m = F^-T n. So -C is, to first order, the depth of v's own rest point in the tet, whose
 // gradients are -m and beta_i m. beta, m and delta are kept from one detection to the next, which makes C linear.
 //   project(constraint, {1, 1, 1, 1, 1}, {&x_v, &x_1, &x_2, &x_3, &x_4});
-// The five gradients add up to zero, so that a projection conserves linear momentum.
+// The five gradients add up to zero, so that a projection conserves linear momentum. The depth at rest needs no normals of a folded skin.
+// The paper leaves self-collision to future work (Sec. 5). Its first author published a method with spatial hashing: N. Abu Rumman,
+// M. Schaerf, D. Bechmann, Collision Detection for Articulated Deformable Characters, 2015. This constraint is another one; it is made for
+// blended shapes, which overlap from the start.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"

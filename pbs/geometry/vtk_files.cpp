@@ -71,7 +71,7 @@ std::string words_of(const std::string& message)
     return words;
 }
 
-// What VTK reports on this thread from here on is collected.
+// Collects the messages that VTK reports on this thread after this call.
 void collect_messages()
 {
     static std::once_flag installed;

@@ -34,9 +34,9 @@ struct ClosestPoints {
 
 // A triangle without area counts as its edges, and an edge without length as a point.
 ClosestPoints closest_points(PairKind kind, const FourPoints& points);
-// Of columns 0, the point, and 1 and 2, the ends of an edge. Column 3 has the weight 0.
+// The points are a point (column 0) and the ends of an edge (columns 1 and 2). Column 3 is not used; its weight is 0.
 ClosestPoints closest_on_edge(const FourPoints& points);
-// Of columns 0 and 1. The others have the weight 0.
+// The points are columns 0 and 1. The other columns are not used; their weights are 0.
 ClosestPoints closest_of_two(const FourPoints& points);
 
 // Both need a distance > 0. [1] and [1/m].

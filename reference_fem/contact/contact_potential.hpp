@@ -27,7 +27,7 @@ struct Barrier {
 };
 Barrier barrier(double distance_m, double range_m);
 
-// What presses in one state.
+// The pairs of the surface that press on each other in one state of deformation.
 struct ContactState {
     double smallest_distance_m = 0.0;  // of the pairs that press; 0: none does
     int pairs = 0;

@@ -41,7 +41,7 @@ RowMaterial linear_material(double poisson);                      // {"linear", 
 std::string identifier_of(const std::string& words);              // Newmark, step 40 ms: newmark_step_40_ms
 double order_between(double coarse, double fine);                 // of errors on two meshes, one twice as fine
 
-// What the rows of one solution share.
+// The fields that all rows of one solution have in common.
 struct RowSolution {
     std::string problem;
     RowElements elements;

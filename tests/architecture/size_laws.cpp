@@ -19,7 +19,6 @@ const std::map<std::string, std::string> named_interfaces = {
     {"experiments/trial/trial.hpp", "the interface of a library"},
     {"experiments/verdicts/check/check_run.hpp", "the interface of a library"},
     {"pbs/character/character_unavailable.cpp", "in place of a library that is left out"},
-    {"pbs/contact/depth_constraint.hpp", "one constraint, as its equations"},
     {"pbs/flesh/cholmod_module.cpp", "a module that the program loads"},
     {"pbs/geometry/installed_eigen.hpp", "included by every file of another project"},
     {"pbs/geometry/mesh_io_unavailable.cpp", "in place of a library that is left out"},

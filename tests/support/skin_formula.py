@@ -12,8 +12,8 @@ import numpy
 
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
-# What the order of operations may change, of the largest coordinate: up to 4 joints per point with up to 6 nodes above, and some 40
-# operations for a product of two matrices and its use, so that below 2^10 results are rounded in double precision, each by 2^-53.
+# The tolerance for another order of operations, relative to the largest coordinate. A point has up to 4 joints with up to 6 nodes above
+# each, and a product of two matrices and its use take some 40 operations: fewer than 2^10 results are rounded, each by up to 2^-53.
 ROUNDED = 2.0 ** -43
 
 
