@@ -112,6 +112,18 @@ TEST(SelfContact, DepthAndDirectionAreThoseOfTheNearestSkin)
     EXPECT_GE(of_second, 9);
 }
 
+TEST(SelfContact, PartsNearerThanHalfAnEdgeAtRestAreNotInContact)
+{
+    const auto vertices_in_flesh = [](double gap_m) {  // at rest; the block is pushed to the same place, 0.1 m deep
+        OverlappingBlocks near = blocks;
+        near.mesh.rest.bottomRows(near.mesh.rest.rows() - near.vertices_of_first).col(2).array() -= 2.0 - gap_m;
+        return found(near.mesh, near.pushed).size();
+    };
+    const double threshold_m = half_edge_m(blocks.mesh);
+    EXPECT_EQ(vertices_in_flesh(0.9 * threshold_m - 0.1), 0u);
+    EXPECT_EQ(vertices_in_flesh(1.1 * threshold_m - 0.1), found(blocks.mesh, blocks.pushed).size());
+}
+
 TEST(RestSkin, FindsTheNearestPointOfABox)
 {
     const pbs::TetMesh box = structured_bar({0, 0, 0}, {3, 2, 1}, {6, 4, 2});
