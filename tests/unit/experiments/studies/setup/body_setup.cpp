@@ -25,6 +25,15 @@ TEST(BodySetup, BodyAndVerticesAloneAreTheBodyAndEveryFurtherKeyIsAKeyOfTheScene
     for (const auto& further : further_keys()) EXPECT_EQ(changed(scene_of({"ring", 0, further}, 5.0)).size(), further.size());
 }
 
+TEST(BodySetup, EveryBodyTakesTheSharedClip)
+{
+    for (const char* body : {"human", "ring"}) {
+        if (!pbs::body_is_installed(body)) continue;
+        const Scene scene = scene_of({body, 600}, 5.0);
+        EXPECT_GT(make_case_motion(scene.motion, pbs::make_character(scene.character), scene.file).motion.steps.size(), 1u) << body;
+    }
+}
+
 TEST(BodySetup, CountsEveryFurtherKeyThatIsChangedAddedOrMissing)
 {
     const auto further = [](const std::vector<std::string>& keys) { return scene_of({"ring", 0, keys}, 5.0).resolved; };
