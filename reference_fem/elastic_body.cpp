@@ -2,6 +2,8 @@
 
 #include "reference_fem/dynamics/time_stepper.hpp"
 
+#include <limits>
+
 namespace reference_fem {
 namespace {
 
@@ -132,11 +134,28 @@ public:
         positions_ = held_.vertices(displacement_);
     }
 
-    pbs::Positions moved(const pbs::Positions& points_at_rest, const Eigen::VectorXd& displacement) const
+    std::vector<pbs::Location> places_of(const pbs::Positions& points_at_rest) const
     {
         const pbs::TetMesh mesh{held_.rest(), held_.space().tet_nodes().leftCols(4)};
-        const AttachedPoints points(mesh, held_.space(), points_at_rest, Eigen::VectorXd::Ones(points_at_rest.rows()));
-        return points.moved(displacement);
+        const pbs::PointLocation where(mesh);
+        std::vector<pbs::Location> places;
+        for (const auto& point : points_at_rest.rowwise()) places.push_back(where.locate(point));
+        return places;
+    }
+
+    pbs::Positions moved(const std::vector<pbs::Location>& places, const Eigen::VectorXd& displacement) const
+    {
+        const SimplexSpace& space = held_.space();
+        const pbs::Positions nodes = space.node_positions() + Eigen::Map<const pbs::Positions>(displacement.data(), space.nodes(), 3);
+        pbs::Positions moved(static_cast<Eigen::Index>(places.size()), 3);
+        for (std::size_t p = 0; p < places.size(); ++p) {
+            const auto& [tet, barycentric] = places[p];
+            if (tet < 0)
+                moved.row(p).setConstant(std::numeric_limits<double>::quiet_NaN());
+            else
+                moved.row(p) = space.shape_values(barycentric).transpose() * nodes(space.tet_nodes().row(tet), Eigen::all);
+        }
+        return moved;
     }
 
     void show()
@@ -237,14 +256,19 @@ const pbs::Positions& ElasticBody::nodes_at_rest() const
     return implementation_->held_.space().node_positions();
 }
 
-pbs::Positions ElasticBody::moved(const pbs::Positions& points_at_rest) const
+std::vector<pbs::Location> ElasticBody::places_of(const pbs::Positions& points_at_rest) const
 {
-    return implementation_->moved(points_at_rest, implementation_->displacement_);
+    return implementation_->places_of(points_at_rest);
 }
 
-pbs::Positions ElasticBody::moved_in_last_iterate(const pbs::Positions& points_at_rest) const
+pbs::Positions ElasticBody::moved(const std::vector<pbs::Location>& places) const
 {
-    return implementation_->moved(points_at_rest, implementation_->last_iterate_);
+    return implementation_->moved(places, implementation_->displacement_);
+}
+
+pbs::Positions ElasticBody::moved_in_last_iterate(const std::vector<pbs::Location>& places) const
+{
+    return implementation_->moved(places, implementation_->last_iterate_);
 }
 
 Jacobians ElasticBody::jacobians_of_last_iterate() const
@@ -267,6 +291,13 @@ double ElasticBody::strain_energy_j() const
     return implementation_->flesh_.value(implementation_->displacement_);
 }
 
+double ElasticBody::potential_energy_j() const
+{
+    double energy_j = 0.0;
+    for (const Potential* term : implementation_->terms_) energy_j += term->value(implementation_->displacement_);
+    return energy_j;
+}
+
 double ElasticBody::kinetic_energy_j() const
 {
     return implementation_->stepper_ ? implementation_->stepper_->kinetic_energy_j() : 0.0;
@@ -280,6 +311,11 @@ Jacobians ElasticBody::jacobians() const
 std::vector<bool> ElasticBody::prescribed_vertices() const
 {
     return implementation_->held_.prescribed_vertices();
+}
+
+std::vector<PressedPair> ElasticBody::pressed() const
+{
+    return implementation_->contact_ ? implementation_->contact_->pressed(implementation_->displacement_) : std::vector<PressedPair>();
 }
 
 ContactState ElasticBody::contact() const

@@ -79,17 +79,21 @@ public:
 
     const pbs::Positions& positions() const;      // deformed vertices [m], #V x 3
     const pbs::Positions& nodes_at_rest() const;  // [m], #nodes x 3: vertices, then the middles of edges
-    // Where points of the flesh are now [m], #P x 3, interpolated by the elements; given at rest. Not a number outside the flesh.
-    pbs::Positions moved(const pbs::Positions& points_at_rest) const;
+    // Where places in the tets are now [m], #P x 3, interpolated by the elements and extrapolated outside; not a number for a place without
+    // a tet, as places_of() gives it to a point outside the flesh.
+    pbs::Positions moved(const std::vector<pbs::Location>& places) const;
+    std::vector<pbs::Location> places_of(const pbs::Positions& points_at_rest) const;  // [m], #P x 3
     // As moved() and jacobians(), in the state in which Newton's method ended last, converged or not. At rest before the first solve.
-    pbs::Positions moved_in_last_iterate(const pbs::Positions& points_at_rest) const;
+    pbs::Positions moved_in_last_iterate(const std::vector<pbs::Location>& places) const;
     Jacobians jacobians_of_last_iterate() const;
     const Eigen::VectorXd& displacement() const;    // of every node of the space [m], #dofs: vertices, then the middles of edges
     pbs::Positions spring_points_deformed() const;  // where the tied points went [m], #S x 3
     double strain_energy_j() const;                 // of the flesh alone
+    double potential_energy_j() const;              // with springs, gravity and contact, for the last targets
     double kinetic_energy_j() const;                // 0 where quasi-static
     Jacobians jacobians() const;                    // det F at the quadrature points of the elements
     ContactState contact() const;                   // no pair where there is no contact
+    std::vector<PressedPair> pressed() const;       // the pairs of a node and a triangle among them
     std::vector<bool> prescribed_vertices() const;  // #V
     const SetupSummary& setup() const;              // solver and factor from the first solve on
 

@@ -11,7 +11,7 @@ if(PBS_WITH_CGAL)
     list(APPEND left_out pbs/geometry/meshing_unavailable)
 else()
     list(APPEND left_out pbs/geometry/meshing pbs/geometry/self_intersection pbs/character/bodies
-        pbs/character/overlap_and_jiggle)
+        pbs/character/bone_capsules)
 endif()
 if(NOT PBS_WITH_RIG_IMPORT)
     list(APPEND left_out pbs/character/skeleton_file pbs/character/clip pbs/character/joint_names pbs/character/bodies
@@ -27,7 +27,7 @@ pbs_tests(unit pbs_files
     LIBRARIES pbs_mesh_io pbs_meshing pbs_module)
 pbs_tests(unit pbs_rig FOLDERS pbs/rig EXCEPT ${left_out} LIBRARIES pbs_rig pbs_mesh_io)
 pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out}
-    ALONE pbs/character/overlap_and_jiggle pbs/character/character pbs/character/retarget
+    ALONE pbs/character/bone_capsules pbs/character/character pbs/character/retarget
     LIBRARIES pbs_character pbs_mesh_io)
 if(TARGET pbskin_cholmod)
     pbs_tests(unit pbs_flesh FOLDERS pbs/flesh

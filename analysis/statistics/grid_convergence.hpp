@@ -1,33 +1,12 @@
-// The distance of a result on a mesh from the limit under refinement, from two meshes: Richardson extrapolation and the grid convergence
-// index (GCI).
-//   const double bar = two_fields(error_l2_pct, 2.0, 1.0).bounds[1];   // of the coarser of two fields
-// P. J. Roache, Journal of Fluids Engineering 116, 1994: a bound is the distance from the extrapolated limit times a safety factor, which
-// is 3 for two grids with a presumed order. I. B. Celik et al., Journal of Fluids Engineering 130, 2008: the mesh sizes should differ by a
-// factor of at least 1.3, since the difference of more similar meshes is mostly noise. Grid 1 is the finer one. Values and bounds have the
-// unit of the measured quantity; the GCI of the literature is bounds[0] / |value|. With two grids no order is observed:
-// nested_order observes it from four nested solutions, and observed_order (fits.hpp) from the errors on any number of meshes.
+// The distance of a result on a mesh from the limit under refinement, from four nested solutions: Richardson's extrapolation, and a safety
+// factor (P. J. Roache, Journal of Fluids Engineering 116, 1994). observed_order (fits.hpp) finds an order on any number of meshes whose
+// errors are known.
 #pragma once
 
-#include "pbs/geometry/tet_mesh.hpp"
-
-#include <array>
+#include <algorithm>
+#include <cmath>
 
 namespace analysis {
-
-constexpr double grid_safety_factor = 3.0;   // Roache, for two grids
-constexpr double smallest_grid_ratio = 1.3;  // Celik et al.
-
-struct GridConvergence {
-    double extrapolated = 0.0;          // the limit; NaN for fields, and where a value is not finite
-    std::array<double, 2> bounds = {};  // bounds on the distances of the finer and the coarser grid from the limit
-};
-
-// Values of the finer and the coarser grid; the ratio of their mesh sizes; the presumed order of convergence. InputError unless the ratio
-// is at least 1.3 and the order > 0, both finite.
-GridConvergence two_grids(const std::array<double, 2>& values, double ratio, double order);
-
-// Like two_grids, for two fields that are known by the norm of their difference; the bounds use the same norm.
-GridConvergence two_fields(double difference, double ratio, double order);
 
 // The distances of the other solutions from the quadratic one on the refined tets, in any norm and unit.
 struct NestedDistances {
@@ -39,14 +18,15 @@ struct NestedDistances {
 struct NestedOrder {
     double observed = 0.0;  // below 0 where the linear solutions move away from the finest one; NaN where all solutions are equal
     double order = 0.0;     // the order that is used: the observed one, at least 0.5 and at most the formal one
-    // 0.5 <= observed <= formal order + 0.1 (L. Eca, M. Hoekstra, Journal of Computational Physics 262, 2014), and the unrefined quadratic
-    // solution is closer to the finest one than the refined linear one is.
+    // The linear solutions are in the range where errors fall as they should: 0.95 <= observed <= formal order + 0.1 (the upper limit: L.
+    // Eca, M. Hoekstra, Journal of Computational Physics 262, 2014); and the unrefined quadratic solution is at least twice as close to the
+    // finest one as the refined linear one is. In folds neither holds, and the order is no measure of the error.
     bool reliable = false;
     double safety_factor = 0.0;  // 1.25 if reliable, otherwise 3
 
     // Returns a bound on the distance of the finest solution from the limit, in the norm and unit of the argument. quadratic: as
     // NestedDistances::quadratic, in any norm.
-    double bound(double quadratic) const;
+    double bound(double quadratic) const { return safety_factor * quadratic / (std::exp2(order) - 1.0); }
 };
 
 // The error of finite elements from four nested solutions: linear and quadratic elements on some tets and on the same tets cut into eight.
@@ -62,17 +42,18 @@ struct NestedOrder {
 //   const NestedOrder order = nested_order({.linear = 2.0, .linear_refined = 0.6, .quadratic = 0.1}, 2.0);
 //   order.bound(0.1);         // of the quadratic solution on the refined tets
 //   2.0 + order.bound(0.1);   // of any other one, by the triangle inequality
-// Where the finest solution was not reached, the other three give a wider bound (order_without_finest).
 // formal_order: of linear elements, > 0. Distances are >= 0.
-NestedOrder nested_order(const NestedDistances& distances, double formal_order);
-
-// Where the quadratic solution on the refined tets was not reached, the quadratic one on the unrefined tets stands for the limit in the
-// observed order of the linear ones. The refined linear solution is then at most bound(|linear - linear, refined|) from the limit, and the
-// quadratic one at most |quadratic - linear, refined| more. The order is never reliable: no finer solution confirms it.
-// linear, linear_refined: the distances of these solutions from the quadratic one on the unrefined tets.
-NestedOrder order_without_finest(double linear, double linear_refined, double formal_order);
-
-// Richardson's extrapolation from two nested solutions of one method that converges with this order > 0, #V x 3.
-pbs::Positions extrapolated(const pbs::Positions& refined, const pbs::Positions& unrefined, double order);
+inline NestedOrder nested_order(const NestedDistances& distances, double formal_order)
+{
+    constexpr double lowest_order = 0.5, reliable_order = 0.95, above_formal = 0.1, closer_by = 2.0;
+    NestedOrder order;
+    order.observed = std::log2(distances.linear / distances.linear_refined);
+    order.order =
+        std::isnan(order.observed) ? formal_order : std::clamp(order.observed, std::min(lowest_order, formal_order), formal_order);
+    order.reliable = order.observed >= std::min(reliable_order, formal_order) && order.observed <= formal_order + above_formal &&
+                     closer_by * distances.quadratic <= distances.linear_refined;
+    order.safety_factor = order.reliable ? 1.25 : 3.0;
+    return order;
+}
 
 }  // namespace analysis

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <any>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -23,10 +24,24 @@ struct TriedSolution {
     pbs::StepSummary step;
 };
 
+// A place where a reference with contact begins to press on itself: a crease is the sharper there, the finer the tets are.
+struct CreaseTip {
+    pbs::Vec3 at_rest;    // [m]
+    double radius_m = 0;  // of the part of the flesh in which its place matters: a third of the local limb radius
+};
+
+// The points that lie within a tip's radius at rest, #P. points_at_rest: [m], #P x 3.
+std::vector<bool> near_tips(const std::vector<CreaseTip>& tips, const pbs::Positions& points_at_rest);
+
 // What only finite elements state about their last frame.
 struct FemFacts {
     std::vector<bool> prescribed;        // #V: the vertices whose positions the attachment prescribes; empty: none
     std::optional<double> lowest_det_f;  // the smallest at the quadrature points; nothing: no elements with quadrature points
+    std::optional<double> energy_j;      // of a nonlinear equilibrium: flesh, springs, gravity and contact
+    std::vector<CreaseTip> tips;         // none without contact
+    // Where places in the tets are in positions() [m], #P x 3, interpolated by the elements, of a nonlinear model. Each place has a tet,
+    // and may lie outside it.
+    std::function<pbs::Positions(const std::vector<pbs::Location>& places)> moved;
     // The last state of the solver [m], #V x 3, in the world. It differs from positions() where the pose was not reached and positions()
     // were taken back to an earlier state.
     pbs::Positions last_state;

@@ -105,6 +105,15 @@ nlohmann::json to_json(const DeformerSpec& spec)
     return json;
 }
 
+std::vector<bool> near_tips(const std::vector<CreaseTip>& tips, const pbs::Positions& points_at_rest)
+{
+    std::vector<bool> near(points_at_rest.rows(), false);
+    for (Eigen::Index p = 0; p < points_at_rest.rows(); ++p)
+        for (const CreaseTip& tip : tips)
+            if ((points_at_rest.row(p).transpose() - tip.at_rest).norm() <= tip.radius_m) near[p] = true;
+    return near;
+}
+
 void TimedDeformer::reset(const pbs::Character& character)
 {
     positions_ = character.mesh.rest;

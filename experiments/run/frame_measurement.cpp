@@ -175,11 +175,10 @@ bool FrameMeasurement::error_below_reference_error() const
 }
 
 FrameMeasurer::FrameMeasurer(const pbs::Character& character, const OutputSpec& output, const std::vector<bool>& prescribed)
-    : character_(character), metrics_(character.mesh.rest, character.mesh.tets)
+    : character_(character), metrics_(character.mesh.rest, character.mesh.tets), skin_(pbs::boundary_of(character.mesh.tets))
 {
     if (output.errors) {
         error_metrics_.emplace(error_domain(character, prescribed));
-        overlap_.emplace(character);
         masked_.assign(character.mesh.rest.rows(), false);
     }
     if (output.sections) stations_ = limb_stations(character);
@@ -218,14 +217,10 @@ FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const F
     return measured;
 }
 
-double FrameMeasurer::leave_out_overlap(const pbs::Positions& reference)
+double FrameMeasurer::leave_out(const std::vector<CreaseTip>& tips)
 {
-    masked_ = overlap_.value().of(reference);
-    const Eigen::VectorXd ratios = metrics_.volume_ratios(reference);
-    for (Eigen::Index t = 0; t < ratios.size(); ++t)
-        if (!(ratios(t) > 0.0))
-            for (const int v : character_.mesh.tets.row(t)) masked_[v] = true;
-    return error_metrics_->share_pct(masked_);
+    masked_ = near_tips(tips, character_.mesh.rest);
+    return error_metrics_.value().share_pct(masked_);
 }
 
 double FrameMeasurer::min_section_pct(const pbs::Positions& positions, const pbs::Pose& pose)

@@ -5,10 +5,11 @@
 #include "analysis/metrics/cross_section.hpp"
 #include "analysis/metrics/error_norms.hpp"
 #include "analysis/metrics/frame_metrics.hpp"
+#include "experiments/deformers/deformer.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/character/bone_capsules.hpp"
 #include "pbs/character/character.hpp"
-#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/geometry/meshing.hpp"
+#include "pbs/geometry/topology.hpp"
 #include "pbs/solver/step_summary.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -41,9 +42,9 @@ pbs::Vec3 posed_normal(const LimbStation& station, const pbs::Pose& pose);
 struct FrameMeasurement {
     analysis::FrameMetrics metrics;
     double bind_rms_m = 0.0;
-    std::optional<analysis::ErrorNorms> errors;                // outside the part of the body where the reference overlaps itself
-    std::optional<analysis::ErrorNorms> errors_on_whole_body;  // with it
-    std::optional<double> masked_share_pct;                    // share of the volume of that part
+    std::optional<analysis::ErrorNorms> errors;                // outside the tips of the reference's creases
+    std::optional<analysis::ErrorNorms> errors_on_whole_body;  // with them
+    std::optional<double> masked_share_pct;                    // share of the volume at these tips
     std::optional<analysis::ErrorNorms> reference_error;       // bound of the reference's distance from the limit of ever finer tets
     std::optional<double> min_section_pct;
     std::optional<double> surface_volume_change_pct;
@@ -70,9 +71,10 @@ public:
     // prescribed: as in error_domain.
     FrameMeasurer(const pbs::Character& character, const OutputSpec& output, const std::vector<bool>& prescribed);
     FrameMeasurement measure(const pbs::Positions& positions, const FrameContext& context);
-    // Finds the part of the body where the reference overlaps itself in the coming frame, and the vertices of the tets that it inverts by
-    // their vertices alone; errors and differences leave them out. The share of their volume [%]. The scene must have asked for errors.
-    double leave_out_overlap(const pbs::Positions& reference);
+    // Errors and differences of the coming frame leave these out. The share of their volume [%]. The scene must have asked for errors.
+    double leave_out(const std::vector<CreaseTip>& tips);
+    // Whether the skin passes through itself, which that of an equilibrium with contact does not.
+    bool overlaps(const pbs::Positions& positions) const { return pbs::self_intersects(positions, skin_); }
     // The difference in the norms of the errors. The scene must have asked for errors.
     analysis::ErrorNorms difference(const pbs::Positions& a, const pbs::Positions& b) const
     {
@@ -87,8 +89,8 @@ private:
     const pbs::Character& character_;
     analysis::MeshMetrics metrics_;
     std::optional<analysis::ErrorMetrics> error_metrics_;
-    std::optional<pbs::OverlapMask> overlap_;  // if errors are measured
-    std::vector<bool> masked_;                 // in this frame, #V
+    pbs::Triangles skin_;
+    std::vector<bool> masked_;  // in this frame, #V
     std::vector<LimbStation> stations_;
     std::vector<analysis::SectionStation> sections_;         // one per station, in the pose that is being measured
     std::optional<analysis::SurfaceVolume> surface_volume_;  // if the surface is closed

@@ -26,12 +26,12 @@ const Columns<ErrorNorms> error_columns = {
     {"error_linf_m", &ErrorNorms::linf_m, "m", "largest distance to the reference"}};
 
 const Columns<ErrorNorms> whole_error_columns = {
-    {"error_whole_l2_pct", &ErrorNorms::l2_pct, "%", "error_l2_pct with the part of the body where the reference overlaps itself"},
-    {"error_whole_joint_pct", &ErrorNorms::joint_pct, "%", "error_joint_pct with that part"}};
+    {"error_whole_l2_pct", &ErrorNorms::l2_pct, "%", "error_l2_pct with the tips of the reference's creases"},
+    {"error_whole_joint_pct", &ErrorNorms::joint_pct, "%", "error_joint_pct with these tips"}};
 
-const Columns<FrameMeasurement> masked_columns = {
-    {"masked_share_pct", &FrameMeasurement::masked_share_pct, "%",
-     "share of the volume that the errors leave out because the reference overlaps itself there; no deformer has contact"}};
+const Columns<FrameMeasurement> masked_columns = {{"masked_share_pct", &FrameMeasurement::masked_share_pct, "%",
+                                                   "share of the volume that the errors leave out: the tips of creases of a reference with "
+                                                   "contact, whose sharpness belongs to its tets"}};
 
 const Columns<ErrorNorms> error_bar_columns = {
     {"reference_error_l2_pct", &ErrorNorms::l2_pct, "%",

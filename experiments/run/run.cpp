@@ -99,7 +99,6 @@ OutputSpec measured_output(const Scene& scene)
 }
 
 constexpr double many_inverted_pct = 1.0;    // of the tets, in the first frame
-constexpr double large_mask_pct = 10.0;      // of the volume
 constexpr double far_from_artist_pct = 2.0;  // of the model's size
 
 // Warnings and notes of a run reach the terminal at once and run.json at its end, each once. Records name files without folders of the
@@ -172,7 +171,7 @@ public:
                         "note");
         warn_of_bones_without_flesh();
         if (scene.error_bar != ErrorBar::none)
-            cost_.time("error_bar_set_up", [&] { error_bar_.emplace(scene.error_bar, runners_.front().spec, character_); });
+            cost_.time("error_bar_set_up", [&] { error_bar_.emplace(runners_.front().spec, character_); });
     }
 
     RunResult run()
@@ -240,10 +239,14 @@ private:
         const Runner& first = runners_.front();
         if (scene_.output.errors && first.spec.name == scene_.reference && can_be_compared_with(first)) {
             context.reference = &first.deformer->positions();
-            const double masked_pct = cost_.time("metrics", [&] { return measurer_.leave_out_overlap(*context.reference); });
-            frames_with_overlap_ += masked_pct > 0.0;
-            if (masked_pct > largest_masked_share_pct_) frame_of_largest_mask_ = frame;
-            largest_masked_share_pct_ = std::max(largest_masked_share_pct_, masked_pct);
+            cost_.time("metrics", [&] {
+                const FemFacts* facts = first.deformer->facts();
+                largest_masked_share_pct_ =
+                    std::max(largest_masked_share_pct_, measurer_.leave_out(facts ? facts->tips : std::vector<CreaseTip>()));
+                const auto* fem = options_if<FemOptions>(first.spec);
+                if ((fem && fem->has_contact()) || !measurer_.overlaps(*context.reference)) return;
+                if (frames_with_overlap_++ == 0) first_frame_with_overlap_ = frame;
+            });
             if (error_bar_) cost_.time("error_bar", [&] { context.reference_error = error_bar_->bound(*context.reference, measurer_); });
         }
         for (Runner& runner : runners_) record_deformer(runner, frame, time_s, context);
@@ -276,12 +279,12 @@ private:
             add_remarks({text}, notes_, "note");
     }
 
-    void warn_of_large_mask()
+    void warn_of_overlap()
     {
-        if (largest_masked_share_pct_ > large_mask_pct)
-            add_warnings({fmt::format("{}: errors leave out {:.0f} % of the volume in frame {}, where the reference overlaps itself or is "
-                                      "inverted",
-                                      scene_.file, largest_masked_share_pct_, frame_of_largest_mask_)},
+        if (frames_with_overlap_ > 0)
+            add_warnings({fmt::format("{}: the reference passes through itself in {} of {} frames, first in frame {}, and has no contact: "
+                                      "errors compare with that",
+                                      scene_.file, frames_with_overlap_, frames_, first_frame_with_overlap_)},
                          warnings_);
     }
 
@@ -396,7 +399,7 @@ private:
             outcome["largest_masked_share_pct"] = largest_masked_share_pct_;
         }
         if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
-        warn_of_large_mask();
+        warn_of_overlap();
         if (const nlohmann::json followed = record_followed_skin(); !followed.is_null()) outcome["from_artist"] = followed;
         outcome["warnings"] = warnings_;
         outcome["notes"] = notes_;
@@ -429,7 +432,7 @@ private:
     FrameMeasurer measurer_;
     std::optional<ReferenceErrorBar> error_bar_;
     RunFolder folder_;  // made last, for it removes the records of an earlier run
-    int frames_ = 0, frames_with_overlap_ = 0, frame_of_largest_mask_ = 0;
+    int frames_ = 0, frames_with_overlap_ = 0, first_frame_with_overlap_ = 0;
     double largest_masked_share_pct_ = 0.0;
     std::string breakdown_, bad_frame_;
     std::set<std::string> bad_labels_;                                    // of the deformers with bad frames

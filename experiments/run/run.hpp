@@ -34,8 +34,8 @@ RunResult run_scene(const Scene& scene, const std::string& folder, const Remarks
 // The parts of run.json that are the same for all runs.
 //   run["provenance"] = run_provenance(threads);   run["outcome"].update(run_end(stopwatch.seconds()));
 
-// The version of run.json. Since 3, errors are measured outside the part of the body that overlaps itself, and the outcome counts the
-// frames with such a part (frames_with_overlap, largest_masked_share_pct) instead of leaving them out.
+// The version of run.json. Since 3, a part of the body may be left out of the errors (largest_masked_share_pct): up to revision c31e4555
+// what overlaps in the reference, since then the tips of its creases. The outcome counts the frames with overlap (frames_with_overlap).
 inline constexpr int run_schema = 3;
 
 // The provenance of this build and machine, with the BLAS in use and the versions of the libraries that make characters and frames (empty

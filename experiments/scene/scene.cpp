@@ -166,9 +166,8 @@ ErrorBar read_error_bar(const SceneValues& values, const std::string& reference,
     const FemOptions* fem = reference_spec == deformers.end() ? nullptr : options_if<FemOptions>(*reference_spec);
     if (!fem)
         values.refuse("reference.error_bar", "expected none if the reference is not a [[fem]] table, for it has no elements to refine");
-    const bool other_order = error_bar == ErrorBar::orders || error_bar == ErrorBar::both;
-    if (other_order && fem->formulation == reference_fem::Formulation::taylor_hood)
-        values.refuse("reference.error_bar", "expected none or refined with formulation taylor_hood, which has only order 2");
+    if (fem->formulation == reference_fem::Formulation::taylor_hood)
+        values.refuse("reference.error_bar", "expected none with formulation taylor_hood, which has only order 2");
     if (!output.errors) values.refuse("reference.error_bar", "expected none if output.metrics leaves out the errors, which it belongs to");
     return error_bar;
 }

@@ -43,11 +43,11 @@ struct OutputSpec {
     bool writes(int frame) const;
 };
 
-// The further solutions that bound the distance of the reference from the limit of ever finer tets. none; orders: the other element order
-// on the same tets; refined: the same order on tets that are refined once; both: both element orders on both meshes.
-enum class ErrorBar { none, orders, refined, both };
+// The further solutions that bound the distance of the reference from the limit of ever finer tets: none, or both element orders on its
+// tets and on tets that are refined once.
+enum class ErrorBar { none, both };
 
-NAMED_OPTIONS(ErrorBar, none, orders, refined, both)
+NAMED_OPTIONS(ErrorBar, none, both)
 
 struct Scene {
     std::string name, file;

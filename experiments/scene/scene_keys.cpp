@@ -124,9 +124,9 @@ SceneSchema scene_schema(const std::vector<DeformerKind>& kinds)
                .key("name", text, "", {.meaning = "the deformer that errors are measured against; empty: none"})
                .key("error_bar", text, name_of(ErrorBar::none),
                     {.choices = names_of_options<ErrorBar>(),
-                     .meaning = "also estimates the discretisation error of the reference: orders (solves it again with the other element "
-                                "order on the same tets; cheap for order 2), refined (on tets cut into eight), both (four solutions, from "
-                                "which the order of convergence is observed; with two it is presumed); the method is in run.json"})
+                     .meaning =
+                         "both also bounds the discretisation error of the reference, by three further solutions: with the other element "
+                         "order, on tets cut into eight, and both; the method is in run.json"})
                .keys());
     append(Keys("deformers")
                .key("use", texts, {"lbs", "pbs"},

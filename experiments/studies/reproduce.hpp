@@ -53,9 +53,9 @@ FinishedRuns finished_runs(const std::string& folder);
 // root: the runs are named by their paths relative to this folder.
 analysis::Records read_study_records(const std::string& folder, const std::string& root);
 
-// The lines above the table of claims about frames of a study's runs that need attention: frames in which the reference intersects itself
-// (no deformer has contact), errors that are not above those of the reference, and frames that broke down, with the worst element of the
-// first one.
+// The lines above the table of claims about frames of a study's runs that need attention: frames in which the reference intersects itself,
+// the share that errors leave out, errors that are not above those of the reference, and frames that broke down, with the worst element of
+// the first one.
 //   fmt::print("{}", marked_frames(finished_runs(folder).folders));
 
 // Reads run.json in the folders of finished runs. InputError if such a file is not one that this program wrote.

@@ -124,8 +124,9 @@ std::string marks_of(const json& outcome, const std::string& run)
     const json none = json::object(), below = outcome.value("frames_below_reference_error", none),
                broken = outcome.value("broken_frames", none);
     if (const int count = outcome.value("frames_with_overlap", 0); count > 0)
-        lines += fmt::format("     {}: the reference overlaps itself in {} of {} frames; errors leave out up to {:.2g} % of the volume\n",
-                             run, count, outcome.at("frames").get<int>(), outcome.at("largest_masked_share_pct").get<double>());
+        lines += fmt::format("     {}: the reference overlaps itself in {} of {} frames\n", run, count, outcome.at("frames").get<int>());
+    if (const double share_pct = outcome.value("largest_masked_share_pct", 0.0); share_pct > 0.0)
+        lines += fmt::format("     {}: errors leave out up to {:.2g} % of the volume, at the tips of creases\n", run, share_pct);
     for (const auto& [label, count] : below.items())
         lines += fmt::format("     {}: the error of {} at the joints is not above the reference's own in {} of {} frames\n", run, label,
                              count.get<int>(), outcome.at("frames").get<int>());

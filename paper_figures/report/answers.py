@@ -89,7 +89,7 @@ def pose_table(shown):
     rows = [[pose.name, *(figure(number(row, "error_joint_pct")) for row in (pose.lbs, pose.pbs)),
              "\u2013" if bound is None else f"\u2264 {figure(bound)}", figure(number(pose.reference, "masked_share_pct"))]
             for pose, bound in zip(shown, bounds)]
-    header = ["pose", "LBS", "PBS", "reference's own error", "left out: overlaps [% of the volume]"]
+    header = ["pose", "LBS", "PBS", "reference's own error", "left out [% of the volume]"]
     return table("Distance from the FEM reference at the joints [%]", header, rows)
 
 

@@ -216,9 +216,7 @@ Character make_character(const CharacterSource& source, std::vector<std::string>
     if (source.vertices < 0) throw InputError("", 0, "character.vertices", std::to_string(source.vertices), "expected 0 or more");
     Character character = make_body(source, remarks);
     character.inputs.emplace_back("tets", content_hash(character.mesh));
-    character.binding = nearest_bones(character);
-    const Weights paper = paper_weights(character.binding, character.skeleton);
-    for (int vertex = 0; vertex < paper.vertices(); ++vertex) character.blended.push_back(paper.blended(vertex));
+    bind_by_paper(character);
     character.weight_kind = source.weights.value_or(has_artist_weights(character) ? WeightKind::artist : WeightKind::paper);
     if (source.weights_file.empty()) {
         character.weights = weights_by(character.weight_kind, character);
@@ -228,6 +226,21 @@ Character make_character(const CharacterSource& source, std::vector<std::string>
     }
     for (int level = 0; level < source.refinements; ++level) character = refined(character);
     return character;
+}
+
+Character remeshed(const Character& character, const Remeshing& options)
+{
+    if (character.artist && character.artist->is_cut)
+        throw InputError(character.name, 0, "tets", "", "expected flesh in one piece: other tets would close its cuts");
+    Character other;
+    other.name = character.name;
+    other.skeleton = character.skeleton;
+    other.mesh = mesh_anew(character.mesh, options);
+    other.inputs = character.inputs;
+    bind_by_paper(other);
+    other.weights = weights_by(WeightKind::paper, other);
+    other.unrefined = std::make_shared<const Character>(character);
+    return other;
 }
 
 }  // namespace pbs

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pbs/character/character.hpp"
+#include "pbs/geometry/meshing.hpp"
 
 #include <string>
 #include <vector>
@@ -53,5 +54,10 @@ Character make_character(const CharacterSource& source);
 //   const Character arm = make_character({.mesh_file = "arm.msh", .skeleton_file = "arm.skeleton.toml"}, remarks);
 // One line each: turned tets, parts, an extent that speaks for other units than metres; none of a body by name.
 Character make_character(const CharacterSource& source, std::vector<std::string>& remarks);
+
+// The flesh within the same skin on other tets (mesh_anew), whose InputErrors reach the caller: what finite elements are solved on to learn
+// how much the character's own tets matter. It has the character's bones with their sizes, Eq. 2's weights, and no surface to be rendered.
+// InputError as well for flesh that is cut between parts.
+Character remeshed(const Character& character, const Remeshing& options);
 
 }  // namespace pbs

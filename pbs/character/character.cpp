@@ -56,23 +56,28 @@ BoneBinding nearest_bones(const Character& character)
                                 [&](int vertex, int bone) { return weights.of(vertex, bone) >= 0.25; });  // at most four bones
 }
 
+void bind_by_paper(Character& character)
+{
+    character.binding = nearest_bones(character);
+    const Weights paper = paper_weights(character.binding, character.skeleton);
+    character.blended.clear();
+    for (int vertex = 0; vertex < paper.vertices(); ++vertex) character.blended.push_back(paper.blended(vertex));
+}
+
 Character refined(const Character& character)
 {
     const Refinement fine = refine(character.mesh);
     Character result = character;
     result.mesh = fine.mesh;
     if (character.artist) result.artist->weights = mean_of_parents(character.artist->weights, fine.parents);
-    result.binding = nearest_bones(result);
-    const Weights paper = paper_weights(result.binding, character.skeleton);
-    result.blended.clear();
-    for (int vertex = 0; vertex < paper.vertices(); ++vertex) result.blended.push_back(paper.blended(vertex));
+    bind_by_paper(result);
     if (character.weight_kind == WeightKind::paper || character.weight_kind == WeightKind::rigid ||
         character.weight_kind == WeightKind::either_end)
         result.weights = weights_by(character.weight_kind, result);
     else
         result.weights = mean_of_parents(character.weights, fine.parents);
     if (character.surface) result.surface = embed_in_children(*character.surface, character.mesh, fine.mesh);
-    if (!character.unrefined) result.unrefined = std::make_shared<const Character>(character);
+    if (character.refinements == 0) result.unrefined = std::make_shared<const Character>(character);
     ++result.refinements;
     return result;
 }

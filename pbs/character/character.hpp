@@ -42,7 +42,7 @@ struct Character {
     std::vector<std::pair<std::string, std::string>> inputs;  // what it is made from, its clip with a run's -> content hash
     WeightKind weight_kind = WeightKind::paper;               // the rule that `weights` obey, on finer tets too
     int refinements = 0;                                      // how often its tets were cut into eight; see `refined`
-    std::shared_ptr<const Character> unrefined;               // whose first vertices and whose bones' sizes it keeps; null: itself
+    std::shared_ptr<const Character> unrefined;               // whose bones' sizes it keeps, on finer or other tets; null: itself
 };
 
 // Vertices farther from their nearest bone than the mean over all (Sec. 4), #V.
@@ -54,6 +54,9 @@ std::vector<bool> jiggle_zone_by_bone(const BoneBinding& binding);
 // The nearest bone of each vertex; where the flesh is cut between parts, the nearest of those that move it: a jaw's bone does not hold the
 // upper teeth.
 BoneBinding nearest_bones(const Character& character);
+
+// Fills in `binding` and `blended` by the mesh, the skeleton and the artist's skin.
+void bind_by_paper(Character& character);
 
 // The same character on finer tets: what any deformer is run on to learn how much its own mesh matters.
 //   const Character fine = refined(character);   // its first #V vertices are those of `character`

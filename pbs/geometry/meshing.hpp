@@ -29,13 +29,27 @@ struct SurfaceMeshing {
     std::optional<int> boundary_euler = 2;  // required of the boundary; 2: a ball, 0: a body with one handle; null: any
     bool is_closed = true;                  // required of the surface: its wrap holds about what it encloses
     bool is_one_piece = true;               // required of the tets
-    std::vector<Vec3> inside;               // points that must lie inside, e.g. joints
+    std::vector<Vec3> inside = {};          // points that must lie inside, e.g. joints
 };
 // InputError where fewer than 150 vertices are requested; the surface has fewer than 4 triangles, a point that is not finite, an index out
 // of range or a diagonal below 1e-9 m; a surface that must be closed has no volume, or its wrap holds less than half or more than twice
 // what it encloses (an open sheet, triangles turned both ways); the wrap has another Euler number or leaves a point of `inside` outside; or
 // none of the attempts has the required quality. Also in a build without CGAL.
 TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options);
+
+// Other tets inside the boundary of these. The refinement begins with its vertices; its edges are not kept. Cells are as large as the
+// triangles of the boundary near them, and those of the skin are smaller in the balls.
+struct FineBall {
+    Vec3 centre = Vec3::Zero();           // [m]
+    double radius_m = 0.0, size_m = 0.0;  // edges inside have about this length; outside it grows by a third of the distance
+};
+struct Remeshing {
+    unsigned seed = 0;  // another one shrinks all cells by up to a tenth, so that the refinement takes other points
+    std::vector<FineBall> fine = {};
+};
+// InputError where the boundary is not manifold; where the result would have a dihedral angle below 5 degrees, more pieces, another Euler
+// number or a boundary that intersects itself; and where it would take more than 30,000 vertices and six times those of the mesh.
+TetMesh mesh_anew(const TetMesh& mesh, const Remeshing& options);
 
 // How far mesh_surface thickens a surface to both sides if it encloses no volume and need not be closed [m]; 0 if it encloses one.
 double sheet_offset_m(const SurfaceMesh& surface);
@@ -56,9 +70,5 @@ std::vector<std::vector<Positions>> section_outlines(const Positions& positions,
 
 // Which points [m] lie inside or on a closed manifold boundary, #points. InputError where it has no triangle or is not closed.
 std::vector<bool> points_inside(const Positions& positions, const Triangles& boundary, const std::vector<Vec3>& points);
-
-// The members of `vertices` that lie inside a tet without being its corner, sorted. Parts of a body overlap there. positions: deformed [m],
-// #V x 3. InputError where one is not finite.
-std::vector<int> vertices_inside_other_tets(const Positions& positions, const Tets& tets, const std::vector<int>& vertices);
 
 }  // namespace pbs

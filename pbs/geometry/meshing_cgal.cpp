@@ -96,8 +96,11 @@ Complex refined(const Domain& domain, const MeshCriteria& wanted)
     const auto sized = [&domain](double size) {
         return [&domain, size](const Point& p, int, const Domain::Index&) { return size * domain.body->relative_size(p); };
     };
+    const auto facet_size = [&](const Point& p, int, const Domain::Index&) {
+        return wanted.facet_size * domain.body->relative_facet_size(p);
+    };
     const Criteria criteria(
-        parameters::edge_size = sized(wanted.facet_size), parameters::facet_angle = 25, parameters::facet_size = sized(wanted.facet_size),
+        parameters::edge_size = sized(wanted.facet_size), parameters::facet_angle = 25, parameters::facet_size = facet_size,
         parameters::facet_distance = wanted.facet_distance,
         parameters::facet_topology = wanted.is_manifold ? CGAL::FACET_VERTICES_ON_SAME_SURFACE_PATCH : CGAL::FACET_VERTICES_ON_SURFACE,
         parameters::cell_radius_edge_ratio = wanted.radius_edge_ratio, parameters::cell_size = sized(wanted.cell_size));

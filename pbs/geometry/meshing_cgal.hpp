@@ -40,6 +40,7 @@ public:
 
     // The size of cells near a point, as a factor of MeshCriteria's sizes.
     virtual double relative_size(const Point&) const { return 1.0; }
+    virtual double relative_facet_size(const Point& p) const { return relative_size(p); }
 };
 
 // What triangles enclose, counterclockwise from outside: three vertices and the patch.

@@ -26,7 +26,9 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <random>
 #include <set>
 #include <utility>
 
@@ -107,12 +109,12 @@ public:
 
 protected:
     Surface surface_;
+    int points_a_part_ = 12;
 
 private:
     Surface::Property_map<Surface::Face_index, int> patches_;
     CGAL::Polyhedral_mesh_domain_3<Surface, Kernel, CGAL::Default, int> domain_;
     std::vector<std::vector<Surface::Vertex_index>> parts_;
-    int points_a_part_ = 12;
 };
 
 constexpr double radius_edge_ratio = 2.5, good_dihedral_deg = 12.0;
@@ -126,6 +128,8 @@ constexpr double inside_to_skin = 1.2;  // size of cells over size of facets
 constexpr double flat_surface = 1e-12;
 constexpr double smallest_m = 1e-9;       // squares and cubes of cells of a smaller surface leave the range that CGAL can compare
 constexpr double sheet_thickness = 0.05;  // over the diagonal: some tets across it at the default number of vertices
+constexpr double edge_to_facet_size = 0.75, edge_to_cell_size = 0.9;  // give as many vertices as the tets had
+constexpr double remeshed_distance = 0.05, most_shrinking = 0.1, grading = 1.0 / 3.0;
 constexpr const char *boundary_not_manifold = "the boundary is not manifold", *no_tets = "no tets";
 
 // Bounds on the work, far above what a sound mesh takes. They count points, so that a slow machine makes the same meshes. A thin layer is
@@ -235,6 +239,63 @@ private:
     double diagonal_;
     Tree tree_;
     std::vector<double> thickness_;
+};
+
+Surface surface_of(const std::vector<Point>& points, const std::vector<PatchTriangle>& triangles)
+{
+    Surface surface;
+    auto patches = get(CGAL::face_patch_id_t<int>(), surface);
+    for (const Point& point : points) surface.add_vertex(point);
+    for (const auto& [a, b, c, patch] : triangles)
+        patches[surface.add_face(Surface::Vertex_index(a), Surface::Vertex_index(b), Surface::Vertex_index(c))] = patch;
+    return surface;
+}
+
+Surface boundary_surface(const TetMesh& mesh)
+{
+    Triangles boundary = boundary_of(mesh.tets);
+    std::vector<Point> points;
+    for (const int v : renumbered(boundary, mesh.rest.rows())) points.emplace_back(mesh.rest(v, 0), mesh.rest(v, 1), mesh.rest(v, 2));
+    std::vector<PatchTriangle> triangles;
+    for (const auto& face : boundary.cast<unsigned>().rowwise()) triangles.push_back({face(0), face(1), face(2), 1});
+    return surface_of(points, triangles);
+}
+
+// The inside of a mesh's boundary.
+class RemeshedBody : public EnclosedBody {
+public:
+    RemeshedBody(Surface surface, const Remeshing& options)
+        : EnclosedBody(std::move(surface)), options_(options), tree_(faces(surface_).begin(), faces(surface_).end(), surface_)
+    {
+        points_a_part_ = static_cast<int>(surface_.number_of_vertices());
+        tree_.accelerate_distance_queries();
+        std::mt19937 random(options.seed);
+        const double shrunk = options.seed == 0 ? 1.0 : 1.0 - most_shrinking * static_cast<double>(random()) / std::mt19937::max();
+        for (const auto face : surface_.faces()) {
+            double sum = 0.0;
+            for (const auto edge : CGAL::halfedges_around_face(surface_.halfedge(face), surface_)) sum += pmp::edge_length(edge, surface_);
+            size_.push_back(shrunk * sum / 3.0);
+        }
+    }
+
+    double mean_size() const { return std::accumulate(size_.begin(), size_.end(), 0.0) / static_cast<double>(size_.size()); }
+
+    // The skin alone is finer: cells follow it by their shapes.
+    double relative_size(const Point& p) const override { return size_[tree_.closest_point_and_primitive(p).second.idx()]; }
+    double relative_facet_size(const Point& p) const override
+    {
+        double size = relative_size(p);
+        for (const FineBall& ball : options_.fine) {
+            const double outside = (Vec3(p.x(), p.y(), p.z()) - ball.centre).norm() - ball.radius_m;
+            size = std::min(size, ball.size_m + grading * std::max(outside, 0.0));
+        }
+        return size;
+    }
+
+private:
+    const Remeshing& options_;
+    Tree tree_;
+    std::vector<double> size_;
 };
 
 struct Effort {
@@ -386,12 +447,7 @@ double sheet_offset_m(const SurfaceMesh& surface)
 
 std::unique_ptr<MeshedBody> make_enclosed_body(const std::vector<Point>& points, const std::vector<PatchTriangle>& triangles)
 {
-    Surface surface;
-    auto patches = get(CGAL::face_patch_id_t<int>(), surface);
-    for (const Point& point : points) surface.add_vertex(point);
-    for (const auto& [a, b, c, patch] : triangles)
-        patches[surface.add_face(Surface::Vertex_index(a), Surface::Vertex_index(b), Surface::Vertex_index(c))] = patch;
-    return std::make_unique<EnclosedBody>(std::move(surface));
+    return std::make_unique<EnclosedBody>(surface_of(points, triangles));
 }
 
 TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
@@ -411,6 +467,32 @@ TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
         if (const auto mesh = mesh_wrapped(surface, alpha, growth * offset, is_open, options, is_exceeded, why)) return *mesh;
     }
     throw InputError(*why);
+}
+
+TetMesh mesh_anew(const TetMesh& mesh, const Remeshing& options)
+{
+    const Topology topology = topology_of(mesh.tets, mesh.rest.rows());
+    if (mesh.tets.rows() == 0 || !topology.boundary_manifold)
+        throw InputError("", 0, "tets", std::to_string(mesh.tets.rows()),
+                         "expected some with a manifold boundary, to mesh its inside anew");
+    RemeshedBody body(boundary_surface(mesh), options);
+    const MeshCriteria criteria = {.facet_size = edge_to_facet_size,
+                                   .cell_size = edge_to_cell_size,
+                                   .facet_distance = remeshed_distance * body.mean_size(),
+                                   .radius_edge_ratio = radius_edge_ratio,
+                                   .is_manifold = true,
+                                   .sliver_bound_deg = good_dihedral_deg};
+    const std::size_t most = std::max(least_bound, bound_over_wanted * static_cast<std::size_t>(mesh.rest.rows()));
+    Effort effort = {most, most};
+    std::string breach;
+    try {
+        TetMesh other = mesh_within(effort, body, criteria);
+        breach = breach_of(other, {.boundary_euler = topology.boundary_euler, .is_one_piece = topology.components == 1});
+        if (breach.empty()) return other;
+    } catch (const TooManyVertices& reached) {
+        breach = reached.vertices + " vertices";
+    }
+    throw InputError("", 0, "tets", "", "their inside could not be meshed anew: " + breach);
 }
 
 }  // namespace pbs

@@ -1,9 +1,8 @@
-// Checks of closed triangle meshes and of tets that overlap, by CGAL's Polygon_mesh_processing and Box_intersection_d.
+// Checks of closed triangle meshes, by CGAL's Polygon_mesh_processing.
 #include "pbs/geometry/meshing.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 
-#include <CGAL/Box_intersection_d/Box_with_info_d.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
@@ -12,12 +11,10 @@
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/helpers.h>
-#include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -105,30 +102,6 @@ std::vector<bool> points_inside(const Positions& positions, const Triangles& bou
     std::vector<bool> inside;
     for (const Vec3& p : points) inside.push_back(side_of(Point(p(0), p(1), p(2))) != CGAL::ON_UNBOUNDED_SIDE);
     return inside;
-}
-
-std::vector<int> vertices_inside_other_tets(const Positions& positions, const Tets& tets, const std::vector<int>& vertices)
-{
-    if (!positions.allFinite()) throw InputError("", 0, "positions", "", "expected finite values");
-    using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
-    std::vector<Box> of_vertices, of_tets;
-    for (const int v : vertices) of_vertices.emplace_back(point_of(positions, v).bbox(), v);
-    for (int t = 0; t < tets.rows(); ++t) {
-        CGAL::Bbox_3 box;
-        for (const int v : tets.row(t)) box += point_of(positions, v).bbox();
-        of_tets.emplace_back(box, t);
-    }
-    std::set<int> inside;
-    CGAL::box_intersection_d(of_vertices.begin(), of_vertices.end(), of_tets.begin(), of_tets.end(),
-                             [&](const Box& vertex, const Box& tet) {
-                                 const auto corners = tets.row(tet.info());
-                                 if (std::find(corners.begin(), corners.end(), vertex.info()) != corners.end()) return;
-                                 const Kernel::Tetrahedron_3 cell(point_of(positions, corners(0)), point_of(positions, corners(1)),
-                                                                  point_of(positions, corners(2)), point_of(positions, corners(3)));
-                                 if (!cell.is_degenerate() && cell.has_on_bounded_side(point_of(positions, vertex.info())))
-                                     inside.insert(vertex.info());
-                             });
-    return {inside.begin(), inside.end()};
 }
 
 }  // namespace pbs

@@ -153,6 +153,18 @@ ContactState ContactPotential::state(const Eigen::VectorXd& displacement) const
     return state;
 }
 
+std::vector<PressedPair> ContactPotential::pressed(const Eigen::VectorXd& displacement) const
+{
+    std::vector<PressedPair> pairs;
+    for (const Term& term : terms_at(displacement)) {
+        if (term.kind != PairKind::point_triangle || term.weight_n_m < 0.0) continue;
+        const FourPoints at_rest = near_.at_rest(term.nodes);
+        const Vec3 across = at_rest * term.closest.weights;  // from the place to the node
+        pairs.push_back({at_rest.col(0) - across / 2.0, across.norm()});
+    }
+    return pairs;
+}
+
 void ContactPotential::add_gradient(const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const
 {
     for (const Term& term : terms_at(displacement)) {

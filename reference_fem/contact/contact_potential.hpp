@@ -34,6 +34,12 @@ struct ContactState {
     double energy_j = 0.0;
 };
 
+// Where a node of the surface and the place that presses on it are at rest: close to each other at the tip of a crease.
+struct PressedPair {
+    pbs::Vec3 middle = pbs::Vec3::Zero();  // between them [m]
+    double apart_m = 0.0;                  // their distance
+};
+
 class ContactPotential : public Potential {
 public:
     // The space may go. pbs::InputError for options out of bounds.
@@ -50,6 +56,7 @@ public:
     std::vector<NodePair> couplings(const Eigen::VectorXd& displacement) const override;
 
     ContactState state(const Eigen::VectorXd& displacement) const;
+    std::vector<PressedPair> pressed(const Eigen::VectorXd& displacement) const;
     // Whether an edge of the surface passes through a triangle. Such a state is no initial guess: the barrier would keep it as it is.
     bool intersects(const Eigen::VectorXd& displacement) const { return near_.intersects(displacement); }
 

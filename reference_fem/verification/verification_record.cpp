@@ -17,7 +17,7 @@ const Columns<RowQuantity> quantity_columns = {
 const Columns<RowElements> element_columns = {
     {"element_order", &RowElements::order, "", "1 linear, 2 quadratic; empty in a row without finite elements"},
     {"formulation", &RowElements::formulation, "",
-     "displacement, mean_dilatation or taylor_hood; without finite elements pbs, volume_constraints, one_point or two_grids"}};
+     "displacement, mean_dilatation or taylor_hood; without finite elements pbs, volume_constraints or one_point"}};
 const Columns<RowMaterial> material_columns = {{"material", &RowMaterial::law, "", "constitutive law, as an identifier"},
                                                {"poisson", &RowMaterial::poisson, "", "Poisson's ratio, of an elastic law"}};
 const Columns<VerificationRow> bound_columns = {{"low", &VerificationRow::low, "", "lower bound of the value"},

@@ -22,7 +22,7 @@ struct RowQuantity {
 
 struct RowElements {
     std::optional<int> order = {};  // 1 linear, 2 quadratic; nothing in a row without finite elements
-    // displacement, mean_dilatation or taylor_hood; without finite elements pbs, volume_constraints, one_point or two_grids
+    // displacement, mean_dilatation or taylor_hood; without finite elements pbs, volume_constraints or one_point
     std::string formulation = "displacement";
 
     std::string text() const;  // P2, P2 taylor_hood, one_point

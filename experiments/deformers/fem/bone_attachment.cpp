@@ -89,7 +89,7 @@ BoneAttachment bone_attachment(const pbs::Character& character, const FemOptions
     bones.capsules = pbs::bone_capsules(character, options.has_capsules() ? options.used_core_radius() : whole_limb);
     if (options.attachment == FemAttachment::bind)
         bind_vertices(character, options, bones);
-    else if (character.unrefined)
+    else if (character.refinements > 0)
         hold_children(bone_attachment(*character.unrefined, options), character, bones);
     else
         hold_tets(character, bones);

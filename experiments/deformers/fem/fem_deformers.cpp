@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace experiments {
 
@@ -68,20 +69,25 @@ namespace {
 
 constexpr double largest_turn_deg = 45.0;     // of a bone in one solve
 constexpr int most_indefinite_in_a_row = 40;  // where Newton's steps are limited
-constexpr double far_turn_deg = 15.0;         // beyond it the solution with fewer nodes is a better initial guess than the last pose's
+constexpr double tip_in_limb_radii = 1.0 / 3.0;
+constexpr double far_turn_deg = 15.0;  // beyond it the solution with fewer nodes is a better initial guess than the last pose's
 
-reference_fem::ContactOptions contact_options(const FemOptions& options, const pbs::Character& character)
+// The local limb radius of each bone [m], #bones.
+std::vector<double> limb_radii(const pbs::Character& character)
 {
-    if (!options.contact) return {};
-    constexpr double whole_limb = 1.0;
-    double sum_m = 0.0;
-    const auto limbs = pbs::bone_capsules(character, whole_limb);
-    for (const pbs::BoneCapsule& limb : limbs) sum_m += limb.radius_m;
-    return {.range_m = options.contact_range * sum_m / static_cast<double>(limbs.size()),
-            .stiffness_pa = options.contact_stiffness * options.young_pa};
+    std::vector<double> radii_m;
+    for (const pbs::BoneCapsule& limb : pbs::bone_capsules(character, 1.0)) radii_m.push_back(limb.radius_m);
+    return radii_m;
 }
 
-reference_fem::ElasticOptions solver_options(const FemOptions& options, const pbs::Character& character)
+reference_fem::ContactOptions contact_options(const FemOptions& options, const std::vector<double>& limb_radius_m)
+{
+    if (!options.has_contact()) return {};
+    const double mean_m = std::accumulate(limb_radius_m.begin(), limb_radius_m.end(), 0.0) / static_cast<double>(limb_radius_m.size());
+    return {.range_m = options.contact_range * mean_m, .stiffness_pa = options.contact_stiffness * options.young_pa};
+}
+
+reference_fem::ElasticOptions solver_options(const FemOptions& options, const std::vector<double>& limb_radius_m)
 {
     reference_fem::ElasticOptions elastic{.model = options.model,
                                           .element_order = options.element_order,
@@ -92,7 +98,7 @@ reference_fem::ElasticOptions solver_options(const FemOptions& options, const pb
                                           .dynamics = options.dynamics,
                                           .rayleigh_mass_1_s = options.rayleigh_mass_1_s,
                                           .rayleigh_stiffness_s = options.rayleigh_stiffness_s,
-                                          .contact = contact_options(options, character),
+                                          .contact = contact_options(options, limb_radius_m),
                                           .solver = options.solver,
                                           .path = {.most_newton_steps = options.most_newton_steps}};
     if (options.dynamics == reference_fem::Dynamics::quasi_static) elastic.newton.reuse_contraction = 0.1;
@@ -131,19 +137,21 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
 {
     character_ = &character;
     bones_ = bone_attachment(character, options_);
-    body_ = std::make_unique<reference_fem::ElasticBody>(character.mesh, solver_options(options_, character), bones_.attachment);
+    limb_radius_m_ = limb_radii(character);
+    body_ = std::make_unique<reference_fem::ElasticBody>(character.mesh, solver_options(options_, limb_radius_m_), bones_.attachment);
     guide_weights_ = {};
     if (options_.attachment != FemAttachment::bind)
         guide_weights_ = pbs::harmonic_weights(character.mesh, gripping_bones(bones_, character.mesh.tets, body_->setup().spring_tet),
                                                static_cast<int>(character.skeleton.bones.size()));
     reached_pose_ = rest_pose(character.skeleton);
     fewer_nodes_.reset();
-    if (options_.nested_start && (options_.element_order == 2 || character.unrefined)) {
+    if (options_.nested_start && (options_.element_order == 2 || character.refinements > 0)) {
         const bool same_tets = options_.element_order == 2;
         fewer_nodes_ = std::make_unique<ElasticFemDeformer>(same_tets ? with_order_1(options_) : options_);
         fewer_nodes_->reset(same_tets ? character : *character.unrefined);
     }
     unspent_s_ = 0.0;
+    frame_.reset();
     start_ = {};
     is_started_ = false;
     failures_in_a_row_ = 0;
@@ -152,12 +160,31 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
     newton_record_ = NewtonRecord(pbs::tet_volumes(character.mesh.rest, character.mesh.tets).sum());
     has_tried_ = true;
     start(body_->setup().spring_tet, body_->prescribed_vertices());
+    facts_.moved = [this](const std::vector<pbs::Location>& places) { return in_the_world(body_->moved(places)); };
+}
+
+pbs::Positions ElasticFemDeformer::in_the_world(const pbs::Positions& points) const
+{
+    return has_memory() || !frame_ ? points : frame_->to_world(points);
+}
+
+// The flesh between two places that press on each other has a tip where they are at most the limb's radius apart at rest.
+void ElasticFemDeformer::find_tips()
+{
+    facts_.tips.clear();
+    const std::vector<reference_fem::PressedPair> pressed = body_->pressed();
+    pbs::Positions middles(static_cast<Eigen::Index>(pressed.size()), 3);
+    for (std::size_t p = 0; p < pressed.size(); ++p) middles.row(p) = pressed[p].middle.transpose();
+    const pbs::BoneBinding nearest = pbs::bind_to_nearest_bone(middles, character_->skeleton);
+    for (std::size_t p = 0; p < pressed.size(); ++p)
+        if (const double radius_m = limb_radius_m_[nearest.bone[p]]; pressed[p].apart_m <= radius_m)
+            facts_.tips.push_back({pressed[p].middle, tip_in_limb_radii * radius_m});
 }
 
 pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
 {
     const pbs::Stopwatch stopwatch;
-    const pbs::RootFrame frame(character_->skeleton, pose);
+    const pbs::RootFrame& frame = frame_.emplace(character_->skeleton, pose);
     FrameSolve solve;
     facts_.fewer_nodes = {};
     if (has_memory())
@@ -167,9 +194,11 @@ pbs::StepSummary ElasticFemDeformer::advance(const pbs::Pose& pose, double dt_s)
     else if (!settle_from_fewer_nodes(pose, frame, solve) && may_go_the_way(solve))
         solve = settle(frame);
     has_tried_ = !solve.stages.empty();
-    const auto in_the_world = [&](const pbs::Positions& points) { return has_memory() ? points : frame.to_world(points); };
     positions_ = in_the_world(body_->positions());
     facts_.last_state = solve.converged() ? positions_ : in_the_world(last_iterate_at(character_->mesh.rest));
+    facts_.energy_j.reset();
+    if (solve.converged() && !has_memory()) facts_.energy_j = body_->potential_energy_j();
+    find_tips();
     is_started_ = true;
     pbs::StepSummary summary;
     summary.outcome = solve.converged() ? pbs::Outcome::finished : pbs::Outcome::not_converged;
@@ -209,7 +238,8 @@ void ElasticFemDeformer::record_solve(const FrameSolve& solve)
 // Where Newton's method was not tried with these nodes, the state is the last one with fewer nodes.
 pbs::Positions ElasticFemDeformer::last_iterate_at(const pbs::Positions& points_at_rest) const
 {
-    return has_tried_ ? body_->moved_in_last_iterate(points_at_rest) : fewer_nodes_->last_iterate_at(points_at_rest);
+    if (!has_tried_) return fewer_nodes_->last_iterate_at(points_at_rest);
+    return body_->moved_in_last_iterate(body_->places_of(points_at_rest));
 }
 
 // Solves for equilibria along a path of poses, each placed in the world.
@@ -256,7 +286,7 @@ bool ElasticFemDeformer::settle_from_fewer_nodes(const pbs::Pose& pose, const pb
     if (facts_.fewer_nodes.step.outcome != pbs::Outcome::finished) return false;
     const pbs::Positions& rest = body_->nodes_at_rest();
     const pbs::Positions before = rest + Eigen::Map<const pbs::Positions>(body_->displacement().data(), rest.rows(), 3);
-    body_->start_from_nodes(fewer_nodes_->body_->moved(rest));
+    body_->start_from_nodes(fewer_nodes_->body_->moved(fewer_nodes_->body_->places_of(rest)));
     solve.stages.push_back(body_->solve_here(targets_of(frame.pose()), frame.from_world(options_.gravity_m_s2)));
     solve.reached = solve.stages.back().reached;
     if (!solve.converged()) {
@@ -327,8 +357,8 @@ nlohmann::json ElasticFemDeformer::record() const
     if (!body_) return nullptr;
     nlohmann::json json = recorded(body_->setup());
     json["newton"] = newton_record_.to_json();
-    if (!options_.contact) return json;
-    const reference_fem::ContactOptions contact = contact_options(options_, *character_);
+    if (!options_.has_contact()) return json;
+    const reference_fem::ContactOptions contact = contact_options(options_, limb_radius_m_);
     json["contact"] = {{"range_m", contact.range_m},
                        {"stiffness_pa", contact.stiffness_pa},
                        {"frames", frames_in_contact_},

@@ -146,14 +146,18 @@ private:
     FrameSolve move(const pbs::Pose& pose, double dt_s);  // in the world
     void follow(const pbs::PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve);
     pbs::Positions last_iterate_at(const pbs::Positions& points_at_rest) const;
+    pbs::Positions in_the_world(const pbs::Positions& points) const;
+    void find_tips();
     void record_solve(const FrameSolve& solve);
 
     pbs::Weights guide_weights_;  // empty where the attachment leaves rotations free: the initial guess alone would determine them
     std::unique_ptr<reference_fem::ElasticBody> body_;
-    pbs::Pose reached_pose_;   // of the body: relative to the root, or in the world where it moves in time
-    double unspent_s_ = 0.0;   // time of the steps that were undone
-    pbs::Positions start_;     // initial guess of the next frame, in the world [m], #V x 3; empty: the last state
-    bool is_started_ = false;  // a pose has been solved
+    std::vector<double> limb_radius_m_;    // of each bone
+    std::optional<pbs::RootFrame> frame_;  // of the last pose
+    pbs::Pose reached_pose_;               // of the body: relative to the root, or in the world where it moves in time
+    double unspent_s_ = 0.0;               // time of the steps that were undone
+    pbs::Positions start_;                 // initial guess of the next frame, in the world [m], #V x 3; empty: the last state
+    bool is_started_ = false;              // a pose has been solved
     int failures_in_a_row_ = 0;
     std::unique_ptr<ElasticFemDeformer> fewer_nodes_;  // nested_start
     bool has_tried_ = true;  // to reach the last pose by Newton's method; if not, the solution with fewer nodes was not reached

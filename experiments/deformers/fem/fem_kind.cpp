@@ -88,10 +88,13 @@ void add_attachment_fields(OptionFields<FemOptions>& fields)
 void add_contact_fields(OptionFields<FemOptions>& fields)
 {
     fields
-        .add("contact", &FemOptions::contact,
-             {.meaning =
-                  "nonlinear model: frictionless contact of the surface with itself, by a barrier between its triangles (M. Li et al., "
-                  "Incremental Potential Contact, ACM TOG 39(4), 2020), so that no equilibrium intersects itself"})
+        .add(
+            "contact", &FemOptions::contact,
+            {.meaning =
+                 "frictionless contact of the surface with itself, by a barrier between its triangles (M. Li et al., Incremental Potential "
+                 "Contact, ACM TOG 39(4), 2020), so that no equilibrium intersects itself; false with model linear and with dynamics "
+                 "generalized_alpha, whose state at the end of a step is extrapolated"})
+        .derived("contact", [](const FemOptions& options) { return options.has_contact(); })
         .add("contact_range", &FemOptions::contact_range,
              {.unit = "r",
               .range = {1e-4, 1},
@@ -158,10 +161,10 @@ void check(const SceneValues& values, const std::string& table, FemOptions& opti
     refuse_if(quasi_static && damped, "rayleigh", "expected [0, 0] with dynamics quasi_static: nothing moves there");
     refuse_if(!may_be_nested, "nested_start",
               "expected false unless element_order is 2 or character.refine > 0, the model nonlinear and dynamics quasi_static");
-    refuse_if(options.contact && (linear || options.dynamics == reference_fem::Dynamics::generalized_alpha), "contact",
+    refuse_if(given("contact") && options.contact && !options.has_contact(), "contact",
               "expected false with model linear and with generalized_alpha, whose state at the end of a step is extrapolated");
     for (const char* key : {"contact_range", "contact_stiffness"})
-        refuse_if(!options.contact && given(key), key, "expected contact = true, which alone has it");
+        refuse_if(!options.has_contact() && given(key), key, "expected contact = true with a nonlinear model, which alone has it");
     refuse_if(!quasi_static && !(options.density_kg_m3 > 0.0), "density_kg_m3", "expected a density > 0 with dynamics");
 }
 

@@ -35,13 +35,17 @@ struct FemOptions {
     pbs::AttachmentKernel attachment_kernel = pbs::AttachmentKernel::biweight;  // of smooth: how the density decreases
     double attachment_ends = 1.0;                                               // of smooth: over so many capsule radii at each end
     int attachment_samples = 1;      // of smooth and embedded: multiplies the numbers of sample points along, across and around a bone
-    bool contact = false;            // nonlinear: the surface does not pass through itself
+    bool contact = true;             // the surface does not pass through itself; see has_contact
     double contact_range = 0.025;    // distance below which the surface presses on itself, over the mean local limb radius
     double contact_stiffness = 1.0;  // of the barrier, over Young's modulus
     reference_fem::LinearSolver solver = reference_fem::LinearSolver::cholmod;
     int most_newton_steps = 0;  // quasi-static: per stage of the way to a pose, which is then not reached; 0: no limit
     bool nested_start = false;  // nonlinear: the way to a far pose begins at the solution with fewer nodes (order 1, unrefined)
 
+    bool has_contact() const
+    {
+        return contact && model != reference_fem::Model::linear && dynamics != reference_fem::Dynamics::generalized_alpha;
+    }
     // Bound vertices have no capsules, prescribed tets have no springs, and both have no sample points.
     bool has_capsules() const { return attachment != FemAttachment::bind; }
     bool has_spring_factor() const { return attachment != FemAttachment::nodes; }

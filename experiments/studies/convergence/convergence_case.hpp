@@ -6,6 +6,7 @@
 #include "analysis/verdicts/case_record.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
+#include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/character/character.hpp"
 #include "pbs/solver/options.hpp"
 
@@ -68,9 +69,9 @@ struct ConvergenceCase {
     bool ladder = false;  // other_vertices are a ladder of sizes with values of their own; otherwise their spread is the uncertainty
     bool from_lbs_alone = false;  // without the other initial guesses
     int most_iterations = 1000;
-    DeformerSpec reference = {};    // as PosedReference takes it, solved on the scene's own mesh and on those of a ladder
-    bool refines_reference = true;  // also solves it on tets cut into eight, without which it has no bound
-    int reference_to = 100000;      // vertices: larger meshes have no reference, and rates.csv states why
+    DeformerSpec reference = {};  // as PosedReference takes it, solved on the scene's own mesh and on those of a ladder
+    ReferenceEffort effort = ReferenceEffort::other_tets;  // without other tets on a ladder's meshes
+    int reference_to = 100000;                             // vertices: larger meshes have no reference, and rates.csv states why
 };
 
 nlohmann::json to_json(const NamedFrame& frame);

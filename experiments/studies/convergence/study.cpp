@@ -13,7 +13,6 @@
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
-#include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/author/author_solver.hpp"
 #include "pbs/character/skinning_weights.hpp"
@@ -122,7 +121,8 @@ private:
         if (!of_.frames[frame].compared) return {"none"};
         if (!own_ && !of_.ladder) return {"own_mesh_alone"};
         if (character.mesh.rest.rows() > of_.reference_to) return {fmt::format("left_out_above_{}_vertices", of_.reference_to)};
-        PosedReference reference(character, of_.reference, posed_.pose(frame), of_.scene.motion.time_step_s, of_.refines_reference);
+        const ReferenceEffort effort = of_.ladder ? std::min(of_.effort, ReferenceEffort::refined) : of_.effort;
+        PosedReference reference(character, of_.reference, posed_.pose(frame), of_.scene.motion.time_step_s, effort);
         if (!reference.is_reached()) return {.name = of_.reference.label + "_was_not_reached", .why = reference.why_not_reached()};
         return {.name = of_.reference.label, .solved = std::move(reference)};
     }
@@ -133,7 +133,7 @@ private:
         if (!reference.order()) return quality;
         quality.observed_order = reference.order()->observed;
         quality.order_is_reliable = reference.order()->reliable;
-        quality.bound_pct = reference.bound().joint_pct;
+        if (const double bound_pct = reference.bound().joint_pct; std::isfinite(bound_pct)) quality.bound_pct = bound_pct;
         return quality;
     }
 
@@ -228,7 +228,7 @@ StudyPlan plan(bool full)
         of.ladder = in_file.value("ladder", false);
         of.from_lbs_alone = in_file.value("from_lbs_alone", false);
         of.reference = reference_flesh(of.scene);
-        of.refines_reference = full;
+        if (!full) of.effort = ReferenceEffort::own_tets;
         of.reference_to = in_file.value("reference_to", of.reference_to);
         plan.runs.push_back(work_run(in_file.name, of, in_file.cost_s, measure_and_record));
     });
@@ -307,7 +307,7 @@ RECORD_SETTINGS_AND(ConvergenceCase,
                         .constant("satisfied_residual", satisfied_residual)
                         .constant("volume_tolerance_pct", volume_tolerance_pct),
                     scene, frames, k_stretch, settings, other_vertices, every_setting_to, ladder, from_lbs_alone, most_iterations,
-                    reference, refines_reference, reference_to)
+                    reference, effort, reference_to)
 
 ConvergenceResult measure_convergence(const ConvergenceCase& of)
 {

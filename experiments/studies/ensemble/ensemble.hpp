@@ -11,8 +11,8 @@
 //               solver          model           discretisation
 // exactly, vertex by vertex; in the norm the parts bound the whole. The first two are measured, the third is bounded by PosedReference.
 // Measured as well are the effect of refinement on PBS itself, and that of the reference's own assumptions: flesh that the bones hold in
-// other ways, and the linear model. All distances except whole_joint_pct are outside the part of the body that overlaps itself in
-// the reference.
+// other ways, and the linear model. All distances except whole_joint_pct are outside the tips of the
+// reference's creases.
 #pragma once
 
 #include "analysis/records/tables.hpp"
@@ -33,7 +33,8 @@ struct EnsembleCase {
     int frame = 0;            // of its motion
     DeformerSpec flesh = {};  // a [[fem]] deformer, which the members change
     std::vector<EnsembleMember> members = {};
-    std::vector<DeformerSpec> deformers = {};  // that are ordered
+    ReferenceEffort effort = ReferenceEffort::other_tets;  // of the first member with each Poisson's ratio
+    std::vector<DeformerSpec> deformers = {};              // that are ordered
     // The parts of PBS's error, of each stiffness of the stretch constraints and number of iterations.
     DeformerSpec pbs = {};
     std::vector<DeformerSpec> other_flesh = {};  // is compared with the first member
@@ -52,7 +53,7 @@ struct MemberRow {
     EnsembleMember member;
     std::string outcome;  // reached, inverted, not_converged
     std::optional<int> element_order = {}, refinements = {};
-    std::optional<double> error_bound_pct = {}, error_bound_l2_pct = {}, observed_order = {};
+    std::optional<double> error_bound_pct = {}, error_bound_l2_pct = {}, spread_pct = {}, observed_order = {};
     std::optional<bool> reliable = {};
     double masked_share_pct = 0.0;
     std::optional<double> volume_change_pct = {};

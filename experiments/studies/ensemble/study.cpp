@@ -15,7 +15,9 @@
 #include "experiments/studies/study.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 
 namespace experiments {
 
@@ -24,8 +26,8 @@ using analysis::within;
 
 const Columns<MemberRow> member_columns =
     within(&MemberRow::of, pose_columns()) + within(&MemberRow::member, family_member_columns()) +
-    MEMBER_COLUMNS(MemberRow, outcome, element_order, refinements, error_bound_pct, error_bound_l2_pct, observed_order, reliable,
-                   masked_share_pct, volume_change_pct, lowest_det_f) +
+    MEMBER_COLUMNS(MemberRow, outcome, element_order, refinements, error_bound_pct, error_bound_l2_pct, spread_pct, observed_order,
+                   reliable, masked_share_pct, volume_change_pct, lowest_det_f) +
     Columns<MemberRow>{{"inverted", &MemberRow::inverted_tets}} +
     MEMBER_COLUMNS(MemberRow, j_min, worst_tet, newton_steps, projected, solve_s);
 
@@ -46,7 +48,8 @@ const Columns<AttachmentRow> attachment_columns =
     within(&AttachmentRow::of, pose_columns()) +
     MEMBER_COLUMNS(AttachmentRow, reference, model, attachment, spring_factor, core_radius, difference_pct, k_stretch, model_pct, finished);
 
-RECORD_SETTINGS(EnsembleCase, of, scene, frame, flesh, members, deformers, pbs, other_flesh, k_stretch, iterations, converged_iterations)
+RECORD_SETTINGS(EnsembleCase, of, scene, frame, flesh, members, effort, deformers, pbs, other_flesh, k_stretch, iterations,
+                converged_iterations)
 
 std::vector<DeformerSpec> other_attachments(const DeformerSpec& reference)
 {
@@ -101,9 +104,12 @@ MemberRow member_row(const EnsembleCase& of, const EnsembleMember& member, const
     row.element_order = reference.reference().element_order;
     row.refinements = reference.reference().refinements;
     row.volume_change_pct = metrics.measure(reference.reference().positions).volume_change_pct;
+    if (const analysis::ErrorNorms bound = reference.bound(); std::isfinite(bound.joint_pct)) {
+        row.error_bound_pct = bound.joint_pct;
+        row.error_bound_l2_pct = bound.l2_pct;
+    }
     if (!reference.order()) return row;
-    row.error_bound_pct = reference.bound().joint_pct;
-    row.error_bound_l2_pct = reference.bound().l2_pct;
+    if (std::isfinite(reference.spread().joint_pct)) row.spread_pct = reference.spread().joint_pct;
     row.observed_order = reference.order()->observed;
     row.reliable = reference.order()->reliable;
     return row;
@@ -224,7 +230,7 @@ private:
         return row;
     }
 
-    // Outside the overlap. Not a number where one of them did not finish.
+    // Outside the tips of creases. Not a number where one of them did not finish.
     analysis::ErrorNorms distance(const Shape& one, const Shape& other) const
     {
         constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
@@ -303,8 +309,13 @@ EnsembleRecords measure_ensemble(const EnsembleCase& of)
     for (std::size_t a = 0; a < shapes.size(); ++a)
         for (std::size_t b = a + 1; b < shapes.size(); ++b)
             pairs.push_back({shapes[a], shapes[b], {.of = of.of, .first = shapes[a].deformer, .second = shapes[b].deformer}});
+    std::map<double, PosedReference> firsts;  // with each Poisson's ratio, whose bound holds for flesh that is held in other ways too
     for (const EnsembleMember& member : of.members) {
-        const PosedReference reference(body.character(), flesh_of(of.flesh, member), body.pose(0), of.scene.motion.time_step_s);
+        const auto like = firsts.find(member.poisson);
+        PosedReference solved(body.character(), flesh_of(of.flesh, member), body.pose(0), of.scene.motion.time_step_s,
+                              like == firsts.end() ? of.effort : ReferenceEffort::own_tets);
+        if (like != firsts.end()) solved.take_bound_of(like->second);
+        const PosedReference& reference = like == firsts.end() ? firsts.emplace(member.poisson, solved).first->second : solved;
         records.members.push_back(member_row(of, member, reference, metrics));
         for (OrderedPair& pair : pairs) add_order(pair, reference);
         if (!reference.is_reached()) continue;

@@ -34,8 +34,12 @@ using analysis::Measurement;
 // The ring has bones for three of the clip's joints.
 std::vector<std::string> shared_overrides(double rate_hz, const std::string& deformer)
 {
-    return {"motion.allow_partial=true", fmt::format("motion.rate_hz={:.1f}", rate_hz), fmt::format(R"(deformers.use=["{}"])", deformer), R"(reference.name="")",
-            "output.frames=[]", "output.frame_names=[]"};
+    return {"motion.allow_partial=true",
+            fmt::format("motion.rate_hz={:.1f}", rate_hz),
+            fmt::format(R"(deformers.use=["{}"])", deformer),
+            R"(reference.name="")",
+            "output.frames=[]",
+            "output.frame_names=[]"};
 }
 
 // Sets an empty cache of meshes. Fetched packages remain visible in it.

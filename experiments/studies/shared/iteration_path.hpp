@@ -34,7 +34,7 @@ struct Look {
     double combined = 0.0;     // sqrt((stretch_rms^2 + volume_rms^2 + (bind_rms_m / mean d)^2) / 3): one number for all three classes
     double volume_change_pct = 0.0, volume_abs_change_pct = 0.0;
     int inverted_tets = 0;
-    // To the reference at the joints, outside the overlap and on the whole body; not a number where there is no reference.
+    // To the reference at the joints, outside the tips of its creases and on the whole body; not a number where there is no reference.
     double error_joint_pct = 0.0, whole_joint_pct = 0.0;
 };
 

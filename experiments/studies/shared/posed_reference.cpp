@@ -5,7 +5,9 @@
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/reference_error_bar.hpp"
 #include "experiments/settings/recorded_settings.hpp"
+#include "pbs/character/bodies.hpp"
 #include "pbs/character/bone_capsules.hpp"
+#include "pbs/character/embedding.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 
@@ -22,18 +24,15 @@ namespace {
 // the human's crouch with Poisson's ratio 0.49, and 84 on the human standing with stiffer springs.
 constexpr int most_newton_steps = 120;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+constexpr analysis::ErrorNorms unknown_bound{not_known, not_known, not_known};
+constexpr double analysis::ErrorNorms::*norms[] = {&analysis::ErrorNorms::l2_pct, &analysis::ErrorNorms::joint_pct,
+                                                   &analysis::ErrorNorms::linf_m};
 
-// Computes the volume ratios of the tets, counts the inverted ones and returns them.
-std::vector<Eigen::Index> measure_volumes(const pbs::TetMesh& mesh, NestedSolution& solution)
-{
-    const Eigen::VectorXd ratios = pbs::tet_volumes(solution.positions, mesh.tets).cwiseQuotient(pbs::tet_volumes(mesh.rest, mesh.tets));
-    solution.j_min = ratios.minCoeff(&solution.worst_tet);
-    std::vector<Eigen::Index> inverted;
-    for (Eigen::Index t = 0; t < ratios.size(); ++t)
-        if (ratios(t) <= 0.0) inverted.push_back(t);
-    solution.inverted_tets = static_cast<int>(inverted.size());
-    return inverted;
-}
+constexpr double same_energy = 1e-6;  // relative: Newton's method leaves less
+
+// The skin is finer where a joint is bent. A crease has the edges of the character's own cells alone to form at otherwise.
+constexpr double least_bend_cosine = 0.866, ball_in_radii = 2.0 / 3.0, edge_in_radii = 0.1;
+constexpr unsigned further_meshes = 2;
 
 }  // namespace
 
@@ -58,87 +57,165 @@ DeformerSpec reference_flesh(const Scene& scene)
     return flesh;
 }
 
+std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, const pbs::Pose& pose)
+{
+    const std::vector<pbs::BoneCapsule> limbs = pbs::bone_capsules(character, 1.0);
+    const std::vector<pbs::Bone>& bones = character.skeleton.bones;
+    std::vector<pbs::FineBall> fine;
+    for (std::size_t b = 0; b < bones.size(); ++b) {
+        if (bones[b].parent < 0) continue;
+        const pbs::Vec3 along = (bones[b].tail - bones[b].head).normalized(),
+                        bent = pose[bones[b].parent].linear().transpose() * pose[b].linear() * along;
+        if (along.dot(bent) > least_bend_cosine) continue;
+        const double radius_m = limbs[b].radius_m;
+        const pbs::Vec3 inward = (bent - along.dot(bent) * along).normalized();
+        fine.push_back({bones[b].head + radius_m * inward, ball_in_radii * radius_m, edge_in_radii * radius_m});
+    }
+    return fine;
+}
+
 PosedReference::PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s,
-                               bool refines)
+                               ReferenceEffort effort)
     : character_(character),
+      spec_(spec),
+      pose_(pose),
+      time_step_s_(time_step_s),
       label_(spec.label),
       error_metrics_(error_domain(character, {})),
       masked_(character.mesh.rest.rows(), false),
-      bound_{not_known, not_known, not_known}
+      spread_{}
 {
-    const pbs::Character fine = refines ? pbs::refined(character) : pbs::Character();
-    if (refines) {
-        solve(spec, pose, time_step_s, {{fine, 2}, {fine, 1}, {character, 1}});
-        solve(spec, pose, time_step_s, {{character, 2}});
-        std::rotate(solutions_.begin() + 1, solutions_.end() - 1, solutions_.end());  // the finest first
+    if (effort == ReferenceEffort::own_tets) {
+        solve({{character, 2}, {character, 1}});
     } else {
-        solve(spec, pose, time_step_s, {{character, 2}, {character, 1}});
+        const pbs::Character fine = pbs::refined(character);
+        solve({{fine, 2}, {fine, 1}, {character, 1}});
+        solve({{character, 2}});
+        std::rotate(solutions_.begin() + 1, solutions_.end() - 1, solutions_.end());  // the finest first
     }
-    for (std::size_t i = 0; i < solutions_.size() && !which_; ++i)
+    nested_ = solutions_.size();
+    if (effort == ReferenceEffort::other_tets) solve_on_other_tets();
+    for (std::size_t i = 0; i < nested_ && !which_; ++i)
         if (solutions_[i].lowest_det_f > 0.0) which_ = i;
-    if (which_ && refines) observe_order(convergence_order(options_of<FemOptions>(spec).attachment));
+    if (!which_) return;
+    if (effort != ReferenceEffort::own_tets) observe_order();
+    observe_spread();
 }
 
 // levels: the finest first, each of which sets out from the next one.
-void PosedReference::solve(const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s, const std::vector<Level>& levels)
+void PosedReference::solve(const std::vector<Level>& levels)
 {
     stop_if_interrupted();
-    DeformerSpec nested = spec;
+    DeformerSpec nested = spec_;
     auto& options = options_of<FemOptions>(nested);
     options.element_order = levels.front().element_order;
-    options.nested_start = true;
+    options.nested_start = !levels.front().along_the_bones;
     if (options.element_order == 1) options.formulation = reference_fem::Formulation::displacement;  // mean dilatation is the same there
     const std::unique_ptr<Deformer> deformer = make_deformer(nested);
     deformer->reset(levels.front().character);
-    TriedSolution solution{deformer.get(), deformer->advance(pose, time_step_s)};
+    TriedSolution solution{deformer.get(), deformer->advance(pose_, time_step_s_)};
     for (const Level& level : levels) {
         if (!solution.deformer) break;
         const TriedSolution coarser = solution.deformer->facts()->fewer_nodes;
-        solution.step.seconds -= coarser.step.seconds;
-        add(solution, level);
+        if (levels.size() > 1) solution.step.seconds -= coarser.step.seconds;  // which is recorded by itself
+        solutions_.push_back(solution_of(solution, level));
         solution = coarser;
     }
 }
 
-void PosedReference::add(const TriedSolution& of, const Level& level)
+// First along the bones on the character's own tets. The equilibrium with the lower energy there is kept among the nested solutions.
+void PosedReference::solve_on_other_tets()
 {
-    NestedSolution solution;
-    solution.element_order = level.element_order;
-    solution.refinements = level.character.refinements;
-    solution.finished = of.step.outcome == pbs::Outcome::finished;
-    solution.seconds = of.step.seconds;
-    const pbs::Positions positions = last_state(*of.deformer);
-    solution.positions = positions.topRows(character_.mesh.rest.rows());
+    solve({{.character = character_, .element_order = 2, .along_the_bones = true}});
+    NestedSolution &nested = solutions_[1], &alone = solutions_.back();
+    if (alone.finished && (!nested.finished || alone.energy_j < (1.0 - same_energy) * nested.energy_j)) std::swap(nested, alone);
+    const std::vector<pbs::FineBall> fine = fine_at_bent_joints(character_, pose_);
+    for (unsigned seed = 1; seed <= further_meshes; ++seed) {
+        try {
+            const pbs::Character other = pbs::remeshed(character_, {.seed = seed, .fine = fine});
+            solve({{.character = other, .element_order = 2, .other_tets = seed}});
+        } catch (const pbs::InputError& error) {  // known only now, after the long solutions
+            warn({fmt::format("{} on other tets: {}", label_, error.what())});
+            solutions_.push_back({.element_order = 2, .other_tets = seed});
+        }
+    }
+}
+
+NestedSolution PosedReference::solution_of(const TriedSolution& of, const Level& level)
+{
+    NestedSolution solution{.element_order = level.element_order,
+                            .refinements = level.character.refinements,
+                            .other_tets = level.other_tets,
+                            .along_the_bones = level.along_the_bones,
+                            .finished = of.step.outcome == pbs::Outcome::finished,
+                            .seconds = of.step.seconds};
+    const pbs::Positions& rest = character_.mesh.rest;
+    const FemFacts& facts = *of.deformer->facts();
+    if (level.other_tets == 0) {
+        solution.positions = last_state(*of.deformer).topRows(rest.rows());
+    } else {
+        const pbs::EmbeddedSurface in_tets = pbs::embed(rest, {}, level.character.mesh);
+        std::vector<pbs::Location> places;
+        for (Eigen::Index v = 0; v < rest.rows(); ++v) places.push_back({in_tets.tet(v), in_tets.barycentric.row(v).tail<3>().transpose()});
+        solution.positions = facts.moved(places);
+    }
     const nlohmann::json newton = of.deformer->record().at("newton");
     solution.newton_steps = newton.at("newton_steps").at("most");
     solution.projected = newton.at("projected_hessians");
-    const std::vector<Eigen::Index> inverted = measure_volumes(character_.mesh, solution);
-    if (solution.finished) {
-        solution.lowest_det_f = of.deformer->facts()->lowest_det_f.value();
-        for (const Eigen::Index tet : inverted)
-            for (const int v : character_.mesh.tets.row(tet)) masked_[v] = true;
-        const std::vector<bool> overlaps = pbs::OverlapMask(level.character).of(positions);
-        for (std::size_t v = 0; v < masked_.size(); ++v) masked_[v] = masked_[v] || overlaps[v];
-    }
-    solutions_.push_back(std::move(solution));
+    const pbs::Tets& tets = character_.mesh.tets;
+    const Eigen::VectorXd ratios = pbs::tet_volumes(solution.positions, tets).cwiseQuotient(pbs::tet_volumes(rest, tets));
+    solution.j_min = ratios.minCoeff(&solution.worst_tet);
+    solution.inverted_tets = static_cast<int>((ratios.array() <= 0.0).count());
+    if (!solution.finished) return solution;
+    solution.lowest_det_f = facts.lowest_det_f.value();
+    solution.energy_j = facts.energy_j.value();
+    const std::vector<bool> near = near_tips(facts.tips, rest);
+    for (std::size_t v = 0; v < masked_.size(); ++v) masked_[v] = masked_[v] || near[v];
+    return solution;
 }
 
-void PosedReference::observe_order(double formal_order)
+void PosedReference::observe_order()
 {
-    if (!std::all_of(solutions_.begin() + 1, solutions_.end(), [](const NestedSolution& solution) { return solution.finished; })) return;
+    if (!std::all_of(solutions_.begin(), solutions_.begin() + nested_, [](const NestedSolution& one) { return one.finished; })) return;
     constexpr std::size_t finest = 0, quadratic = 1, linear_refined = 2, linear = 3;
-    const auto between = [&](std::size_t one, std::size_t other) {
-        return distance(solutions_[one].positions, solutions_[other].positions);
-    };
-    const bool has_finest = solutions_[finest].finished;
-    const std::size_t best = has_finest ? finest : quadratic;
-    const double linear_pct = between(linear, best).joint_pct, refined_pct = between(linear_refined, best).joint_pct;
-    order_ = has_finest ? analysis::nested_order({linear_pct, refined_pct, between(quadratic, finest).joint_pct}, formal_order)
-                        : analysis::order_without_finest(linear_pct, refined_pct, formal_order);
-    const analysis::ErrorNorms to_best = between(has_finest ? *which_ : linear_refined, best),
-                               bounded = has_finest ? between(quadratic, finest) : between(linear, linear_refined);
-    for (const auto norm : {&analysis::ErrorNorms::l2_pct, &analysis::ErrorNorms::joint_pct, &analysis::ErrorNorms::linf_m})
-        bound_.*norm = to_best.*norm + order_->bound(bounded.*norm);
+    const auto to_finest = [&](std::size_t one) { return distance(solutions_[one].positions, solutions_[finest].positions).joint_pct; };
+    order_ = analysis::nested_order({to_finest(linear), to_finest(linear_refined), to_finest(quadratic)},
+                                    convergence_order(options_of<FemOptions>(spec_).attachment));
+}
+
+void PosedReference::observe_spread()
+{
+    for (std::size_t i = nested_; i < solutions_.size(); ++i) {
+        const NestedSolution& other = solutions_[i];
+        const bool is_on_own_tets = other.other_tets == 0;
+        if (is_on_own_tets && !other.finished) continue;
+        const analysis::ErrorNorms apart = !other.finished  ? unknown_bound
+                                           : is_on_own_tets ? distance(other.positions, solutions_[1].positions)
+                                                            : error_of(other.positions);
+        for (const auto norm : norms)
+            if (!(apart.*norm <= spread_.*norm)) spread_.*norm = apart.*norm;
+    }
+}
+
+analysis::ErrorNorms PosedReference::bound() const
+{
+    if (!order_) return is_reached() && reference().element_order == 2 ? borrowed_bound_.value_or(unknown_bound) : unknown_bound;
+    analysis::ErrorNorms bound;
+    constexpr std::size_t finest = 0, quadratic = 1;
+    const analysis::ErrorNorms apart = distance(solutions_[quadratic].positions, solutions_[finest].positions),
+                               to_finest = error_of(solutions_[finest].positions);
+    for (const auto norm : norms) bound.*norm = to_finest.*norm + order_->bound(apart.*norm) + spread_.*norm;
+    return bound;
+}
+
+analysis::ErrorNorms PosedReference::bound_on_own_tets() const
+{
+    const auto quadratic = std::ranges::find_if(
+        solutions_, [](const NestedSolution& one) { return one.element_order == 2 && one.refinements == 0 && one.other_tets == 0; });
+    if (!is_reached() || quadratic == solutions_.end() || !quadratic->finished) return unknown_bound;
+    analysis::ErrorNorms own = error_of(quadratic->positions);
+    for (const auto norm : norms) own.*norm += bound().*norm;
+    return own;
 }
 
 analysis::ErrorNorms PosedReference::error_on_whole_body(const pbs::Positions& positions) const

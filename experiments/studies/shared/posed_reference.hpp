@@ -1,10 +1,11 @@
-// The finite element reference in one pose on nested meshes, with a bound on its own error: linear and quadratic elements on the
-// character's own tets and on these tets cut into eight. All have the same bones.
+// The finite element reference in one pose, with a bound on its own error: linear and quadratic elements on the character's own tets and on
+// these tets cut into eight; and quadratic ones on other tets in the same skin, whose skin is finer where joints are bent, and on the own
+// tets along the whole way of the bones. All have the same bones and contact.
 //   const PosedReference reference(character, spec, pose, time_step_s);
 //   if (reference.is_reached()) reference.error_of(positions).joint_pct <= reference.bound().joint_pct ...
-// Errors are measured outside the part of the body that overlaps itself in one of the solutions (pbs::OverlapMask), since a fold without
-// contact has no limit under refinement. The bound is that of analysis/statistics/grid_convergence.hpp, with the order that is observed at
-// the joints outside that part.
+// A crease takes its place by the elements' edges, so that the equilibrium of compressed flesh is not unique. Of two equilibria of
+// quadratic elements on the own tets the one with the lower energy counts; those on the refined tets set out from linear elements alone.
+// The bound is that of analysis/statistics/grid_convergence.hpp plus the spread of further meshes, outside the tips of all creases.
 #pragma once
 
 #include "analysis/metrics/error_norms.hpp"
@@ -13,6 +14,7 @@
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/scene/scene.hpp"
+#include "experiments/settings/option_names.hpp"
 #include "pbs/character/character.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -31,7 +33,10 @@ DeformerSpec reference_flesh(const Scene& scene);
 // One of the solutions.
 struct NestedSolution {
     int element_order = 1, refinements = 0;
+    unsigned other_tets = 0;       // their seed (pbs::Remeshing); 0: the character's own
+    bool along_the_bones = false;  // from rest; otherwise from the solution with fewer nodes
     bool finished = false;
+    double energy_j = 0.0;                    // of flesh, springs and contact
     std::optional<double> lowest_det_f = {};  // at the quadrature points of its elements; nothing if it did not finish
     int inverted_tets = 0;                    // of the character's own tets, by their vertices alone
     double j_min = 1.0;                       // smallest volume ratio of such a tet
@@ -41,59 +46,84 @@ struct NestedSolution {
     double seconds = 0.0;  // wall time, without that of the solution with fewer nodes
     // Positions of the character's vertices [m], #V x 3. If Newton's method did not finish, they are those of its last state. If the
     // solution with fewer nodes did not finish, they are the positions of that solution.
-    pbs::Positions positions;
+    pbs::Positions positions = {};
 };
 // "worst tet 812 of volume ratio -0.04, 3 inverted"
 std::string worst_tet_of(const NestedSolution& solution);
 
+// The solutions of a reference: both orders on the own tets, without a bound; those on the refined tets too; those on other tets and along
+// the bones too.
+enum class ReferenceEffort { own_tets, refined, other_tets };
+NAMED_OPTIONS(ReferenceEffort, own_tets, refined, other_tets)
+
+// Smaller triangles of the skin on the inner side of each joint that a pose bends by more than 30 degrees: edges of a tenth of the limb's
+// radius within two thirds of it.
+std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, const pbs::Pose& pose);
+
 class PosedReference {
 public:
-    // spec: a [[fem]] deformer with a nonlinear model and attachment smooth or embedded; its element order does not matter. refines: also
-    // solve on the tets cut into eight, without which there is no bound. character: not refined itself.
+    // spec: a [[fem]] deformer with a nonlinear model and attachment smooth or embedded; its element order does not matter. character: not
+    // refined itself.
     PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s,
-                   bool refines = true);
+                   ReferenceEffort effort = ReferenceEffort::other_tets);
 
     const std::string& label() const { return label_; }  // of spec
-    // The reference is the finest solution that finished with det F > 0 at all quadrature points.
+    // The reference is the finest solution on the own or the refined tets that finished with det F > 0 at all quadrature points.
     bool is_reached() const { return which_.has_value(); }
     const NestedSolution& reference() const { return solutions_.at(which_.value()); }  // std::bad_optional_access if it is not reached
-    const std::vector<NestedSolution>& solutions() const { return solutions_; }        // the finest first, those that failed too
+    const std::vector<NestedSolution>& solutions() const { return solutions_; }        // the finest nested one first, those that failed too
     // Empty if the reference is reached; otherwise the worst tet of the finest solution's last state.
     std::string why_not_reached() const { return is_reached() ? "" : worst_tet_of(solutions_.front()); }
 
-    // The vertices that are left out, #V. They include those of the character's tets that a solution inverts by their vertices alone.
+    // The vertices that are left out: at the tips of creases, #V.
     const std::vector<bool>& masked() const { return masked_; }
     double masked_share_pct() const { return error_metrics_.share_pct(masked_); }
 
     // Positions are those of the character's vertices [m], #V x 3. The error is the distance from the reference. Both are measured outside
-    // the overlap, except by error_on_whole_body.
+    // the tips of creases, except by error_on_whole_body.
     analysis::ErrorNorms distance(const pbs::Positions& one, const pbs::Positions& other) const;
     analysis::ErrorNorms error_of(const pbs::Positions& positions) const { return distance(positions, reference().positions); }
     analysis::ErrorNorms error_on_whole_body(const pbs::Positions& positions) const;
 
-    // The observed order is empty unless the three coarser solutions finished. Where the finest one did not, the order is that of the other
-    // three (analysis::order_without_finest), and the reference is the quadratic solution on the character's own tets.
+    // The observed order is empty unless the four nested solutions finished.
     const std::optional<analysis::NestedOrder>& order() const { return order_; }
-    // Bounds the distance of the reference from the limit, outside the overlap. The bound is NaN where there is no order.
-    analysis::ErrorNorms bound() const { return bound_; }
+    // The largest distance of a solution on other tets from the reference, or of the two equilibria on the own tets; 0 without any. Not a
+    // number where a solution on other tets did not finish. Where the way along the bones did not, there is no second equilibrium.
+    analysis::ErrorNorms spread() const { return spread_; }
+    // Bounds the distance of the reference from the limit: by the order, and the spread. NaN where there is no order, unless it is like
+    // another reference.
+    analysis::ErrorNorms bound() const;
+    // The same for its quadratic solution on the own tets. NaN where there is no such bound.
+    analysis::ErrorNorms bound_on_own_tets() const;
+    // Gives a quadratic solution on the own tets alone the bound of that of another reference, whose flesh is held in another way.
+    void take_bound_of(const PosedReference& other) { borrowed_bound_ = other.bound_on_own_tets(); }
 
 private:
     struct Level {
         const pbs::Character& character;
         int element_order;
+        unsigned other_tets = 0;
+        bool along_the_bones = false;
     };
-    void solve(const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s, const std::vector<Level>& levels);
-    void add(const TriedSolution& of, const Level& level);
-    void observe_order(double formal_order);
+    void solve(const std::vector<Level>& levels);
+    void solve_on_other_tets();
+    NestedSolution solution_of(const TriedSolution& of, const Level& level);
+    void observe_order();
+    void observe_spread();
 
     const pbs::Character& character_;
+    DeformerSpec spec_;
+    pbs::Pose pose_;
+    double time_step_s_;
     std::string label_;
     analysis::ErrorMetrics error_metrics_;
     std::vector<NestedSolution> solutions_;
+    std::size_t nested_ = 0;  // the first ones, on the own and the refined tets
     std::optional<std::size_t> which_;
     std::vector<bool> masked_;
     std::optional<analysis::NestedOrder> order_;
-    analysis::ErrorNorms bound_;
+    analysis::ErrorNorms spread_;
+    std::optional<analysis::ErrorNorms> borrowed_bound_;
 };
 
 // The family of references that a comparison of deformers has to survive: nobody knows how flesh is held by its bones, nor how

@@ -277,6 +277,7 @@ void set_options(pbs::PbsOptions& options, const nlohmann::json& entry)
 // Linear elements on the same tets. In time: generalised-alpha with stiffness-proportional damping, so that the body can come to rest.
 void set_options(FemOptions& options, const nlohmann::json& entry)
 {
+    options.contact = false;  // which refuses a broken initial guess
     options.model = option_of<reference_fem::Model>(entry.at("material"));
     options.element_order = 1;
     options.gravity_m_s2 = downwards_m_s2;

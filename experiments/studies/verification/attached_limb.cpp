@@ -4,7 +4,6 @@
 //   of the linear reference costs one re-solve.
 
 #include "analysis/metrics/error_norms.hpp"
-#include "analysis/statistics/grid_convergence.hpp"
 #include "analysis/statistics/minimise.hpp"
 #include "experiments/deformers/fem/fem_deformers.hpp"
 #include "experiments/studies/verification/problem.hpp"
@@ -197,23 +196,6 @@ VerificationRow whole_and_parts(const TwistedLimb& limb, const pbs::Positions& f
     return row;
 }
 
-// The theoretical order that an error bar presumes with the smooth attachment (experiments/run/reference_error_bar.hpp).
-constexpr double order_of_smooth_springs = 2.0;
-
-// Compares the bound from P1 on two meshes with a solution of higher order on the finer one.
-VerificationRow bound_covers(const TwistedLimb& limb, const TwistedLimb& refined, const pbs::Positions& flesh)
-{
-    FemOptions quadratic = limb_flesh;
-    quadratic.element_order = 2;
-    const double of_two_meshes =
-        analysis::two_fields(limb.distance_pct(refined.flesh(limb_flesh), flesh), 2.0, order_of_smooth_springs).bounds[1];
-    VerificationRow row = limb.row({"distance_over_bound", "distance from refined P2 flesh over the bound from two meshes of P1"},
-                                   limb.distance_pct(refined.flesh(quadratic), flesh) / of_two_meshes, 0.0, "1",
-                                   "P. J. Roache, Journal of Fluids Engineering 116, 1994: the index bounds the distance from the limit");
-    bound(row, 0.0, 1.0, row.source);
-    return row;
-}
-
 VerificationRow variant(const TwistedLimb& limb, const pbs::Positions& flesh, const FemOptions& options, const std::string& key)
 {
     return limb.row({"distance_of_variant", "distance from flesh held by smooth springs, q 10, core 0.7: " + key, key},
@@ -286,13 +268,13 @@ Springs springs_of_bone(const ManufacturedSprings& of)
 VerificationRows attached_limb_rows(const Effort& effort)
 {
     if (!effort.limb) return {};
-    const pbs::Character limb = effort.limb(coarse, 0);
+    const pbs::Character limb = effort.limb(coarse);
     return {young_cancels(limb),
             rigid_motion(limb, FemAttachment::smooth, "smooth"),
             rigid_motion(limb, FemAttachment::embedded, "embedded"),
             rigid_motion(limb, FemAttachment::bind, "bind"),
             found_poisson(effort, limb),
-            kept_factor(effort.limb(0, 0))};
+            kept_factor(effort.limb(0))};
 }
 
 // The split of an error into solver, model and discretisation, on a coarse limb whose forearm is twisted: properties of its parts that do
@@ -301,7 +283,7 @@ VerificationRows attached_limb_rows(const Effort& effort)
 VerificationRows error_split_rows(const Effort& effort)
 {
     if (!effort.limb) return {};
-    const TwistedLimb limb(effort.limb(coarse, 0)), refined(effort.limb(coarse, 1));
+    const TwistedLimb limb(effort.limb(coarse));
     const pbs::Positions flesh = limb.flesh(limb_flesh);
     FemOptions stiffer = limb_flesh, thinner = limb_flesh, embedded = limb_flesh, bind = limb_flesh;
     stiffer.spring_factor = 100.0;
@@ -310,7 +292,6 @@ VerificationRows error_split_rows(const Effort& effort)
     bind.attachment = FemAttachment::bind;
     return {whole_and_parts(limb, flesh, 1),
             whole_and_parts(limb, flesh, 24),
-            bound_covers(limb, refined, flesh),
             variant(limb, flesh, stiffer, "spring_factor_100"),
             variant(limb, flesh, thinner, "core_radius_0.5"),
             variant(limb, flesh, embedded, "embedded_bones"),

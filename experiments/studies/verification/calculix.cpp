@@ -49,7 +49,7 @@ VerificationRow limb_row(const CalculixComparison& comparison, const pbs::Charac
 VerificationRows limb_rows(const CalculixComparison& comparison, const Effort& effort)
 {
     const pbs::Vec3 twist = pbs::Vec3::UnitX(), bend = pbs::Vec3::UnitZ();
-    const pbs::Character limb = effort.limb(0, 0), coarse_limb = effort.limb(600, 0);
+    const pbs::Character limb = effort.limb(0), coarse_limb = effort.limb(600);
     const pbs::Character& second_order_limb = effort.full ? limb : coarse_limb;
     VerificationRows rows;
     const auto add = [&](const pbs::Character& character, const LimbPose& pose) { rows.push_back(limb_row(comparison, character, pose)); };
@@ -64,7 +64,7 @@ VerificationRows limb_rows(const CalculixComparison& comparison, const Effort& e
         add(second_order_limb, {"bent by 30 deg", bend, 30.0, model, 2});
 
     constexpr FemAttachment smooth = FemAttachment::smooth;
-    const pbs::Character small_limb = effort.limb(400, 0);  // each tet in a capsule adds up to 30 equations to CalculiX's deck
+    const pbs::Character small_limb = effort.limb(400);  // each tet in a capsule adds up to 30 equations to CalculiX's deck
     for (const int element_order : {1, 2}) {
         const BodyModel large = element_order == 1 ? BodyModel::st_venant_kirchhoff : BodyModel::st_venant_kirchhoff_at_four_points;
         add(small_limb, {"bent by 10 deg", bend, 10.0, BodyModel::linear, element_order, smooth});

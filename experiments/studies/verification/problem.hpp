@@ -18,15 +18,14 @@ using reference_fem::VerificationRow;
 using reference_fem::VerificationRows;
 
 struct Effort : reference_fem::Effort {
-    // The built-in limb with about this number of vertices (0: its default), its tets cut into eight this number of times. The caller
-    // meshes it, since only the caller links CGAL. Problems that need the limb have no rows where the function is empty.
-    std::function<pbs::Character(int vertices, int refinements)> limb = {};
+    // The built-in limb with about this number of vertices (0: its default). The caller meshes it, since only the caller links CGAL.
+    // Problems that need the limb have no rows where the function is empty.
+    std::function<pbs::Character(int vertices)> limb = {};
 };
 
 // The problems that need a character or PBS; reference_fem/verification/problems.hpp declares the others.
 VerificationRows attached_limb_rows(const Effort& effort);
 VerificationRows error_split_rows(const Effort& effort);
-VerificationRows grid_convergence_rows(const Effort& effort);
 VerificationRows nested_convergence_rows(const Effort& effort);
 VerificationRows pbs_locking_rows(const Effort& effort);
 VerificationRows calculix_rows(const Effort& effort);

@@ -25,9 +25,9 @@ const std::vector<VerificationProblem>& problems_of_module()
     return *load_module_with_blas("pbskin_verification").function<decltype(pbskin_verification_problems)>("pbskin_verification_problems")();
 }
 
-pbs::Character limb(int vertices, int refinements)
+pbs::Character limb(int vertices)
 {
-    return pbs::make_character({.body = "limb", .vertices = vertices, .refinements = refinements});
+    return pbs::make_character({.body = "limb", .vertices = vertices});
 }
 
 struct VerificationCase {

@@ -64,10 +64,11 @@ void add_reference(PointRow& row, const PosedReference& reference)
     if (!reference.is_reached()) return;
     row.reference = reference.label();
     if (!reference.order()) return;
-    row.reference_error_joint_pct = reference.bound().joint_pct;
-    row.reference_error_l2_pct = reference.bound().l2_pct;
     row.reference_order = reference.order()->observed;
     row.reference_order_is_reliable = reference.order()->reliable;
+    if (!std::isfinite(reference.bound().joint_pct)) return;
+    row.reference_error_joint_pct = reference.bound().joint_pct;
+    row.reference_error_l2_pct = reference.bound().l2_pct;
     if (row.error) row.below_reference_error = row.error->joint_pct <= *row.reference_error_joint_pct;
     if (row.solver_pct) row.discretisation_pct = row.reference_error_joint_pct;
 }
@@ -106,25 +107,19 @@ PointRow reference_row(const pbs::TetMesh& mesh, const PosedReference& reference
     return row;
 }
 
-// The bound of the error of a reference's own solution with quadratic elements on the case's own tets: its distance from the finest
-// solution and the bound of that one. Nothing where there is no bound.
-std::optional<double> unrefined_bound_pct(const PosedReference& reference)
-{
-    if (!reference.is_reached() || !reference.order()) return std::nullopt;
-    for (const NestedSolution& solution : reference.solutions())
-        if (solution.element_order == 2 && solution.refinements == 0 && solution.finished)
-            return reference.error_of(solution.positions).joint_pct + reference.bound().joint_pct;
-    return std::nullopt;
-}
-
 // The references of one case: the first member of the family (shared/posed_reference.hpp) and further ones. The character outlives it.
 class ReferenceSet {
 public:
     ReferenceSet(const WorkPrecisionCase& of, const pbs::Character& character, const PosePair& poses)
-        : of_(of), first_(character, reference_flesh(of.scene), poses.pose, poses.time_step_s, of.reference_is_refined)
+        : of_(of),
+          first_(character, reference_flesh(of.scene), poses.pose, poses.time_step_s,
+                 of.reference_is_refined ? ReferenceEffort::other_tets : ReferenceEffort::own_tets)
     {
-        for (const EnsembleMember& member : of.members)
-            members_.emplace_back(character, flesh_of(reference_flesh(of.scene), member), poses.pose, poses.time_step_s, false);
+        for (const EnsembleMember& member : of.members) {
+            members_.emplace_back(character, flesh_of(reference_flesh(of.scene), member), poses.pose, poses.time_step_s,
+                                  ReferenceEffort::own_tets);
+            members_.back().take_bound_of(first_);
+        }
     }
 
     const PosedReference& first() const { return first_; }
@@ -150,7 +145,6 @@ public:
         }
         const NestedSolution& used = first_.reference();
         row.reference = std::string(used.element_order == 2 ? "quadratic" : "linear") + (used.refinements > 0 ? "_refined" : "");
-        if (row.reference_error_joint_pct && !std::isfinite(*row.reference_error_joint_pct)) row.reference_error_joint_pct.reset();
         if (row.reference_error_joint_pct || of_.reference_is_refined || used.element_order != 2) return;
         for (const NestedSolution& solution : first_.solutions())
             if (solution.finished && solution.element_order == 1)
@@ -162,8 +156,9 @@ public:
         std::vector<FamilyRow> rows;
         for (std::size_t m = 0; m < members_.size(); ++m) {
             const PosedReference& one = members_[m];
-            rows.push_back({of_.of, of_.members[m], one.is_reached() ? "reached" : "not_reached", unrefined_bound_pct(first_),
-                            one.masked_share_pct()});
+            const double bound_pct = one.bound().joint_pct;
+            rows.push_back({of_.of, of_.members[m], one.is_reached() ? "reached" : "not_reached",
+                            std::isfinite(bound_pct) ? std::optional(bound_pct) : std::nullopt, one.masked_share_pct()});
             for (const NestedSolution& solution : one.solutions()) rows.back().solve_s += solution.seconds;
         }
         return rows;

@@ -123,7 +123,7 @@ struct PointRow {
     double reach_ms = 0.0;
     int rounds = 0, failed_rounds = 0;
     std::optional<double> ms_median = {}, ms_q1 = {}, ms_q3 = {};
-    std::optional<analysis::ErrorNorms> error = {};  // outside the part that overlaps; nothing where there is no reference
+    std::optional<analysis::ErrorNorms> error = {};  // outside the tips of creases; nothing where there is no reference
     std::optional<analysis::FrameMetrics> metrics = {};
     std::string reference = {};
     std::optional<double> reference_error_joint_pct = {}, reference_error_l2_pct = {};
@@ -141,7 +141,7 @@ struct PointRow {
     MemberErrors members = {};
     bool is_external = false;              // a deformer of the user's own
     std::optional<FrameClock> clock = {};  // nothing where there is no time
-    // Distances from PBS after each of budget_iterations, at the joints outside the overlap. Only PBS and its variants have them.
+    // Distances from PBS after each of budget_iterations, at the joints outside the tips of creases. Only PBS and its variants have them.
     std::array<std::optional<double>, budget_iterations.size()> from_pbs_pct = {};
 
     bool is_of_reference() const { return outcome == "reference" || outcome == "not_reached"; }
@@ -166,7 +166,7 @@ extern const analysis::Columns<FamilyRow> family_columns;
 // The points of one case of the work-precision study: the time and the work per frame and the error of every setting in one pose.
 //   const MeasuredPoints points = measure_points(of);
 //   table_of(point_columns, points.rows).write("points.csv");
-// README.md states the rules: the references, the overlap that is left out, the ladders and the limit of the deformers that minimise an
+// README.md states the rules: the references, what is left out, the ladders and the limit of the deformers that minimise an
 // energy. The error of PBS is split into solver, model and discretisation (ensemble/ensemble.hpp).
 // On unrefined tets a reference has no bound, except in the rows of changes to PBS: there it is the distance from linear elements on the
 // same tets. It holds if quadratic elements at least halve the error of linear ones, |P2 - x| <= |P1 - x| / 2 <= (|P1 - P2| + |P2 - x|) /

@@ -103,7 +103,7 @@ export class Run {
         return this.labels.includes(this.reference) && this.reached(label, at) && this.reached(this.reference, at);
     }
 
-    // The share of the volume [%] that distances from the reference leave out, because it overlaps itself there.
+    // The share of the volume [%] that distances from the reference leave out: tips of its creases.
     masked_share_pct(at) {
         return Math.max(0, ...this.deformers.map((deformer) => deformer.figures.masked_share_pct[at] ?? 0));
     }

@@ -114,8 +114,8 @@ const locking = "The FEM shown has linear elements (P1), which lock: they are st
 
 export function note_of(run, every, at) {
     const masked_pct = run.masked_share_pct(at);
-    const mark = masked_pct > 0 ? "* In this frame the FEM reference overlaps itself: distances leave out "
-        + `${masked_pct.toPrecision(2)} % of the volume. ` : "";
+    const mark = masked_pct > 0 ? "* In this frame distances leave out "
+        + `${masked_pct.toPrecision(2)} % of the volume, where the FEM reference is creased or overlaps itself. ` : "";
     const kept = every === 1 ? "every recorded frame" : `one of ${every} recorded frames`;
     const step_um = shown(1e6 * run.step_m);
     const of_reference = run.labels.includes(run.reference) ? locking : "";

@@ -30,7 +30,7 @@ class Breakdown(foreign_arm.ArmTest):
         self.assertLess(first["first_vertex"], len(self.points))
 
     def test_inverted_tets_of_a_nonlinear_reference(self):
-        printed, outcome = self.run_scene(3, "motion.frames=2", "motion.angle_deg=170.0", fem=SOLID, use='["snh"]')
+        printed, outcome = self.run_scene(3, "motion.frames=2", "motion.angle_deg=170.0", fem=SOLID + "contact = false\n", use='["snh"]')
         first = outcome["broken_frames"]["snh"][0]
         self.assertEqual((first["what"], first["frame"]), ("inverted", 1))
         self.assertLess(first["volume_ratio"], 0.0)
@@ -84,14 +84,14 @@ class Breakdown(foreign_arm.ArmTest):
         for name in ("scene.toml", "report.html"):
             self.assertTrue(self.read("out", name), name)
 
-    def test_a_reference_that_overlaps_itself_in_more_than_a_tenth_of_the_volume_is_a_warning(self):
-        sets = ('deformers.use=["lbs", "nh_p1"]', "motion.frames=6", "output.frames_every=0")
-        printed = self.succeeds("run", "limb_bend", "-o", self.path("out"), *(word for one in sets for word in ("--set", one))).stderr
-        share_pct = self.outcome()["largest_masked_share_pct"]
-        self.assertGreater(share_pct, 10.0)  # the forearm is bent by 150 degrees
-        words = f"limb_bend.toml: errors leave out {share_pct:.0f} % of the volume in frame 5, where the reference overlaps itself"
-        self.assertEqual([warning.startswith(words) for warning in self.outcome()["warnings"]], [True])
-        self.assertIn(f"pbskin: warning: {words}", printed)
+    def test_a_reference_that_passes_through_itself_is_a_warning_and_one_with_contact_does_not(self):
+        for contact, frames in (("true", 0), ("false", 2)):
+            sets = ('deformers.use=["lbs", "nh_p1"]', "motion.frames=6", "output.frames_every=0", f"fem.3.contact={contact}")
+            printed = self.succeeds("run", "limb_bend", "-o", self.path("out"), *(word for one in sets for word in ("--set", one))).stderr
+            self.assertEqual(self.outcome()["frames_with_overlap"], frames)  # the forearm is bent by up to 150 degrees, in steps of 30
+            words = f"limb_bend.toml: the reference passes through itself in {frames} of 6 frames, first in frame 4"
+            self.assertEqual([warning.startswith(words) for warning in self.outcome()["warnings"]], [True] * bool(frames))
+            self.assertEqual(f"pbskin: warning: {words}" in printed, frames > 0)
 
     def test_a_run_that_holds_names_nothing(self):
         _, outcome = self.run_scene(0, use='["lbs", "pbs"]')

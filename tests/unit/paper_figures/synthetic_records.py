@@ -227,7 +227,7 @@ def write_claims(results, statement="Volume is kept."):
 
 def write_poses(results):
     """Two poses of work_precision with PBS at 24 iterations, at another k_stretch and on a coarser mesh; in one of them 12 % of
-    the volume overlaps itself."""
+    the volume is left out."""
     for motion, lbs, pbs, bar, masked_pct in (("twist", 50.0, 20.0, 10.0, 0.0), ("crouch", 30.0, 8.0, 15.0, 12.0)):
         folder = results / "work_precision" / motion
         write_origin(folder, work={"settings": {"scene": {"pbs": {"k_stretch": 0.2}}}})

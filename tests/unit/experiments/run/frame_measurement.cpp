@@ -64,29 +64,42 @@ TEST_F(LimbMeasurement, AThinnedLimbHasAQuarterOfItsSection)
     EXPECT_FALSE(of.errors);
 }
 
-TEST(FrameMeasurement, LeavesOutTheOverlapOfTheReferenceButForTheErrorOnTheWholeBody)
+// Of the bar's 25 sections at x = -1, -11/12 ... 1, a tip of radius 0.2 on its axis at x = 1 takes the axis and the middles of the sides of
+// two and the axis alone of the third: the corners are 0.21 from the axis. The share is of the 96 cells' lumped volume.
+TEST(FrameMeasurement, LeavesOutTheTipsOfCreasesButForTheErrorOnTheWholeBody)
 {
     const pbs::Character bar = test_support::bar_character({24, 2, 2});
     const pbs::Pose pose = rest_pose(bar);
-    const pbs::Positions reference = test_support::wound(bar.mesh.rest);
+    const pbs::Positions& reference = bar.mesh.rest;
     OutputSpec output;
     output.sections = output.surface = false;
     FrameMeasurer measurer(bar, output, {});
-    const double share_pct = measurer.leave_out_overlap(reference);
+    EXPECT_EQ(measurer.leave_out({}), 0.0);
+    const CreaseTip tip{pbs::Vec3(1.0, 0.0, 0.0), 0.2};
+    const double share_pct = measurer.leave_out({tip});
     EXPECT_GT(share_pct, 0.0);
-    EXPECT_LT(share_pct, 100.0);
-    const std::vector<bool> overlap = pbs::OverlapMask(bar).of(reference);
+    EXPECT_LT(share_pct, 100.0 * 2.5 / 24.0) << "less than two and a half sections";
+    std::vector<bool> left_out;
+    for (const auto& vertex : reference.rowwise()) left_out.push_back((vertex.transpose() - tip.at_rest).norm() <= tip.radius_m);
     FrameContext context;
     context.pose = &pose;
     context.reference = &reference;
-    for (std::size_t v = 0; v < overlap.size(); ++v) {
+    for (std::size_t v = 0; v < left_out.size(); ++v) {
         pbs::Positions moved = reference;
         moved(static_cast<Eigen::Index>(v), 0) += 0.01;
         const auto measured = measurer.measure(moved, context);
         EXPECT_EQ(measured.masked_share_pct, share_pct);
-        EXPECT_EQ(measured.errors->linf_m > 0.0, !overlap[v]) << v;
+        EXPECT_EQ(measured.errors->linf_m > 0.0, !left_out[v]) << v;
         EXPECT_GT(measured.errors_on_whole_body->linf_m, 0.0) << v;
     }
+}
+
+TEST(FrameMeasurement, SeesABodyThatPassesThroughItself)
+{
+    const pbs::Character bar = test_support::bar_character({24, 2, 2});
+    const FrameMeasurer measurer(bar, {}, {});
+    EXPECT_FALSE(measurer.overlaps(bar.mesh.rest));
+    EXPECT_TRUE(measurer.overlaps(test_support::wound(bar.mesh.rest)));
 }
 
 TEST_F(LimbMeasurement, LeavesOutWhatIsNotAsked)

@@ -117,7 +117,8 @@ TEST_F(MarkedFrames, AreBrokenOnesOverlapsAndErrorsBelowTheReferences)
               "first at vertex 17, 120 not finite\n");
     EXPECT_EQ(marks_of(R"({"outcome": {"frames": 31, "frames_with_overlap": 4, "largest_masked_share_pct": 6.25,
                                        "frames_below_reference_error": {"pbs": 2}}})"),
-              "     limb_bend: the reference overlaps itself in 4 of 31 frames; errors leave out up to 6.2 % of the volume\n"
+              "     limb_bend: the reference overlaps itself in 4 of 31 frames\n"
+              "     limb_bend: errors leave out up to 6.2 % of the volume, at the tips of creases\n"
               "     limb_bend: the error of pbs at the joints is not above the reference's own in 2 of 31 frames\n");
     // Work and sound runs have none.
     EXPECT_EQ(marks_of(R"({"outcome": {"finished": true, "breakdown": ""}})"), "");

@@ -2,6 +2,7 @@
 
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/body_cache.hpp"
+#include "pbs/character/bone_capsules.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "tests/support/arm_in_formats.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -58,6 +59,22 @@ TEST(Bodies, TheBarIsFilledToItsCorners)
     // A point on a face goes through some ten roundings where a segment of up to the bar's length, 2 m, meets a plane.
     EXPECT_NEAR(bar.mesh.rest.col(0).maxCoeff(), 1.0, test_support::rounding_error(10, 2.0));
     EXPECT_NEAR(bar.mesh.rest.col(1).minCoeff(), -0.15, test_support::rounding_error(10, 2.0));
+}
+
+// Reference: the limb itself, and what it has on tets cut into eight.
+TEST(Bodies, OnOtherTetsKeepTheBonesSizesAndAreCutIntoEightLikeOthers)
+{
+    const Character limb = make_character({.body = "limb", .vertices = 600}), other = remeshed(limb, {.seed = 1});
+    EXPECT_NE(other.mesh.rest.rows(), limb.mesh.rest.rows());
+    EXPECT_EQ(other.weights.vertices(), other.mesh.rest.rows());
+    for (const Character& on_its_tets : {other, refined(other)}) {
+        const auto own = bone_capsules(limb, 0.5), kept = bone_capsules(on_its_tets, 0.5);
+        for (std::size_t b = 0; b < own.size(); ++b) EXPECT_EQ(kept[b].radius_m, own[b].radius_m);
+    }
+    EXPECT_EQ(refined(other).mesh.tets.rows(), 8 * other.mesh.tets.rows());
+    Character cut = limb;
+    cut.artist = ArtistSkin{.is_cut = true};
+    expect_input_error([&] { remeshed(cut, {}); }, "limb: tets", "expected flesh in one piece");
 }
 
 TEST(Bodies, RefusesWhatIsNotThere)

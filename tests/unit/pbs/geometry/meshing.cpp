@@ -226,4 +226,44 @@ TEST(SurfaceToTets, BadInputIsRefused)
     expect_refused(icosphere(1.0, 1), quick(0.2, 0.02, 10), "vertices = 10: ", "");
 }
 
+// Reference: the mesh itself. Facets lie within a twentieth of the mean edge of its boundary, 0.1 m, which bounds the change of the volume.
+TEST(OtherTets, FillTheSameBoundaryAndRepeatAndDifferBySeed)
+{
+    const pbs::TetMesh limb = pbs::mesh_limb(600), one = pbs::mesh_anew(limb, {.seed = 1}), other = pbs::mesh_anew(limb, {.seed = 2});
+    expect_sound(one, static_cast<int>(one.rest.rows()));
+    EXPECT_NEAR(static_cast<double>(one.rest.rows()), static_cast<double>(limb.rest.rows()), 0.2 * static_cast<double>(limb.rest.rows()));
+    EXPECT_EQ(pbs::mesh_anew(limb, {.seed = 1}).tets, one.tets);
+    EXPECT_NE(other.rest.rows(), one.rest.rows());
+    const double volume = pbs::tet_volumes(limb.rest, limb.tets).sum(), area = 2.0 * std::numbers::pi * radius * (2.0 + 2.0 * radius);
+    for (const pbs::TetMesh& mesh : {one, other}) EXPECT_NEAR(pbs::tet_volumes(mesh.rest, mesh.tets).sum(), volume, 0.05 * 0.11 * area);
+}
+
+// A facet's circumscribed circle is at most 0.75 of the wanted length in radius, so that no edge is longer than 1.5 of it. Where facets are
+// moved to improve the tets, or reach out of the ball, they are larger; half of the ball's radius is left out for them.
+TEST(OtherTets, HaveAFinerSkinInABall)
+{
+    const pbs::TetMesh limb = pbs::mesh_limb(600);
+    const pbs::FineBall ball{pbs::Vec3(0.0, radius, 0.0), 0.1, 0.02};
+    const pbs::TetMesh fine = pbs::mesh_anew(limb, {.fine = {ball}});
+    const pbs::Triangles skin = pbs::boundary_of(fine.tets);
+    double longest_m = 0.0;
+    for (const auto& face : skin.rowwise())
+        for (int k = 0; k < 3; ++k) {
+            const pbs::Vec3 a = fine.rest.row(face(k)), b = fine.rest.row(face((k + 1) % 3));
+            if (((a + b) / 2.0 - ball.centre).norm() < ball.radius_m / 2.0) longest_m = std::max(longest_m, (b - a).norm());
+        }
+    EXPECT_GT(longest_m, ball.size_m / 2.0);
+    EXPECT_LE(longest_m, 1.5 * ball.size_m);
+    EXPECT_LT(fine.rest.rows(), 2 * limb.rest.rows());
+}
+
+TEST(OtherTets, TetsThatMeetInAnEdgeAloneAreRefused)
+{
+    pbs::TetMesh two;
+    two.rest = pbs::Positions{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};
+    two.tets = pbs::Tets{{0, 1, 3, 2}, {0, 1, 5, 4}};
+    expect_input_error([&] { pbs::mesh_anew(two, {}); }, "tets = 2: ", "expected some with a manifold boundary");
+    expect_input_error([] { pbs::mesh_anew({}, {}); }, "tets = 0: ", "");
+}
+
 }  // namespace

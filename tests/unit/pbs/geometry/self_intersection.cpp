@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 
 namespace {
 
@@ -99,40 +98,6 @@ TEST(PointsInside, AskAClosedSurface)
     sphere.triangles = sphere.triangles.bottomRows(10).eval();
     EXPECT_THROW(pbs::points_inside(sphere.points, sphere.triangles, {{0, 0, 0}}), pbs::InputError);
     EXPECT_THROW(pbs::points_inside(sphere.points, pbs::Triangles(0, 3), {{0, 0, 0}}), pbs::InputError);
-}
-
-// Two cubes of one mesh: moved along the diagonal, a corner of each lies inside the other; beside each other nothing does, although tets of
-// one cube share corners, edges and faces.
-TEST(Overlap, VerticesInsideTetsOfAnotherPartAreFound)
-{
-    const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {2, 2, 2});
-    const int count = static_cast<int>(bar.rest.rows());
-    pbs::Tets tets(2 * bar.tets.rows(), 4);
-    tets << bar.tets, bar.tets.array() + count;
-    std::vector<int> all(2 * count);
-    std::iota(all.begin(), all.end(), 0);
-    const auto overlapping = [&](const Eigen::RowVector3d& offset) {
-        pbs::Positions positions(2 * count, 3);
-        positions << bar.rest, bar.rest.rowwise() + offset;
-        return pbs::vertices_inside_other_tets(positions, tets, all);
-    };
-    EXPECT_TRUE(overlapping({1.5, 0, 0}).empty());
-
-    pbs::Positions moved = bar.rest.rowwise() + Eigen::RowVector3d(0.73, 0.71, 0.77);
-    std::vector<int> expected;  // the corner of each bar that lies in the other's cube
-    for (int v = 0; v < count; ++v)
-        if ((bar.rest.row(v).array() > Eigen::Array<double, 1, 3>(0.73, 0.71, 0.77)).all()) expected.push_back(v);
-    for (int v = 0; v < count; ++v)
-        if ((moved.row(v).array() < 1.0).all()) expected.push_back(count + v);
-    EXPECT_EQ(overlapping({0.73, 0.71, 0.77}), expected);
-    EXPECT_EQ(expected.size(), 2u);
-}
-
-TEST(Overlap, PositionsThatAreNotFiniteAreRefused)
-{
-    pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
-    bar.rest(0, 0) = std::nan("");
-    EXPECT_THROW(pbs::vertices_inside_other_tets(bar.rest, bar.tets, {0}), pbs::InputError);
 }
 
 }  // namespace

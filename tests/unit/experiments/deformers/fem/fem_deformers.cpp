@@ -1,7 +1,8 @@
 // How the deformer reaches frames, and what it reports of those that it does not reach. The verification tests show that it deforms
 // correctly. Tolerances between two solutions for one pose: newton_error_m, the error that Newton's method leaves, for each of them.
 
-#include "pbs/character/bone_capsules.hpp"
+#include "pbs/geometry/meshing.hpp"
+#include "pbs/geometry/topology.hpp"
 #include "tests/support/fem_bar.hpp"
 #include "tests/support/json_facts.hpp"
 #include "tests/support/newton_rounding.hpp"
@@ -84,45 +85,60 @@ TEST(FemDeformer, ABoneOutsideTheFleshMovesNothingAndIsOnRecord)
     EXPECT_GT(grips[1]["tets_gripped"], 0);
 }
 
-FemOptions with_contact(FemOptions options)
+FemOptions without_contact(FemOptions options)
 {
-    options.contact = true;
+    options.contact = false;
     return options;
 }
 
-int overlapping_vertices(const pbs::Positions& positions)
+bool passes_through_itself(const pbs::Positions& positions)
 {
-    return static_cast<int>(std::ranges::count(pbs::OverlapMask(bar()).of(positions), true));
+    return pbs::self_intersects(positions, pbs::boundary_of(bar().mesh.tets));
 }
 
-// The bar folds at its joint. Reference: pbs::OverlapMask, which knows nothing of contact.
+// The bar folds at its joint, at x = 0. Reference: CGAL, which knows nothing of contact.
 TEST(ElasticFemDeformer, WithContactAFoldDoesNotOverlapItself)
 {
     for (const int order : {1, 2}) {
         const FemOptions folds{.model = Model::neo_hookean, .element_order = order};
-        ElasticBar alone(folds), contact(with_contact(folds));
+        ElasticBar alone(without_contact(folds)), contact(folds);
         ASSERT_EQ(alone.at(turned(160.0)), Outcome::finished);
         ASSERT_EQ(contact.at(turned(160.0)), Outcome::finished);
-        EXPECT_GT(overlapping_vertices(alone.positions()), 0) << "without contact";
-        EXPECT_EQ(overlapping_vertices(contact.positions()), 0) << "order " << order;
+        EXPECT_TRUE(passes_through_itself(alone.positions())) << "without contact";
+        EXPECT_FALSE(passes_through_itself(contact.positions())) << "order " << order;
         const nlohmann::json record = contact.record()["contact"];
         EXPECT_EQ(record["frames"], 1);
         EXPECT_GT(record["smallest_distance_m"].get<double>(), 0.0);
         EXPECT_LT(record["smallest_distance_m"].get<double>(), record["range_m"].get<double>());
         EXPECT_FALSE(alone.record().contains("contact"));
+        EXPECT_TRUE(alone.facts()->tips.empty());
     }
+}
+
+// Reference: the corners' own positions, of which the middle of a tet of order 1 and the reflection of a corner in another are sums.
+TEST(ElasticFemDeformer, MovesPlacesInItsTetsAndBeyond)
+{
+    ElasticBar fem(coarse);
+    ASSERT_EQ(fem.at(turned(60.0)), Outcome::finished);
+    const pbs::Positions& x = fem.positions();
+    const auto corners = bar().mesh.tets.row(3);
+    const pbs::Positions moved = fem.facts()->moved({{3, {0.0, 0.0, 0.0}}, {3, {0.25, 0.25, 0.25}}, {3, {2.0, 0.0, 0.0}}});
+    const double rounding = rounding_error(20, 2.0);  // of sums of four coordinates up to 2 m, which the root's frame turns
+    EXPECT_LT((moved.row(0) - x.row(corners(0))).norm(), rounding);
+    EXPECT_LT((moved.row(1) - x(corners, Eigen::all).colwise().mean()).norm(), rounding);
+    EXPECT_LT((moved.row(2) - (2.0 * x.row(corners(1)) - x.row(corners(0)))).norm(), rounding);
 }
 
 TEST(ElasticFemDeformer, WithoutAFoldContactChangesNothing)
 {
     const FemOptions options{.model = Model::neo_hookean, .element_order = 2};
-    EXPECT_EQ(deformed(bar(), with_contact(options), {turned(20.0)}), deformed(bar(), options, {turned(20.0)}));
+    EXPECT_EQ(deformed(bar(), options, {turned(20.0)}), deformed(bar(), without_contact(options), {turned(20.0)}));
 }
 
 // The barrier would keep the windings interlocked.
 TEST(ElasticFemDeformer, WithContactAnInitialGuessThatIntersectsItselfIsRefused)
 {
-    ElasticBar contact(with_contact({.model = Model::stable_neo_hookean, .element_order = 1}));
+    ElasticBar contact({.model = Model::stable_neo_hookean, .element_order = 1});
     contact.start_from(wound(bar().mesh.rest));
     EXPECT_EQ(contact.at(turned(0.0)), Outcome::not_converged);
     EXPECT_EQ(contact.failure()["newton"], "intersects_itself");
@@ -251,14 +267,14 @@ TEST(ElasticFemDeformer, ABrokenStartIsTakenAsItIs)
 {
     const pbs::Pose pose = turned(40.0);
     const pbs::Positions mirrored = bar().mesh.rest * pbs::Vec3(1.0, 1.0, -1.0).asDiagonal();
-    ElasticBar stable(coarse);
+    ElasticBar stable(without_contact(coarse));  // through which nothing turns inside out
     stable.at(pose, 0.0);
     const pbs::Positions equilibrium = stable.positions();
     stable.start_from(mirrored);
     EXPECT_GT(stable.advance(pose, 0.0).iterations, 1);
     EXPECT_LT(largest_distance(stable.positions(), equilibrium), 2.0 * newton_error_m(bar(), coarse, pose, equilibrium));
 
-    ElasticBar fem({.model = Model::neo_hookean, .element_order = 1});
+    ElasticBar fem(without_contact({.model = Model::neo_hookean, .element_order = 1}));
     fem.start_from(mirrored);
     EXPECT_EQ(fem.at(pose, 0.0), Outcome::not_converged);
     EXPECT_LT(largest_distance(fem.positions(), mirrored), frame_rounding_m(mirrored));

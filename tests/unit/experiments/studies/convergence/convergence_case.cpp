@@ -40,7 +40,7 @@ TEST(ConvergenceCase, TheDistanceToTheReferenceBeginsWithThatOfLbs)
         const Scene scene = read_scene("limb_twist", {"character.vertices=" + std::to_string(paths.of.own_mesh ? fewer : more)});
         const PosedCharacter limb(scene, {3});
         ASSERT_EQ(limb.character().mesh.rest.rows(), paths.of.vertices);
-        const PosedReference reference(limb.character(), of.reference, limb.pose(0), scene.motion.time_step_s);
+        const PosedReference reference(limb.character(), of.reference, limb.pose(0), scene.motion.time_step_s, ReferenceEffort::refined);
         const double of_lbs = reference.error_of(limb.shapes(spec_of(scene, "lbs")).front().positions).joint_pct;
         EXPECT_GT(of_lbs, 0.0);
         // The path's positions are relative to an origin: each coordinate goes through two more roundings. They are related to the mean
@@ -49,7 +49,7 @@ TEST(ConvergenceCase, TheDistanceToTheReferenceBeginsWithThatOfLbs)
         const double rounding_pct = 100.0 * std::sqrt(3.0) * test_support::rounding_error(2, 1.15) / 0.1;
         const Look& first = paths.paths.front().looks.front();
         EXPECT_NEAR(first.error_joint_pct, of_lbs, rounding_pct + test_support::rounding_error(20, of_lbs));
-        EXPECT_EQ(first.whole_joint_pct, first.error_joint_pct);  // nothing overlaps
+        EXPECT_EQ(first.whole_joint_pct, first.error_joint_pct);  // nothing is creased
         EXPECT_EQ(paths.reference, "neo_hookean");
         EXPECT_EQ(paths.quality.masked_share_pct, 0.0);
         EXPECT_EQ(paths.quality.observed_order, reference.order().value().observed);
