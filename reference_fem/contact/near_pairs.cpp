@@ -17,6 +17,7 @@ using Box = Eigen::AlignedBox3d;
 
 constexpr double edge_range_share = 0.5;  // of a pair's range, for pairs of edges
 constexpr double slack_in_ranges = 1.0;   // by which nodes may move before the next search
+constexpr double touching_share = 1e-6;   // of the range: pairs as near as that at rest touch, as those of the two sides of a cut do
 
 Vec3 position(const pbs::Positions& rest, const Eigen::VectorXd& displacement, int node)
 {
@@ -214,7 +215,7 @@ void NearPairs::search(const Eigen::VectorXd& displacement, const Eigen::VectorX
         if (pair.distance_m > reach_m) return;
         pair.range_m = std::min(range_m_, 0.5 * closest_points(pair.kind, at_rest(nodes)).distance_m);
         if (pair.kind == PairKind::edge_edge) pair.range_m *= edge_range_share;
-        if (pair.range_m > 0.0) near_.push_back(pair);
+        if (pair.range_m > touching_share * range_m_) near_.push_back(pair);
     };
     std::vector<Box> node_boxes;
     for (const int node : surface_.nodes) node_boxes.push_back(of_node[node]);

@@ -207,6 +207,21 @@ TEST(ContactPotential, OfPartsThatAreNearAtRestHasHalfTheirDistanceAsItsRange)
     EXPECT_NEAR(contact.largest_step(closed_by(0.0), closed_by(2.0)), 0.45, 1e-3);
 }
 
+// The sides of a cut through flesh, up to rounding. Their pairs would have a range of that size, and its barrier no finite slope.
+TEST(ContactPotential, LeavesOutPairsThatTouchAtRest)
+{
+    const SimplexSpace space(joined({box_mesh({0, 0, 0}, {1, 1, 0.5}, {2, 2, 1}), box_mesh({0, 0, 0.5 + 1e-15}, {1, 1, 1.5}, {2, 2, 1})}),
+                             1);
+    const ContactPotential contact(space, options);
+    Eigen::VectorXd opened = Eigen::VectorXd::Zero(space.dofs());
+    for (int n = 0; n < space.nodes(); ++n)
+        if (space.node_positions()(n, 2) > 0.5) opened(3 * n + 2) = 1.0;
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(space.dofs());
+    EXPECT_EQ(contact.value(rest), 0.0);
+    EXPECT_EQ(contact.largest_step(rest, opened), 1.0);
+    EXPECT_TRUE(std::isfinite(contact.value(1e-16 * opened)));
+}
+
 TEST(ContactPotential, IsTheSameForAMovedAndAMirroredBody)
 {
     const pbs::TetMesh blocks = two_blocks(3);
