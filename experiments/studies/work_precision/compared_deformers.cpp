@@ -115,6 +115,7 @@ DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int elemen
     auto& options = options_of<FemOptions>(spec);
     options.model = model;
     options.element_order = element_order;
+    options.contact = model != reference_fem::Model::stable_neo_hookean;  // which is the limit of deformers without contact
     options.nested_start = element_order == 2 && model != reference_fem::Model::linear;
     return spec;
 }

@@ -20,6 +20,7 @@ public:
         auto& fem = experiments::options_of<experiments::FemOptions>(spec);
         fem.model = reference_fem::Model::stable_neo_hookean;
         fem.element_order = 1;
+        fem.contact = false;
         fem.poisson = poisson;
         const experiments::Shapes shapes = posed_.shapes(spec);
         EXPECT_TRUE(shapes.front().finished);
