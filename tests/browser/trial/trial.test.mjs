@@ -20,9 +20,9 @@ function picture() {
     return page.evaluate(() => window.viewer.pixels(0).join());
 }
 
-test("the sentence and every warning are visible", async () => {
-    assert.ok(truth.warnings.length > 0);
-    for (const words of [truth.summary, ...truth.warnings]) {
+test("the sentence and every warning and note are visible", async () => {
+    assert.ok(truth.notes.length > 0);  // on the choice of the animation
+    for (const words of [truth.summary, ...truth.warnings, ...truth.notes]) {
         const place = page.getByText(words, { exact: true }).first();
         assert.ok(await place.isVisible(), words);
     }
