@@ -197,9 +197,8 @@ def truth_of_trial(folder):
     with open(folder / "metrics.csv", newline="") as stream:
         deformers = list(dict.fromkeys(row["deformer"] for row in csv.DictReader(stream)))
     samples = [trial_sample_of(folder, label, frame) for label in compared for frame in (0, trial_frames // 2, trial_frames - 1)]
-    told = {name: facts[name] for name in ("summary", "warnings", "notes")}
-    return {**told, "frames": trial_frames, "points": len(artist_m),
-            "deformers": deformers, "samples": samples}
+    return {"summary": facts["summary"], "warnings": facts["warnings"], "notes": facts["notes"], "frames": trial_frames,
+            "points": len(artist_m), "deformers": deformers, "samples": samples}
 
 
 def trial(program, scratch):
