@@ -64,21 +64,40 @@ cholmod_dense view(const Eigen::VectorXd& vector)
     return dense;
 }
 
+// The pattern of a symmetric matrix whose rows come in blocks: an entry for each block that has one. Upper triangle, with values that
+// nobody reads.
+SparseMatrix blocks_of(const SparseMatrix& matrix, int size)
+{
+    SparseMatrix blocks(matrix.rows() / size, matrix.cols() / size);
+    blocks.reserve(matrix.nonZeros() / (size * size));
+    for (Eigen::Index column = 0; column < blocks.cols(); ++column) {
+        blocks.startVec(column);
+        Eigen::Index last = -1;
+        for (SparseMatrix::InnerIterator entry(matrix, column * size); entry && entry.row() < (column + 1) * size; ++entry)
+            if (const Eigen::Index row = entry.row() / size; row != last) blocks.insertBack(last = row, column) = 1.0;
+    }
+    blocks.finalize();
+    return blocks;
+}
+
 // CHOLMOD: Y. Chen, T. Davis, W. Hager, S. Rajamanickam, Algorithm 887, ACM TOMS 35(3), 2008.
+// The rows of a node are ordered as one: a ninth of the entries, so that a pattern that changes with every contact is analysed quickly.
 class CholmodFactor : public PreparedSolver {
 public:
-    explicit CholmodFactor(const SparseMatrix& matrix) : matrix_(matrix)
+    CholmodFactor(const SparseMatrix& matrix, int block_size) : matrix_(matrix)
     {
         cholmod_l_start(&common_);
         common_.print = 0;
         common_.supernodal = CHOLMOD_SUPERNODAL;
-        // CHOLMOD's own strategy of ordering: AMD, and METIS besides where AMD's factor is large; the smaller one is taken.
         // Supernodes are merged more than by default: a tenth more zeros, a quarter less time on 7K dofs, a tenth less on 50K.
         std::copy_n(std::array{16, 48, 96}.begin(), 3, common_.nrelax);
         std::copy_n(std::array{0.9, 0.3, 0.1}.begin(), 3, common_.zrelax);
-        cholmod_sparse sparse = view(matrix);
         const pbs::Stopwatch analysis;
-        factor_ = cholmod_l_analyze(&sparse, &common_);
+        std::vector<SuiteSparse_long> order = order_of(blocks_of(matrix, block_size), block_size);
+        cholmod_sparse sparse = view(matrix);
+        common_.nmethods = 1;
+        common_.method[0].ordering = CHOLMOD_GIVEN;
+        factor_ = cholmod_l_analyze_p(&sparse, order.data(), nullptr, 0, &common_);
         analyse_s_ = analysis.seconds();
         refactor();
     }
@@ -120,11 +139,30 @@ public:
         int version[3];
         cholmod_l_version(version);
         return "CHOLMOD " + std::to_string(version[0]) + "." + std::to_string(version[1]) + "." + std::to_string(version[2]) +
-               (factor_ && factor_->ordering == CHOLMOD_METIS ? " supernodal, METIS" : " supernodal, AMD");
+               (is_metis_ ? " supernodal, METIS" : " supernodal, AMD");
     }
 
 private:
+    // Of AMD's and METIS's orders the one with the smaller factor.
+    std::vector<SuiteSparse_long> order_of(const SparseMatrix& blocks, int block_size)
+    {
+        common_.nmethods = 2;
+        common_.method[0].ordering = CHOLMOD_AMD;
+        common_.method[1].ordering = CHOLMOD_METIS;
+        cholmod_sparse sparse = view(blocks);
+        cholmod_factor* factor = cholmod_l_analyze(&sparse, &common_);
+        if (!factor) return {};
+        is_metis_ = factor->ordering == CHOLMOD_METIS;
+        std::vector<SuiteSparse_long> order;
+        for (Eigen::Index k = 0; k < blocks.rows(); ++k)
+            for (int row = 0; row < block_size; ++row)
+                order.push_back(block_size * static_cast<const SuiteSparse_long*>(factor->Perm)[k] + row);
+        cholmod_l_free_factor(&factor, &common_);
+        return order;
+    }
+
     const SparseMatrix& matrix_;
+    bool is_metis_ = false;
     mutable cholmod_common common_;
     cholmod_factor* factor_ = nullptr;
     mutable cholmod_dense *solution_ = nullptr, *work_ = nullptr, *permuted_ = nullptr;
@@ -218,9 +256,9 @@ void use_one_blas_thread()
     if (auto* set_threads = find<void(int)>("openblas_set_num_threads")) set_threads(1);
 }
 
-std::unique_ptr<PreparedSolver> prepare_cholmod(const SparseMatrix& matrix)
+std::unique_ptr<PreparedSolver> prepare_cholmod(const SparseMatrix& matrix, int block_size)
 {
-    return std::make_unique<CholmodFactor>(matrix);
+    return std::make_unique<CholmodFactor>(matrix, block_size);
 }
 
 std::unique_ptr<PreparedSolver> prepare_umfpack(const SparseMatrix& matrix)
@@ -239,7 +277,7 @@ std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver
         case LinearSolver::cholmod:
             break;
     }
-    return prepare_cholmod(matrix);
+    return prepare_cholmod(matrix, near_null_space.block_size);
 }
 
 EliminatedSystem::Block EliminatedSystem::block(const SparseMatrix& matrix, const std::vector<int>& rows, const std::vector<int>& columns)

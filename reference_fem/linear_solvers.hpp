@@ -50,7 +50,8 @@ struct NearNullSpace {
 // one thread, for good.
 std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver solver, const NearNullSpace& near_null_space = {});
 
-std::unique_ptr<PreparedSolver> prepare_cholmod(const SparseMatrix& matrix);  // reads the upper triangle
+// Reads the upper triangle. block_size: rows that have the same pattern, 3 of whole nodes, are ordered together.
+std::unique_ptr<PreparedSolver> prepare_cholmod(const SparseMatrix& matrix, int block_size);
 std::unique_ptr<PreparedSolver> prepare_umfpack(const SparseMatrix& matrix);  // by the symmetric strategy, ordered by METIS
 std::unique_ptr<PreparedSolver> prepare_cg_ml(const SparseMatrix& matrix, const NearNullSpace& near_null_space);  // starts MPI
 

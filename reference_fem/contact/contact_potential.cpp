@@ -12,7 +12,6 @@ using pbs::Vec3;
 
 constexpr double parallel_share = 1e-3;     // of |e|^2 |f|^2 at rest: |e x f|^2 below which a pair of edges is softened
 constexpr double coupling_in_ranges = 2.0;  // pairs that near have their place in the Hessian, which then changes rarely
-constexpr double polynomial_below = 0.2;    // of the range: where the plane's barrier goes on as a polynomial
 
 }  // namespace
 
@@ -212,41 +211,6 @@ std::vector<NodePair> ContactPotential::couplings(const Eigen::VectorXd& displac
                     if (one != other) pairs.push_back({one, other});
     }
     return pairs;
-}
-
-PlanePotential::PlanePotential(const SimplexSpace& space, std::vector<int> nodes, const ContactOptions& options)
-    : options_(options), rest_(space.node_positions()), nodes_(std::move(nodes)), area_(contact_surface(space).node_area)
-{
-}
-
-Barrier PlanePotential::barrier_at(const Eigen::VectorXd& displacement, int node) const
-{
-    const double distance_m = normal_.dot((rest_.row(node).transpose() + displacement.segment<3>(3 * node))) - offset_m_,
-                 from_m = polynomial_below * options_.range_m;
-    if (distance_m >= from_m) return barrier(distance_m, options_.range_m);
-    const Barrier b = barrier(from_m, options_.range_m);
-    const double way_m = distance_m - from_m;
-    return {b.value + b.first * way_m + b.second / 2.0 * way_m * way_m, b.first + b.second * way_m, b.second};
-}
-
-double PlanePotential::value(const Eigen::VectorXd& displacement) const
-{
-    double energy_j = 0.0;
-    for (const int node : nodes_) energy_j += options_.stiffness_pa * area_(node) * barrier_at(displacement, node).value;
-    return energy_j;
-}
-
-void PlanePotential::add_gradient(const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const
-{
-    for (const int node : nodes_)
-        gradient.segment<3>(3 * node) += options_.stiffness_pa * area_(node) * barrier_at(displacement, node).first * normal_;
-}
-
-void PlanePotential::add_hessian(const Eigen::VectorXd& displacement, Definiteness, NodalMatrix& hessian) const
-{
-    for (const int node : nodes_)
-        hessian.add_block(node, node,
-                          options_.stiffness_pa * area_(node) * barrier_at(displacement, node).second * normal_ * normal_.transpose());
 }
 
 }  // namespace reference_fem

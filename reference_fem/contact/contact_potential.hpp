@@ -81,29 +81,4 @@ private:
     std::vector<int> triangles_at_node_;  // their number, #nodes of the space
 };
 
-// A rigid frictionless half-space: flesh nodes stay where normal . x > offset, by the same barrier. Nodes beyond a fifth of the range are
-// pushed back by the barrier's Taylor polynomial of degree two, so that the plane may move.
-class PlanePotential : public Potential {
-public:
-    // nodes: which ones the plane holds back, with the areas of the surface.
-    PlanePotential(const SimplexSpace& space, std::vector<int> nodes, const ContactOptions& options);
-
-    void move_to(const pbs::Vec3& normal, double offset_m) { normal_ = normal, offset_m_ = offset_m; }  // unit normal
-
-    double value(const Eigen::VectorXd& displacement) const override;
-    void add_gradient(const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const override;
-    void add_hessian(const Eigen::VectorXd& displacement, Definiteness definiteness, NodalMatrix& hessian) const override;
-    bool is_quadratic() const override { return false; }
-
-private:
-    Barrier barrier_at(const Eigen::VectorXd& displacement, int node) const;
-
-    ContactOptions options_;
-    pbs::Positions rest_;
-    std::vector<int> nodes_;
-    Eigen::VectorXd area_;
-    pbs::Vec3 normal_ = pbs::Vec3::UnitX();
-    double offset_m_ = 0.0;
-};
-
 }  // namespace reference_fem

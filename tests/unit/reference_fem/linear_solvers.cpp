@@ -130,14 +130,25 @@ TEST(PreparedSolver, ThreadsOfTheBlasChangeTheSolutionByLessThanTheContractSays)
     EXPECT_EQ(prepare(matrix, LinearSolver::cholmod)->solve(load), of_environment);
     if (!set_threads || !threads) GTEST_SKIP() << "not on " << resolved_blas();
     const double rounding = rounding_bound(spectrum_of(matrix));
-    for (auto* prepare_direct : {prepare_cholmod, prepare_umfpack}) {
+    for (const bool is_cholmod : {true, false}) {
+        const auto solved = [&] { return (is_cholmod ? prepare_cholmod(matrix, 3) : prepare_umfpack(matrix))->solve(load); };
         set_threads(1);
-        const Eigen::VectorXd alone = prepare_direct(matrix)->solve(load), again = prepare_direct(matrix)->solve(load);
+        const Eigen::VectorXd alone = solved(), again = solved();
         EXPECT_EQ(alone, again);
         set_threads(2);
         ASSERT_EQ(threads(), 2);
-        EXPECT_LT((prepare_direct(matrix)->solve(load) - alone).norm() / alone.norm(), std::min(1e-10, 2.0 * rounding));
+        EXPECT_LT((solved() - alone).norm() / alone.norm(), std::min(1e-10, 2.0 * rounding));
     }
+}
+
+TEST(PreparedSolver, HasTheSameSolutionWhetherNodesOrRowsAreOrdered)
+{
+    const SparseMatrix matrix = bar_on_springs();
+    const Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(matrix.rows(), -1.0, 1.0);
+    const auto by_nodes = prepare_cholmod(matrix, 3), by_rows = prepare_cholmod(matrix, 1);
+    ASSERT_TRUE(by_nodes->usable());
+    const Eigen::VectorXd expected = by_rows->solve(load);
+    EXPECT_LT((by_nodes->solve(load) - expected).norm() / expected.norm(), 2.0 * rounding_bound(spectrum_of(matrix)));
 }
 
 // Reference: the rows of the eliminated system. Tolerance: the residual of a backward stable solve, |r| <= sqrt(n) eps |K| |u|, see

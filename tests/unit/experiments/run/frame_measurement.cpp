@@ -64,9 +64,9 @@ TEST_F(LimbMeasurement, AThinnedLimbHasAQuarterOfItsSection)
     EXPECT_FALSE(of.errors);
 }
 
-// The bar has vertices in 25 planes, at x = -1, -11/12 ... 1. The tip lies at x = 1 on the axis, with the radius 0.2. In the two planes at
-// x = 1 and 11/12 it holds the vertex on the axis and the four in the middles of the sides; the corners are 0.21 from the axis. In the plane
-// at x = 10/12 it holds the vertex on the axis alone.
+// The bar has vertices in 25 planes, at x = -1, -11/12 ... 1. The tip lies at x = 1 on the axis, with the radius 0.2. In the two planes
+// at x = 1 and 11/12 it holds the vertex on the axis and the four in the middles of the sides; the corners are 0.21 from the axis. In the
+// plane at x = 10/12 it holds the vertex on the axis alone.
 TEST(FrameMeasurement, LeavesOutTheTipsOfCreasesButForTheErrorOnTheWholeBody)
 {
     const pbs::Character bar = test_support::bar_character({24, 2, 2});

@@ -219,7 +219,7 @@ TEST(ContactPotential, LeavesOutPairsThatTouchAtRest)
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(space.dofs());
     EXPECT_EQ(contact.value(rest), 0.0);
     EXPECT_EQ(contact.largest_step(rest, opened), 1.0);
-    EXPECT_TRUE(std::isfinite(contact.value(1e-16 * opened)));
+    EXPECT_EQ(gradient_of(contact, -7e-16 * opened).norm(), 0.0);
 }
 
 TEST(ContactPotential, IsTheSameForAMovedAndAMirroredBody)
@@ -243,22 +243,6 @@ TEST(ContactPotential, RefusesARangeOrAStiffnessThatIsNotPositive)
     const SimplexSpace space(two_blocks(2), 1);
     test_support::expect_refused("contact.range_m", [&] { ContactPotential(space, {.range_m = 0.0, .stiffness_pa = 1.0}); });
     test_support::expect_refused("contact.stiffness_pa", [&] { ContactPotential(space, {.range_m = 1.0, .stiffness_pa = -1.0}); });
-}
-
-TEST(PlanePotential, PressesLikeABarrierAndPushesBackWhatIsBeyond)
-{
-    const SimplexSpace space(box_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 2}), 1);
-    std::vector<int> all(space.nodes());
-    std::iota(all.begin(), all.end(), 0);
-    PlanePotential plane(space, all, options);
-    plane.move_to(Vec3::UnitZ(), -0.4 * range_m);
-    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(space.dofs()), along = random_dofs(space.dofs(), 1.0, 2);
-    test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& u) { return plane.value(u); }, rest, along,
-                                            gradient_of(plane, rest).dot(along), 1e-3);
-    plane.move_to(Vec3::UnitZ(), 0.1 * range_m);  // through the lowest nodes
-    const Eigen::VectorXd pushed = gradient_of(plane, rest);
-    for (int n = 0; n < space.nodes(); ++n) EXPECT_LE(pushed(3 * n + 2), 0.0);
-    EXPECT_LT(pushed.minCoeff(), 0.0);
 }
 
 }  // namespace
