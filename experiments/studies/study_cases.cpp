@@ -55,14 +55,14 @@ void add_differences(const nlohmann::json& a, const nlohmann::json& b, const std
 // The column "jiggling" of Table 1 is k_stretch in the zone. Outside the zone k_stretch is 1.
 void add_pbs(Scene& scene, const nlohmann::json& other)
 {
-    DeformerSpec spec = *find_deformer_with<pbs::PbsOptions>(scene);
+    DeformerSpec& spec = scene.deformers.emplace_back(*find_deformer_with<pbs::PbsOptions>(scene));
     spec.label = other.at("label");
     spec.variant = other.at("variant");
     auto& options = options_of<pbs::PbsOptions>(spec);
     options.k_stretch = other.value("k_stretch", options.k_stretch);
+    options.contact = other.value("contact", options.contact);
     if (other.contains("k_in_zone")) options.jiggle = pbs::Jiggle{other.at("k_in_zone").get<double>()};
     if (other.contains("lbs_entry")) options.lbs_entry = option_of<pbs::LbsEntry>(other.at("lbs_entry").get<std::string>());
-    scene.deformers.push_back(spec);
 }
 
 StudyPlan plan(bool full)

@@ -5,7 +5,8 @@
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
-from vtkmodules.vtkFiltersCore import vtkPolyDataNormals, vtkTubeFilter
+from vtkmodules.vtkCommonDataModel import vtkPlane
+from vtkmodules.vtkFiltersCore import vtkCutter, vtkPolyDataNormals, vtkTubeFilter
 from vtkmodules.vtkFiltersExtraction import vtkExtractCells
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkFiltersSources import vtkLineSource, vtkSphereSource
@@ -85,6 +86,13 @@ def cut_open(data, ahead_m):
     actor = _actor(boundary, flesh_color, ambient=0.4, EdgeVisibility=True, EdgeColor=edge_color, LineWidth=0.8)
     actor.GetProperty().SetInterpolationToFlat()
     return actor
+
+
+def section(file, place, normal):
+    """The cut of the tets by a plane, half transparent, so that flesh in other flesh is darker."""
+    plane = made(vtkPlane, Origin=tuple(place), Normal=tuple(normal))
+    cut = output_of(made(vtkCutter, InputData=rendering.read(file), CutFunction=plane, GenerateTriangles=False))
+    return _actor(cut, flesh_color, ambient=1.0, Opacity=0.5, EdgeVisibility=True, EdgeColor=edge_color, LineWidth=0.6)
 
 
 def bones(posed, radius_m=0.008, towards=(0.0, 0.0, 0.0), color=bone_color):

@@ -226,55 +226,52 @@ def clip_jump(results):
             {"webp": lambda file, origin: draw_clip(file, frames, origin)})
 
 
-# The human jumping under LBS, PBS and neo-Hookean finite elements at four moments: the skin, and the tets coloured by their volume ratio.
-# The text below each still states the number of inverted tets and the smallest cross-section of a limb (100 %: as at rest).
-
 moment_pixels, most_moments = (560, 800), 4
 moment_words = "{inverted_tets:.0f} inverted tet{s}{section}{mark}"
 
 
-def evenly(frames):
-    """As many frames as are shown, evenly spaced from the first to the last."""
-    if len(frames) <= most_moments:
-        return frames
-    return [frames[number * (len(frames) - 1) // (most_moments - 1)] for number in range(most_moments)]
-
-
-def moments(results, actor_of):
-    """All stills with one camera that follows the LBS body and shows the tallest and widest body with a margin. actor_of(frames, label,
-    frame): what is shown."""
+def frames_volume_ratio(results):
+    """The human jumping under LBS, PBS and FEM. One camera follows the LBS body and shows the tallest and widest body with a margin."""
     frames, stage = Frames(results, "human_jump"), rendering.Stage(*moment_pixels)
     labels, recorded = ("lbs", "pbs", frames.run.reference()), [int(row["frame"]) for row in frames.run.select("lbs")]
     written = [frame for frame in recorded if all(frames.is_written(label, frame) for label in labels)]
     records.need(written, f"{frames.folder / 'frames'}: no frame that all of {', '.join(labels)} have")
-    shown = {frame: rendering.bounds_of(frames.tets("lbs", frame)) for frame in evenly(written)}
+    evenly = numpy.unique(numpy.linspace(0, len(written) - 1, most_moments).astype(int))
+    shown = {written[number]: rendering.bounds_of(frames.tets("lbs", written[number])) for number in evenly}
     width_m = max(numpy.hypot(*(high - low)[[0, 2]]) for low, high in shown.values())
     height_m = max((high - low)[1] for low, high in shown.values())
     half_height_m = 0.54 * max(height_m, width_m * moment_pixels[1] / moment_pixels[0])
-    stills = [[(frames.row(label, frame), stage.shot([actor_of(frames, label, frame)], rendering.Camera(sum(box) / 2, half_height_m)))
+    stills = [[(frames.row(label, frame), stage.shot([rendering.tets(frames.tets(label, frame))],
+                                                     rendering.Camera(sum(box) / 2, half_height_m)))
                for frame, box in shown.items()] for label in labels]
     figure, behind = grid(stills, moment_words, times_of(frames, shown), [looks.of(label).name for label in labels], height_in=2.35)
     for panel in figure.axes[::len(shown)]:
         panel.yaxis.label.set_size(8)
+    style.ratio_bar(figure, figure.axes, rendering.ratio_scale, rendering.ratio_colors)
     return figure, style.columns_of(behind, "volume_change_pct", "inverted_tets", "min_section_pct")
 
 
-def frames_skin_facts(rows):
+def frames_volume_ratio_facts(rows):
     """The range of the number of inverted tets over the stills, for each deformer."""
-    inverted = {}
-    for row in rows:
-        inverted.setdefault(row["deformer"], []).append(int(row["inverted_tets"]))
+    inverted = {row["deformer"]: [int(of["inverted_tets"]) for of in rows if of["deformer"] == row["deformer"]] for row in rows}
     return dict(zip(("lbs", "pbs", "reference"), map(span, inverted.values())))
 
 
-frames_volume_ratio_facts = frames_skin_facts
-
-
-def frames_skin(results):
-    return moments(results, lambda frames, label, frame: bodies.skin(frames.skin(label, frame), ambient=0.3))
-
-
-def frames_volume_ratio(results):
-    figure, behind = moments(results, lambda frames, label, frame: rendering.tets(frames.tets(label, frame)))
-    style.ratio_bar(figure, figure.axes, rendering.ratio_scale, rendering.ratio_colors)
-    return figure, behind
+def contact(results):
+    """Folds under LBS, PBS without and with contact, and FEM, cut open in the plane of the two bones of a joint."""
+    labels = {"lbs": "LBS", "pbs": "PBS", "pbs_contact": "PBS with contact", "nh_p1": "FEM with contact"}
+    stage, limb, human = rendering.Stage(700, 600), Frames(results, "limb_bend"), Frames(results, "human_jump")
+    crouch, = human.frames_at(crouch_s)
+    folds = {"limb, 110\u00b0": (limb, limb.frame_at_angle(110), "upper", "forearm", 0.24),
+             "elbow": (human, crouch, "upper_arm.R", "forearm_upper.R", 0.09), "knee": (human, crouch, "thigh.L", "shin.L", 0.13)}
+    stills = []
+    for frames, frame, parent, child, half_height_m in folds.values():
+        ends = {bone.name: bone for bone in frames.bones(frame)}
+        joint = ends[child].head
+        arms = [arm / numpy.linalg.norm(arm) for arm in (ends[parent].head - joint, ends[child].tail - joint)]
+        normal, inward = numpy.cross(*arms), sum(arms) / numpy.linalg.norm(sum(arms))
+        view = rendering.Camera(joint + 0.35 * half_height_m * inward, half_height_m, normal, tuple(inward))
+        stills.append([(frames.row(label, frame), stage.shot([bodies.section(frames.tets(label, frame), joint, normal)], view))
+                       for label in labels])
+    figure, behind = grid(stills, "error at joints {error_joint_pct:.1f} %", labels.values(), folds, height_in=1.8)
+    return figure, style.columns_of(behind, "error_joint_pct", "inverted_tets")

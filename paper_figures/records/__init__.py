@@ -50,8 +50,8 @@ class Run:
         return rows[0]
 
     def reference(self, needed=True):
-        """The name of the deformer that serves as the reference. Kept records have no scene that names it: there it is the first neo-Hookean
-        one, or the last linear one. Empty if none is needed."""
+        """The deformer that serves as the reference. Kept records have no scene that names it: there it is the first neo-Hookean one, or
+        the last linear one. Empty if none is needed."""
         name, deformers = self.record.get("scene", {}).get("reference", {}).get("name"), sorted({row["deformer"] for row in self.rows})
         fem = [of for of in deformers if of.startswith("nh_")][:1] + [of for of in deformers if of.startswith("fem_")][-1:]
         if name or fem or not needed:
