@@ -64,8 +64,8 @@ cholmod_dense view(const Eigen::VectorXd& vector)
     return dense;
 }
 
-// The pattern of a symmetric matrix whose rows come in blocks: an entry for each block that has one. Upper triangle, with values that
-// nobody reads.
+// The pattern of the blocks of a symmetric matrix, upper triangle. All columns of a block have the same rows, so that its first one is
+// read. The values are unused.
 SparseMatrix blocks_of(const SparseMatrix& matrix, int size)
 {
     SparseMatrix blocks(matrix.rows() / size, matrix.cols() / size);
@@ -104,7 +104,7 @@ public:
 
     void refactor() final
     {
-        usable_ = false;
+        usable_ = matrix_.rows() == 0;  // nothing to solve for
         if (!factor_) return;
         cholmod_sparse sparse = view(matrix_);
         const pbs::Stopwatch factorisation;
@@ -128,6 +128,7 @@ public:
 
     Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const override
     {
+        if (right_hand_side.size() == 0) return right_hand_side;
         cholmod_dense dense = view(right_hand_side);
         if (!cholmod_l_solve2(CHOLMOD_A, factor_, &dense, nullptr, &solution_, nullptr, &work_, &permuted_, &common_))
             return Eigen::VectorXd::Constant(right_hand_side.size(), std::numeric_limits<double>::quiet_NaN());
@@ -143,12 +144,15 @@ public:
     }
 
 private:
-    // Of AMD's and METIS's orders the one with the smaller factor.
+    // The order of the blocks by AMD or by METIS, whichever gives the smaller factor, written out for their rows. METIS is cheap on blocks;
+    // on single rows it is tried only where CHOLMOD finds much fill in AMD's.
     std::vector<SuiteSparse_long> order_of(const SparseMatrix& blocks, int block_size)
     {
-        common_.nmethods = 2;
-        common_.method[0].ordering = CHOLMOD_AMD;
-        common_.method[1].ordering = CHOLMOD_METIS;
+        if (block_size > 1) {
+            common_.nmethods = 2;
+            common_.method[0].ordering = CHOLMOD_AMD;
+            common_.method[1].ordering = CHOLMOD_METIS;
+        }
         cholmod_sparse sparse = view(blocks);
         cholmod_factor* factor = cholmod_l_analyze(&sparse, &common_);
         if (!factor) return {};
@@ -258,6 +262,7 @@ void use_one_blas_thread()
 
 std::unique_ptr<PreparedSolver> prepare_cholmod(const SparseMatrix& matrix, int block_size)
 {
+    require(block_size > 0 && matrix.rows() % block_size == 0, "block_size", block_size, "expected a divisor of the number of rows");
     return std::make_unique<CholmodFactor>(matrix, block_size);
 }
 

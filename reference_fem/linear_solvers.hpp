@@ -42,6 +42,7 @@ protected:
 };
 
 // Modes that an iterative solver's coarse levels must keep, such as rigid_body_modes. Where their rows are whole nodes, block_size is 3.
+// CHOLMOD reads block_size alone.
 struct NearNullSpace {
     Eigen::MatrixXd modes = {};  // #rows x #modes; empty: constants
     int block_size = 1;          // 1 or 3
@@ -50,7 +51,8 @@ struct NearNullSpace {
 // one thread, for good.
 std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver solver, const NearNullSpace& near_null_space = {});
 
-// Reads the upper triangle. block_size: rows that have the same pattern, 3 of whole nodes, are ordered together.
+// Reads the upper triangle. The rows come in blocks of block_size with equal patterns, 3 if they are whole nodes, else 1. A block is
+// ordered as one. pbs::InputError unless it divides the number of rows.
 std::unique_ptr<PreparedSolver> prepare_cholmod(const SparseMatrix& matrix, int block_size);
 std::unique_ptr<PreparedSolver> prepare_umfpack(const SparseMatrix& matrix);  // by the symmetric strategy, ordered by METIS
 std::unique_ptr<PreparedSolver> prepare_cg_ml(const SparseMatrix& matrix, const NearNullSpace& near_null_space);  // starts MPI

@@ -1,5 +1,5 @@
-"""Stills of recorded bodies, rendered by VTK: the paper's Figures 1, 3, 5, 8, 9 and 10, the jump as a clip, and its skin and tets at four
-moments. A figure is a grid of stills, with facts from metrics.csv below each."""
+"""Stills of recorded bodies, rendered by VTK: the paper's Figures 1, 3, 5, 8, 9 and 10, the jump as a clip, its tets at four moments, and
+folds cut open. A figure is a grid of stills, with facts from metrics.csv below each."""
 from xml.sax.saxutils import escape
 
 import matplotlib
@@ -259,7 +259,7 @@ def frames_volume_ratio_facts(rows):
 
 def contact(results):
     """Folds under LBS, PBS without and with contact, and FEM, cut open in the plane of the two bones of a joint."""
-    labels = {"lbs": "LBS", "pbs": "PBS", "pbs_contact": "PBS with contact", "nh_p1": "FEM with contact"}
+    labels = {label: looks.of(label).name for label in ("lbs", "pbs", "pbs_contact")} | {"nh_p1": "FEM with contact"}
     stage, limb, human = rendering.Stage(700, 600), Frames(results, "limb_bend"), Frames(results, "human_jump")
     crouch, = human.frames_at(crouch_s)
     folds = {"limb, 110\u00b0": (limb, limb.frame_at_angle(110), "upper", "forearm", 0.24),

@@ -50,12 +50,13 @@ class Run:
         return rows[0]
 
     def reference(self, needed=True):
-        """The deformer that serves as the reference. Kept records have no scene that names it: there it is the first neo-Hookean one, or
-        the last linear one. Empty if none is needed."""
-        name, deformers = self.record.get("scene", {}).get("reference", {}).get("name"), sorted({row["deformer"] for row in self.rows})
-        fem = [of for of in deformers if of.startswith("nh_")][:1] + [of for of in deformers if of.startswith("fem_")][-1:]
-        if name or fem or not needed:
-            return name or (fem or [""])[0]
+        """The deformer that serves as the reference. Kept records have no scene that names it: there it is the one whose error is 0 in each
+        frame, or else the last linear FEM deformer. Empty if none is needed."""
+        name, all_of = self.record.get("scene", {}).get("reference", {}).get("name"), {row["deformer"] for row in self.rows}
+        wrong = {row["deformer"] for row in self.rows if row.get("error_joint_pct") != "0"}
+        exact = sorted(all_of - wrong) + sorted(of for of in wrong if of.startswith("fem_"))[-1:]
+        if name or exact or not needed:
+            return name or (exact or [""])[0]
         raise RecordsMissing(f"{self.folder / 'metrics.csv'}: no FEM reference")
 
     def pbs_iterations(self):

@@ -2,7 +2,7 @@
 // model or of the reference's discretisation (ensemble.hpp)? README.md describes the poses and records.
 //
 //   pbskin reproduce ensemble            20 minutes on one core
-//   pbskin reproduce ensemble --full     four hours
+//   pbskin reproduce ensemble --full     eight hours
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/records/record_files.hpp"
 #include "experiments/deformers/deformer_options.hpp"

@@ -27,6 +27,10 @@ class Figures(ResultsTest):
         self.assertEqual(len(run.select("pbs", 24, "jiggle")), 37)
         self.assertEqual(run.pbs_iterations(), [1, 24, 96])
         self.assertEqual(run.reference(), "fem_p2")
+        run.record = {}  # as in kept records
+        run.rows = [{"deformer": deformer, "error_joint_pct": error} for deformer, error in
+                    (("lbs", "0"), ("nh_p1", "0"), ("nh_p2", "0"), ("lbs", "9"), ("nh_p1", "1"), ("nh_p2", "0"))]
+        self.assertEqual(run.reference(), "nh_p2")
 
     def test_at_angle(self):
         rows = records.Run(self.twist).select("lbs")

@@ -208,10 +208,11 @@ TEST(ContactPotential, OfPartsThatAreNearAtRestHasHalfTheirDistanceAsItsRange)
 }
 
 // The sides of a cut through flesh, up to rounding. Their pairs would have a range of that size, and its barrier no finite slope.
-// A pair has half of its distance at rest as its range. A millionth of the range apart, it would press after 0.7 of that way.
+// The two sides of a cut touch at rest up to rounding, and half of their distance would be the range. These pairs would press once 0.7 of
+// the distance is closed.
 TEST(ContactPotential, LeavesOutPairsThatTouchAtRest)
 {
-    constexpr double long_range_m = 1.0, touching_m = 1e-6 * long_range_m;  // farther than `joined` makes one vertex of
+    constexpr double long_range_m = 1.0, touching_m = 1e-6 * long_range_m;  // `joined` merges vertices within 1e-7 m
     const SimplexSpace space(
         joined({box_mesh({0, 0, 0}, {1, 1, 0.5}, {2, 2, 1}), box_mesh({0, 0, 0.5 + touching_m}, {1, 1, 1.5}, {2, 2, 1})}), 1);
     const ContactPotential contact(space, {.range_m = long_range_m, .stiffness_pa = young_pa});
