@@ -18,6 +18,7 @@ using Box = Eigen::AlignedBox3d;
 constexpr double edge_range_share = 0.5;  // of a pair's range, for pairs of edges
 constexpr double slack_in_ranges = 1.0;   // by which nodes may move before the next search
 constexpr double touching_share = 1e-6;   // of the range: pairs as near as that at rest touch, as those of the two sides of a cut do
+constexpr double rounding_share = 1e-10;  // of an edge's length: places of 1 m are rounded to 1e-14 of edges of a centimetre
 
 Vec3 position(const pbs::Positions& rest, const Eigen::VectorXd& displacement, int node)
 {
@@ -111,14 +112,18 @@ void add_face(const std::array<int, 3>& corner, const std::map<std::pair<int, in
     surface.triangles.push_back(middle);
 }
 
-// Whether the segment from a to b passes through the inside of the triangle in columns 0 to 2.
+// Whether the segment from a to b passes through the inside of the triangle in columns 0 to 2, by more than rounding: the four triangles in
+// a face of a quadratic tet lie in one plane where its edges are straight.
 bool passes_through(const Vec3& a, const Vec3& b, const Eigen::Matrix3d& triangle)
 {
     const Vec3 p = triangle.col(0), q = triangle.col(1), r = triangle.col(2);
-    const auto volume = [](const Vec3& o, const Vec3& x, const Vec3& y, const Vec3& z) { return (x - o).dot((y - o).cross(z - o)); };
-    if (volume(a, p, q, r) * volume(b, p, q, r) >= 0.0) return false;
-    const double pq = volume(a, b, p, q), qr = volume(a, b, q, r), rp = volume(a, b, r, p);
-    return (pq > 0.0 && qr > 0.0 && rp > 0.0) || (pq < 0.0 && qr < 0.0 && rp < 0.0);
+    const double rounding = rounding_share * (b - a).norm() * (q - p).norm() * (r - p).norm();
+    const auto side = [&](const Vec3& o, const Vec3& x, const Vec3& y, const Vec3& z) {
+        const double volume = (x - o).dot((y - o).cross(z - o));
+        return (volume > rounding) - (volume < -rounding);
+    };
+    if (side(a, p, q, r) * side(b, p, q, r) >= 0) return false;
+    return std::abs(side(a, b, p, q) + side(a, b, q, r) + side(a, b, r, p)) == 3;
 }
 
 }  // namespace
