@@ -154,7 +154,7 @@ TEST_P(FlatFaces, KeepATenthOfTheirDistanceInAnyStep)
     const Eigen::VectorXd step = brought_together_askew(space, -0.5) - apart;
     const double largest = contact.largest_step(apart, step);
     EXPECT_NEAR(largest, 0.45, 1e-3);
-    EXPECT_FALSE(contact.intersects(apart + largest * step + random_dofs(space.dofs(), 1e-15, 4))) << "faces are flat up to rounding";
+    EXPECT_FALSE(contact.intersects(apart + largest * step));
     EXPECT_TRUE(contact.intersects(apart + 0.7 * step));
     EXPECT_EQ(contact.largest_step(apart, -step), 1.0);
     EXPECT_EQ(contact.largest_step(apart, Eigen::VectorXd::Constant(space.dofs(), std::numeric_limits<double>::quiet_NaN())), 0.0);
