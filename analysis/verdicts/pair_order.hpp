@@ -72,6 +72,12 @@ inline PairDecision decide(const std::vector<PairOrder>& members)
 }
 
 template <>
+struct EnumNames<PairOrder> {
+    static constexpr std::array<std::pair<PairOrder, const char*>, 3> table{{{PairOrder::undecided, "undecided"},
+                                                                             {PairOrder::first_is_closer, "first_is_closer"},
+                                                                             {PairOrder::second_is_closer, "second_is_closer"}}};
+};
+template <>
 struct EnumNames<PairDecision> {
     static constexpr std::array<std::pair<PairDecision, const char*>, 3> table{{{PairDecision::decided, "decided"},
                                                                                 {PairDecision::reference_error, "reference_error"},

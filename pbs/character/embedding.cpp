@@ -58,38 +58,6 @@ double squared_distance_to_tet(const Vec3& point, const TetCorners& corners)
     return least;
 }
 
-Vec3 nearest_on_segment(const Vec3& point, const Vec3& a, const Vec3& b, int from, int to)
-{
-    const double length2 = (b - a).squaredNorm();
-    const double parameter = length2 > 0.0 ? std::clamp((point - a).dot(b - a) / length2, 0.0, 1.0) : 0.0;
-    Vec3 barycentric = Vec3::Zero();
-    barycentric(from) += 1.0 - parameter;
-    barycentric(to) += parameter;
-    return barycentric;
-}
-
-// Barycentric coordinates of the point of a triangle that is nearest: that of its plane if it lies inside, else the best of its edges.
-Vec3 nearest_in_triangle(const Vec3& point, const Eigen::Matrix3d& corners)
-{
-    const Vec3 a = corners.row(0), b = corners.row(1), c = corners.row(2), normal = (b - a).cross(c - a);
-    const double area2 = normal.squaredNorm();
-    if (area2 > 0.0) {
-        const Vec3 barycentric(normal.dot((c - b).cross(point - b)) / area2, normal.dot((a - c).cross(point - c)) / area2,
-                               normal.dot((b - a).cross(point - a)) / area2);
-        if (barycentric.minCoeff() >= 0.0) return barycentric / barycentric.sum();
-    }
-    Vec3 best = Vec3::UnitX();
-    double least = std::numeric_limits<double>::max();
-    for (const Vec3& candidate :
-         {nearest_on_segment(point, a, b, 0, 1), nearest_on_segment(point, b, c, 1, 2), nearest_on_segment(point, c, a, 2, 0)}) {
-        const double distance = (corners.transpose() * candidate - point).squaredNorm();
-        if (distance >= least) continue;
-        least = distance;
-        best = candidate;
-    }
-    return best;
-}
-
 // The functor of Eigen's BVMinimize, and the cell at which it ended.
 template <typename SquaredDistance>
 struct NearestCell {

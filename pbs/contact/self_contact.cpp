@@ -14,28 +14,6 @@
 namespace pbs {
 namespace {
 
-Vec3 nearest_on_segment(const Vec3& point, const Vec3& a, const Vec3& b)
-{
-    const Vec3 along = b - a;
-    const double length2 = along.squaredNorm();
-    return a + (length2 > 0.0 ? std::clamp((point - a).dot(along) / length2, 0.0, 1.0) : 0.0) * along;
-}
-
-// The projection on the plane where that lies inside, else the nearest point of the three edges.
-Vec3 nearest_on_triangle(const Vec3& point, const std::array<Vec3, 3>& corner)
-{
-    const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-    bool is_inside = normal.squaredNorm() > 0.0;
-    for (int i = 0; i < 3 && is_inside; ++i) is_inside = (corner[(i + 1) % 3] - corner[i]).cross(point - corner[i]).dot(normal) >= 0.0;
-    if (is_inside) return point - (point - corner[0]).dot(normal) / normal.squaredNorm() * normal;
-    Vec3 nearest = nearest_on_segment(point, corner[2], corner[0]);
-    for (int i = 0; i < 2; ++i) {
-        const Vec3 other = nearest_on_segment(point, corner[i], corner[i + 1]);
-        if ((other - point).squaredNorm() < (nearest - point).squaredNorm()) nearest = other;
-    }
-    return nearest;
-}
-
 double mean_edge_m(const TetMesh& mesh)
 {
     double sum_m = 0.0;
@@ -123,7 +101,8 @@ Vec3 RestSkin::nearest(const Vec3& point, const Eigen::Vector4i& near) const
     Vec3 nearest = rest_.row(around);
     for (int k = first_[around]; k < first_[around + 1]; ++k) {
         const auto triangle = triangles_.row(fan_[k]);
-        const Vec3 other = nearest_on_triangle(point, {rest_.row(triangle(0)), rest_.row(triangle(1)), rest_.row(triangle(2))});
+        const Eigen::Matrix3d corners = rest_(triangle, Eigen::all);
+        const Vec3 other = corners.transpose() * nearest_in_triangle(point, corners);
         if ((other - point).squaredNorm() < (nearest - point).squaredNorm()) nearest = other;
     }
     return nearest;
@@ -267,6 +246,7 @@ void SelfContact<Scalar>::find_hits(const Scalar* x)
                 cluster.high[axis] = std::max(cluster.high[axis], box_of_block_[b].high[axis]);
             }
     }
+    coordinates_.assign(blocks_.sets(), std::nullopt);
     hits_.clear();
     for (int g = 0; g < groups_.sets(); ++g) {
         const Box box = box_of(of_group_.data() + groups_.first[g], of_group_.data() + groups_.first[g + 1], x);
@@ -301,43 +281,50 @@ void SelfContact<Scalar>::find(const Scalar* x)
     std::stable_sort(constraints_.begin(), constraints_.end(), by_vertex);
 }
 
-// Tets with positive barycentric coordinates. Those of a vertex of their own are left to add_constraint.
 template <typename Scalar>
-void SelfContact<Scalar>::find_in_block(int group, int block, const Scalar* x)
+typename SelfContact<Scalar>::Coordinates SelfContact<Scalar>::coordinates_in(int block, const Scalar* x) const
 {
-    constexpr int n = tets_of_block;
-    Scalar first[3][n], inverse[3][3][n], volume[n];  // inverse: rows times six volumes
-    for (int lane = 0; lane < n; ++lane) {
-        const Scalar *p = x + corners_[block][0][lane], *q[3];
-        for (int k = 0; k < 3; ++k) q[k] = x + corners_[block][k + 1][lane];
+    Coordinates in;
+    for (int lane = 0; lane < tets_of_block; ++lane) {
+        const Scalar* p = x + corners_[block][0][lane];
         Scalar e[3][3];
         for (int k = 0; k < 3; ++k)
-            for (int axis = 0; axis < 3; ++axis) e[k][axis] = q[k][axis] - p[axis];
+            for (int axis = 0; axis < 3; ++axis) e[k][axis] = x[corners_[block][k + 1][lane] + axis] - p[axis];
         for (int k = 0; k < 3; ++k) {
             const Scalar *a = e[(k + 1) % 3], *b = e[(k + 2) % 3];
             for (int axis = 0; axis < 3; ++axis)
-                inverse[k][axis][lane] = a[(axis + 1) % 3] * b[(axis + 2) % 3] - a[(axis + 2) % 3] * b[(axis + 1) % 3];
-            first[k][lane] = p[k];
+                in.inverse[k][axis][lane] = a[(axis + 1) % 3] * b[(axis + 2) % 3] - a[(axis + 2) % 3] * b[(axis + 1) % 3];
+            in.first[k][lane] = p[k];
         }
-        volume[lane] = e[0][0] * inverse[0][0][lane] + e[0][1] * inverse[0][1][lane] + e[0][2] * inverse[0][2][lane];
+        in.volume[lane] = e[0][0] * in.inverse[0][0][lane] + e[0][1] * in.inverse[0][1][lane] + e[0][2] * in.inverse[0][2][lane];
     }
-    const int tets = blocks_.first[block + 1] - blocks_.first[block];
+    return in;
+}
+
+// Tets with positive barycentric coordinates of a vertex that is not theirs.
+template <typename Scalar>
+void SelfContact<Scalar>::find_in_block(int group, int block, const Scalar* x)
+{
+    const Box& box = box_of_block_[block];
     for (int k = groups_.first[group]; k < groups_.first[group + 1]; ++k) {
         const Scalar* v = x + of_group_[k];
         bool is_in_box = true;
-        for (int axis = 0; axis < 3; ++axis)
-            is_in_box &= v[axis] >= box_of_block_[block].low[axis] && v[axis] <= box_of_block_[block].high[axis];
+        for (int axis = 0; axis < 3; ++axis) is_in_box &= v[axis] >= box.low[axis] && v[axis] <= box.high[axis];
         if (!is_in_box) continue;
-        bool is_inside[n] = {};
-        for (int lane = 0; lane < n; ++lane) {
-            const Scalar dx = v[0] - first[0][lane], dy = v[1] - first[1][lane], dz = v[2] - first[2][lane];
+        if (!coordinates_[block]) coordinates_[block] = coordinates_in(block, x);
+        const Coordinates& in = *coordinates_[block];
+        Scalar least[tets_of_block];
+        for (int lane = 0; lane < tets_of_block; ++lane) {
+            const Scalar dx = v[0] - in.first[0][lane], dy = v[1] - in.first[1][lane], dz = v[2] - in.first[2][lane];
             Scalar beta[3];
-            for (int i = 0; i < 3; ++i) beta[i] = inverse[i][0][lane] * dx + inverse[i][1][lane] * dy + inverse[i][2][lane] * dz;
-            const Scalar least = std::min(std::min(beta[0], beta[1]), std::min(beta[2], volume[lane] - (beta[0] + beta[1] + beta[2])));
-            is_inside[lane] = least >= Scalar(0) && volume[lane] > Scalar(0);
+            for (int i = 0; i < 3; ++i) beta[i] = in.inverse[i][0][lane] * dx + in.inverse[i][1][lane] * dy + in.inverse[i][2][lane] * dz;
+            least[lane] = std::min(std::min(beta[0], beta[1]), std::min(beta[2], in.volume[lane] - (beta[0] + beta[1] + beta[2])));
         }
-        for (int lane = 0; lane < tets; ++lane)
-            if (is_inside[lane]) hits_.push_back({groups_.member[k], blocks_.member[blocks_.first[block] + lane]});
+        for (int lane = 0; lane < blocks_.first[block + 1] - blocks_.first[block]; ++lane) {
+            const int tet = blocks_.member[blocks_.first[block] + lane];
+            if (!(least[lane] >= Scalar(0) && in.volume[lane] > Scalar(0))) continue;
+            if ((mesh_.tets.row(tet).array() != groups_.member[k]).all()) hits_.push_back({groups_.member[k], tet});
+        }
     }
 }
 

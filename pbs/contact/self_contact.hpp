@@ -18,6 +18,7 @@
 
 #include <Eigen/Geometry>
 
+#include <optional>
 #include <vector>
 
 namespace pbs {
@@ -82,6 +83,10 @@ private:
         std::array<int, 4> frame;     // offsets of four vertices that span it; the first is X_0
         Eigen::Matrix3d rest_edges;   // from the first of them to the others, columns
     };
+    // Rows of the inverse of the edges (barycentric coordinates 2 to 4) times six volumes, from the first corner.
+    struct Coordinates {
+        Scalar first[3][tets_of_block], inverse[3][3][tets_of_block], volume[tets_of_block];
+    };
     struct Hit {
         int vertex, tet;
     };
@@ -90,6 +95,7 @@ private:
     Neighbourhood neighbourhood(int group, const std::vector<Eigen::AlignedBox3d>& rest_boxes) const;
     Box box_of(const int* begin, const int* end, const Scalar* x) const;
     bool is_affine(const Neighbourhood& near, const Scalar* x) const;
+    Coordinates coordinates_in(int block, const Scalar* x) const;
     void find_in_block(int group, int block, const Scalar* x);
     void add_constraint(const Hit& hit, const Scalar* x);
 
@@ -103,6 +109,7 @@ private:
     std::vector<std::array<std::array<int, tets_of_block>, 4>> corners_;  // offsets in each block; the first tet fills up the last lanes
     std::vector<Neighbourhood> neighbourhoods_;                           // of each group
     std::vector<Box> box_of_block_, box_of_cluster_;                      // as deformed
+    std::vector<std::optional<Coordinates>> coordinates_;                 // as deformed, of each block that was searched
     std::vector<Hit> hits_;
     std::vector<DepthConstraint<Scalar>> constraints_;
 };

@@ -64,6 +64,10 @@ struct Refinement {
 // 8 #T tets and #V + #E vertices; positively oriented tets stay so, and their volumes add up. Indices are in range (unchecked).
 Refinement refine(const TetMesh& mesh);
 
+// Barycentric coordinates of the point of a triangle that is nearest to a point [m]: that of its plane if it lies inside, else the best of
+// its edges. corners: rows; the triangle may be flat.
+Vec3 nearest_in_triangle(const Vec3& point, const Eigen::Matrix3d& corners);
+
 // A field of the coarse vertices, #V x 3, and at the new ones the mean of their parents: linear on every coarse tet. #V + #E
 // rows; that the edges are those of the field's vertices is not checked.
 Positions prolongated(const Positions& coarse, const Edges& parents);

@@ -114,7 +114,8 @@ struct ConvergenceResult {
     std::string breakdown;  // paths that ceased to be finite; `reference` states one that was not reached
 };
 
-ConvergenceResult measure_convergence(const ConvergenceCase& of);
+// solutions: where those of the references are kept (solutions_of_run); "": nowhere.
+ConvergenceResult measure_convergence(const ConvergenceCase& of, const std::string& solutions = "");
 
 // The records of convergence: residuals by iteration, one row per path, and the error to the reference by iteration.
 

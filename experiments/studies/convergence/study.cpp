@@ -82,8 +82,9 @@ Scene at_size(Scene scene, int vertices)
 // One mesh of the body.
 class Mesh {
 public:
-    Mesh(const ConvergenceCase& of, const Scene& scene, bool own)
+    Mesh(const ConvergenceCase& of, const Scene& scene, bool own, const std::string& solutions)
         : of_(of),
+          solutions_(solutions),
           own_(own),
           settings_(own || scene.character.vertices <= of.every_setting_to ? of.settings.size() : 1),
           posed_(scene, frame_numbers(of.frames)),
@@ -122,7 +123,7 @@ private:
         if (!own_ && !of_.ladder) return {"own_mesh_alone"};
         if (character.mesh.rest.rows() > of_.reference_to) return {fmt::format("left_out_above_{}_vertices", of_.reference_to)};
         const ReferenceEffort effort = of_.ladder ? std::min(of_.effort, ReferenceEffort::refined) : of_.effort;
-        PosedReference reference(character, of_.reference, posed_.pose(frame), of_.scene.motion.time_step_s, effort);
+        PosedReference reference(character, of_.reference, posed_.pose(frame), of_.scene.motion.time_step_s, effort, solutions_);
         if (!reference.is_reached()) return {.name = of_.reference.label + "_was_not_reached", .why = reference.why_not_reached()};
         return {.name = of_.reference.label, .solved = std::move(reference)};
     }
@@ -178,6 +179,7 @@ private:
     }
 
     const ConvergenceCase& of_;
+    std::string solutions_;
     bool own_;
     std::size_t settings_;  // the number of the case's settings that are run
     PosedCharacter posed_;
@@ -187,7 +189,7 @@ private:
 
 std::string measure_and_record(const ConvergenceCase& of, const std::string& folder)
 {
-    const ConvergenceResult result = measure_convergence(of);
+    const ConvergenceResult result = measure_convergence(of, solutions_of_run(folder));
     const auto path = [&](const char* name) { return analysis::path_in(folder, name); };
     const std::vector<LookRow> looks = look_rows(result);
     table_of(residual_columns, looks).write(path("residuals.csv"));
@@ -309,12 +311,12 @@ RECORD_SETTINGS_AND(ConvergenceCase,
                     scene, frames, k_stretch, settings, other_vertices, every_setting_to, ladder, from_lbs_alone, most_iterations,
                     reference, effort, reference_to)
 
-ConvergenceResult measure_convergence(const ConvergenceCase& of)
+ConvergenceResult measure_convergence(const ConvergenceCase& of, const std::string& solutions)
 {
     ConvergenceResult result;
     result.ladder = of.ladder;
-    Mesh(of, of.scene, true).add_to(result);
-    for (const int vertices : of.other_vertices) Mesh(of, at_size(of.scene, vertices), false).add_to(result);
+    Mesh(of, of.scene, true, solutions).add_to(result);
+    for (const int vertices : of.other_vertices) Mesh(of, at_size(of.scene, vertices), false, solutions).add_to(result);
     return result;
 }
 

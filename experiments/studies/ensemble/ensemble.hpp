@@ -69,6 +69,14 @@ struct ErrorRow {
     std::string member, deformer;
     double error_joint_pct = 0.0, error_l2_pct = 0.0, whole_joint_pct = 0.0, volume_change_pct = 0.0;
 };
+// How one member orders a pair, and from what: decisions can be recomputed from these rows.
+struct OrderRow {
+    analysis::CaseKey of;
+    std::string member, first, second;
+    std::optional<double> first_error_pct = {}, second_error_pct = {}, distance_pct = {};  // nothing where the member is not reached
+    std::optional<double> error_bound_pct = {};                                            // of the member
+    analysis::PairOrder order = analysis::PairOrder::undecided;
+};
 struct PairRow {
     analysis::CaseKey of;
     std::string first, second;
@@ -96,6 +104,7 @@ struct AttachmentRow {
 };
 extern const analysis::Columns<MemberRow> member_columns;          // members.csv
 extern const analysis::Columns<ErrorRow> error_columns;            // errors.csv
+extern const analysis::Columns<OrderRow> pair_order_columns;       // orders.csv
 extern const analysis::Columns<PairRow> pair_columns;              // pairs.csv
 extern const analysis::Columns<PartsRow> part_columns;             // parts.csv
 extern const analysis::Columns<AttachmentRow> attachment_columns;  // attachments.csv
@@ -104,12 +113,14 @@ extern const analysis::Columns<AttachmentRow> attachment_columns;  // attachment
 struct EnsembleRecords {
     std::vector<MemberRow> members;
     std::vector<ErrorRow> errors;
+    std::vector<OrderRow> orders;  // one per pair and member
     std::vector<PairRow> pairs;
     std::vector<PartsRow> parts;             // one per k_stretch and number of iterations
     std::vector<AttachmentRow> attachments;  // one per k_stretch and flesh, the reference's own first
     std::string breakdown;                   // deformers that are not finite
 };
 
-EnsembleRecords measure_ensemble(const EnsembleCase& of);
+// solutions: where those of the references are kept (solutions_of_run); "": nowhere.
+EnsembleRecords measure_ensemble(const EnsembleCase& of, const std::string& solutions = "");
 
 }  // namespace experiments

@@ -35,6 +35,10 @@ const Columns<ErrorRow> error_columns =
     within(&ErrorRow::of, pose_columns()) +
     MEMBER_COLUMNS(ErrorRow, member, deformer, error_joint_pct, error_l2_pct, whole_joint_pct, volume_change_pct);
 
+const Columns<OrderRow> pair_order_columns =
+    within(&OrderRow::of, pose_columns()) +
+    MEMBER_COLUMNS(OrderRow, member, first, second, first_error_pct, second_error_pct, distance_pct, error_bound_pct, order);
+
 const Columns<PairRow> pair_columns =
     within(&PairRow::of, pose_columns()) + MEMBER_COLUMNS(PairRow, first, second, difference_pct, largest_difference_pct, members,
                                                           not_reached, first_is_closer, second_is_closer, decision);
@@ -115,34 +119,37 @@ MemberRow member_row(const EnsembleCase& of, const EnsembleMember& member, const
     return row;
 }
 
-// A pair of shapes, with the order that each reference of the family gives it.
-struct OrderedPair {
-    const DeformedShape &first, &second;
-    PairRow row;
-    std::vector<analysis::PairOrder> orders = {};
-};
-
-void add_order(OrderedPair& pair, const PosedReference& reference)
+// The order that a member of the family gives a pair of shapes.
+OrderRow order_by(const EnsembleCase& of, const MemberRow& member, const PosedReference& reference, const DeformedShape& first,
+                  const DeformedShape& second)
 {
-    ++pair.row.members;
-    if (!reference.is_reached()) {
-        ++pair.row.not_reached;
-        pair.orders.push_back(analysis::PairOrder::undecided);
-        return;
-    }
-    const pbs::Positions &a = pair.first.positions, &b = pair.second.positions;
-    const double first_pct = reference.error_of(a).joint_pct, second_pct = reference.error_of(b).joint_pct;
-    if (!pair.row.difference_pct) pair.row.difference_pct = second_pct - first_pct;
-    pair.row.largest_difference_pct = std::max(pair.row.largest_difference_pct, std::abs(second_pct - first_pct));
-    pair.orders.push_back(analysis::order_of({first_pct, second_pct, reference.distance(a, b).joint_pct, reference.bound().joint_pct}));
+    OrderRow row{.of = of.of, .member = member.member.name, .first = first.deformer, .second = second.deformer};
+    row.error_bound_pct = member.error_bound_pct;
+    if (!reference.is_reached()) return row;
+    row.first_error_pct = reference.error_of(first.positions).joint_pct;
+    row.second_error_pct = reference.error_of(second.positions).joint_pct;
+    row.distance_pct = reference.distance(first.positions, second.positions).joint_pct;
+    row.order = analysis::order_of({row.first_error_pct, row.second_error_pct, row.distance_pct, row.error_bound_pct});
+    return row;
 }
 
-PairRow decided(const OrderedPair& pair)
+// orders: of one pair.
+PairRow decided(const std::vector<OrderRow>& orders)
 {
-    PairRow row = pair.row;
-    row.first_is_closer = static_cast<int>(std::ranges::count(pair.orders, analysis::PairOrder::first_is_closer));
-    row.second_is_closer = static_cast<int>(std::ranges::count(pair.orders, analysis::PairOrder::second_is_closer));
-    row.decision = analysis::decide(pair.orders);
+    PairRow row{.of = orders.front().of, .first = orders.front().first, .second = orders.front().second};
+    std::vector<analysis::PairOrder> all;
+    for (const OrderRow& one : orders) {
+        ++row.members;
+        all.push_back(one.order);
+        row.first_is_closer += one.order == analysis::PairOrder::first_is_closer;
+        row.second_is_closer += one.order == analysis::PairOrder::second_is_closer;
+        row.not_reached += !one.distance_pct;
+        if (!one.distance_pct) continue;
+        const double difference_pct = *one.second_error_pct - *one.first_error_pct;
+        if (!row.difference_pct) row.difference_pct = difference_pct;
+        row.largest_difference_pct = std::max(row.largest_difference_pct, std::abs(difference_pct));
+    }
+    row.decision = analysis::decide(all);
     return row;
 }
 
@@ -248,10 +255,11 @@ private:
 
 std::string measure_and_record(const EnsembleCase& of, const std::string& folder)
 {
-    const EnsembleRecords records = measure_ensemble(of);
+    const EnsembleRecords records = measure_ensemble(of, solutions_of_run(folder));
     const auto path = [&](const char* name) { return analysis::path_in(folder, name); };
     table_of(member_columns, records.members).write(path("members.csv"));
     table_of(error_columns, records.errors).write(path("errors.csv"));
+    table_of(pair_order_columns, records.orders).write(path("orders.csv"));
     table_of(pair_columns, records.pairs).write(path("pairs.csv"));
     table_of(part_columns, records.parts).write(path("parts.csv"));
     table_of(attachment_columns, records.attachments).write(path("attachments.csv"));
@@ -291,7 +299,7 @@ bool conclude(const FinishedRuns& finished)
 
 }  // namespace
 
-EnsembleRecords measure_ensemble(const EnsembleCase& of)
+EnsembleRecords measure_ensemble(const EnsembleCase& of, const std::string& solutions)
 {
     const PosedCharacter body(of.scene, {of.frame});
     const pbs::TetMesh& mesh = body.character().mesh;
@@ -305,19 +313,18 @@ EnsembleRecords measure_ensemble(const EnsembleCase& of)
         else
             records.breakdown += spec.label + " did not finish. ";
     }
-    std::vector<OrderedPair> pairs;
-    for (std::size_t a = 0; a < shapes.size(); ++a)
-        for (std::size_t b = a + 1; b < shapes.size(); ++b)
-            pairs.push_back({shapes[a], shapes[b], {.of = of.of, .first = shapes[a].deformer, .second = shapes[b].deformer}});
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<OrderRow>> orders;  // of each pair of shapes, one per member
     std::map<double, PosedReference> firsts;  // with each Poisson's ratio, whose bound holds for flesh that is held in other ways too
     for (const EnsembleMember& member : of.members) {
         const auto like = firsts.find(member.poisson);
         PosedReference solved(body.character(), flesh_of(of.flesh, member), body.pose(0), of.scene.motion.time_step_s,
-                              like == firsts.end() ? of.effort : ReferenceEffort::own_tets);
+                              like == firsts.end() ? of.effort : ReferenceEffort::own_tets, solutions);
         if (like != firsts.end()) solved.take_bound_of(like->second);
         const PosedReference& reference = like == firsts.end() ? firsts.emplace(member.poisson, solved).first->second : solved;
         records.members.push_back(member_row(of, member, reference, metrics));
-        for (OrderedPair& pair : pairs) add_order(pair, reference);
+        for (std::size_t a = 0; a < shapes.size(); ++a)
+            for (std::size_t b = a + 1; b < shapes.size(); ++b)
+                orders[{a, b}].push_back(order_by(of, records.members.back(), reference, shapes[a], shapes[b]));
         if (!reference.is_reached()) continue;
         for (const DeformedShape& shape : shapes) {
             const analysis::ErrorNorms error = reference.error_of(shape.positions);
@@ -327,7 +334,10 @@ EnsembleRecords measure_ensemble(const EnsembleCase& of)
         }
         if (records.members.size() == 1 && !of.k_stretch.empty()) Splitting(of, body, reference).add_to(records);
     }
-    for (const OrderedPair& pair : pairs) records.pairs.push_back(decided(pair));
+    for (const auto& [pair, of_pair] : orders) {
+        records.pairs.push_back(decided(of_pair));
+        records.orders.insert(records.orders.end(), of_pair.begin(), of_pair.end());
+    }
     return records;
 }
 

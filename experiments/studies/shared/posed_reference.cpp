@@ -1,5 +1,7 @@
 #include "experiments/studies/shared/posed_reference.hpp"
 
+#include "analysis/records/provenance.hpp"
+#include "analysis/records/record_files.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
@@ -15,9 +17,13 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 
 namespace experiments {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 // Each step takes about 15 s and 5 GB on tets cut into eight. In a fold without contact their number has no limit. Measured: 53 steps on
@@ -34,7 +40,53 @@ constexpr double same_energy = 1e-6;  // relative: Newton's method leaves less
 constexpr double least_bend_cosine = 0.866, ball_in_radii = 2.0 / 3.0, edge_in_radii = 0.1;
 constexpr unsigned further_meshes = 2;
 
+// What is kept of a solution, besides its positions and the smallest det F.
+template <typename Solution, typename Visit>
+void for_each_field(Solution& of, const Visit& visit)
+{
+    visit("element_order", of.element_order), visit("refinements", of.refinements), visit("other_tets", of.other_tets);
+    visit("along_the_bones", of.along_the_bones), visit("finished", of.finished), visit("energy_j", of.energy_j);
+    visit("inverted_tets", of.inverted_tets), visit("j_min", of.j_min), visit("worst_tet", of.worst_tet);
+    visit("newton_steps", of.newton_steps), visit("projected", of.projected), visit("seconds", of.seconds), visit("at_tips", of.at_tips);
+}
+
+std::string text_of(const std::vector<NestedSolution>& solutions)
+{
+    nlohmann::json all = nlohmann::json::array();
+    for (const NestedSolution& of : solutions) {
+        nlohmann::json& one = all.emplace_back();
+        for_each_field(of, [&](const char* name, const auto& value) { one[name] = value; });
+        if (of.lowest_det_f) one["lowest_det_f"] = *of.lowest_det_f;
+        one["positions"] = std::vector<double>(of.positions.data(), of.positions.data() + of.positions.size());
+    }
+    const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(all);  // which has numbers that are not finite, too
+    return {bytes.begin(), bytes.end()};
+}
+
+// Empty if the text is damaged.
+std::vector<NestedSolution> solutions_in(const std::string& text)
+{
+    std::vector<NestedSolution> solutions;
+    try {
+        for (const nlohmann::json& one : nlohmann::json::from_cbor(text)) {
+            NestedSolution& of = solutions.emplace_back();
+            for_each_field(of, [&](const char* name, auto& value) { one.at(name).get_to(value); });
+            if (one.contains("lowest_det_f")) of.lowest_det_f = one["lowest_det_f"];
+            const std::vector<double> numbers = one.at("positions");
+            of.positions = Eigen::Map<const pbs::Positions>(numbers.data(), static_cast<Eigen::Index>(numbers.size()) / 3, 3);
+        }
+    } catch (const nlohmann::json::exception&) {
+        return {};
+    }
+    return solutions;
+}
+
 }  // namespace
+
+std::string solutions_of_run(const std::string& folder)
+{
+    return (fs::path(folder).parent_path().parent_path() / kept_solutions).string();
+}
 
 std::string worst_tet_of(const NestedSolution& solution)
 {
@@ -75,22 +127,26 @@ std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, 
 }
 
 PosedReference::PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s,
-                               ReferenceEffort effort)
+                               ReferenceEffort effort, const std::string& solutions)
     : character_(character),
       spec_(spec),
       pose_(pose),
       time_step_s_(time_step_s),
       label_(spec.label),
+      kept_in_(solutions),
       error_metrics_(error_domain(character, {})),
       masked_(character.mesh.rest.rows(), false),
       spread_{}
 {
     if (effort == ReferenceEffort::own_tets) {
-        solve({{character, 2}, {character, 1}});
+        add("own", [&] { return solved({{character, 2}, {character, 1}}); });
     } else {
-        const pbs::Character fine = pbs::refined(character);
-        solve({{fine, 2}, {fine, 1}, {character, 1}});
-        solve({{character, 2}});
+        const auto on_finer_tets = [&] {
+            const pbs::Character fine = pbs::refined(character);
+            return solved({{fine, 2}, {fine, 1}, {character, 1}});
+        };
+        add("refined", on_finer_tets);
+        add("quadratic", [&] { return solved({{character, 2}}); });
         std::rotate(solutions_.begin() + 1, solutions_.end() - 1, solutions_.end());  // the finest first
     }
     nested_ = solutions_.size();
@@ -102,10 +158,46 @@ PosedReference::PosedReference(const pbs::Character& character, const DeformerSp
     observe_spread();
 }
 
-// levels: the finest first, each of which sets out from the next one.
-void PosedReference::solve(const std::vector<Level>& levels)
+void PosedReference::add(const std::string& name, const std::function<Solutions()>& solve)
 {
     stop_if_interrupted();
+    const fs::path file = fs::path(kept_in_) / (name + "-" + hash_of_inputs() + ".cbor");
+    Solutions found;
+    if (!kept_in_.empty() && fs::exists(file)) found = solutions_in(analysis::read_text(file.string()));
+    if (found.empty()) {
+        found = solve();
+        if (!kept_in_.empty()) {
+            analysis::make_output_folder(kept_in_);
+            analysis::write_text_atomically(file.string(), text_of(found));
+        }
+    }
+    for (NestedSolution& solution : found) {
+        for (std::size_t v = 0; v < solution.at_tips.size(); ++v) masked_[v] = masked_[v] || solution.at_tips[v];
+        solutions_.push_back(std::move(solution));
+    }
+}
+
+std::string PosedReference::hash_of_inputs() const
+{
+    const analysis::Provenance now = analysis::collect_provenance(1);
+    DeformerSpec spec = spec_;
+    auto& held = options_of<FemOptions>(spec);
+    held.core_radius = held.used_core_radius(), held.spring_factor = held.used_spring_factor();  // stated or not
+    const std::string stated =
+        nlohmann::json{now.git_revision, now.git_dirty, to_json(spec), time_step_s_, character_.inputs, character_.weight_kind}.dump();
+    analysis::StateHash hash;
+    const auto add = [&](const auto* data, std::size_t size) { hash.add_bytes(data, size * sizeof *data); };
+    add(stated.data(), stated.size());
+    hash.add(character_.mesh.rest);
+    add(character_.mesh.tets.data(), character_.mesh.tets.size());
+    for (const pbs::Bone& bone : character_.skeleton.bones) add(bone.head.data(), 3), add(bone.tail.data(), 3), add(&bone.parent, 1);
+    for (const auto& of_bone : pose_) add(of_bone.data(), of_bone.matrix().size());
+    return hash.hex();
+}
+
+// levels: the finest first, each of which sets out from the next one.
+PosedReference::Solutions PosedReference::solved(const std::vector<Level>& levels) const
+{
     DeformerSpec nested = spec_;
     auto& options = options_of<FemOptions>(nested);
     options.element_order = levels.front().element_order;
@@ -114,26 +206,30 @@ void PosedReference::solve(const std::vector<Level>& levels)
     const std::unique_ptr<Deformer> deformer = make_deformer(nested);
     deformer->reset(levels.front().character);
     TriedSolution solution{deformer.get(), deformer->advance(pose_, time_step_s_)};
+    Solutions solutions;
     for (const Level& level : levels) {
         if (!solution.deformer) break;
         const TriedSolution coarser = solution.deformer->facts()->fewer_nodes;
         if (levels.size() > 1) solution.step.seconds -= coarser.step.seconds;  // which is recorded by itself
-        solutions_.push_back(solution_of(solution, level));
+        solutions.push_back(solution_of(solution, level));
         solution = coarser;
     }
+    return solutions;
 }
 
 // First along the bones on the character's own tets. The equilibrium with the lower energy there is kept among the nested solutions.
 void PosedReference::solve_on_other_tets()
 {
-    solve({{.character = character_, .element_order = 2, .along_the_bones = true}});
+    add("along_the_bones", [&] { return solved({{.character = character_, .element_order = 2, .along_the_bones = true}}); });
     NestedSolution &nested = solutions_[1], &alone = solutions_.back();
     if (alone.finished && (!nested.finished || alone.energy_j < (1.0 - same_energy) * nested.energy_j)) std::swap(nested, alone);
     const std::vector<pbs::FineBall> fine = fine_at_bent_joints(character_, pose_);
     for (unsigned seed = 1; seed <= further_meshes; ++seed) {
         try {
-            const pbs::Character other = pbs::remeshed(character_, {.seed = seed, .fine = fine});
-            solve({{.character = other, .element_order = 2, .other_tets = seed}});
+            add(fmt::format("tets_{}", seed), [&] {
+                const pbs::Character other = pbs::remeshed(character_, {.seed = seed, .fine = fine});
+                return solved({{.character = other, .element_order = 2, .other_tets = seed}});
+            });
         } catch (const pbs::InputError& error) {  // known only now, after the long solutions
             warn({fmt::format("{} on other tets: {}", label_, error.what())});
             solutions_.push_back({.element_order = 2, .other_tets = seed});
@@ -141,7 +237,7 @@ void PosedReference::solve_on_other_tets()
     }
 }
 
-NestedSolution PosedReference::solution_of(const TriedSolution& of, const Level& level)
+NestedSolution PosedReference::solution_of(const TriedSolution& of, const Level& level) const
 {
     NestedSolution solution{.element_order = level.element_order,
                             .refinements = level.character.refinements,
@@ -169,8 +265,7 @@ NestedSolution PosedReference::solution_of(const TriedSolution& of, const Level&
     if (!solution.finished) return solution;
     solution.lowest_det_f = facts.lowest_det_f.value();
     solution.energy_j = facts.energy_j.value();
-    const std::vector<bool> near = near_tips(facts.tips, rest);
-    for (std::size_t v = 0; v < masked_.size(); ++v) masked_[v] = masked_[v] || near[v];
+    solution.at_tips = near_tips(facts.tips, rest);
     return solution;
 }
 

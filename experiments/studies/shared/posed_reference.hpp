@@ -19,6 +19,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,7 @@ struct NestedSolution {
     // Positions of the character's vertices [m], #V x 3. If Newton's method did not finish, they are those of its last state. If the
     // solution with fewer nodes did not finish, they are the positions of that solution.
     pbs::Positions positions = {};
+    std::vector<bool> at_tips = {};  // of creases, #V; empty if it did not finish
 };
 // "worst tet 812 of volume ratio -0.04, 3 inverted"
 std::string worst_tet_of(const NestedSolution& solution);
@@ -56,6 +58,11 @@ std::string worst_tet_of(const NestedSolution& solution);
 enum class ReferenceEffort { own_tets, refined, other_tets };
 NAMED_OPTIONS(ReferenceEffort, own_tets, refined, other_tets)
 
+// Where the studies of one results folder keep solutions, DIR/reference_solutions, and the same by the folder of a run, DIR/STUDY/RUN: what
+// an interrupted run or another study has solved is not solved again. Their names depend on the revision and all that they are solved from.
+inline constexpr const char* kept_solutions = "reference_solutions";
+std::string solutions_of_run(const std::string& folder);
+
 // Smaller triangles of the skin on the inner side of each joint that a pose bends by more than 30 degrees: edges of a tenth of the limb's
 // radius within two thirds of it.
 std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, const pbs::Pose& pose);
@@ -63,9 +70,9 @@ std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, 
 class PosedReference {
 public:
     // spec: a [[fem]] deformer with a nonlinear model and attachment smooth or embedded; its element order does not matter. character: not
-    // refined itself.
+    // refined itself. solutions: a folder in which solutions are kept and found again; "": none.
     PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s,
-                   ReferenceEffort effort = ReferenceEffort::other_tets);
+                   ReferenceEffort effort = ReferenceEffort::other_tets, const std::string& solutions = "");
 
     const std::string& label() const { return label_; }  // of spec
     // The reference is the finest solution on the own or the refined tets that finished with det F > 0 at all quadrature points.
@@ -105,9 +112,13 @@ private:
         unsigned other_tets = 0;
         bool along_the_bones = false;
     };
-    void solve(const std::vector<Level>& levels);
+    // The solutions of one call of a deformer, the finest first.
+    using Solutions = std::vector<NestedSolution>;
+    Solutions solved(const std::vector<Level>& levels) const;
+    void add(const std::string& name, const std::function<Solutions()>& solve);  // or finds what is kept of them
+    std::string hash_of_inputs() const;
     void solve_on_other_tets();
-    NestedSolution solution_of(const TriedSolution& of, const Level& level);
+    NestedSolution solution_of(const TriedSolution& of, const Level& level) const;
     void observe_order();
     void observe_spread();
 
@@ -115,7 +126,7 @@ private:
     DeformerSpec spec_;
     pbs::Pose pose_;
     double time_step_s_;
-    std::string label_;
+    std::string label_, kept_in_;
     analysis::ErrorMetrics error_metrics_;
     std::vector<NestedSolution> solutions_;
     std::size_t nested_ = 0;  // the first ones, on the own and the refined tets

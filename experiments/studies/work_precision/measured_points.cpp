@@ -110,14 +110,14 @@ PointRow reference_row(const pbs::TetMesh& mesh, const PosedReference& reference
 // The references of one case: the first member of the family (shared/posed_reference.hpp) and further ones. The character outlives it.
 class ReferenceSet {
 public:
-    ReferenceSet(const WorkPrecisionCase& of, const pbs::Character& character, const PosePair& poses)
+    ReferenceSet(const WorkPrecisionCase& of, const pbs::Character& character, const PosePair& poses, const std::string& solutions)
         : of_(of),
           first_(character, reference_flesh(of.scene), poses.pose, poses.time_step_s,
-                 of.reference_is_refined ? ReferenceEffort::other_tets : ReferenceEffort::own_tets)
+                 of.reference_is_refined ? ReferenceEffort::other_tets : ReferenceEffort::own_tets, solutions)
     {
         for (const EnsembleMember& member : of.members) {
             members_.emplace_back(character, flesh_of(reference_flesh(of.scene), member), poses.pose, poses.time_step_s,
-                                  ReferenceEffort::own_tets);
+                                  ReferenceEffort::own_tets, solutions);
             members_.back().take_bound_of(first_);
         }
     }
@@ -192,8 +192,11 @@ PosePair poses_of(const WorkPrecisionCase& of, const pbs::Skeleton& skeleton)
 
 class CaseMeasuring {
 public:
-    explicit CaseMeasuring(const WorkPrecisionCase& of)
-        : of_(of), base_(std::make_shared<pbs::Character>(pbs::make_character(of.scene.character))), poses_(poses_of(of, base_->skeleton))
+    CaseMeasuring(const WorkPrecisionCase& of, const std::string& solutions)
+        : of_(of),
+          solutions_(solutions),
+          base_(std::make_shared<pbs::Character>(pbs::make_character(of.scene.character))),
+          poses_(poses_of(of, base_->skeleton))
     {
         for (const DeformerSpec& spec : of.external) external_.push_back({spec.name, spec});
         meshes_.emplace(0, BodyMesh(base_));
@@ -203,7 +206,7 @@ public:
     MeasuredPoints measure()
     {
         for (const Setting& setting : external_) reach(setting);
-        references_.emplace(of_, *base_, poses_);
+        references_.emplace(of_, *base_, poses_, solutions_);
         add_other_meshes();
         compared_ = settings_of(of_.scene, of_.range);
         for (Setting& setting : compared_) {
@@ -362,6 +365,7 @@ private:
     }
 
     const WorkPrecisionCase& of_;
+    std::string solutions_;
     std::shared_ptr<const pbs::Character> base_;
     PosePair poses_;
     std::vector<Setting> external_, compared_;  // the settings of the user's own deformers and those of the others
@@ -404,9 +408,9 @@ double neutral_length(double k, const std::vector<double>& edge_lengths_m)
     return high;
 }
 
-MeasuredPoints measure_points(const WorkPrecisionCase& of)
+MeasuredPoints measure_points(const WorkPrecisionCase& of, const std::string& solutions)
 {
-    return CaseMeasuring(of).measure();
+    return CaseMeasuring(of, solutions).measure();
 }
 
 }  // namespace experiments

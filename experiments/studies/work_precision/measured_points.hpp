@@ -205,8 +205,9 @@ struct MeasuredPoints {
                             // an outcome
 };
 
-// Throws an InputError if a deformer of the user's own fails.
-MeasuredPoints measure_points(const WorkPrecisionCase& of);
+// solutions: where those of the references are kept (solutions_of_run); "": nowhere. Throws an InputError if a deformer of the user's own
+// fails.
+MeasuredPoints measure_points(const WorkPrecisionCase& of, const std::string& solutions = "");
 
 // The length at which an edge has the stiffness k, so that the mean over all edges is k too: then the scaling softens long edges and
 // stiffens short ones, and the mesh as a whole is neither softer nor stiffer. Bisection finds it to 1e-12 of the longest edge. It needs

@@ -16,7 +16,7 @@ namespace {
 
 std::string measure_and_record(const WorkPrecisionCase& of, const std::string& folder)
 {
-    const MeasuredPoints points = measure_points(of);
+    const MeasuredPoints points = measure_points(of, solutions_of_run(folder));
     table_of(columns_for(points.rows), points.rows).write(analysis::path_in(folder, "points.csv"));
     table_of(family_columns, points.members).write(analysis::path_in(folder, "members.csv"));
     if (of.range.changes) table_of(change_columns, points.changes).write(analysis::path_in(folder, "changes.csv"));

@@ -8,11 +8,14 @@
 #include "pbs/character/character.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/bar_character.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <tuple>
 
 namespace {
 
@@ -118,6 +121,34 @@ TEST(PosedReference, LendsItsBoundToFleshThatIsHeldInAnotherWay)
     EXPECT_EQ(linear.reference().element_order, 1);
     EXPECT_TRUE(std::isnan(linear.bound().joint_pct)) << "of quadratic elements alone";
     EXPECT_EQ(second.bound().joint_pct, first.error_of(first.solutions()[1].positions).joint_pct + first.bound().joint_pct);
+}
+
+// What is found again was not solved again: it has the seconds of the first time.
+TEST(PosedReference, FindsTheSolutionsThatItKeepsAndNoOthers)
+{
+    const test_support::ScratchFolder folder;
+    const auto reference = [&](double angle_deg, double spring_factor = 10.0) {
+        DeformerSpec spec = flesh();
+        options_of<FemOptions>(spec).spring_factor = spring_factor;
+        return PosedReference(bar, spec, bent(angle_deg), time_step_s, ReferenceEffort::own_tets, folder.path());
+    };
+    const auto is_found = [](const PosedReference& one, const PosedReference& first) {
+        return one.solutions().front().seconds == first.solutions().front().seconds;
+    };
+    const PosedReference first = reference(165.0), again = reference(165.0);
+    EXPECT_TRUE(is_found(again, first));
+    EXPECT_EQ(again.masked(), first.masked());
+    for (std::size_t i = 0; i < first.solutions().size(); ++i) {
+        const NestedSolution &one = first.solutions()[i], &kept = again.solutions()[i];
+        EXPECT_EQ(kept.positions, one.positions);
+        EXPECT_EQ(std::tie(kept.element_order, kept.finished, kept.energy_j, kept.lowest_det_f, kept.j_min, kept.newton_steps),
+                  std::tie(one.element_order, one.finished, one.energy_j, one.lowest_det_f, one.j_min, one.newton_steps));
+    }
+    EXPECT_FALSE(is_found(reference(164.0), first));
+    EXPECT_FALSE(is_found(reference(165.0, 20.0), first));
+    EXPECT_TRUE(is_found(reference(165.0), first));
+    for (const auto& file : std::filesystem::directory_iterator(folder.path())) std::filesystem::resize_file(file, 100);
+    EXPECT_FALSE(is_found(reference(165.0), first)) << "a damaged file";
 }
 
 // By hand: the forearm turns about z, so that the inner side is that of y > 0; the limb's radius is the mean distance of the skin.
