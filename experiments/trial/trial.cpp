@@ -243,12 +243,14 @@ nlohmann::json volume_facts(const CsvTable& metrics)
     return facts;
 }
 
-nlohmann::json frame_ms(const CsvTable& metrics)
+// Over the frames, by deformer.
+nlohmann::json medians(const CsvTable& metrics, const std::string& column)
 {
-    std::map<std::string, std::vector<double>> times;
-    for (int row = 0; row < metrics.rows(); ++row) times[metrics.text_at(row, "deformer")].push_back(metrics.number(row, "step_ms"));
-    nlohmann::json facts;
-    for (const auto& [deformer, ms] : times) facts[deformer] = analysis::median(ms);
+    std::map<std::string, std::vector<double>> all;
+    for (int row = 0; metrics.has_column(column) && row < metrics.rows(); ++row)
+        if (const auto value = finite(metrics, row, column)) all[metrics.text_at(row, "deformer")].push_back(*value);
+    nlohmann::json facts = nlohmann::json::object();
+    for (const auto& [deformer, values] : all) facts[deformer] = analysis::median(values);
     return facts;
 }
 
@@ -328,8 +330,7 @@ nlohmann::json joint_facts(const CsvTable& regions, const CsvTable& bones)
         if (parent[other] != one && parent[one] != other) continue;  // their flesh meets, but no joint connects them
         const std::string name = one + " - " + other;
         JointChange& joint = joints[name];
-        joint.name = name;
-        joint.share_pct = regions.number(row, "rest_share_pct");
+        joint.name = name, joint.share_pct = regions.number(row, "rest_share_pct");
         joint.change_pct[regions.text_at(row, "deformer")] = regions.number(row, "change_pct");
     }
     std::vector<JointChange> sorted;
@@ -337,14 +338,11 @@ nlohmann::json joint_facts(const CsvTable& regions, const CsvTable& bones)
         if (joint.change_pct.count("lbs") > 0 && joint.change_pct.count("pbs") > 0) sorted.push_back(joint);
     std::ranges::sort(sorted, {}, [](const JointChange& joint) { return joint.change_pct.at("lbs"); });
     sorted.resize(std::min<std::size_t>(sorted.size(), 2));
-    if (sorted.empty()) return nullptr;
     nlohmann::json facts = {{"names", nlohmann::json::array()}};
     double share_pct = 0.0, lbs_pct = 0.0, pbs_pct = 0.0;
     for (const JointChange& joint : sorted) {
         facts["names"].push_back(joint.name);
-        share_pct += joint.share_pct;
-        lbs_pct += joint.change_pct.at("lbs");
-        pbs_pct += joint.change_pct.at("pbs");
+        share_pct += joint.share_pct, lbs_pct += joint.change_pct.at("lbs"), pbs_pct += joint.change_pct.at("pbs");
     }
     if (!(share_pct > 0.0)) return nullptr;
     facts["lbs_pct"] = 100.0 * lbs_pct / share_pct;
@@ -376,7 +374,7 @@ TrialScene trial_scene(const TrialOptions& options)
     made.text += pbs_table;
     if (has_artist)
         made.text += "[[lbs]]\nname = \"lbs_paper\"               # linear blend skinning with the weights of Eq. 2\nweights = \"paper\"\n";
-    if (reference) made.text += reference_tables;
+    if (reference) made.text += std::string(reference_tables) + (options.error_bar ? "error_bar = \"both\"\n" : "");
     made.text += fmt::format("[deformers]\nuse = [\"lbs\", \"dqs\", {}\"delta_mush\", \"pbs\"{}]\n", has_artist ? "\"lbs_paper\", " : "",
                              reference ? ", \"nh_p1\"" : "");
     made.text += "[output]\nframes_every = 1\nglb = true                       # also the moving surface of each deformer\n";
@@ -424,7 +422,9 @@ nlohmann::json trial_facts(const std::string& folder)
             {"volume", volume_facts(metrics)},
             {"joints", joint_facts(regions, bones)},
             {"nearer", nearer_frames(metrics)},
-            {"frame_ms", frame_ms(metrics)},
+            {"frame_ms", medians(metrics, "step_ms")},
+            {"reference_error_pct", medians(metrics, "reference_error_joint_pct").value("pbs", nlohmann::json())},
+            {"error_bar_s", run.at(run.at("cost"), "seconds").value("error_bar", 0.0)},
             {"control", fs::exists(folder + "/skin/artist.pvd") ? nlohmann::json("skin/artist_*.vtp") : nullptr}};
 }
 
@@ -461,9 +461,7 @@ std::string joint_words(const nlohmann::json& joints)
 
 std::string nearer_words(const nlohmann::json& nearer)
 {
-    const auto frames = [](const nlohmann::json& of) {
-        return fmt::format("{} of {} frames", of.at("frames").get<int>(), of.at("of").get<int>());
-    };
+    const auto frames = [](const auto& of) { return fmt::format("{} of {} frames", of.at("frames").dump(), of.at("of").dump()); };
     std::string text = " PBS is nearer to FEM than LBS in " + frames(nearer);
     if (const nlohmann::json& best = nearer.at("best_other"); !best.is_null())
         text += fmt::format(", and than {}, the best of the other methods, in {}", shown_name(best.at("deformer")), frames(best));
@@ -491,9 +489,11 @@ std::string trial_sentence(const nlohmann::json& facts)
     if (!facts.at("deforms").get<bool>())
         return "No flesh deforms: it rests or moves rigidly in every frame, so that there is nothing to compare.";
     std::string text = fmt::format("PBS changes the volume {}, LBS {}", volume_range(volume.at("pbs")), volume_range(volume.at("lbs")));
-    if (!joints.is_null()) text += joint_words(joints);
-    text += ".";
+    text += (joints.is_null() ? "" : joint_words(joints)) + ".";
     if (!nearer.is_null()) text += nearer_words(nearer);
+    if (const nlohmann::json& bound_pct = facts.at("reference_error_pct"); !bound_pct.is_null())
+        text += fmt::format(" FEM's own error is at most {:.2g} % in the median frame; bounding it took {:.0f} s.", bound_pct.get<double>(),
+                            facts.at("error_bar_s").get<double>());
     return text + time_words(facts);
 }
 

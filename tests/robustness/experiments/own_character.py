@@ -9,6 +9,7 @@ import os
 import re
 import shutil
 import signal
+import statistics
 import subprocess
 import tempfile
 import time
@@ -70,10 +71,10 @@ class TrialTest(program.ProgramTest):
         """One name for all, so that the cache has one mesh for those with the same surface."""
         return rig_files.write(variant, self.path("rig.glb"), **options)
 
-    def tried(self, model, *arguments, into="out", without=("--no-reference",), vertices="300", **environment):
+    def tried(self, model, *arguments, into="out", without=("--no-reference",), vertices="300", frames=FRAMES, **environment):
         """try.json and what was printed. The page has a viewer, whose program does nothing."""
         self.write("viewer.js", "// a viewer")
-        process = self.succeeds("try", model, "-o", self.path(into), "--frames", FRAMES, "--vertices", vertices, *without, *arguments,
+        process = self.succeeds("try", model, "-o", self.path(into), "--frames", frames, "--vertices", vertices, *without, *arguments,
                                 env={**os.environ, "PBS_VIEWER_BUILD": self.folder, **environment})
         return self.json(into, "try.json"), process.stdout + process.stderr
 
@@ -282,6 +283,16 @@ class OwnCharacter(TrialTest):
         facts, printed = self.tried(self.rig(on_ground=True), without=())
         self.remarked(facts, printed, "nh_p1 leaves out 1 of 4 bones, whose middle lies outside the flesh: ground")
         self.assertEqual(facts["nearer"]["of"], 2)  # the first frame is at rest
+
+    @unittest.skipUnless(program.HAS_FEM, "the finite elements are not installed")
+    def test_the_error_of_the_reference_itself_can_be_bounded(self):
+        facts, printed = self.tried(self.rig(), "--error-bar", without=(), vertices="150", frames=2)
+        bounds = [float(row["reference_error_joint_pct"]) for row in self.rows("out", "metrics.csv") if row["deformer"] == "pbs"]
+        self.assertEqual(facts["reference_error_pct"], statistics.median(bounds))
+        self.assertGreater(facts["reference_error_pct"], 0)
+        self.assertGreater(facts["error_bar_s"], 0)
+        self.assertIn(f"FEM's own error is at most {facts['reference_error_pct']:.2g} % in the median frame; bounding it took", printed)
+        self.assertIn("--error-bar excludes --no-reference", self.refused("try", "rig.glb", "--error-bar", "--no-reference"))
 
     @unittest.skipUnless(program.HAS_FEM, "the finite elements are not installed")
     def test_a_model_with_one_joint(self):
