@@ -148,7 +148,7 @@ const std::vector<Budget>& budgets()
          .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"},
          .endings = cpp,
          .most_lines = 65'430},
-        {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 43'632, .least_mean = 120},
+        {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 43'685, .least_mean = 120},
         {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'400},
         {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 7'990},
         {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 150},
