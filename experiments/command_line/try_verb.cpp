@@ -162,8 +162,8 @@ void add_try_verb(CommandLine& line)
     verb->add_flag("--allow-partial", options->allow_partial, "accepts a clip of which fewer than half of the moving joints match a bone");
     auto* error_bar = verb->add_flag(
         "--error-bar", options->error_bar,
-        "also bounds the reference's own error, by three further solutions per frame, on tets cut into eight too: 2,000 vertices take "
-        "minutes and 6 GB per frame, so that a few --frames are enough");
+        "also bounds the reference's own error, by three further solutions per frame, two of them on tets cut into eight. With 2,000 "
+        "vertices each frame takes minutes, and the run needs 6 GB: choose a few --frames");
     verb->add_flag_callback(
             "--no-reference", [options] { options->reference = false; }, "leaves out the finite elements, which take most of the time")
         ->excludes(error_bar);

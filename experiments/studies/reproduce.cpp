@@ -4,7 +4,6 @@
 #include "analysis/verdicts/verdict.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
-#include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -247,7 +246,6 @@ int reproduce(const ReproduceArguments& arguments)
     if (planned.size() > 1) spdlog::info("expected cost:\n{}", expected_cost_table(expected));
 
     analysis::remove_abandoned_files(arguments.folder, false);
-    if (!arguments.resume) fs::remove_all(fs::path(arguments.folder) / kept_solutions);
     std::vector<analysis::Verdict> verdicts;
     std::string marked;           // frames that need attention
     std::set<std::string> named;  // the reasons for which runs are left out: each is a warning once

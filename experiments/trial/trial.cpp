@@ -243,14 +243,30 @@ nlohmann::json volume_facts(const CsvTable& metrics)
     return facts;
 }
 
-// Over the frames, by deformer.
-nlohmann::json medians(const CsvTable& metrics, const std::string& column)
+nlohmann::json frame_ms(const CsvTable& metrics)
 {
-    std::map<std::string, std::vector<double>> all;
-    for (int row = 0; metrics.has_column(column) && row < metrics.rows(); ++row)
-        if (const auto value = finite(metrics, row, column)) all[metrics.text_at(row, "deformer")].push_back(*value);
-    nlohmann::json facts = nlohmann::json::object();
-    for (const auto& [deformer, values] : all) facts[deformer] = analysis::median(values);
+    std::map<std::string, std::vector<double>> times;
+    for (int row = 0; row < metrics.rows(); ++row) times[metrics.text_at(row, "deformer")].push_back(metrics.number(row, "step_ms"));
+    nlohmann::json facts;
+    for (const auto& [deformer, ms] : times) facts[deformer] = analysis::median(ms);
+    return facts;
+}
+
+// Over the frames whose bound is known; null without an error bar.
+nlohmann::json error_bar_facts(const CsvTable& metrics, const nlohmann::json& seconds)
+{
+    constexpr const char* bound = "reference_error_joint_pct";
+    if (!metrics.has_column(bound)) return nullptr;
+    std::vector<double> bounds_pct;
+    int frames = 0;
+    for (int row = 0; row < metrics.rows(); ++row) {
+        if (metrics.text_at(row, "deformer") != reference_name) continue;
+        ++frames;
+        if (const auto bound_pct = finite(metrics, row, bound)) bounds_pct.push_back(*bound_pct);
+    }
+    const double total_s = seconds.value("error_bar", 0.0) + seconds.value("error_bar_set_up", 0.0);
+    nlohmann::json facts = {{"frames", bounds_pct.size()}, {"of", frames}, {"seconds", total_s}, {"largest_pct", nullptr}};
+    if (!bounds_pct.empty()) facts["largest_pct"] = std::ranges::max(bounds_pct);
     return facts;
 }
 
@@ -330,7 +346,8 @@ nlohmann::json joint_facts(const CsvTable& regions, const CsvTable& bones)
         if (parent[other] != one && parent[one] != other) continue;  // their flesh meets, but no joint connects them
         const std::string name = one + " - " + other;
         JointChange& joint = joints[name];
-        joint.name = name, joint.share_pct = regions.number(row, "rest_share_pct");
+        joint.name = name;
+        joint.share_pct = regions.number(row, "rest_share_pct");
         joint.change_pct[regions.text_at(row, "deformer")] = regions.number(row, "change_pct");
     }
     std::vector<JointChange> sorted;
@@ -338,11 +355,14 @@ nlohmann::json joint_facts(const CsvTable& regions, const CsvTable& bones)
         if (joint.change_pct.count("lbs") > 0 && joint.change_pct.count("pbs") > 0) sorted.push_back(joint);
     std::ranges::sort(sorted, {}, [](const JointChange& joint) { return joint.change_pct.at("lbs"); });
     sorted.resize(std::min<std::size_t>(sorted.size(), 2));
+    if (sorted.empty()) return nullptr;
     nlohmann::json facts = {{"names", nlohmann::json::array()}};
     double share_pct = 0.0, lbs_pct = 0.0, pbs_pct = 0.0;
     for (const JointChange& joint : sorted) {
         facts["names"].push_back(joint.name);
-        share_pct += joint.share_pct, lbs_pct += joint.change_pct.at("lbs"), pbs_pct += joint.change_pct.at("pbs");
+        share_pct += joint.share_pct;
+        lbs_pct += joint.change_pct.at("lbs");
+        pbs_pct += joint.change_pct.at("pbs");
     }
     if (!(share_pct > 0.0)) return nullptr;
     facts["lbs_pct"] = 100.0 * lbs_pct / share_pct;
@@ -422,79 +442,9 @@ nlohmann::json trial_facts(const std::string& folder)
             {"volume", volume_facts(metrics)},
             {"joints", joint_facts(regions, bones)},
             {"nearer", nearer_frames(metrics)},
-            {"frame_ms", medians(metrics, "step_ms")},
-            {"reference_error_pct", medians(metrics, "reference_error_joint_pct").value("pbs", nlohmann::json())},
-            {"error_bar_s", run.at(run.at("cost"), "seconds").value("error_bar", 0.0)},
+            {"frame_ms", frame_ms(metrics)},
+            {"error_bar", error_bar_facts(metrics, run.at(run.at("cost"), "seconds"))},
             {"control", fs::exists(folder + "/skin/artist.pvd") ? nlohmann::json("skin/artist_*.vtp") : nullptr}};
-}
-
-namespace {
-
-std::string shown_name(const std::string& deformer)
-{
-    static const std::map<std::string, std::string> names = {
-        {"lbs", "LBS"}, {"dqs", "DQS"}, {"lbs_paper", "LBS with the weights of Eq. 2"}, {"delta_mush", "delta mush"}, {"pbs", "PBS"}};
-    const auto named = names.find(deformer);
-    return named == names.end() ? deformer : named->second;
-}
-
-// With a sign and one decimal place; + 0.0 takes the minus from a zero.
-std::string per_cent(double value)
-{
-    return fmt::format("{:+.1f}", std::round(10.0 * value) / 10.0 + 0.0);
-}
-
-std::string volume_range(const nlohmann::json& of)
-{
-    const std::string lowest = per_cent(of.at("lowest_pct")), highest = per_cent(of.at("highest_pct"));
-    if (lowest == highest) return lowest == "+0.0" ? "by less than 0.05 %" : fmt::format("by {} %", lowest);
-    if (lowest == "+0.0" || highest == "+0.0") return fmt::format("by at most {} %", lowest == "+0.0" ? highest : lowest);
-    return fmt::format("by {} to {} %", lowest, highest);
-}
-
-std::string joint_words(const nlohmann::json& joints)
-{
-    const auto names = joints.at("names").get<std::vector<std::string>>();
-    return fmt::format("; at the {} {} by {} % instead of {} % on average", names.size() > 1 ? "joints" : "joint",
-                       fmt::join(names, " and "), per_cent(joints.at("pbs_pct")), per_cent(joints.at("lbs_pct")));
-}
-
-std::string nearer_words(const nlohmann::json& nearer)
-{
-    const auto frames = [](const auto& of) { return fmt::format("{} of {} frames", of.at("frames").dump(), of.at("of").dump()); };
-    std::string text = " PBS is nearer to FEM than LBS in " + frames(nearer);
-    if (const nlohmann::json& best = nearer.at("best_other"); !best.is_null())
-        text += fmt::format(", and than {}, the best of the other methods, in {}", shown_name(best.at("deformer")), frames(best));
-    return text + ".";
-}
-
-std::string time_words(const nlohmann::json& facts)
-{
-    std::vector<std::string> deformers = {"pbs", "lbs"}, times;
-    if (const nlohmann::json& nearer = facts.at("nearer"); !nearer.is_null() && !nearer.at("best_other").is_null())
-        deformers.push_back(nearer.at("best_other").at("deformer").get<std::string>());
-    for (const std::string& deformer : deformers) {
-        const double ms = facts.at("frame_ms").at(deformer);
-        times.push_back((ms < 10.0 ? fmt::format("{:.2g} ms", ms) : fmt::format("{:.0f} ms", ms)) + " with " + shown_name(deformer));
-    }
-    return fmt::format(" A frame takes {}.", fmt::join(times, ", "));
-}
-
-}  // namespace
-
-std::string trial_sentence(const nlohmann::json& facts)
-{
-    const nlohmann::json &volume = facts.at("volume"), &joints = facts.at("joints"), &nearer = facts.at("nearer");
-    if (!volume.contains("pbs") || !volume.contains("lbs")) return "PBS or LBS broke down in every frame.";
-    if (!facts.at("deforms").get<bool>())
-        return "No flesh deforms: it rests or moves rigidly in every frame, so that there is nothing to compare.";
-    std::string text = fmt::format("PBS changes the volume {}, LBS {}", volume_range(volume.at("pbs")), volume_range(volume.at("lbs")));
-    text += (joints.is_null() ? "" : joint_words(joints)) + ".";
-    if (!nearer.is_null()) text += nearer_words(nearer);
-    if (const nlohmann::json& bound_pct = facts.at("reference_error_pct"); !bound_pct.is_null())
-        text += fmt::format(" FEM's own error is at most {:.2g} % in the median frame; bounding it took {:.0f} s.", bound_pct.get<double>(),
-                            facts.at("error_bar_s").get<double>());
-    return text + time_words(facts);
 }
 
 }  // namespace experiments

@@ -49,8 +49,8 @@ std::string earlier_trial_scene(const TrialOptions& options);
 //   nearer        number of frames in which pbs is nearer to the reference than lbs, of how many that can be compared because an error is
 //                 at least 0.01 %; best_other: the same against the one of the other deformers whose median error is smallest
 //   frame_ms      median time of a frame, per deformer
-//   reference_error_pct   with an error bar: median bound of the reference's own error at the joints; null: not bounded in any frame
-//   error_bar_s   wall time of the further solutions for it, of all frames; 0 without an error bar
+//   error_bar     of the reference: the number of frames in which its own error is bounded, of how many, the largest bound at the joints
+//                 [%] and the wall time of the further solutions [s]; null without an error bar
 //   from_artist   where the surface carried by the tets under lbs is farthest from the artist's: largest_pct of the model's size, frame,
 //                 the bones of surface and flesh there, and the gap between them at rest; null: not compared
 //   control       the files of the surface by the format's own skinning; null: the model has no joints and so no skinning

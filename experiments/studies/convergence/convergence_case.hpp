@@ -114,7 +114,7 @@ struct ConvergenceResult {
     std::string breakdown;  // paths that ceased to be finite; `reference` states one that was not reached
 };
 
-// solutions: where those of the references are kept (solutions_of_run); "": nowhere.
+// solutions: the folder in which the solutions of the references are kept (solutions_of_run); "": none.
 ConvergenceResult measure_convergence(const ConvergenceCase& of, const std::string& solutions = "");
 
 // The records of convergence: residuals by iteration, one row per path, and the error to the reference by iteration.

@@ -69,8 +69,8 @@ struct ErrorRow {
     std::string member, deformer;
     double error_joint_pct = 0.0, error_l2_pct = 0.0, whole_joint_pct = 0.0, volume_change_pct = 0.0;
 };
-// How one member orders a pair, and from what: decisions can be recomputed from these rows.
-struct OrderRow {
+// How one member orders a pair, with the values that decide it.
+struct PairOrderRow {
     analysis::CaseKey of;
     std::string member, first, second;
     std::optional<double> first_error_pct = {}, second_error_pct = {}, distance_pct = {};  // nothing where the member is not reached
@@ -104,7 +104,7 @@ struct AttachmentRow {
 };
 extern const analysis::Columns<MemberRow> member_columns;          // members.csv
 extern const analysis::Columns<ErrorRow> error_columns;            // errors.csv
-extern const analysis::Columns<OrderRow> pair_order_columns;       // orders.csv
+extern const analysis::Columns<PairOrderRow> pair_order_columns;   // pair_orders.csv
 extern const analysis::Columns<PairRow> pair_columns;              // pairs.csv
 extern const analysis::Columns<PartsRow> part_columns;             // parts.csv
 extern const analysis::Columns<AttachmentRow> attachment_columns;  // attachments.csv
@@ -113,14 +113,14 @@ extern const analysis::Columns<AttachmentRow> attachment_columns;  // attachment
 struct EnsembleRecords {
     std::vector<MemberRow> members;
     std::vector<ErrorRow> errors;
-    std::vector<OrderRow> orders;  // one per pair and member
+    std::vector<PairOrderRow> orders;  // one per pair and member
     std::vector<PairRow> pairs;
     std::vector<PartsRow> parts;             // one per k_stretch and number of iterations
     std::vector<AttachmentRow> attachments;  // one per k_stretch and flesh, the reference's own first
     std::string breakdown;                   // deformers that are not finite
 };
 
-// solutions: where those of the references are kept (solutions_of_run); "": nowhere.
+// solutions: the folder in which the solutions of the references are kept (solutions_of_run); "": none.
 EnsembleRecords measure_ensemble(const EnsembleCase& of, const std::string& solutions = "");
 
 }  // namespace experiments

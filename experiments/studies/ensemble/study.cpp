@@ -35,9 +35,9 @@ const Columns<ErrorRow> error_columns =
     within(&ErrorRow::of, pose_columns()) +
     MEMBER_COLUMNS(ErrorRow, member, deformer, error_joint_pct, error_l2_pct, whole_joint_pct, volume_change_pct);
 
-const Columns<OrderRow> pair_order_columns =
-    within(&OrderRow::of, pose_columns()) +
-    MEMBER_COLUMNS(OrderRow, member, first, second, first_error_pct, second_error_pct, distance_pct, error_bound_pct, order);
+const Columns<PairOrderRow> pair_order_columns =
+    within(&PairOrderRow::of, pose_columns()) +
+    MEMBER_COLUMNS(PairOrderRow, member, first, second, first_error_pct, second_error_pct, distance_pct, error_bound_pct, order);
 
 const Columns<PairRow> pair_columns =
     within(&PairRow::of, pose_columns()) + MEMBER_COLUMNS(PairRow, first, second, difference_pct, largest_difference_pct, members,
@@ -120,10 +120,10 @@ MemberRow member_row(const EnsembleCase& of, const EnsembleMember& member, const
 }
 
 // The order that a member of the family gives a pair of shapes.
-OrderRow order_by(const EnsembleCase& of, const MemberRow& member, const PosedReference& reference, const DeformedShape& first,
-                  const DeformedShape& second)
+PairOrderRow order_by(const EnsembleCase& of, const MemberRow& member, const PosedReference& reference, const DeformedShape& first,
+                      const DeformedShape& second)
 {
-    OrderRow row{.of = of.of, .member = member.member.name, .first = first.deformer, .second = second.deformer};
+    PairOrderRow row{.of = of.of, .member = member.member.name, .first = first.deformer, .second = second.deformer};
     row.error_bound_pct = member.error_bound_pct;
     if (!reference.is_reached()) return row;
     row.first_error_pct = reference.error_of(first.positions).joint_pct;
@@ -134,11 +134,11 @@ OrderRow order_by(const EnsembleCase& of, const MemberRow& member, const PosedRe
 }
 
 // orders: of one pair.
-PairRow decided(const std::vector<OrderRow>& orders)
+PairRow decided(const std::vector<PairOrderRow>& orders)
 {
     PairRow row{.of = orders.front().of, .first = orders.front().first, .second = orders.front().second};
     std::vector<analysis::PairOrder> all;
-    for (const OrderRow& one : orders) {
+    for (const PairOrderRow& one : orders) {
         ++row.members;
         all.push_back(one.order);
         row.first_is_closer += one.order == analysis::PairOrder::first_is_closer;
@@ -259,7 +259,7 @@ std::string measure_and_record(const EnsembleCase& of, const std::string& folder
     const auto path = [&](const char* name) { return analysis::path_in(folder, name); };
     table_of(member_columns, records.members).write(path("members.csv"));
     table_of(error_columns, records.errors).write(path("errors.csv"));
-    table_of(pair_order_columns, records.orders).write(path("orders.csv"));
+    table_of(pair_order_columns, records.orders).write(path("pair_orders.csv"));
     table_of(pair_columns, records.pairs).write(path("pairs.csv"));
     table_of(part_columns, records.parts).write(path("parts.csv"));
     table_of(attachment_columns, records.attachments).write(path("attachments.csv"));
@@ -313,7 +313,7 @@ EnsembleRecords measure_ensemble(const EnsembleCase& of, const std::string& solu
         else
             records.breakdown += spec.label + " did not finish. ";
     }
-    std::map<std::pair<std::size_t, std::size_t>, std::vector<OrderRow>> orders;  // of each pair of shapes, one per member
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<PairOrderRow>> orders;  // of each pair of shapes, one per member
     std::map<double, PosedReference> firsts;  // with each Poisson's ratio, whose bound holds for flesh that is held in other ways too
     for (const EnsembleMember& member : of.members) {
         const auto like = firsts.find(member.poisson);

@@ -3,14 +3,17 @@
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/reference_error_bar.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "pbs/character/bodies.hpp"
+#include "pbs/character/body_cache.hpp"
 #include "pbs/character/bone_capsules.hpp"
 #include "pbs/character/embedding.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/module.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 
 #include <fmt/format.h>
@@ -85,7 +88,7 @@ std::vector<NestedSolution> solutions_in(const std::string& text)
 
 std::string solutions_of_run(const std::string& folder)
 {
-    return (fs::path(folder).parent_path().parent_path() / kept_solutions).string();
+    return (fs::path(folder).parent_path().parent_path() / "reference_solutions").string();
 }
 
 std::string worst_tet_of(const NestedSolution& solution)
@@ -161,15 +164,10 @@ PosedReference::PosedReference(const pbs::Character& character, const DeformerSp
 void PosedReference::add(const std::string& name, const std::function<Solutions()>& solve)
 {
     stop_if_interrupted();
-    const fs::path file = fs::path(kept_in_) / (name + "-" + hash_of_inputs() + ".cbor");
-    Solutions found;
-    if (!kept_in_.empty() && fs::exists(file)) found = solutions_in(analysis::read_text(file.string()));
+    Solutions found = kept_in_.empty() ? Solutions{} : kept(name);
     if (found.empty()) {
         found = solve();
-        if (!kept_in_.empty()) {
-            analysis::make_output_folder(kept_in_);
-            analysis::write_text_atomically(file.string(), text_of(found));
-        }
+        if (!kept_in_.empty()) keep(name, found);
     }
     for (NestedSolution& solution : found) {
         for (std::size_t v = 0; v < solution.at_tips.size(); ++v) masked_[v] = masked_[v] || solution.at_tips[v];
@@ -177,22 +175,43 @@ void PosedReference::add(const std::string& name, const std::function<Solutions(
     }
 }
 
-std::string PosedReference::hash_of_inputs() const
+PosedReference::Solutions PosedReference::kept(const std::string& name) const
 {
-    const analysis::Provenance now = analysis::collect_provenance(1);
-    DeformerSpec spec = spec_;
-    auto& held = options_of<FemOptions>(spec);
-    held.core_radius = held.used_core_radius(), held.spring_factor = held.used_spring_factor();  // stated or not
+    const std::string file = file_of(name);
+    if (!fs::exists(file)) return {};
+    const Solutions solutions = solutions_in(analysis::read_text(file));
+    const auto fits = [&](const NestedSolution& one) {
+        return one.positions.rows() == character_.mesh.rest.rows() && (!one.finished || one.at_tips.size() == masked_.size());
+    };
+    return std::ranges::all_of(solutions, fits) ? solutions : Solutions{};
+}
+
+// A solution that cannot be kept is none the worse.
+void PosedReference::keep(const std::string& name, const Solutions& solutions) const
+{
+    try {
+        analysis::make_output_folder(kept_in_);
+        analysis::remove_abandoned_files(kept_in_);
+        analysis::write_text_atomically(file_of(name), text_of(solutions));
+    } catch (const pbs::InputError& error) {
+        warn({fmt::format("{}: a solution is not kept: {}", label_, error.what())});
+    }
+}
+
+// By the program, the settings, the body and the pose.
+std::string PosedReference::file_of(const std::string& name) const
+{
+    static const std::string program = pbs::hash_of_file("/proc/self/exe") + pbs::hash_of_file(load_module_with_blas("pbskin_fem").path());
     const std::string stated =
-        nlohmann::json{now.git_revision, now.git_dirty, to_json(spec), time_step_s_, character_.inputs, character_.weight_kind}.dump();
+        analysis::record_text({program, to_json(spec_), time_step_s_, character_.inputs, static_cast<int>(character_.weight_kind)});
     analysis::StateHash hash;
-    const auto add = [&](const auto* data, std::size_t size) { hash.add_bytes(data, size * sizeof *data); };
-    add(stated.data(), stated.size());
+    const auto put = [&](const auto* data, std::size_t size) { hash.add_bytes(data, size * sizeof *data); };
+    put(stated.data(), stated.size());
     hash.add(character_.mesh.rest);
-    add(character_.mesh.tets.data(), character_.mesh.tets.size());
-    for (const pbs::Bone& bone : character_.skeleton.bones) add(bone.head.data(), 3), add(bone.tail.data(), 3), add(&bone.parent, 1);
-    for (const auto& of_bone : pose_) add(of_bone.data(), of_bone.matrix().size());
-    return hash.hex();
+    put(character_.mesh.tets.data(), character_.mesh.tets.size());
+    for (const pbs::Bone& bone : character_.skeleton.bones) put(bone.head.data(), 3), put(bone.tail.data(), 3), put(&bone.parent, 1);
+    for (const auto& of_bone : pose_) put(of_bone.data(), of_bone.matrix().size());
+    return (fs::path(kept_in_) / (name + "-" + hash.hex() + ".cbor")).string();
 }
 
 // levels: the finest first, each of which sets out from the next one.
@@ -225,15 +244,15 @@ void PosedReference::solve_on_other_tets()
     if (alone.finished && (!nested.finished || alone.energy_j < (1.0 - same_energy) * nested.energy_j)) std::swap(nested, alone);
     const std::vector<pbs::FineBall> fine = fine_at_bent_joints(character_, pose_);
     for (unsigned seed = 1; seed <= further_meshes; ++seed) {
+        std::optional<pbs::Character> other;
         try {
-            add(fmt::format("tets_{}", seed), [&] {
-                const pbs::Character other = pbs::remeshed(character_, {.seed = seed, .fine = fine});
-                return solved({{.character = other, .element_order = 2, .other_tets = seed}});
-            });
+            other = pbs::remeshed(character_, {.seed = seed, .fine = fine});
         } catch (const pbs::InputError& error) {  // known only now, after the long solutions
             warn({fmt::format("{} on other tets: {}", label_, error.what())});
             solutions_.push_back({.element_order = 2, .other_tets = seed});
+            continue;
         }
+        add(fmt::format("tets_{}", seed), [&] { return solved({{.character = *other, .element_order = 2, .other_tets = seed}}); });
     }
 }
 

@@ -58,9 +58,8 @@ std::string worst_tet_of(const NestedSolution& solution);
 enum class ReferenceEffort { own_tets, refined, other_tets };
 NAMED_OPTIONS(ReferenceEffort, own_tets, refined, other_tets)
 
-// Where the studies of one results folder keep solutions, DIR/reference_solutions, and the same by the folder of a run, DIR/STUDY/RUN: what
-// an interrupted run or another study has solved is not solved again. Their names depend on the revision and all that they are solved from.
-inline constexpr const char* kept_solutions = "reference_solutions";
+// The folder in which all studies of a results folder keep solutions: DIR/reference_solutions of a run in DIR/STUDY/RUN. What an
+// interrupted run or another study has solved is not solved again. The files' names depend on the program itself and on all that it solves.
 std::string solutions_of_run(const std::string& folder);
 
 // Smaller triangles of the skin on the inner side of each joint that a pose bends by more than 30 degrees: edges of a tenth of the limb's
@@ -115,8 +114,10 @@ private:
     // The solutions of one call of a deformer, the finest first.
     using Solutions = std::vector<NestedSolution>;
     Solutions solved(const std::vector<Level>& levels) const;
-    void add(const std::string& name, const std::function<Solutions()>& solve);  // or finds what is kept of them
-    std::string hash_of_inputs() const;
+    void add(const std::string& name, const std::function<Solutions()>& solve);  // solves, or finds what is kept
+    Solutions kept(const std::string& name) const;  // empty: none, or damaged
+    void keep(const std::string& name, const Solutions& solutions) const;
+    std::string file_of(const std::string& name) const;
     void solve_on_other_tets();
     NestedSolution solution_of(const TriedSolution& of, const Level& level) const;
     void observe_order();

@@ -205,8 +205,8 @@ struct MeasuredPoints {
                             // an outcome
 };
 
-// solutions: where those of the references are kept (solutions_of_run); "": nowhere. Throws an InputError if a deformer of the user's own
-// fails.
+// solutions: the folder in which the solutions of the references are kept (solutions_of_run); "": none. Throws an InputError if a deformer
+// of the user's own fails.
 MeasuredPoints measure_points(const WorkPrecisionCase& of, const std::string& solutions = "");
 
 // The length at which an edge has the stiffness k, so that the mean over all edges is k too: then the scaling softens long edges and

@@ -52,6 +52,15 @@ TEST(Ensemble, OrdersDeformersThatAllReferencesOrder)
     EXPECT_LT(*pair.difference_pct, 0.0);
     EXPECT_EQ(pair.second_is_closer, 2);
     EXPECT_EQ(pair.decision, analysis::PairDecision::decided);
+    // The same from the table as it is written, by the rule itself: |e_A^2 - e_B^2| > 2 |A - B| U.
+    const auto table = analysis::parse_csv(table_of(pair_order_columns, records.orders).text(), "pair_orders.csv");
+    ASSERT_EQ(table.rows(), 2);
+    for (int row = 0; row < 2; ++row) {
+        const double lbs = table.number(row, "first_error_pct"), dqs = table.number(row, "second_error_pct");
+        EXPECT_GT(lbs * lbs - dqs * dqs, 2.0 * table.number(row, "distance_pct") * table.number(row, "error_bound_pct"));
+        EXPECT_EQ(table.text_at(row, "order"), "second_is_closer");
+        EXPECT_EQ(table.number(row, "error_bound_pct"), *records.members[row].error_bound_pct);
+    }
 }
 
 // A reference that is not reached decides nothing, and its row names the worst tet.
@@ -73,6 +82,7 @@ TEST(Ensemble, WithAReferenceThatIsNotReachedIsUndecidedAndHasNoParts)
     EXPECT_TRUE(records.attachments.empty());
     ASSERT_EQ(records.pairs.size(), 1u);
     EXPECT_FALSE(records.pairs.front().difference_pct);
+    for (const PairOrderRow& row : records.orders) EXPECT_FALSE(row.distance_pct || row.order != analysis::PairOrder::undecided);
     EXPECT_EQ(records.pairs.front().decision, analysis::PairDecision::reference_error);
 }
 

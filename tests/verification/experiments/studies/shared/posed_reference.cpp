@@ -127,9 +127,10 @@ TEST(PosedReference, LendsItsBoundToFleshThatIsHeldInAnotherWay)
 TEST(PosedReference, FindsTheSolutionsThatItKeepsAndNoOthers)
 {
     const test_support::ScratchFolder folder;
-    const auto reference = [&](double angle_deg, double spring_factor = 10.0) {
+    const auto reference = [&](double angle_deg, double spring_factor = 10.0, double poisson = 0.45) {
         DeformerSpec spec = flesh();
         options_of<FemOptions>(spec).spring_factor = spring_factor;
+        options_of<FemOptions>(spec).poisson = poisson;
         return PosedReference(bar, spec, bent(angle_deg), time_step_s, ReferenceEffort::own_tets, folder.path());
     };
     const auto is_found = [](const PosedReference& one, const PosedReference& first) {
@@ -138,6 +139,7 @@ TEST(PosedReference, FindsTheSolutionsThatItKeepsAndNoOthers)
     const PosedReference first = reference(165.0), again = reference(165.0);
     EXPECT_TRUE(is_found(again, first));
     EXPECT_EQ(again.masked(), first.masked());
+    EXPECT_GT(std::ranges::count(again.masked(), true), 0);
     for (std::size_t i = 0; i < first.solutions().size(); ++i) {
         const NestedSolution &one = first.solutions()[i], &kept = again.solutions()[i];
         EXPECT_EQ(kept.positions, one.positions);
@@ -146,9 +148,12 @@ TEST(PosedReference, FindsTheSolutionsThatItKeepsAndNoOthers)
     }
     EXPECT_FALSE(is_found(reference(164.0), first));
     EXPECT_FALSE(is_found(reference(165.0, 20.0), first));
+    EXPECT_FALSE(is_found(reference(165.0, 10.0, 0.4), first));
     EXPECT_TRUE(is_found(reference(165.0), first));
     for (const auto& file : std::filesystem::directory_iterator(folder.path())) std::filesystem::resize_file(file, 100);
     EXPECT_FALSE(is_found(reference(165.0), first)) << "a damaged file";
+    const PosedReference nowhere(bar, flesh(), bent(165.0), time_step_s, ReferenceEffort::own_tets, "/dev/null/solutions");
+    EXPECT_EQ(nowhere.reference().positions, first.reference().positions) << "a folder that cannot be made";
 }
 
 // By hand: the forearm turns about z, so that the inner side is that of y > 0; the limb's radius is the mean distance of the skin.
