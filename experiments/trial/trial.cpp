@@ -253,7 +253,7 @@ nlohmann::json frame_ms(const CsvTable& metrics)
 }
 
 // Over the frames whose bound is known; null without an error bar.
-nlohmann::json error_bar_facts(const CsvTable& metrics, const nlohmann::json& seconds)
+nlohmann::json error_bar_facts(const CsvTable& metrics, const pbs::JsonFile& run)
 {
     constexpr const char* bound = "reference_error_joint_pct";
     if (!metrics.has_column(bound)) return nullptr;
@@ -264,6 +264,7 @@ nlohmann::json error_bar_facts(const CsvTable& metrics, const nlohmann::json& se
         ++frames;
         if (const auto bound_pct = finite(metrics, row, bound)) bounds_pct.push_back(*bound_pct);
     }
+    const nlohmann::json& seconds = run.at(run.at("cost"), "seconds");
     const double total_s = seconds.value("error_bar", 0.0) + seconds.value("error_bar_set_up", 0.0);
     nlohmann::json facts = {{"frames", bounds_pct.size()}, {"of", frames}, {"seconds", total_s}, {"largest_pct", nullptr}};
     if (!bounds_pct.empty()) facts["largest_pct"] = std::ranges::max(bounds_pct);
@@ -443,7 +444,7 @@ nlohmann::json trial_facts(const std::string& folder)
             {"joints", joint_facts(regions, bones)},
             {"nearer", nearer_frames(metrics)},
             {"frame_ms", frame_ms(metrics)},
-            {"error_bar", error_bar_facts(metrics, run.at(run.at("cost"), "seconds"))},
+            {"error_bar", error_bar_facts(metrics, run)},
             {"control", fs::exists(folder + "/skin/artist.pvd") ? nlohmann::json("skin/artist_*.vtp") : nullptr}};
 }
 
