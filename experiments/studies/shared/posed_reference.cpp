@@ -20,6 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -307,7 +308,7 @@ void PosedReference::observe_spread()
                                            : is_on_own_tets ? distance(other.positions, solutions_[1].positions)
                                                             : error_of(other.positions);
         for (const auto norm : norms)
-            if (!(apart.*norm <= spread_.*norm)) spread_.*norm = apart.*norm;
+            if (!std::isnan(spread_.*norm) && !(apart.*norm <= spread_.*norm)) spread_.*norm = apart.*norm;
     }
 }
 
