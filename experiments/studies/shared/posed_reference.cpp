@@ -44,7 +44,7 @@ constexpr double same_energy = 1e-6;  // relative: Newton's method leaves less
 constexpr double least_bend_cosine = 0.866, ball_in_radii = 2.0 / 3.0, edge_in_radii = 0.1;
 constexpr unsigned further_meshes = 2;
 
-// What is kept of a solution, besides its positions and the smallest det F.
+// Visits the fields of a solution that are written to its file, except for the positions and the smallest det F.
 template <typename Solution, typename Visit>
 void for_each_field(Solution& of, const Visit& visit)
 {

@@ -123,7 +123,7 @@ TEST(PosedReference, LendsItsBoundToFleshThatIsHeldInAnotherWay)
     EXPECT_EQ(second.bound().joint_pct, first.error_of(first.solutions()[1].positions).joint_pct + first.bound().joint_pct);
 }
 
-// What is found again was not solved again: it has the seconds of the first time.
+// A solution that is read from its file has the same wall time as the one that wrote it; a new solve would take another time.
 TEST(PosedReference, FindsTheSolutionsThatItKeepsAndNoOthers)
 {
     const test_support::ScratchFolder folder;
