@@ -44,7 +44,7 @@ struct FineBall {
     double radius_m = 0.0, size_m = 0.0;  // edges inside have about this length; outside it grows by a third of the distance
 };
 struct Remeshing {
-    unsigned seed = 0;  // another one shrinks all cells by up to a tenth, so that the refinement takes other points
+    unsigned seed = 0;  // another one changes all sizes by up to a tenth, at random, so that the refinement takes other points
     std::vector<FineBall> fine = {};
 };
 // InputError where the boundary is not manifold; where the result would have a dihedral angle below 5 degrees, more pieces, another Euler

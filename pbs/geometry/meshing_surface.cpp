@@ -129,7 +129,7 @@ constexpr double flat_surface = 1e-12;
 constexpr double smallest_m = 1e-9;       // squares and cubes of cells of a smaller surface leave the range that CGAL can compare
 constexpr double sheet_thickness = 0.05;  // over the diagonal: some tets across it at the default number of vertices
 constexpr double edge_to_facet_size = 0.75, edge_to_cell_size = 0.9;  // give as many vertices as the tets had
-constexpr double remeshed_distance = 0.05, most_shrinking = 0.1, grading = 1.0 / 3.0;
+constexpr double remeshed_distance = 0.05, most_change = 0.1, grading = 1.0 / 3.0;
 constexpr const char *boundary_not_manifold = "the boundary is not manifold", *no_tets = "no tets";
 
 // Bounds on the work, far above what a sound mesh takes. They count points, so that a slow machine makes the same meshes. A thin layer is
@@ -270,11 +270,11 @@ public:
         points_a_part_ = static_cast<int>(surface_.number_of_vertices());
         tree_.accelerate_distance_queries();
         std::mt19937 random(options.seed);
-        const double shrunk = options.seed == 0 ? 1.0 : 1.0 - most_shrinking * static_cast<double>(random()) / std::mt19937::max();
         for (const auto face : surface_.faces()) {
             double sum = 0.0;
             for (const auto edge : CGAL::halfedges_around_face(surface_.halfedge(face), surface_)) sum += pmp::edge_length(edge, surface_);
-            size_.push_back(shrunk * sum / 3.0);
+            factor_.push_back(1.0 + (options.seed == 0 ? 0.0 : most_change * (2.0 * random() / std::mt19937::max() - 1.0)));
+            size_.push_back(factor_.back() * sum / 3.0);
         }
     }
 
@@ -284,10 +284,11 @@ public:
     double relative_size(const Point& p) const override { return size_[tree_.closest_point_and_primitive(p).second.idx()]; }
     double relative_facet_size(const Point& p) const override
     {
-        double size = relative_size(p);
+        const std::size_t face = tree_.closest_point_and_primitive(p).second.idx();
+        double size = size_[face];
         for (const FineBall& ball : options_.fine) {
             const double outside = (Vec3(p.x(), p.y(), p.z()) - ball.centre).norm() - ball.radius_m;
-            size = std::min(size, ball.size_m + grading * std::max(outside, 0.0));
+            size = std::min(size, factor_[face] * ball.size_m + grading * std::max(outside, 0.0));
         }
         return size;
     }
@@ -295,7 +296,7 @@ public:
 private:
     const Remeshing& options_;
     Tree tree_;
-    std::vector<double> size_;
+    std::vector<double> size_, factor_;  // of each face
 };
 
 struct Effort {

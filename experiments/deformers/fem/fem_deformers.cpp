@@ -68,7 +68,7 @@ nlohmann::json LinearFemDeformer::record() const
 namespace {
 
 constexpr double largest_turn_deg = 45.0;     // of a bone in one solve
-constexpr int most_indefinite_in_a_row = 40;  // where Newton's steps are limited
+constexpr int most_indefinite_in_a_row = 40;  // without contact, where Newton's steps are limited: in a fold the energy falls without limit
 constexpr double tip_in_limb_radii = 1.0 / 3.0;
 constexpr double far_turn_deg = 15.0;  // beyond it the solution with fewer nodes is a better initial guess than the last pose's
 
@@ -106,7 +106,7 @@ reference_fem::ElasticOptions solver_options(const FemOptions& options, const st
     // Quadratic elements start at the solution of linear ones, so that there is no way to halve where they need many steps.
     const bool has_no_way = options.nested_start && options.element_order == 2;
     elastic.newton.iterations = has_no_way ? options.most_newton_steps : std::min(elastic.newton.iterations, options.most_newton_steps);
-    elastic.newton.indefinite_in_a_row = most_indefinite_in_a_row;
+    if (!options.has_contact()) elastic.newton.indefinite_in_a_row = most_indefinite_in_a_row;
     return elastic;
 }
 

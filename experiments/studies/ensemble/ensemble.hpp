@@ -51,13 +51,13 @@ std::vector<DeformerSpec> other_attachments(const DeformerSpec& flesh);
 struct MemberRow {
     analysis::CaseKey of;
     EnsembleMember member;
-    std::string outcome;  // reached, inverted, not_converged
-    std::optional<int> element_order = {}, refinements = {};
+    std::string outcome;                                      // reached, inverted, not_converged
+    std::optional<int> element_order = {}, refinements = {};  // nothing for refinements: on other tets
     std::optional<double> error_bound_pct = {}, error_bound_l2_pct = {}, spread_pct = {}, observed_order = {};
     std::optional<bool> reliable = {};
     double masked_share_pct = 0.0;
     std::optional<double> volume_change_pct = {};
-    std::optional<double> lowest_det_f = {};  // of the finest solution, as the following
+    std::optional<double> lowest_det_f = {};  // of the reference, as the following; of the finest solution where it is not reached
     int inverted_tets = 0;
     double j_min = 0.0;
     int worst_tet = -1;

@@ -94,7 +94,7 @@ MemberRow member_row(const EnsembleCase& of, const EnsembleMember& member, const
     MemberRow row;
     row.of = of.of;
     row.member = member;
-    const NestedSolution& finest = reference.solutions().front();
+    const NestedSolution& finest = reference.is_reached() ? reference.reference() : reference.solutions().front();
     row.outcome = reference.is_reached() ? "reached" : finest.finished ? "inverted" : "not_converged";
     row.masked_share_pct = reference.masked_share_pct();
     row.lowest_det_f = finest.lowest_det_f;
@@ -105,9 +105,9 @@ MemberRow member_row(const EnsembleCase& of, const EnsembleMember& member, const
     row.projected = finest.projected;
     for (const NestedSolution& solution : reference.solutions()) row.solve_s += solution.seconds;
     if (!reference.is_reached()) return row;
-    row.element_order = reference.reference().element_order;
-    row.refinements = reference.reference().refinements;
-    row.volume_change_pct = metrics.measure(reference.reference().positions).volume_change_pct;
+    row.element_order = finest.element_order;
+    if (finest.other_tets == 0) row.refinements = finest.refinements;
+    row.volume_change_pct = metrics.measure(finest.positions).volume_change_pct;
     if (const analysis::ErrorNorms bound = reference.bound(); std::isfinite(bound.joint_pct)) {
         row.error_bound_pct = bound.joint_pct;
         row.error_bound_l2_pct = bound.l2_pct;

@@ -1,11 +1,18 @@
 // The finite element reference in one pose, with a bound on its own error: linear and quadratic elements on the character's own tets and on
-// these tets cut into eight; and quadratic ones on other tets in the same skin, whose skin is finer where joints are bent, and on the own
-// tets along the whole way of the bones. All have the same bones and contact.
+// these tets cut into eight; quadratic ones on other tets in the same skin, which is finer where joints are bent; and on the own tets along
+// the whole way of the bones. All have the same bones and contact.
 //   const PosedReference reference(character, spec, pose, time_step_s);
 //   if (reference.is_reached()) reference.error_of(positions).joint_pct <= reference.bound().joint_pct ...
-// A crease takes its place by the elements' edges, so that the equilibrium of compressed flesh is not unique. Of two equilibria of
-// quadratic elements on the own tets the one with the lower energy counts; those on the refined tets set out from linear elements alone.
-// The bound is that of analysis/statistics/grid_convergence.hpp plus the spread of further meshes, outside the tips of all creases.
+// Where no joint is bent, the reference is the finest nested solution. Its bound is that of analysis/statistics/grid_convergence.hpp plus
+// the largest distance of a further mesh.
+// Where one is bent, flesh creases. A crease takes its place by the elements' edges, differs from mesh to mesh, and is resolved only by
+// elements much smaller than the limb, so that nested solutions show no order. There the reference is the solution of the lowest energy,
+// which is the best approximation of the equilibrium (Ritz), and its bound is 1.25 times the largest distance of a solution on other tets.
+// Let e be the error of the reference, e' that of another solution, which is no smaller, and c the cosine between the two. Their squared
+// distance is |e|^2 + |e'|^2 - 2 c |e| |e'| and at least 2 (1 - c) |e|^2. The factor 1.25 therefore covers errors that are correlated up to
+// c = 0.68; for independent meshes c is near 0.
+// The tips of all creases are left out. The equilibrium of compressed flesh is not unique: of two equilibria on the own tets the one with
+// the lower energy counts.
 #pragma once
 
 #include "analysis/metrics/error_norms.hpp"
@@ -34,8 +41,11 @@ DeformerSpec reference_flesh(const Scene& scene);
 // One of the solutions.
 struct NestedSolution {
     int element_order = 1, refinements = 0;
-    unsigned other_tets = 0;       // their seed (pbs::Remeshing); 0: the character's own
-    bool along_the_bones = false;  // from rest; otherwise from the solution with fewer nodes
+    unsigned other_tets = 0;        // their seed (pbs::Remeshing); 0: the character's own
+    double edges_per_radius = 0.0;  // of the other tets at bent joints; 0: no joint is bent
+    int vertices = 0, tets = 0;     // of its mesh
+    double volume_m3 = 0.0;         // of its mesh, at rest
+    bool along_the_bones = false;   // from rest; otherwise from the solution with fewer nodes
     bool finished = false;
     double energy_j = 0.0;                    // of flesh, springs and contact
     std::optional<double> lowest_det_f = {};  // at the quadrature points of its elements; nothing if it did not finish
@@ -50,6 +60,8 @@ struct NestedSolution {
     pbs::Positions positions = {};
     std::vector<bool> at_tips = {};  // of creases, #V; empty if it did not finish
 };
+// The larger one in each norm; not a number where one of them is not.
+analysis::ErrorNorms larger_of(const analysis::ErrorNorms& one, const analysis::ErrorNorms& other);
 // "worst tet 812 of volume ratio -0.04, 3 inverted"
 std::string worst_tet_of(const NestedSolution& solution);
 
@@ -62,9 +74,9 @@ NAMED_OPTIONS(ReferenceEffort, own_tets, refined, other_tets)
 // interrupted run or another study has solved is not solved again. The files' names depend on the program itself and on all that it solves.
 std::string solutions_of_run(const std::string& folder);
 
-// Smaller triangles of the skin on the inner side of each joint that a pose bends by more than 30 degrees: edges of a tenth of the limb's
-// radius within two thirds of it.
-std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, const pbs::Pose& pose);
+// Smaller triangles of the skin on the inner side of each joint that a pose bends by more than 30 degrees: so many edges per radius of the
+// limb within two thirds of it.
+std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, const pbs::Pose& pose, double edges_per_radius);
 
 class PosedReference {
 public:
@@ -74,7 +86,8 @@ public:
                    ReferenceEffort effort = ReferenceEffort::other_tets, const std::string& solutions = "");
 
     const std::string& label() const { return label_; }  // of spec
-    // The reference is the finest solution on the own or the refined tets that finished with det F > 0 at all quadrature points.
+    // The reference finished with det F > 0 at all quadrature points. Where a joint is bent it has the lowest energy of all such quadratic
+    // solutions; otherwise, or if there is none, it is the finest such solution on the own or the refined tets.
     bool is_reached() const { return which_.has_value(); }
     const NestedSolution& reference() const { return solutions_.at(which_.value()); }  // std::bad_optional_access if it is not reached
     const std::vector<NestedSolution>& solutions() const { return solutions_; }        // the finest nested one first, those that failed too
@@ -93,11 +106,12 @@ public:
 
     // The observed order is empty unless the four nested solutions finished.
     const std::optional<analysis::NestedOrder>& order() const { return order_; }
-    // The largest distance of a solution on other tets from the reference, or of the two equilibria on the own tets; 0 without any. Not a
-    // number where a solution on other tets did not finish. Where the way along the bones did not, there is no second equilibrium.
+    // The largest distance from the reference of a solution on other tets, or on tets cut into eight if it is on other tets itself; or of
+    // the two equilibria on the own tets; 0 without any. Not a number where a solution on other tets did not finish. Where the way along
+    // the bones did not, there is no second equilibrium.
     analysis::ErrorNorms spread() const { return spread_; }
-    // Bounds the distance of the reference from the limit: by the order, and the spread. NaN where there is no order, unless it is like
-    // another reference.
+    // Bounds the distance of the reference from the limit: by the order and the spread, or by the spread where a joint is bent. NaN where
+    // there is no order, unless it is like another reference.
     analysis::ErrorNorms bound() const;
     // The same for its quadratic solution on the own tets. NaN where there is no such bound.
     analysis::ErrorNorms bound_on_own_tets() const;
@@ -109,16 +123,19 @@ private:
         const pbs::Character& character;
         int element_order;
         unsigned other_tets = 0;
+        double edges_per_radius = 0.0;
         bool along_the_bones = false;
     };
     // The solutions of one call of a deformer, the finest first.
     using Solutions = std::vector<NestedSolution>;
     Solutions solved(const std::vector<Level>& levels) const;
     void add(const std::string& name, const std::function<Solutions()>& solve);  // solves, or finds what is kept
-    Solutions kept(const std::string& name) const;  // empty: none, or damaged
+    Solutions kept(const std::string& name) const;                               // empty: none, or damaged
     void keep(const std::string& name, const Solutions& solutions) const;
     std::string file_of(const std::string& name) const;
     void solve_on_other_tets();
+    void solve_on_tets(unsigned seed, double edges_per_radius);
+    void choose_the_reference();
     NestedSolution solution_of(const TriedSolution& of, const Level& level) const;
     void observe_order();
     void observe_spread();
@@ -131,6 +148,7 @@ private:
     analysis::ErrorMetrics error_metrics_;
     std::vector<NestedSolution> solutions_;
     std::size_t nested_ = 0;  // the first ones, on the own and the refined tets
+    bool creases_ = false;    // a joint is bent, and other tets tell how well its crease is resolved
     std::optional<std::size_t> which_;
     std::vector<bool> masked_;
     std::optional<analysis::NestedOrder> order_;

@@ -97,8 +97,8 @@ PointRow reference_row(const pbs::TetMesh& mesh, const PosedReference& reference
 {
     const NestedSolution& solution = reference.is_reached() ? reference.reference() : reference.solutions().front();
     PointRow row{.key = {.deformer = "reference", .element_order = solution.element_order, .refined = solution.refinements > 0}};
-    row.vertices = int(mesh.rest.rows() + (row.key.refined ? pbs::edges_of(mesh.tets).rows() : 0));
-    row.tets = int(mesh.tets.rows()) * (row.key.refined ? 8 : 1);
+    row.vertices = solution.vertices;
+    row.tets = solution.tets;
     row.outcome = reference.is_reached() ? "reference" : "not_reached";
     row.reason = reference.why_not_reached();
     for (const NestedSolution& one : reference.solutions()) row.reach_ms += 1e3 * one.seconds;
@@ -144,7 +144,9 @@ public:
             return;
         }
         const NestedSolution& used = first_.reference();
-        row.reference = std::string(used.element_order == 2 ? "quadratic" : "linear") + (used.refinements > 0 ? "_refined" : "");
+        row.reference = std::string(used.element_order == 2 ? "quadratic" : "linear") + (used.refinements > 0          ? "_refined"
+                                                                                         : used.edges_per_radius > 0.0 ? "_graded"
+                                                                                                                       : "");
         if (row.reference_error_joint_pct || of_.reference_is_refined || used.element_order != 2) return;
         for (const NestedSolution& solution : first_.solutions())
             if (solution.finished && solution.element_order == 1)

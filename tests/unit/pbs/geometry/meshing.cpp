@@ -14,8 +14,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <ranges>
+#include <set>
 
 namespace {
 
@@ -255,6 +259,25 @@ TEST(OtherTets, HaveAFinerSkinInABall)
     EXPECT_GT(longest_m, ball.size_m / 2.0);
     EXPECT_LE(longest_m, 1.5 * ball.size_m);
     EXPECT_LT(fine.rest.rows(), 2 * limb.rest.rows());
+}
+
+// Otherwise the distance of two solutions says nothing of the mesh where it matters most.
+TEST(OtherTets, TakeOtherPointsInABallWithAnotherSeed)
+{
+    const pbs::TetMesh limb = pbs::mesh_limb(600);
+    const pbs::FineBall ball{pbs::Vec3(0.0, radius, 0.0), 0.1, 0.02};
+    std::set<std::array<double, 3>> points[2], own;
+    for (const auto& p : limb.rest.rowwise()) own.insert({p(0), p(1), p(2)});
+    for (const unsigned seed : {1, 2}) {
+        const pbs::TetMesh other = pbs::mesh_anew(limb, {.seed = seed, .fine = {ball}});
+        for (const auto& p : other.rest.rowwise())
+            if ((p.transpose() - ball.centre).norm() < ball.radius_m && !own.contains({p(0), p(1), p(2)}))
+                points[seed - 1].insert({p(0), p(1), p(2)});
+    }
+    std::vector<std::array<double, 3>> both;
+    std::ranges::set_intersection(points[0], points[1], std::back_inserter(both));
+    EXPECT_GT(points[0].size(), 50u);
+    EXPECT_LT(5 * both.size(), points[0].size()) << points[1].size();
 }
 
 TEST(OtherTets, TetsThatMeetInAnEdgeAloneAreRefused)

@@ -58,6 +58,27 @@ pbs::Positions solved(const pbs::Character& character, const pbs::Pose& pose, Ei
     return deformer->positions().topRows(vertices);
 }
 
+// Expected values: the definition, by energies and distances.
+void expect_the_lowest_energy_and_the_distance_of_other_tets(const PosedReference& reference)
+{
+    const auto& solutions = reference.solutions();
+    ASSERT_EQ(solutions.size(), 8u);
+    const std::pair<unsigned, double> seeds_and_edges[] = {{1, 9.0}, {2, 9.0}, {3, 13.5}};
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(std::pair(solutions[5 + i].other_tets, solutions[5 + i].edges_per_radius), seeds_and_edges[i]);
+    EXPECT_LT(1.1 * solutions[5].vertices, solutions[7].vertices);
+    EXPECT_EQ(reference.reference().element_order, 2);
+    const double lowest = reference.reference().energy_j / reference.reference().volume_m3;
+    double largest_pct = reference.distance(solutions[4].positions, solutions[1].positions).joint_pct;  // of the two equilibria
+    for (std::size_t i = 0; i < solutions.size(); ++i) {
+        ASSERT_TRUE(solutions[i].finished);
+        if (solutions[i].element_order == 2) EXPECT_GE(solutions[i].energy_j / solutions[i].volume_m3, lowest);
+        if (i == 0 || i > 4) largest_pct = std::max(largest_pct, reference.error_of(solutions[i].positions).joint_pct);
+    }
+    EXPECT_EQ(reference.spread().joint_pct, largest_pct);
+    EXPECT_EQ(reference.bound().joint_pct, 1.25 * largest_pct);
+}
+
 TEST(PosedReference, IsTheFinestOfFourNestedSolutionsAndItsBoundCoversAFinerOne)
 {
     const pbs::Pose pose = bent(40.0);
@@ -78,25 +99,29 @@ TEST(PosedReference, IsTheFinestOfFourNestedSolutionsAndItsBoundCoversAFinerOne)
     EXPECT_EQ(reference.masked_share_pct(), 0.0);
 
     ASSERT_TRUE(reference.order());
-    const double to_a_finer_one = reference.error_of(solved(pbs::refined(fine), pose, vertices)).joint_pct;
+    const pbs::Positions finer = solved(pbs::refined(fine), pose, vertices);
+    const double to_a_finer_one = reference.error_of(finer).joint_pct;
     EXPECT_GT(reference.bound().joint_pct, to_a_finer_one);
     EXPECT_LT(reference.bound().joint_pct, reference.error_of(solutions.back().positions).joint_pct);  // of linear elements
     RecordProperty("bound_pct", std::to_string(reference.bound().joint_pct));
     RecordProperty("to_a_finer_one_pct", std::to_string(to_a_finer_one));
+
+    const PosedReference with_other_tets(bar, flesh(), pose, time_step_s);
+    expect_the_lowest_energy_and_the_distance_of_other_tets(with_other_tets);
+    EXPECT_GT(with_other_tets.bound().joint_pct, with_other_tets.error_of(finer).joint_pct);
 }
 
 // Where the equilibrium is unique, the way along the bones ends in the same one, and other tets differ by no more than the bar's own do
 // from tets cut into eight.
-TEST(PosedReference, AddsTheDistanceOfOtherTetsToItsBound)
+TEST(PosedReference, AddsTheDistanceOfOtherTetsToItsBoundWhereNoJointIsBent)
 {
-    const PosedReference reference(bar, flesh(), bent(40.0), time_step_s);
+    const PosedReference reference(bar, flesh(), bent(25.0), time_step_s);
     const auto& solutions = reference.solutions();
     ASSERT_EQ(solutions.size(), 7u);
     for (const NestedSolution& solution : solutions) ASSERT_TRUE(solution.finished);
     EXPECT_TRUE(solutions[4].along_the_bones) << "of equal energy within rounding, so that the nested one stays";
     EXPECT_LT(reference.distance(solutions[4].positions, solutions[1].positions).linf_m, 1e-6);  // of 2 m: Newton's residual is 1e-8
-    EXPECT_EQ(solutions[5].other_tets, 1u);
-    EXPECT_EQ(solutions[6].other_tets, 2u);
+    EXPECT_EQ(&reference.reference(), &solutions[0]);
     double largest_pct = reference.distance(solutions[4].positions, solutions[1].positions).joint_pct;
     for (const std::size_t other : {5, 6}) {
         const double to_other_pct = reference.error_of(solutions[other].positions).joint_pct;
@@ -105,8 +130,18 @@ TEST(PosedReference, AddsTheDistanceOfOtherTetsToItsBound)
         largest_pct = std::max(largest_pct, to_other_pct);
     }
     EXPECT_EQ(reference.spread().joint_pct, largest_pct);
-    const PosedReference nested(bar, flesh(), bent(40.0), time_step_s, ReferenceEffort::refined);
+    const PosedReference nested(bar, flesh(), bent(25.0), time_step_s, ReferenceEffort::refined);
     EXPECT_NEAR(reference.bound().joint_pct, nested.bound().joint_pct + largest_pct, 1e-12);  // sums of numbers below 10
+}
+
+// The spread of meshes is not known where one of them did not finish, whatever comes before and after it.
+TEST(LargerOfTwoErrors, IsNotANumberWhereOneIsNot)
+{
+    const double nan = std::nan("");
+    const auto largest = larger_of(larger_of({1.0, 4.0, 2.0}, {nan, 3.0, nan}), {9.0, 5.0, 9.0});
+    EXPECT_TRUE(std::isnan(largest.l2_pct));
+    EXPECT_EQ(largest.joint_pct, 5.0);
+    EXPECT_TRUE(std::isnan(largest.linf_m));
 }
 
 TEST(PosedReference, LendsItsBoundToFleshThatIsHeldInAnotherWay)
@@ -159,13 +194,14 @@ TEST(PosedReference, FindsTheSolutionsThatItKeepsAndNoOthers)
 // By hand: the forearm turns about z, so that the inner side is that of y > 0; the limb's radius is the mean distance of the skin.
 TEST(FineAtBentJoints, IsOnTheInnerSideOfAJointThatIsBent)
 {
-    const auto fine = fine_at_bent_joints(bar, bent(60.0));
+    const auto fine = fine_at_bent_joints(bar, bent(60.0), 10.0);
     ASSERT_EQ(fine.size(), 1u);
     const double radius_m = pbs::bone_capsules(bar, 1.0)[1].radius_m;
     EXPECT_LT((fine[0].centre - pbs::Vec3(0.0, radius_m, 0.0)).norm(), 1e-12);
     EXPECT_DOUBLE_EQ(fine[0].size_m, radius_m / 10.0);
-    EXPECT_TRUE(fine_at_bent_joints(bar, bent(20.0)).empty());
-    EXPECT_TRUE(fine_at_bent_joints(bar, pbs::joint_sweep(bar.skeleton, 1, pbs::Vec3::UnitX(), 90.0, 2, time_step_s).steps.back()).empty())
+    EXPECT_TRUE(fine_at_bent_joints(bar, bent(20.0), 10.0).empty());
+    EXPECT_TRUE(
+        fine_at_bent_joints(bar, pbs::joint_sweep(bar.skeleton, 1, pbs::Vec3::UnitX(), 90.0, 2, time_step_s).steps.back(), 10.0).empty())
         << "a twist";
 }
 
