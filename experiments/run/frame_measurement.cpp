@@ -179,6 +179,7 @@ FrameMeasurer::FrameMeasurer(const pbs::Character& character, const OutputSpec& 
 {
     if (output.errors) {
         error_metrics_.emplace(error_domain(character, prescribed));
+        skin_error_metrics_.emplace(character.mesh.rest, character.mesh.tets);
         masked_.assign(character.mesh.rest.rows(), false);
     }
     if (output.sections) stations_ = limb_stations(character);
@@ -206,6 +207,7 @@ FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const F
     if (error_metrics_ && context.reference) {
         measured.errors = difference(positions, *context.reference);
         measured.errors_on_whole_body = error_metrics_->measure(positions, *context.reference);
+        measured.skin = skin_error_metrics_->measure(positions, *context.reference, masked_);
         measured.masked_share_pct = error_metrics_->share_pct(masked_);
         measured.reference_error = context.reference_error;
     }

@@ -5,6 +5,7 @@
 #include "analysis/metrics/cross_section.hpp"
 #include "analysis/metrics/error_norms.hpp"
 #include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/metrics/skin_error.hpp"
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/scene/scene.hpp"
 #include "pbs/character/character.hpp"
@@ -44,6 +45,7 @@ struct FrameMeasurement {
     double bind_rms_m = 0.0;
     std::optional<analysis::ErrorNorms> errors;                // outside the tips of the reference's creases
     std::optional<analysis::ErrorNorms> errors_on_whole_body;  // with them
+    std::optional<analysis::SkinError> skin;                   // outside these tips
     std::optional<double> masked_share_pct;                    // share of the volume at these tips
     std::optional<analysis::ErrorNorms> reference_error;       // bound of the reference's distance from the limit of ever finer tets
     std::optional<double> min_section_pct;
@@ -89,6 +91,7 @@ private:
     const pbs::Character& character_;
     analysis::MeshMetrics metrics_;
     std::optional<analysis::ErrorMetrics> error_metrics_;
+    std::optional<analysis::SkinErrorMetrics> skin_error_metrics_;
     pbs::Triangles skin_;
     std::vector<bool> masked_;  // in this frame, #V
     std::vector<LimbStation> stations_;

@@ -1,5 +1,6 @@
 #include "experiments/trial/trial.hpp"
 
+#include "analysis/metrics/skin_error.hpp"
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/tables.hpp"
 #include "analysis/statistics/statistics.hpp"
@@ -329,6 +330,26 @@ nlohmann::json nearer_frames(const CsvTable& metrics)
     return nearer;
 }
 
+// The skin's distance from the reference under lbs and pbs, rms over the frames in which both have one; null without such frames.
+nlohmann::json skin_facts(const CsvTable& metrics)
+{
+    if (!metrics.has_column("skin_rms_mm")) return nullptr;
+    std::map<long long, std::map<std::string, double>> distances_mm;
+    for (int row = 0; row < metrics.rows(); ++row)
+        if (const auto distance_mm = finite(metrics, row, "skin_rms_mm"))
+            distances_mm[metrics.integer(row, "frame")][metrics.text_at(row, "deformer")] = *distance_mm;
+    std::erase_if(distances_mm, [](const auto& frame) { return frame.second.count("lbs") == 0 || frame.second.count("pbs") == 0; });
+    if (distances_mm.empty()) return nullptr;
+    const auto rms_mm = [&](const char* deformer) {
+        double squares = 0.0;
+        for (const auto& [frame, of] : distances_mm) squares += of.at(deformer) * of.at(deformer);
+        return std::sqrt(squares / static_cast<double>(distances_mm.size()));
+    };
+    const double lbs_mm = rms_mm("lbs"), pbs_mm = rms_mm("pbs");
+    if (!(lbs_mm > 0.0)) return nullptr;
+    return {{"lbs_mm", lbs_mm}, {"pbs_mm", pbs_mm}, {"removed_pct", analysis::removed_share_pct(lbs_mm, pbs_mm)}};
+}
+
 struct JointChange {
     std::string name;
     double share_pct = 0.0;                    // of the body's volume
@@ -443,6 +464,7 @@ nlohmann::json trial_facts(const std::string& folder)
             {"volume", volume_facts(metrics)},
             {"joints", joint_facts(regions, bones)},
             {"nearer", nearer_frames(metrics)},
+            {"skin", skin_facts(metrics)},
             {"frame_ms", frame_ms(metrics)},
             {"error_bar", error_bar_facts(metrics, run)},
             {"control", fs::exists(folder + "/skin/artist.pvd") ? nlohmann::json("skin/artist_*.vtp") : nullptr}};

@@ -50,6 +50,15 @@ std::string nearer_words(const nlohmann::json& nearer)
     return text + ".";
 }
 
+std::string skin_words(const nlohmann::json& skin)
+{
+    const double removed_pct = skin.at("removed_pct");
+    const auto mm = [&](const char* of) { return fmt::format("{:.2g} mm", skin.at(of).get<double>()); };
+    return fmt::format(
+        " On a body 1.7 m tall, the skin is {} from FEM with LBS and {} with PBS, which {} the distance.", mm("lbs_mm"), mm("pbs_mm"),
+        fmt::format("{} {:.0f} % {}", removed_pct < 0.0 ? "adds" : "removes", std::abs(removed_pct), removed_pct < 0.0 ? "to" : "of"));
+}
+
 std::string error_bar_words(const nlohmann::json& bar)
 {
     const nlohmann::json& largest_pct = bar.at("largest_pct");
@@ -82,6 +91,7 @@ std::string trial_sentence(const nlohmann::json& facts)
     if (!joints.is_null()) text += joint_words(joints);
     text += ".";
     if (!nearer.is_null()) text += nearer_words(nearer);
+    if (const nlohmann::json& skin = facts.at("skin"); !skin.is_null()) text += skin_words(skin);
     if (const nlohmann::json& bar = facts.at("error_bar"); !bar.is_null()) text += error_bar_words(bar);
     return text + time_words(facts);
 }

@@ -264,6 +264,37 @@ class ReferenceErrorBar(foreign_arm.ArmTest):
             self.assertEqual(rows[deformer]["error_below_reference_error"], "")
             self.assertEqual(len(compared), 4)
 
+    def test_skin_metrics(self):
+        rows, _ = self.run_scene("skin", 'deformers.use=["p1", "lbs"]', "reference.name=p1")
+        rest, frames = self.frame("skin", "lbs", 0), [self.frame("skin", name) for name in ("lbs", "p1")]
+        tets, points = written_frames.tets(rest), written_frames.points(rest)
+        faces = numpy.concatenate([tets[:, [1, 2, 3]], tets[:, [0, 3, 2]], tets[:, [0, 1, 3]], tets[:, [0, 2, 1]]])
+        _, first, count = numpy.unique(numpy.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
+        skin = faces[first[count == 1]]
+
+        def normals(of):
+            return numpy.cross(of[skin[:, 1]] - of[skin[:, 0]], of[skin[:, 2]] - of[skin[:, 0]])
+
+        areas, weights = numpy.linalg.norm(normals(points), axis=1) / 2.0, numpy.zeros(len(points))
+        for corner in range(3):
+            numpy.add.at(weights, skin[:, corner], areas / 3.0)
+        size = numpy.ptp(points[weights > 0.0], axis=0)
+        lbs, reference = (written_frames.points(frame)[:len(points)] for frame in frames)
+        apart = numpy.linalg.norm(lbs - reference, axis=1)
+        rms = numpy.sqrt((weights * apart ** 2).sum() / weights.sum())
+        one, other = normals(lbs), normals(reference)
+        turned = numpy.degrees(numpy.arctan2(numpy.linalg.norm(numpy.cross(one, other), axis=1), (one * other).sum(axis=1)))
+        to_mm = 1700.0 / size.max()
+        for column, expected in (("skin_rms_mm", to_mm * rms), ("skin_largest_mm", to_mm * apart[weights > 0.0].max()),
+                                 ("skin_rms_pct", 100.0 * rms / numpy.linalg.norm(size)),
+                                 ("normals_mean_deg", (areas * turned).sum() / areas.sum())):
+            found = float(rows["lbs"][column])
+            self.assertGreater(found, 0.0)
+            # Positions of a few metres are rounded, and distances and heights of triangles are above 1e-4 of them.
+            self.assertAlmostEqual(found, expected, delta=1e-9 * expected, msg=column)
+        share_up_to = weights[apart <= float(rows["lbs"]["skin_p95_mm"]) / to_mm * (1.0 + 1e-12)].sum() / weights.sum()
+        self.assertTrue(0.95 - 1e-12 <= share_up_to < 0.95 + weights.max() / weights.sum() + 1e-12)
+
     def test_leaves_the_records_as_they_were_without_it(self):
         rows, record = self.run_scene("none", 'deformers.use=["p1", "lbs"]', "reference.name=p1")
         self.assertNotIn("reference_error_l2_pct", rows["p1"])

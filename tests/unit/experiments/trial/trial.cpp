@@ -240,6 +240,28 @@ TEST_F(TrialSummary, ComparesPbsWithTheBestOtherMethodToo)
               "delta mush.");
 }
 
+// By hand: the root of (3^2 + 5^2) / 2 and of (3^2 + 4^2) / 2 mm, in the frames that both have.
+TEST_F(TrialSummary, StatesTheShareOfTheSkinsDistanceThatPbsRemoves)
+{
+    const std::string header = "deformer,frame,volume_change_pct,inverted_tets,step_ms,skin_rms_mm\n";
+    folder.file("regions.csv", regions_header);
+    folder.file("metrics.csv",
+                header + "lbs,0,-1,0,1,3\npbs,0,-1,0,2,3\nlbs,1,-1,0,1,5\npbs,1,-1,0,2,4\nlbs,2,-1,0,1,9\npbs,2,-1,0,2,nan\n");
+    const nlohmann::json skin = facts().at("skin");
+    EXPECT_DOUBLE_EQ(skin.at("lbs_mm"), std::sqrt(17.0));
+    EXPECT_DOUBLE_EQ(skin.at("pbs_mm"), std::sqrt(12.5));
+    EXPECT_DOUBLE_EQ(skin.at("removed_pct"), 100.0 * (1.0 - std::sqrt(12.5 / 17.0)));
+    EXPECT_NE(
+        trial_sentence(facts()).find("On a body 1.7 m tall, the skin is 4.1 mm from FEM with LBS and 3.5 mm with PBS, which removes 14 % "
+                                     "of the distance."),
+        std::string::npos)
+        << trial_sentence(facts());
+    folder.file("metrics.csv", header + "lbs,0,-1,0,1,2\npbs,0,-1,0,2,3\n");
+    EXPECT_NE(trial_sentence(facts()).find("which adds 50 % to the distance"), std::string::npos);
+    folder.file("metrics.csv", header + "lbs,0,-1,0,1,0\npbs,0,-1,0,2,3\n");
+    EXPECT_TRUE(facts().at("skin").is_null());
+}
+
 TEST_F(TrialSummary, WithoutAJointErrorsAreThoseOfTheBodyAndWhereNothingDeformsNothingIsCompared)
 {
     const std::string header =
