@@ -149,7 +149,7 @@ const std::vector<Budget>& budgets()
          .endings = cpp,
          .most_lines = 65'759},
         {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 43'893, .least_mean = 120},
-        {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'400},
+        {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'408},
         {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 7'990},
         {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 150},
     };
