@@ -52,12 +52,6 @@ Eigen::Matrix3d edge_matrix(const pbs::Positions& positions, const pbs::Tets& te
     return edges;
 }
 
-void require_entries(const std::vector<bool>& vertices, Eigen::Index expected)
-{
-    if (static_cast<Eigen::Index>(vertices.size()) != expected)
-        throw pbs::InputError("", 0, "marked vertices", std::to_string(vertices.size()), fmt::format("expected {}", expected));
-}
-
 std::vector<int> without(const std::vector<int>& vertices, const std::vector<bool>& left_out)
 {
     std::vector<int> rest;

@@ -29,6 +29,12 @@ void require_points(const pbs::Positions& positions, Eigen::Index vertices, cons
                               fmt::format("expected {} as in the rest mesh", vertices));
 }
 
+void require_entries(const std::vector<bool>& marked, Eigen::Index vertices)
+{
+    if (static_cast<Eigen::Index>(marked.size()) != vertices)
+        throw pbs::InputError("", 0, "marked vertices", std::to_string(marked.size()), fmt::format("expected {}", vertices));
+}
+
 namespace {
 
 Eigen::VectorXd edge_lengths(const pbs::Positions& positions, const pbs::Edges& edges)

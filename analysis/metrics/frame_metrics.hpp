@@ -37,6 +37,8 @@ Eigen::VectorXd checked_rest_volumes(const pbs::Positions& rest, const pbs::Tets
 
 // InputError unless `positions` has as many points as the rest mesh.
 void require_points(const pbs::Positions& positions, Eigen::Index vertices, const char* name);
+// InputError unless there is an entry per vertex.
+void require_entries(const std::vector<bool>& marked, Eigen::Index vertices);
 
 // Defined by the signed tet volumes V_t, in double precision and with compensated sums.
 struct FrameMetrics {

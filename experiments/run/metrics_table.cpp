@@ -31,7 +31,8 @@ const Columns<ErrorNorms> whole_error_columns = {
 
 using analysis::SkinError;
 const Columns<SkinError> skin_columns = {
-    {"skin_rms_mm", &SkinError::rms_mm, "mm", "distance of the skin from the reference, where the body at rest is 1.7 m tall"},
+    {"skin_rms_mm", &SkinError::rms_mm, "mm",
+     "distance of the skin from the reference, where the largest extent of the body at rest is 1.7 m"},
     {"skin_p95_mm", &SkinError::p95_mm, "mm", "distance that 95 % of the skin does not exceed"},
     {"skin_largest_mm", &SkinError::largest_mm, "mm", "largest distance of the skin"},
     {"skin_rms_pct", &SkinError::rms_pct, "%",

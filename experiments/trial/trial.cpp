@@ -330,23 +330,26 @@ nlohmann::json nearer_frames(const CsvTable& metrics)
     return nearer;
 }
 
-// The skin's distance from the reference under lbs and pbs, rms over the frames in which both have one; null without such frames.
+// The skin's distance from the reference under lbs and pbs, rms over the frames in which both have one.
 nlohmann::json skin_facts(const CsvTable& metrics)
 {
     if (!metrics.has_column("skin_rms_mm")) return nullptr;
-    std::map<long long, std::map<std::string, double>> distances_mm;
-    for (int row = 0; row < metrics.rows(); ++row)
-        if (const auto distance_mm = finite(metrics, row, "skin_rms_mm"))
-            distances_mm[metrics.integer(row, "frame")][metrics.text_at(row, "deformer")] = *distance_mm;
-    std::erase_if(distances_mm, [](const auto& frame) { return frame.second.count("lbs") == 0 || frame.second.count("pbs") == 0; });
-    if (distances_mm.empty()) return nullptr;
-    const auto rms_mm = [&](const char* deformer) {
-        double squares = 0.0;
-        for (const auto& [frame, of] : distances_mm) squares += of.at(deformer) * of.at(deformer);
-        return std::sqrt(squares / static_cast<double>(distances_mm.size()));
+    struct Distances {
+        double mm = 0.0, pct = 0.0;
     };
-    const double lbs_mm = rms_mm("lbs"), pbs_mm = rms_mm("pbs");
-    if (!(lbs_mm > 0.0)) return nullptr;
+    std::map<long long, std::map<std::string, Distances>> frames;
+    for (int row = 0; row < metrics.rows(); ++row) {
+        const auto mm = finite(metrics, row, "skin_rms_mm"), pct = finite(metrics, row, "skin_rms_pct");
+        if (mm && pct) frames[metrics.integer(row, "frame")][metrics.text_at(row, "deformer")] = {*mm, *pct};
+    }
+    std::erase_if(frames, [](const auto& frame) { return frame.second.count("lbs") == 0 || frame.second.count("pbs") == 0; });
+    const auto rms = [&](const char* deformer, double Distances::*distance) {
+        double squares = 0.0;
+        for (const auto& [frame, of] : frames) squares += of.at(deformer).*distance * (of.at(deformer).*distance);
+        return std::sqrt(squares / static_cast<double>(frames.size()));
+    };
+    if (frames.empty() || rms("lbs", &Distances::pct) < least_visible_pct) return nullptr;
+    const double lbs_mm = rms("lbs", &Distances::mm), pbs_mm = rms("pbs", &Distances::mm);
     return {{"lbs_mm", lbs_mm}, {"pbs_mm", pbs_mm}, {"removed_pct", analysis::removed_share_pct(lbs_mm, pbs_mm)}};
 }
 

@@ -48,8 +48,9 @@ std::string earlier_trial_scene(const TrialOptions& options);
 //                 [% of the joints' volume]
 //   nearer        number of frames in which pbs is nearer to the reference than lbs, of how many that can be compared because an error is
 //                 at least 0.01 %; best_other: the same against the one of the other deformers whose median error is smallest
-//   skin          distance of the skin from the reference on a body 1.7 m tall, rms over the frames, under lbs (lbs_mm) and pbs (pbs_mm);
-//                 the share of lbs's that pbs removes (removed_pct); null without a reference, and where lbs has no distance
+//   skin          distance of the skin from the reference on a body whose largest extent is 1.7 m, rms over the frames, under lbs (lbs_mm)
+//                 and pbs (pbs_mm); the share of lbs's that pbs removes (removed_pct); null without a reference, and where lbs's is below
+//                 0.01 % of the body's diagonal
 //   frame_ms      median time of a frame, per deformer
 //   error_bar     of the reference: the number of frames in which its own error is bounded, of how many, the largest bound at the joints
 //                 [%] and the wall time of the further solutions [s]; null without an error bar
@@ -59,7 +60,8 @@ std::string earlier_trial_scene(const TrialOptions& options);
 // An InputError where the run's records are missing or damaged.
 nlohmann::json trial_facts(const std::string& folder);
 
-// What the facts mean, for people: PBS against LBS and the best other method in volume, distance from FEM and time.
+// What the facts mean, for people: PBS against LBS and the best other method in volume, distance from FEM (with the error of FEM itself,
+// where it was estimated) and time.
 std::string trial_sentence(const nlohmann::json& facts);
 
 }  // namespace experiments

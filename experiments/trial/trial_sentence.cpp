@@ -52,11 +52,12 @@ std::string nearer_words(const nlohmann::json& nearer)
 
 std::string skin_words(const nlohmann::json& skin)
 {
-    const double removed_pct = skin.at("removed_pct");
-    const auto mm = [&](const char* of) { return fmt::format("{:.2g} mm", skin.at(of).get<double>()); };
-    return fmt::format(
-        " On a body 1.7 m tall, the skin is {} from FEM with LBS and {} with PBS, which {} the distance.", mm("lbs_mm"), mm("pbs_mm"),
-        fmt::format("{} {:.0f} % {}", removed_pct < 0.0 ? "adds" : "removes", std::abs(removed_pct), removed_pct < 0.0 ? "to" : "of"));
+    const double removed_pct = std::round(skin.at("removed_pct").get<double>());
+    const std::string change = removed_pct > 0.0   ? fmt::format("removes {:.0f} % of the distance", removed_pct)
+                               : removed_pct < 0.0 ? fmt::format("adds {:.0f} % to the distance", -removed_pct)
+                                                   : "changes the distance by less than 1 %";
+    return fmt::format(" On a body of 1.7 m, the skin is {:.2g} mm from FEM with LBS and {:.2g} mm with PBS, which {}.",
+                       skin.at("lbs_mm").get<double>(), skin.at("pbs_mm").get<double>(), change);
 }
 
 std::string error_bar_words(const nlohmann::json& bar)

@@ -68,7 +68,7 @@ nlohmann::json LinearFemDeformer::record() const
 namespace {
 
 constexpr double largest_turn_deg = 45.0;     // of a bone in one solve
-constexpr int most_indefinite_in_a_row = 40;  // without contact, where Newton's steps are limited: in a fold the energy falls without limit
+constexpr int most_indefinite_in_a_row = 40;  // of a reference without contact: in a fold its energy falls without limit
 constexpr double tip_in_limb_radii = 1.0 / 3.0;
 constexpr double far_turn_deg = 15.0;  // beyond it the solution with fewer nodes is a better initial guess than the last pose's
 

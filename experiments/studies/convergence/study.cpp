@@ -131,9 +131,10 @@ private:
     static ReferenceQuality quality_of(const PosedReference& reference)
     {
         ReferenceQuality quality{.masked_share_pct = reference.masked_share_pct()};
-        if (!reference.order()) return quality;
-        quality.observed_order = reference.order()->observed;
-        quality.order_is_reliable = reference.order()->reliable;
+        if (reference.order()) {
+            quality.observed_order = reference.order()->observed;
+            quality.order_is_reliable = reference.order()->reliable;
+        }
         if (const double bound_pct = reference.bound().joint_pct; std::isfinite(bound_pct)) quality.bound_pct = bound_pct;
         return quality;
     }

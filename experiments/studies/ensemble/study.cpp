@@ -94,26 +94,26 @@ MemberRow member_row(const EnsembleCase& of, const EnsembleMember& member, const
     MemberRow row;
     row.of = of.of;
     row.member = member;
-    const NestedSolution& finest = reference.is_reached() ? reference.reference() : reference.solutions().front();
-    row.outcome = reference.is_reached() ? "reached" : finest.finished ? "inverted" : "not_converged";
+    const NestedSolution& shown = reference.is_reached() ? reference.reference() : reference.solutions().front();
+    row.outcome = reference.is_reached() ? "reached" : shown.finished ? "inverted" : "not_converged";
     row.masked_share_pct = reference.masked_share_pct();
-    row.lowest_det_f = finest.lowest_det_f;
-    row.inverted_tets = finest.inverted_tets;
-    row.j_min = finest.j_min;
-    row.worst_tet = finest.worst_tet;
-    row.newton_steps = finest.newton_steps;
-    row.projected = finest.projected;
+    row.lowest_det_f = shown.lowest_det_f;
+    row.inverted_tets = shown.inverted_tets;
+    row.j_min = shown.j_min;
+    row.worst_tet = shown.worst_tet;
+    row.newton_steps = shown.newton_steps;
+    row.projected = shown.projected;
     for (const NestedSolution& solution : reference.solutions()) row.solve_s += solution.seconds;
     if (!reference.is_reached()) return row;
-    row.element_order = finest.element_order;
-    if (finest.other_tets == 0) row.refinements = finest.refinements;
-    row.volume_change_pct = metrics.measure(finest.positions).volume_change_pct;
+    row.element_order = shown.element_order;
+    if (shown.other_tets == 0) row.refinements = shown.refinements;
+    row.volume_change_pct = metrics.measure(shown.positions).volume_change_pct;
     if (const analysis::ErrorNorms bound = reference.bound(); std::isfinite(bound.joint_pct)) {
         row.error_bound_pct = bound.joint_pct;
         row.error_bound_l2_pct = bound.l2_pct;
     }
-    if (!reference.order()) return row;
     if (std::isfinite(reference.spread().joint_pct)) row.spread_pct = reference.spread().joint_pct;
+    if (!reference.order()) return row;
     row.observed_order = reference.order()->observed;
     row.reliable = reference.order()->reliable;
     return row;

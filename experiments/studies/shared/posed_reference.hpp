@@ -3,16 +3,19 @@
 // the whole way of the bones. All have the same bones and contact.
 //   const PosedReference reference(character, spec, pose, time_step_s);
 //   if (reference.is_reached()) reference.error_of(positions).joint_pct <= reference.bound().joint_pct ...
-// Where no joint is bent, the reference is the finest nested solution. Its bound is that of analysis/statistics/grid_convergence.hpp plus
-// the largest distance of a further mesh.
-// Where one is bent, flesh creases. A crease takes its place by the elements' edges, differs from mesh to mesh, and is resolved only by
-// elements much smaller than the limb, so that nested solutions show no order. There the reference is the solution of the lowest energy,
-// which is the best approximation of the equilibrium (Ritz), and its bound is 1.25 times the largest distance of a solution on other tets.
-// Let e be the error of the reference, e' that of another solution, which is no smaller, and c the cosine between the two. Their squared
-// distance is |e|^2 + |e'|^2 - 2 c |e| |e'| and at least 2 (1 - c) |e|^2. The factor 1.25 therefore covers errors that are correlated up to
-// c = 0.68; for independent meshes c is near 0.
-// The tips of all creases are left out. The equilibrium of compressed flesh is not unique: of two equilibria on the own tets the one with
-// the lower energy counts.
+// Where no joint is bent, or without other tets, the reference is the finest nested solution. Its bound is that of
+// analysis/statistics/grid_convergence.hpp plus the largest distance of a further mesh.
+// Where a joint is bent, flesh can crease. A crease takes its place by the elements' edges, differs from mesh to mesh, and is resolved only
+// by elements much smaller than the limb, so that nested solutions show no order. There the reference is the solution of the lowest energy,
+// which approximates the equilibrium best in energy. Its bound is 1.25 times the largest distance of a solution on other tets, of that on
+// tets cut into eight, or of the two equilibria on the own tets.
+// Let e be the error of the reference, e' that of another solution, and c the cosine between the two. In the root mean square norms their
+// squared distance is |e|^2 + |e'|^2 - 2 c |e| |e'|, which is at least (1 - c^2) |e|^2 whatever |e'| is. The factor 1.25 therefore covers c
+// up to 0.6, and every c where |e'| is at least 1.8 |e|. Meshes whose creases lie in the same place have nearly the same error. This is why
+// the largest distance is taken: one mesh whose crease lies elsewhere is enough. The bound of linf_m has the same factor without this
+// derivation.
+// The tips of the creases of all solutions are left out. The equilibrium of compressed flesh is not unique: of two equilibria on the own
+// tets the one with the lower energy counts.
 #pragma once
 
 #include "analysis/metrics/error_norms.hpp"
@@ -86,8 +89,8 @@ public:
                    ReferenceEffort effort = ReferenceEffort::other_tets, const std::string& solutions = "");
 
     const std::string& label() const { return label_; }  // of spec
-    // The reference finished with det F > 0 at all quadrature points. Where a joint is bent it has the lowest energy of all such quadratic
-    // solutions; otherwise, or if there is none, it is the finest such solution on the own or the refined tets.
+    // The reference finished with det F > 0 at all quadrature points. With other tets, where a joint is bent, it has the lowest energy of
+    // all such quadratic solutions. Otherwise, or if there is none, it is the finest such solution on the own or the refined tets.
     bool is_reached() const { return which_.has_value(); }
     const NestedSolution& reference() const { return solutions_.at(which_.value()); }  // std::bad_optional_access if it is not reached
     const std::vector<NestedSolution>& solutions() const { return solutions_; }        // the finest nested one first, those that failed too
@@ -106,9 +109,9 @@ public:
 
     // The observed order is empty unless the four nested solutions finished.
     const std::optional<analysis::NestedOrder>& order() const { return order_; }
-    // The largest distance from the reference of a solution on other tets, or on tets cut into eight if it is on other tets itself; or of
-    // the two equilibria on the own tets; 0 without any. Not a number where a solution on other tets did not finish. Where the way along
-    // the bones did not, there is no second equilibrium.
+    // The largest distance from the reference of a solution on other tets and, where a joint is bent, of that on tets cut into eight; or of
+    // the two equilibria on the own tets; 0 without any. Not a number where one of these solutions did not finish. Where the way along the
+    // bones did not, there is no second equilibrium.
     analysis::ErrorNorms spread() const { return spread_; }
     // Bounds the distance of the reference from the limit: by the order and the spread, or by the spread where a joint is bent. NaN where
     // there is no order, unless it is like another reference.
@@ -148,7 +151,7 @@ private:
     analysis::ErrorMetrics error_metrics_;
     std::vector<NestedSolution> solutions_;
     std::size_t nested_ = 0;  // the first ones, on the own and the refined tets
-    bool creases_ = false;    // a joint is bent, and other tets tell how well its crease is resolved
+    bool creases_ = false;    // a joint is bent, and other tets show how well its crease is resolved
     std::optional<std::size_t> which_;
     std::vector<bool> masked_;
     std::optional<analysis::NestedOrder> order_;

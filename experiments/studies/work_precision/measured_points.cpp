@@ -63,9 +63,10 @@ void add_reference(PointRow& row, const PosedReference& reference)
     row.masked_share_pct = reference.masked_share_pct();
     if (!reference.is_reached()) return;
     row.reference = reference.label();
-    if (!reference.order()) return;
-    row.reference_order = reference.order()->observed;
-    row.reference_order_is_reliable = reference.order()->reliable;
+    if (reference.order()) {
+        row.reference_order = reference.order()->observed;
+        row.reference_order_is_reliable = reference.order()->reliable;
+    }
     if (!std::isfinite(reference.bound().joint_pct)) return;
     row.reference_error_joint_pct = reference.bound().joint_pct;
     row.reference_error_l2_pct = reference.bound().l2_pct;

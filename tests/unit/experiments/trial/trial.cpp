@@ -243,23 +243,24 @@ TEST_F(TrialSummary, ComparesPbsWithTheBestOtherMethodToo)
 // By hand: the root of (3^2 + 5^2) / 2 and of (3^2 + 4^2) / 2 mm, in the frames that both have.
 TEST_F(TrialSummary, StatesTheShareOfTheSkinsDistanceThatPbsRemoves)
 {
-    const std::string header = "deformer,frame,volume_change_pct,inverted_tets,step_ms,skin_rms_mm\n";
+    const std::string header = "deformer,frame,volume_change_pct,inverted_tets,step_ms,skin_rms_mm,skin_rms_pct\n";
     folder.file("regions.csv", regions_header);
-    folder.file("metrics.csv",
-                header + "lbs,0,-1,0,1,3\npbs,0,-1,0,2,3\nlbs,1,-1,0,1,5\npbs,1,-1,0,2,4\nlbs,2,-1,0,1,9\npbs,2,-1,0,2,nan\n");
+    folder.file("metrics.csv", header + "lbs,0,-1,0,1,3,1\npbs,0,-1,0,2,3,1\nlbs,1,-1,0,1,5,1\npbs,1,-1,0,2,4,1\n" +
+                                   "lbs,2,-1,0,1,9,1\npbs,2,-1,0,2,nan,nan\n");
     const nlohmann::json skin = facts().at("skin");
     EXPECT_DOUBLE_EQ(skin.at("lbs_mm"), std::sqrt(17.0));
     EXPECT_DOUBLE_EQ(skin.at("pbs_mm"), std::sqrt(12.5));
     EXPECT_DOUBLE_EQ(skin.at("removed_pct"), 100.0 * (1.0 - std::sqrt(12.5 / 17.0)));
-    EXPECT_NE(
-        trial_sentence(facts()).find("On a body 1.7 m tall, the skin is 4.1 mm from FEM with LBS and 3.5 mm with PBS, which removes 14 % "
-                                     "of the distance."),
-        std::string::npos)
-        << trial_sentence(facts());
-    folder.file("metrics.csv", header + "lbs,0,-1,0,1,2\npbs,0,-1,0,2,3\n");
-    EXPECT_NE(trial_sentence(facts()).find("which adds 50 % to the distance"), std::string::npos);
-    folder.file("metrics.csv", header + "lbs,0,-1,0,1,0\npbs,0,-1,0,2,3\n");
-    EXPECT_TRUE(facts().at("skin").is_null());
+    const auto expect_words = [&](const std::string& words) {
+        EXPECT_NE(trial_sentence(facts()).find(words), std::string::npos) << trial_sentence(facts());
+    };
+    expect_words("On a body of 1.7 m, the skin is 4.1 mm from FEM with LBS and 3.5 mm with PBS, which removes 14 % of the distance.");
+    folder.file("metrics.csv", header + "lbs,0,-1,0,1,2,1\npbs,0,-1,0,2,3,1\n");
+    expect_words("which adds 50 % to the distance.");
+    folder.file("metrics.csv", header + "lbs,0,-1,0,1,2,1\npbs,0,-1,0,2,2.001,1\n");
+    expect_words("which changes the distance by less than 1 %.");
+    folder.file("metrics.csv", header + "lbs,0,-1,0,1,2,0.009\npbs,0,-1,0,2,3,1\n");
+    EXPECT_TRUE(facts().at("skin").is_null()) << "lbs is not visibly away";
 }
 
 TEST_F(TrialSummary, WithoutAJointErrorsAreThoseOfTheBodyAndWhereNothingDeformsNothingIsCompared)

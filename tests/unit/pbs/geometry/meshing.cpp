@@ -18,7 +18,6 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
-#include <ranges>
 #include <set>
 
 namespace {
@@ -261,7 +260,8 @@ TEST(OtherTets, HaveAFinerSkinInABall)
     EXPECT_LT(fine.rest.rows(), 2 * limb.rest.rows());
 }
 
-// Otherwise the distance of two solutions says nothing of the mesh where it matters most.
+// Otherwise the distance of two solutions does not show the influence of the mesh where it matters most. A disc of the ball's radius with
+// triangles of its edge length has pi 0.1^2 / (0.866 0.02^2) = 90 vertices. Where the sizes of the seeds were the same, all were the same.
 TEST(OtherTets, TakeOtherPointsInABallWithAnotherSeed)
 {
     const pbs::TetMesh limb = pbs::mesh_limb(600);
@@ -276,8 +276,10 @@ TEST(OtherTets, TakeOtherPointsInABallWithAnotherSeed)
     }
     std::vector<std::array<double, 3>> both;
     std::ranges::set_intersection(points[0], points[1], std::back_inserter(both));
-    EXPECT_GT(points[0].size(), 50u);
-    EXPECT_LT(5 * both.size(), points[0].size()) << points[1].size();
+    for (const auto& of_seed : points) {
+        EXPECT_GT(of_seed.size(), 90u / 2);
+        EXPECT_LT(2 * both.size(), of_seed.size());
+    }
 }
 
 TEST(OtherTets, TetsThatMeetInAnEdgeAloneAreRefused)
