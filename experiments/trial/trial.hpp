@@ -60,8 +60,8 @@ std::string earlier_trial_scene(const TrialOptions& options);
 // An InputError where the run's records are missing or damaged.
 nlohmann::json trial_facts(const std::string& folder);
 
-// What the facts mean, for people: PBS against LBS and the best other method in volume, distance from FEM (with the error of FEM itself,
-// where it was estimated) and time.
+// Compares PBS with LBS and with the best other method by the change of volume, the distance from FEM and the time of a frame. The error of
+// FEM itself is stated where it was estimated.
 std::string trial_sentence(const nlohmann::json& facts);
 
 }  // namespace experiments
