@@ -153,12 +153,6 @@ bool is_candidate(const WorkPrecision& point)
     return std::isfinite(point.cost) && std::isfinite(point.error);
 }
 
-double error_within(const std::vector<WorkPrecision>& points, double budget)
-{
-    const auto best = best_within(points, budget);
-    return best ? points[*best].error : std::numeric_limits<double>::infinity();
-}
-
 }  // namespace
 
 const char* name_of(MinimumOutcome outcome)
@@ -237,24 +231,6 @@ std::optional<std::size_t> best_within(const std::vector<WorkPrecision>& points,
             (!best || dominates(points[i], points[*best]) || points[i].error < points[*best].error))
             best = i;
     return best;
-}
-
-std::optional<Crossing> nearer_from(const std::vector<WorkPrecision>& one, const std::vector<WorkPrecision>& other)
-{
-    std::vector<double> budgets;  // the budgets at which the best point of either set changes
-    for (const auto* points : {&one, &other})
-        for (const WorkPrecision& point : *points)
-            if (is_candidate(point)) budgets.push_back(point.cost);
-    std::sort(budgets.begin(), budgets.end());
-    std::optional<Crossing> crossing;
-    bool other_was_nearer = false;
-    for (const double budget : budgets) {
-        const bool nearer = error_within(one, budget) < error_within(other, budget);
-        if (nearer && !crossing) crossing = Crossing{budget, *best_within(one, budget), error_within(other, budget), !other_was_nearer};
-        if (!nearer) crossing.reset();
-        other_was_nearer |= !nearer;
-    }
-    return crossing;
 }
 
 }  // namespace analysis

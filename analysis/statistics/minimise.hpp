@@ -92,14 +92,4 @@ std::vector<std::size_t> pareto_front(const std::vector<WorkPrecision>& points);
 // no point is within the budget.
 std::optional<std::size_t> best_within(const std::vector<WorkPrecision>& points, double budget);
 
-// The budget from which on the best point of `one` has a smaller error than the best of `other`.
-struct Crossing {
-    double from = 0.0;            // the smallest budget beyond which this always holds
-    std::size_t one = 0;          // the best of `one` at `from`
-    double other_error = 0.0;     // error of the best of `other` at `from`; infinite if none is within that budget
-    bool from_the_start = false;  // true if `other` is better at no budget at which either has a point
-};
-// Nothing if the best of `one` is not better at arbitrarily large budgets.
-std::optional<Crossing> nearer_from(const std::vector<WorkPrecision>& one, const std::vector<WorkPrecision>& other);
-
 }  // namespace analysis

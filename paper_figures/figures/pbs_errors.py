@@ -73,63 +73,6 @@ def error_split(results):
     return figure, behind
 
 
-# The parts in each pose of the study of error against run time. Where the bound exceeds the whole error, the reference is too coarse to
-# measure the error of PBS. The poses and points that are missing are listed below.
-
-most_panels = 4
-
-
-def of_pbs(rows):
-    chosen = [row for row in rows if (row["deformer"], row["order"], row["precision"]) == ("pbs", "ordered", "f32")
-              and float(row["k_stretch"]) == 0.2 and row["solver_pct"] and row["substeps"] == "1" and not row["wanted_vertices"]]
-    return sorted(chosen, key=lambda row: int(row["iterations"]))
-
-
-def draw_case(axes, rows):
-    behind, of_case = [], {name: rows[0][name] for name in case_columns}
-    for column in parts:
-        if any(row[column] for row in rows):  # a reference without a bound has no part of its own
-            draw_part(axes, rows, column)
-            behind += [of_case | {"part": column, "iterations": i, "value_pct": v}
-                       for i, v in zip(records.numbers(rows, "iterations"), records.numbers(rows, column))]
-    axes.axvline(24, color=style.black, linewidth=0.6)
-    style.log_scale(axes.xaxis, [1, 4, 24, 96, 384])
-    style.log_scale(axes.yaxis)
-    axes.set(title=case_words.posed(rows[0]), xlabel="iterations; line: the paper's 24", ylabel="error at the joints [%]")
-    return behind
-
-
-def omitted_poses(results, tables, shown):
-    """The poses that are not among those shown, and the points of PBS that are missing in those."""
-    def names(cases):
-        return "; ".join(case_words.posed(tables[case][0]) for case in cases)  # a name has commas
-
-    without = [case for case, rows in tables.items() if not of_pbs(rows)]
-    further = [case for case in tables if case not in shown and case not in without]
-    lines = [f"no parts of the error on record: {names(without)}"] if without else []
-    lines += [f"at most {most_panels} poses are shown, without {names(further)}"] if further else []
-    missing = [row for row in omission_boxes.added_up(results, "packed_f32", (*shown, *without)) if row["deformer"] == "pbs"]
-    return lines + omission_boxes.lines(missing)
-
-
-def error_parts(results):
-    folder = results / "work_precision"
-    columns = {*case_columns, *parts, "deformer", "iterations", "k_stretch", "order", "precision", "substeps", "wanted_vertices"}
-    tables = {file.parent.name: records.table(file, columns) for file in sorted(folder.glob("*/points.csv"))}
-    cases = [case for case, rows in tables.items() if of_pbs(rows)]
-    cases = sorted(cases, key=lambda case: tables[case][0]["body"] != "limb")[:most_panels]
-    records.need(cases, f"{folder}: no case with the error split")
-    figure, (*lines, (below,)) = style.stacked(*[(2, 2.1)] * -(-len(cases) // 2), (1, 0.6))
-    panels = [panel for line in lines for panel in line]
-    behind = [row for panel, case in zip(panels, cases) for row in draw_case(panel, of_pbs(tables[case]))]
-    for panel in panels[len(cases):]:
-        panel.set_visible(False)
-    omitted = omitted_poses(results, tables, cases)
-    omission_boxes.draw_below(below, omitted, 170)
-    style.legend_above(figure, columns=4)
-    return figure, behind + [{"omission": line} for line in omitted]
-
-
 # The gains of single changes to PBS: the mean error over the poses of each body against the time per frame, with marks at the numbers of
 # iterations, and the gain of each change in the time of 4, 24 and 96 iterations of PBS, with its range over the poses. A gain that is
 # decided is drawn filled.

@@ -1,13 +1,11 @@
 """Error against run time: who is nearest within which time, the poses that are solved, what was tried and what is missing, and what single
-changes to PBS gain. Fronts and crossings are on the page where their tables are there; they are too long to be kept."""
+changes to PBS gain. Fronts are on the page where their table is there; it is too long to be kept."""
 import pages
 import records
 from words import case_words, looks
 
 comparisons, clocks = (case_words.tables[field] for field in ("comparison", "clock"))
 setting = ("iterations", "k_stretch", "order", "precision", "substeps", "element_order", "wanted_vertices", "tuned")
-crossed = (("pbs", "delta_mush"), ("pbs", "xpbd"), ("quasi_newton", "pbs"), ("quasi_newton", "delta_mush"), ("vbd", "pbs"),
-           ("vbd", "delta_mush"), ("linear_fem", "pbs"), ("nonlinear_fem", "pbs"))
 budgets = (1.0, 10.0, 100.0, float("inf"))
 
 
@@ -95,16 +93,6 @@ def references(points):
     return "\n## References\n\n" + pages.table(rows, "references", words_of=words_of)
 
 
-def crossings(folder):
-    """From which time on one group is nearer than the other."""
-    if not (folder / "crossings.csv").is_file():
-        return ""
-    rows = [row for row in records.table(folder / "crossings.csv", {"comparison", "case", "deformer", "other", "outcome", "from_ms"})
-            if (row["deformer"], row["other"]) in crossed or row["deformer"] not in looks.listed and row["other"] == "pbs"]
-    return "\n## Who is nearer from which time on\n\n" + pages.table(
-        rows, "crossings", deformer=lambda row: looks.of(row["deformer"]).name, other=lambda row: looks.of(row["other"]).name)
-
-
 def fronts(folder):
     if not (folder / "fronts.csv").is_file():
         return ""
@@ -144,4 +132,4 @@ def page(folder):
     points = {run: records.table(folder / run / "points.csv", {"deformer", "half", "outcome"}) for run in runs
               if (folder / run / "points.csv").is_file()}
     return ("# Error against run time\n\n" + split(folder, points) + nearest(folder) + profiles(folder) + references(points) + tried(folder)
-            + omissions(folder) + crossings(folder) + fronts(folder) + gains(folder))
+            + omissions(folder) + fronts(folder) + gains(folder))

@@ -48,6 +48,10 @@ constexpr double edges_per_radius_of_meshes[] = {9.0, 9.0, 13.5};
 constexpr int meshes_without_creases = 2;
 constexpr double correlated_errors = 1.25;  // see posed_reference.hpp
 
+// Raised where what follows a solve has another result: the fields of a solution, the vertices' places in other tets, or the tips of
+// creases.
+constexpr int kept_format = 1;
+
 // Visits the fields of a solution that are written to its file, except for the positions and the smallest det F.
 template <typename Solution, typename Visit>
 void for_each_field(Solution& of, const Visit& visit)
@@ -157,14 +161,11 @@ PosedReference::PosedReference(const pbs::Character& character, const DeformerSp
       spread_{}
 {
     if (effort == ReferenceEffort::own_tets) {
-        add("own", [&] { return solved({{character, 2}, {character, 1}}); });
+        add("own", {{character, 2}, {character, 1}});
     } else {
-        const auto on_finer_tets = [&] {
-            const pbs::Character fine = pbs::refined(character);
-            return solved({{fine, 2}, {fine, 1}, {character, 1}});
-        };
-        add("refined", on_finer_tets);
-        add("quadratic", [&] { return solved({{character, 2}}); });
+        const pbs::Character fine = pbs::refined(character);
+        add("refined", {{fine, 2}, {fine, 1}, {character, 1}});
+        add("quadratic", {{character, 2}});
         std::rotate(solutions_.begin() + 1, solutions_.end() - 1, solutions_.end());  // the finest first
     }
     nested_ = solutions_.size();
@@ -175,13 +176,14 @@ PosedReference::PosedReference(const pbs::Character& character, const DeformerSp
     observe_spread();
 }
 
-void PosedReference::add(const std::string& name, const std::function<Solutions()>& solve)
+void PosedReference::add(const std::string& name, const std::vector<Level>& levels)
 {
     stop_if_interrupted();
-    Solutions found = kept_in_.empty() ? Solutions{} : kept(name);
+    const std::string file = kept_in_.empty() ? "" : file_of(name, levels);
+    Solutions found = kept(file);
     if (found.empty()) {
-        found = solve();
-        if (!kept_in_.empty()) keep(name, found);
+        found = solved(levels);
+        if (!file.empty()) keep(file, found);
     }
     for (NestedSolution& solution : found) {
         for (std::size_t v = 0; v < solution.at_tips.size(); ++v) masked_[v] = masked_[v] || solution.at_tips[v];
@@ -189,9 +191,8 @@ void PosedReference::add(const std::string& name, const std::function<Solutions(
     }
 }
 
-PosedReference::Solutions PosedReference::kept(const std::string& name) const
+PosedReference::Solutions PosedReference::kept(const std::string& file) const
 {
-    const std::string file = file_of(name);
     if (!fs::exists(file)) return {};
     const Solutions solutions = solutions_in(analysis::read_text(file));
     const auto fits = [&](const NestedSolution& one) {
@@ -201,28 +202,34 @@ PosedReference::Solutions PosedReference::kept(const std::string& name) const
 }
 
 // A solution that cannot be kept is none the worse.
-void PosedReference::keep(const std::string& name, const Solutions& solutions) const
+void PosedReference::keep(const std::string& file, const Solutions& solutions) const
 {
     try {
         analysis::make_output_folder(kept_in_);
         analysis::remove_abandoned_files(kept_in_);
-        analysis::write_text_atomically(file_of(name), text_of(solutions));
+        analysis::write_text_atomically(file, text_of(solutions));
     } catch (const pbs::InputError& error) {
         warn({fmt::format("{}: a solution is not kept: {}", label_, error.what())});
     }
 }
 
-// By the program, the settings, the body and the pose.
-std::string PosedReference::file_of(const std::string& name) const
+// By the module that solves, the settings, and all that the module reads of the characters and the pose. The program itself makes these
+// and does not count.
+std::string PosedReference::file_of(const std::string& name, const std::vector<Level>& levels) const
 {
-    static const std::string program = pbs::hash_of_file("/proc/self/exe") + pbs::hash_of_file(load_module_with_blas("pbskin_fem").path());
+    static const std::string module = pbs::hash_of_file(load_module_with_blas("pbskin_fem").path());
     const std::string stated =
-        analysis::record_text({program, to_json(spec_), time_step_s_, character_.inputs, static_cast<int>(character_.weight_kind)});
+        analysis::record_text({module, kept_format, to_json(spec_), time_step_s_, character_.refinements, levels.size()});
     analysis::StateHash hash;
     const auto put = [&](const auto* data, std::size_t size) { hash.add_bytes(data, size * sizeof *data); };
+    const auto put_mesh = [&](const pbs::Character& of) {
+        hash.add(of.mesh.rest);
+        put(of.mesh.tets.data(), of.mesh.tets.size());
+        put(of.binding.bone.data(), of.binding.bone.size());
+    };
     put(stated.data(), stated.size());
-    hash.add(character_.mesh.rest);
-    put(character_.mesh.tets.data(), character_.mesh.tets.size());
+    put_mesh(character_);  // by which the bones' sizes and the places of its vertices in other tets are found
+    for (const Level& level : levels) put_mesh(level.character), put(&level.element_order, 1);
     for (const pbs::Bone& bone : character_.skeleton.bones) put(bone.head.data(), 3), put(bone.tail.data(), 3), put(&bone.parent, 1);
     for (const auto& of_bone : pose_) put(of_bone.data(), of_bone.matrix().size());
     return (fs::path(kept_in_) / (name + "-" + hash.hex() + ".cbor")).string();
@@ -253,7 +260,7 @@ PosedReference::Solutions PosedReference::solved(const std::vector<Level>& level
 // First along the bones on the character's own tets. The equilibrium with the lower energy there is kept among the nested solutions.
 void PosedReference::solve_on_other_tets()
 {
-    add("along_the_bones", [&] { return solved({{.character = character_, .element_order = 2, .along_the_bones = true}}); });
+    add("along_the_bones", {{.character = character_, .element_order = 2, .along_the_bones = true}});
     NestedSolution &nested = solutions_[1], &alone = solutions_.back();
     if (alone.finished && (!nested.finished || alone.energy_j < (1.0 - same_energy) * nested.energy_j)) std::swap(nested, alone);
     unsigned seed = 0;
@@ -277,7 +284,7 @@ void PosedReference::solve_on_tets(unsigned seed, double edges_per_radius)
         return;
     }
     add(fmt::format("tets_{}", seed),
-        [&] { return solved({{.character = *other, .element_order = 2, .other_tets = seed, .edges_per_radius = edges_per_radius}}); });
+        {{.character = *other, .element_order = 2, .other_tets = seed, .edges_per_radius = edges_per_radius}});
 }
 
 // The energy is compared per volume, since other tets are smaller than the skin that they fill: by 0.03 % of the limb and 0.2 to 0.3 % of

@@ -29,7 +29,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -74,7 +73,8 @@ enum class ReferenceEffort { own_tets, refined, other_tets };
 NAMED_OPTIONS(ReferenceEffort, own_tets, refined, other_tets)
 
 // The folder in which all studies of a results folder keep solutions: DIR/reference_solutions of a run in DIR/STUDY/RUN. What an
-// interrupted run or another study has solved is not solved again. The files' names depend on the program itself and on all that it solves.
+// interrupted run or another study has solved is not solved again. The files' names depend on all that is solved and on the module
+// pbskin_fem that solves it, but not on the rest of the program.
 std::string solutions_of_run(const std::string& folder);
 
 // Smaller triangles of the skin on the inner side of each joint that a pose bends by more than 30 degrees: so many edges per radius of the
@@ -132,10 +132,10 @@ private:
     // The solutions of one call of a deformer, the finest first.
     using Solutions = std::vector<NestedSolution>;
     Solutions solved(const std::vector<Level>& levels) const;
-    void add(const std::string& name, const std::function<Solutions()>& solve);  // solves, or finds what is kept
-    Solutions kept(const std::string& name) const;                               // empty: none, or damaged
-    void keep(const std::string& name, const Solutions& solutions) const;
-    std::string file_of(const std::string& name) const;
+    void add(const std::string& name, const std::vector<Level>& levels);  // solves, or finds what is kept
+    Solutions kept(const std::string& file) const;                        // empty: none, or damaged
+    void keep(const std::string& file, const Solutions& solutions) const;
+    std::string file_of(const std::string& name, const std::vector<Level>& levels) const;
     void solve_on_other_tets();
     void solve_on_tets(unsigned seed, double edges_per_radius);
     void choose_the_reference();

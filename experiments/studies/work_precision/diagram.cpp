@@ -307,19 +307,4 @@ Decision decision_on(const Diagram& diagram, const DiagramPoint& nearer, const D
     return decision;
 }
 
-std::optional<Decision> decision_from(const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other, double from_ms)
-{
-    std::vector<std::string> both = one.deformers;
-    both.insert(both.end(), other.deformers.begin(), other.deformers.end());
-    std::vector<std::size_t> indices;
-    std::optional<Decision> worst;
-    for (const analysis::WorkPrecision& at : diagram.of(both, indices)) {
-        const DiagramPoint *nearer = best_of(diagram, one, at.cost), *than = best_of(diagram, other, at.cost);
-        if (at.cost < from_ms || !nearer || !than) continue;
-        const Decision decision = decision_on(diagram, *nearer, *than);
-        if (!worst || decision.decision > worst->decision) worst = decision;
-    }
-    return worst;
-}
-
 }  // namespace experiments

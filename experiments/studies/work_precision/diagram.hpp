@@ -120,9 +120,6 @@ struct Decision {
 // `nearer` has the smaller error against the first reference.
 Decision decision_on(const Diagram& diagram, const DiagramPoint& nearer, const DiagramPoint& other);
 
-// The worst decision at all times from `from_ms` on, for the best points of both groups. Nothing where one of the two has no points.
-std::optional<Decision> decision_from(const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other, double from_ms);
-
 // The results of diagrams as tables: the fronts, which group of deformers is nearer from which time on, and the best point of each group
 // within a time. Every order is marked as decided or with the reason why not.
 
@@ -131,11 +128,6 @@ std::optional<Decision> decision_from(const Diagram& diagram, const DeformerGrou
 // nearer than the best point of any other group within its time. The other fronts have no decision: the references bound no other measure
 // in each point, and a front of one deformer compares its settings with each other.
 analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams);
-
-// crossings.csv: for each group of deformers and each other one, the time per frame [ms] from which on its best point is nearer to the
-// reference, with the quartiles of the point at which this happens. The outcome is always, from or never. `decision` is the worst one at
-// all times from there on at which both have points.
-analysis::CsvTable crossings_table(const std::vector<Diagram>& diagrams);
 
 // best_within.csv: the best point of each group within a budget, the nearest group first. `decision` is whether it is nearer than every
 // group of a later rank within the budget: undecided if one of these is undecided. Figure and fronts use this rule.

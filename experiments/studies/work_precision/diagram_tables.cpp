@@ -32,26 +32,6 @@ const Columns<FrontRow> front_columns =
     within(&FrontRow::point, Columns<DiagramPoint>{measures().front(), {"below_reference_error", &DiagramPoint::below_reference_error}}) +
     MEMBER_COLUMNS(FrontRow, reference_error_joint_pct, decision, reason);
 
-struct CrossingRow {
-    Comparison comparison;
-    std::string diagram, deformer, other, outcome = "never";
-    std::optional<double> from_ms = {}, from_ms_q1 = {}, from_ms_q3 = {};
-    std::optional<SettingKey> setting = {};
-    std::optional<double> error_joint_pct = {}, other_error_joint_pct = {}, reference_error_joint_pct = {};
-    std::optional<analysis::PairDecision> decision = {};
-    std::string reason = {};
-};
-const Columns<CrossingRow> crossing_columns =
-    Columns<CrossingRow>{{"comparison", &CrossingRow::comparison}, {"case", &CrossingRow::diagram}} +
-    MEMBER_COLUMNS(CrossingRow, deformer, other, outcome, from_ms, from_ms_q1, from_ms_q3) +
-    within(&CrossingRow::setting, Columns<SettingKey>{{"point", &SettingKey::deformer}} + setting_columns()) +
-    MEMBER_COLUMNS(CrossingRow, error_joint_pct, other_error_joint_pct, reference_error_joint_pct, decision, reason);
-
-std::optional<double> known(double value)
-{
-    return std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
-
 const std::string all_name = "all";
 
 std::vector<std::string> all_deformers(const Diagram& diagram)
@@ -74,29 +54,6 @@ void add_front(std::vector<FrontRow>& rows, const Diagram& diagram, const std::s
         row.decision = nearest.decision;
         row.reason = nearest.reason;
     }
-}
-
-void add_crossing(std::vector<CrossingRow>& rows, const Diagram& diagram, const DeformerGroup& one, const DeformerGroup& other)
-{
-    std::vector<std::size_t> of_one, of_other;
-    const auto ones = diagram.of(one.deformers, of_one), others = diagram.of(other.deformers, of_other);
-    if (ones.empty() || others.empty()) return;
-    CrossingRow& row = rows.emplace_back(CrossingRow{diagram.comparison, diagram.key, one.key, other.key});
-    row.reference_error_joint_pct = diagram.reference_error_pct;
-    const auto crossing = analysis::nearer_from(ones, others);
-    if (!crossing) return;
-    const DiagramPoint& point = diagram.points[of_one[crossing->one]];
-    row.outcome = crossing->from_the_start ? "always" : "from";
-    row.from_ms = crossing->from;
-    row.from_ms_q1 = point.ms_q1;
-    row.from_ms_q3 = point.ms_q3;
-    row.setting = point.key;
-    row.error_joint_pct = point.error_pct;
-    row.other_error_joint_pct = known(crossing->other_error);
-    const std::optional<Decision> decision = decision_from(diagram, one, other, crossing->from);
-    if (!decision) return;
-    row.decision = decision->decision;
-    row.reason = decision->reason;
 }
 
 // The least time of a point of the group with an error of at most the tolerance. Nothing: the pose is not solved.
@@ -210,16 +167,6 @@ analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams)
             for (const std::string& deformer : all_deformers(diagram)) add_front(rows, diagram, measure, deformer, {deformer});
         }
     return table_of(front_columns, rows);
-}
-
-analysis::CsvTable crossings_table(const std::vector<Diagram>& diagrams)
-{
-    std::vector<CrossingRow> rows;
-    for (const Diagram& diagram : diagrams)
-        for (const DeformerGroup& one : diagram.groups)
-            for (const DeformerGroup& other : diagram.groups)
-                if (&one != &other) add_crossing(rows, diagram, one, other);
-    return table_of(crossing_columns, rows);
 }
 
 std::vector<BudgetRow> best_within(const Diagram& diagram, double budget_ms)

@@ -35,8 +35,7 @@ nlohmann::json digest_of_points(const WorkPrecisionCase& of)
 RECORD_SETTINGS_AND(WorkPrecisionCase,
                     .derived("points", digest_of_points)
                         .derived("reference", [](const WorkPrecisionCase& one) { return to_json(reference_flesh(one.scene)); }),
-                    of, scene, frame, half, range, rounds, newton_rounds, reference_is_refined, members, converged_iterations,
-                    longest_frame_ms, external)
+                    of, scene, frame, half, range, rounds, newton_rounds, reference_is_refined, members, longest_frame_ms, external)
 
 namespace {
 
@@ -71,7 +70,6 @@ void add_reference(PointRow& row, const PosedReference& reference)
     row.reference_error_joint_pct = reference.bound().joint_pct;
     row.reference_error_l2_pct = reference.bound().l2_pct;
     if (row.error) row.below_reference_error = row.error->joint_pct <= *row.reference_error_joint_pct;
-    if (row.solver_pct) row.discretisation_pct = row.reference_error_joint_pct;
 }
 
 PointRow row_without_answer(const Setting& setting, const BodyMesh& mesh, const std::string& outcome, const std::string& reason)
@@ -309,9 +307,6 @@ private:
         const ReachedPoint* limit = limit_of_deformers();
         if (point.shape.finished && point.setting->on_own_mesh() && limit)
             row.to_linear_elements_pct = references_->first().distance(point.on_base, limit->on_base).joint_pct;
-        const bool has_parts = of_.converged_iterations > 0 && options_if<pbs::PbsOptions>(point.setting->spec) &&
-                               point.setting->on_own_mesh() && point.setting->tuned.empty() && !point.setting->change && row.error;
-        if (has_parts) add_parts(row, point);
         add_reference(row, references_->first());
         if (of_.range.changes && row.error && (point.setting->change || is_baseline(row.key)))
             for (std::size_t b = 0; b < budget_iterations.size(); ++b)
@@ -347,26 +342,6 @@ private:
         return found == points_.end() ? nullptr : &*found;
     }
 
-    void add_parts(PointRow& row, const ReachedPoint& point)
-    {
-        if (converged_.empty())
-            for (const int iterations : {of_.converged_iterations, of_.converged_iterations / 2})
-                converged_.push_back(converged(*point.setting, iterations));
-        const PosedReference& reference = references_->first();
-        row.solver_pct = reference.distance(point.on_base, converged_[0]).joint_pct;
-        row.model_pct = reference.error_of(converged_[0]).joint_pct;
-        row.not_converged_pct = reference.distance(converged_[0], converged_[1]).joint_pct;
-    }
-
-    pbs::Positions converged(Setting setting, int iterations) const
-    {
-        auto& options = options_of<pbs::PbsOptions>(setting.spec);
-        options.precision = pbs::Precision::f64;
-        options.order = pbs::Order::ordered;
-        options.iterations = iterations;
-        return PosedDeformer(setting, meshes_.at(0), poses_).reach().positions;
-    }
-
     const WorkPrecisionCase& of_;
     std::string solutions_;
     std::shared_ptr<const pbs::Character> base_;
@@ -378,7 +353,6 @@ private:
     std::deque<PosedDeformer> deformers_;
     std::vector<ReachedPoint> points_;       // of each of these deformers
     std::map<SettingKey, double> too_slow_;  // ladders, and the time of the setting that exceeded the limit [ms]
-    std::vector<pbs::Positions> converged_;  // PBS with its default setting, after all of the iterations and after half of them
     MeasuredPoints measured_;
 };
 

@@ -131,9 +131,6 @@ struct PointRow {
     std::optional<bool> reference_order_is_reliable = {};
     std::optional<bool> below_reference_error = {};
     std::optional<double> error_whole_joint_pct = {}, masked_share_pct = {};
-    // Distances at the joints, for PBS only: from its own converged shape to the solution (solver), from there to the reference (model),
-    // the reference's bound (discretisation), and from the converged shape to the one after half of its iterations (not_converged).
-    std::optional<double> solver_pct = {}, model_pct = {}, discretisation_pct = {}, not_converged_pct = {};
     Half half = Half::evaluation;
     std::string reason = {};  // why the outcome is not_applicable or over_time_limit; why the reference is not reached
     std::optional<pbs::WorkCounters> work = {};
@@ -167,7 +164,7 @@ extern const analysis::Columns<FamilyRow> family_columns;
 //   const MeasuredPoints points = measure_points(of);
 //   table_of(point_columns, points.rows).write("points.csv");
 // README.md states the rules: the references, what is left out, the ladders and the limit of the deformers that minimise an
-// energy. The error of PBS is split into solver, model and discretisation (ensemble/ensemble.hpp).
+// energy.
 // On unrefined tets a reference has no bound, except in the rows of changes to PBS: there it is the distance from linear elements on the
 // same tets. It holds if quadratic elements at least halve the error of linear ones, |P2 - x| <= |P1 - x| / 2 <= (|P1 - P2| + |P2 - x|) /
 // 2, as they do in the poses of the quick form.
@@ -186,7 +183,6 @@ struct WorkPrecisionCase {
            newton_rounds = {};         // newton_rounds: of the nonlinear laws, which take seconds per frame; a failed round is dropped
     bool reference_is_refined = true;  // solved on tets cut into eight too, without which there is no bound
     std::vector<EnsembleMember> members = {};  // further references of the family
-    int converged_iterations = 8000;           // of PBS for the parts of its error; 0: no parts
     double longest_frame_ms = 300.0;           // of a ladder of iterations
     std::vector<DeformerSpec> external = {};   // deformers of the user's own (compared_deformers.hpp); they are measured first
 };

@@ -53,9 +53,9 @@ Points distance_columns()
 
 const Points own_columns = MEMBER_COLUMNS(PointRow, vertices, tets, outcome, reach_ms, rounds, failed_rounds, ms_median, ms_q1, ms_q3);
 
-const Points reference_columns = MEMBER_COLUMNS(PointRow, reference, reference_error_joint_pct, reference_error_l2_pct, reference_order,
-                                                reference_order_is_reliable, below_reference_error, error_whole_joint_pct, masked_share_pct,
-                                                solver_pct, model_pct, discretisation_pct, not_converged_pct);
+const Points reference_columns =
+    MEMBER_COLUMNS(PointRow, reference, reference_error_joint_pct, reference_error_l2_pct, reference_order, reference_order_is_reliable,
+                   below_reference_error, error_whole_joint_pct, masked_share_pct);
 
 // Later columns, in one group: older records do not have them.
 Points columns_of_comparison()

@@ -39,7 +39,6 @@ StudyPlan plan_of(bool full, const std::vector<DeformerSpec>& external)
         of.range.without_fem = in_file.value<std::vector<int>>("without_fem", {});
         of.rounds = {.seconds = full ? 10.0 : 1.0, .fewest = full ? 5 : 3, .most = 31};
         of.newton_rounds = {.seconds = full ? 5.0 : 0.0, .fewest = 1, .most = 9};
-        of.converged_iterations = full ? 8000 : 2000;
         of.reference_is_refined = in_file.value("reference_is_refined", full);
         if (full && of.half == Half::evaluation) {
             of.members = family();
@@ -79,7 +78,6 @@ bool conclude(const FinishedRuns& finished)
     finished.write("points.csv", columns_for(points), points);
     finished.write("settings.csv", chosen_columns, chosen);
     finished.write("fronts.csv", fronts_table(diagrams));
-    finished.write("crossings.csv", crossings_table(diagrams));
     finished.write("best_within.csv", budget_columns, best_within(diagrams));
     finished.write("data_profiles.csv", data_profile_columns, data_profiles(diagrams));
     finished.write("omissions.csv", omission_columns, omissions);

@@ -78,25 +78,25 @@ class Planned(ResultsTest):
     """Runs that a plan names and that have no records."""
     def setUp(self):
         super().setUp()
-        synthetic_records.write_error_parts(self.results / "work_precision")
+        synthetic_records.write_work_precision(self.results)
         self.entry = {entry.name: entry for entry in entries.read()}
 
     def plan(self, *names, study="work_precision"):
         (self.results / study / "plan.json").write_text(json.dumps({"runs": [{"name": name} for name in names]}))
 
     def test_without_a_plan_and_with_all_on_record_nothing_is_absent(self):
-        self.assertEqual(self.entry["error_parts"].absent(self.results), ([], 0))
-        self.plan("limb_twist_90")
-        self.assertEqual(self.entry["error_parts"].absent(self.results), ([], 1))
-        self.assertEqual(self.make_all("error_parts")[1], "")
-        self.assertNotIn("not on record", (self.results / "figures" / "error_parts.caption.txt").read_text())
+        self.assertEqual(self.entry["work_precision"].absent(self.results), ([], 0))
+        self.plan("limb_bend_90", "limb_bend_60")
+        self.assertEqual(self.entry["work_precision"].absent(self.results), ([], 2))
+        self.assertEqual(self.make_all("work_precision")[1], "")
+        self.assertNotIn("without records", (self.results / "figures" / "work_precision.caption.txt").read_text())
 
     def test_what_is_not_on_record_stands_in_the_caption(self):
-        self.plan("limb_twist_90", "human_crouch", "man_crouch")
+        self.plan("limb_bend_90", "limb_bend_60", "human_crouch", "man_crouch")
         synthetic_records.write_origin(self.results / "work_precision" / "man_crouch")  # a run whose table was not kept
-        self.assertEqual(self.make_all("error_parts")[1], "")
-        self.assertTrue((self.results / "figures" / "error_parts.caption.txt").read_text()
-                        .endswith(" Planned runs without records, 2 of 3: human_crouch, man_crouch.\n"))
+        self.assertEqual(self.make_all("work_precision")[1], "")
+        self.assertTrue((self.results / "figures" / "work_precision.caption.txt").read_text()
+                        .endswith(" Planned runs without records, 2 of 4: human_crouch, man_crouch.\n"))
 
     def test_of_a_pattern_those_that_it_matches(self):
         synthetic_records.write_jiggle(self.results / "jiggle")

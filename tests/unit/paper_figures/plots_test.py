@@ -65,15 +65,6 @@ class Plots(ResultsTest):
         self.assertIn("twist 90\u00b0, reached: 1000, 100", self.titles("vertices of the limb"))
         self.assertIn("twist 90\u00b0, not reached: 500, 1000", self.titles("vertices of the limb"))
 
-    def test_error_parts(self):
-        synthetic_records.write_error_parts(self.results / "work_precision")
-        drawn = self.drawn("error_parts")
-        rows = [row for row in drawn if row["part"]]
-        self.assertEqual([row["omission"] for row in drawn if not row["part"]], ["over the time limit: PBS 1 of 15"])
-        parts = {(row["part"], float(row["iterations"])): float(row["value_pct"]) for row in rows}
-        self.assertEqual(len(rows), 4 * 3)  # parts, iterations: neither another order nor another stiffness nor substeps
-        self.assertEqual(parts["solver_pct", 24.0], 1.25)
-
     def test_omissions_of_several_poses_are_of_the_points_of_all_of_them(self):
         study = self.results / "work_precision"
         vbd = {"deformer": "vbd", "precision": "f32", "packed": 1, "outcome": "finished"}

@@ -277,20 +277,6 @@ def write_convergence(study):
                 "volume_reached": int(vertices > 500)} for vertices in (2000, 500, 1000) for start in ("lbs", "rest_pose")])
 
 
-def write_error_parts(study):
-    """A solver part of 30 % / n and a model part of 20 %; rows with other k_stretch, orders, substeps and meshes are not part of the
-    figure."""
-    write_origin(study / "limb_twist_90")
-    settings = [("ordered", 0.2, 1, ""), ("plain", 0.2, 1, ""), ("ordered", 0.9, 1, ""), ("ordered", 0.2, 2, ""), ("ordered", 0.2, 1, 300)]
-    write_table(study / "limb_twist_90" / "points.csv",
-          [{"body": "limb", "motion": "twist", "pose": "", "angle_deg": 90, "deformer": "pbs", "iterations": n, "k_stretch": k,
-            "order": order, "precision": "f32", "packed": 1, "outcome": "finished", "substeps": substeps,
-            "wanted_vertices": vertices, "error_joint_pct": 25.0, "solver_pct": 30.0 / n, "model_pct": 20.0, "discretisation_pct": 5.0}
-           for n in (1, 24, 384) for order, k, substeps, vertices in settings])
-    write_table(study / "omissions.csv", [{"comparison": "packed_f32", "case": "limb_twist_90", "deformer": "pbs", "why": "over_time_limit",
-                                     "missing": 1, "points": 15, "reason": ""}])
-
-
 def write_improvements(study):
     """PBS with an error of 40 % / n, and smooth weights with half of it, which gain half of PBS's error at each budget, decided at 24
     iterations alone."""
@@ -306,7 +292,8 @@ def write_improvements(study):
 
 
 def write_error_split(study):
-    """As above; in the lower panels, flesh held by the bind constraint converges in the twist and not in the bend."""
+    """A solver part of 30 % / n and a model part of 20 %. In the lower panels, flesh held
+    by the bind constraint converges in the twist and not in the bend."""
     for motion, angle_deg in (("twist", 90), ("bend", 60)):
         folder = study / f"limb_{motion}_{angle_deg}"
         write_origin(folder)

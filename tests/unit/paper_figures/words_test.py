@@ -270,7 +270,6 @@ class Captions(ResultsTest):
 
     def test_figures_of_time_name_the_processor(self):
         timed = [entry for entry in listed.values() if set(entry.studies()) & {"timing", "work_precision"}]
-        timed = [entry for entry in timed if entry.name != "error_parts"]
         self.assertEqual(len(timed), 8)
         for entry in timed:
             with self.subTest(entry.name):

@@ -183,7 +183,7 @@ TEST(FitOverCases, AsksACaseOnceAtEachParameter)
     EXPECT_EQ(std::adjacent_find(asked.begin(), asked.end()), asked.end());
 }
 
-// Fronts and crossings. Reference: the definitions, evaluated by hand on a few points.
+// Fronts. Reference: the definitions, evaluated by hand on a few points.
 
 using Front = std::vector<std::size_t>;
 using Points = std::vector<WorkPrecision>;
@@ -227,33 +227,6 @@ TEST(BestWithin, IsTheSmallestErrorThatTheBudgetPays)
     EXPECT_EQ(best_within(points, 1.0), 0u);
     EXPECT_EQ(best_within(points, 2.0), 1u);
     EXPECT_EQ(best_within(points, 9.0), 1u);  // the cheaper of two equal errors
-}
-
-TEST(NearerFrom, IsTheBudgetBeyondWhichItIsAlwaysSo)
-{
-    struct Case {
-        const char* name;
-        Points one, other;
-        std::optional<Crossing> expected;
-    };
-    const std::vector<Case> all = {
-        {"errors of the best within 1, 2, 3, 4: 10 10 3 3 and 8 8 8 5", {{1, 10}, {3, 3}}, {{1, 8}, {4, 5}}, Crossing{3.0, 1, 8.0, false}},
-        {"overtaken for good", {{1, 5}}, {{2, 4}}, {}},
-        {"the last time of several: 9 9 2 2 1 and 10 3 3 2 2",
-         {{1, 9}, {3, 2}, {5, 1}},
-         {{1, 10}, {2, 3}, {4, 2}},
-         Crossing{5.0, 2, 2.0, false}},
-        {"from the start, where the other has no point", {{1, 5}, {3, 4}}, {{2, 6}}, Crossing{1.0, 0, infinity, true}},
-        {"the same error is not nearer", {{1, 5}}, {{1, 5}}, {}},
-    };
-    for (const Case& of : all) {
-        const auto crossing = nearer_from(of.one, of.other);
-        ASSERT_EQ(crossing.has_value(), of.expected.has_value()) << of.name;
-        if (!crossing) continue;
-        EXPECT_EQ(std::tie(crossing->from, crossing->one, crossing->other_error, crossing->from_the_start),
-                  std::tie(of.expected->from, of.expected->one, of.expected->other_error, of.expected->from_the_start))
-            << of.name;
-    }
 }
 
 }  // namespace

@@ -284,15 +284,4 @@ INSTANTIATE_TEST_SUITE_P(
                     DecidedCase{
                         33.0, {{4}}, reference_error, "not decided by nu_0.49, by their own error or because they were not reached"}));
 
-TEST(Decisions, FromATimeOnAreTheWorstOfAllLaterTimes)
-{
-    const DeformerGroup pbs{"pbs", {"pbs"}}, mush{"delta_mush", {"delta_mush"}}, dqs{"dqs", {"dqs"}};
-    const std::vector<HandPoint> points = {
-        {in_f64({"delta_mush", 20}), 0.5, 33.0}, {pbs_24, 0.7, 20.0}, {in_f64({"delta_mush", 50}), 2.0, 21.0}, hand_reference()};
-    const Diagram closer = hand_diagrams({hand_case({.body = "limb", .pose = "a"}, points)}).front();
-    EXPECT_EQ(decision_from(two_points(33.0), pbs, mush, 0.7)->decision, decided);
-    EXPECT_EQ(decision_from(closer, pbs, mush, 0.7)->decision, reference_error);
-    EXPECT_FALSE(decision_from(closer, pbs, dqs, 0.0));
-}
-
 }  // namespace

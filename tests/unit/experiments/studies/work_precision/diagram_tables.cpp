@@ -1,4 +1,4 @@
-// The tables of diagrams. Reference: a few points whose fronts, crossings, profiles and omissions are obvious.
+// The tables of diagrams. Reference: a few points whose fronts, profiles and omissions are obvious.
 #include "experiments/studies/work_precision/diagram.hpp"
 
 #include "tests/support/comparison_records.hpp"
@@ -36,26 +36,6 @@ TEST(DiagramTables, FrontsOfAllAndOfEachDeformer)
     // LBS is alone; DQS by 10, delta mush by 17, XPBD by 8, PBS by 5 and FEM by 15 points, of which 12 are needed.
     EXPECT_EQ(of_front(fronts_table({diagram_of_seven(33.0)}), "decision"),
               (Cells{"", "reference_error", "decided", "reference_error", "reference_error", "decided"}));
-}
-
-// One against another: outcome, from, decision.
-std::vector<std::string> crossing(const Diagram& of, const std::string& one, const std::string& other)
-{
-    const CsvTable table = analysis::parse_csv(crossings_table({of}).text(), "crossings.csv");
-    for (int row = 0; row < table.rows(); ++row)
-        if (table.text_at(row, "deformer") == one && table.text_at(row, "other") == other)
-            return {table.text_at(row, "outcome"), table.text_at(row, "from_ms"), table.text_at(row, "decision")};
-    return {};
-}
-
-TEST(DiagramTables, CrossingsTurnRoundWithTheErrors)
-{
-    EXPECT_EQ(crossing(diagram_of_seven(33.0), "pbs", "delta_mush"), (std::vector<std::string>{"from", "0.7", "decided"}));
-    EXPECT_EQ(crossing(diagram_of_seven(31.0), "pbs", "delta_mush"),
-              (std::vector<std::string>{"from", "0.7", "reference_error"}));  // by less than 12 %
-    EXPECT_EQ(crossing(diagram_of_seven(15.0), "pbs", "delta_mush"), (std::vector<std::string>{"never", "", ""}));
-    EXPECT_EQ(crossing(diagram_of_seven(15.0), "lbs", "dqs")[0], "never");
-    EXPECT_EQ(crossing(diagram_of_seven(15.0), "delta_mush", "pbs")[0], "always");
 }
 
 TEST(DiagramTables, WithinABudgetGroupsAreRankedByTheirBestPoints)
@@ -247,7 +227,6 @@ TEST(OwnDeformers, AreAGroupOfTheirOwnInBothComparisons)
         EXPECT_EQ(best_within(diagram, 3.0).front().group, "mine");
     }
     EXPECT_NE(fronts_table(diagrams).text().find(",mine,mine,"), std::string::npos);
-    EXPECT_NE(crossings_table(diagrams).text().find(",mine,pbs,from,2"), std::string::npos);
     EXPECT_TRUE(std::ranges::any_of(data_profiles(diagrams),
                                     [](const ProfileStep& step) { return step.group == "mine" && step.tolerance_pct == 5.0; }));
     rows.front().is_external = false;

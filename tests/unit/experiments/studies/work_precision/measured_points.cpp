@@ -210,7 +210,6 @@ WorkPrecisionCase small_case()
     of.rounds = of.newton_rounds = {.seconds = 0.0, .fewest = 1, .most = 1};
     of.reference_is_refined = false;
     of.members = {family()[2]};
-    of.converged_iterations = 0;
     of.longest_frame_ms = 1e-6;
     return of;
 }

@@ -33,7 +33,6 @@ protected:
         of.range.quadratic = false;
         of.rounds = of.newton_rounds = {.seconds = 0.0, .fewest = 3, .most = 3};
         of.reference_is_refined = false;
-        of.converged_iterations = 0;
         of.longest_frame_ms = 1e-6;  // the first setting of each ladder
     }
 
