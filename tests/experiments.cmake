@@ -77,4 +77,5 @@ set_tests_properties(verification/experiments/recomputed_frames PROPERTIES LABEL
 pbs_program_test(claims recomputed)
 pbs_program_test(claims volume)
 pbs_program_test(regression pages)
+pbs_program_test(regression decisions)
 pbs_program_test(robustness experiments/kept_records)

@@ -57,6 +57,20 @@ inline std::optional<double> shift_of_difference(const PairDistances& pair)
     return slope * *pair.bound;
 }
 
+// The order of two means over several cases, with the mean difference of the errors and the mean shift of the differences; of one case,
+// its order.
+inline PairOrder order_of_means(const std::vector<PairDistances>& cases)
+{
+    if (cases.size() == 1) return order_of(cases.front());
+    double difference = 0.0, shift = 0.0;
+    for (const PairDistances& pair : cases) {
+        difference += pair.first_error.value_or(not_measured) - pair.second_error.value_or(not_measured);
+        shift += shift_of_difference(pair).value_or(not_measured);
+    }
+    if (!(std::abs(difference) > shift) || !std::isfinite(difference)) return PairOrder::undecided;
+    return difference < 0.0 ? PairOrder::first_is_closer : PairOrder::second_is_closer;
+}
+
 enum class PairDecision {
     decided,          // each member of the ensemble decides, and they agree
     reference_error,  // no two members contradict each other, but a member does not decide

@@ -18,6 +18,9 @@
 
 namespace experiments {
 
+// The weights of the initial guess StartShape::smooth_dqs, solved from the springs that hold the flesh by default.
+pbs::Weights smooth_weights_of(const pbs::Character& character);
+
 // The traits that options state themselves: members named order, precision, packed, iterations and threads. Iterations count only for
 // options with threads: the others' steps of smoothing are no iterations of a solver.
 template <typename Options>

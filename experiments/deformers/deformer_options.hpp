@@ -15,6 +15,7 @@ class SceneValues;
 
 NAMED_OPTIONS(pbs::Precision, f32, f64)
 
+NAMED_OPTIONS(pbs::StartShape, lbs, smooth_dqs)
 NAMED_OPTIONS(pbs::Order, plain, ordered, grouped)
 
 template <>
@@ -32,6 +33,10 @@ NAMED_OPTIONS(pbs::ZoneMean, of_all, of_bone)
 NAMED_OPTIONS(pbs::BindTo, bone_distance, blended_position)
 NAMED_OPTIONS(pbs::VolumeOf, tets, regions, tets_and_regions)
 NAMED_OPTIONS(pbs::VolumeForm, derived, labels_relative, labels_absolute, sign, as_printed)
+
+inline constexpr const char* start_meaning =
+    "the shape at which a frame begins: lbs: linear blend skinning, as in the paper; smooth_dqs: dual quaternion skinning with weights "
+    "that springs around the bones determine, as the minimisers begin by default";
 
 // Options of LBS and DQS.
 //   options_of<BlendOptions>(spec).precision = pbs::Precision::f32;

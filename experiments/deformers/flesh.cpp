@@ -19,7 +19,6 @@
 
 namespace experiments {
 
-NAMED_OPTIONS(pbs::FleshStart, smooth_dqs, lbs)
 NAMED_OPTIONS(pbs::Acceleration, over_relaxation, chebyshev)
 NAMED_OPTIONS(pbs::XpbdMultipliers, kept, of_step, reset)
 
@@ -29,7 +28,7 @@ namespace {
 template <typename SolverOptions>
 struct FleshOptions : SolverOptions {
     double poisson = 0.45, core_radius = 0.7, spring_factor = 10.0;
-    pbs::FleshStart start = pbs::FleshStart::smooth_dqs;
+    pbs::StartShape start = pbs::StartShape::smooth_dqs;
     pbs::Precision precision = pbs::Precision::f32;
 };
 
@@ -111,7 +110,7 @@ private:
     {
         flesh_.emplace(held_flesh(character, {.core_radius = options_.core_radius, .spring_factor = options_.spring_factor},
                                   {.poisson = options_.poisson, .volume_share = volume_share()}));
-        const bool smooth = options_.start == pbs::FleshStart::smooth_dqs;
+        const bool smooth = options_.start == pbs::StartShape::smooth_dqs;
         skinning_.emplace(character.mesh.rest, smooth ? flesh_->smooth_weights(character.weights) : character.weights);
         tets_ = character.mesh.tets.rows();
         next_start_.reset();
@@ -122,7 +121,7 @@ private:
         flesh_->hold().centres(pose, centres_);
         if (next_start_)
             x = *std::exchange(next_start_, {});
-        else if (options_.start == pbs::FleshStart::smooth_dqs)
+        else if (options_.start == pbs::StartShape::smooth_dqs)
             skinning_->dual_quaternion(pose, x);
         else
             skinning_->linear(pose, x);
@@ -250,6 +249,11 @@ private:
 };
 
 }  // namespace
+
+pbs::Weights smooth_weights_of(const pbs::Character& character)
+{
+    return held_flesh(character, {}, {}).smooth_weights(character.weights);
+}
 
 DeformerKind quasi_newton_kind()
 {

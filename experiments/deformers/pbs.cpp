@@ -41,22 +41,26 @@ public:
     void reset(const pbs::Character& character) override
     {
         character_ = &character;
-        skinning_.emplace(character.mesh.rest, character.weights);
+        skinning_.emplace(character.mesh.rest, begins_at_lbs() ? character.weights : smooth_weights_of(character));
         solver_ = std::make_unique<Solver>(character.mesh, character.binding.distance, zone_of(options_, character.binding), options_);
     }
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override
     {
         const pbs::Stopwatch stopwatch;
-        skinning_->linear(pose, lbs_);
-        pbs::StepSummary summary = solver_->advance(lbs_, bind_points(pose, lbs_), dt_s);
+        if (begins_at_lbs())
+            skinning_->linear(pose, start_);
+        else
+            skinning_->dual_quaternion(pose, start_);
+        pbs::StepSummary summary = solver_->advance(start_, bind_points(pose, start_), dt_s);
         summary.seconds = stopwatch.seconds();
-        summary.work.vertex_visits += lbs_.rows();
+        summary.work.vertex_visits += start_.rows();
         return summary;
     }
     const pbs::Positions& positions() const override { return solver_->positions(); }
     bool has_memory() const override { return bool(options_.jiggle); }
 
 protected:
+    bool begins_at_lbs() const { return options_.start == pbs::StartShape::lbs; }
     pbs::Positions bind_points(const pbs::Pose& pose, const pbs::Positions& lbs) const
     {
         if constexpr (std::is_same_v<Options, pbs::PbsOptions>) return bind_points_of(options_, *character_, pose, lbs);
@@ -69,7 +73,7 @@ protected:
 
 private:
     std::unique_ptr<Solver> solver_;
-    pbs::Positions lbs_;
+    pbs::Positions start_;
 };
 
 class PbsDeformer : public ProjectingDeformer<pbs::PbsOptions, pbs::PbsSolver> {
@@ -103,7 +107,7 @@ private:
         const bool other_constraints = options_.bind_to != pbs::BindTo::bone_distance || options_.volume_of != pbs::VolumeOf::tets ||
                                        options_.k_stretch_length_m != 0.0;
         const bool each_its_own = another_reading || other_constraints || options_.contact || options_.jiggle || options_.sleep ||
-                                  options_.stop_residual > 0.0 || options_.record_iterations;
+                                  options_.stop_residual > 0.0 || options_.record_iterations || !begins_at_lbs();
         return options_.threads > 1 && options_.order != pbs::Order::plain && !each_its_own &&
                !pbs::shared_among_threads(static_cast<int>(character_->mesh.rest.rows()));
     }
@@ -191,6 +195,7 @@ DeformerKind kind_of_xpbd(const std::string& name, const std::string& meaning, C
                       "order of projection within a class: plain is the order of the file; ordered and grouped are those of pbs, which "
                       "project sixteen constraints at once"})
             .add("precision", &XpbdOptions::precision, {.meaning = "floating point of the projections and their multipliers"})
+            .add("start", &XpbdOptions::start, {.meaning = start_meaning})
             .record("iterations", &XpbdOptions::iterations)
             .record("substeps", &XpbdOptions::substeps)
             .record("gravity_m_s2", &XpbdOptions::gravity_m_s2)

@@ -103,6 +103,7 @@ void add_variant_keys(OptionFields<PbsOptions>& fields)
 void add_improvement_keys(OptionFields<PbsOptions>& fields)
 {
     fields.in_table("improved")
+        .add("start", &PbsOptions::start, {.meaning = start_meaning})
         .add(
             "bind_to", &PbsOptions::bind_to,
             {.meaning = "what a vertex is bound to: bone_distance: its rest distance from its bone, as in the paper, which leaves the turn "
@@ -127,6 +128,7 @@ std::string variant_of(const PbsOptions& options)
     if (options.k_stretch_length_m != paper.k_stretch_length_m) return "k_by_edge_length";
     if (options.volume_of != paper.volume_of) return std::string("volume_of_") + name_of(options.volume_of);
     if (options.contact) return "contact";
+    if (options.start != paper.start) return name_of(options.start);
     if (options.bind_to != paper.bind_to) return name_of(options.bind_to);
     if (options.volume_form != paper.volume_form) return name_of(options.volume_form);
     if (options.bind_point != paper.bind_point) return name_of(options.bind_point);

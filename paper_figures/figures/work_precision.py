@@ -13,11 +13,10 @@ comparisons = {"packed_f32": "packed f32 code", "plain_f64": "plain f64 code"}
 point_numbers = ("deformer", "iterations", "k_stretch", "order", "precision", "substeps", "element_order", "wanted_vertices", "refined",
                  "tuned", "packed", "ms_median", "error_joint_pct")
 tables = {"fronts": {"comparison", "case", "measure", "front", "reference_error_joint_pct", *point_numbers},
-          "best_within": {"comparison", "case", "budget_ms", "rank", "group", "decision", "undecided_against", "error_joint_pct",
-                          "ms_median"}}
+          "nearest": {"comparison", "case", "budget_ms", "among", "nearest", "deformer", "knows", "either_of", "error_joint_pct",
+                      "ms_median"}}
 point_columns = {"body", "motion", "pose", "angle_deg", *point_numbers, "outcome", "half", "reach_ms", "reference_error_joint_pct"}
-budgets_ms = (0.1, 1.0, 10.0)
-most_panels, most_named_groups = 6, 3
+most_panels = 6
 name_row_height = 0.048  # of the height of a panel
 
 
@@ -33,7 +32,7 @@ class Panel:
         self.is_mean = not points
         self.title, self.points = title, omission_boxes.taking_part(measured, comparison)
         self.fronts = of_case("fronts", measure="error_joint_pct")
-        self.best = [row for row in of_case("best_within", rank="1") if float(row["budget_ms"]) in budgets_ms]
+        self.best = of_case("nearest", among="classes")
         self.omitted = of_case("omissions")
         bound = next((row["reference_error_joint_pct"] for row in self.fronts), "")
         self.bound_pct = float(bound) if bound else None
@@ -74,23 +73,27 @@ def group_front(rows):
 
 
 def draw_budgets(axes, panel):
-    """A line at each budget, and above it the nearest deformer with its error. Each name has a row of its own: the lines are too close
-    together for several in one row."""
+    """A line at each budget, and above it the nearest class and its deformer with its error. Each name has a row of its own: the lines are
+    too close together for several in one row."""
     for place, row in enumerate(panel.best):
         budget_ms = float(row["budget_ms"])
-        mark = "" if row["decision"] in ("decided", "") else f"? ({len(row['undecided_against'].split())})"
+        mark = f" or {len(row['either_of'].split())} more" if row["either_of"] else ""
+        group = looks.group_of(row["deformer"])
         axes.axvline(budget_ms, color="#777777", linewidth=0.7, linestyle=(0, (2, 2)), zorder=0)
         axes.text(budget_ms, 1.01 + name_row_height * place,
-                  f"{budget_ms:g} ms: {looks.short(row['group'])}{mark}, {float(row['error_joint_pct']):.3g} %",
-                  transform=axes.get_xaxis_transform(), ha="center", va="bottom", fontsize=5.2, color=looks.of(row["group"]).color)
+                  f"{budget_ms:g} ms: {words_of_class(row['nearest'])}{mark}: {looks.short(group)}, {float(row['error_joint_pct']):.3g} %",
+                  transform=axes.get_xaxis_transform(), ha="center", va="bottom", fontsize=5.2, color=looks.of(group).color)
+
+
+def words_of_class(name):
+    """The class; a deformer of the user's own is a class by itself."""
+    return name.replace("_", " ")
 
 
 def undecided_lines(panel):
-    """within 10 ms against: XPBD, quasi-Newton. The names of many groups would hide the points; their number stands above the line, and
-    the table behind the figure names them."""
-    groups = [(row, row["undecided_against"].split()) for row in panel.best]
-    return [f"within {float(row['budget_ms']):g} ms against: {', '.join(map(looks.short, against))}" for row, against in groups
-            if 0 < len(against) <= most_named_groups]
+    """within 10 ms also: mush, blend"""
+    return [f"within {float(row['budget_ms']):g} ms also: {', '.join(map(words_of_class, row['either_of'].split()))}" for row in panel.best
+            if row["either_of"]]
 
 
 def draw_panel(axes, panel):
@@ -112,7 +115,7 @@ def draw_panel(axes, panel):
 
 def rows_behind(panel):
     """Points, fronts, the nearest within each budget, omissions and the bound, as rows of one table."""
-    of_best = ("budget_ms", "group", "decision", "undecided_against", "ms_median", "error_joint_pct")
+    of_best = ("budget_ms", "nearest", "deformer", "knows", "either_of", "ms_median", "error_joint_pct")
     rows = style.taken(panel.points, point_numbers, shown="point")
     rows += [row for front in panel.fronts for row in style.taken([front], point_numbers, shown=f"front of {front['front']}")]
     rows += style.taken(panel.best, of_best, shown="nearest")
@@ -150,7 +153,7 @@ def draw_comparison(comparison, results):
     words = {"own": "time as the program states it", "wall": "wall time of the program over its poses"}
     clocks = dict.fromkeys(f"{row['deformer']}: {words[row['clock']]}" for panel in shown for row in panel.points
                            if row.get("clock") in words)  # deformers of the user's own whose time is not processor time
-    for note in ("name above a line: nearest within that time", "? (n): the references do not decide against n groups", *clocks):
+    for note in ("above a line: the class nearest within that time", "or n more: not decided against these classes", *clocks):
         axes.flat[0].plot([], [], linestyle="none", label=note)
     style.legend_above(figure, columns=3)
     return figure, [row for panel in shown for row in rows_behind(panel)]

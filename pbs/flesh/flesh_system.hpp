@@ -31,10 +31,6 @@ struct CholeskyFactor {
 // lower: the lower triangle of A, compressed. CHOLMOD is in the module pbskin_cholmod; an InputError where that is missing.
 CholeskyFactor cholesky_factor(const Eigen::SparseMatrix<double>& lower);
 
-// The shape at which a minimiser begins. smooth_dqs: dual quaternion skinning with smooth weights, those of HeldFlesh::smooth_weights. lbs:
-// linear blend skinning with the character's weights.
-enum class FleshStart { smooth_dqs, lbs };
-
 struct HeldFleshOptions {
     double poisson = 0.45;
     double volume_share = 0.6;  // of lambda in the Laplacian: see flesh_laplacian

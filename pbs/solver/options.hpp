@@ -7,6 +7,9 @@
 
 namespace pbs {
 
+// The shape at which a solver begins a frame; the caller gives it. lbs: linear blend skinning with the character's weights, as in the
+// paper. smooth_dqs: dual quaternion skinning with the weights of HeldFlesh::smooth_weights.
+enum class StartShape { lbs, smooth_dqs };
 // Order of projection within each class; the classes follow the order of Algorithm 1. plain: file order, as the paper reads. ordered:
 // colour by colour (groups.hpp), sixteen constraints that share no vertex side by side. grouped: the same with neighbouring
 // constraints in groups, quicker per iteration and with a larger volume change after 24 of them.
@@ -96,6 +99,7 @@ struct PbsOptions {
     std::optional<Jiggle> jiggle;    // nothing: the zone is as all else
 
     // Changes to the paper's method; the defaults are the paper's.
+    StartShape start = StartShape::lbs;  // for the caller
     BindTo bind_to = BindTo::bone_distance;
     VolumeOf volume_of = VolumeOf::tets;
     int region_tets = 256;  // tets in a region, 1 or more; see volume_of
@@ -116,6 +120,7 @@ struct XpbdOptions {
     int iterations = 24;  // per substep
     int substeps = 1;     // per time step
     Vec3 gravity_m_s2 = Vec3::Zero();
+    StartShape start = StartShape::lbs;    // for the caller
     bool jiggle = false;                   // the jiggling zone is integrated in time
     bool keep_multipliers = true;          // false: set to zero in every iteration, a common mistake; a negative control
     Order order = Order::plain;            // within each class; ordered and grouped are packed code

@@ -2,8 +2,8 @@
 // family of references, which differ in how the bones hold the flesh and in how compressible it is.
 //   const EnsembleRecords records = measure_ensemble(of);
 //   table_of(pair_columns, records.pairs).write("pairs.csv");
-// A pair of deformers is decided if every member orders it in the same way by more than its own error allows
-// (analysis/verdicts/pair_order.hpp).
+// A pair of deformers is decided if every member orders it in the same way by more than its own error allows, with the default settings of
+// both and with those chosen on training poses (analysis/verdicts/pair_order.hpp).
 //
 // And what the error of PBS against the first member is made of. With x_n the shape after n iterations, x_inf the same constraints
 // converged, x_h the reference and x_0 its limit on ever finer meshes,
@@ -35,6 +35,7 @@ struct EnsembleCase {
     std::vector<EnsembleMember> members = {};
     ReferenceEffort effort = ReferenceEffort::other_tets;  // of the first member with each Poisson's ratio
     std::vector<DeformerSpec> deformers = {};              // that are ordered
+    std::vector<DeformerSpec> tuned = {};                  // some of them with the settings chosen on the training poses
     // The parts of PBS's error, of each stiffness of the stretch constraints and number of iterations.
     DeformerSpec pbs = {};
     std::vector<DeformerSpec> other_flesh = {};  // is compared with the first member
@@ -73,6 +74,7 @@ struct ErrorRow {
 struct PairOrderRow {
     analysis::CaseKey of;
     std::string member, first, second;
+    SettingsOf settings = SettingsOf::defaults;
     std::optional<double> first_error_pct = {}, second_error_pct = {}, distance_pct = {};  // nothing where the member is not reached
     std::optional<double> error_bound_pct = {};                                            // of the member
     analysis::PairOrder order = analysis::PairOrder::undecided;
@@ -82,7 +84,7 @@ struct PairRow {
     std::string first, second;
     std::optional<double> difference_pct = {};  // of the errors against the first member reached, second minus first
     double largest_difference_pct = 0.0;        // of all members, without sign
-    int members = 0, not_reached = 0, first_is_closer = 0, second_is_closer = 0;
+    int members = 0, not_reached = 0, first_is_closer = 0, second_is_closer = 0;  // in the default settings
     analysis::PairDecision decision = analysis::PairDecision::reference_error;
 };
 struct PartsRow {
@@ -113,7 +115,7 @@ extern const analysis::Columns<AttachmentRow> attachment_columns;  // attachment
 struct EnsembleRecords {
     std::vector<MemberRow> members;
     std::vector<ErrorRow> errors;
-    std::vector<PairOrderRow> orders;  // one per pair and member
+    std::vector<PairOrderRow> orders;  // one per pair, member and settings
     std::vector<PairRow> pairs;
     std::vector<PartsRow> parts;             // one per k_stretch and number of iterations
     std::vector<AttachmentRow> attachments;  // one per k_stretch and flesh, the reference's own first

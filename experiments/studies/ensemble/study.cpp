@@ -14,6 +14,8 @@
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/study.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -37,7 +39,7 @@ const Columns<ErrorRow> error_columns =
 
 const Columns<PairOrderRow> pair_order_columns =
     within(&PairOrderRow::of, pose_columns()) +
-    MEMBER_COLUMNS(PairOrderRow, member, first, second, first_error_pct, second_error_pct, distance_pct, error_bound_pct, order);
+    MEMBER_COLUMNS(PairOrderRow, member, first, second, settings, first_error_pct, second_error_pct, distance_pct, error_bound_pct, order);
 
 const Columns<PairRow> pair_columns =
     within(&PairRow::of, pose_columns()) + MEMBER_COLUMNS(PairRow, first, second, difference_pct, largest_difference_pct, members,
@@ -52,7 +54,7 @@ const Columns<AttachmentRow> attachment_columns =
     within(&AttachmentRow::of, pose_columns()) +
     MEMBER_COLUMNS(AttachmentRow, reference, model, attachment, spring_factor, core_radius, difference_pct, k_stretch, model_pct, finished);
 
-RECORD_SETTINGS(EnsembleCase, of, scene, frame, flesh, members, effort, deformers, pbs, other_flesh, k_stretch, iterations,
+RECORD_SETTINGS(EnsembleCase, of, scene, frame, flesh, members, effort, deformers, tuned, pbs, other_flesh, k_stretch, iterations,
                 converged_iterations)
 
 std::vector<DeformerSpec> other_attachments(const DeformerSpec& reference)
@@ -85,7 +87,8 @@ namespace {
 
 struct DeformedShape {
     std::string deformer;
-    pbs::Positions positions;  // [m], #V x 3
+    pbs::Positions positions;                  // [m], #V x 3
+    std::optional<pbs::Positions> tuned = {};  // with the settings of the training poses, where these are others
 };
 
 MemberRow member_row(const EnsembleCase& of, const EnsembleMember& member, const PosedReference& reference,
@@ -119,18 +122,24 @@ MemberRow member_row(const EnsembleCase& of, const EnsembleMember& member, const
     return row;
 }
 
-// The order that a member of the family gives a pair of shapes.
-PairOrderRow order_by(const EnsembleCase& of, const MemberRow& member, const PosedReference& reference, const DeformedShape& first,
-                      const DeformedShape& second)
+// The orders that a member of the family gives a pair of shapes, in the default and in other settings.
+void add_orders(const EnsembleCase& of, const MemberRow& member, const PosedReference& reference, const DeformedShape& first,
+                const DeformedShape& second, std::vector<PairOrderRow>& orders)
 {
-    PairOrderRow row{.of = of.of, .member = member.member.name, .first = first.deformer, .second = second.deformer};
-    row.error_bound_pct = member.error_bound_pct;
-    if (!reference.is_reached()) return row;
-    row.first_error_pct = reference.error_of(first.positions).joint_pct;
-    row.second_error_pct = reference.error_of(second.positions).joint_pct;
-    row.distance_pct = reference.distance(first.positions, second.positions).joint_pct;
-    row.order = analysis::order_of({row.first_error_pct, row.second_error_pct, row.distance_pct, row.error_bound_pct});
-    return row;
+    for (const SettingsOf settings : {SettingsOf::defaults, SettingsOf::training_poses}) {
+        const bool is_tuned = settings == SettingsOf::training_poses;
+        if (is_tuned && !first.tuned && !second.tuned) continue;
+        PairOrderRow& row = orders.emplace_back(PairOrderRow{
+            .of = of.of, .member = member.member.name, .first = first.deformer, .second = second.deformer, .settings = settings});
+        row.error_bound_pct = member.error_bound_pct;
+        if (!reference.is_reached()) continue;
+        const pbs::Positions &one = is_tuned && first.tuned ? *first.tuned : first.positions,
+                             &other = is_tuned && second.tuned ? *second.tuned : second.positions;
+        row.first_error_pct = reference.error_of(one).joint_pct;
+        row.second_error_pct = reference.error_of(other).joint_pct;
+        row.distance_pct = reference.distance(one, other).joint_pct;
+        row.order = analysis::order_of({row.first_error_pct, row.second_error_pct, row.distance_pct, row.error_bound_pct});
+    }
 }
 
 // orders: of one pair.
@@ -139,8 +148,9 @@ PairRow decided(const std::vector<PairOrderRow>& orders)
     PairRow row{.of = orders.front().of, .first = orders.front().first, .second = orders.front().second};
     std::vector<analysis::PairOrder> all;
     for (const PairOrderRow& one : orders) {
-        ++row.members;
         all.push_back(one.order);
+        if (one.settings != SettingsOf::defaults) continue;
+        ++row.members;
         row.first_is_closer += one.order == analysis::PairOrder::first_is_closer;
         row.second_is_closer += one.order == analysis::PairOrder::second_is_closer;
         row.not_reached += !one.distance_pct;
@@ -268,7 +278,8 @@ std::string measure_and_record(const EnsembleCase& of, const std::string& folder
 
 StudyPlan plan(bool full)
 {
-    return plan_of_cases("ensemble", full, [full](const StudyCase& in_file, StudyPlan& plan) {
+    const nlohmann::json tuned = cases_document("ensemble").at("tuned");
+    return plan_of_cases("ensemble", full, [&](const StudyCase& in_file, StudyPlan& plan) {
         EnsembleCase of{.of = in_file.key(), .scene = in_file.scene(), .frame = in_file.value<int>("frame")};
         of.members = family();
         of.flesh = reference_flesh(of.scene);
@@ -281,6 +292,13 @@ StudyPlan plan(bool full)
         small_strain.most_newton_steps = 0;
         for (const char* kind : {"lbs", "dqs", "delta_mush", "xpbd"}) of.deformers.push_back(default_spec(kind));
         of.deformers.insert(of.deformers.end(), {of.pbs, elastic});
+        for (const nlohmann::json& one : tuned) {
+            std::vector<std::string> overrides = one.at("keys");
+            overrides.push_back("deformers.use=[\"" + one.at("deformer").get<std::string>() + "\"]");
+            overrides.push_back("reference.name=");
+            of.tuned.push_back(in_file.scene(overrides).deformers.front());
+            if (of.tuned.back().kind == of.pbs.kind) options_of<pbs::PbsOptions>(of.tuned.back()).jiggle.reset();
+        }
         of.other_flesh = other_attachments(of.flesh);
         of.k_stretch = {0.05, 0.2, 0.9};
         of.iterations = {1, 4, 24, 96, 384};
@@ -313,6 +331,13 @@ EnsembleRecords measure_ensemble(const EnsembleCase& of, const std::string& solu
         else
             records.breakdown += spec.label + " did not finish. ";
     }
+    for (const DeformerSpec& spec : of.tuned) {
+        const Shape shape = body.shapes(spec).front();
+        if (const auto own = std::ranges::find(shapes, spec.label, &DeformedShape::deformer); own != shapes.end() && shape.finished)
+            own->tuned = shape.positions;
+        else
+            records.breakdown += spec.label + " with the settings of the training poses did not finish. ";
+    }
     std::map<std::pair<std::size_t, std::size_t>, std::vector<PairOrderRow>> orders;  // of each pair of shapes, one per member
     std::map<double, PosedReference> firsts;  // with each Poisson's ratio, whose bound holds for flesh that is held in other ways too
     for (const EnsembleMember& member : of.members) {
@@ -324,7 +349,7 @@ EnsembleRecords measure_ensemble(const EnsembleCase& of, const std::string& solu
         records.members.push_back(member_row(of, member, reference, metrics));
         for (std::size_t a = 0; a < shapes.size(); ++a)
             for (std::size_t b = a + 1; b < shapes.size(); ++b)
-                orders[{a, b}].push_back(order_by(of, records.members.back(), reference, shapes[a], shapes[b]));
+                add_orders(of, records.members.back(), reference, shapes[a], shapes[b], orders[{a, b}]);
         if (!reference.is_reached()) continue;
         for (const DeformedShape& shape : shapes) {
             const analysis::ErrorNorms error = reference.error_of(shape.positions);

@@ -106,6 +106,8 @@ public:
     analysis::ErrorNorms distance(const pbs::Positions& one, const pbs::Positions& other) const;
     analysis::ErrorNorms error_of(const pbs::Positions& positions) const { return distance(positions, reference().positions); }
     analysis::ErrorNorms error_on_whole_body(const pbs::Positions& positions) const;
+    // By which the distance at the joints of many pairs is known (analysis::ErrorMetrics).
+    Eigen::VectorXd joint_weights() const { return error_metrics_.joint_weights(masked_); }
 
     // The observed order is empty unless the four nested solutions finished.
     const std::optional<analysis::NestedOrder>& order() const { return order_; }
@@ -172,6 +174,10 @@ nlohmann::json to_json(const EnsembleMember& member);
 // q 10 and 100 with a core radius of 0.5 and 0.7; and, with 10 and 0.7, Poisson's ratio 0.3 and (with mean dilatation) 0.49. The first
 // one, smooth, is held like the reference of the other studies (reference_flesh).
 std::vector<EnsembleMember> family();
+
+// The settings of the deformers of a pair: those that are chosen on the training poses, or their own.
+enum class SettingsOf { training_poses, defaults };
+NAMED_OPTIONS(SettingsOf, training_poses, defaults)
 
 inline constexpr std::size_t further_members = 5;  // of the family, after the first one
 // The place of a further member among these, by its name; `further_members` or more for any other name.

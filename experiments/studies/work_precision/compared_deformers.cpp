@@ -49,6 +49,7 @@ std::vector<ComparedDeformer> entries_of(const std::string& table, const Compare
             one.erase(key);
         };
         read("name", entry.name), read("kind", entry.kind), read("group", entry.group), read("weights", entry.weights);
+        read("class", entry.of_class), read("knows", entry.knows);
         read("fixed", entry.fixed), read("iterations_key", entry.iterations_key), read("iterations", entry.iterations);
         read("few", entry.few_iterations), read("grid", entry.grid), read("codes", entry.codes), read("young_key", entry.young_key);
         read("poisson_key", entry.poisson_key), read("smooth_weights", entry.smooth_weights);
@@ -106,6 +107,7 @@ void check_external(const SceneValues& values, const std::string& table, const D
 }
 
 constexpr std::size_t grid_in_short = 3;
+const std::string finite_elements = "finite_elements";
 
 // Finite elements with the reference's material and attachment.
 DeformerSpec fem_spec(const Scene& scene, reference_fem::Model model, int element_order)
@@ -261,11 +263,11 @@ const std::vector<DeformerGroup>& deformer_groups()
         for (const ComparedDeformer& entry : compared_deformers()) {
             const std::string& key = entry.group.empty() ? entry.name : entry.group;
             auto found = std::ranges::find(all, key, &DeformerGroup::key);
-            if (found == all.end()) found = all.insert(all.end(), DeformerGroup{key, {}});
+            if (found == all.end()) found = all.insert(all.end(), DeformerGroup{.key = key, .of_class = entry.of_class});
             found->deformers.push_back(entry.name);
         }
-        all.push_back({"linear_fem", {"fem_linear"}});
-        all.push_back({"nonlinear_fem", {"fem_corotational", "fem_neo_hookean", "fem_stable_neo_hookean"}});
+        all.push_back({"linear_fem", {"fem_linear"}, false, finite_elements});
+        all.push_back({"nonlinear_fem", {"fem_corotational", "fem_neo_hookean", "fem_stable_neo_hookean"}, false, finite_elements});
         return all;
     }();
     return groups;
@@ -274,8 +276,19 @@ const std::vector<DeformerGroup>& deformer_groups()
 std::vector<DeformerGroup> groups_with(const std::vector<std::string>& external)
 {
     std::vector<DeformerGroup> all = deformer_groups();
-    for (const std::string& name : external) all.push_back({name, {name}, true});
+    for (const std::string& name : external) all.push_back({name, {name}, true, name});
     return all;
+}
+
+std::vector<DeformerGroup> classes_of(const std::vector<DeformerGroup>& groups)
+{
+    std::vector<DeformerGroup> classes;
+    for (const DeformerGroup& group : groups) {
+        auto found = std::ranges::find(classes, group.of_class, &DeformerGroup::key);
+        if (found == classes.end()) found = classes.insert(classes.end(), DeformerGroup{.key = group.of_class});
+        found->deformers.insert(found->deformers.end(), group.deformers.begin(), group.deformers.end());
+    }
+    return classes;
 }
 
 std::vector<DeformerSpec> external_entries(const std::string& file)
@@ -304,9 +317,11 @@ SettingKey key_of(const Setting& setting)
     key.refined = setting.refined;
     key.tuned = setting.tuned;
     key.packed = traits.packed;
+    const auto entry = std::ranges::find(compared_deformers(), setting.deformer, &ComparedDeformer::name);
+    if (entry != compared_deformers().end()) key.knows = entry->knows;
     if (setting.is_external()) key.precision.clear();  // it is not known
     if (const auto* xpbd = options_if<pbs::XpbdOptions>(spec)) key.iterations = xpbd->iterations, key.substeps = xpbd->substeps;
-    if (const auto* fem = options_if<FemOptions>(spec)) key.element_order = fem->element_order;
+    if (const auto* fem = options_if<FemOptions>(spec)) key.element_order = fem->element_order, key.knows = "material attachment";
     const auto* pbs = options_if<pbs::PbsOptions>(spec);
     if (!pbs) return key;
     key.k_stretch = pbs->k_stretch;
@@ -332,8 +347,7 @@ const analysis::Columns<SettingKey>& setting_columns()
 
 const analysis::Columns<SettingKey>& point_key_columns()
 {
-    static const analysis::Columns<SettingKey> columns =
-        analysis::Columns<SettingKey>{{"deformer", &SettingKey::deformer}} + setting_columns();
+    static const analysis::Columns<SettingKey> columns = MEMBER_COLUMNS(SettingKey, deformer, knows) + setting_columns();
     return columns;
 }
 

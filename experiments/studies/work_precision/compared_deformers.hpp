@@ -37,11 +37,12 @@ struct GridValue {
 std::string name_of(const GridValue& value);
 
 struct ComparedDeformer {
-    std::string name = {};     // in the records
-    std::string kind = {};     // that is registered
-    std::string group = {};    // the group of deformers that it is shown with; empty: the name
-    std::string weights = {};  // of a [[kind]] table with weights of its own; empty: no such table
-    KeyValues fixed = {};      // of all its settings
+    std::string name = {};                  // in the records
+    std::string kind = {};                  // that is registered
+    std::string group = {};                 // the group of deformers that it is shown with; empty: the name
+    std::string of_class = {}, knows = {};  // `class` and `knows` in cases.toml
+    std::string weights = {};               // of a [[kind]] table with weights of its own; empty: no such table
+    KeyValues fixed = {};                   // of all its settings
     std::string iterations_key = {};
     std::vector<int> iterations = {};      // the ladder; empty: it does not iterate
     std::vector<int> few_iterations = {};  // part of it: on other meshes, and in the quick form
@@ -74,10 +75,13 @@ struct DeformerGroup {
     std::string key;
     std::vector<std::string> deformers;
     bool is_external = false;  // one deformer of the user's own
+    std::string of_class = {};
 };
 const std::vector<DeformerGroup>& deformer_groups();
 // These groups, followed by one for each of these deformers of the user's own.
 std::vector<DeformerGroup> groups_with(const std::vector<std::string>& external);
+// The classes of these groups, each with all of its deformers.
+std::vector<DeformerGroup> classes_of(const std::vector<DeformerGroup>& groups);
 
 // Deformers of the user's own in the comparison: the [[external]] tables of a file, which is written like a scene. An entry has no ladder
 // of iterations, no grid and one code, so that it is one setting per pose, on the case's own mesh. Throws an InputError for a
@@ -122,6 +126,9 @@ struct SettingKey {
     bool refined = false;
     std::string tuned = {};  // the value of the grid; empty: the default one
     bool packed = false;     // code that computes several constraints, vertices or tets per instruction
+    // What the deformer takes from the reference: material, attachment (the springs that hold the flesh), start (an initial guess whose
+    // weights are solved from these springs).
+    std::string knows = {};
 
     // f64 code that is not packed. A deformer of the user's own, whose code is not known, counts as such.
     bool is_plain() const { return precision != "f32" && !packed; }

@@ -88,6 +88,7 @@ Diagram mean_diagram(const std::string& key, const std::vector<Diagram>& poses)
     mean.groups = poses.front().groups;
     mean.has_reference = true;
     mean.poses = static_cast<int>(poses.size());
+    mean.of_poses = poses;
     mean.members.fill({true, 0.0});
     mean.reference_error_pct = 0.0;
     for (const Diagram& pose : poses) {
@@ -112,6 +113,23 @@ Diagram mean_diagram(const std::string& key, const std::vector<Diagram>& poses)
 
 constexpr std::size_t fewest_for_a_mean = 3;
 
+// The same setting in a pose of a mean, which has it.
+const DiagramPoint* point_of(const Diagram& pose, const DiagramPoint& setting)
+{
+    return &*std::ranges::find(pose.points, setting.key, &DiagramPoint::key);
+}
+
+// reference: 0 is the first one, then the further ones.
+analysis::PairDistances distances_on(const Diagram& diagram, const DiagramPoint& first, const DiagramPoint& second, std::size_t reference)
+{
+    if (reference > 0)
+        return {first.members[reference - 1], second.members[reference - 1],
+                diagram.shapes ? diagram.shapes->distance_pct(first.row, second.row, reference) : std::nullopt,
+                diagram.members[reference - 1].bound_pct};
+    return {first.error_pct, second.error_pct, diagram.shapes ? diagram.shapes->distance_pct(first.row, second.row, 0) : std::nullopt,
+            diagram.reference_error_pct};
+}
+
 bool is_chosen(const std::vector<ChosenSetting>& chosen, Comparison comparison, const SettingKey& key)
 {
     return std::ranges::any_of(chosen, [&](const auto& one) { return one.comparison == comparison && one.key == key; });
@@ -127,6 +145,7 @@ Diagram diagram_of(const CaseRecords& records, Comparison comparison, const std:
     diagram.key = case_name(diagram.pose);
     for (const FamilyRow& row : records.members)
         diagram.members.at(place_among_further(row.member.name)) = {true, row.outcome == "reached" ? row.error_bound_pct : std::nullopt};
+    diagram.shapes = records.shapes;
     std::vector<std::string> external;
     for (const PointRow& row : records.rows) {
         if (row.is_external) external.push_back(row.key.deformer);
@@ -137,7 +156,8 @@ Diagram diagram_of(const CaseRecords& records, Comparison comparison, const std:
         if (row.ms_median && row.error && is_chosen(chosen, comparison, row.key))
             diagram.points.push_back({row.key, *row.ms_median, row.ms_q1, row.ms_q3, row.error->joint_pct, row.error->l2_pct,
                                       row.error->linf_m, row.metrics ? std::optional(row.metrics->volume_abs_change_pct) : std::nullopt,
-                                      row.below_reference_error.value_or(false), row.members});
+                                      row.below_reference_error.value_or(false), row.members,
+                                      static_cast<int>(&row - records.rows.data())});
     }
     diagram.groups = groups_with(external);
     return diagram;
@@ -178,7 +198,12 @@ bool takes_part(Comparison comparison, const SettingKey& key, const BestCodes& b
     return found == best.end() || code_rank(key) == found->second;
 }
 
-std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases)
+namespace {
+
+// One setting of each choice, or none.
+using Choose = std::optional<ChosenSetting> (*)(Comparison, const std::vector<SettingKey>&, const std::vector<const CaseRows*>&);
+
+std::vector<ChosenSetting> settings_by(Choose choose, const std::vector<CaseRows>& cases)
 {
     const BestCodes best = best_codes(cases);
     std::vector<ChosenSetting> chosen;
@@ -202,6 +227,21 @@ std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases)
         }
     }
     return chosen;
+}
+
+}  // namespace
+
+std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases)
+{
+    return settings_by(choose, cases);
+}
+
+std::vector<ChosenSetting> default_settings(const std::vector<CaseRows>& cases)
+{
+    const auto first = [](Comparison comparison, const std::vector<SettingKey>& settings, const std::vector<const CaseRows*>&) {
+        return std::optional(ChosenSetting{comparison, settings.front(), static_cast<int>(settings.size())});
+    };
+    return settings_by(first, cases);
 }
 
 const analysis::Columns<DiagramPoint>& measures()
@@ -280,31 +320,33 @@ const DiagramPoint* best_of(const Diagram& diagram, const DeformerGroup& group, 
     return best ? &diagram.points[indices[*best]] : nullptr;
 }
 
-Decision decision_on(const Diagram& diagram, const DiagramPoint& nearer, const DiagramPoint& other)
+const analysis::Columns<ReferenceOrder>& reference_order_columns()
 {
-    using analysis::PairOrder;
-    // The distance between the two shapes is not recorded.
-    std::vector<PairOrder> orders = {analysis::order_of({nearer.error_pct, other.error_pct, std::nullopt, diagram.reference_error_pct})};
-    std::vector<std::string> silent, contrary;  // further references that do not decide, and that decide for the other point
+    using analysis::PairDistances;
+    static const Columns<ReferenceOrder> columns =
+        Columns<ReferenceOrder>{{"member", &ReferenceOrder::member}} +
+        within(&ReferenceOrder::distances, Columns<PairDistances>{{"first_error_pct", &PairDistances::first_error},
+                                                                  {"second_error_pct", &PairDistances::second_error},
+                                                                  {"distance_pct", &PairDistances::distance},
+                                                                  {"error_bound_pct", &PairDistances::bound}}) +
+        Columns<ReferenceOrder>{{"order", &ReferenceOrder::order}};
+    return columns;
+}
+
+std::vector<ReferenceOrder> orders_on(const Diagram& diagram, const DiagramPoint& first, const DiagramPoint& second)
+{
     const std::vector<EnsembleMember> all = family();
-    for (std::size_t m = 0; m < diagram.members.size(); ++m) {
-        if (!diagram.members[m].takes_part) continue;
-        orders.push_back(analysis::order_of({nearer.members[m], other.members[m], std::nullopt, diagram.members[m].bound_pct}));
-        if (orders.back() == PairOrder::undecided) silent.push_back(all[m + 1].name);
-        if (orders.back() == PairOrder::second_is_closer) contrary.push_back(all[m + 1].name);
+    std::vector<ReferenceOrder> orders;
+    for (std::size_t reference = 0; reference <= further_members; ++reference) {
+        if (reference > 0 && !diagram.members[reference - 1].takes_part) continue;
+        std::vector<analysis::PairDistances> of_poses;
+        for (const Diagram& pose : diagram.of_poses)
+            of_poses.push_back(distances_on(pose, *point_of(pose, first), *point_of(pose, second), reference));
+        const analysis::PairDistances distances = distances_on(diagram, first, second, reference);
+        if (of_poses.empty()) of_poses.push_back(distances);
+        orders.push_back({all[reference].name, distances, analysis::order_of_means(of_poses)});
     }
-    Decision decision{analysis::decide(orders)};
-    if (!contrary.empty()) {
-        decision.decision = analysis::PairDecision::models_disagree;
-        decision.reason = fmt::format("the order is the other way round for {}", fmt::join(contrary, ", "));
-    } else if (!diagram.reference_error_pct) {
-        decision.reason = "the reference's own error is not known";
-    } else if (orders.front() == PairOrder::undecided) {
-        decision.reason = fmt::format("within the reference's own error of up to {:.2g} %", *diagram.reference_error_pct);
-    } else if (!silent.empty()) {
-        decision.reason = fmt::format("not decided by {}, by their own error or because they were not reached", fmt::join(silent, ", "));
-    }
-    return decision;
+    return orders;
 }
 
 }  // namespace experiments

@@ -11,6 +11,7 @@
 #include "experiments/studies/work_precision/measured_points.hpp"
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,7 @@ struct ChosenSetting {
 extern const analysis::Columns<ChosenSetting> chosen_columns;  // settings.csv
 
 std::vector<ChosenSetting> choose_settings(const std::vector<CaseRows>& cases);
+std::vector<ChosenSetting> default_settings(const std::vector<CaseRows>& cases);  // the default one of each choice
 
 struct DiagramPoint {
     SettingKey key;
@@ -58,6 +60,7 @@ struct DiagramPoint {
     std::optional<double> l2_pct = {}, linf_m = {}, volume_abs_change_pct = {};
     bool below_reference_error = false;
     MemberErrors members = {};  // against the further references
+    int row = 0;                // of the case's points
 };
 
 // The measures of fronts, named as the points' columns: error_joint_pct, by which all orders are decided, error_l2_pct, error_linf_m and
@@ -83,6 +86,8 @@ struct Diagram {
     std::array<DiagramMember, further_members> members = {};
     int poses = 1;
     std::vector<std::string> cases = {};                    // of a mean: the keys of its poses
+    std::vector<Diagram> of_poses = {};                     // of a mean: these poses
+    std::shared_ptr<const RecordedShapes> shapes = {};      // of one case; null: the distances of shapes are not known
     std::vector<DeformerGroup> groups = deformer_groups();  // those of the user's own deformers last
 
     // The points of these deformers with their cost and measure. indices[k] is the place of the k-th in `points`.
@@ -98,6 +103,7 @@ bool is_pose(const Diagram& diagram);  // with a reference; a mean over several 
 struct CaseRecords {
     CaseRows rows;
     std::vector<FamilyRow> members = {};
+    std::shared_ptr<const RecordedShapes> shapes = {};
 };
 
 // Returns a diagram for each case, training cases included, and one for each mean over evaluated poses. The times and errors of a mean are
@@ -107,45 +113,61 @@ std::vector<Diagram> diagrams_of(const std::vector<CaseRecords>& cases, const st
 // The best of the group's points within a budget of time. Null where none is as fast.
 const DiagramPoint* best_of(const Diagram& diagram, const DeformerGroup& group, double budget_ms);
 
-// Whether a statement "this point is nearer than that one" survives the choice of the reference and the references' own errors. Errors are
-// distances: relative to the exact solution, each may be larger or smaller by the error of the reference. A reference orders two points if
-// their errors differ by more than twice the bound of its own error (analysis/verdicts/pair_order.hpp with |A - B| <= e_A + e_B). A
-// statement is decided if every reference of the ensemble orders the points in this way.
-//   decision_on(diagram, pbs, delta_mush).reason
-struct Decision {
-    analysis::PairDecision decision = analysis::PairDecision::decided;
-    std::string reason = {};  // why it is not decided; empty where it is
+// How a reference orders two points, with the values that decide it, by the rule of analysis/verdicts/pair_order.hpp. Where the distance of
+// the two shapes is not known, the sum of their errors takes its place. In a mean, the values are means over the poses, and the order is
+// that of the mean difference.
+struct ReferenceOrder {
+    std::string member;  // of the family
+    analysis::PairDistances distances;
+    analysis::PairOrder order = analysis::PairOrder::undecided;
 };
+const analysis::Columns<ReferenceOrder>& reference_order_columns();
+// One order for each reference that takes part, the first one first.
+std::vector<ReferenceOrder> orders_on(const Diagram& diagram, const DiagramPoint& first, const DiagramPoint& second);
 
-// `nearer` has the smaller error against the first reference.
-Decision decision_on(const Diagram& diagram, const DiagramPoint& nearer, const DiagramPoint& other);
+// Which class of deformers is nearest to the reference within a time per frame, and which deformer within that class.
+//   const NearestAnswers answers = nearest_classes(diagrams_of(cases, choose_settings(rows)), diagrams_of(cases, default_settings(rows)));
+// The nearest class is that of the best point within the time, with the settings that were chosen on the training poses. It is compared
+// with the best point of each other class, in these settings and once more in the deformers' default settings. It is decided against
+// another class if every reference orders the two in its favour in both. Otherwise the answer is "either of" the two. The deformers of the
+// nearest class are compared in the same way.
 
-// The results of diagrams as tables: the fronts, which group of deformers is nearer from which time on, and the best point of each group
-// within a time. Every order is marked as decided or with the reason why not.
-
-// fronts.csv: the Pareto front of all points of each diagram (front "all") and of each deformer's own points, by each measure. `value` is
-// that of the measure. The reference is not a candidate. On the front of all by error_joint_pct, `decision` states whether the point is
-// nearer than the best point of any other group within its time. The other fronts have no decision: the references bound no other measure
-// in each point, and a front of one deformer compares its settings with each other.
-analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams);
-
-// best_within.csv: the best point of each group within a budget, the nearest group first. `decision` is whether it is nearer than every
-// group of a later rank within the budget: undecided if one of these is undecided. Figure and fronts use this rule.
-struct BudgetRow {
+struct NearestQuestion {
     Comparison comparison = Comparison::packed_f32;
     std::string diagram;
     double budget_ms = 0.0;
-    int rank = 0;  // from 1
-    std::string group;
-    DiagramPoint point;
-    std::optional<analysis::PairDecision> decision = {};  // nothing: there is no group of a later rank
-    std::vector<std::string> undecided_against = {};      // keys of these groups
-    std::string reason = {};                              // of the worst decision
+    std::string among = "classes";  // or the class whose deformers are compared
 };
-extern const analysis::Columns<BudgetRow> budget_columns;
 
-std::vector<BudgetRow> best_within(const Diagram& diagram, double budget_ms);
-std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams);  // all budgets; of a single pose the first ranks alone
+// How a reference orders the nearest one and another one. Both have a point within the time.
+struct NearestPair {
+    NearestQuestion of;
+    std::string first, second;  // classes or deformers; the first is the nearest one
+    SettingsOf settings = SettingsOf::training_poses;
+    ReferenceOrder by;
+};
+extern const analysis::Columns<NearestPair> nearest_pair_columns;  // nearest_pairs.csv
+
+struct NearestAnswer {
+    NearestQuestion of;
+    std::string nearest;
+    DiagramPoint point;                                                 // of the nearest one, in the settings of the training poses
+    int others = 0;                                                     // classes or deformers that have a point within the time, too
+    std::vector<std::string> either_of = {};                            // those that the nearest one is not decided against
+    analysis::PairDecision decision = analysis::PairDecision::decided;  // the worst one against another; settings disagree as models do
+};
+extern const analysis::Columns<NearestAnswer> nearest_columns;  // nearest.csv
+
+struct NearestAnswers {
+    std::vector<NearestAnswer> answers;
+    std::vector<NearestPair> pairs;
+};
+// Of the evaluated poses and of means. A diagram of the default settings belongs to the one of the same comparison and poses.
+NearestAnswers nearest_classes(const std::vector<Diagram>& chosen, const std::vector<Diagram>& defaults);
+
+// fronts.csv: the Pareto front of all points of each diagram (front "all") and of each deformer's own points, by each measure. `value` is
+// that of the measure. The reference is not a candidate.
+analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams);
 
 // Data profiles (J. More, S. Wild, Benchmarking derivative-free optimization algorithms, SIAM J. Optim. 20, 2009): the share of poses that
 // a deformer solves to a tolerance, against the time per frame. A pose is solved to 5 % within t if a point of the deformer takes at most t

@@ -12,8 +12,7 @@ namespace {
 using analysis::Columns;
 using analysis::within;
 
-constexpr int ranks_of_a_pose = 3;
-constexpr double budgets_ms[] = {0.1, 1.0, 3.0, 10.0, 100.0}, profile_tolerances_pct[] = {10.0, 5.0, 2.0};
+constexpr double profile_tolerances_pct[] = {10.0, 5.0, 2.0};
 
 struct FrontRow {
     Comparison comparison;
@@ -21,8 +20,6 @@ struct FrontRow {
     DiagramPoint point;
     double value = 0.0;
     std::optional<double> reference_error_joint_pct;
-    std::optional<analysis::PairDecision> decision = {};
-    std::string reason = {};
 };
 const Columns<FrontRow> front_columns =
     Columns<FrontRow>{
@@ -30,7 +27,7 @@ const Columns<FrontRow> front_columns =
     within(&FrontRow::point, diagram_point_columns() + MEMBER_COLUMNS(DiagramPoint, ms_q1, ms_q3)) +
     Columns<FrontRow>{{"value", &FrontRow::value}} +
     within(&FrontRow::point, Columns<DiagramPoint>{measures().front(), {"below_reference_error", &DiagramPoint::below_reference_error}}) +
-    MEMBER_COLUMNS(FrontRow, reference_error_joint_pct, decision, reason);
+    MEMBER_COLUMNS(FrontRow, reference_error_joint_pct);
 
 const std::string all_name = "all";
 
@@ -47,12 +44,7 @@ void add_front(std::vector<FrontRow>& rows, const Diagram& diagram, const std::s
     std::vector<std::size_t> indices;
     for (const std::size_t on_front : analysis::pareto_front(diagram.of(deformers, indices, measure))) {
         const DiagramPoint& point = diagram.points[indices[on_front]];
-        FrontRow& row = rows.emplace_back(
-            FrontRow{diagram.comparison, diagram.key, measure, name, point, value_of(point, measure), diagram.reference_error_pct});
-        if (name != all_name || measure != measures().front().name) continue;
-        const BudgetRow nearest = best_within(diagram, point.ms).front();
-        row.decision = nearest.decision;
-        row.reason = nearest.reason;
+        rows.push_back({diagram.comparison, diagram.key, measure, name, point, value_of(point, measure), diagram.reference_error_pct});
     }
 }
 
@@ -153,11 +145,6 @@ std::vector<Omission> omissions_in(const std::vector<const CaseRows*>& some, Com
 
 }  // namespace
 
-const Columns<BudgetRow> budget_columns = Columns<BudgetRow>{{"comparison", &BudgetRow::comparison}, {"case", &BudgetRow::diagram}} +
-                                          MEMBER_COLUMNS(BudgetRow, budget_ms, rank, group) +
-                                          within(&BudgetRow::point, diagram_point_columns() + Columns<DiagramPoint>{measures().front()}) +
-                                          MEMBER_COLUMNS(BudgetRow, decision, undecided_against, reason);
-
 analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams)
 {
     std::vector<FrontRow> rows;
@@ -167,36 +154,6 @@ analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams)
             for (const std::string& deformer : all_deformers(diagram)) add_front(rows, diagram, measure, deformer, {deformer});
         }
     return table_of(front_columns, rows);
-}
-
-std::vector<BudgetRow> best_within(const Diagram& diagram, double budget_ms)
-{
-    std::vector<BudgetRow> rows;
-    for (const DeformerGroup& group : diagram.groups)
-        if (const DiagramPoint* point = best_of(diagram, group, budget_ms))
-            rows.push_back({diagram.comparison, diagram.key, budget_ms, 0, group.key, *point});
-    std::ranges::stable_sort(rows, {}, [](const BudgetRow& row) { return row.point.error_pct; });
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        rows[i].rank = static_cast<int>(i + 1);
-        for (std::size_t later = i + 1; later < rows.size(); ++later) {
-            const Decision decision = decision_on(diagram, rows[i].point, rows[later].point);
-            if (decision.decision != analysis::PairDecision::decided) rows[i].undecided_against.push_back(rows[later].group);
-            if (rows[i].decision && decision.decision <= *rows[i].decision) continue;
-            rows[i].decision = decision.decision;
-            rows[i].reason = decision.reason;
-        }
-    }
-    return rows;
-}
-
-std::vector<BudgetRow> best_within(const std::vector<Diagram>& diagrams)
-{
-    std::vector<BudgetRow> rows;
-    for (const Diagram& diagram : diagrams)
-        for (const double budget_ms : budgets_ms)
-            for (BudgetRow& row : best_within(diagram, budget_ms))
-                if (diagram.poses > 1 || row.rank <= ranks_of_a_pose) rows.push_back(std::move(row));
-    return rows;
 }
 
 const analysis::Columns<ProfileStep> data_profile_columns =

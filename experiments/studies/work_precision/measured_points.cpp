@@ -123,6 +123,16 @@ public:
 
     const PosedReference& first() const { return first_; }
 
+    // By which the distances of shapes are known: of each reference, the first one first.
+    RecordedShapes no_shapes(const pbs::Positions& rest) const
+    {
+        std::vector<Eigen::VectorXd> weights(1 + further_members);
+        if (first_.is_reached()) weights[0] = first_.joint_weights();
+        for (std::size_t m = 0; m < members_.size(); ++m)
+            if (members_[m].is_reached()) weights[1 + place_among_further(of_.members[m].name)] = members_[m].joint_weights();
+        return {weights, first_.is_reached() ? first_.reference().positions : rest};
+    }
+
     // The errors of these positions of the case's own vertices [m], #V x 3, against each reference that was reached.
     void add_errors(PointRow& row, const pbs::Positions& positions) const
     {
@@ -208,6 +218,7 @@ public:
     {
         for (const Setting& setting : external_) reach(setting);
         references_.emplace(of_, *base_, poses_, solutions_);
+        measured_.shapes = references_->no_shapes(base_->mesh.rest);
         add_other_meshes();
         compared_ = settings_of(of_.scene, of_.range);
         for (Setting& setting : compared_) {
@@ -312,16 +323,17 @@ private:
             for (std::size_t b = 0; b < budget_iterations.size(); ++b)
                 if (const ReachedPoint* of_pbs = baseline_after(budget_iterations[b]))
                     row.from_pbs_pct[b] = references_->first().distance(point.on_base, of_pbs->on_base).joint_pct;
-        add_row_of_case(std::move(row), point.setting);
+        const pbs::Positions* shape = row.error ? &point.on_base : nullptr;
+        add_row_of_case(std::move(row), point.setting, shape);
     }
 
     // The rows of changes have a table of their own, to which PBS belongs, too.
-    void add_row_of_case(PointRow row, const Setting* setting = nullptr)
+    void add_row_of_case(PointRow row, const Setting* setting = nullptr, const pbs::Positions* shape = nullptr)
     {
         row.of = of_.of;
         row.half = of_.half;
         const bool is_change = setting && setting->change;
-        if (!is_change) measured_.rows.push_back(row);
+        if (!is_change) measured_.rows.push_back(row), measured_.shapes.add(shape);
         if (!is_change && !(of_.range.changes && is_baseline(row.key))) return;
         references_->set_reference_of_change(row);
         measured_.changes.push_back(std::move(row));

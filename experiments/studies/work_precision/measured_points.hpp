@@ -148,6 +148,34 @@ extern const analysis::Columns<PointRow> point_columns;
 extern const analysis::Columns<PointRow> change_columns;  // changes.csv
 analysis::Columns<PointRow> columns_for(const std::vector<PointRow>& rows);
 
+// The shapes of a case's points, so that the distance between any two of them is known when the settings are chosen. They lie next to
+// points.csv, in the order of its rows.
+//   RecordedShapes shapes({reference.joint_weights()}, reference.positions);
+//   shapes.add(&positions), shapes.add(nullptr);                     // a row with a shape, and one without
+//   RecordedShapes::read(shapes.text()).distance_pct(0, 5, 0);
+class RecordedShapes {
+public:
+    RecordedShapes() = default;
+    // weights: of each reference (analysis::ErrorMetrics::joint_weights), #V; empty where a reference was not reached. origin: [m], #V x 3;
+    // the shapes are kept as displacements from it in single precision, so that their distances have an error of 1e-7 of their errors.
+    RecordedShapes(std::vector<Eigen::VectorXd> weights, const pbs::Positions& origin);
+
+    void add(const pbs::Positions* positions);  // [m], #V x 3; null: the row has no shape
+    int rows() const { return static_cast<int>(shapes_.size()); }
+
+    // The distance of the shapes of two rows, in the norm of error_joint_pct of a reference; nothing where one of these is not there.
+    std::optional<double> distance_pct(int one, int other, std::size_t reference) const;
+
+    std::string text() const;                             // CBOR
+    static RecordedShapes read(const std::string& text);  // an InputError for a text that is damaged
+
+private:
+    std::vector<Eigen::VectorXd> weights_;  // of each reference, of the measured vertices
+    std::vector<int> measured_;             // vertices that have a weight for some reference
+    pbs::Positions origin_;                 // of these
+    std::vector<Eigen::MatrixX3f> shapes_;  // displacements of these [m]; empty: none
+};
+
 // A further reference of the family, solved with quadratic elements on the case's own tets alone. Its bound is that of the first member's
 // own solution on these tets, which is an assumption: the same elements have a similar error.
 struct FamilyRow {
@@ -195,6 +223,7 @@ void add_time(PointRow& row, std::vector<double> samples);
 
 struct MeasuredPoints {
     std::vector<PointRow> rows;
+    RecordedShapes shapes;          // of these rows
     std::vector<PointRow> changes;  // to PBS, and PBS itself: with SettingRange::changes
     std::vector<FamilyRow> members;
     std::string breakdown;  // PBS, LBS or a deformer of the user's own that is not finite; a reference that is not reached is recorded as

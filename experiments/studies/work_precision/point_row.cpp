@@ -4,10 +4,14 @@
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/character/character.hpp"
 #include "pbs/character/skinning_weights.hpp"
+#include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace experiments {
@@ -67,6 +71,24 @@ Points columns_of_comparison()
 
 // These columns are written only if a deformer of the user's own takes part.
 const Points columns_of_external = Points{{"external", &PointRow::is_external}, {"clock", &PointRow::clock}}.in_group("external");
+
+using Bytes = std::vector<std::uint8_t>;
+
+template <typename Matrix>
+nlohmann::json bytes_of(const Matrix& matrix)
+{
+    const auto* first = reinterpret_cast<const std::uint8_t*>(matrix.data());
+    return nlohmann::json::binary(Bytes(first, first + matrix.size() * sizeof *matrix.data()));
+}
+
+template <typename Matrix>
+Matrix matrix_of(const nlohmann::json& bytes, Eigen::Index columns)
+{
+    const Bytes& from = bytes.get_binary();
+    Matrix matrix(static_cast<Eigen::Index>(from.size() / sizeof(typename Matrix::Scalar)) / columns, columns);
+    std::memcpy(matrix.data(), from.data(), matrix.size() * sizeof(typename Matrix::Scalar));
+    return matrix;
+}
 
 }  // namespace
 
@@ -145,6 +167,51 @@ pbs::StepSummary PosedDeformer::advance(const pbs::Pose& pose)
     const pbs::StepSummary step = deformer_->advance(pose, poses_.time_step_s);
     has_arrived_ = step.outcome == pbs::Outcome::finished;
     return step;
+}
+
+RecordedShapes::RecordedShapes(std::vector<Eigen::VectorXd> weights, const pbs::Positions& origin)
+{
+    for (int v = 0; v < origin.rows(); ++v)
+        if (std::ranges::any_of(weights, [&](const Eigen::VectorXd& of) { return of.size() > 0 && of(v) > 0.0; })) measured_.push_back(v);
+    for (const Eigen::VectorXd& of : weights) weights_.push_back(of.size() > 0 ? Eigen::VectorXd(of(measured_)) : Eigen::VectorXd());
+    origin_ = origin(measured_, Eigen::all);
+}
+
+void RecordedShapes::add(const pbs::Positions* positions)
+{
+    shapes_.emplace_back();
+    if (positions) shapes_.back() = ((*positions)(measured_, Eigen::all) - origin_).cast<float>();
+}
+
+std::optional<double> RecordedShapes::distance_pct(int one, int other, std::size_t reference) const
+{
+    if (one >= rows() || other >= rows() || reference >= weights_.size()) return std::nullopt;
+    const Eigen::VectorXd& weights = weights_[reference];
+    const Eigen::MatrixX3f &a = shapes_[one], &b = shapes_[other];
+    if (weights.size() == 0 || a.rows() != weights.size() || b.rows() != weights.size()) return std::nullopt;
+    return 100.0 * std::sqrt(weights.dot((a.cast<double>() - b.cast<double>()).rowwise().squaredNorm()));
+}
+
+std::string RecordedShapes::text() const
+{
+    nlohmann::json all = {{"weights", nlohmann::json::array()}, {"shapes", nlohmann::json::array()}};
+    for (const Eigen::VectorXd& weights : weights_) all["weights"].push_back(bytes_of(weights));
+    for (const Eigen::MatrixX3f& shape : shapes_) all["shapes"].push_back(bytes_of(shape));
+    const Bytes bytes = nlohmann::json::to_cbor(all);
+    return {bytes.begin(), bytes.end()};
+}
+
+RecordedShapes RecordedShapes::read(const std::string& text)
+{
+    RecordedShapes read;
+    try {
+        const nlohmann::json all = nlohmann::json::from_cbor(text);
+        for (const nlohmann::json& weights : all.at("weights")) read.weights_.push_back(matrix_of<Eigen::VectorXd>(weights, 1));
+        for (const nlohmann::json& shape : all.at("shapes")) read.shapes_.push_back(matrix_of<Eigen::MatrixX3f>(shape, 3));
+    } catch (const nlohmann::json::exception&) {
+        throw pbs::InputError("shapes.cbor", 0, "shapes", "", "expected the shapes of a case's points");
+    }
+    return read;
 }
 
 const Points point_columns = within(&PointRow::of, pose_columns()) + within(&PointRow::key, point_key_columns()) + own_columns +

@@ -18,6 +18,7 @@ std::string measure_and_record(const WorkPrecisionCase& of, const std::string& f
 {
     const MeasuredPoints points = measure_points(of, solutions_of_run(folder));
     table_of(columns_for(points.rows), points.rows).write(analysis::path_in(folder, "points.csv"));
+    analysis::write_text_atomically(analysis::path_in(folder, "shapes.cbor"), points.shapes.text());
     table_of(family_columns, points.members).write(analysis::path_in(folder, "members.csv"));
     if (of.range.changes) table_of(change_columns, points.changes).write(analysis::path_in(folder, "changes.csv"));
     return points.breakdown;
@@ -68,7 +69,8 @@ bool conclude(const FinishedRuns& finished)
     for (const std::string& folder : finished.folders) {
         const auto read = [&](const char* file) { return analysis::read_csv(analysis::path_in(folder, file)); };
         rows.push_back(rows_of(point_columns, read("points.csv")));
-        cases.push_back({rows.back(), rows_of(family_columns, read("members.csv"))});
+        const auto shapes = RecordedShapes::read(analysis::read_text(analysis::path_in(folder, "shapes.cbor")));
+        cases.push_back({rows.back(), rows_of(family_columns, read("members.csv")), std::make_shared<RecordedShapes>(shapes)});
         points.insert(points.end(), rows.back().begin(), rows.back().end());
     }
     const std::vector<ChosenSetting> chosen = choose_settings(rows);
@@ -78,7 +80,9 @@ bool conclude(const FinishedRuns& finished)
     finished.write("points.csv", columns_for(points), points);
     finished.write("settings.csv", chosen_columns, chosen);
     finished.write("fronts.csv", fronts_table(diagrams));
-    finished.write("best_within.csv", budget_columns, best_within(diagrams));
+    const NearestAnswers answers = nearest_classes(diagrams, diagrams_of(cases, default_settings(rows)));
+    finished.write("nearest.csv", nearest_columns, answers.answers);
+    finished.write("nearest_pairs.csv", nearest_pair_columns, answers.pairs);
     finished.write("data_profiles.csv", data_profile_columns, data_profiles(diagrams));
     finished.write("omissions.csv", omission_columns, omissions);
 

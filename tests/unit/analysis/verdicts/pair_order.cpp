@@ -43,6 +43,16 @@ TEST(PairOrder, HoldsForEveryExactSolutionWithinTheBoundAndForNoLargerOne)
     EXPECT_GT(decided, 500);
 }
 
+// 12 - 10 and 9 - 10: the mean difference is 0.5, and each shift is at most 2 x 0.2.
+TEST(PairOrder, OfMeansIsThatOfTheMeanDifference)
+{
+    const std::vector<PairDistances> cases = {{12.0, 10.0, 22.0, 0.2}, {9.0, 10.0, 19.0, 0.2}};
+    EXPECT_EQ(order_of_means(cases), PairOrder::second_is_closer);
+    EXPECT_EQ(order_of_means({cases[0], {9.0, 10.0, 19.0, 0.4}}), PairOrder::undecided);
+    EXPECT_EQ(order_of_means({cases[0], {9.0, 10.0, 19.0, {}}}), PairOrder::undecided);
+    EXPECT_EQ(order_of_means({cases[1]}), order_of(cases[1]));
+}
+
 TEST(PairOrder, IsUndecidedForEqualErrorsAndForWhatIsNotFiniteAndTakesTheSumForADistanceThatIsNotKnown)
 {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();

@@ -66,6 +66,24 @@ TEST_P(Flesh, BeginsAtTheShapeThatItIsGiven)
     EXPECT_NE(deformer->positions(), shape) << "only the next frame begins there";
 }
 
+// The initial guess of the minimisers, with the springs that hold their flesh by default.
+TEST(StartShape, OfPbsAndXpbdCanBeThatOfTheMinimisers)
+{
+    const pbs::Positions guess = turned("quasi_newton", {"iterations=0", "packed=false"});
+    const auto started = [](const std::string& kind, const std::string& start) {
+        std::vector<std::string> lines{"deformers.use=[\"" + kind + "\"]", "reference.name=\"\"", "pbs.iterations=0", "pbs.precision=f64"};
+        if (!start.empty()) lines.push_back(start);
+        const auto deformer = make_deformer(spec_of(read_scene("limb_bend", lines), kind));
+        deformer->reset(straight_bar());
+        EXPECT_EQ(deformer->advance(turned_by(40.0), 0.01).outcome, pbs::Outcome::finished);
+        return deformer->positions();
+    };
+    EXPECT_EQ(started("pbs", "pbs.improved.start=smooth_dqs"), guess);
+    EXPECT_EQ(started("xpbd", "xpbd.start=smooth_dqs"), guess);
+    EXPECT_EQ(started("pbs", ""), turned("lbs", {}));
+    EXPECT_GT((guess - turned("lbs", {})).norm(), 0.01);
+}
+
 TEST_P(Flesh, ReportsPositionsThatAreNotFinite)
 {
     const auto deformer = flesh(GetParam(), {});

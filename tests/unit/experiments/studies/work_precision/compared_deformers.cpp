@@ -128,7 +128,38 @@ TEST(DeformerGroups, HaveEveryDeformerOnce)
         for (const std::string& name : group.deformers) EXPECT_TRUE(deformers.insert(name).second) << name;
     for (const ComparedDeformer& one : compared_deformers()) EXPECT_TRUE(deformers.contains(one.name)) << one.name;
     const auto xpbd = std::ranges::find(deformer_groups(), "xpbd", &DeformerGroup::key);
-    EXPECT_EQ(xpbd->deformers, (std::vector<std::string>{"xpbd", "xpbd_small_steps"}));
+    EXPECT_EQ(xpbd->deformers, (std::vector<std::string>{"xpbd", "xpbd_small_steps", "xpbd_from_smooth_dqs"}));
+    std::map<std::string, std::size_t> in_class;
+    for (const DeformerGroup& one : classes_of(groups_with({"mine"}))) in_class[one.key] = one.deformers.size();
+    EXPECT_EQ(in_class, (std::map<std::string, std::size_t>{{"blend", 5},
+                                                            {"mush", 4},
+                                                            {"constraints", 6},
+                                                            {"minimisers", 8},
+                                                            {"minimisers_of_other_flesh", 4},
+                                                            {"finite_elements", 4},
+                                                            {"mine", 1}}));
+}
+
+// Reference: the keys of an entry. What takes the reference's material has young_key or poisson_key; what starts or is held by its springs
+// has its own default springs, which are the reference's.
+TEST(ComparedDeformers, KnowWhatTheirKeysTakeFromTheReference)
+{
+    const DeformerSpec reference = reference_flesh(read_scene("limb_twist", {}));
+    const nlohmann::json flesh = to_json(reference).at("options");
+    for (const ComparedDeformer& one : compared_deformers()) {
+        SCOPED_TRACE(one.name);
+        const nlohmann::json own = to_json(spec_with(one, read_scene("limb_twist", {}), {})).at("options");
+        const bool is_held = own.contains("spring_factor") && own.value("iterations", 1) > 0;
+        const bool has_springs = is_held && own.at("spring_factor") == 10.0 && own.at("core_radius") == 0.7;
+        const bool has_start = own.value("start", "lbs") == "smooth_dqs" && (!is_held || has_springs);
+        const bool has_material = !one.young_key.empty() || !one.poisson_key.empty();
+        std::string known;
+        for (const auto& [is_known, what] : {std::pair{has_material, "material"}, {has_springs, "attachment"}, {has_start, "start"}})
+            if (is_known) known += (known.empty() ? "" : " ") + std::string(what);
+        EXPECT_EQ(one.knows, known);
+    }
+    EXPECT_EQ(flesh.at("spring_factor"), 10.0);
+    EXPECT_EQ(flesh.at("core_radius"), 0.7);
 }
 
 std::set<std::string> changed_fields(const DeformerSpec& spec, const DeformerSpec& from)

@@ -33,66 +33,6 @@ TEST(DiagramTables, FrontsOfAllAndOfEachDeformer)
     EXPECT_EQ(fronts.text_at(0, "ms_q3"), "");
     EXPECT_EQ(fronts.text_at(fronts.rows() - 1, "measure"), "volume_abs_change_pct");
     EXPECT_EQ(fronts.number(fronts.rows() - 1, "value"), 0.1);
-    // LBS is alone; DQS by 10, delta mush by 17, XPBD by 8, PBS by 5 and FEM by 15 points, of which 12 are needed.
-    EXPECT_EQ(of_front(fronts_table({diagram_of_seven(33.0)}), "decision"),
-              (Cells{"", "reference_error", "decided", "reference_error", "reference_error", "decided"}));
-}
-
-TEST(DiagramTables, WithinABudgetGroupsAreRankedByTheirBestPoints)
-{
-    const std::vector<BudgetRow> ranked = best_within(diagram_of_seven(33.0), 1.0);
-    std::vector<std::string> groups;
-    for (const BudgetRow& row : ranked) groups.push_back(row.group);
-    EXPECT_EQ(groups, (std::vector<std::string>{"pbs", "xpbd", "delta_mush", "dqs", "lbs"}));
-    EXPECT_EQ(ranked[0].decision, analysis::PairDecision::reference_error);    // 25 - 20 < 2 x 6
-    EXPECT_EQ(ranked[0].undecided_against, std::vector<std::string>{"xpbd"});  // 33 - 20 > 2 x 6
-    EXPECT_EQ(ranked[2].decision, analysis::PairDecision::decided);            // 50 - 33 > 2 x 6
-    EXPECT_TRUE(ranked[2].undecided_against.empty());
-    EXPECT_FALSE(ranked.back().decision);
-    EXPECT_EQ(ranked.back().rank, 5);
-    EXPECT_EQ(best_within(diagram_of_seven(33.0), 0.01).size(), 1u);
-    EXPECT_TRUE(best_within(diagram_of_seven(33.0), 0.001).empty());
-}
-
-// The next group is decided, since all references order the two. The group after it is not, since the order of a further reference is the
-// other way round.
-TEST(DiagramTables, TheNearestGroupIsComparedWithAllOthers)
-{
-    CaseRecords records = {hand_case(
-        bent_limb, {{pbs_24, 0.7, 20.0}, {in_f64({"xpbd", 8}), 0.65, 40.0}, {in_f64({"delta_mush", 20}), 0.5, 60.0}, hand_reference()})};
-    FamilyRow member;
-    member.member.name = "nu_0.3";
-    member.outcome = "reached";
-    member.error_bound_pct = 1.0;
-    records.members = {member};
-    const double against_pct[] = {20.0, 40.0, 5.0};
-    for (std::size_t i = 0; i < 3; ++i) records.rows[i].members[3] = against_pct[i];
-    const Diagram of = diagrams_of({records}, choose_settings({records.rows})).front();
-    const std::vector<BudgetRow> ranked = best_within(of, 1.0);
-    ASSERT_EQ(ranked.size(), 3u);
-    EXPECT_EQ(ranked[0].decision, analysis::PairDecision::models_disagree);
-    EXPECT_EQ(ranked[0].undecided_against, std::vector<std::string>{"delta_mush"});
-    EXPECT_EQ(ranked[0].reason, "the order is the other way round for nu_0.3");
-    const CsvTable fronts = analysis::parse_csv(fronts_table({of}).text(), "fronts.csv");
-    for (int row = 0; row < fronts.rows(); ++row) {
-        const bool is_pbs = fronts.text_at(row, "deformer") == "pbs", is_of_all = fronts.text_at(row, "front") == "all";
-        const bool is_decided_here = is_of_all && fronts.text_at(row, "measure") == "error_joint_pct";
-        if (!is_pbs) continue;
-        EXPECT_EQ(fronts.text_at(row, "decision"), is_decided_here ? "models_disagree" : "") << row;
-    }
-}
-
-TEST(DiagramTables, WithinABudgetRowsHaveTheKeyOfTheirSetting)
-{
-    const std::vector<BudgetRow> ranked = best_within(std::vector{diagram_of_seven(30.0)});
-    const auto xpbd = std::ranges::find(ranked, "xpbd", &BudgetRow::group);
-    ASSERT_NE(xpbd, ranked.end());
-    const CsvTable table = analysis::parse_csv(table_of(budget_columns, ranked).text(), "best_within.csv");
-    const int row = static_cast<int>(xpbd - ranked.begin());
-    EXPECT_EQ(table.text_at(row, "deformer"), "xpbd");
-    EXPECT_EQ(table.integer(row, "iterations"), 8);
-    EXPECT_EQ(rows_of(budget_columns, table)[row].point.key, xpbd->point.key);
-    EXPECT_EQ(rows_of(budget_columns, table)[row].decision, xpbd->decision);
 }
 
 SettingKey pbs(int iterations)
@@ -224,7 +164,7 @@ TEST(OwnDeformers, AreAGroupOfTheirOwnInBothComparisons)
     for (const Diagram& diagram : diagrams) {
         EXPECT_EQ(diagram.groups.size(), deformer_groups().size() + 1);
         EXPECT_TRUE(diagram.groups.back().is_external);
-        EXPECT_EQ(best_within(diagram, 3.0).front().group, "mine");
+        EXPECT_EQ(best_of(diagram, diagram.groups.back(), 3.0)->error_pct, 4.0);
     }
     EXPECT_NE(fronts_table(diagrams).text().find(",mine,mine,"), std::string::npos);
     EXPECT_TRUE(std::ranges::any_of(data_profiles(diagrams),

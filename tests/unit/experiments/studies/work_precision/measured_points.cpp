@@ -78,7 +78,7 @@ TEST(PointSettings, AreEachOnce)
         ++of_deformer[setting.deformer];
     }
     EXPECT_EQ(of_deformer["lbs"], 2 * 4);                  // codes; one mesh and three others
-    EXPECT_EQ(of_deformer["pbs"], 2 * (8 * 9 + 3 * 3));    // codes, values, iterations; and three numbers of iterations on each other mesh
+    EXPECT_EQ(of_deformer["pbs"], 2 * (10 * 9 + 3 * 3));   // codes, values, iterations; and three numbers of iterations on each other mesh
     EXPECT_EQ(of_deformer["fem_linear"], 2 * 1 + 2);       // orders 1 and 2; order 1 on each other mesh
     EXPECT_EQ(of_deformer["fem_neo_hookean"], 2 + 3 + 1);  // quadratic on the mesh of 300 too; and on the tets cut into eight
     EXPECT_EQ(of_deformer["fem_stable_neo_hookean"], 1);   // the limit of the deformers that minimise an energy
@@ -112,7 +112,7 @@ TEST(PointSettings, OfOneRungDifferInTheirSettingAloneAndHaveADigestOfAllTheyDep
     std::map<SettingKey, std::set<std::string>> of_place;
     std::vector<Setting> settings = settings_of(read_scene("limb_twist", {}), {});
     for (const Setting& setting : settings) EXPECT_TRUE(of_place[without_grid_value(key_of(setting))].insert(setting.tuned).second);
-    for (const auto& [place, of_pbs] : of_place) EXPECT_TRUE(place.deformer != "pbs" || of_pbs.size() == 8u);
+    for (const auto& [place, of_pbs] : of_place) EXPECT_TRUE(place.deformer != "pbs" || of_pbs.size() == 10u);
     const std::string digest = digest_of(settings);
     EXPECT_EQ(digest_of(settings_of(read_scene("limb_twist", {}), {})), digest);
     options_of<FemOptions>(settings.back().spec).nested_start = !options_of<FemOptions>(settings.back().spec).nested_start;

@@ -8,6 +8,7 @@
 #include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +33,8 @@ EnsembleCase twisted_limb()
 
 TEST(Ensemble, OrdersDeformersThatAllReferencesOrder)
 {
-    const EnsembleRecords records = measure_ensemble(twisted_limb());
+    const test_support::ScratchFolder solutions;
+    const EnsembleRecords records = measure_ensemble(twisted_limb(), solutions.path());
     EXPECT_EQ(records.breakdown, "");
     ASSERT_EQ(records.members.size(), 2u);
     for (const MemberRow& row : records.members) {
@@ -61,6 +63,15 @@ TEST(Ensemble, OrdersDeformersThatAllReferencesOrder)
         EXPECT_EQ(table.text_at(row, "order"), "second_is_closer");
         EXPECT_EQ(table.number(row, "error_bound_pct"), *records.members[row].error_bound_pct);
     }
+    // With other settings DQS is LBS, so that the pair is not decided, although all references decide it with the default settings.
+    EnsembleCase tuned = twisted_limb();
+    tuned.tuned = {default_spec("lbs")};
+    tuned.tuned.front().label = "dqs";
+    const EnsembleRecords both = measure_ensemble(tuned, solutions.path());
+    EXPECT_EQ(both.pairs.front().decision, analysis::PairDecision::reference_error);
+    EXPECT_EQ(both.pairs.front().second_is_closer, 2);
+    ASSERT_EQ(both.orders.size(), 4u);
+    for (const PairOrderRow& row : both.orders) EXPECT_EQ(row.distance_pct == 0.0, row.settings == SettingsOf::training_poses);
 }
 
 // A reference that is not reached decides nothing, and its row names the worst tet.

@@ -1,0 +1,102 @@
+"""The decisions of the studies ensemble and work_precision, computed again from the tables of the kept records, and the settings that
+ensemble takes from the training poses. Reference: the rule |e_A^2 - e_B^2| > 2 |A - B| U of analysis/verdicts/pair_order.hpp, and
+settings.csv."""
+import collections
+import csv
+import math
+import pathlib
+import re
+import sys
+import unittest
+
+import program
+
+SOURCE = pathlib.Path(program.SOURCE)
+sys.path.insert(0, str(SOURCE / "paper_figures"))
+from records import kept  # noqa: E402
+
+KEPT = kept.opened(SOURCE / "experiments" / "records" / "full")
+
+
+def rows(*path):
+    file = KEPT.joinpath(*path)
+    if not file.is_file():
+        raise unittest.SkipTest(f"the kept records have no {'/'.join(path)}")
+    with open(file, newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+def order(row):
+    """By one reference; the sum of the errors stands for a distance that is not known."""
+    if not all(row[name] for name in ("first_error_pct", "second_error_pct", "error_bound_pct")):
+        return "undecided"
+    first, second, bound = (float(row[name]) for name in ("first_error_pct", "second_error_pct", "error_bound_pct"))
+    apart = float(row["distance_pct"]) if row["distance_pct"] else first + second
+    if abs(first ** 2 - second ** 2) <= 2.0 * apart * bound:
+        return "undecided"
+    return "first_is_closer" if first < second else "second_is_closer"
+
+
+def decision(orders):
+    orders = set(orders)
+    if {"first_is_closer", "second_is_closer"} <= orders:
+        return "models_disagree"
+    return "reference_error" if "undecided" in orders else "decided"
+
+
+def by(table, *names):
+    groups = collections.defaultdict(list)
+    for row in table:
+        groups[tuple(row[name] for name in names)].append(row)
+    return groups
+
+
+class Decisions(unittest.TestCase):
+    def test_of_pairs_follow_from_the_orders_of_all_references_in_both_settings(self):
+        names = ("body", "motion", "pose", "angle_deg", "first", "second")
+        orders = by(rows("ensemble", "pair_orders.csv"), *names)
+        pairs = by(rows("ensemble", "pairs.csv"), *names)
+        self.assertEqual(set(orders), set(pairs))
+        for pair, (row,) in pairs.items():
+            with self.subTest(pair):
+                self.assertEqual([one["order"] for one in orders[pair]], [order(one) for one in orders[pair]])
+                self.assertEqual(row["decision"], decision(one["order"] for one in orders[pair]))
+
+    def test_of_the_nearest_class_follow_from_its_pairs(self):
+        names = ("comparison", "case", "budget_ms", "among")
+        pairs = by(rows("work_precision", "nearest_pairs.csv"), *names)
+        for row in rows("work_precision", "nearest.csv"):
+            with self.subTest(" ".join(row[name] for name in names)):
+                of_other = by(pairs[tuple(row[name] for name in names)], "second")
+                if "mean" not in row["case"]:  # the order of a mean has no distance
+                    self.assertEqual([one["order"] for one in sum(of_other.values(), [])],
+                                     [order(one) for one in sum(of_other.values(), [])])
+                undecided = [other for (other,), of in of_other.items() if {one["order"] for one in of} != {"first_is_closer"}]
+                self.assertEqual(row["either_of"].split(), undecided)
+                self.assertEqual(int(row["others"]), len(of_other))
+
+
+class TunedSettings(unittest.TestCase):
+    """Of PBS and XPBD the value with the least training error for 24 iterations; of delta mush the number of iterations, too."""
+    def test_are_those_with_the_least_training_error_in_the_kept_record(self):
+        text = (SOURCE / "experiments" / "studies" / "ensemble" / "cases.toml").read_text(encoding="utf-8")
+        tuned = dict(re.findall(r'\[\[tuned\]\]\ndeformer = "(\w+)"\nkeys = \[(.*)\]', text))
+        chosen = [row for row in rows("work_precision", "settings.csv")
+                  if row["comparison"] == "packed_f32" and not row["wanted_vertices"] and row["training_error_joint_pct"]]
+        of = {name: [row for row in chosen if row["deformer"] == name] for name in tuned}
+        (pbs,), (xpbd,) = ([row for row in of[name] if row["iterations"] == "24"] for name in ("pbs", "xpbd"))
+        mush = min(of["delta_mush"], key=lambda row: float(row["training_error_joint_pct"]))
+        self.assertEqual(tuned["pbs"], f'"pbs.{self.key(pbs)}"')
+        self.assertEqual(tuned["delta_mush"], f'"delta_mush.iterations={mush["iterations"]}"')
+        self.assertEqual(mush["tuned"], "")
+        factor = float(xpbd["tuned"].removeprefix("stiffness_factor_"))
+        young_pa = float(re.fullmatch(r'"xpbd.young_pa=(.*)"', tuned["xpbd"]).group(1))
+        self.assertTrue(math.isclose(young_pa, factor * 1e5))  # of the flesh of the scenes
+
+    def key(self, row):
+        """k_stretch_0.5 -> k_stretch=0.5"""
+        return "=".join(row["tuned"].rsplit("_", 1))
+
+
+if __name__ == "__main__":
+    unittest.main()
