@@ -29,18 +29,6 @@ const Columns<ErrorNorms> whole_error_columns = {
     {"error_whole_l2_pct", &ErrorNorms::l2_pct, "%", "error_l2_pct with the tips of the reference's creases"},
     {"error_whole_joint_pct", &ErrorNorms::joint_pct, "%", "error_joint_pct with these tips"}};
 
-using analysis::SkinError;
-const Columns<SkinError> skin_columns = {
-    {"skin_rms_mm", &SkinError::rms_mm, "mm",
-     "distance of the skin from the reference, where the largest extent of the body at rest is 1.7 m"},
-    {"skin_p95_mm", &SkinError::p95_mm, "mm", "distance that 95 % of the skin does not exceed"},
-    {"skin_largest_mm", &SkinError::largest_mm, "mm", "largest distance of the skin"},
-    {"skin_rms_pct", &SkinError::rms_pct, "%",
-     "the distance of skin_rms_mm in parts of the bounding box's diagonal, as papers on skinning state it"},
-    {"normals_mean_deg", &SkinError::normals_mean_deg, "deg",
-     "angle between the normals of the skin and of the reference, which shading shows"},
-    {"normals_p95_deg", &SkinError::normals_p95_deg, "deg", "angle that 95 % of the skin does not exceed"}};
-
 const Columns<FrameMeasurement> masked_columns = {{"masked_share_pct", &FrameMeasurement::masked_share_pct, "%",
                                                    "share of the volume that the errors leave out: the tips of creases of a reference with "
                                                    "contact, whose sharpness belongs to its tets"}};
@@ -81,7 +69,7 @@ const Rows all_columns =
     Rows{{"step_ms", &MetricRow::step_ms, "ms", "wall time of the deformer for this frame, without measuring and writing"}} +
     within(&MetricRow::measured, within(&FrameMeasurement::errors, error_columns) +
                                      within(&FrameMeasurement::errors_on_whole_body, whole_error_columns) +
-                                     within(&FrameMeasurement::skin, skin_columns) + masked_columns)
+                                     within(&FrameMeasurement::skin, skin_error_columns()) + masked_columns)
         .in_group(with_reference) +
     within(&MetricRow::measured, pose_columns) +
     Rows{{"fictitious_strain", &MetricRow::fictitious_strain, "",
@@ -111,6 +99,22 @@ const Columns<FrameMetrics>& frame_metric_columns()
         {"mean_abs_j_minus_1", &FrameMetrics::mean_abs_j_minus_1, "", "mean relative change of volume, weighted by rest volume"},
         {"j_min", &FrameMetrics::j_min, "", "smallest volume of a tet over its volume at rest; negative if the tet is inverted"},
         {"stretch_rms", &FrameMetrics::stretch_rms, "", "residual of the stretch constraints"}};
+    return columns;
+}
+
+const Columns<analysis::SkinError>& skin_error_columns()
+{
+    using analysis::SkinError;
+    static const Columns<SkinError> columns = {
+        {"skin_rms_mm", &SkinError::rms_mm, "mm",
+         "distance of the skin from the reference, where the largest extent of the body at rest is 1.7 m"},
+        {"skin_p95_mm", &SkinError::p95_mm, "mm", "distance that 95 % of the skin does not exceed"},
+        {"skin_largest_mm", &SkinError::largest_mm, "mm", "largest distance of the skin"},
+        {"skin_rms_pct", &SkinError::rms_pct, "%",
+         "the distance of skin_rms_mm in parts of the bounding box's diagonal, as papers on skinning state it"},
+        {"normals_mean_deg", &SkinError::normals_mean_deg, "deg",
+         "angle between the normals of the skin and of the reference, which shading shows"},
+        {"normals_p95_deg", &SkinError::normals_p95_deg, "deg", "angle that 95 % of the skin does not exceed"}};
     return columns;
 }
 

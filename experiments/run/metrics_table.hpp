@@ -29,6 +29,7 @@ MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, do
                      const pbs::StepSummary& step);
 
 const analysis::Columns<analysis::FrameMetrics>& frame_metric_columns();  // what needs only the positions of a frame
+const analysis::Columns<analysis::SkinError>& skin_error_columns();       // skin_rms_mm, ...
 analysis::Columns<MetricRow> metric_columns_of(const Scene& scene);       // without the groups that the scene does not ask for
 
 // The text of `pbskin explain` about a metric.

@@ -40,6 +40,26 @@ def of_members(members):
         [{"body": body, "motion": motion, "pose": of, "minutes": spent} for (body, motion, of), spent in minutes.items()], "minutes")
 
 
+def of_shares(folder):
+    """The share of the error of LBS that each deformer removes: by the first reference, and the least and the most of all references."""
+    poses = collections.defaultdict(list)
+    for row in pages.of_runs(folder, "errors.csv", {"member", "deformer", "error_joint_pct"}):
+        poses[row["body"], row["motion"], pose(row)].append(row)
+    rows = []
+    for (body, motion, of), errors in poses.items():
+        shares = {name: f"{round(of_members[0])} ({round(min(of_members))} to {round(max(of_members))})"
+                  for name, of_members in records.removed_shares(errors).items()}
+        in_mm = {row["deformer"]: f"{float(row['skin_rms_mm']):.0f}" for row in errors[::-1] if row.get("skin_rms_mm")}
+        in_words = " / ".join(in_mm[name] for name in ("lbs", "pbs") if in_mm)
+        rows.append({"body": body, "motion": motion, "pose": of, "mm": in_words, **shares})
+    columns = {"body": "body", "motion": "motion", "pose": "pose"}
+    columns |= {looks.of(name).name: name for name in looks.in_order({name for row in rows for name in row} - {*columns, "mm"})}
+    if any(row["mm"] for row in rows):
+        columns["skin of LBS / PBS from the first reference, body of 1.7 m [mm]"] = "mm"
+    return ("\n## The share of the error of LBS that is removed [%]\n\nAt the joints: by the first reference, and in brackets the range "
+            "over all references. It is negative where LBS is closer.\n\n" + pages.table(rows, columns))
+
+
 def of_parts(folder):
     """The parts after the paper's 24 iterations, and the distance of PBS from flesh that the bind constraint holds."""
     parts = [row for row in pages.of_runs(folder, "parts.csv", {"iterations", "k_stretch"}) if row["iterations"] == "24"]
@@ -55,5 +75,5 @@ def of_parts(folder):
 def page(folder):
     members = records.table(folder / "members.csv", {"member", "outcome", "error_bound_pct", "solve_s"})
     pairs = records.table(folder / "pairs.csv", {"first", "second", "largest_difference_pct", "decision"})
-    return ("# Which deformer is closer, whatever reference is taken\n\n" + of_pairs(pairs) + "\n## The references\n\n"
+    return ("# Which deformer is closer, whatever reference is taken\n\n" + of_pairs(pairs) + of_shares(folder) + "\n## The references\n\n"
             + of_members(members) + of_parts(folder))

@@ -139,18 +139,21 @@ def speed(claims):
                             f"core{table_1}. The bound is {claim['bounds'][0]['low']:.0f}.")
 
 
-def first_errors(results):
-    """The errors of each deformer against the family's first reference, in the poses in which that reference has a bound on its own
-    error; and the number of all poses."""
-    errors, files = {}, sorted((results / "ensemble").glob("*/errors.csv"))
+def errors_and_shares(results):
+    """In the poses in which the family's first reference has a bound on its own error: the errors of each deformer against it, and the
+    shares of the error of LBS that the deformer removes by each reference; and the number of all poses."""
+    errors, shares, files = {}, {}, sorted((results / "ensemble").glob("*/errors.csv"))
     for file in files:
         members = records.table(file.with_name("members.csv"), {"member", "error_bound_pct"})
         if not only(members, f"{file.parent}/members.csv", member=first_member)["error_bound_pct"]:
             continue
-        for row in records.table(file, {"member", "deformer", "error_joint_pct"}):
+        rows = records.table(file, {"member", "deformer", "error_joint_pct"})
+        for row in rows:
             if row["member"] == first_member:
                 errors.setdefault(row["deformer"], []).append(float(row["error_joint_pct"]))
-    return errors, len(files)
+        for deformer, of_references in records.removed_shares(rows).items():
+            shares.setdefault(deformer, []).extend(of_references)
+    return errors, shares, len(files)
 
 
 def undecided(notable):
@@ -163,22 +166,23 @@ def undecided(notable):
 
 def distance(results):
     """The errors against the family's first reference, and how many of the pairs that differ notably the whole family decides."""
-    errors, poses = first_errors(results)
+    errors, shares, poses = errors_and_shares(results)
     pairs = records.table(results / "ensemble" / "pairs.csv", {"first", "second", "largest_difference_pct", "members", "decision"})
     notable = [pair for pair in pairs if float(pair["largest_difference_pct"]) > records.notable_points and "fem_linear" not in
                (pair["first"], pair["second"])]
     if not notable or not {"lbs", "dqs", "delta_mush", "pbs"} <= set(errors):
         raise records.RecordsMissing(f"{results / 'ensemble'}: no errors of LBS, DQS, delta mush and PBS, or no pair of them")
-    spans = {name: f"{min(errors[name]):.1f} to {max(errors[name]):.1f} %" for name in errors}
+    removed = {name: f"{round(min(of))} to {round(max(of))} %" for name, of in shares.items()}
     decided = sum(pair["decision"] == "decided" for pair in notable)
     measured = len(errors["pbs"])
     left_out = "" if measured == poses else (f" These errors leave out {counted(poses - measured, 'pose')} in which the reference has no "
                                              "bound on its own error.")
     return (f"**Distance from flesh.** In {counted(measured, 'pose')} of the limb and the human, PBS with 24 iterations (ordered, single "
-            f"precision) is {spans['pbs']} of the mean bone distance away from neo-Hookean flesh at the joints (LBS {spans['lbs']}, DQS "
-            f"{spans['dqs']}, delta mush {spans['delta_mush']}).{left_out} In all {counted(poses, 'pose')}, {notable[0]['members']} "
-            f"references with other attachments and Poisson's ratios decide which of two methods is closer in {decided} of the "
-            f"{len(notable)} pairs of skinning methods that differ by more than {records.notable_points} percentage points."
+            f"precision) removes {removed['pbs']} of the error of LBS at the joints, over {notable[0]['members']} references of "
+            f"neo-Hookean flesh with other attachments and Poisson's ratios (DQS {removed['dqs']}, delta mush {removed['delta_mush']}). "
+            f"Its own error against the first reference is {min(errors['pbs']):.1f} to {max(errors['pbs']):.1f} % of the mean bone "
+            f"distance.{left_out} In all {counted(poses, 'pose')}, the references decide which of two methods is closer in {decided} of "
+            f"the {len(notable)} pairs of skinning methods that differ by more than {records.notable_points} percentage points."
             f"{undecided(notable)}")
 
 

@@ -20,6 +20,16 @@ class RecordsDamaged(RecordsMissing):
     """Records that exist and cannot be read."""
 
 
+def removed_shares(errors):
+    """{deformer: [share of LBS's error that it removes [%], by each reference]}, from rows of errors.csv of one pose."""
+    of_lbs = {row["member"]: float(row["error_joint_pct"]) for row in errors if row["deformer"] == "lbs"}
+    shares = {}
+    for row in errors:
+        if row["deformer"] != "lbs" and of_lbs.get(row["member"]):
+            shares.setdefault(row["deformer"], []).append(100.0 * (1.0 - float(row["error_joint_pct"]) / of_lbs[row["member"]]))
+    return shares
+
+
 def need(found, message):
     """Raises RecordsMissing with this message if nothing was found."""
     if not found:

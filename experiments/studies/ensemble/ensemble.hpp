@@ -15,6 +15,7 @@
 // reference's creases.
 #pragma once
 
+#include "analysis/metrics/skin_error.hpp"
 #include "analysis/records/tables.hpp"
 #include "analysis/verdicts/case_record.hpp"
 #include "analysis/verdicts/pair_order.hpp"
@@ -69,6 +70,7 @@ struct ErrorRow {
     analysis::CaseKey of;
     std::string member, deformer;
     double error_joint_pct = 0.0, error_l2_pct = 0.0, whole_joint_pct = 0.0, volume_change_pct = 0.0;
+    analysis::SkinError skin = {};
 };
 // How one member orders a pair, with the values that decide it.
 struct PairOrderRow {

@@ -8,6 +8,7 @@
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/run/metrics_table.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/ensemble/ensemble.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
@@ -35,7 +36,8 @@ const Columns<MemberRow> member_columns =
 
 const Columns<ErrorRow> error_columns =
     within(&ErrorRow::of, pose_columns()) +
-    MEMBER_COLUMNS(ErrorRow, member, deformer, error_joint_pct, error_l2_pct, whole_joint_pct, volume_change_pct);
+    MEMBER_COLUMNS(ErrorRow, member, deformer, error_joint_pct, error_l2_pct, whole_joint_pct, volume_change_pct) +
+    within(&ErrorRow::skin, skin_error_columns());
 
 const Columns<PairOrderRow> pair_order_columns =
     within(&PairOrderRow::of, pose_columns()) +
@@ -322,6 +324,7 @@ EnsembleRecords measure_ensemble(const EnsembleCase& of, const std::string& solu
     const PosedCharacter body(of.scene, {of.frame});
     const pbs::TetMesh& mesh = body.character().mesh;
     const analysis::MeshMetrics metrics(mesh.rest, mesh.tets);
+    const analysis::SkinErrorMetrics skin_metrics(mesh.rest, mesh.tets);
     EnsembleRecords records;
     std::vector<DeformedShape> shapes;
     for (const DeformerSpec& spec : of.deformers) {
@@ -355,7 +358,8 @@ EnsembleRecords measure_ensemble(const EnsembleCase& of, const std::string& solu
             const analysis::ErrorNorms error = reference.error_of(shape.positions);
             records.errors.push_back({of.of, member.name, shape.deformer, error.joint_pct, error.l2_pct,
                                       reference.error_on_whole_body(shape.positions).joint_pct,
-                                      metrics.measure(shape.positions).volume_change_pct});
+                                      metrics.measure(shape.positions).volume_change_pct,
+                                      skin_metrics.measure(shape.positions, reference.reference().positions, reference.masked())});
         }
         if (records.members.size() == 1 && !of.k_stretch.empty()) Splitting(of, body, reference).add_to(records);
     }

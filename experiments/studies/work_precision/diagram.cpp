@@ -265,11 +265,6 @@ const std::vector<DeformerGroup>& groups_of(const std::vector<Diagram>& diagrams
     return diagrams.empty() ? deformer_groups() : diagrams.front().groups;
 }
 
-bool is_pose(const Diagram& diagram)
-{
-    return diagram.poses == 1 && diagram.has_reference;
-}
-
 double value_of(const DiagramPoint& point, const std::string& measure)
 {
     const analysis::CsvTable::Cell cell = measures().named(measure).cell(point);

@@ -98,8 +98,6 @@ struct Diagram {
 // The groups of all diagrams of a record, which are the same.
 const std::vector<DeformerGroup>& groups_of(const std::vector<Diagram>& diagrams);
 
-bool is_pose(const Diagram& diagram);  // with a reference; a mean over several poses is none
-
 struct CaseRecords {
     CaseRows rows;
     std::vector<FamilyRow> members = {};

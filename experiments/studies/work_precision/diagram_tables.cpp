@@ -165,7 +165,8 @@ std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams)
     for (const Comparison comparison : comparisons) {
         std::vector<const Diagram*> poses;
         for (const Diagram& diagram : diagrams)
-            if (diagram.comparison == comparison && is_pose(diagram) && diagram.half == Half::evaluation) poses.push_back(&diagram);
+            if (diagram.comparison == comparison && diagram.poses == 1 && diagram.has_reference && diagram.half == Half::evaluation)
+                poses.push_back(&diagram);
         for (const double tolerance_pct : profile_tolerances_pct)
             for (const DeformerGroup& group : groups_of(diagrams)) add_steps(steps, poses, group, tolerance_pct);
     }
