@@ -59,8 +59,9 @@ public:
     // The poses of the coming calls of advance, in order. A deformer without memory may work ahead, several frames at once.
     virtual void foresee(const std::vector<pbs::Pose>& /*poses*/) {}
 
-    // Replaces the initial guess of the next call of advance, whatever its quality [m], #V x 3, in the world. Only deformers that minimise
-    // an energy use it, the nonlinear finite elements in equilibrium among them; all others ignore it.
+    // Replaces the initial guess of the next call of advance, whatever its quality [m], #V x 3, in the world. PBS and XPBD project
+    // from there. Deformers that minimise an energy use it, too, the nonlinear finite elements in equilibrium among them; all others ignore
+    // it.
     virtual void start_from(const pbs::Positions& /*shape*/) {}
 
     // True if the next positions depend on the last ones. Such a deformer gets every step; the others get only the frames.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace experiments {
 
@@ -47,7 +48,9 @@ public:
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override
     {
         const pbs::Stopwatch stopwatch;
-        if (begins_at_lbs())
+        if (next_start_)
+            start_ = *std::exchange(next_start_, {});
+        else if (begins_at_lbs())
             skinning_->linear(pose, start_);
         else
             skinning_->dual_quaternion(pose, start_);
@@ -56,6 +59,7 @@ public:
         summary.work.vertex_visits += start_.rows();
         return summary;
     }
+    void start_from(const pbs::Positions& shape) override { next_start_ = shape; }
     const pbs::Positions& positions() const override { return solver_->positions(); }
     bool has_memory() const override { return bool(options_.jiggle); }
 
@@ -74,6 +78,7 @@ protected:
 private:
     std::unique_ptr<Solver> solver_;
     pbs::Positions start_;
+    std::optional<pbs::Positions> next_start_;
 };
 
 class PbsDeformer : public ProjectingDeformer<pbs::PbsOptions, pbs::PbsSolver> {

@@ -183,6 +183,7 @@ Study verification_study();
 Study fit_study();
 Study work_precision_study();
 Study ensemble_study();
+Study temporal_study();
 
 // True if the run in `folder` finished with this scene or these settings and this revision, so that it need not be repeated.
 bool is_finished(const StudyRun& run, const std::string& folder);

@@ -92,7 +92,6 @@ Diagram mean_diagram(const std::string& key, const std::vector<Diagram>& poses)
     mean.members.fill({true, 0.0});
     mean.reference_error_pct = 0.0;
     for (const Diagram& pose : poses) {
-        mean.cases.push_back(pose.key);
         add(mean.reference_error_pct, pose.reference_error_pct, 1.0);
         for (std::size_t m = 0; m < mean.members.size(); ++m) {
             mean.members[m].takes_part = mean.members[m].takes_part && pose.members[m].takes_part;
@@ -110,8 +109,6 @@ Diagram mean_diagram(const std::string& key, const std::vector<Diagram>& poses)
         }
     return mean;
 }
-
-constexpr std::size_t fewest_for_a_mean = 3;
 
 // The same setting in a pose of a mean, which has it.
 const DiagramPoint* point_of(const Diagram& pose, const DiagramPoint& setting)
@@ -157,18 +154,10 @@ Diagram diagram_of(const CaseRecords& records, Comparison comparison, const std:
             diagram.points.push_back({row.key, *row.ms_median, row.ms_q1, row.ms_q3, row.error->joint_pct, row.error->l2_pct,
                                       row.error->linf_m, row.metrics ? std::optional(row.metrics->volume_abs_change_pct) : std::nullopt,
                                       row.below_reference_error.value_or(false), row.members,
-                                      static_cast<int>(&row - records.rows.data())});
+                                      static_cast<std::size_t>(&row - records.rows.data())});
     }
     diagram.groups = groups_with(external);
     return diagram;
-}
-
-using Family = std::pair<std::string, std::vector<Diagram>>;
-
-void add_to(std::vector<Family>& families, const std::string& name, const Diagram& diagram)
-{
-    const auto found = std::find_if(families.begin(), families.end(), [&](const Family& family) { return family.first == name; });
-    (found == families.end() ? families.emplace_back(name, std::vector<Diagram>{}) : *found).second.push_back(diagram);
 }
 
 int code_rank(const SettingKey& key)
@@ -260,11 +249,6 @@ const analysis::Columns<DiagramPoint>& diagram_point_columns()
     return columns;
 }
 
-const std::vector<DeformerGroup>& groups_of(const std::vector<Diagram>& diagrams)
-{
-    return diagrams.empty() ? deformer_groups() : diagrams.front().groups;
-}
-
 double value_of(const DiagramPoint& point, const std::string& measure)
 {
     const analysis::CsvTable::Cell cell = measures().named(measure).cell(point);
@@ -288,21 +272,12 @@ std::vector<Diagram> diagrams_of(const std::vector<CaseRecords>& cases, const st
 {
     std::vector<Diagram> diagrams;
     for (const Comparison comparison : comparisons) {
-        std::vector<Family> bodies, poses;  // in the order of the records
         std::vector<Diagram> evaluated;
         for (const CaseRecords& records : cases) {
             if (records.rows.empty()) continue;
-            const Diagram diagram = diagram_of(records, comparison, chosen);
-            diagrams.push_back(diagram);
-            if (!diagram.has_reference || diagram.half == Half::training) continue;
-            evaluated.push_back(diagram);
-            add_to(bodies, diagram.pose.body, diagram);
-            if (!diagram.pose.pose.empty()) add_to(poses, diagram.pose.pose, diagram);
+            diagrams.push_back(diagram_of(records, comparison, chosen));
+            if (diagrams.back().has_reference && diagrams.back().half == Half::evaluation) evaluated.push_back(diagrams.back());
         }
-        for (const auto& [over, families] : {std::pair{"poses", bodies}, {"bodies", poses}})
-            for (const auto& [name, of] : families)
-                if (of.size() >= fewest_for_a_mean)
-                    diagrams.push_back(mean_diagram(fmt::format("{}_mean_of_{}_{}", name, of.size(), over), of));
         if (evaluated.size() > 1) diagrams.push_back(mean_diagram(fmt::format("mean_of_{}_evaluated_poses", evaluated.size()), evaluated));
     }
     return diagrams;

@@ -1,6 +1,5 @@
 // Work-precision diagrams from the recorded points: one per comparison and pose, with the settings that were chosen on the training poses.
-// There is also one of the mean over the evaluated poses of a body, if these are three or more (the limb is one body, twisted or bent), one
-// of the mean over the bodies in a pose, if these are three or more, and one of the mean over all evaluated poses.
+// There is also one of the mean over all evaluated poses.
 //   for (const Diagram& diagram : diagrams_of(cases, choose_settings(rows_of(cases)))) ...
 // The recorded error of a point is error_joint_pct: the root mean square over the blended vertices, over their mean distance to the bone.
 #pragma once
@@ -60,7 +59,7 @@ struct DiagramPoint {
     std::optional<double> l2_pct = {}, linf_m = {}, volume_abs_change_pct = {};
     bool below_reference_error = false;
     MemberErrors members = {};  // against the further references
-    int row = 0;                // of the case's points
+    std::size_t row = 0;        // of the case's points
 };
 
 // The measures of fronts, named as the points' columns: error_joint_pct, by which all orders are decided, error_l2_pct, error_linf_m and
@@ -79,13 +78,12 @@ struct Diagram {
     Comparison comparison = Comparison::packed_f32;
     Half half = Half::evaluation;
     analysis::CaseKey pose;                     // of one case; a mean of several has none
-    std::string key;                            // limb_twist_90, or limb_mean_of_4_poses
+    std::string key;                            // limb_twist_90, or mean_of_9_evaluated_poses
     std::vector<DiagramPoint> points;           // those with a time and an error; the reference has no error
     bool has_reference = false;                 // one was reached
     std::optional<double> reference_error_pct;  // bound at the joints
     std::array<DiagramMember, further_members> members = {};
     int poses = 1;
-    std::vector<std::string> cases = {};                    // of a mean: the keys of its poses
     std::vector<Diagram> of_poses = {};                     // of a mean: these poses
     std::shared_ptr<const RecordedShapes> shapes = {};      // of one case; null: the distances of shapes are not known
     std::vector<DeformerGroup> groups = deformer_groups();  // those of the user's own deformers last
@@ -94,9 +92,6 @@ struct Diagram {
     std::vector<analysis::WorkPrecision> of(const std::vector<std::string>& deformers, std::vector<std::size_t>& indices,
                                             const std::string& measure = "error_joint_pct") const;
 };
-
-// The groups of all diagrams of a record, which are the same.
-const std::vector<DeformerGroup>& groups_of(const std::vector<Diagram>& diagrams);
 
 struct CaseRecords {
     CaseRows rows;

@@ -163,12 +163,13 @@ std::vector<ProfileStep> data_profiles(const std::vector<Diagram>& diagrams)
 {
     std::vector<ProfileStep> steps;
     for (const Comparison comparison : comparisons) {
+        if (diagrams.empty()) break;
         std::vector<const Diagram*> poses;
         for (const Diagram& diagram : diagrams)
             if (diagram.comparison == comparison && diagram.poses == 1 && diagram.has_reference && diagram.half == Half::evaluation)
                 poses.push_back(&diagram);
         for (const double tolerance_pct : profile_tolerances_pct)
-            for (const DeformerGroup& group : groups_of(diagrams)) add_steps(steps, poses, group, tolerance_pct);
+            for (const DeformerGroup& group : diagrams.front().groups) add_steps(steps, poses, group, tolerance_pct);
     }
     return steps;
 }
@@ -193,7 +194,7 @@ std::vector<Omission> omissions_of_means(const std::vector<CaseRows>& cases, con
     for (const Diagram& mean : diagrams) {
         std::vector<const CaseRows*> poses;
         for (const CaseRows& rows : cases)
-            if (!rows.empty() && std::ranges::find(mean.cases, case_name(rows.front().of)) != mean.cases.end()) poses.push_back(&rows);
+            if (!rows.empty() && std::ranges::count(mean.of_poses, case_name(rows.front().of), &Diagram::key)) poses.push_back(&rows);
         std::ranges::move(omissions_in(poses, mean.comparison, mean.key, cases), std::back_inserter(omissions));
     }
     return omissions;

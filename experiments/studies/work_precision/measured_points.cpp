@@ -62,13 +62,8 @@ void add_reference(PointRow& row, const PosedReference& reference)
     row.masked_share_pct = reference.masked_share_pct();
     if (!reference.is_reached()) return;
     row.reference = reference.label();
-    if (reference.order()) {
-        row.reference_order = reference.order()->observed;
-        row.reference_order_is_reliable = reference.order()->reliable;
-    }
     if (!std::isfinite(reference.bound().joint_pct)) return;
     row.reference_error_joint_pct = reference.bound().joint_pct;
-    row.reference_error_l2_pct = reference.bound().l2_pct;
     if (row.error) row.below_reference_error = row.error->joint_pct <= *row.reference_error_joint_pct;
 }
 
@@ -124,22 +119,19 @@ public:
     const PosedReference& first() const { return first_; }
 
     // By which the distances of shapes are known: of each reference, the first one first.
-    RecordedShapes no_shapes(const pbs::Positions& rest) const
+    RecordedShapes no_shapes() const
     {
         std::vector<Eigen::VectorXd> weights(1 + further_members);
         if (first_.is_reached()) weights[0] = first_.joint_weights();
         for (std::size_t m = 0; m < members_.size(); ++m)
             if (members_[m].is_reached()) weights[1 + place_among_further(of_.members[m].name)] = members_[m].joint_weights();
-        return {weights, first_.is_reached() ? first_.reference().positions : rest};
+        return RecordedShapes(weights);
     }
 
     // The errors of these positions of the case's own vertices [m], #V x 3, against each reference that was reached.
     void add_errors(PointRow& row, const pbs::Positions& positions) const
     {
-        if (first_.is_reached()) {
-            row.error = first_.error_of(positions);
-            row.error_whole_joint_pct = first_.error_on_whole_body(positions).joint_pct;
-        }
+        if (first_.is_reached()) row.error = first_.error_of(positions);
         for (std::size_t m = 0; m < members_.size(); ++m)
             if (members_[m].is_reached())
                 row.members.at(place_among_further(of_.members[m].name)) = members_[m].error_of(positions).joint_pct;
@@ -218,7 +210,7 @@ public:
     {
         for (const Setting& setting : external_) reach(setting);
         references_.emplace(of_, *base_, poses_, solutions_);
-        measured_.shapes = references_->no_shapes(base_->mesh.rest);
+        measured_.shapes = references_->no_shapes();
         add_other_meshes();
         compared_ = settings_of(of_.scene, of_.range);
         for (Setting& setting : compared_) {

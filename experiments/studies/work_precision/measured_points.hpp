@@ -126,11 +126,9 @@ struct PointRow {
     std::optional<analysis::ErrorNorms> error = {};  // outside the tips of creases; nothing where there is no reference
     std::optional<analysis::FrameMetrics> metrics = {};
     std::string reference = {};
-    std::optional<double> reference_error_joint_pct = {}, reference_error_l2_pct = {};
-    std::optional<double> reference_order = {};
-    std::optional<bool> reference_order_is_reliable = {};
+    std::optional<double> reference_error_joint_pct = {};
     std::optional<bool> below_reference_error = {};
-    std::optional<double> error_whole_joint_pct = {}, masked_share_pct = {};
+    std::optional<double> masked_share_pct = {};
     Half half = Half::evaluation;
     std::string reason = {};  // why the outcome is not_applicable or over_time_limit; why the reference is not reached
     std::optional<pbs::WorkCounters> work = {};
@@ -150,21 +148,19 @@ analysis::Columns<PointRow> columns_for(const std::vector<PointRow>& rows);
 
 // The shapes of a case's points, so that the distance between any two of them is known when the settings are chosen. They lie next to
 // points.csv, in the order of its rows.
-//   RecordedShapes shapes({reference.joint_weights()}, reference.positions);
+//   RecordedShapes shapes({reference.joint_weights()});
 //   shapes.add(&positions), shapes.add(nullptr);                     // a row with a shape, and one without
 //   RecordedShapes::read(shapes.text()).distance_pct(0, 5, 0);
 class RecordedShapes {
 public:
     RecordedShapes() = default;
-    // weights: of each reference (analysis::ErrorMetrics::joint_weights), #V; empty where a reference was not reached. origin: [m], #V x 3;
-    // the shapes are kept as displacements from it in single precision, so that their distances have an error of 1e-7 of their errors.
-    RecordedShapes(std::vector<Eigen::VectorXd> weights, const pbs::Positions& origin);
+    // weights: of each reference (analysis::ErrorMetrics::joint_weights), #V; empty where a reference was not reached. Shapes are kept in
+    // single precision, so that distances have an error of 1e-7 m.
+    explicit RecordedShapes(const std::vector<Eigen::VectorXd>& weights);
 
     void add(const pbs::Positions* positions);  // [m], #V x 3; null: the row has no shape
-    int rows() const { return static_cast<int>(shapes_.size()); }
-
     // The distance of the shapes of two rows, in the norm of error_joint_pct of a reference; nothing where one of these is not there.
-    std::optional<double> distance_pct(int one, int other, std::size_t reference) const;
+    std::optional<double> distance_pct(std::size_t one, std::size_t other, std::size_t reference) const;
 
     std::string text() const;                             // CBOR
     static RecordedShapes read(const std::string& text);  // an InputError for a text that is damaged
@@ -172,8 +168,7 @@ public:
 private:
     std::vector<Eigen::VectorXd> weights_;  // of each reference, of the measured vertices
     std::vector<int> measured_;             // vertices that have a weight for some reference
-    pbs::Positions origin_;                 // of these
-    std::vector<Eigen::MatrixX3f> shapes_;  // displacements of these [m]; empty: none
+    std::vector<Eigen::MatrixX3f> shapes_;  // of these [m]; empty: none
 };
 
 // A further reference of the family, solved with quadratic elements on the case's own tets alone. Its bound is that of the first member's

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace experiments {
@@ -57,9 +56,7 @@ Points distance_columns()
 
 const Points own_columns = MEMBER_COLUMNS(PointRow, vertices, tets, outcome, reach_ms, rounds, failed_rounds, ms_median, ms_q1, ms_q3);
 
-const Points reference_columns =
-    MEMBER_COLUMNS(PointRow, reference, reference_error_joint_pct, reference_error_l2_pct, reference_order, reference_order_is_reliable,
-                   below_reference_error, error_whole_joint_pct, masked_share_pct);
+const Points reference_columns = MEMBER_COLUMNS(PointRow, reference, reference_error_joint_pct, below_reference_error, masked_share_pct);
 
 // Later columns, in one group: older records do not have them.
 Points columns_of_comparison()
@@ -72,22 +69,10 @@ Points columns_of_comparison()
 // These columns are written only if a deformer of the user's own takes part.
 const Points columns_of_external = Points{{"external", &PointRow::is_external}, {"clock", &PointRow::clock}}.in_group("external");
 
-using Bytes = std::vector<std::uint8_t>;
-
 template <typename Matrix>
-nlohmann::json bytes_of(const Matrix& matrix)
+std::vector<typename Matrix::Scalar> numbers_of(const Matrix& matrix)
 {
-    const auto* first = reinterpret_cast<const std::uint8_t*>(matrix.data());
-    return nlohmann::json::binary(Bytes(first, first + matrix.size() * sizeof *matrix.data()));
-}
-
-template <typename Matrix>
-Matrix matrix_of(const nlohmann::json& bytes, Eigen::Index columns)
-{
-    const Bytes& from = bytes.get_binary();
-    Matrix matrix(static_cast<Eigen::Index>(from.size() / sizeof(typename Matrix::Scalar)) / columns, columns);
-    std::memcpy(matrix.data(), from.data(), matrix.size() * sizeof(typename Matrix::Scalar));
-    return matrix;
+    return {matrix.data(), matrix.data() + matrix.size()};
 }
 
 }  // namespace
@@ -169,23 +154,25 @@ pbs::StepSummary PosedDeformer::advance(const pbs::Pose& pose)
     return step;
 }
 
-RecordedShapes::RecordedShapes(std::vector<Eigen::VectorXd> weights, const pbs::Positions& origin)
+RecordedShapes::RecordedShapes(const std::vector<Eigen::VectorXd>& weights)
 {
-    for (int v = 0; v < origin.rows(); ++v)
-        if (std::ranges::any_of(weights, [&](const Eigen::VectorXd& of) { return of.size() > 0 && of(v) > 0.0; })) measured_.push_back(v);
+    Eigen::VectorXd largest;
+    for (const Eigen::VectorXd& of : weights)
+        if (of.size() > 0) largest = largest.size() > 0 ? Eigen::VectorXd(largest.cwiseMax(of)) : of;
+    for (int v = 0; v < largest.size(); ++v)
+        if (largest(v) > 0.0) measured_.push_back(v);
     for (const Eigen::VectorXd& of : weights) weights_.push_back(of.size() > 0 ? Eigen::VectorXd(of(measured_)) : Eigen::VectorXd());
-    origin_ = origin(measured_, Eigen::all);
 }
 
 void RecordedShapes::add(const pbs::Positions* positions)
 {
     shapes_.emplace_back();
-    if (positions) shapes_.back() = ((*positions)(measured_, Eigen::all) - origin_).cast<float>();
+    if (positions) shapes_.back() = (*positions)(measured_, Eigen::all).cast<float>();
 }
 
-std::optional<double> RecordedShapes::distance_pct(int one, int other, std::size_t reference) const
+std::optional<double> RecordedShapes::distance_pct(std::size_t one, std::size_t other, std::size_t reference) const
 {
-    if (one >= rows() || other >= rows() || reference >= weights_.size()) return std::nullopt;
+    if (one >= shapes_.size() || other >= shapes_.size() || reference >= weights_.size()) return std::nullopt;
     const Eigen::VectorXd& weights = weights_[reference];
     const Eigen::MatrixX3f &a = shapes_[one], &b = shapes_[other];
     if (weights.size() == 0 || a.rows() != weights.size() || b.rows() != weights.size()) return std::nullopt;
@@ -195,23 +182,22 @@ std::optional<double> RecordedShapes::distance_pct(int one, int other, std::size
 std::string RecordedShapes::text() const
 {
     nlohmann::json all = {{"weights", nlohmann::json::array()}, {"shapes", nlohmann::json::array()}};
-    for (const Eigen::VectorXd& weights : weights_) all["weights"].push_back(bytes_of(weights));
-    for (const Eigen::MatrixX3f& shape : shapes_) all["shapes"].push_back(bytes_of(shape));
-    const Bytes bytes = nlohmann::json::to_cbor(all);
+    for (const Eigen::VectorXd& weights : weights_) all["weights"].push_back(numbers_of(weights));
+    for (const Eigen::MatrixX3f& shape : shapes_) all["shapes"].push_back(numbers_of(shape));
+    const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(all);
     return {bytes.begin(), bytes.end()};
 }
 
 RecordedShapes RecordedShapes::read(const std::string& text)
-{
+try {
     RecordedShapes read;
-    try {
-        const nlohmann::json all = nlohmann::json::from_cbor(text);
-        for (const nlohmann::json& weights : all.at("weights")) read.weights_.push_back(matrix_of<Eigen::VectorXd>(weights, 1));
-        for (const nlohmann::json& shape : all.at("shapes")) read.shapes_.push_back(matrix_of<Eigen::MatrixX3f>(shape, 3));
-    } catch (const nlohmann::json::exception&) {
-        throw pbs::InputError("shapes.cbor", 0, "shapes", "", "expected the shapes of a case's points");
-    }
+    const nlohmann::json all = nlohmann::json::from_cbor(text);
+    for (const std::vector<double> of : all.at("weights")) read.weights_.push_back(Eigen::Map<const Eigen::VectorXd>(of.data(), of.size()));
+    for (const std::vector<float> of : all.at("shapes"))
+        read.shapes_.push_back(Eigen::Map<const Eigen::MatrixX3f>(of.data(), of.size() / 3, 3));
     return read;
+} catch (const nlohmann::json::exception&) {
+    throw pbs::InputError("shapes.cbor", 0, "shapes", "", "expected the shapes of a case's points");
 }
 
 const Points point_columns = within(&PointRow::of, pose_columns()) + within(&PointRow::key, point_key_columns()) + own_columns +

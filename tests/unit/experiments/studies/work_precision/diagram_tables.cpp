@@ -171,7 +171,6 @@ TEST(OwnDeformers, AreAGroupOfTheirOwnInBothComparisons)
                                     [](const ProfileStep& step) { return step.group == "mine" && step.tolerance_pct == 5.0; }));
     rows.front().is_external = false;
     for (const Diagram& diagram : hand_diagrams({rows})) EXPECT_EQ(diagram.groups.size(), deformer_groups().size());
-    EXPECT_EQ(groups_of({}).size(), deformer_groups().size());
 }
 
 }  // namespace

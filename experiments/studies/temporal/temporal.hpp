@@ -1,0 +1,67 @@
+// What an application sees of a deformer along a clip: how smoothly the skin moves from frame to frame, the time per frame, the error, and
+// what it gains or loses where it begins each frame at the frame before.
+//   const TemporalRecords records = measure_temporal(of);
+//   table_of(temporal_columns, records.summary).write("summary.csv");
+// With x_t the skin in frame t and y_t the shape of LBS, which is a smooth function of the pose, the jitter of a frame is the difference of
+// the second differences, (x_{t+1} - 2 x_t + x_{t-1}) - (y_{t+1} - 2 y_t + y_{t-1}), over the skin in millimetres
+// (analysis/metrics/skin_error.hpp). Skin that pops has a large jitter for a frame or two.
+#pragma once
+
+#include "analysis/records/tables.hpp"
+#include "analysis/verdicts/case_record.hpp"
+#include "experiments/scene/scene.hpp"
+#include "experiments/settings/option_names.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+// own: as the method states. frame_before: at the shape of the frame before, which LBS carries with the bones from that pose to this one.
+enum class FrameStart { own, frame_before };
+NAMED_OPTIONS(FrameStart, own, frame_before)
+
+struct TemporalCase {
+    analysis::CaseKey of;  // body, motion
+    Scene scene;           // its character and motion
+    std::vector<DeformerSpec> cold = {}, warm = {};
+    int compared_every = 30;  // frames, from one that is compared with flesh to the next
+};
+nlohmann::json to_json(const TemporalCase& of);
+
+// Of one frame. The first 24 frames, in which a deformer with memory leaves the rest pose, and the last one have no jitter.
+struct TemporalFrame {
+    std::string deformer;
+    FrameStart start = FrameStart::own;
+    int frame = 0;
+    double ms = 0.0;  // processor time
+    std::optional<double> jitter_mm = {}, largest_jitter_mm = {}, error_joint_pct = {};
+};
+extern const analysis::Columns<TemporalFrame> temporal_frame_columns;  // frames.csv
+
+// Over the clip.
+struct TemporalRow {
+    analysis::CaseKey of;
+    std::string deformer;
+    FrameStart start = FrameStart::own;
+    int frames = 0;
+    double ms_median = 0.0, ms_p95 = 0.0;
+    double jitter_mm = 0.0, jitter_p95_mm = 0.0;  // root mean square over the frames, and the value that 95 % do not exceed
+    double largest_jitter_mm = 0.0;               // of any vertex in any frame
+    int largest_in_frame = 0;
+    double pose_mm = 0.0;                            // root mean square of the second differences of LBS
+    int compared = 0;                                // frames with flesh that was reached
+    double error_joint_pct = 0.0;                    // mean over these
+    std::optional<int> worse_than_cold_frames = {};  // of these, with the start at the frame before; nothing for the own start
+};
+extern const analysis::Columns<TemporalRow> temporal_columns;  // summary.csv
+
+struct TemporalRecords {
+    std::vector<TemporalFrame> frames;
+    std::vector<TemporalRow> summary;
+    std::string breakdown;  // deformers that are not finite
+};
+TemporalRecords measure_temporal(const TemporalCase& of);
+
+}  // namespace experiments
