@@ -7,7 +7,8 @@ endif()
 set(with_the_module experiments/deformers/fem/fem_module experiments/deformers/flesh_limits
     experiments/studies/convergence/convergence_case
     experiments/studies/ensemble/ensemble experiments/studies/fit/fit
-    experiments/studies/shared/posed_reference experiments/studies/stability/broken_fem_starts experiments/broken_bulge)
+    experiments/studies/shared/posed_reference experiments/studies/stability/broken_fem_starts
+    experiments/studies/temporal/temporal experiments/broken_bulge)
 set(left_out)
 if(NOT PBS_WITH_FEM)
     set(left_out ${with_the_module})

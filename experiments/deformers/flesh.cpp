@@ -118,13 +118,14 @@ private:
     }
     pbs::StepSummary deform(const pbs::Pose& pose, double /*dt_s*/, pbs::Positions& x) final
     {
-        flesh_->hold().centres(pose, centres_);
         if (next_start_)
             x = *std::exchange(next_start_, {});
         else if (options_.start == pbs::StartShape::smooth_dqs)
             skinning_->dual_quaternion(pose, x);
         else
             skinning_->linear(pose, x);
+        if (options_.iterations == 0) return {};
+        flesh_->hold().centres(pose, centres_);
         return minimise(pose, x);
     }
 

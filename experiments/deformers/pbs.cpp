@@ -42,6 +42,7 @@ public:
     void reset(const pbs::Character& character) override
     {
         character_ = &character;
+        next_start_.reset();
         skinning_.emplace(character.mesh.rest, begins_at_lbs() ? character.weights : smooth_weights_of(character));
         solver_ = std::make_unique<Solver>(character.mesh, character.binding.distance, zone_of(options_, character.binding), options_);
     }
@@ -74,11 +75,11 @@ protected:
     Options options_;
     const pbs::Character* character_ = nullptr;
     std::optional<pbs::BlendSkinning<double>> skinning_;
+    std::optional<pbs::Positions> next_start_;
 
 private:
     std::unique_ptr<Solver> solver_;
     pbs::Positions start_;
-    std::optional<pbs::Positions> next_start_;
 };
 
 class PbsDeformer : public ProjectingDeformer<pbs::PbsOptions, pbs::PbsSolver> {
@@ -86,6 +87,7 @@ public:
     using ProjectingDeformer::ProjectingDeformer;
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override
     {
+        if (next_start_) foreseen_.clear();  // the frames were foreseen with another start
         if (next_ < foreseen_.size()) return advance_ahead(dt_s);
         ahead_.reset();
         return ProjectingDeformer::advance(pose, dt_s);

@@ -23,7 +23,8 @@ JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "t
 PROVENANCE = ["version", "git_revision", "git_dirty", "compiler", "flags", "build_type", "cpu_model", "logical_cpus"]
 DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # beside frames, which are not kept
 MOST_BYTES = 14_000_000
-RAW = ("points.csv", "rates.csv")  # the measured points of a run, from which the study's tables follow: kept whatever their length
+# Tables of a run from which those of the study follow: kept whatever their length. So is nearest_pairs.csv of a study.
+RAW = ("points.csv", "rates.csv", "pair_orders.csv")
 PICTURED = ("nh_p2",)  # the reference in the picture of the README, which no claim selects
 PAGES = ("bench.txt",)  # a study's texts that are no pages
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
@@ -104,7 +105,7 @@ def keep_study(source, target):
     for file in sorted(source.iterdir()):
         if file.suffix not in (".csv", ".md", ".json") and file.name not in PAGES:
             continue
-        if file.name == "plan.json" or file.stat().st_size <= SUMMARY_BYTES:
+        if file.name in ("plan.json", "nearest_pairs.csv") or file.stat().st_size <= SUMMARY_BYTES:
             shutil.copyfile(file, target / file.name)
         else:
             too_long.append(file.relative_to(source))

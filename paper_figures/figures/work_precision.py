@@ -81,7 +81,8 @@ def draw_budgets(axes, panel):
         group = looks.group_of(row["deformer"])
         axes.axvline(budget_ms, color="#777777", linewidth=0.7, linestyle=(0, (2, 2)), zorder=0)
         axes.text(budget_ms, 1.01 + name_row_height * place,
-                  f"{budget_ms:g} ms: {words_of_class(row['nearest'])}{mark}: {looks.short(group)}, {float(row['error_joint_pct']):.3g} %",
+                  f"{budget_ms:g} ms: {words_of_class(row['nearest'])}{mark}: {looks.short(row['deformer'])}, "
+                  f"{float(row['error_joint_pct']):.3g} %",
                   transform=axes.get_xaxis_transform(), ha="center", va="bottom", fontsize=5.2, color=looks.of(group).color)
 
 
@@ -144,7 +145,7 @@ def panels_of(comparison, results):
 def draw_comparison(comparison, results):
     shown = panels_of(comparison, results)
     columns = min(2, len(shown))
-    figure, axes = style.panels(-(-len(shown) // columns), columns, height_in=3.2, width_in=style.page_in)
+    figure, axes = style.panels(-(-len(shown) // columns), columns, height_in=4.2 if len(shown) < 3 else 3.4, width_in=style.page_in)
     for axes_of_panel, panel in zip(axes.flat, shown):
         draw_panel(axes_of_panel, panel)
     for axes_of_panel in axes.flat[len(shown):]:

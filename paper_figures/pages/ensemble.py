@@ -47,9 +47,11 @@ def of_shares(folder):
         poses[row["body"], row["motion"], pose(row)].append(row)
     rows = []
     for (body, motion, of), errors in poses.items():
-        shares = {name: f"{round(of_members[0])} ({round(min(of_members))} to {round(max(of_members))})"
-                  for name, of_members in records.removed_shares(errors).items()}
-        in_mm = {row["deformer"]: f"{float(row['skin_rms_mm']):.0f}" for row in errors[::-1] if row.get("skin_rms_mm")}
+        by_first = [row for row in errors if row["member"] == records.first_member]
+        first = records.removed_shares(by_first)
+        shares = {name: f"{round(first[name][0]) if name in first else 'not reached'} ({round(min(of_all))} to {round(max(of_all))})"
+                  for name, of_all in records.removed_shares(errors).items()}
+        in_mm = {row["deformer"]: f"{float(row['skin_rms_mm']):.0f}" for row in by_first if row.get("skin_rms_mm")}
         in_words = " / ".join(in_mm[name] for name in ("lbs", "pbs") if in_mm)
         rows.append({"body": body, "motion": motion, "pose": of, "mm": in_words, **shares})
     columns = {"body": "body", "motion": "motion", "pose": "pose"}

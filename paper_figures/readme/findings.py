@@ -8,7 +8,6 @@ from words.number_words import counted
 paper_s_solver = "the paper's own solver (file order, double precision)"
 most_exceptions = 2  # named one by one
 read_scenes = ("human", "human_moving")  # in which the study ambiguity measures the volume over a clip
-first_member = "smooth"  # the reference of the other studies
 
 
 def only(rows, what, **wanted):
@@ -145,11 +144,11 @@ def errors_and_shares(results):
     errors, shares, files = {}, {}, sorted((results / "ensemble").glob("*/errors.csv"))
     for file in files:
         members = records.table(file.with_name("members.csv"), {"member", "error_bound_pct"})
-        if not only(members, f"{file.parent}/members.csv", member=first_member)["error_bound_pct"]:
+        if not only(members, f"{file.parent}/members.csv", member=records.first_member)["error_bound_pct"]:
             continue
         rows = records.table(file, {"member", "deformer", "error_joint_pct"})
         for row in rows:
-            if row["member"] == first_member:
+            if row["member"] == records.first_member:
                 errors.setdefault(row["deformer"], []).append(float(row["error_joint_pct"]))
         for deformer, of_references in records.removed_shares(rows).items():
             shares.setdefault(deformer, []).extend(of_references)

@@ -10,6 +10,7 @@ import json
 import math
 
 notable_points = 2  # pairs of deformers whose errors differ by more than this [percentage points] are to be decided
+first_member = "smooth"  # of the family of references of `ensemble`
 
 
 class RecordsMissing(Exception):

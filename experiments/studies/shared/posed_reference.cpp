@@ -48,8 +48,8 @@ constexpr double edges_per_radius_of_meshes[] = {9.0, 9.0, 13.5};
 constexpr int meshes_without_creases = 2;
 constexpr double correlated_errors = 1.25;  // see posed_reference.hpp
 
-// Raised where what follows a solve has another result: the fields of a solution, the vertices' places in other tets, or the tips of
-// creases.
+// Raised where this file makes something else of a solve or of its result: the options of a level, the fields of a solution, the vertices'
+// places in other tets, or the tips of creases.
 constexpr int kept_format = 1;
 
 // Visits the fields of a solution that are written to its file, except for the positions and the smallest det F.
@@ -226,6 +226,10 @@ std::string PosedReference::file_of(const std::string& name, const std::vector<L
         hash.add(of.mesh.rest);
         put(of.mesh.tets.data(), of.mesh.tets.size());
         put(of.binding.bone.data(), of.binding.bone.size());
+        put(of.binding.distance.data(), of.binding.distance.size()), put(of.binding.parameter.data(), of.binding.parameter.size());
+        if (!of.artist || !of.artist->is_cut) return;
+        const pbs::Weights& holding = of.artist->weights;  // by which bones hold flesh that is cut between parts
+        put(holding.bone.data(), holding.bone.size()), put(holding.weight.data(), holding.weight.size());
     };
     put(stated.data(), stated.size());
     put_mesh(character_);  // by which the bones' sizes and the places of its vertices in other tets are found

@@ -106,7 +106,6 @@ public:
     analysis::ErrorNorms distance(const pbs::Positions& one, const pbs::Positions& other) const;
     analysis::ErrorNorms error_of(const pbs::Positions& positions) const { return distance(positions, reference().positions); }
     analysis::ErrorNorms error_on_whole_body(const pbs::Positions& positions) const;
-    // By which the distance at the joints of many pairs is known (analysis::ErrorMetrics).
     Eigen::VectorXd joint_weights() const { return error_metrics_.joint_weights(masked_); }
 
     // The observed order is empty unless the four nested solutions finished.

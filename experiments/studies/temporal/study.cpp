@@ -1,7 +1,5 @@
-// Jitter, time and error along clips, with the start of the method and with that of the frame before (temporal.hpp). README.md describes
-// the clips and records.
-//
-//   pbskin reproduce temporal            a minute
+// README.md describes the clips and records.
+//   pbskin reproduce temporal            half a minute
 //   pbskin reproduce temporal --full     both clips
 #include "analysis/metrics/error_norms.hpp"
 #include "analysis/metrics/skin_error.hpp"
@@ -27,13 +25,12 @@ namespace experiments {
 
 const analysis::Columns<TemporalFrame> temporal_frame_columns =
     MEMBER_COLUMNS(TemporalFrame, deformer, start, frame, ms, jitter_mm, largest_jitter_mm, error_joint_pct);
-
 const analysis::Columns<TemporalRow> temporal_columns =
     analysis::within(&TemporalRow::of, pose_columns()) + MEMBER_COLUMNS(TemporalRow, deformer, start, frames, ms_median, ms_p95, jitter_mm,
                                                                         jitter_p95_mm, largest_jitter_mm, largest_in_frame, pose_mm,
                                                                         compared, error_joint_pct, worse_than_cold_frames);
 
-RECORD_SETTINGS(TemporalCase, of, scene, cold, warm, compared_every)
+RECORD_SETTINGS(TemporalCase, of, scene, cold, warm, flesh, compared_every)
 
 namespace {
 
@@ -41,8 +38,7 @@ constexpr int settling_frames = 24;  // in which a deformer with memory leaves t
 
 double root_mean_square(const std::vector<double>& values)
 {
-    return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())).norm() /
-           std::sqrt(double(values.size()));
+    return Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size())).norm() / std::sqrt(double(values.size()));
 }
 
 // x_{t+1} - 2 x_t + x_{t-1} [m], #V x 3.
@@ -78,9 +74,7 @@ private:
 
     void solve_flesh()
     {
-        DeformerSpec linear = reference_flesh(of_.scene);
-        options_of<FemOptions>(linear).element_order = 1;
-        const auto deformer = make_deformer(linear);
+        const auto deformer = make_deformer(of_.flesh);
         deformer->reset(character_);
         for (int frame = 0; frame < motion_.frames(); frame += of_.compared_every) {
             stop_if_interrupted();
@@ -89,7 +83,6 @@ private:
         }
     }
 
-    // The shape of the frame before, carried by the bones.
     pbs::Positions carried(const pbs::Positions& before, int frame) const
     {
         pbs::Pose moved = pose(frame);
@@ -126,7 +119,7 @@ private:
         records_.summary.push_back(summed_up(first));
     }
 
-    // The frames from the first one on. Before those with the start at the frame before stand those with the own start.
+    // The frames from the first one on. Where they start at the frame before, the same frames with the own start precede them.
     TemporalRow summed_up(std::size_t first) const
     {
         const TemporalFrame& head = records_.frames[first];
@@ -137,7 +130,7 @@ private:
             const TemporalFrame& frame = records_.frames[i];
             ms.push_back(frame.ms);
             if (frame.jitter_mm) jitter_mm.push_back(*frame.jitter_mm);
-            if (frame.largest_jitter_mm.value_or(0.0) > row.largest_jitter_mm)
+            if (frame.largest_jitter_mm > row.largest_jitter_mm)
                 row.largest_jitter_mm = *frame.largest_jitter_mm, row.largest_in_frame = frame.frame;
             if (!frame.error_joint_pct) continue;
             errors_pct.push_back(*frame.error_joint_pct);
@@ -162,7 +155,7 @@ private:
     pbs::Motion motion_;
     analysis::SkinErrorMetrics skin_;
     analysis::ErrorMetrics errors_;
-    std::vector<bool> nothing_;                 // is left out
+    std::vector<bool> nothing_;                 // no vertex is left out
     std::vector<pbs::Positions> lbs_;           // of each frame
     std::map<int, pbs::Positions> flesh_ = {};  // of the compared frames that were reached
     TemporalRecords records_ = {};
@@ -181,7 +174,10 @@ StudyPlan plan(bool full)
     return plan_of_cases("temporal", full, [](const StudyCase& in_file, StudyPlan& plan) {
         TemporalCase of{.of = in_file.key(), .scene = in_file.scene(), .compared_every = in_file.value<int>("compared_every")};
         const auto warm = in_file.value<std::vector<std::string>>("warm");
-        for (const DeformerSpec& spec : of.scene.deformers) (std::ranges::count(warm, spec.name) ? of.warm : of.cold).push_back(spec);
+        for (const DeformerSpec& spec : of.scene.deformers)
+            if (!options_if<FemOptions>(spec)) (std::ranges::count(warm, spec.name) ? of.warm : of.cold).push_back(spec);
+        of.flesh = reference_flesh(of.scene);
+        options_of<FemOptions>(of.flesh).element_order = 1;
         plan.runs.push_back(work_run(in_file.name, of, in_file.cost_s, measure_and_record));
     });
 }

@@ -1,10 +1,9 @@
 // What an application sees of a deformer along a clip: how smoothly the skin moves from frame to frame, the time per frame, the error, and
 // what it gains or loses where it begins each frame at the frame before.
-//   const TemporalRecords records = measure_temporal(of);
-//   table_of(temporal_columns, records.summary).write("summary.csv");
+//   table_of(temporal_columns, measure_temporal(of).summary).write("summary.csv");
 // With x_t the skin in frame t and y_t the shape of LBS, which is a smooth function of the pose, the jitter of a frame is the difference of
 // the second differences, (x_{t+1} - 2 x_t + x_{t-1}) - (y_{t+1} - 2 y_t + y_{t-1}), over the skin in millimetres
-// (analysis/metrics/skin_error.hpp). Skin that pops has a large jitter for a frame or two.
+// (analysis/metrics/skin_error.hpp).
 #pragma once
 
 #include "analysis/records/tables.hpp"
@@ -26,6 +25,7 @@ struct TemporalCase {
     analysis::CaseKey of;  // body, motion
     Scene scene;           // its character and motion
     std::vector<DeformerSpec> cold = {}, warm = {};
+    DeformerSpec flesh = {};  // of the compared frames
     int compared_every = 30;  // frames, from one that is compared with flesh to the next
 };
 nlohmann::json to_json(const TemporalCase& of);

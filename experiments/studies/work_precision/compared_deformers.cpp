@@ -77,12 +77,12 @@ std::string assigned(const std::string& key, double value)
     return fmt::format("{}={:.17g}", key, value);
 }
 
-// The names of the reference's row and of the front of all deformers are taken too.
+// The names of the reference's row, of the front of all deformers and of classes are taken too.
 bool is_taken(const std::string& name)
 {
-    if (name == "reference" || name == "all") return true;
+    if (name == "reference" || name == "all" || name == "classes") return true;
     return std::ranges::any_of(deformer_groups(), [&](const DeformerGroup& group) {
-        return group.key == name || std::ranges::find(group.deformers, name) != group.deformers.end();
+        return group.key == name || group.of_class == name || std::ranges::find(group.deformers, name) != group.deformers.end();
     });
 }
 

@@ -106,9 +106,8 @@ std::vector<Diagram> diagrams_of(const std::vector<CaseRecords>& cases, const st
 // The best of the group's points within a budget of time. Null where none is as fast.
 const DiagramPoint* best_of(const Diagram& diagram, const DeformerGroup& group, double budget_ms);
 
-// How a reference orders two points, with the values that decide it, by the rule of analysis/verdicts/pair_order.hpp. Where the distance of
-// the two shapes is not known, the sum of their errors takes its place. In a mean, the values are means over the poses, and the order is
-// that of the mean difference.
+// How a reference orders two points, with the values that decide it (analysis/verdicts/pair_order.hpp). The sum of the errors stands for a
+// distance that is not known. In a mean, the values are means over the poses, and the order is that of the mean difference.
 struct ReferenceOrder {
     std::string member;  // of the family
     analysis::PairDistances distances;
@@ -136,6 +135,7 @@ struct NearestQuestion {
 struct NearestPair {
     NearestQuestion of;
     std::string first, second;  // classes or deformers; the first is the nearest one
+    std::string first_deformer, second_deformer;
     SettingsOf settings = SettingsOf::training_poses;
     ReferenceOrder by;
 };
@@ -144,10 +144,10 @@ extern const analysis::Columns<NearestPair> nearest_pair_columns;  // nearest_pa
 struct NearestAnswer {
     NearestQuestion of;
     std::string nearest;
-    DiagramPoint point;                                                 // of the nearest one, in the settings of the training poses
-    int others = 0;                                                     // classes or deformers that have a point within the time, too
-    std::vector<std::string> either_of = {};                            // those that the nearest one is not decided against
-    analysis::PairDecision decision = analysis::PairDecision::decided;  // the worst one against another; settings disagree as models do
+    DiagramPoint point;                                   // of the nearest one, in the settings of the training poses
+    int others = 0;                                       // classes or deformers that have a point within the time, too
+    std::vector<std::string> either_of = {};              // those that the nearest one is not decided against
+    std::optional<analysis::PairDecision> decision = {};  // the worst one against another; settings may disagree as models do
 };
 extern const analysis::Columns<NearestAnswer> nearest_columns;  // nearest.csv
 

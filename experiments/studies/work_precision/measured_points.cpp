@@ -118,7 +118,6 @@ public:
 
     const PosedReference& first() const { return first_; }
 
-    // By which the distances of shapes are known: of each reference, the first one first.
     RecordedShapes no_shapes() const
     {
         std::vector<Eigen::VectorXd> weights(1 + further_members);

@@ -148,8 +148,6 @@ analysis::Columns<PointRow> columns_for(const std::vector<PointRow>& rows);
 
 // The shapes of a case's points, so that the distance between any two of them is known when the settings are chosen. They lie next to
 // points.csv, in the order of its rows.
-//   RecordedShapes shapes({reference.joint_weights()});
-//   shapes.add(&positions), shapes.add(nullptr);                     // a row with a shape, and one without
 //   RecordedShapes::read(shapes.text()).distance_pct(0, 5, 0);
 class RecordedShapes {
 public:

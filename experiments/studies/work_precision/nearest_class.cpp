@@ -40,16 +40,17 @@ std::optional<NearestAnswer> answer_to(const NearestQuestion& question, const Di
         for (const auto& [settings, diagram] : {std::pair{SettingsOf::training_poses, &chosen}, {SettingsOf::defaults, &defaults}}) {
             const DiagramPoint *first = best_of(*diagram, *nearest, question.budget_ms),
                                *second = best_of(*diagram, other, question.budget_ms);
-            if (!first || !second) continue;  // no default setting is as fast
-            for (const ReferenceOrder& by : orders_on(*diagram, *first, *second)) {
-                pairs.push_back({question, nearest->key, other.key, settings, by});
+            const auto by_all = first && second ? orders_on(*diagram, *first, *second) : std::vector<ReferenceOrder>{};
+            if (by_all.empty()) orders.push_back(PairOrder::undecided);  // no default setting is as fast
+            for (const ReferenceOrder& by : by_all) {
+                pairs.push_back({question, nearest->key, other.key, first->key.deformer, second->key.deformer, settings, by});
                 orders.push_back(by.order);
             }
         }
         ++answer.others;
         const analysis::PairDecision decision = analysis::decide(orders);
         if (decision != analysis::PairDecision::decided) answer.either_of.push_back(other.key);
-        answer.decision = std::max(answer.decision, decision);
+        answer.decision = std::max(answer.decision.value_or(decision), decision);
     }
     return answer;
 }
@@ -57,7 +58,7 @@ std::optional<NearestAnswer> answer_to(const NearestQuestion& question, const Di
 }  // namespace
 
 const Columns<NearestPair> nearest_pair_columns = within(&NearestPair::of, question_columns) +
-                                                  MEMBER_COLUMNS(NearestPair, first, second, settings) +
+                                                  MEMBER_COLUMNS(NearestPair, first, second, first_deformer, second_deformer, settings) +
                                                   within(&NearestPair::by, reference_order_columns());
 
 const Columns<NearestAnswer> nearest_columns =

@@ -2,8 +2,11 @@
 // whose shapes are known, and the rows of the frames for those of the clip.
 #include "experiments/studies/temporal/temporal.hpp"
 
+#include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
+#include "experiments/studies/shared/posed_reference.hpp"
+#include "experiments/studies/study.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/topology.hpp"
 
@@ -29,6 +32,8 @@ TemporalCase sweep(const std::string& joint, double angle_deg, const std::vector
     of.scene = read_scene("limb_twist", overrides);
     of.cold = {default_spec("lbs")};
     of.warm = {spec_of(of.scene, "pbs")};
+    of.flesh = reference_flesh(of.scene);
+    options_of<FemOptions>(of.flesh).element_order = 1;
     of.compared_every = 10;
     return of;
 }
@@ -88,11 +93,22 @@ TEST(Temporal, ComparesTheStartsInTheFramesWithFlesh)
         ++compared;
         worse += *before[t].error_joint_pct > *own[t].error_joint_pct;
     }
+    EXPECT_GT(worse, 0) << "no frame shows that they are counted";
     EXPECT_EQ(records.summary[1].compared, compared);
     EXPECT_FALSE(records.summary[1].worse_than_cold_frames);
     EXPECT_EQ(records.summary[2].worse_than_cold_frames, worse);
     EXPECT_EQ(before[0].error_joint_pct, own[0].error_joint_pct) << "the first frame has none before it";
     EXPECT_NE(before[10].error_joint_pct, own[10].error_joint_pct);
+}
+
+TEST(Temporal, PlansEachClipWithFleshThatIsNoneOfItsDeformers)
+{
+    for (const bool full : {false, true})
+        for (const StudyRun& run : temporal_study().plan(full).runs) {
+            EXPECT_EQ(run.settings.at("flesh").at("options").at("element_order"), 1);
+            EXPECT_EQ(run.settings.at("cold").size(), 5u);
+            EXPECT_EQ(run.settings.at("warm").size(), 6u);
+        }
 }
 
 // All bones turn as one, and nothing is projected: the shape of the frame before is carried to that of LBS.

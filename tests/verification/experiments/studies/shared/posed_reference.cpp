@@ -163,8 +163,9 @@ TEST(PosedReference, LendsItsBoundToFleshThatIsHeldInAnotherWay)
 TEST(PosedReference, FindsTheSolutionsThatItKeepsAndNoOthers)
 {
     const test_support::ScratchFolder folder;
-    pbs::Character moved = bar;  // of one vertex
+    pbs::Character moved = bar, thicker = bar;  // by one vertex, and by its distance from the bone, which a bone's radius depends on
     moved.mesh.rest(0, 0) += 1e-9;
+    thicker.binding.distance(0) += 1e-9;
     const auto reference = [&](double angle_deg, double spring_factor = 10.0, double poisson = 0.45, const pbs::Character& body = bar) {
         DeformerSpec spec = flesh();
         options_of<FemOptions>(spec).spring_factor = spring_factor;
@@ -192,6 +193,7 @@ TEST(PosedReference, FindsTheSolutionsThatItKeepsAndNoOthers)
     EXPECT_FALSE(is_found(reference(165.0, 20.0), first));
     EXPECT_FALSE(is_found(reference(165.0, 10.0, 0.4), first));
     EXPECT_FALSE(is_found(reference(165.0, 10.0, 0.45, moved), first));
+    EXPECT_FALSE(is_found(reference(165.0, 10.0, 0.45, thicker), first));
     EXPECT_TRUE(is_found(reference(165.0), first));
     for (const auto& file : std::filesystem::directory_iterator(folder.path())) std::filesystem::resize_file(file, 100);
     EXPECT_FALSE(is_found(reference(165.0), first)) << "a damaged file";
