@@ -1,5 +1,5 @@
-// What an application sees of a deformer along a clip: how smoothly the skin moves from frame to frame, the time per frame, the error, and
-// what it gains or loses where it begins each frame at the frame before.
+// This measures a deformer along a clip, as an application runs it: the jitter of the skin, the time and the error per frame. A deformer
+// that can begin a frame at the shape of the frame before is measured with both starts.
 //   table_of(temporal_columns, measure_temporal(of).summary).write("summary.csv");
 // With x_t the skin in frame t and y_t the shape of LBS, which is a smooth function of the pose, the jitter of a frame is the difference of
 // the second differences, (x_{t+1} - 2 x_t + x_{t-1}) - (y_{t+1} - 2 y_t + y_{t-1}), over the skin in millimetres
@@ -30,7 +30,7 @@ struct TemporalCase {
 };
 nlohmann::json to_json(const TemporalCase& of);
 
-// Of one frame. The first 24 frames, in which a deformer with memory leaves the rest pose, and the last one have no jitter.
+// The values of one frame. The last frame has no jitter, nor have the first 24, in which a deformer with memory leaves the rest pose.
 struct TemporalFrame {
     std::string deformer;
     FrameStart start = FrameStart::own;

@@ -126,8 +126,7 @@ struct SettingKey {
     bool refined = false;
     std::string tuned = {};  // the value of the grid; empty: the default one
     bool packed = false;     // code that computes several constraints, vertices or tets per instruction
-    // What it takes from the reference: material, attachment (the springs), start (an initial guess with weights solved from these
-    // springs).
+    // The values that the deformer takes from the reference: material, attachment (its springs), start (the guess that these determine).
     std::string knows = {};
 
     // f64 code that is not packed. A deformer of the user's own, whose code is not known, counts as such.

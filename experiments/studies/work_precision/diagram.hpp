@@ -155,7 +155,7 @@ struct NearestAnswers {
     std::vector<NearestAnswer> answers;
     std::vector<NearestPair> pairs;
 };
-// Of the evaluated poses and of means. A diagram of the default settings belongs to the one of the same comparison and poses.
+// The answers for the evaluated poses and for their mean. A diagram of the default settings is paired with that of the same key.
 NearestAnswers nearest_classes(const std::vector<Diagram>& chosen, const std::vector<Diagram>& defaults);
 
 // fronts.csv: the Pareto front of all points of each diagram (front "all") and of each deformer's own points, by each measure. `value` is
