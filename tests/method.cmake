@@ -21,7 +21,7 @@ pbs_tests(unit pbs_solver FOLDERS pbs/packed pbs/contact pbs/solver pbs/author
         pbs/solver/pbs_solver pbs/solver/projection pbs/solver/steps pbs/contact/depth_constraint pbs/contact/self_contact
     LIBRARIES pbs_method ${threads})
 pbs_tests(unit analysis FOLDERS analysis
-    ALONE analysis/statistics/minimise analysis/records/tables analysis/metrics/frame_metrics analysis/metrics/error_norms
+    ALONE analysis/records/tables analysis/metrics/frame_metrics analysis/metrics/error_norms
     LIBRARIES analysis GSL::gsl)
 set_source_files_properties(unit/analysis/verdicts/claims.cpp unit/analysis/verdicts/verdict.cpp PROPERTIES
     COMPILE_DEFINITIONS ${claims_file})

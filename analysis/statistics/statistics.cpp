@@ -81,6 +81,11 @@ std::vector<double> values_of(const CsvTable& metrics, const std::vector<int>& r
     return values;
 }
 
+bool is_candidate(const WorkPrecision& point)
+{
+    return std::isfinite(point.cost) && std::isfinite(point.error);
+}
+
 }  // namespace
 
 double mean(const std::vector<double>& values)
@@ -134,6 +139,17 @@ int block_length(const std::vector<double>& series)
     const double tau = integrated_autocorrelation_time(series), n = static_cast<double>(series.size());
     const double length = std::cbrt(1.5 * n) * std::pow((tau * tau - 1.0) / (2.0 * tau), 2.0 / 3.0);
     return static_cast<int>(std::clamp(std::ceil(length), 1.0, std::max(1.0, std::floor(n / 2.0))));
+}
+
+Interval jackknife_interval(double estimate, const std::vector<double>& without, double level)
+{
+    const auto n = static_cast<double>(without.size());
+    Interval interval{estimate, not_known, not_known, level, static_cast<int>(without.size()), 0};
+    if (without.size() < 2) return interval;
+    const double half_width = gsl_cdf_tdist_Pinv((1.0 + level) / 2.0, n - 1.0) * (n - 1.0) / std::sqrt(n) * standard_deviation(without);
+    interval.low = estimate - half_width;
+    interval.high = estimate + half_width;
+    return interval;
 }
 
 Interval bootstrap_mean(const std::vector<double>& series, const BootstrapOptions& options)
@@ -206,6 +222,32 @@ Interval bootstrap_share_of_groups(const std::vector<std::string>& groups, const
 double binomial_tail(int counted, int all, double q)
 {
     return counted <= 0 ? 1.0 : gsl_cdf_binomial_Q(static_cast<unsigned>(counted - 1), q, static_cast<unsigned>(all));
+}
+
+bool dominates(const WorkPrecision& a, const WorkPrecision& b)
+{
+    return a.cost <= b.cost && a.error <= b.error && (a.cost < b.cost || a.error < b.error);
+}
+
+std::vector<std::size_t> pareto_front(const std::vector<WorkPrecision>& points)
+{
+    std::vector<std::size_t> front;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto beats = [&](const WorkPrecision& other) { return is_candidate(other) && dominates(other, points[i]); };
+        if (is_candidate(points[i]) && std::none_of(points.begin(), points.end(), beats)) front.push_back(i);
+    }
+    std::stable_sort(front.begin(), front.end(), [&](std::size_t a, std::size_t b) { return points[a].cost < points[b].cost; });
+    return front;
+}
+
+std::optional<std::size_t> best_within(const std::vector<WorkPrecision>& points, double budget)
+{
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (is_candidate(points[i]) && points[i].cost <= budget &&
+            (!best || dominates(points[i], points[*best]) || points[i].error < points[*best].error))
+            best = i;
+    return best;
 }
 
 CsvTable frame_statistics(const CsvTable& metrics)

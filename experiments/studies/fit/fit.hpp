@@ -2,11 +2,11 @@
 // the linear elastic bar that hangs as another body does under the same gravity and density.
 //   const Cantilever cantilever = make_cantilever(bar);
 //   const YoungFit fit = fit_young(cantilever, elastic_sag(cantilever, options), pbs_displacement, 9.81);
-//   fit.young_pa.estimate, fit.minimum.value
+//   fit.young_pa.estimate, fit.misfit_pct
 #pragma once
 
 #include "analysis/records/tables.hpp"
-#include "analysis/statistics/minimise.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/shared/bodies.hpp"
 
@@ -35,7 +35,10 @@ ElasticSag elastic_sag(const Cantilever& cantilever, FemOptions options);
 struct YoungFit {
     // 95 %, leaving out one fifth of the free length at a time: wide where no single modulus bends as the body does.
     analysis::Interval young_pa;
-    analysis::Minimum minimum;  // over Young's modulus [Pa]; its value is what is left: rms over the fifths of |u - u_elastic| / |u| [%]
+    double misfit_pct = 0.0;             // what is left: rms over the fifths of |u - u_elastic| / |u|
+    double rise = 0.0;                   // the least share by which the misfit rises if the modulus changes by 10 %; infinite for misfit 0
+    std::string outcome = "not_finite";  // or converged
+    bool identifiable = false;           // the misfit rises by at least 1 %
 };
 
 // displacement [m], #V x 3, under gravity_m_s2 along -z with the density of the elastic sag. A displacement that is not finite, or against
@@ -64,10 +67,7 @@ struct BarSetting {
 
 struct SagRow {
     BarSetting setting;
-    double young_pa = 0.0, young_low_pa = 0.0, young_high_pa = 0.0;
-    double misfit_pct = 0.0, rise = 0.0;  // how well the minimum is known
-    std::string outcome;
-    bool identifiable = false;
+    YoungFit fit;
     double scaled_young = 0.0, tip_sag_over_g_dt2 = 0.0;
     bool settled = false;
     double residual = 0.0;

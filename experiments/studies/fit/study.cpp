@@ -19,12 +19,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace experiments {
 namespace {
 
 constexpr double past_the_corners = 2.0;  // capsule radius over the mean distance of the skin
-constexpr double range = 5.0;             // the modulus is searched within this factor of that by least squares
+constexpr double range = 5.0;             // the interval of the modulus, and the modulus without a fifth, are within this factor of it
+constexpr double least_rise = 0.01;       // of the misfit, for a change of the modulus by 10 %; below it the modulus is not identifiable
 
 // The capsule of a bone is its middle, from 1/6 to 5/6: it begins before the bar and ends where the held part ends.
 pbs::Skeleton bone_in_held_end(const pbs::Positions& rest)
@@ -103,33 +105,46 @@ ElasticSag elastic_sag(const Cantilever& cantilever, FemOptions options)
 
 YoungFit fit_young(const Cantilever& cantilever, const ElasticSag& elastic, const pbs::Positions& displacement, double gravity_m_s2)
 {
-    // Linear: the elastic body of modulus E is displaced by per_pa / E.
+    // Linear: the elastic body of modulus E is displaced by e / E, e = per_pa. With c = 1 / E the squared misfit of a fifth is the parabola
+    // 1 - 2 c m + c^2 s, m = u . e / u . u, s = e . e / u . u. The mean over the fifths is least at c = (sum of m) / (sum of s).
     const pbs::Positions per_pa = elastic.options.young_pa * gravity_m_s2 * elastic.displacement;
-    std::vector<analysis::Misfit> misfits;
-    double squares = 0.0, mixed = 0.0;
+    std::vector<double> m, s;
     for (const std::vector<int>& fifth : cantilever.fifths) {
-        const double uu = product(cantilever, fifth, displacement, displacement), ue = product(cantilever, fifth, displacement, per_pa),
-                     ee = product(cantilever, fifth, per_pa, per_pa);
-        misfits.push_back([=](double young_pa) {
-            return 100.0 * std::sqrt(std::max(0.0, (uu - 2.0 * ue / young_pa + ee / (young_pa * young_pa)) / uu));
-        });
-        squares += ee / uu;
-        mixed += ue / uu;
+        const double uu = product(cantilever, fifth, displacement, displacement);
+        m.push_back(product(cantilever, fifth, displacement, per_pa) / uu);
+        s.push_back(product(cantilever, fifth, per_pa, per_pa) / uu);
     }
-    const double least_squares_pa = squares / mixed;  // minimises the sum of squared misfits in closed form
-    if (!(least_squares_pa > 0.0 && std::isfinite(least_squares_pa))) {
-        YoungFit none;
-        none.young_pa.estimate = none.young_pa.low = none.young_pa.high = analysis::not_known;
-        return none;
-    }
-    const analysis::FittedParameter fit = analysis::fit_over_cases(misfits, least_squares_pa / range, least_squares_pa * range);
-    return {fit.interval, fit.all};
+    const double mixed = std::accumulate(m.begin(), m.end(), 0.0), squares = std::accumulate(s.begin(), s.end(), 0.0);
+    const double young_pa = squares / mixed;
+    YoungFit fit;
+    fit.young_pa.estimate = fit.young_pa.low = fit.young_pa.high = analysis::not_known;
+    if (!(young_pa > 0.0 && std::isfinite(young_pa))) return fit;
+
+    const auto misfit_pct = [&](double c) {
+        return 100.0 * std::sqrt(std::max(0.0, 1.0 + (c * c * squares - 2.0 * c * mixed) / static_cast<double>(m.size())));
+    };
+    fit.misfit_pct = misfit_pct(1.0 / young_pa);
+    fit.rise = std::min(misfit_pct(1.0 / (0.9 * young_pa)), misfit_pct(1.0 / (1.1 * young_pa))) / fit.misfit_pct - 1.0;
+    fit.outcome = "converged";
+    fit.identifiable = fit.rise >= least_rise;
+    // The modulus of the other fifths, limited as the interval is. It is found as c, since a misfit that falls down to c = 0 has the
+    // largest modulus.
+    std::vector<double> without_pa;
+    for (std::size_t i = 0; i < m.size(); ++i)
+        without_pa.push_back(1.0 / std::clamp((mixed - m[i]) / (squares - s[i]), 1.0 / (range * young_pa), range / young_pa));
+    fit.young_pa = analysis::jackknife_interval(young_pa, without_pa);
+    fit.young_pa.low = std::max(fit.young_pa.low, young_pa / range);
+    fit.young_pa.high = std::min(fit.young_pa.high, young_pa * range);
+    return fit;
 }
+
+const analysis::Columns<analysis::Interval> young_columns = {
+    {"young_pa", &analysis::Interval::estimate}, {"young_low_pa", &analysis::Interval::low}, {"young_high_pa", &analysis::Interval::high}};
 
 const analysis::Columns<SagRow> sag_columns =
     within(&SagRow::setting, MEMBER_COLUMNS(BarSetting, vertices, mean_edge_m, k_stretch, k_volume, iterations, time_step_s, masses,
                                             density_kg_m3, poisson)) +
-    MEMBER_COLUMNS(SagRow, young_pa, young_low_pa, young_high_pa, misfit_pct, rise, outcome, identifiable) +
+    within(&SagRow::fit, within(&YoungFit::young_pa, young_columns) + MEMBER_COLUMNS(YoungFit, misfit_pct, rise, outcome, identifiable)) +
     analysis::Columns<SagRow>{{"young_dt2_over_density_edge2_iterations", &SagRow::scaled_young}} +
     MEMBER_COLUMNS(SagRow, tip_sag_over_g_dt2, settled, residual, solver_steps);
 
@@ -182,13 +197,7 @@ SagRow sag_row(const Rig& rig, const BarSetting& setting)
     const YoungFit fit = fit_young(rig.cantilever, rig.elastic, displacement_m, 1.0);
     const double dt_edge = setting.time_step_s / setting.mean_edge_m;
     return {.setting = setting,
-            .young_pa = fit.young_pa.estimate,
-            .young_low_pa = fit.young_pa.low,
-            .young_high_pa = fit.young_pa.high,
-            .misfit_pct = fit.minimum.value,
-            .rise = fit.minimum.rise,
-            .outcome = analysis::name_of(fit.minimum.outcome),
-            .identifiable = fit.minimum.identifiable(),
+            .fit = fit,
             .scaled_young = fit.young_pa.estimate * dt_edge * dt_edge / setting.density_kg_m3 / setting.iterations,
             .tip_sag_over_g_dt2 = mean_sag_m(rig.cantilever, state.displacement),
             .settled = state.converged,

@@ -1,25 +1,17 @@
 // The reference as a deformer, on a coarse limb whose forearm turns: properties that do not depend on the flesh.
 //   Young's modulus cancels where displacements alone drive the body. A pose that turns the whole limb does not change its shape, however
-//   the bones hold it. A fit of Poisson's ratio to the reference's own shape finds the ratio that the shape was made with. A further frame
-//   of the linear reference costs one re-solve.
+//   the bones hold it. A further frame of the linear reference costs one re-solve.
 
-#include "analysis/metrics/error_norms.hpp"
-#include "analysis/statistics/minimise.hpp"
 #include "experiments/deformers/fem/fem_deformers.hpp"
 #include "experiments/studies/verification/problem.hpp"
 #include "pbs/character/bone_capsules.hpp"
 #include "pbs/geometry/cost.hpp"
-#include "pbs/skinning/blend.hpp"
-#include "pbs/solver/pbs_solver.hpp"
 #include "reference_fem/assembly.hpp"
 #include "reference_fem/newton/newton.hpp"
 #include "reference_fem/potentials/potentials.hpp"
 #include "reference_fem/verification/problems.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace experiments {
@@ -94,22 +86,6 @@ VerificationRow rigid_motion(const pbs::Character& limb, FemAttachment attachmen
                   "rounding of positions, eps, times at most some 1e6 of condition");
 }
 
-VerificationRow found_poisson(const Effort& effort, const pbs::Character& limb)
-{
-    const pbs::Pose pose = twisted(limb, 30.0);
-    const auto of = [&](double poisson) {
-        FemOptions options = limb_flesh;
-        options.poisson = poisson;
-        return shape(limb, options, pose);
-    };
-    const double made_with = 0.37;
-    const pbs::Positions made = of(solver_material(effort, {1e5, made_with}).poisson);
-    const analysis::Minimum fit =
-        analysis::minimise([&](double poisson) { return distance(limb, of(poisson), made); }, 0.3, 0.45, {.samples = 4, .tolerance = 1e-4});
-    return row_of(limb, {"fitted_poisson", "Poisson's ratio fitted to a shape of 0.37"}, fit.identifiable() ? fit.x : not_reached,
-                  made_with, 1e-4, "the minimiser's tolerance: 1e-4 of an interval of 0.15, and as much again where the misfit bends");
-}
-
 VerificationRow kept_factor(const pbs::Character& limb)
 {
     LinearFemDeformer deformer(FemOptions{});
@@ -127,80 +103,6 @@ VerificationRow kept_factor(const pbs::Character& limb)
     row.material = linear_material(0.45);
     row.source = "none: a cost of this run; at most 1/50 is wanted of a factor that is kept";
     return row;
-}
-
-constexpr double twist_deg = 40.0;
-
-std::vector<int> blended_vertices(const pbs::Character& character)
-{
-    std::vector<int> vertices;
-    for (std::size_t i = 0; i < character.blended.size(); ++i)
-        if (character.blended[i]) vertices.push_back(static_cast<int>(i));
-    return vertices;
-}
-
-class TwistedLimb {
-public:
-    explicit TwistedLimb(pbs::Character limb)
-        : limb_(std::move(limb)),
-          pose_(twisted(limb_, twist_deg)),
-          norms_({limb_.mesh.rest, limb_.mesh.tets, {}, blended_vertices(limb_), limb_.binding.distance})
-    {
-    }
-
-    pbs::Positions flesh(const FemOptions& options) const { return shape(limb_, options, pose_); }
-
-    pbs::Positions skinned(int iterations) const
-    {
-        pbs::PbsOptions options;
-        options.iterations = iterations;
-        options.precision = pbs::Precision::f64;
-        pbs::PbsSolver solver(limb_.mesh, limb_.binding.distance, {}, options);
-        pbs::Positions blended;
-        pbs::linear_blend_skinning(limb_.mesh.rest, limb_.weights, pose_, blended);
-        solver.advance(blended, pbs::posed_bind_points(limb_.binding, pose_), 0.01);
-        return solver.positions();
-    }
-
-    double distance_pct(const pbs::Positions& one, const pbs::Positions& other) const
-    {
-        return norms_.measure(one.topRows(limb_.mesh.rest.rows()), other.topRows(limb_.mesh.rest.rows())).joint_pct;
-    }
-
-    VerificationRow row(const RowQuantity& quantity, double value, double reference, const std::string& unit,
-                        const std::string& source) const
-    {
-        const std::string mesh = fmt::format("limb, {} vertices, twist of {:.0f} degrees", limb_.mesh.rest.rows(), twist_deg);
-        return row_about(
-            {"error_split", elements_of(1), material_of("neo_hookean", 0.45), mesh, 0.0, static_cast<int>(3 * limb_.mesh.rest.rows())},
-            quantity, value, reference, unit, source);
-    }
-
-private:
-    pbs::Character limb_;
-    pbs::Pose pose_;
-    analysis::ErrorMetrics norms_;
-};
-
-// In a norm, the whole lies between the difference and the sum of its two parts.
-VerificationRow whole_and_parts(const TwistedLimb& limb, const pbs::Positions& flesh, int iterations)
-{
-    const pbs::Positions converged = limb.skinned(4000), stopped = limb.skinned(iterations);
-    const double solver = limb.distance_pct(stopped, converged), model = limb.distance_pct(converged, flesh);
-    VerificationRow row =
-        limb.row({"error_over_parts", fmt::format("error after {} iterations over the sum of its solver and model parts", iterations),
-                  fmt::format("iterations_{}", iterations)},
-                 limb.distance_pct(stopped, flesh) / (solver + model), 1.0, "1",
-                 "closed form: triangle inequality of a norm; 1 where the parts point the same way");
-    bound(row, std::abs(solver - model) / (solver + model) - 1e-12, 1.0 + 1e-12, row.source);
-    return row;
-}
-
-VerificationRow variant(const TwistedLimb& limb, const pbs::Positions& flesh, const FemOptions& options, const std::string& key)
-{
-    return limb.row({"distance_of_variant", "distance from flesh held by smooth springs, q 10, core 0.7: " + key, key},
-                    limb.distance_pct(limb.flesh(options), flesh), 0.0, "% of the bone distance",
-                    "none: the effect of a choice, for information");
 }
 
 constexpr double spring_factor = 100.0, amplitude = 0.1;
@@ -269,33 +171,9 @@ VerificationRows attached_limb_rows(const Effort& effort)
 {
     if (!effort.limb) return {};
     const pbs::Character limb = effort.limb(coarse);
-    return {young_cancels(limb),
-            rigid_motion(limb, FemAttachment::smooth, "smooth"),
-            rigid_motion(limb, FemAttachment::embedded, "embedded"),
-            rigid_motion(limb, FemAttachment::bind, "bind"),
-            found_poisson(effort, limb),
+    return {young_cancels(limb), rigid_motion(limb, FemAttachment::smooth, "smooth"),
+            rigid_motion(limb, FemAttachment::embedded, "embedded"), rigid_motion(limb, FemAttachment::bind, "bind"),
             kept_factor(effort.limb(0))};
-}
-
-// The split of an error into solver, model and discretisation, on a coarse limb whose forearm is twisted: properties of its parts that do
-// not depend on the flesh; and, for information, the effect of the attachment and of the bones' thickness.
-
-VerificationRows error_split_rows(const Effort& effort)
-{
-    if (!effort.limb) return {};
-    const TwistedLimb limb(effort.limb(coarse));
-    const pbs::Positions flesh = limb.flesh(limb_flesh);
-    FemOptions stiffer = limb_flesh, thinner = limb_flesh, embedded = limb_flesh, bind = limb_flesh;
-    stiffer.spring_factor = 100.0;
-    thinner.core_radius = 0.5;
-    embedded.attachment = FemAttachment::embedded;
-    bind.attachment = FemAttachment::bind;
-    return {whole_and_parts(limb, flesh, 1),
-            whole_and_parts(limb, flesh, 24),
-            variant(limb, flesh, stiffer, "spring_factor_100"),
-            variant(limb, flesh, thinner, "core_radius_0.5"),
-            variant(limb, flesh, embedded, "embedded_bones"),
-            variant(limb, flesh, bind, "bind_constraint_of_the_paper")};
 }
 
 AttachedSolution solve_manufactured(const pbs::TetMesh& mesh, int element_order, const ManufacturedSprings& of,

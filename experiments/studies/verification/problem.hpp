@@ -25,7 +25,6 @@ struct Effort : reference_fem::Effort {
 
 // The problems that need a character or PBS; reference_fem/verification/problems.hpp declares the others.
 VerificationRows attached_limb_rows(const Effort& effort);
-VerificationRows error_split_rows(const Effort& effort);
 VerificationRows nested_convergence_rows(const Effort& effort);
 VerificationRows pbs_locking_rows(const Effort& effort);
 VerificationRows calculix_rows(const Effort& effort);

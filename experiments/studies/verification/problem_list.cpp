@@ -24,7 +24,6 @@ const std::vector<VerificationProblem>& verification_problems()
         {"locking", 15.0, 60.0, locking_rows},
         {"pbs_locking", 5.0, 40.0, pbs_locking_rows},
         {"attached_limb", 15.0, 15.0, attached_limb_rows},
-        {"error_split", 20.0, 20.0, error_split_rows},
         {"nested_convergence", 6.0, 6.0, nested_convergence_rows},
         {"dynamics", 2.0, 8.0, dynamics_rows},
         {"moving_skeleton", 2.0, 2.0, moving_skeleton_rows},

@@ -4,7 +4,7 @@
 // The recorded error of a point is error_joint_pct: the root mean square over the blended vertices, over their mean distance to the bone.
 #pragma once
 
-#include "analysis/statistics/minimise.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "analysis/verdicts/pair_order.hpp"
 #include "experiments/studies/work_precision/compared_deformers.hpp"
 #include "experiments/studies/work_precision/measured_points.hpp"
