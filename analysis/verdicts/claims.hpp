@@ -68,7 +68,7 @@ struct Claim {
     std::vector<Selection> others = {};      // controls and comparisons
     std::string unseen_by = {};              // the control whose success leaves a unit out, since there is nothing to see in it; or empty
     double no_effect = 0.0;                  // the share that a method without effect reaches; 0: the share of the positive controls
-    std::vector<CaseKey> confirmatory = {};  // the units that were recorded after rule and bounds were fixed
+    std::vector<CaseKey> confirmatory = {};  // values recorded after rule and bounds were fixed, which are judged apart
     std::string fixed_at = {};               // the revision at which rule and bounds were fixed
     std::string reason = {};                 // why the claim is a definition or cannot be tested
     std::vector<std::string> formulae = {};  // how the values are computed

@@ -303,16 +303,16 @@ std::vector<std::string> missing_from(const Records& records)
     return missing;
 }
 
-void judge_measured(const Records& records, Verdict& verdict)
+// otherwise: the verdict whose control takes the place of one without units; null: none does.
+void judge_values(const std::vector<Measurement>& measured, const Verdict* otherwise, Verdict& verdict)
 {
     const Claim& claim = verdict.claim;
-    verdict.left_out = records.left_out;
-    verdict.missing = missing_from(records);
-    if (!verdict.missing.empty()) return;
-    std::vector<Measurement> measured = records.measurements;
-    for (const CaseRecord& record : records.cases) std::ranges::move(frame_measurements(record), std::back_inserter(measured));
     verdict.own = judged(claim, claim.own, measured);
-    for (const Selection& other : claim.others) verdict.others.push_back(judged(claim, other, measured));
+    for (std::size_t i = 0; i < claim.others.size(); ++i) {
+        Judged other = judged(claim, claim.others[i], measured);
+        const bool is_control = other.selection.role != Role::comparison && claim.others[i].name != claim.unseen_by;
+        verdict.others.push_back(other.n == 0 && is_control && otherwise ? otherwise->others[i] : std::move(other));
+    }
     verdict.readings = readings_of(claim, measured);
     std::set<std::string> runs;
     for (const Measurement& one : selected(claim.own, claim.own.of, measured))
@@ -322,11 +322,24 @@ void judge_measured(const Records& records, Verdict& verdict)
         judge_single(verdict);
     else if (claim.rule == ClaimRule::units)
         judge_units(verdict);
-    for (const Unit& unit : verdict.own.units) {
-        const bool is_new = std::ranges::any_of(claim.confirmatory, [&](const CaseKey& key) { return matches(unit.of, key); });
-        verdict.confirmatory += is_new && unit.counts();
-        verdict.confirmatory_held += is_new && unit.counts() && unit.holds;
-    }
+}
+
+void judge_measured(const Records& records, Verdict& verdict)
+{
+    const Claim& claim = verdict.claim;
+    verdict.left_out = records.left_out;
+    verdict.missing = missing_from(records);
+    if (!verdict.missing.empty()) return;
+    std::vector<Measurement> all = records.measurements, measured, apart;
+    for (const CaseRecord& record : records.cases) std::ranges::move(frame_measurements(record), std::back_inserter(all));
+    std::ranges::partition_copy(all, std::back_inserter(apart), std::back_inserter(measured), [&](const Measurement& one) {
+        return std::ranges::any_of(claim.confirmatory, [&](const CaseKey& key) { return matches(one.of, key); });
+    });
+    judge_values(measured, nullptr, verdict);
+    if (selected(claim.own, claim.own.of, apart).empty()) return;
+    Verdict confirmatory{.claim = claim};
+    judge_values(apart, &verdict, confirmatory);
+    verdict.confirmatory.push_back(std::move(confirmatory));
 }
 
 }  // namespace

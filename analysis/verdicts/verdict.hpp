@@ -70,16 +70,16 @@ struct Verdict {
     Judged own = {};
     // Of the share: the wider one of the exact binomial interval and a bootstrap over bodies.
     Interval interval = {.estimate = not_known, .low = not_known, .high = not_known};
-    double by_chance = not_known;                 // the probability of at least as many units under q
-    double q = not_known;                         // the share that the positive controls, or no effect, reach
-    std::optional<Difference> differs = {};       // for a mixed verdict
-    int confirmatory = 0, confirmatory_held = 0;  // units that count and were recorded after the rule was fixed, and those that hold
-    std::vector<Judged> others = {};              // controls and comparisons, as in the claim
-    std::vector<Judged> readings = {};            // the same in each recorded order and precision of projection
-    std::vector<PrintedValue> printed = {};       // values of a claim about printed numbers
-    std::vector<LeftOut> left_out = {};           // scenes that are not installed
-    std::vector<std::string> missing = {};        // planned scenes or runs without a record: the reason why it is not computable
-    std::vector<std::string> runs = {};           // the folders on which the verdict rests
+    double by_chance = not_known;            // the probability of at least as many units under q
+    double q = not_known;                    // the share that the positive controls, or no effect, reach
+    std::optional<Difference> differs = {};  // for a mixed verdict
+    std::vector<Judged> others = {};         // controls and comparisons, as in the claim
+    std::vector<Judged> readings = {};       // the same in each recorded order and precision of projection
+    std::vector<Verdict> confirmatory = {};  // one, by the same rule, on the units apart that Claim::confirmatory names, or none
+    std::vector<PrintedValue> printed = {};  // values of a claim about printed numbers
+    std::vector<LeftOut> left_out = {};      // scenes that are not installed
+    std::vector<std::string> missing = {};   // planned scenes or runs without a record: the reason why it is not computable
+    std::vector<std::string> runs = {};      // the folders on which the verdict rests
 };
 
 // Rule by rule:
@@ -89,6 +89,7 @@ struct Verdict {
 //              chance reaches as many with a probability of 1 % or more; holds from 95 % on; otherwise mixed.
 // single       The one number holds if its range lies within the bound, fails if it lies outside, and is mixed otherwise.
 // printed      Holds if all printed values are consistent; otherwise inconsistent in print.
+// Confirmatory values are judged apart. A control of which they have no unit is the one of the other values.
 // Planned scenes or runs without a record make the verdict not computable. InputError for records with series of different lengths.
 Verdict judge(const Claim& claim, const Records& records);
 

@@ -90,8 +90,10 @@ const std::map<std::string, std::function<Lines()>> kinds = {
     {"cases",
      [] {
          return Lines{{"sweep", "a joint turns by angle_deg in `frames` frames; frame 0 is the rest pose"},
+                      {"movements", "joints turn through their range of motion, one movement after the other, each from the rest pose"},
                       {"clip", "motion capture (BVH, glTF, FBX), retargeted and resampled"}};
      }},
+    {"movements", listed_movements},
     {"scenes", [] { return lines_of(built_in_scenes(), &BuiltInScene::name, &BuiltInScene::meaning); }},
     {"deformers", [] { return lines_of(deformer_kinds(), &DeformerKind::name, &DeformerKind::meaning); }},
     {"studies",

@@ -87,10 +87,10 @@ MotionSpec read_motion(const SceneValues& values, const std::string& folder)
     motion.time_step_s = values.number("pbs.time_step_s");
     const bool has_model = !values.text("character.model").empty();
     if (!motion.animation.empty() && !has_model) values.refuse("motion.animation", "expected a character.model, which has animations");
-    const int motions = !motion.joint.empty() + !motion.clip.empty() + !motion.animation.empty();
+    const int motions = !motion.joint.empty() + !motion.clip.empty() + !motion.animation.empty() + !motion.movements.empty();
     if (motions > 1 || (motions == 0 && !has_model))
-        values.refuse("motion.joint", "expected either a joint (a sweep), a clip, or an animation of character.model");
-    motion.of_model = has_model && motion.joint.empty() && motion.clip.empty();
+        values.refuse("motion.joint", "expected either a joint (a sweep), movements, a clip, or an animation of character.model");
+    motion.of_model = has_model && motion.joint.empty() && motion.clip.empty() && motion.movements.empty();
     if (!motion.joint.empty() && motion.axis.norm() == 0.0) values.refuse("motion.axis", "expected an axis of non-zero length");
     if (!motion.clip.empty()) motion.clip = found_clip(values, folder);
     if (motion.joint.empty()) fit_time_step(values, motion);
@@ -322,6 +322,7 @@ Scene read_scene(const std::string& file_or_name, const std::vector<std::string>
 
 pbs::Motion make_motion(const MotionSpec& spec, const pbs::Skeleton& skeleton, const std::string& scene_file)
 {
+    if (!spec.movements.empty()) return through_movements(spec, skeleton, scene_file);
     if (spec.clip.empty()) {
         const int joint = pbs::find_bone(skeleton, spec.joint);
         std::vector<std::string> names;
@@ -342,7 +343,7 @@ CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& charac
         made = motion_of_clip(spec, character);
     } else {
         made.motion = make_motion(spec, character.skeleton, scene_file);
-        made.time_zero = "rest pose, where the sweep begins";
+        made.time_zero = "rest pose, where the motion begins";
     }
     made.largest_rotation_deg = pbs::largest_rotation_deg(made.motion);
     const double displacement_m = pbs::largest_displacement_m(made.motion, character.skeleton);

@@ -24,11 +24,12 @@ struct MotionSpec {
     std::string joint;                    // a sweep of this joint
     pbs::Vec3 axis = pbs::Vec3::UnitX();  // in rest world axes, of any length
     double angle_deg = 0.0;               // of the last frame
-    int frames = 18;
-    std::string clip;            // or a clip: its path
-    bool of_model = false;       // or an animation of the character's model, which may have none
-    std::string animation;       // its name; empty: the first one
-    bool allow_partial = false;  // of a clip: fewer than half of its moving joints may match
+    std::vector<std::string> movements;   // or movements of scenes/movements.toml; A+B: both at once
+    int frames = 18;                      // of a sweep; of each movement, after the rest pose
+    std::string clip;                     // or a clip: its path
+    bool of_model = false;                // or an animation of the character's model, which may have none
+    std::string animation;                // its name; empty: the first one
+    bool allow_partial = false;           // of a clip: fewer than half of its moving joints may match
     double start_s = 0.0, duration_s = 0.0, rate_hz = 100.0;
     double time_step_s = 0.01;
 };
@@ -86,13 +87,21 @@ const std::vector<BuiltInScene>& built_in_scenes();
 
 // The motion that a scene asks for.
 
-// A sweep or a clip on a skeleton. `scene_file` is named in errors.
+// A sweep, movements or a clip on a skeleton. `scene_file` is named in errors.
 pbs::Motion make_motion(const MotionSpec& spec, const pbs::Skeleton& skeleton, const std::string& scene_file);
 
 // Messages for the user; each is one sentence.
 struct Remarks {
     std::vector<std::string> warnings, notes;  // a result is doubtful; nothing is wrong
 };
+
+// The rest pose, and from it through each movement at an even rate: frame k spec.frames + i has i / spec.frames of movement k. Each joint
+// turns about an axis that is fixed to its parent. InputError for an unknown movement, or a joint that the skeleton lacks.
+pbs::Motion through_movements(const MotionSpec& spec, const pbs::Skeleton& skeleton, const std::string& scene_file);
+std::vector<std::string> movements_of(const pbs::Skeleton& skeleton);  // those whose joints it has, pairs last
+std::vector<std::pair<std::string, std::string>> listed_movements();   // name and meaning
+std::vector<std::string> joints_of(const std::string& movement);
+bool is_twist(const std::string& movement);  // about the bones' own axes alone
 
 // Any motion, with what looks wrong about it, a sentence each: a motion in which no bone turns, bones that the animation scales,
 // joints and bones that a clip leaves out. An InputError where accepted_match throws one.

@@ -56,7 +56,11 @@ const OptionFields<MotionSpec>& motion_fields()
                  {.unit = "deg",
                   .range = {-7200, 7200},
                   .meaning = "angle of a sweep's last frame; frame i has angle_deg * i / (frames - 1)"})
-            .add("frames", &MotionSpec::frames, {.range = {2, 1e6}, .meaning = "number of frames of a sweep, including the rest pose"})
+            .add("frames", &MotionSpec::frames,
+                 {.range = {2, 1e6}, .meaning = "number of frames of a sweep, including the rest pose; of each movement, after it"})
+            .add("movements", &MotionSpec::movements,
+                 {.meaning = "movements of joints through their range, one after the other, each from the rest pose; A+B: both at once "
+                             "(`pbskin list movements`)"})
             .add("clip", &MotionSpec::clip,
                  {.meaning =
                       "motion capture clip: relative to the scene, or by name from Debian's assimp-testmodels (01_01.bvh); a bone follows "

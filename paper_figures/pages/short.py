@@ -56,14 +56,9 @@ def of_jolts(folder):
     return text + pages.table(records.table(folder / "responses.csv", {"deformer", "outcome", "frequency_hz"}), "responses")
 
 
-def of_walk(folder):
-    return pages.table(records.table(folder / "walk.csv", {"k_stretch", "moving_lag_rms_mm"}), "walk")
-
-
 def jiggle(folder):
-    """Each body's jiggling zone, its response to a jolt at each setting, and how far it lags in a walk."""
-    return [(file.parent.name, of(file.parent)) for name, of in (("responses.csv", of_jolts), ("walk.csv", of_walk))
-            for file in pages.files(folder, name)]
+    """Each body's jiggling zone and its response to a jolt at each setting."""
+    return [(file.parent.name, of_jolts(file.parent)) for file in pages.files(folder, "responses.csv")]
 
 
 def counts(folder, name, keys):

@@ -70,9 +70,10 @@ def markdown_table(head, rows):
 
 def claim_lines(claim):
     """Verdict and primary number of a claim; its controls, comparisons and readings, which are no part of the verdict."""
-    lines = [f"**{claim['id']}: {sentences.names[claim['verdict']]}.** {claim['statement']}", "", f"{sentences.in_line(claim)}."]
+    lines = [f"**{claim['id']}: {sentences.both_verdicts(claim)}.** {claim['statement']}", "", f"{sentences.in_line(claim)}."]
     basis = sentences.basis(claim)
-    lines = [tables.in_markdown(text) for text in lines + (["", basis] if basis else [])]
+    told = [*([basis] if basis else []), *(f"{text}." for text in sentences.on_confirmatory_units(claim))]
+    lines = [tables.in_markdown(text) for text in lines + [line for text in told for line in ("", text)]]
     lines += markdown_table(sentences.control_head, sentences.control_rows(claim))
     lines += markdown_table(sentences.compared_head, sentences.compared_rows(claim))
     lines += markdown_table(sentences.reading_head, sentences.reading_rows(claim))

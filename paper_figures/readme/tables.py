@@ -38,7 +38,7 @@ def in_markdown(text):
 
 def claims_table(results):
     """The lines of the table, the header first."""
-    rows = [[f"{claim['statement']} ({claim['place']})", sentences.names[claim["verdict"]], sentences.in_line(claim),
+    rows = [[f"{claim['statement']} ({claim['place']})", sentences.both_verdicts(claim), sentences.in_line(claim),
              page_link(claim)] for claim in claims_of(results)]
     return [claim_head, "|---" * 4 + "|", *(line(*map(in_markdown, row)) for row in rows)]
 

@@ -121,8 +121,8 @@ claim = facts | {"id": text, "statement": text, "place": text, "study": text, "r
                  "rule": one_of("units", "single", "printed", "definition", "untestable"), "unit_fields": [text], "source": text,
                  "untested": one_of("none", "reason_of_the_claim", "too_few_units", "control_without_record", "control_misbehaves"),
                  "range": text, "interval_low": figure, "interval_high": figure, "chance": figure, "q": figure,
-                 "differs": lambda value: anything if value is None else difference, "fixed_at": text, "confirmatory": whole,
-                 "confirmatory_held?": whole,
+                 "differs": lambda value: anything if value is None else difference, "fixed_at": text,
+                 "confirmatory": lambda value: anything if value is None else claim,
                  "cases": [with_member("unit", unit, printed)], "controls": [selection], "compared": [selection], "readings": [selection],
                  "left_out": [{"scene": text, "reason": text}], "missing": [text], "runs": [text]}
 claims = {"schema": third_schema, "quantities": {"*": {"title": text, "unit": text}}, "claims": [claim]}

@@ -56,6 +56,7 @@ def behind(claim, found):
              rows_table(claim, "for comparison, no part of the verdict", sentences.compared_head, sentences.compared_rows(claim)),
              rows_table(claim, "other readings, no part of the verdict", sentences.reading_head, sentences.reading_rows(claim)),
              *(element("p", text) for text in sentences.disagreements(claim)),
+             unit_table(claim, f"{claim['id']}: confirmatory units", (claim["confirmatory"] or {}).get("cases")),
              *(unit_table(claim, f"{claim['id']}: {of['name']}", of["cases"]) for of in claim["controls"])]
     runs = joined((folder_link(found.results, run) for run in claim["runs"] or [claim["study"]]), ", ")
     parts.append(element("p", joined(["Runs (", beside_the_page("folders"), "): ", runs])))
@@ -93,7 +94,7 @@ def row(claim, pose):
     name = element("a", claim["id"], href=f"#{claim['id']}")
     statement = joined([claim["statement"], element("span", f" {claim['place']}", class_="place")]
                        + ([" ", element("a", "see it move", href=pose, class_="pose")] if pose else []))
-    cells = [statement, mark(claim["verdict"]), expected(claim), listed(sentences.facts(claim))]
+    cells = [statement, mark(claim["verdict"]), expected(claim), listed(sentences.facts(claim) + sentences.on_confirmatory_units(claim))]
     named = joined(element("td", joined([element("span", column, class_="column"), cell]))  # on narrow screens, cells are stacked
                    for column, cell in zip(columns[1:], cells))
     return Markup(f'<tr id="{escaped(claim["id"])}" class="claim"><th scope="row">{name}</th>{named}</tr>')

@@ -270,11 +270,21 @@ def basis(claim):
         told.append(f"If each unit held by chance with a probability of q = {figure(claim['q'])}, as many would hold with a probability of "
                     f"{figure(claim['chance'])}")
     if claim["fixed_at"]:
-        later, held = claim["confirmatory"], claim.get("confirmatory_held")
-        units = f"{later or 'no'} {'unit' if later < 2 else 'units'} {'was' if later < 2 else 'were'} recorded later"
-        told.append(f"Rule and bound are of revision {claim['fixed_at'][:12]}, and {units}"
-                    + (f"; the bound holds in {held} of them" if later and held is not None else ""))
+        told.append(f"Rule and bound are of revision {claim['fixed_at'][:12]}")
     return ". ".join(told) + "."
+
+
+def both_verdicts(claim):
+    """The verdict, and the one on the confirmatory units where there are any: holds; on the confirmatory units: fails."""
+    later = claim["confirmatory"]
+    return names[claim["verdict"]] + (f"; on the confirmatory units: {names[later['verdict']]}" if later else "")
+
+
+def on_confirmatory_units(claim):
+    """The verdict on the units that were recorded after the rule was fixed, with the facts behind it: one sentence, or none."""
+    later = claim["confirmatory"]
+    return [f"On the confirmatory units, which were recorded after rule and bound were fixed, the verdict is {names[later['verdict']]!r}: "
+            f"{'; '.join(facts(later))}"] if later else []
 
 
 def left_out(claim):

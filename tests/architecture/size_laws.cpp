@@ -142,14 +142,14 @@ const std::vector<Budget>& budgets()
     static const std::vector<Budget> all = {
         {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 23'420, .least_mean = 120},
         {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 10'190, .least_mean = 120},
-        {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'265, .least_mean = 120},
-        {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 26'358, .least_mean = 120},
+        {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'020, .least_mean = 120},
+        {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 26'603, .least_mean = 120},
         {.what = "production C++",
          .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"},
          .endings = cpp,
          .most_lines = 66'200},
         {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 44'116, .least_mean = 120},
-        {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'505},
+        {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'530},
         {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 7'990},
         {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 150},
     };

@@ -227,13 +227,18 @@ def bootstrap_ends(bodies):
 class Verdict:
     """The verdict on one claim from the kept records, with the facts that claims.json states."""
 
-    def __init__(self, claim):
-        self.claim, self.untested = claim, "none"
+    def __init__(self, claim, otherwise=None):
+        """otherwise: the verdict on all other values, for the one on the confirmatory values: it has the controls that these lack."""
+        self.claim, self.untested, self.is_later = claim, "none", otherwise is not None
         self.q = self.chance = None
         plan = json.loads((RECORDS / "plans.json").read_text())[claim["study"]]
-        self.values = rows_of(claim["study"], "measurements.csv") + frame_values(claim["study"], plan)
+        self.values = [value for value in rows_of(claim["study"], "measurements.csv") + frame_values(claim["study"], plan)
+                       if any(agrees(value, key) for key in claim.get("confirmatory", [])) == (otherwise is not None)]
         self.own = self.units({"of": claim.get("of", {})})
         self.controls = [self.units(control) for control in claim.get("controls", [])]
+        for i, control in enumerate(self.controls if otherwise else []):
+            if not control.n and control.selection["name"] != claim.get("unseen_by"):
+                self.controls[i] = otherwise.controls[i]
         self.compared = [self.units(other) for other in claim.get("compared", [])]
         self.printed = [row for row in rows_of(claim["study"], "printed.csv") if row["claim"] == claim["id"]]
         judged = {"units": self.by_units, "single": self.by_range, "printed": self.by_print, "definition": lambda: "definition"}
@@ -289,13 +294,18 @@ class Verdict:
 
 
 def of_each_claim(test):
-    """Calls test(self, own verdict, claim in claims.json) for each claim."""
+    """Calls test(self, own verdict, claim in claims.json) for each claim, and for each verdict on confirmatory values."""
     @functools.wraps(test)
     def run(self):
         self.assertEqual([judged["id"] for judged in self.judged], [verdict.claim["id"] for verdict in self.verdicts])
         for verdict, judged in zip(self.verdicts, self.judged):
             with self.subTest(judged["id"]):
                 test(self, verdict, judged)
+            later = Verdict(verdict.claim, verdict) if verdict.claim.get("confirmatory") else None
+            self.assertEqual(bool(later and later.own.units), judged["confirmatory"] is not None, judged["id"])
+            if judged["confirmatory"]:
+                with self.subTest(judged["id"] + ", confirmatory"):
+                    test(self, later, judged["confirmatory"])
 
     return run
 
@@ -337,7 +347,8 @@ class Recomputed(unittest.TestCase):
         self.assertNotEqual(verdict.kind, "not_computable")
         has_own = verdict.printed if verdict.claim["rule"] == "printed" else verdict.own.n or "quantities" not in verdict.claim
         own = [] if has_own else ["its own units"]
-        missing = own + [one.selection["name"] for one in [*verdict.controls, *verdict.compared] if one.n == 0]
+        compared = [] if verdict.is_later else verdict.compared
+        missing = own + [one.selection["name"] for one in [*verdict.controls, *compared] if one.n == 0]
         self.assertEqual(missing, [])
 
     @of_each_claim

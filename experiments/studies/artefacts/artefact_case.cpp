@@ -34,12 +34,6 @@ const Columns<IntersectionRow> intersection_columns = within(&IntersectionRow::p
                                                       within(&IntersectionRow::deformer, artefact_deformer_columns) +
                                                       MEMBER_COLUMNS(IntersectionRow, surface, triangles, pairs, pairs_at_rest);
 
-ArtefactPlace place_of(const ArtefactCase& of, const ArtefactBody& body, std::size_t pose)
-{
-    const pbs::Character& character = body.posed.character();
-    return {character.name, static_cast<int>(character.mesh.rest.rows()), of.poses[pose].name};
-}
-
 ArtefactDeformer recorded(const DeformerSpec& spec)
 {
     const auto* pbs = options_if<pbs::PbsOptions>(spec);
@@ -47,6 +41,12 @@ ArtefactDeformer recorded(const DeformerSpec& spec)
 }
 
 namespace {
+
+ArtefactPlace place_of(const ArtefactCase& of, const ArtefactBody& body, std::size_t pose)
+{
+    const pbs::Character& character = body.posed.character();
+    return {character.name, static_cast<int>(character.mesh.rest.rows()), of.poses[pose].name};
+}
 
 Scene with_vertices(Scene scene, int vertices)
 {
@@ -95,7 +95,8 @@ public:
                                                   body.posed.character().mesh.rest.rows(), shapes[pose].worst_element);
                 continue;
             }
-            for (std::size_t joint = 0; joint < body.joints.size(); ++joint) add_profile(body, spec, shapes[pose], pose, joint);
+            for (std::size_t joint = 0; joint < body.joints.size(); ++joint)
+                if (is_turned(of_.poses[pose], body, joint)) add_profile(body, spec, shapes[pose], pose, joint);
             if (with_intersections) add_intersections(body, spec, shapes[pose], pose);
         }
     }
@@ -250,6 +251,12 @@ ArtefactBody::ArtefactBody(const ArtefactCase& of, int vertices) : posed(with_ve
     for (const LimbJoint& joint : limb_joints(posed.character()))
         if (of.joint.empty() || of.joint == joint.name) joints.push_back(joint);
     for (const LimbJoint& joint : joints) sections.emplace_back(posed.character(), joint);
+}
+
+bool is_turned(const ArtefactPose& pose, const ArtefactBody& body, std::size_t joint)
+{
+    const std::string& child = body.posed.character().skeleton.bones[body.joints[joint].child].name;
+    return pose.turned.empty() || std::ranges::count(pose.turned, child) > 0;
 }
 
 ArtefactRecords find_artefacts(const ArtefactCase& of, const ArtefactBody& body)

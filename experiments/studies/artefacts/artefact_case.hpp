@@ -103,8 +103,9 @@ private:
 
 struct ArtefactPose {
     int frame = 0;
-    std::string name;            // twist_90_deg, 01_01_crouch
-    analysis::CaseKey key = {};  // motion, angle or pose
+    std::string name;                      // twist_90_deg, 01_01_crouch
+    analysis::CaseKey key = {};            // motion, angle or pose
+    std::vector<std::string> turned = {};  // the bones whose joints are looked at; empty: all
 };
 
 struct ArtefactCase {
@@ -131,6 +132,9 @@ struct ArtefactBody {
     std::vector<JointSections> sections;  // of each joint
 };
 
+// Whether the pose turns the joint, so that it is looked at there.
+bool is_turned(const ArtefactPose& pose, const ArtefactBody& body, std::size_t joint);
+
 // The extremes of one deformer's sections in one pose at one joint.
 struct ArtefactSample {
     std::string group;  // the kind of deformer; reference: flesh with the reference's Poisson's ratio; with another one: the label
@@ -151,7 +155,6 @@ struct ArtefactDeformer {
 };
 inline const analysis::Columns<ArtefactPlace> artefact_place_columns = MEMBER_COLUMNS(ArtefactPlace, body, vertices, pose);
 inline const analysis::Columns<ArtefactDeformer> artefact_deformer_columns = MEMBER_COLUMNS(ArtefactDeformer, deformer, order, precision);
-ArtefactPlace place_of(const ArtefactCase& of, const ArtefactBody& body, std::size_t pose);
 ArtefactDeformer recorded(const DeformerSpec& spec);
 
 struct ProfileRow {

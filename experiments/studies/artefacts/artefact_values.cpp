@@ -96,11 +96,6 @@ nlohmann::json joints_by_hand_of(const ArtefactCase& of)
     return joints;
 }
 
-Columns<Reached> reached_columns(const std::string& name)
-{
-    return {{"iterations_" + name, &Reached::iterations}, {"reached_" + name, &Reached::within}};
-}
-
 constexpr double rounding = 1e-12;  // a smaller value is that of the rest pose
 
 ArtefactBody with_weights(ArtefactBody body, pbs::Weights weights)
@@ -125,12 +120,6 @@ pbs::Weights exchanged_weights(const ArtefactBody& body)
     return weights;
 }
 
-// The ratios of one quantity over meshes, the own mesh first. Not a number where there is none.
-struct Ratios {
-    std::vector<double> values = {};
-    analysis::Limit limit = analysis::Limit::none;  // of the first value
-};
-
 class Comparison {
 public:
     explicit Comparison(const ArtefactCase& of) : of_(of) {}
@@ -150,40 +139,23 @@ public:
         for (std::size_t pose = 0; pose < own.size(); ++pose) {
             if (!own[pose].finished || !of_rigid[pose].finished) continue;
             for (std::size_t joint = 0; joint < body.joints.size(); ++joint) {
+                if (!is_turned(of_.poses[pose], body, joint)) continue;
                 const Smoothness smooth = measure(body, spec, own[pose], pose, joint, weights),
                                  rough = measure(rigid, spec, of_rigid[pose], pose, joint, "rigid");
                 if (weights != "paper") result_.smoothness.pop_back();  // rigid weights are recorded once
                 add("strain_jump_over_rigid_weights", key_at(pose, body.joints[joint].name), smooth.strain_jump_rms, rough.strain_jump_rms);
                 add("curvature_over_rigid_weights", key_at(pose, body.joints[joint].name), smooth.bending_rms_rad, rough.bending_rms_rad);
             }
-            if (!deformer.order.empty())
-                add("volume_abs_change_over_rigid_weights", key_at(pose, of_.joint), volume_change_pct(body, own[pose]),
-                    volume_change_pct(rigid, of_rigid[pose]));
-        }
-    }
-
-    // The weights affect only the initial guess of the solver: two guesses lead to one limit.
-    void compare_convergence(const ArtefactBody& body, const ArtefactBody& with_rigid, const pbs::PbsOptions& options)
-    {
-        const pbs::Character &paper = body.posed.character(), &rigid = with_rigid.posed.character();
-        for (std::size_t pose = 0; pose < of_.poses.size(); ++pose) {
-            const pbs::Pose& now = body.posed.pose(pose);
-            const pbs::Positions bind_points = pbs::posed_bind_points(paper.binding, now);
-            const std::vector<IterationPath> paths = iterate(paper, options, bind_points, {blended(paper, now), blended(rigid, now)},
-                                                             most_weight_iterations, IterationMetrics(paper, bind_points));
-            const double floor = floor_of(paths);
-            add_iterations(body, pose, reached_residual(paths[0], floor), reached_residual(paths[1], floor));
         }
     }
 
     WeightsComparison result() &&
     {
         for (const auto& [of, ratios] : ratios_) {
-            const double own = ratios.values.front();
+            const double own = ratios.front();
             if (!std::isfinite(own)) continue;
             analysis::Measurement measurement{"C06", of.first, of.second, own, own, own, "1"};
-            measurement.limit = ratios.limit;
-            for (const double ratio : ratios.values) {
+            for (const double ratio : ratios) {
                 measurement.low = std::fmin(measurement.low, ratio);
                 measurement.high = std::fmax(measurement.high, ratio);
             }
@@ -195,18 +167,7 @@ public:
 private:
     void add(const std::string& quantity, const analysis::CaseKey& at, double paper, double rigid)
     {
-        ratios_[{quantity, at}].values.push_back(rigid > rounding ? paper / rigid : analysis::not_known);
-    }
-
-    // An initial guess within the tolerance counts as one iteration. Where neither path reaches it there is no ratio.
-    void add_iterations(const ArtefactBody& body, std::size_t pose, const Reached& paper, const Reached& rigid)
-    {
-        result_.iterations.push_back({place_of(of_, body, pose), paper, rigid});
-        Ratios& ratios = ratios_[{"iterations_over_rigid_weights", key_of(of_, body, pose, of_.joint, "pbs")}];
-        const bool some = paper.within || rigid.within;
-        if (ratios.values.empty() && some && paper.within != rigid.within)
-            ratios.limit = paper.within ? analysis::Limit::at_most : analysis::Limit::at_least;
-        ratios.values.push_back(some ? std::max(paper.iterations, 1) / double(std::max(rigid.iterations, 1)) : analysis::not_known);
+        ratios_[{quantity, at}].push_back(rigid > rounding ? paper / rigid : analysis::not_known);
     }
 
     static double volume_change_pct(const ArtefactBody& body, const Shape& shape)
@@ -228,7 +189,8 @@ private:
     }
 
     const ArtefactCase& of_;
-    std::map<std::pair<std::string, analysis::CaseKey>, Ratios> ratios_;  // by quantity and the key
+    // By quantity and the key: the ratios on each mesh, the own mesh first. Not a number where there is none.
+    std::map<std::pair<std::string, analysis::CaseKey>, std::vector<double>> ratios_;
     WeightsComparison result_;
 };
 
@@ -273,6 +235,7 @@ std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const Artefa
     std::vector<JudgedSection> sections;
     for (std::size_t pose = 0; pose < of.poses.size(); ++pose)
         for (std::size_t joint = 0; joint < body.joints.size(); ++joint) {
+            if (!is_turned(of.poses[pose], body, joint)) continue;
             JudgedSection section{pose, joint, reference_name(samples, pose, joint)};
             if (over_reference && body.sections[joint].bend_deg(body.posed.pose(pose)) > deepest_bend_deg)
                 section.outcome = SectionOutcome::bent_too_far;
@@ -288,15 +251,12 @@ std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const Artefa
     return sections;
 }
 
-RECORD_SETTINGS(ArtefactPose, frame, name, key)
+RECORD_SETTINGS(ArtefactPose, frame, name, key, turned)
 
 RECORD_SETTINGS_AND(ArtefactCase,
                     .record("other_vertices", &ArtefactCase::vertices)
                         .constant("deepest_bend_deg", deepest_bend_deg)
                         .constant("widest_over_rest", widest_over_rest)
-                        .constant("most_weight_iterations", most_weight_iterations)
-                        .constant("residual_tolerance", residual_tolerance)
-                        .constant("satisfied_residual", satisfied_residual)
                         .derived("joints_by_hand", joints_by_hand_of),
                     scene, poses, joint, claim, second_order_poses)
 
@@ -324,10 +284,6 @@ const Columns<SmoothnessRow> smoothness_columns =
     within(&SmoothnessRow::smoothness, MEMBER_COLUMNS(Smoothness, strain_jump_rms, bending_rms_rad)) +
     Columns<SmoothnessRow>{{"volume_abs_change_pct", &SmoothnessRow::volume_abs_change_pct}};
 
-const Columns<WeightIterations> weight_iteration_columns = within(&WeightIterations::place, artefact_place_columns) +
-                                                           within(&WeightIterations::paper, reached_columns("paper")) +
-                                                           within(&WeightIterations::rigid, reached_columns("rigid"));
-
 WeightsComparison compare_weights(const ArtefactCase& of)
 {
     Comparison comparison(of);
@@ -345,7 +301,6 @@ WeightsComparison compare_weights(const ArtefactCase& of)
         const ArtefactBody paper(by_eq_2, vertices);
         const ArtefactBody rigid = with_weights(paper, pbs::weights_by(pbs::WeightKind::rigid, paper.posed.character()));
         for (const DeformerSpec& spec : specs) comparison.compare(paper, rigid, spec);
-        comparison.compare_convergence(paper, rigid, options_of<pbs::PbsOptions>(pbs));
         if (vertices != 0) continue;
         const pbs::Weights diffused = pbs::weights_by(pbs::WeightKind::diffused, paper.posed.character());
         for (const DeformerSpec& spec : {specs.front(), plain}) {

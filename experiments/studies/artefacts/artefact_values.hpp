@@ -8,7 +8,6 @@
 #include "analysis/metrics/error_norms.hpp"
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/studies/artefacts/artefact_case.hpp"
-#include "experiments/studies/shared/iteration_path.hpp"
 
 namespace experiments {
 
@@ -52,13 +51,11 @@ std::vector<SectionRow> section_rows(const ArtefactCase& of, const ArtefactBody&
 // C06: the same poses with the weights of Eq. 2, or of the scene's weights file in their place, and with rigid weights, which bind every
 // vertex to its nearest bone alone.
 //   for (const analysis::Measurement& measurement : compare_weights(of).measurements) ...
-// Measured are, at each joint, the jump of strain between neighbouring tets and the bending of the skin (analysis/metrics/error_norms.hpp);
-// for the whole body, the absolute volume change; and the number of iterations after which PBS stays within the tolerance of its residual,
-// by the rule of shared/iteration_path.hpp with the two blends as initial guesses. Each value is a ratio of Eq. 2 to rigid weights, with
-// its spread over meshes, with the variant default; PBS has one in each order and precision. Two controls take the place of Eq. 2 under
-// LBS, and under PBS in file order and double precision, on the own mesh: exchanged_weights, in which the two bones of each joint have each
-// other's weights near it, and diffused_weights (pbs/skinning/weights.hpp).
-inline constexpr int most_weight_iterations = 1000;
+// Measured are, at each joint, the jump of strain between neighbouring tets and the bending of the skin (analysis/metrics/error_norms.hpp).
+// Each value is a ratio of Eq. 2 to rigid weights, with its spread over meshes, with the variant default; PBS has one in each order and
+// precision. Two controls take the place of Eq. 2 under LBS, and under PBS in file order and double precision, on the own mesh:
+// exchanged_weights, in which the two bones of each joint have each other's weights near it, and diffused_weights
+// (pbs/skinning/weights.hpp).
 
 struct SmoothnessRow {
     std::string body;
@@ -68,17 +65,11 @@ struct SmoothnessRow {
     analysis::Smoothness smoothness;
     double volume_abs_change_pct = 0.0;
 };
-struct WeightIterations {
-    ArtefactPlace place;
-    Reached paper, rigid;
-};
-extern const analysis::Columns<SmoothnessRow> smoothness_columns;           // smoothness.csv
-extern const analysis::Columns<WeightIterations> weight_iteration_columns;  // iterations.csv
+extern const analysis::Columns<SmoothnessRow> smoothness_columns;  // smoothness.csv
 
 struct WeightsComparison {
     std::vector<analysis::Measurement> measurements;
     std::vector<SmoothnessRow> smoothness;  // the terms of the ratios
-    std::vector<WeightIterations> iterations;
 };
 
 WeightsComparison compare_weights(const ArtefactCase& of);

@@ -11,6 +11,7 @@
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -30,12 +31,11 @@ std::string look_and_record(const ArtefactCase& of, const std::string& folder)
     table_of(profile_columns, records.profiles).write(path("profiles.csv"));
     table_of(intersection_columns, records.intersections).write(path("intersections.csv"));
     table_of(smoothness_columns, weights.smoothness).write(path("smoothness.csv"));
-    table_of(weight_iteration_columns, weights.iterations).write(path("iterations.csv"));
     analysis::measurement_table(measurements).write(path("measurements.csv"));
     return records.breakdown;
 }
 
-// A joint that turns by step_deg from pose to pose, without the rest pose, or one pose of a clip.
+// A joint that turns by step_deg from pose to pose, without the rest pose, one pose of a clip, or half and whole ranges of movements.
 ArtefactCase case_of(const StudyCase& of)
 {
     ArtefactCase made;
@@ -49,7 +49,16 @@ ArtefactCase case_of(const StudyCase& of)
     Overrides overrides;
     if (of.has("frame"))
         made.poses = {{of.value<int>("frame"), of.key().motion + "_" + of.key().pose, {.motion = of.key().motion, .pose = of.key().pose}}};
-    else {
+    else if (of.has("movements")) {
+        made.claim = option_of<ArtefactCase::Claim>(of.value<std::string>("claim"));
+        const auto movements = of.value<std::vector<std::string>>("movements");
+        overrides = {fmt::format("motion.movements=['{}']", fmt::join(movements, "','")), "motion.frames=2"};
+        for (const std::string& name : movements) {
+            const int half = static_cast<int>(made.poses.size()) + 1;
+            made.poses.push_back({half, "half_" + name, {.motion = "range_of_motion", .pose = "half_" + name}, joints_of(name)});
+            made.poses.push_back({half + 1, name, {.motion = "range_of_motion", .pose = name}, joints_of(name)});
+        }
+    } else {
         const auto what = of.value<std::string>("what");
         const int step_deg = of.value<int>("step_deg"), poses = of.value<int>("poses"), frame_deg = of.value("frame_deg", step_deg);
         made.claim = what == "twist" ? ArtefactCase::Claim::candy_wrapper : ArtefactCase::Claim::bulge;

@@ -20,6 +20,7 @@
 #include "pbs/solver/pbs_solver.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <random>
 
@@ -158,7 +159,7 @@ private:
             .of = {of_.scene.character.body, of_.frames[frame].name, int(character.mesh.rest.rows()), int(character.mesh.tets.rows()), own_,
                    name_of(options.order), name_of(options.precision), options.k_stretch},
             .key = of_.frames[frame].key,
-            .character = !of_.scene.motion.clip.empty(),
+            .character = !of_.scene.motion.clip.empty() || !of_.scene.motion.movements.empty(),
             .twist = of_.frames[frame].twist,
             .reference = reference.name};
         if (reference.solved) paths.quality = quality_of(*reference.solved);
@@ -211,6 +212,15 @@ NamedFrame frame_of(const std::string& motion, const nlohmann::json& values)
     return frame;
 }
 
+// The ends of the ranges of these movements.
+std::vector<NamedFrame> ends_of(const std::vector<std::string>& movements, int frames)
+{
+    std::vector<NamedFrame> ends;
+    for (const std::string& name : movements)
+        ends.push_back({static_cast<int>(ends.size() + 1) * frames, name, {.motion = "range_of_motion", .pose = name}, is_twist(name)});
+    return ends;
+}
+
 // orders and precisions = ["ordered f32", "plain f64"].
 ProjectionSetting setting_of(const std::string& text)
 {
@@ -222,8 +232,14 @@ StudyPlan plan(bool full)
 {
     return plan_of_cases("convergence", full, [full](const StudyCase& in_file, StudyPlan& plan) {
         ConvergenceCase of{.scene = in_file.scene()};
-        const auto motion = in_file.value<std::string>("motion");
-        for (const nlohmann::json& frame : in_file.value<nlohmann::json>("frames")) of.frames.push_back(frame_of(motion, frame));
+        if (in_file.value("through_movements", false)) {
+            const auto movements = movements_of(pbs::make_character(of.scene.character).skeleton);
+            of.scene = in_file.scene({fmt::format("motion.movements=['{}']", fmt::join(movements, "','"))});
+            of.frames = ends_of(movements, of.scene.motion.frames);
+        } else {
+            const auto motion = in_file.value<std::string>("motion");
+            for (const nlohmann::json& frame : in_file.value<nlohmann::json>("frames")) of.frames.push_back(frame_of(motion, frame));
+        }
         of.k_stretch = in_file.value<std::vector<double>>("k_stretch");
         for (const auto& setting : in_file.value<std::vector<std::string>>("settings")) of.settings.push_back(setting_of(setting));
         of.other_vertices = in_file.value<std::vector<int>>("other_vertices", {});

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace experiments {
 
@@ -47,13 +48,6 @@ ResponseRow response_row(const JiggleSetting& setting, double young_pa, double t
     return {std::isnan(young_pa) ? "pbs" : "nh_p1", setting, 1e3 * time_step_s, young_pa, name_of(response.swing.outcome), response};
 }
 
-void add_series(std::vector<SeriesRow>& series, const std::string& name, double time_step_s, const std::vector<double>& excursion_m,
-                const std::vector<double>& speed_rms_m_s)
-{
-    for (std::size_t i = 0; i < excursion_m.size(); ++i)
-        series.push_back({name, static_cast<double>(i + 1) * time_step_s, excursion_m[i], speed_rms_m_s[i]});
-}
-
 std::vector<ZoneRow> zone_rows(const pbs::ZoneContents& zone)
 {
     std::vector<ZoneRow> rows;
@@ -72,7 +66,6 @@ Jolt jolt_at(const JoltCase& of, const JiggleSetting& setting)
 
 struct JoltRecords {
     std::vector<ResponseRow> responses = {};
-    std::vector<SeriesRow> series = {};
     std::vector<analysis::Measurement> measurements = {};
 };
 
@@ -101,8 +94,6 @@ void add_reference(const JoltCase& of, const pbs::Character& character, const st
     if (!reference) return;
     const auto& swing = reference->response.swing;
     records.responses.push_back(response_row(measured.setting, reference->young_pa, reference->time_step_s, reference->response));
-    add_series(records.series, "nh_p1 for " + text_of(measured.setting), reference->time_step_s, reference->response.excursion_m,
-               reference->response.speed_rms_m_s);
     analysis::CaseKey at = key_of(character.name, measured.setting);
     at.reference = "nh_p1";
     at.young_pa = reference->young_pa;
@@ -293,24 +284,10 @@ const Columns<ResponseRow> response_columns =
     Columns<ResponseRow>{{"time_step_ms", &ResponseRow::time_step_ms}} + within(&ResponseRow::setting, solver_columns) +
     MEMBER_COLUMNS(ResponseRow, young_pa, outcome) + within(&ResponseRow::response, jolt_columns);
 
-const Columns<SeriesRow> jolt_series_columns = MEMBER_COLUMNS(SeriesRow, of, time_s, excursion_m, speed_rms_m_s);
-
-const Columns<SeriesRow> walk_series_columns = {{"of", &SeriesRow::of},
-                                                {"time_s", &SeriesRow::time_s},
-                                                {"lag_rms_m", &SeriesRow::excursion_m},
-                                                {"speed_rms_m_s", &SeriesRow::speed_rms_m_s}};
-
 const Columns<ZoneRow> zone_columns = MEMBER_COLUMNS(ZoneRow, share_of_vertices, share_on_skin, pieces, largest_piece) +
                                       within(&ZoneRow::bone, Columns<pbs::BoneInZone>{{"bone", &pbs::BoneInZone::name},
                                                                                       {"share_of_zone", &pbs::BoneInZone::share_of_zone},
                                                                                       {"share_of_bone", &pbs::BoneInZone::share_of_bone}});
-
-const Columns<WalkRow> walk_columns =
-    Columns<WalkRow>{{"k_stretch", &WalkRow::k_stretch}} +
-    within(&WalkRow::response, Columns<WalkResponse>{{"moving_lag_rms_mm", &WalkResponse::moving_lag_mm},
-                                                     {"most_lag_rms_mm", &WalkResponse::most_lag_mm},
-                                                     {"last_speed_share", &WalkResponse::last_speed_share},
-                                                     {"finished", &WalkResponse::finished}});
 
 RECORD_SETTINGS(Jolt, direction, length_m, time_step_s, still_steps, steps)
 
@@ -321,8 +298,6 @@ RECORD_SETTINGS_AND(JoltCase,
                                             {"periods", reference_periods}})
                         .constant("controls", {{"rayleigh_stiffness_s", rayleigh_stiffness_s}, {"steps", control_steps}}),
                     scene, jolt, settings, with_reference, young_pa)
-
-RECORD_SETTINGS_AND(WalkCase, .constant("setting", to_json(JiggleSetting{})), scene, k_stretch, still_steps)
 
 std::string record_jolts(const JoltCase& of, const std::string& folder)
 {
@@ -338,7 +313,6 @@ std::string record_jolts(const JoltCase& of, const std::string& folder)
         if (!response.finished) breakdown += text_of(setting) + ". ";
         if (!is_of_the_papers_solver(setting)) continue;
         records.responses.push_back(response_row(setting, analysis::not_known, setting.time_step_s, response));
-        add_series(records.series, text_of(setting), setting.time_step_s, response.excursion_m, response.speed_rms_m_s);
     }
     if (of.with_reference)
         for (const MeasuredJiggle& one : measured) add_reference(of, character, zone.pieces.front(), one, records);
@@ -348,27 +322,53 @@ std::string record_jolts(const JoltCase& of, const std::string& folder)
     }
     table_of(zone_columns, zone_rows(zone)).write(analysis::path_in(folder, "zone.csv"));
     table_of(response_columns, records.responses).write(analysis::path_in(folder, "responses.csv"));
-    table_of(jolt_series_columns, records.series).write(analysis::path_in(folder, "series.csv"));
     analysis::measurement_table(records.measurements).write(analysis::path_in(folder, "measurements.csv"));
     return breakdown;
 }
 
-std::string record_walk(const WalkCase& of, const std::string& folder)
+const Columns<StopRow> stop_columns =
+    MEMBER_COLUMNS(StopRow, deformer, k_stretch, young_pa, rayleigh_stiffness_s, time_step_ms, outcome) +
+    within(&StopRow::response, MEMBER_COLUMNS(JoltResponse, way_m, rest_over_jolt, settling_s) + jolt_columns);
+
+RECORD_SETTINGS(StopCase, scene, bone, k_stretch, rayleigh_stiffness_s, finer_steps, still_s)
+
+std::string record_stop(const StopCase& of, const std::string& folder)
 {
     const pbs::Character character = pbs::make_character(of.scene.character);
-    const pbs::Motion motion = make_motion(of.scene.motion, character.skeleton, of.scene.file);
-    std::vector<WalkRow> walk;
-    std::vector<SeriesRow> series;
+    const std::vector<bool> zone = pbs::jiggle_zone(character.binding);
+    const int bone = pbs::find_bone(character.skeleton, of.bone);
+    std::vector<int> probe;
+    for (std::size_t v = 0; v < zone.size(); ++v)
+        if (zone[v] && character.binding.bone[v] == bone) probe.push_back(static_cast<int>(v));
+    std::vector<StopRow> rows;
     std::string breakdown;
-    for (const double k : of.k_stretch) {
-        const DeformerSpec spec = jiggling(spec_of(of.scene, "pbs"), {.k_stretch = k});
-        const WalkResponse response = walk_response(character, motion, spec, pbs::jiggle_zone(character.binding), of.still_steps);
-        if (!response.finished) breakdown += fmt::format("k_stretch {}. ", k);
-        walk.push_back({k, response});
-        add_series(series, fmt::format("k_stretch {}", k), motion.time_step_s, response.lag_rms_m, response.speed_rms_m_s);
+    const auto add = [&](const DeformerSpec& spec, StopRow row, int finer) {
+        MotionSpec motion = of.scene.motion;
+        motion.frames *= finer;
+        motion.rate_hz *= finer;
+        motion.time_step_s /= finer;
+        const int still_steps = static_cast<int>(std::lround(of.still_s / motion.time_step_s));
+        row.response = stop_response(character, spec, probe, make_motion(motion, character.skeleton, of.scene.file), still_steps);
+        row.time_step_ms = 1e3 * motion.time_step_s;
+        row.outcome = name_of(row.response.swing.outcome);
+        if (!row.response.finished) breakdown += fmt::format("{} in steps of {} ms. ", row.deformer, row.time_step_ms);
+        rows.push_back(std::move(row));
+    };
+    constexpr double none = analysis::not_known;
+    for (const double k : of.k_stretch) add(jiggling(spec_of(of.scene, "pbs"), {.k_stretch = k}), {"pbs", k, none, none}, 1);
+    DeformerSpec flesh = spec_of(of.scene, of.scene.reference), xpbd = spec_of(of.scene, "xpbd");
+    auto& fem = options_of<FemOptions>(flesh);
+    auto& own = options_of<pbs::XpbdOptions>(xpbd);
+    std::tie(own.young_pa, own.poisson, own.density_kg_m3) = std::tuple(fem.young_pa, fem.poisson, fem.density_kg_m3);
+    own.jiggle = true;
+    for (const int finer : {1, of.finer_steps}) add(xpbd, {"xpbd", none, own.young_pa, none}, finer);
+    fem.dynamics = reference_fem::Dynamics::generalized_alpha;
+    fem.contact = false;  // generalised alpha has none
+    for (const double damping_s : of.rayleigh_stiffness_s) {
+        fem.rayleigh_stiffness_s = damping_s;
+        add(flesh, {flesh.label, none, fem.young_pa, damping_s}, of.finer_steps);
     }
-    table_of(walk_columns, walk).write(analysis::path_in(folder, "walk.csv"));
-    table_of(walk_series_columns, series).write(analysis::path_in(folder, "series.csv"));
+    table_of(stop_columns, rows).write(analysis::path_in(folder, "stop.csv"));
     return breakdown;
 }
 

@@ -1,6 +1,5 @@
 // The runs of the jiggle study: what each measures and records.
-//   const std::string breakdown = record_jolts(of, folder);   // responses.csv, series.csv, zone.csv, measurements.csv
-//   const std::string breakdown = record_walk(of, folder);    // walk.csv, series.csv
+//   const std::string breakdown = record_jolts(of, folder);   // responses.csv, zone.csv, measurements.csv
 #pragma once
 
 #include "analysis/records/tables.hpp"
@@ -58,11 +57,14 @@ struct Jolt {
 };
 
 struct JoltResponse {
+    double way_m = 0.0;                 // of the skeleton, or of the probe on its bones: the unit of what is over the jolt
     std::vector<double> excursion_m;    // of the probe, one per step, beginning with that of the jolt
     std::vector<double> speed_rms_m_s;  // of all the body's vertices
     analysis::DampedOscillation swing;  // fitted to the excursion
     double peak_over_jolt = 0.0;        // largest excursion, either way; 1 where flesh stays behind at first
     double overshoot_over_jolt = 0.0;   // largest excursion beyond the place on the skeleton
+    double settling_s = 0.0;            // after which the excursion stays within a tenth of its peak
+    double rest_over_jolt = 0.0;        // of stop_response: where it comes to rest, from the place without inertia
     double left_over_peak = 0.0;        // largest excursion of the last tenth
     double speed_growth = 0.0;          // largest speed after the first tenth over that within it; above 1, energy has grown
     bool finished = true;               // every step
@@ -86,19 +88,32 @@ std::optional<JiggleReference> match_reference(const pbs::Character& character, 
 // Neo-Hookean, linear elements, generalised alpha.
 DeformerSpec dynamic_reference(double young_pa);
 
-// How far the jiggling flesh lags behind the skeleton through a motion, and whether it comes to rest when the motion does.
-//   const WalkResponse response = walk_response(character, motion, spec, zone);
-struct WalkResponse {
-    std::vector<double> lag_rms_m;      // over the zone, from the shape without jiggle in the same pose; one per step, the still ones last
-    std::vector<double> speed_rms_m_s;  // of the zone's vertices
-    double moving_lag_mm = 0.0, most_lag_mm = 0.0;  // root mean square and largest over the motion
-    double last_speed_share = 0.0;                  // of the last tenth of the still steps, over the motion's mean
-    bool finished = true;
+// The skeleton goes through a motion and is then held still. What swings is the mean displacement of the probe's vertices from where they
+// come to rest, along the probe's last velocity. The excursion begins with the first still
+// step.
+JoltResponse stop_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe,
+                           const pbs::Motion& motion, int still_steps);
+
+// A limb that moves and stops. PBS and XPBD have their jiggling zone; XPBD and the finite elements have one material, that of the scene's
+// reference, and nothing is fitted. The other minimisers have no inertia.
+struct StopCase {
+    Scene scene;                                                      // a movement, with pbs, xpbd and a reference
+    std::string bone;                                                 // the probe: its vertices in the zone
+    std::vector<double> k_stretch = {0.05, 0.1, 0.2, 0.5, 0.9};       // of PBS in the zone
+    std::vector<double> rayleigh_stiffness_s = {0.001, 0.003, 0.01};  // dampings of the finite elements
+    int finer_steps = 4;                                              // of these, and of a second run of XPBD, for each step of PBS
+    double still_s = 1.0;                                             // after the motion
 };
 
-// The last pose is held for `still_steps` more steps. The same deformer without jiggle runs for comparison.
-WalkResponse walk_response(const pbs::Character& character, const pbs::Motion& motion, const DeformerSpec& spec,
-                           const std::vector<bool>& zone, int still_steps);
+// stop.csv
+struct StopRow {
+    std::string deformer;
+    double k_stretch = 0.0, young_pa = 0.0, rayleigh_stiffness_s = 0.0;  // not a number where the deformer has none
+    double time_step_ms = 0.0;
+    std::string outcome;
+    JoltResponse response;
+};
+extern const analysis::Columns<StopRow> stop_columns;
 
 // The response of the zone's largest piece to a jolt, at each setting.
 struct JoltCase {
@@ -107,13 +122,6 @@ struct JoltCase {
     std::vector<JiggleSetting> settings;
     bool with_reference = false;        // for each setting that swings; then the settings' own values are left to another run
     std::vector<double> young_pa = {};  // of the finite elements that are controls
-};
-
-// The whole zone through the scene's motion.
-struct WalkCase {
-    Scene scene;
-    std::vector<double> k_stretch;
-    int still_steps = 100;  // after the motion
 };
 
 // responses.csv: one row per setting in plain f64, and one per reference that was matched to it.
@@ -125,35 +133,23 @@ struct ResponseRow {
     std::string outcome;
     JoltResponse response;
 };
-// series.csv of a jolt or of a walk.
-struct SeriesRow {
-    std::string of;
-    double time_s = 0.0, excursion_m = 0.0, speed_rms_m_s = 0.0;
-};
 // zone.csv, one row per bone. The zone's own numbers are the same in all rows.
 struct ZoneRow {
     double share_of_vertices = 0.0, share_on_skin = 0.0;
     int pieces = 0, largest_piece = 0;
     pbs::BoneInZone bone;
 };
-// walk.csv
-struct WalkRow {
-    double k_stretch = 0.0;
-    WalkResponse response;
-};
 extern const analysis::Columns<ResponseRow> response_columns;
-extern const analysis::Columns<SeriesRow> jolt_series_columns, walk_series_columns;
 extern const analysis::Columns<ZoneRow> zone_columns;
-extern const analysis::Columns<WalkRow> walk_columns;
 
 // Everything that a run's result depends on.
 nlohmann::json to_json(const Jolt& jolt);
 nlohmann::json to_json(const JoltCase& of);
-nlohmann::json to_json(const WalkCase& of);
+nlohmann::json to_json(const StopCase& of);
 
 // Both return what broke down, if anything.
 std::string record_jolts(const JoltCase& of, const std::string& folder);
-std::string record_walk(const WalkCase& of, const std::string& folder);
+std::string record_stop(const StopCase& of, const std::string& folder);  // stop.csv
 
 // The values of C09 from the responses of one body at all settings.
 //   for (const analysis::Measurement& measurement : jiggle_values("limb", measured)) ...

@@ -2,7 +2,7 @@
 // README.md describes the runs and records.
 //
 // The limb is moved along its bones, the only direction in which the bind constraints leave all of its skin free; bodies are moved up.
-// Flesh has no gravity in a jolt, so that it lies still before it, and has gravity in a walk.
+// Flesh has no gravity, so that it lies still before the jolt.
 #include "analysis/records/record_files.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace experiments {
 namespace {
@@ -28,6 +27,8 @@ double largest(std::vector<double>::const_iterator first, std::vector<double>::c
     for (; first != last; ++first) most = std::max(most, std::abs(*first));
     return most;
 }
+
+constexpr double settled_share = 0.1;  // of the peak
 
 double ratio(double a, double b)
 {
@@ -41,11 +42,45 @@ void sum_up(JoltResponse& response, const Jolt& jolt)
     if (excursion.empty()) return;
     const auto tenth = static_cast<std::ptrdiff_t>(excursion.size() / 10);
     const double peak = largest(excursion.begin(), excursion.end());
+    response.way_m = jolt.length_m;
     response.peak_over_jolt = peak / jolt.length_m;
     response.overshoot_over_jolt = std::max(*std::max_element(excursion.begin(), excursion.end()), 0.0) / jolt.length_m;
+    const auto beyond = [&](double excursion_m) { return std::abs(excursion_m) > settled_share * peak; };
+    const auto last = std::find_if(excursion.rbegin(), excursion.rend(), beyond);
+    response.settling_s = jolt.time_step_s * static_cast<double>(excursion.rend() - last);
     response.left_over_peak = ratio(largest(excursion.end() - tenth, excursion.end()), peak);
     response.speed_growth = ratio(largest(speed.begin() + tenth, speed.end()), largest(speed.begin(), speed.begin() + tenth));
     response.swing = analysis::fit_damped_oscillation(excursion, jolt.time_step_s);
+}
+
+bool advances(Deformer& deformer, const pbs::Pose& pose, double time_step_s)
+{
+    stop_if_interrupted();
+    return deformer.advance(pose, time_step_s).outcome == pbs::Outcome::finished;
+}
+
+// Holds a pose and measures how far the probe lies from its place [m] along the jolt.
+void swing(Deformer& deformer, const pbs::Pose& pose, const pbs::Positions& place, const std::vector<int>& probe, const Jolt& jolt,
+           JoltResponse& response)
+{
+    const Eigen::Index vertices = place.rows();
+    for (int step = 0; step < jolt.steps && response.finished; ++step) {
+        const pbs::Positions before = deformer.positions().topRows(vertices);
+        response.finished = advances(deformer, pose, jolt.time_step_s);
+        const pbs::Positions now = deformer.positions().topRows(vertices);
+        double excursion_m = 0.0;
+        for (const int v : probe) excursion_m += (now.row(v) - place.row(v)).dot(jolt.direction);
+        response.excursion_m.push_back(excursion_m / static_cast<double>(probe.size()));
+        response.speed_rms_m_s.push_back((now - before).norm() / std::sqrt(double(vertices)) / jolt.time_step_s);
+    }
+}
+
+DeformerSpec without_inertia(DeformerSpec spec)
+{
+    if (options_if<pbs::PbsOptions>(spec)) options_of<pbs::PbsOptions>(spec).jiggle.reset();
+    if (options_if<pbs::XpbdOptions>(spec)) options_of<pbs::XpbdOptions>(spec).jiggle = false;
+    if (options_if<FemOptions>(spec)) options_of<FemOptions>(spec).dynamics = reference_fem::Dynamics::quasi_static;
+    return spec;
 }
 
 JoltResponse at_frequency(const pbs::Character& character, const DeformerSpec& fem, const std::vector<int>& probe, Jolt jolt,
@@ -54,35 +89,6 @@ JoltResponse at_frequency(const pbs::Character& character, const DeformerSpec& f
     jolt.time_step_s = 1.0 / (reference_steps_a_period * frequency_hz);
     jolt.steps = reference_steps_a_period * reference_periods;
     return jolt_response(character, fem, probe, jolt);
-}
-
-double rms_over(const std::vector<bool>& zone, const pbs::Positions& difference)
-{
-    double sum = 0.0, count = 0.0;
-    for (Eigen::Index v = 0; v < difference.rows(); ++v)
-        if (zone[v]) {
-            sum += difference.row(v).squaredNorm();
-            count += 1.0;
-        }
-    return count > 0.0 ? std::sqrt(sum / count) : 0.0;
-}
-
-double mean_of(std::vector<double>::const_iterator first, std::vector<double>::const_iterator last)
-{
-    return first == last ? 0.0 : std::accumulate(first, last, 0.0) / static_cast<double>(last - first);
-}
-
-void sum_up(WalkResponse& response, std::size_t moving, int still_steps)
-{
-    const auto& lag = response.lag_rms_m;
-    const auto& speed = response.speed_rms_m_s;
-    if (lag.size() < moving + static_cast<std::size_t>(still_steps)) return;
-    const auto end = lag.begin() + static_cast<std::ptrdiff_t>(moving);
-    response.moving_lag_mm = 1e3 * std::sqrt(std::inner_product(lag.begin(), end, lag.begin(), 0.0) / static_cast<double>(moving));
-    response.most_lag_mm = 1e3 * *std::max_element(lag.begin(), end);
-    const double in_motion = mean_of(speed.begin(), speed.begin() + static_cast<std::ptrdiff_t>(moving));
-    const double at_last = mean_of(speed.end() - std::max(still_steps / 10, 1), speed.end());
-    response.last_speed_share = ratio(at_last, in_motion);
 }
 
 JoltCase jolt_case(const StudyCase& of)
@@ -100,11 +106,10 @@ JoltCase jolt_case(const StudyCase& of)
 StudyPlan plan(bool full)
 {
     return plan_of_cases("jiggle", full, [](const StudyCase& of, StudyPlan& plan) {
-        if (of.value<std::string>("measure") == "jolt")
-            plan.runs.push_back(work_run(of.name, jolt_case(of), of.cost_s, record_jolts));
+        if (of.has("stops"))
+            plan.runs.push_back(work_run<StopCase>(of.name, {of.scene(), of.value<std::string>("stops")}, of.cost_s, record_stop));
         else
-            plan.runs.push_back(
-                work_run<WalkCase>(of.name, {of.scene(), of.value<std::vector<double>>("k_stretch")}, of.cost_s, record_walk));
+            plan.runs.push_back(work_run(of.name, jolt_case(of), of.cost_s, record_jolts));
     });
 }
 
@@ -172,24 +177,42 @@ JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& 
     const std::size_t bones = character.skeleton.bones.size();
     const pbs::Vec3 way_m = jolt.length_m * jolt.direction;
     const pbs::Pose still(bones, Eigen::Isometry3d::Identity()), moved(bones, Eigen::Isometry3d(Eigen::Translation3d(way_m)));
-    const Eigen::Index vertices = character.mesh.rest.rows();
     JoltResponse response;
-    const auto advance = [&](const pbs::Pose& pose) {
-        stop_if_interrupted();
-        response.finished = response.finished && deformer->advance(pose, jolt.time_step_s).outcome == pbs::Outcome::finished;
-    };
-    for (int step = 0; step < jolt.still_steps; ++step) advance(still);
-    const pbs::Positions lay = deformer->positions().topRows(vertices);
-    for (int step = 0; step < jolt.steps && response.finished; ++step) {
-        const pbs::Positions before = deformer->positions().topRows(vertices);
-        advance(moved);
-        const pbs::Positions now = deformer->positions().topRows(vertices);
-        double excursion_m = 0.0;
-        for (const int v : probe) excursion_m += (now.row(v) - lay.row(v)).dot(jolt.direction) - jolt.length_m;
-        response.excursion_m.push_back(excursion_m / static_cast<double>(probe.size()));
-        response.speed_rms_m_s.push_back((now - before).norm() / std::sqrt(double(vertices)) / jolt.time_step_s);
-    }
+    for (int step = 0; step < jolt.still_steps && response.finished; ++step)
+        response.finished = advances(*deformer, still, jolt.time_step_s);
+    const pbs::Positions lay = deformer->positions().topRows(character.mesh.rest.rows());
+    swing(*deformer, moved, lay.rowwise() + way_m.transpose(), probe, jolt, response);
     sum_up(response, jolt);
+    return response;
+}
+
+JoltResponse stop_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe,
+                           const pbs::Motion& motion, int still_steps)
+{
+    const auto on_bones = [&](const pbs::Pose& pose) {
+        pbs::Vec3 sum = pbs::Vec3::Zero();
+        for (const int v : probe) sum += pose[character.binding.bone[v]] * character.mesh.rest.row(v).transpose();
+        return pbs::Vec3(sum / static_cast<double>(probe.size()));
+    };
+    Jolt stop{.length_m = 0.0, .time_step_s = motion.time_step_s, .steps = still_steps};
+    for (std::size_t step = 1; step < motion.steps.size(); ++step) {
+        const pbs::Vec3 moved_m = on_bones(motion.steps[step]) - on_bones(motion.steps[step - 1]);
+        stop.length_m += moved_m.norm();
+        stop.direction = moved_m.normalized();
+    }
+    const std::unique_ptr<Deformer> deformer = make_deformer(spec), at_rest = make_deformer(without_inertia(spec));
+    deformer->reset(character);
+    at_rest->reset(character);
+    JoltResponse response{.finished = advances(*at_rest, motion.steps.back(), motion.time_step_s)};
+    for (std::size_t step = 0; step < motion.steps.size() && response.finished; ++step)
+        response.finished = advances(*deformer, motion.steps[step], motion.time_step_s);
+    const pbs::Positions place = at_rest->positions().topRows(character.mesh.rest.rows());
+    swing(*deformer, motion.steps.back(), place, probe, stop, response);
+    if (!response.finished) return response;
+    const double rest_m = response.excursion_m.back();
+    for (double& excursion_m : response.excursion_m) excursion_m -= rest_m;
+    response.rest_over_jolt = rest_m / stop.length_m;
+    sum_up(response, stop);
     return response;
 }
 
@@ -216,32 +239,6 @@ DeformerSpec dynamic_reference(double young_pa)
     options.dynamics = reference_fem::Dynamics::generalized_alpha;
     options.young_pa = young_pa;
     return spec;
-}
-
-WalkResponse walk_response(const pbs::Character& character, const pbs::Motion& motion, const DeformerSpec& spec,
-                           const std::vector<bool>& zone, int still_steps)
-{
-    DeformerSpec without = spec;
-    options_of<pbs::PbsOptions>(without).jiggle.reset();
-    const std::unique_ptr<Deformer> jiggling = make_deformer(spec), stiff = make_deformer(without);
-    jiggling->reset(character);
-    stiff->reset(character);
-    std::vector<pbs::Pose> poses = motion.steps;
-    poses.insert(poses.end(), still_steps, motion.steps.back());
-    WalkResponse response;
-    pbs::Positions before = character.mesh.rest;
-    for (const pbs::Pose& pose : poses) {
-        stop_if_interrupted();
-        response.finished = jiggling->advance(pose, motion.time_step_s).outcome == pbs::Outcome::finished;
-        if (!response.finished) break;
-        stiff->advance(pose, motion.time_step_s);
-        response.lag_rms_m.push_back(rms_over(zone, jiggling->positions() - stiff->positions()));
-        const bool first = response.lag_rms_m.size() == 1;
-        response.speed_rms_m_s.push_back(first ? 0.0 : rms_over(zone, jiggling->positions() - before) / motion.time_step_s);
-        before = jiggling->positions();
-    }
-    sum_up(response, motion.steps.size(), still_steps);
-    return response;
 }
 
 std::vector<JiggleSetting> jiggle_settings()

@@ -96,10 +96,8 @@ TEST(KeptTables, ReadAsRowsAndWrittenAgainAreTheSame)
     expect_same(experiments::profile_columns, "artefacts/runs/profiles.csv");
     expect_same(experiments::intersection_columns, "artefacts/runs/intersections.csv");
     expect_same(experiments::smoothness_columns, "artefacts/runs/smoothness.csv");
-    expect_same(experiments::weight_iteration_columns, "artefacts/runs/iterations.csv");
     expect_same(experiments::response_columns, "jiggle/runs/responses.csv");
     expect_same(experiments::zone_columns, "jiggle/runs/zone.csv");
-    expect_same(experiments::walk_columns, "jiggle/runs/walk.csv");
     expect_same(experiments::stiffness_columns, "stiffness/runs/stiffness.csv");
     expect_same(experiments::exponent_columns(), "stiffness/exponents.csv", some);
     expect_same(experiments::sag_columns, "fit/runs/sag.csv");

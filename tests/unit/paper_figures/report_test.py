@@ -59,12 +59,13 @@ class Report(ReportTest):
 
     def test_a_damaged_table_of_a_study_leaves_the_report(self):
         jiggle = self.results / "jiggle"
-        synthetic_records.write_table(jiggle / "limb_walk" / "walk.csv", [
-            {"k_stretch": "1", "moving_lag_rms_mm": "much", "most_lag_rms_mm": "2", "last_speed_share": "0"}])
-        (jiggle / "plan.json").write_text(json.dumps({"runs": [{"name": "limb_walk"}]}))
+        synthetic_records.write_jiggle(jiggle)
+        synthetic_records.write_table(jiggle / "limb_jolt" / "zone.csv", [
+            {"share_of_vertices": "much", "share_on_skin": "1", "pieces": "1", "bone": "upper", "share_of_zone": "1"}])
+        (jiggle / "plan.json").write_text(json.dumps({"runs": [{"name": "limb_jolt"}]}))
         with listening() as (_, complaints):
             self.assertEqual(make_report.main(self.results), 2)
-        self.assertIn("limb_walk/walk.csv:2: moving_lag_rms_mm = much: expected a number", complaints.getvalue())
+        self.assertIn("limb_jolt/zone.csv:2: share_of_vertices = much: expected a number", complaints.getvalue())
         self.assertTrue((self.results / "report.html").is_file())
 
     def page(self):

@@ -197,7 +197,7 @@ def claim(name, verdict, cases=(), **others):
     empty = {"statement": "Volume is kept.", "place": "Sec. 4", "study": "volume", "rule": "units", "reason": "", "untested": "none",
              "quantities": ["ratio"], "bounds": [{"low": 0.95, "high": None}], "source": "Sec. 4", "range": "meshes",
              "unit_fields": ["body"], "interval_low": None, "interval_high": None, "chance": None, "q": None, "differs": None,
-             "fixed_at": "", "confirmatory": 0, "controls": [], "compared": [], "readings": [], "left_out": [],
+             "fixed_at": "", "confirmatory": None, "controls": [], "compared": [], "readings": [], "left_out": [],
              "missing": [], "runs": [], "titles": {}}
     return {**empty, **facts(list(cases)), "id": name, "verdict": verdict, **others}
 

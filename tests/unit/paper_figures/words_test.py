@@ -147,15 +147,23 @@ class Facts(unittest.TestCase):
 
 class Basis(unittest.TestCase):
     def test_it_states_the_unit_its_number_the_bound_with_its_source_chance_and_the_revision(self):
-        judged = claim("C04", "holds", [unit(1.0)] * 5, chance=0.001, q=0.0625, fixed_at="0123456789abcdef", confirmatory=2,
-                       confirmatory_held=1, unit_fields=["body", "angle_deg"], titles={"ratio": "radius"}, over={"deformer": "reference"},
+        judged = claim("C04", "holds", [unit(1.0)] * 5, chance=0.001, q=0.0625, fixed_at="0123456789abcdef",
+                       unit_fields=["body", "angle_deg"], titles={"ratio": "radius"}, over={"deformer": "reference"},
                        source="Fig. 8")
         self.assertEqual(
             sentences.basis(judged),
             "The number of a unit (body, angle) is the radius, over that of the reference; bound: 0.95 or more (Fig. 8). If each unit "
             "held by chance with a probability of q = 0.0625, as many would hold with a probability of 0.001. Rule and bound are of "
-            "revision 0123456789ab, and 2 units were recorded later; the bound holds in 1 of them.")
+            "revision 0123456789ab.")
         self.assertEqual(sentences.basis(claim("C13", "holds", rule="printed")), "")
+
+    def test_the_verdict_on_confirmatory_units_stands_next_to_the_other(self):
+        later = claim("C04", "fails", [unit(0.5, False), unit(1.0)], interval_low=0.01, interval_high=0.99)
+        judged = claim("C04", "holds", [unit(1.0)] * 5, confirmatory=later)
+        self.assertEqual(sentences.both_verdicts(judged), "holds; on the confirmatory units: fails")
+        told, = sentences.on_confirmatory_units(judged)
+        self.assertIn("the verdict is 'fails': 1 of 2 units hold, share 0.5 [0.01, 0.99]", told)
+        self.assertEqual((sentences.both_verdicts(later), sentences.on_confirmatory_units(later)), ("fails", []))
 
 
 class Compared(unittest.TestCase):

@@ -242,6 +242,34 @@ TEST(Verdict, HasTheWiderOfTwoIntervals)
     EXPECT_EQ(verdict.interval.high, 1.0);
 }
 
+// Twenty joints of a clip hold. Of ten joints in another motion none does; flesh was not measured there.
+TEST(Verdict, JudgesConfirmatoryUnitsApartWithTheControlsThatTheyLack)
+{
+    Claim claim = radius_claim();
+    claim.confirmatory = {{.motion = "range_of_motion"}};
+    Records records = records_of(20, 20);
+    EXPECT_TRUE(judge(claim, records).confirmatory.empty());
+    for (const Measurement& one : records_of(0, 10).measurements) {
+        if (one.of.deformer == "flesh") continue;
+        records.measurements.push_back(one);
+        records.measurements.back().of.motion = "range_of_motion";
+    }
+    const Verdict verdict = judge(claim, records);
+    EXPECT_EQ(verdict.kind, holds);
+    EXPECT_EQ(verdict.own.n, 20);
+    ASSERT_EQ(verdict.confirmatory.size(), 1u);
+    const Verdict& later = verdict.confirmatory.front();
+    EXPECT_EQ(later.kind, fails);
+    EXPECT_EQ(later.own.n, 10);
+    EXPECT_EQ(later.others[0].n, 10) << "LBS in the other motion";
+    EXPECT_EQ(later.others[1].n, 20) << "flesh in the clip";
+    EXPECT_EQ(claims_json({verdict}, "r").at("claims").at(0).at("confirmatory").at("verdict"), "fails");
+    claim.unseen_by = "LBS";
+    for (Measurement& one : records.measurements)
+        if (one.of.deformer == "lbs" && !one.of.motion.empty()) one.of.deformer = "another";
+    EXPECT_EQ(judge(claim, records).confirmatory.front().own.n, 0) << "whether LBS fails in a unit shows nothing about another one";
+}
+
 TEST(Verdict, OneNumberIsJudgedByItsRange)
 {
     Claim claim = radius_claim();

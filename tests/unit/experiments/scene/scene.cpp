@@ -184,7 +184,7 @@ TEST_F(MotionCase, ASweepTurnsItsJointAndOneInWhichNothingTurnsIsRemarkedOn)
     const CaseMotion motion = made(sweep);
     EXPECT_NEAR(motion.largest_rotation_deg, 60.0, 1e-10);
     EXPECT_EQ(motion.motion.frames(), 3);
-    EXPECT_EQ(motion.time_zero, "rest pose, where the sweep begins");
+    EXPECT_EQ(motion.time_zero, "rest pose, where the motion begins");
     EXPECT_TRUE(motion.remarks.empty());
     sweep.angle_deg = 0.05;
     sweep.frames = 2;  // about the axis of the bone

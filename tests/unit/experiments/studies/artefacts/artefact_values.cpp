@@ -190,7 +190,7 @@ TEST(ArtefactPoses, AreReachedFromRestByADeformerWithMemory)
 }
 
 // The weights of Eq. 2 compared with rigid ones on a small limb. Reference: the records whose ratios are the values; with rigid weights one
-// layer of tets takes all of a twist; without a pose there is no roughness; weights do not change the limit of the solver.
+// layer of tets takes all of a twist; without a pose there is no roughness.
 
 WeightsComparison compared(const std::vector<ArtefactPose>& poses)
 {
@@ -199,8 +199,7 @@ WeightsComparison compared(const std::vector<ArtefactPose>& poses)
     return compare_weights(of);
 }
 
-const analysis::Measurement* measurement(const WeightsComparison& comparison, const std::string& quantity,
-                                         const std::string& deformer = "pbs")
+const analysis::Measurement* measurement(const WeightsComparison& comparison, const std::string& quantity, const std::string& deformer)
 {
     for (const auto& one : comparison.measurements)
         if (one.quantity == quantity && one.of.deformer == deformer) return &one;
@@ -242,23 +241,7 @@ TEST(WeightsComparison, RigidBlendingShearsOneLayerInATwistWhatEquation2SpreadsO
     EXPECT_LT(measurement(twisted, "strain_jump_over_rigid_weights", "lbs")->value, 0.8);
 }
 
-// The blend by Eq. 2 is closer to a crease than two rigid halves that penetrate each other.
-TEST(WeightsComparison, IterationsAreTheRatioOfTheirRecordAndRigidHalvesTakeMore)
-{
-    auto of = test_support::small_limb(ArtefactCase::Claim::bulge);
-    of.scene.character.vertices = 1200;
-    of.poses = {{3, "bend_90_deg"}};
-    const WeightsComparison bent = compare_weights(of);
-    ASSERT_EQ(bent.iterations.size(), 1u);
-    const auto* ratio = measurement(bent, "iterations_over_rigid_weights");
-    ASSERT_TRUE(bent.iterations[0].paper.within);
-    ASSERT_NE(ratio, nullptr);
-    EXPECT_LT(ratio->value, 1.0);
-    const double paper = std::max(bent.iterations[0].paper.iterations, 1);
-    EXPECT_DOUBLE_EQ(ratio->value, paper / std::max(bent.iterations[0].rigid.iterations, 1));
-}
-
-TEST(WeightsComparison, AtRestThereIsNothingToCompareButTheSameStart)
+TEST(WeightsComparison, AtRestThereIsNothingToCompare)
 {
     const WeightsComparison rest = compared({{0, "rest"}});
     EXPECT_EQ(measurement(rest, "strain_jump_over_rigid_weights", "lbs"), nullptr);  // a ratio of roundings
@@ -268,8 +251,6 @@ TEST(WeightsComparison, AtRestThereIsNothingToCompareButTheSameStart)
     const double of_gradient = 2.0 * std::sqrt(3.0) * test_support::motion_error(2, 1.15) * worst.inverse_edges +
                                test_support::rounding_error(12 + 3, worst.condition);
     EXPECT_LT(strain_jump(rest, "rigid", {.deformer = "lbs"}), 2.0 * std::sqrt(3.0) * of_gradient);
-    ASSERT_NE(measurement(rest, "iterations_over_rigid_weights"), nullptr);
-    EXPECT_DOUBLE_EQ(measurement(rest, "iterations_over_rigid_weights")->value, 1.0);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace {
 
@@ -242,6 +243,41 @@ TEST_F(JoltResponseOfLimb, HeldFleshSwingsAndCalmsDown)
     EXPECT_LT(held.peak_over_jolt, 1.0);
     EXPECT_LT(held.left_over_peak, 0.5);
     EXPECT_LT(held.speed_growth, 1.0);
+}
+
+// LBS has no inertia: it stands in its place at once. A point at the radius r goes along an arc in chords of 2 r sin(step / 2).
+TEST(JiggleStop, LbsStopsAtOnceAfterTheWayOfItsBones)
+{
+    const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 400});
+    const std::vector<bool> zone = pbs::jiggle_zone(limb.binding);
+    const int forearm = pbs::find_bone(limb.skeleton, "forearm");
+    std::vector<int> probe;
+    pbs::Vec3 mean = pbs::Vec3::Zero();
+    for (std::size_t v = 0; v < zone.size(); ++v)
+        if (zone[v] && limb.binding.bone[v] == forearm) {
+            probe.push_back(static_cast<int>(v));
+            mean += limb.mesh.rest.row(static_cast<Eigen::Index>(v)).transpose();
+        }
+    mean /= static_cast<double>(probe.size());
+    const int frames = 5;
+    const double angle_deg = 40.0;
+    const pbs::Motion bend = pbs::joint_sweep(limb.skeleton, forearm, pbs::Vec3::UnitZ(), angle_deg, frames, 0.01);
+    const auto response = experiments::stop_response(limb, experiments::default_spec("lbs"), probe, bend, 20);
+    const pbs::Vec3 from_joint = mean - limb.skeleton.bones[forearm].head;
+    const double step_rad = angle_deg / (frames - 1) * std::numbers::pi / 180.0;
+    EXPECT_NEAR(response.way_m, (frames - 1) * 2.0 * from_joint.head<2>().norm() * std::sin(step_rad / 2.0), 1e-12);
+    EXPECT_EQ(response.peak_over_jolt, 0.0);
+    EXPECT_EQ(response.rest_over_jolt, 0.0);
+    EXPECT_EQ(response.settling_s, 0.0);
+    experiments::DeformerSpec loose = experiments::jiggling(experiments::default_spec("pbs"), {.k_stretch = 0.05});
+    const auto swings = experiments::stop_response(limb, loose, probe, bend, 100);
+    EXPECT_GT(swings.peak_over_jolt, 1e-3);
+    const double bound = 0.1 * swings.peak_over_jolt * swings.way_m;
+    for (std::size_t step = 0; step < swings.excursion_m.size(); ++step)
+        if (0.01 * static_cast<double>(step) >= swings.settling_s)
+            EXPECT_LE(std::abs(swings.excursion_m[step]), bound) << step;
+        else if (0.01 * static_cast<double>(step + 1) >= swings.settling_s)
+            EXPECT_GT(std::abs(swings.excursion_m[step]), bound) << "the last step beyond";
 }
 
 }  // namespace
