@@ -311,7 +311,7 @@ void judge_values(const std::vector<Measurement>& measured, const Verdict* other
     for (std::size_t i = 0; i < claim.others.size(); ++i) {
         Judged other = judged(claim, claim.others[i], measured);
         const bool is_control = other.selection.role != Role::comparison && claim.others[i].name != claim.unseen_by;
-        verdict.others.push_back(other.n == 0 && is_control && otherwise ? otherwise->others[i] : std::move(other));
+        verdict.others.push_back(other.units.empty() && is_control && otherwise ? otherwise->others[i] : std::move(other));
     }
     verdict.readings = readings_of(claim, measured);
     std::set<std::string> runs;

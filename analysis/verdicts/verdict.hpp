@@ -89,7 +89,7 @@ struct Verdict {
 //              chance reaches as many with a probability of 1 % or more; holds from 95 % on; otherwise mixed.
 // single       The one number holds if its range lies within the bound, fails if it lies outside, and is mixed otherwise.
 // printed      Holds if all printed values are consistent; otherwise inconsistent in print.
-// Confirmatory values are judged apart. A control of which they have no unit is the one of the other values.
+// Confirmatory values are judged apart. Where they have no unit of a control, the control of the other values is used.
 // Planned scenes or runs without a record make the verdict not computable. InputError for records with series of different lengths.
 Verdict judge(const Claim& claim, const Records& records);
 

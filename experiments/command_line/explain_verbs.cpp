@@ -261,14 +261,15 @@ std::string describe(const CLI::App& app)
     return all.dump(1);
 }
 
-// pbskin list [cases, scenes, deformers, studies, claims, metrics]: lists what the program knows.
+// pbskin list [cases, scenes, movements, deformers, studies, claims, metrics]: lists what the program knows.
 
 void add_list_verb(CommandLine& line)
 {
     auto asked = std::make_shared<std::vector<std::string>>();
-    CLI::App* verb = line.add("list", "lists the cases, scenes, deformers, studies, claims and metrics", [asked] { return list(*asked); });
+    CLI::App* verb =
+        line.add("list", "lists the cases, scenes, movements, deformers, studies, claims and metrics", [asked] { return list(*asked); });
     verb->add_option("kind", *asked, "which of them; by default all")
-        ->check(CLI::IsMember({"cases", "scenes", "deformers", "studies", "claims", "metrics"}));
+        ->check(CLI::IsMember({"cases", "scenes", "movements", "deformers", "studies", "claims", "metrics"}));
 }
 
 // pbskin explain NAME: prints what a metric, claim, scene key, study, deformer, scene or verb means.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <set>
 
 namespace experiments {
 namespace {
@@ -18,9 +19,11 @@ constexpr const char* file_name = "movements.toml";
 struct Movement {
     std::string name, source;
     std::vector<std::string> joints;
-    std::string axis_name, rest = "zero";  // along, along_parent, across; zero, straight, hanging
-    std::vector<double> axis;              // or the direction
-    double to_deg = 0.0;                   // from the anatomical position
+    std::string axis_name;       // along, along_parent, across
+    std::vector<double> axis;    // or the direction
+    bool perpendicular = false;  // of the direction, only the part across the bone counts
+    std::string start = "rest";  // rest, straight, hanging: where to_deg is counted from
+    double to_deg = 0.0;
 };
 
 struct MovementTable {
@@ -34,14 +37,20 @@ Movement read_movement(const toml::table& table, const std::string& file)
     analysis::TomlKeys keys(table, file, "movement");
     keys.required("name", read.name);
     keys.required("source", read.source);
-    keys.optional("joints", read.joints);
+    keys.required("joints", read.joints);
     if (const toml::node* axis = keys.node("axis"); axis && axis->is_array())
         keys.required("axis", read.axis);
     else
         keys.required("axis", read.axis_name);
-    keys.optional("rest", read.rest);
+    keys.optional("perpendicular", read.perpendicular);
+    keys.optional("start", read.start);
     keys.required("to_deg", read.to_deg);
     keys.require_nothing_unknown();
+    if (read.joints.empty()) keys.refuse("joints", "expected at least one joint");
+    static const std::set<std::string> axes = {"along", "along_parent", "across"}, starts = {"rest", "straight", "hanging"};
+    if (read.axis.size() != 3 && !axes.contains(read.axis_name))
+        keys.refuse("axis", "expected three numbers, along, along_parent or across");
+    if (!starts.contains(read.start)) keys.refuse("start", "expected rest, straight or hanging");
     return read;
 }
 
@@ -52,9 +61,12 @@ const MovementTable& table()
         const std::string file = file_name;
         const toml::table document = analysis::parse_toml_document(movements::movements_toml, file, {"movement", "pair"});
         for (const toml::table* one : analysis::toml_tables(document, "movement", file)) all.movements.push_back(read_movement(*one, file));
-        for (const toml::node& pair : *document.get_as<toml::array>("pair")) {
-            std::vector<std::string>& names = all.pairs.emplace_back();
-            for (const toml::node& name : *pair.as_array()) names.push_back(*name.value<std::string>());
+        for (const toml::table* one : analysis::toml_tables(document, "pair", file)) {
+            analysis::TomlKeys keys(*one, file, "pair");
+            keys.required("of", all.pairs.emplace_back());
+            keys.require_nothing_unknown();
+            for (const std::string& name : all.pairs.back())
+                if (std::ranges::count(all.movements, name, &Movement::name) == 0) keys.refuse("of", "expected movements of this file");
         }
         return all;
     }();
@@ -66,33 +78,52 @@ pbs::Vec3 direction_of(const pbs::Bone& bone)
     return (bone.tail - bone.head).normalized();
 }
 
-double angle_deg(const pbs::Vec3& one, const pbs::Vec3& other)
+double angle_rad(const pbs::Vec3& one, const pbs::Vec3& other)
 {
-    return std::atan2(one.cross(other).norm(), one.dot(other)) * 180.0 / std::numbers::pi;
+    return std::atan2(one.cross(other).norm(), one.dot(other));
 }
 
 // A movement of a skeleton, from the rest pose to the end of the range.
 struct Turn {
     pbs::Vec3 axis;
     double of_joint_rad = 0.0;
+    Eigen::AngleAxisd to_start{0.0, pbs::Vec3::UnitX()};  // from rest to where the range begins, before the turn about the axis
     std::vector<int> joints;
+
+    // Of each joint, relative to its parent, at this fraction of the movement.
+    Eigen::Quaterniond rotation(double fraction) const
+    {
+        return Eigen::AngleAxisd(fraction * of_joint_rad, axis) * Eigen::AngleAxisd(fraction * to_start.angle(), to_start.axis());
+    }
 };
 
-Turn turn_of(const Movement& movement, const pbs::Skeleton& skeleton)
+// Of any length.
+pbs::Vec3 axis_of(const Movement& movement, const pbs::Vec3& parent, const pbs::Vec3& along)
 {
+    if (movement.axis_name == "along") return along;
+    if (movement.axis_name == "along_parent") return parent;
+    if (movement.axis_name == "across") return parent.cross(along);
+    const pbs::Vec3 stated = pbs::Vec3::Map(movement.axis.data());
+    return movement.perpendicular ? pbs::Vec3(stated - stated.dot(along) * along) : stated;
+}
+
+// InputError where the limb is straight at rest, so that its two bones define no axis.
+Turn turn_of(const Movement& movement, const pbs::Skeleton& skeleton, const std::string& scene_file)
+{
+    constexpr double straight = 0.02;  // sine of the angle between two bones
     Turn turn;
     for (const std::string& joint : movement.joints) turn.joints.push_back(pbs::find_bone(skeleton, joint));
     const pbs::Bone& bone = skeleton.bones[turn.joints.front()];
     const pbs::Vec3 along = direction_of(bone), parent = bone.parent < 0 ? along : direction_of(skeleton.bones[bone.parent]);
-    double angle = movement.to_deg;
-    if (movement.rest == "straight") angle -= angle_deg(parent, along);
-    if (movement.rest == "hanging") angle -= angle_deg(-pbs::Vec3::UnitY(), along);
-    turn.of_joint_rad = angle * std::numbers::pi / 180.0 / static_cast<double>(turn.joints.size());
-    turn.axis = movement.axis_name == "along"          ? along
-                : movement.axis_name == "along_parent" ? parent
-                : movement.axis_name == "across"       ? parent.cross(along)
-                                                       : pbs::Vec3::Map(movement.axis.data());
+    turn.axis = axis_of(movement, parent, along);
+    if (turn.axis.norm() < straight)
+        throw pbs::InputError(scene_file, 0, "motion.movements", movement.name,
+                              fmt::format("expected a character that is bent at the joint {} at rest, since this is the axis", bone.name));
     turn.axis.normalize();
+    double angle = movement.to_deg * std::numbers::pi / 180.0;
+    if (movement.start == "straight") angle -= angle_rad(parent, along);
+    if (movement.start == "hanging") turn.to_start = Eigen::Quaterniond::FromTwoVectors(along, -pbs::Vec3::UnitY());
+    turn.of_joint_rad = angle / static_cast<double>(turn.joints.size());
     return turn;
 }
 
@@ -128,7 +159,7 @@ std::vector<Turn> turns_of(const std::string& name, const pbs::Skeleton& skeleto
         if (!has_joints(skeleton, *movement))
             throw pbs::InputError(scene_file, 0, "motion.movements", movement->name,
                                   fmt::format("expected a character with the joints {}", fmt::join(movement->joints, ", ")));
-        turns.push_back(turn_of(*movement, skeleton));
+        turns.push_back(turn_of(*movement, skeleton, scene_file));
     }
     return turns;
 }
@@ -177,8 +208,7 @@ pbs::Motion through_movements(const MotionSpec& spec, const pbs::Skeleton& skele
         for (int step = 1; step <= steps; ++step) {
             std::vector<Eigen::Quaterniond> local(skeleton.bones.size(), Eigen::Quaterniond::Identity());
             for (const Turn& turn : turns)
-                for (const int joint : turn.joints)
-                    local[joint] = Eigen::AngleAxisd(turn.of_joint_rad * step / steps, turn.axis) * local[joint];
+                for (const int joint : turn.joints) local[joint] = local[joint] * turn.rotation(static_cast<double>(step) / steps);
             motion.steps.push_back(pbs::pose_from_joints(skeleton, local, pbs::Vec3::Zero()));
         }
     }

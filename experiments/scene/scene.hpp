@@ -95,8 +95,9 @@ struct Remarks {
     std::vector<std::string> warnings, notes;  // a result is doubtful; nothing is wrong
 };
 
-// The rest pose, and from it through each movement at an even rate: frame k spec.frames + i has i / spec.frames of movement k. Each joint
-// turns about an axis that is fixed to its parent. InputError for an unknown movement, or a joint that the skeleton lacks.
+// The rest pose, and from it through each movement at an even rate: frame k spec.frames + i has i / spec.frames of movement k. Between two
+// movements the body is back at rest within one step. InputErrors: an unknown movement, a joint that the skeleton lacks, and a straight
+// limb where its bend at rest is the axis.
 pbs::Motion through_movements(const MotionSpec& spec, const pbs::Skeleton& skeleton, const std::string& scene_file);
 std::vector<std::string> movements_of(const pbs::Skeleton& skeleton);  // those whose joints it has, pairs last
 std::vector<std::pair<std::string, std::string>> listed_movements();   // name and meaning

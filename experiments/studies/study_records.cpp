@@ -60,7 +60,7 @@ analysis::CaseKey key_of(const Scene& scene)
     key.motion = scene.motion.clip.empty() ? name_of_sweep(scene) : fs::path(scene.motion.clip).stem().string();
     if (!scene.motion.movements.empty()) {
         key.motion = "range_of_motion";
-        key.pose = scene.motion.movements.front();
+        if (scene.motion.movements.size() == 1) key.pose = scene.motion.movements.front();
     }
     if (scene.character.vertices > 0) key.vertices = scene.character.vertices;
     return key;

@@ -57,8 +57,10 @@ def of_jolts(folder):
 
 
 def jiggle(folder):
-    """Each body's jiggling zone and its response to a jolt at each setting."""
-    return [(file.parent.name, of_jolts(file.parent)) for file in pages.files(folder, "responses.csv")]
+    """Each body's jiggling zone, its response to a jolt at each setting, and its response to the stop of a limb."""
+    return ([(file.parent.name, of_jolts(file.parent)) for file in pages.files(folder, "responses.csv")]
+            + [(file.parent.name, pages.table(records.table(file, {"deformer", "settling_s"}), "stop"))
+               for file in pages.files(folder, "stop.csv")])
 
 
 def counts(folder, name, keys):
@@ -76,8 +78,14 @@ def stability(folder):
             ("Broken initial shapes", counts(folder, "starts", ("body", "model", "pose", "setting", "setting_value")))]
 
 
+def temporal(folder):
+    """Each deformer and start along each clip."""
+    return [(file.parent.name, pages.table(records.table(file, {"deformer", "start", "jitter_mm"}), "temporal"))
+            for file in pages.files(folder, "summary.csv")]
+
+
 titles = {artefacts: "The artefacts of blending", audit: "The paper against itself", convergence: "Convergence from each initial guess",
-          jiggle: "Jiggle", stability: "Stability"}
+          jiggle: "Jiggle", stability: "Stability", temporal: "Along a clip"}
 
 
 def composer(sections):

@@ -77,12 +77,17 @@ def claim_lines(claim):
     lines += markdown_table(sentences.control_head, sentences.control_rows(claim))
     lines += markdown_table(sentences.compared_head, sentences.compared_rows(claim))
     lines += markdown_table(sentences.reading_head, sentences.reading_rows(claim))
+    if sentences.confirmatory(claim):
+        lines += ["", "Controls on the confirmatory units:"]
+        lines += markdown_table(sentences.control_head, sentences.control_rows(sentences.confirmatory(claim)))
     return lines + [line for text in sentences.disagreements(claim) for line in ("", text)]
 
 
 def claim_page_lines(claims):
     """A page serves a claim of the paper, which may be two here, such as C02a and C02b."""
-    parts = [[f"Study: [{claims[0]['study']}](../../studies/{claims[0]['study']}/README.md)."], *map(claim_lines, claims)]
+    differing = [[f"**{claim['id']} has two verdicts: {sentences.both_verdicts(claim)}.**"] for claim in claims
+                 if sentences.confirmatory(claim) and sentences.confirmatory(claim)["verdict"] != claim["verdict"]]
+    parts = [*differing, [f"Study: [{claims[0]['study']}](../../studies/{claims[0]['study']}/README.md)."], *map(claim_lines, claims)]
     return [line for part in parts for line in ["", *part]][1:]
 
 

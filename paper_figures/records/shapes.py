@@ -122,7 +122,7 @@ claim = facts | {"id": text, "statement": text, "place": text, "study": text, "r
                  "untested": one_of("none", "reason_of_the_claim", "too_few_units", "control_without_record", "control_misbehaves"),
                  "range": text, "interval_low": figure, "interval_high": figure, "chance": figure, "q": figure,
                  "differs": lambda value: anything if value is None else difference, "fixed_at": text,
-                 "confirmatory": lambda value: anything if value is None else claim,
+                 "confirmatory": lambda value: claim if isinstance(value, dict) else anything,
                  "cases": [with_member("unit", unit, printed)], "controls": [selection], "compared": [selection], "readings": [selection],
                  "left_out": [{"scene": text, "reason": text}], "missing": [text], "runs": [text]}
 claims = {"schema": third_schema, "quantities": {"*": {"title": text, "unit": text}}, "claims": [claim]}

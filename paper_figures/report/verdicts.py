@@ -51,12 +51,15 @@ def behind(claim, found):
     """A part that the reader opens: the units, the controls, and what is compared."""
     what = "printed value" if claim["rule"] == "printed" else "unit"
     basis = sentences.basis(claim)
+    later = sentences.confirmatory(claim)
+    controls_later = sentences.control_rows(later) if later else []
     parts = [element("p", basis) if basis else "", unit_table(claim, f"{claim['id']}: {what}s", claim["cases"]),
              rows_table(claim, "controls", sentences.control_head, sentences.control_rows(claim)),
              rows_table(claim, "for comparison, no part of the verdict", sentences.compared_head, sentences.compared_rows(claim)),
              rows_table(claim, "other readings, no part of the verdict", sentences.reading_head, sentences.reading_rows(claim)),
              *(element("p", text) for text in sentences.disagreements(claim)),
-             unit_table(claim, f"{claim['id']}: confirmatory units", (claim["confirmatory"] or {}).get("cases")),
+             unit_table(claim, f"{claim['id']}: confirmatory units", (later or {}).get("cases")),
+             rows_table(claim, "controls of the confirmatory units", sentences.control_head, controls_later),
              *(unit_table(claim, f"{claim['id']}: {of['name']}", of["cases"]) for of in claim["controls"])]
     runs = joined((folder_link(found.results, run) for run in claim["runs"] or [claim["study"]]), ", ")
     parts.append(element("p", joined(["Runs (", beside_the_page("folders"), "): ", runs])))
@@ -67,6 +70,12 @@ def behind(claim, found):
 def mark(verdict):
     symbol, colour, name = mark_of(verdict)
     return Markup(f'<span class="mark {colour}"><span aria-hidden="true">{symbol}</span> {escaped(name)}</span>')
+
+
+def both_marks(claim):
+    """That on the confirmatory units stands next to the other one."""
+    later = sentences.confirmatory(claim)
+    return joined([mark(claim["verdict"]), *(["; on the confirmatory units: ", mark(later["verdict"])] if later else [])])
 
 
 def chips(claims):
@@ -94,7 +103,7 @@ def row(claim, pose):
     name = element("a", claim["id"], href=f"#{claim['id']}")
     statement = joined([claim["statement"], element("span", f" {claim['place']}", class_="place")]
                        + ([" ", element("a", "see it move", href=pose, class_="pose")] if pose else []))
-    cells = [statement, mark(claim["verdict"]), expected(claim), listed(sentences.facts(claim) + sentences.on_confirmatory_units(claim))]
+    cells = [statement, both_marks(claim), expected(claim), listed(sentences.facts(claim) + sentences.on_confirmatory_units(claim))]
     named = joined(element("td", joined([element("span", column, class_="column"), cell]))  # on narrow screens, cells are stacked
                    for column, cell in zip(columns[1:], cells))
     return Markup(f'<tr id="{escaped(claim["id"])}" class="claim"><th scope="row">{name}</th>{named}</tr>')

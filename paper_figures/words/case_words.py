@@ -17,7 +17,8 @@ def number(value):
 
 
 def motion(case):
-    """bend 90°; 90° or crouch where the key has no motion; clip 01_01, crouch; clip 01_01 at 1 s; clip 01_01."""
+    """bend 90°; 90° or crouch where the key has no motion; clip 01_01, crouch; clip 01_01 at 1 s; clip 01_01;
+    elbow flexion and supination."""
     name = case.get("motion")
     if "angle_deg" in case:
         return f"{name or ''} {number(case['angle_deg'])}\u00b0".strip()
@@ -25,6 +26,8 @@ def motion(case):
         return in_plain(case.get("pose", ""))
     if "time_s" in case:
         return f"clip {name} at {number(case['time_s'])} s"
+    if name == "range_of_motion":
+        return in_plain(case.get("pose", name)).replace("+", " and ")
     if "pose" in case:
         fraction = re.sub(r"^(\d+)_(\d+)_", r"\1/\2 ", case["pose"])  # 2/5 of the clip, for 2_5_of_the_clip
         return f"clip {name}, {in_plain(fraction)}"

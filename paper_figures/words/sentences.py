@@ -274,15 +274,20 @@ def basis(claim):
     return ". ".join(told) + "."
 
 
+def confirmatory(claim):
+    """The verdict on the confirmatory units, as a claim; None without them, and in older records, which count them."""
+    return claim["confirmatory"] if isinstance(claim["confirmatory"], dict) else None
+
+
 def both_verdicts(claim):
     """The verdict, and the one on the confirmatory units where there are any: holds; on the confirmatory units: fails."""
-    later = claim["confirmatory"]
+    later = confirmatory(claim)
     return names[claim["verdict"]] + (f"; on the confirmatory units: {names[later['verdict']]}" if later else "")
 
 
 def on_confirmatory_units(claim):
     """The verdict on the units that were recorded after the rule was fixed, with the facts behind it: one sentence, or none."""
-    later = claim["confirmatory"]
+    later = confirmatory(claim)
     return [f"On the confirmatory units, which were recorded after rule and bound were fixed, the verdict is {names[later['verdict']]!r}: "
             f"{'; '.join(facts(later))}"] if later else []
 

@@ -148,9 +148,9 @@ const std::vector<Budget>& budgets()
          .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"},
          .endings = cpp,
          .most_lines = 66'200},
-        {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 44'116, .least_mean = 120},
-        {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'530},
-        {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 7'990},
+        {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 44'150, .least_mean = 120},
+        {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'540},
+        {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 8'005},
         {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 150},
     };
     return all;

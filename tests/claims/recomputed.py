@@ -237,7 +237,7 @@ class Verdict:
         self.own = self.units({"of": claim.get("of", {})})
         self.controls = [self.units(control) for control in claim.get("controls", [])]
         for i, control in enumerate(self.controls if otherwise else []):
-            if not control.n and control.selection["name"] != claim.get("unseen_by"):
+            if not control.units and control.selection["name"] != claim.get("unseen_by"):
                 self.controls[i] = otherwise.controls[i]
         self.compared = [self.units(other) for other in claim.get("compared", [])]
         self.printed = [row for row in rows_of(claim["study"], "printed.csv") if row["claim"] == claim["id"]]

@@ -15,7 +15,7 @@ introduction = (
 tables = {
     "": "Keys at the top of the file.",
     "character": "The body: a built-in one, an installed one, or files of your own.",
-    "motion": "What moves the character: one joint that turns (a sweep), or a motion capture clip.",
+    "motion": "What moves the character: one joint that turns (a sweep), joints through their range of motion, or a motion capture clip.",
     "skinning": "The skinning weights.",
     "pbs": "Position based skinning, as in Algorithm 1 of the paper.",
     "pbs.jiggle": "The jiggling zone. It is off unless this table is present.",

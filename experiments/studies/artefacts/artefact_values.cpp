@@ -274,7 +274,9 @@ std::vector<SectionRow> section_rows(const ArtefactCase& of, const ArtefactBody&
     for (const JointByHand& joint : joints_by_hand(body.posed.character().name)) {
         const std::string why = why_left_out(body.posed.character(), joint);
         if (why.empty() || !(of.joint.empty() || of.joint == name_of(joint))) continue;
-        for (std::size_t pose = 0; pose < of.poses.size(); ++pose) add(pose, name_of(joint), "", why, "");
+        for (std::size_t pose = 0; pose < of.poses.size(); ++pose)
+            if (of.poses[pose].turned.empty() || std::ranges::count(of.poses[pose].turned, joint.child) > 0)
+                add(pose, name_of(joint), "", why, "");
     }
     return rows;
 }

@@ -11,7 +11,6 @@
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -35,8 +34,9 @@ std::string look_and_record(const ArtefactCase& of, const std::string& folder)
     return records.breakdown;
 }
 
-// A joint that turns by step_deg from pose to pose, without the rest pose, one pose of a clip, or half and whole ranges of movements.
-ArtefactCase case_of(const StudyCase& of)
+// A joint that turns by step_deg from pose to pose, without the rest pose, one pose of a clip, or a movement halfway and
+// at its end.
+ArtefactCase case_of(const StudyCase& of, const std::string& movement = "")
 {
     ArtefactCase made;
     made.joint = of.value<std::string>("joint", "");
@@ -49,15 +49,11 @@ ArtefactCase case_of(const StudyCase& of)
     Overrides overrides;
     if (of.has("frame"))
         made.poses = {{of.value<int>("frame"), of.key().motion + "_" + of.key().pose, {.motion = of.key().motion, .pose = of.key().pose}}};
-    else if (of.has("movements")) {
+    else if (!movement.empty()) {
         made.claim = option_of<ArtefactCase::Claim>(of.value<std::string>("claim"));
-        const auto movements = of.value<std::vector<std::string>>("movements");
-        overrides = {fmt::format("motion.movements=['{}']", fmt::join(movements, "','")), "motion.frames=2"};
-        for (const std::string& name : movements) {
-            const int half = static_cast<int>(made.poses.size()) + 1;
-            made.poses.push_back({half, "half_" + name, {.motion = "range_of_motion", .pose = "half_" + name}, joints_of(name)});
-            made.poses.push_back({half + 1, name, {.motion = "range_of_motion", .pose = name}, joints_of(name)});
-        }
+        overrides = {fmt::format("motion.movements=['{}']", movement), "motion.frames=2"};
+        for (const auto& [frame, name] : {std::pair{1, "halfway_to_" + movement}, {2, movement}})
+            made.poses.push_back({frame, name, {.motion = "range_of_motion", .pose = name}, joints_of(movement)});
     } else {
         const auto what = of.value<std::string>("what");
         const int step_deg = of.value<int>("step_deg"), poses = of.value<int>("poses"), frame_deg = of.value("frame_deg", step_deg);
@@ -115,7 +111,9 @@ std::vector<ReadingValues> read_sections(const StudyCase& of, const std::vector<
 StudyPlan plan(bool full)
 {
     return plan_of_cases("artefacts", full, [](const StudyCase& of, StudyPlan& plan) {
-        plan.runs.push_back(work_run(of.name, case_of(of), of.cost_s, look_and_record));
+        if (!of.has("movements")) plan.runs.push_back(work_run(of.name, case_of(of), of.cost_s, look_and_record));
+        for (const auto& movement : of.value<std::vector<std::string>>("movements", {}))
+            plan.runs.push_back(work_run(of.name + "_" + movement, case_of(of, movement), of.cost_s, look_and_record));
     });
 }
 

@@ -35,8 +35,8 @@ ElasticSag elastic_sag(const Cantilever& cantilever, FemOptions options);
 struct YoungFit {
     // 95 %, leaving out one fifth of the free length at a time: wide where no single modulus bends as the body does.
     analysis::Interval young_pa;
-    double misfit_pct = 0.0;             // what is left: rms over the fifths of |u - u_elastic| / |u|
-    double rise = 0.0;                   // the least share by which the misfit rises if the modulus changes by 10 %; infinite for misfit 0
+    double misfit_pct = analysis::not_known;  // what is left: rms over the fifths of |u - u_elastic| / |u|
+    double rise = analysis::not_known;   // the least share by which the misfit rises if the modulus changes by 10 %; infinite for misfit 0
     std::string outcome = "not_finite";  // or converged
     bool identifiable = false;           // the misfit rises by at least 1 %
 };

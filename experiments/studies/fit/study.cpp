@@ -127,7 +127,7 @@ YoungFit fit_young(const Cantilever& cantilever, const ElasticSag& elastic, cons
     fit.rise = std::min(misfit_pct(1.0 / (0.9 * young_pa)), misfit_pct(1.0 / (1.1 * young_pa))) / fit.misfit_pct - 1.0;
     fit.outcome = "converged";
     fit.identifiable = fit.rise >= least_rise;
-    // The modulus of the other fifths, limited as the interval is. It is found as c, since a misfit that falls down to c = 0 has the
+    // The modulus of the other fifths, within the limits of the interval. The limits hold for c, because a sum of m below 0 stands for the
     // largest modulus.
     std::vector<double> without_pa;
     for (std::size_t i = 0; i < m.size(); ++i)

@@ -7,6 +7,7 @@
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/author/author_solver.hpp"
+#include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
 
@@ -326,11 +327,18 @@ std::string record_jolts(const JoltCase& of, const std::string& folder)
     return breakdown;
 }
 
-const Columns<StopRow> stop_columns =
-    MEMBER_COLUMNS(StopRow, deformer, k_stretch, young_pa, rayleigh_stiffness_s, time_step_ms, outcome) +
-    within(&StopRow::response, MEMBER_COLUMNS(JoltResponse, way_m, rest_over_jolt, settling_s) + jolt_columns);
+const Columns<StopRow> stop_columns = MEMBER_COLUMNS(StopRow, deformer, k_stretch, young_pa, rayleigh_stiffness_s, time_step_ms, outcome) +
+                                      within(&StopRow::response, Columns<JoltResponse>{{"path_m", &JoltResponse::path_m},
+                                                                                       {"rest_over_path", &JoltResponse::rest_over_jolt},
+                                                                                       {"peak_over_path", &JoltResponse::peak_over_jolt}} +
+                                                                     within(&JoltResponse::swing, swing_columns) +
+                                                                     MEMBER_COLUMNS(JoltResponse, settling_s, left_over_peak, finished));
 
-RECORD_SETTINGS(StopCase, scene, bone, k_stretch, rayleigh_stiffness_s, finer_steps, still_s)
+RECORD_SETTINGS_AND(StopCase,
+                    .constant("pbs", to_json(JiggleSetting{}))
+                        .constant("finite_elements", {{"dynamics", "generalized_alpha"}, {"contact", false}})
+                        .constant("settled_share", settled_share),
+                    scene, bone, k_stretch, rayleigh_stiffness_s, finer_steps, still_s)
 
 std::string record_stop(const StopCase& of, const std::string& folder)
 {
@@ -340,6 +348,9 @@ std::string record_stop(const StopCase& of, const std::string& folder)
     std::vector<int> probe;
     for (std::size_t v = 0; v < zone.size(); ++v)
         if (zone[v] && character.binding.bone[v] == bone) probe.push_back(static_cast<int>(v));
+    if (probe.empty())
+        throw pbs::InputError("jiggle/cases.toml", 0, "stops", of.bone, "expected a bone with vertices in the jiggling zone");
+    constexpr double none = analysis::not_known;
     std::vector<StopRow> rows;
     std::string breakdown;
     const auto add = [&](const DeformerSpec& spec, StopRow row, int finer) {
@@ -351,10 +362,11 @@ std::string record_stop(const StopCase& of, const std::string& folder)
         row.response = stop_response(character, spec, probe, make_motion(motion, character.skeleton, of.scene.file), still_steps);
         row.time_step_ms = 1e3 * motion.time_step_s;
         row.outcome = name_of(row.response.swing.outcome);
+        if (analysis::DampedOscillation& swing = row.response.swing; !swing.found())
+            for (Interval* of_fit : {&swing.frequency_hz, &swing.damping_ratio}) of_fit->estimate = of_fit->low = of_fit->high = none;
         if (!row.response.finished) breakdown += fmt::format("{} in steps of {} ms. ", row.deformer, row.time_step_ms);
         rows.push_back(std::move(row));
     };
-    constexpr double none = analysis::not_known;
     for (const double k : of.k_stretch) add(jiggling(spec_of(of.scene, "pbs"), {.k_stretch = k}), {"pbs", k, none, none}, 1);
     DeformerSpec flesh = spec_of(of.scene, of.scene.reference), xpbd = spec_of(of.scene, "xpbd");
     auto& fem = options_of<FemOptions>(flesh);

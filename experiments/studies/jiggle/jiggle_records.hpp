@@ -57,14 +57,14 @@ struct Jolt {
 };
 
 struct JoltResponse {
-    double way_m = 0.0;                 // of the skeleton, or of the probe on its bones: the unit of what is over the jolt
+    double path_m = 0.0;                // length of the jolt, or of the probe's path on its bones: the unit of what is over the jolt
     std::vector<double> excursion_m;    // of the probe, one per step, beginning with that of the jolt
     std::vector<double> speed_rms_m_s;  // of all the body's vertices
     analysis::DampedOscillation swing;  // fitted to the excursion
     double peak_over_jolt = 0.0;        // largest excursion, either way; 1 where flesh stays behind at first
     double overshoot_over_jolt = 0.0;   // largest excursion beyond the place on the skeleton
     double settling_s = 0.0;            // after which the excursion stays within a tenth of its peak
-    double rest_over_jolt = 0.0;        // of stop_response: where it comes to rest, from the place without inertia
+    double rest_over_jolt = 0.0;        // of stop_response: where the probe comes to rest, from its place without inertia
     double left_over_peak = 0.0;        // largest excursion of the last tenth
     double speed_growth = 0.0;          // largest speed after the first tenth over that within it; above 1, energy has grown
     bool finished = true;               // every step
@@ -79,6 +79,7 @@ struct JiggleReference {
     double time_step_s = 0.0;
     JoltResponse response;  // with this modulus
 };
+inline constexpr double settled_share = 0.1;                                // of the peak, within which the excursion is settled
 inline constexpr int reference_steps_a_period = 24, reference_periods = 4;  // of the wanted frequency
 
 // fem: dynamic, with any Young's modulus to begin with. Nothing where the body does not swing.
@@ -89,8 +90,8 @@ std::optional<JiggleReference> match_reference(const pbs::Character& character, 
 DeformerSpec dynamic_reference(double young_pa);
 
 // The skeleton goes through a motion and is then held still. What swings is the mean displacement of the probe's vertices from where they
-// come to rest, along the probe's last velocity. The excursion begins with the first still
-// step.
+// come to rest (their mean in the last tenth), along the probe's last velocity. The excursion begins with the first still step. InputError
+// where the motion does not move the probe.
 JoltResponse stop_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe,
                            const pbs::Motion& motion, int still_steps);
 
@@ -102,7 +103,7 @@ struct StopCase {
     std::vector<double> k_stretch = {0.05, 0.1, 0.2, 0.5, 0.9};       // of PBS in the zone
     std::vector<double> rayleigh_stiffness_s = {0.001, 0.003, 0.01};  // dampings of the finite elements
     int finer_steps = 4;                                              // of these, and of a second run of XPBD, for each step of PBS
-    double still_s = 1.0;                                             // after the motion
+    double still_s = 2.0;                                             // after the motion
 };
 
 // stop.csv

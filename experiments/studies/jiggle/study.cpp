@@ -2,8 +2,9 @@
 // README.md describes the runs and records.
 //
 // The limb is moved along its bones, the only direction in which the bind constraints leave all of its skin free; bodies are moved up.
-// Flesh has no gravity, so that it lies still before the jolt.
+// Flesh has no gravity, so that it lies still before the jolt. An arm that stops is compared with finite elements of the same material.
 #include "analysis/records/record_files.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/process/terminal.hpp"
@@ -11,6 +12,7 @@
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
+#include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <fmt/format.h>
@@ -28,8 +30,6 @@ double largest(std::vector<double>::const_iterator first, std::vector<double>::c
     return most;
 }
 
-constexpr double settled_share = 0.1;  // of the peak
-
 double ratio(double a, double b)
 {
     return b > 0.0 ? a / b : 0.0;
@@ -42,7 +42,7 @@ void sum_up(JoltResponse& response, const Jolt& jolt)
     if (excursion.empty()) return;
     const auto tenth = static_cast<std::ptrdiff_t>(excursion.size() / 10);
     const double peak = largest(excursion.begin(), excursion.end());
-    response.way_m = jolt.length_m;
+    response.path_m = jolt.length_m;
     response.peak_over_jolt = peak / jolt.length_m;
     response.overshoot_over_jolt = std::max(*std::max_element(excursion.begin(), excursion.end()), 0.0) / jolt.length_m;
     const auto beyond = [&](double excursion_m) { return std::abs(excursion_m) > settled_share * peak; };
@@ -200,6 +200,7 @@ JoltResponse stop_response(const pbs::Character& character, const DeformerSpec& 
         stop.length_m += moved_m.norm();
         stop.direction = moved_m.normalized();
     }
+    if (!(stop.length_m > 0.0)) throw pbs::InputError("stop", 0, "motion", "", "expected a motion that moves the probe");
     const std::unique_ptr<Deformer> deformer = make_deformer(spec), at_rest = make_deformer(without_inertia(spec));
     deformer->reset(character);
     at_rest->reset(character);
@@ -209,8 +210,10 @@ JoltResponse stop_response(const pbs::Character& character, const DeformerSpec& 
     const pbs::Positions place = at_rest->positions().topRows(character.mesh.rest.rows());
     swing(*deformer, motion.steps.back(), place, probe, stop, response);
     if (!response.finished) return response;
-    const double rest_m = response.excursion_m.back();
-    for (double& excursion_m : response.excursion_m) excursion_m -= rest_m;
+    std::vector<double>& excursion = response.excursion_m;
+    const auto tenth = static_cast<std::ptrdiff_t>(excursion.size() / 10);
+    const double rest_m = analysis::mean({excursion.end() - tenth, excursion.end()});
+    for (double& excursion_m : excursion) excursion_m -= rest_m;
     response.rest_over_jolt = rest_m / stop.length_m;
     sum_up(response, stop);
     return response;

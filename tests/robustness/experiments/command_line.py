@@ -17,7 +17,7 @@ import run_records
 REFUSED = {
     "explain C2": "explain = C2: unknown name; the nearest known one is C02",
     "run": "scene is required",
-    "list dragons": "kind: dragons not in {cases,scenes,deformers,studies,claims,metrics}",
+    "list dragons": "kind: dragons not in {cases,scenes,movements,deformers,studies,claims,metrics}",
     "reproduce C99": "reproduce = C99: unknown claim or study",
     "run nowhere.toml": "nowhere.toml: cannot be read",
     "run {scene} -o {out} --set motion.joint=knee": "motion.joint = knee: expected one of shoulder, elbow",
@@ -40,7 +40,8 @@ class CommandLine(foreign_arm.ArmTest):
         self.refuses("--json requires --version", "--json", "list")
 
     def test_lists_every_kind(self):
-        for kind, name in (("cases", "sweep"), ("scenes", "limb_twist"), ("deformers", "dqs"), ("studies", "volume"), ("claims", "C02a"),
+        for kind, name in (("cases", "sweep"), ("scenes", "limb_twist"), ("movements", "knee_flexion"),
+                           ("deformers", "dqs"), ("studies", "volume"), ("claims", "C02a"),
                            ("metrics", "j_min")):
             self.assertIn(name, self.succeeds("list", kind).stdout)
 

@@ -58,6 +58,14 @@ class ClaimPage(unittest.TestCase):
         for bodies in ("abcd", "abcdx"):  # fewer than five are no sample
             self.assertNotIn("disagree", last_line(bodies))
 
+    def test_a_page_begins_with_verdicts_that_differ(self):
+        later = claim("C04", "fails", [unit(0.5, False)], controls=[selection("LBS", [unit(0.5, False)], "must_fail")])
+        first, *others = readme_pages.claim_page_lines([claim("C04", "holds", [unit(1.0)] * 5, confirmatory=later)])
+        self.assertEqual(first, "**C04 has two verdicts: holds; on the confirmatory units: fails.**")
+        self.assertIn("Controls on the confirmatory units:", others)
+        same = claim("C04", "holds", confirmatory=claim("C04", "holds"))
+        self.assertNotIn("two verdicts", "".join(readme_pages.claim_page_lines([same])))
+
     def test_a_page_serves_both_halves_of_a_sentence(self):
         lines = readme_pages.claim_page_lines([claim("C02a", "fails", titles={}), claim("C02b", "not_testable", titles={})])
         self.assertEqual([line.split(":")[0] for line in lines if line.startswith(("Study", "**"))], ["Study", "**C02a", "**C02b"])

@@ -164,6 +164,9 @@ class Basis(unittest.TestCase):
         told, = sentences.on_confirmatory_units(judged)
         self.assertIn("the verdict is 'fails': 1 of 2 units hold, share 0.5 [0.01, 0.99]", told)
         self.assertEqual((sentences.both_verdicts(later), sentences.on_confirmatory_units(later)), ("fails", []))
+        self.assertEqual(sentences.both_verdicts(claim("C04", "holds", confirmatory=2)), "holds", "older records count these units")
+        self.assertEqual(case_words.of({"body": "human", "motion": "range_of_motion", "pose": "elbow_flexion+supination"}),
+                         "human, elbow flexion and supination")
 
 
 class Compared(unittest.TestCase):

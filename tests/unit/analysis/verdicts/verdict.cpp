@@ -242,7 +242,7 @@ TEST(Verdict, HasTheWiderOfTwoIntervals)
     EXPECT_EQ(verdict.interval.high, 1.0);
 }
 
-// Twenty joints of a clip hold. Of ten joints in another motion none does; flesh was not measured there.
+// Twenty joints of a clip hold, and ten joints in another motion do not. Flesh was not measured in the other motion.
 TEST(Verdict, JudgesConfirmatoryUnitsApartWithTheControlsThatTheyLack)
 {
     Claim claim = radius_claim();

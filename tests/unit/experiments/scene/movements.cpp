@@ -72,13 +72,37 @@ TEST(Movements, ATwistIsDividedAmongItsJointsAndTurnsNoBone)
     EXPECT_EQ(joints_of("hip_flexion+knee_flexion"), (std::vector<std::string>{"thigh.L", "shin.L"}));
 }
 
+// The second movement of a joint is carried by the first: a supination turns the forearm about itself, however far the elbow is bent.
 TEST(Movements, APairTurnsBothAndEachMovementBeginsAtRest)
 {
-    const pbs::Motion motion = through({"elbow_flexion", "elbow_flexion+wrist_flexion"});
-    ASSERT_EQ(motion.steps.size(), 5u);
-    EXPECT_TRUE(motion.steps[1][1].isApprox(motion.steps[3][1])) << "half of the flexion, whatever came before";
-    EXPECT_NEAR(angle_deg(direction(motion.steps[4], 1), direction(motion.steps[4], 3)), 76.4, 1.0) << "the hand's axis is nearly across";
-    EXPECT_NEAR(angle_deg(direction(motion.steps[2], 1), direction(motion.steps[2], 3)), 0.0, 1e-5);
+    const pbs::Motion motion = through({"elbow_flexion", "elbow_flexion+supination", "elbow_flexion+wrist_flexion"});
+    ASSERT_EQ(motion.steps.size(), 7u);
+    const pbs::Pose &half = motion.steps[1], &bent = motion.steps[2];
+    EXPECT_TRUE(half[1].isApprox(motion.steps[5][1])) << "half of the flexion, whatever came before";
+    for (const int bone : {1, 2, 3}) {
+        EXPECT_TRUE(direction(motion.steps[4], bone).isApprox(direction(bent, bone))) << bone;
+        const Eigen::AngleAxisd turned(bent[bone].linear().transpose() * motion.steps[4][bone].linear());
+        EXPECT_NEAR(turned.angle() * 180.0 / std::numbers::pi, 82.1 * bone / 3.0, 1e-9);
+    }
+    EXPECT_NEAR(angle_deg(direction(motion.steps[6], 1), direction(motion.steps[6], 3)), 76.4, 1e-9) << "the axis is across the hand";
+}
+
+// Signs of the left side: x to the left, y upwards, z forwards.
+TEST(Movements, GoTheWayThatTheirNamesSay)
+{
+    const auto end = [](const std::string& name, int bone) { return direction(through({name}).steps.back(), bone); };
+    const double rest_z = direction(through({"elbow_flexion"}).steps.front(), 1).z();
+    EXPECT_GT(end("shoulder_flexion", 0).y(), 0.9) << "166.7 degrees forwards from hanging";
+    EXPECT_GT(through({"shoulder_flexion"}).steps[1][0].linear().col(1).norm(), 0.0);
+    EXPECT_GT(direction(through({"shoulder_flexion"}).steps[1], 0).z(), 0.7) << "on the way it points forwards";
+    EXPECT_LT(end("shoulder_extension", 0).z(), -0.8);
+    EXPECT_GT(direction(through({"shoulder_abduction"}).steps[1], 0).x(), 0.9) << "on the way it points to the left";
+    EXPECT_GT(direction(through({"elbow_flexion"}).steps[1], 1).z(), rest_z);
+    const auto thumb = [](const std::string& name) {  // forwards at rest
+        return pbs::Vec3(through({name}).steps.back()[3].linear() * pbs::Vec3::UnitZ());
+    };
+    EXPECT_LT(thumb("pronation").x(), -0.1) << "inwards";
+    EXPECT_GT(thumb("supination").x(), 0.1) << "outwards";
 }
 
 TEST(Movements, ABodyHasThoseOfItsJoints)
@@ -91,6 +115,17 @@ TEST(Movements, ABodyHasThoseOfItsJoints)
                        "scene.toml: motion.movements = elbow_flection: ", "no such movement; the nearest is 'elbow_flexion'");
     expect_input_error([] { through({"elbow_flexion+knee_flexion"}); },
                        "scene.toml: motion.movements = knee_flexion: ", "expected a character with the joints shin.L");
+}
+
+TEST(Movements, AStraightLimbHasNoAxisAcrossIt)
+{
+    MotionSpec spec;
+    spec.movements = {"elbow_flexion"};
+    pbs::Skeleton straight = bent_arm();
+    const pbs::Vec3 along = straight.bones[0].tail / 3.0;
+    straight.bones[1].tail = straight.bones[1].head + along;
+    expect_input_error([&] { make_motion(spec, straight, "scene.toml"); }, "scene.toml: motion.movements = elbow_flexion: ",
+                       "expected a character that is bent at the joint forearm_upper.L at rest");
 }
 
 }  // namespace

@@ -110,6 +110,7 @@ TEST(RecordedSettings, OfTheOtherStudies)
     const ArtefactCase artefacts{.scene = limb(), .poses = {{18, "bend_90_deg"}}, .joint = "upper|forearm", .vertices = {1200}};
     EXPECT_GE(expect_each_change_repeats(artefacts), 10);
     EXPECT_GE(expect_each_change_repeats(JoltCase{limb(), {}, {{}}, false}), 12);
+    EXPECT_GE(expect_each_change_repeats(StopCase{limb(), "forearm"}), 5);
     StabilityCell cell;
     cell.spec = default_spec("pbs");
     EXPECT_GE(expect_each_change_repeats(cell), 28);

@@ -117,6 +117,21 @@ TEST_F(BulgeFigures, WhatIsWideUnderPbsOrABlendAloneIsJudgedWithARemark)
     EXPECT_EQ(section_rows(of, body, section_outcomes(of, body, samples)).at(0).remark, remark(0));
 }
 
+// A movement of other joints has no section here, and one of the forearm has.
+TEST_F(BulgeFigures, OfAMovementOnlyTheJointsThatItTurnsAreLookedAt)
+{
+    samples = {sample("pbs", 0, 1.2), sample("reference", 0, 1.0, 1)};
+    of.poses[0].turned = {"hand"};
+    EXPECT_TRUE(measurements().empty());
+    EXPECT_EQ(section_outcomes(of, body, samples).size(), of.poses.size() - 1);
+    of.poses[0].turned = {"hand", "forearm"};
+    EXPECT_EQ(measurements().size(), 1u);
+    for (ArtefactPose& pose : of.poses) pose.turned = {"hand"};
+    const ArtefactRecords records = find_artefacts(of, body);
+    EXPECT_TRUE(records.samples.empty() && records.profiles.empty());
+    EXPECT_FALSE(records.intersections.empty());
+}
+
 TEST_F(BulgeFigures, TableHasALineASectionWithItsOutcome)
 {
     samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 2), sample("pbs", 1, 1.0)};

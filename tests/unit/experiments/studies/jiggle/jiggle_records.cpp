@@ -3,6 +3,7 @@
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/bone_capsules.hpp"
+#include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/jiggle_responses.hpp"
 #include "tests/support/rounding_error.hpp"
@@ -246,7 +247,7 @@ TEST_F(JoltResponseOfLimb, HeldFleshSwingsAndCalmsDown)
 }
 
 // LBS has no inertia: it stands in its place at once. A point at the radius r goes along an arc in chords of 2 r sin(step / 2).
-TEST(JiggleStop, LbsStopsAtOnceAfterTheWayOfItsBones)
+TEST(JiggleStop, LbsStopsAtOnceAfterThePathOfItsBones)
 {
     const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 400});
     const std::vector<bool> zone = pbs::jiggle_zone(limb.binding);
@@ -265,14 +266,16 @@ TEST(JiggleStop, LbsStopsAtOnceAfterTheWayOfItsBones)
     const auto response = experiments::stop_response(limb, experiments::default_spec("lbs"), probe, bend, 20);
     const pbs::Vec3 from_joint = mean - limb.skeleton.bones[forearm].head;
     const double step_rad = angle_deg / (frames - 1) * std::numbers::pi / 180.0;
-    EXPECT_NEAR(response.way_m, (frames - 1) * 2.0 * from_joint.head<2>().norm() * std::sin(step_rad / 2.0), 1e-12);
+    EXPECT_NEAR(response.path_m, (frames - 1) * 2.0 * from_joint.head<2>().norm() * std::sin(step_rad / 2.0), 1e-12);
     EXPECT_EQ(response.peak_over_jolt, 0.0);
     EXPECT_EQ(response.rest_over_jolt, 0.0);
     EXPECT_EQ(response.settling_s, 0.0);
+    const pbs::Motion still = pbs::joint_sweep(limb.skeleton, forearm, pbs::Vec3::UnitZ(), 0.0, frames, 0.01);
+    EXPECT_THROW(experiments::stop_response(limb, experiments::default_spec("lbs"), probe, still, 20), pbs::InputError);
     experiments::DeformerSpec loose = experiments::jiggling(experiments::default_spec("pbs"), {.k_stretch = 0.05});
     const auto swings = experiments::stop_response(limb, loose, probe, bend, 100);
     EXPECT_GT(swings.peak_over_jolt, 1e-3);
-    const double bound = 0.1 * swings.peak_over_jolt * swings.way_m;
+    const double bound = 0.1 * swings.peak_over_jolt * swings.path_m;
     for (std::size_t step = 0; step < swings.excursion_m.size(); ++step)
         if (0.01 * static_cast<double>(step) >= swings.settling_s)
             EXPECT_LE(std::abs(swings.excursion_m[step]), bound) << step;
