@@ -90,14 +90,14 @@ struct Turn {
     Eigen::AngleAxisd to_start{0.0, pbs::Vec3::UnitX()};  // from rest to where the range begins, before the turn about the axis
     std::vector<int> joints;
 
-    // Of each joint, relative to its parent, at this fraction of the movement.
+    // Each joint has this rotation relative to its parent when the given fraction of the movement is done.
     Eigen::Quaterniond rotation(double fraction) const
     {
         return Eigen::AngleAxisd(fraction * of_joint_rad, axis) * Eigen::AngleAxisd(fraction * to_start.angle(), to_start.axis());
     }
 };
 
-// Of any length.
+// The axis need not be a unit vector.
 pbs::Vec3 axis_of(const Movement& movement, const pbs::Vec3& parent, const pbs::Vec3& along)
 {
     if (movement.axis_name == "along") return along;
