@@ -27,7 +27,8 @@ void add_keys(OptionFields<PbsOptions>& fields)
              {.meaning =
                   "order of projection within a class: plain is the order of the file, as in the paper; ordered projects sixteen "
                   "constraints at once that share no vertex; grouped does the same with groups of neighbouring constraints and is the "
-                  "fastest; printed volume_forms need plain"})
+                  "fastest; spread is plain code whose constraints come from eight distant parts of the file in turn, which is faster "
+                  "than plain; printed volume_forms need plain"})
         .add("precision", &PbsOptions::precision, {.meaning = "floating point of the projections"})
         .add("masses", &PbsOptions::masses,
              {.meaning = "unit: m_i = 1 (the paper); lumped: a quarter of the rest volume of each tet at the vertex"})
@@ -156,8 +157,8 @@ const OptionFields<PbsOptions>& pbs_fields()
 
 void check_pbs(const SceneValues& values, const std::string& table, PbsOptions& options, DeformerSpec& spec)
 {
-    if (options.sleep && options.order == pbs::Order::plain)
-        values.refuse(table + ".sleep", "expected false with order plain, which projects all");
+    if (options.sleep && !is_packed(options.order))
+        values.refuse(table + ".sleep", "expected false with order plain or spread, which project all");
     if (options.volume_form != pbs::VolumeForm::derived) {  // the printed forms are written in the plain order alone
         if (values.given(table + ".order") && options.order != pbs::Order::plain)
             values.refuse(table + ".order", "expected plain with a printed volume_form");

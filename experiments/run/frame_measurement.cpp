@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 namespace experiments {
@@ -223,6 +224,34 @@ double FrameMeasurer::leave_out(const std::vector<CreaseTip>& tips)
 {
     masked_ = near_tips(tips, character_.mesh.rest);
     return error_metrics_.value().share_pct(masked_);
+}
+
+std::vector<int> FrameMeasurer::contact_depths_um(const pbs::Positions& positions)
+{
+    const pbs::TetMesh& mesh = character_.mesh;
+    if (!contact_) {
+        std::vector<int> rows(mesh.rest.rows());
+        std::iota(rows.begin(), rows.end(), 0);
+        contact_.emplace(mesh, rows, 3);
+    }
+    // Both skins are moved outwards by half of the distance at which they touch.
+    const double touching_m = 1e-3 * (mesh.rest.colwise().maxCoeff() - mesh.rest.colwise().minCoeff()).norm();
+    pbs::Positions normals = pbs::Positions::Zero(positions.rows(), 3);
+    for (const auto corners : skin_.rowwise()) {
+        const pbs::Vec3 a = positions.row(corners(0)), b = positions.row(corners(1)), c = positions.row(corners(2));
+        for (const int v : corners) normals.row(v) += (b - a).cross(c - a);
+    }
+    pbs::Positions moved = positions;
+    for (Eigen::Index v = 0; v < moved.rows(); ++v) moved.row(v) += 0.5 * touching_m * normals.row(v).stableNormalized();
+    std::vector<int> depths_um(positions.rows(), 0);
+    contact_->forget();
+    contact_->find(moved.data());
+    for (const pbs::DepthConstraint<double>& one : contact_->constraints()) {
+        const double depth_m = -value(one, contact_->points(one, moved.data())) - touching_m;
+        int& depth_um = depths_um[one.vertex[0]];
+        depth_um = depth_m > 0.0 ? std::max(depth_um, static_cast<int>(std::ceil(1e6 * depth_m))) : depth_um == 0 ? -1 : depth_um;
+    }
+    return depths_um;
 }
 
 double FrameMeasurer::min_section_pct(const pbs::Positions& positions, const pbs::Pose& pose)

@@ -9,6 +9,7 @@
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/scene/scene.hpp"
 #include "pbs/character/character.hpp"
+#include "pbs/contact/self_contact.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/solver/step_summary.hpp"
@@ -84,6 +85,9 @@ public:
     }
     bool measures_surface_volume() const { return surface_volume_.has_value(); }
     Eigen::VectorXd volume_ratios(const pbs::Positions& positions) const { return metrics_.volume_ratios(positions); }
+    // The depth of each skin vertex in flesh of another part of the body [um], #V. It is -1 where the two only touch (closer than a
+    // thousandth of the body's diagonal at rest), and 0 elsewhere.
+    std::vector<int> contact_depths_um(const pbs::Positions& positions);
 
 private:
     double min_section_pct(const pbs::Positions& positions, const pbs::Pose& pose);
@@ -93,7 +97,8 @@ private:
     std::optional<analysis::ErrorMetrics> error_metrics_;
     std::optional<analysis::SkinErrorMetrics> skin_error_metrics_;
     pbs::Triangles skin_;
-    std::vector<bool> masked_;  // in this frame, #V
+    std::vector<bool> masked_;                         // in this frame, #V
+    std::optional<pbs::SelfContact<double>> contact_;  // from the first frame whose contact is measured
     std::vector<LimbStation> stations_;
     std::vector<analysis::SectionStation> sections_;         // one per station, in the pose that is being measured
     std::optional<analysis::SurfaceVolume> surface_volume_;  // if the surface is closed

@@ -340,8 +340,7 @@ private:
         if (step.outcome != pbs::Outcome::finished || has_inverted_flesh(runner)) record_breakdown(runner, frame);
         if (scene_.output.writes(frame))
             cost_.time("frames", [&] {
-                folder_.write_frame(runner.spec, frame, time_s, character_, positions, measurer_.volume_ratios(positions),
-                                    prescribed_vertices(*runner.deformer));
+                folder_.write_frame(runner.spec, frame, time_s, character_, positions, measurer_, prescribed_vertices(*runner.deformer));
             });
         runner.steps = {};
     }

@@ -113,12 +113,13 @@ void RunFolder::add_frame(const DeformerSpec& spec, int frame, double time_s, co
 }
 
 void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Character& character,
-                            const pbs::Positions& positions, const Eigen::VectorXd& volume_ratios, const std::vector<bool>& prescribed)
+                            const pbs::Positions& positions, FrameMeasurer& measurer, const std::vector<bool>& prescribed)
 {
     pbs::FrameFields fields;
     fields.point_vectors["rest_position"] = character.mesh.rest;
     fields.point_vectors["displacement"] = positions - character.mesh.rest;
-    fields.cell_scalars["volume_ratio"] = volume_ratios;
+    fields.point_flags["contact_depth_um"] = measurer.contact_depths_um(positions);
+    fields.cell_scalars["volume_ratio"] = measurer.volume_ratios(positions);
     if (traits_of(spec).solves_equations) {
         std::vector<int> flags(positions.rows(), 0);
         std::copy(prescribed.begin(), prescribed.end(), flags.begin());

@@ -205,7 +205,7 @@ public:
 
     void add_frame(const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured, const pbs::StepSummary& step);
     void write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Character& character, const pbs::Positions& positions,
-                     const Eigen::VectorXd& volume_ratios, const std::vector<bool>& prescribed);
+                     FrameMeasurer& measurer, const std::vector<bool>& prescribed);
     // For a frame that is written.
     void write_pose(int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose)
     {

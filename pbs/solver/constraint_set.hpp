@@ -48,4 +48,23 @@ template <typename Scalar>
 ConstraintSet<Scalar> make_constraint_set(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
                                           const PbsOptions& options, const std::vector<bool>& held = {});
 
+// The order `spread`: neighbours in the list come from eight distant parts of the old list in turn, so that no projection waits for the
+// stores of the one before. In file order, edges share their first vertex with their neighbours.
+//   const ConstraintSet<double> spread = in_spread_order(make_constraint_set<double>(...));
+template <typename Constraints>
+Constraints in_spread_order(Constraints constraints)
+{
+    const auto spread = [](auto& list) {
+        constexpr std::size_t parts = 8;
+        const auto before = list;
+        const std::size_t length = (before.size() + parts - 1) / parts;
+        list.clear();
+        for (std::size_t i = 0; i < length; ++i)
+            for (std::size_t k = i; k < before.size(); k += length) list.push_back(before[k]);
+    };
+    spread(constraints.stretch);
+    spread(constraints.volume);
+    return constraints;
+}
+
 }  // namespace pbs

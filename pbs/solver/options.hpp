@@ -12,8 +12,13 @@ namespace pbs {
 enum class StartShape { lbs, smooth_dqs };
 // Order of projection within each class; the classes follow the order of Algorithm 1. plain: file order, as the paper reads. ordered:
 // colour by colour (groups.hpp), sixteen constraints that share no vertex side by side. grouped: the same with neighbouring
-// constraints in groups, quicker per iteration and with a larger volume change after 24 of them.
-enum class Order { plain, ordered, grouped };
+// constraints in groups, quicker per iteration and with a larger volume change after 24 of them. spread: plain code in the order of
+// in_spread_order (constraint_set.hpp), which is quicker than file order.
+enum class Order { plain, ordered, grouped, spread };
+constexpr bool is_packed(Order order)
+{
+    return order == Order::ordered || order == Order::grouped;
+}
 // m_i = 1 (the paper), or in proportion to the lumped rest volume; only their ratios count.
 enum class Masses { unit, lumped };
 // The volume correction: derived from Eq. 11 (default), or with one error of Eq. 12-20 at a time, or all of them:
@@ -71,7 +76,7 @@ struct Jiggle {
 
 // The paper states 24 iterations and m_i = 1; it leaves k_volume, k_bind, gravity and k_stretch outside the jiggling zone unstated.
 // A solver refuses with an InputError: iterations below 0, threads below 1, a stiffness outside [0, 1], a negative or NaN stop_residual or
-// sleep_tolerance, sleep with order plain, a volume_form other than derived with another order than plain; a k_stretch_length_m that is
+// sleep_tolerance, sleep without a packed order, a volume_form other than derived with a packed one; a k_stretch_length_m that is
 // negative or not finite, region_tets below 1, and volume_of other than tets with sleep or with another volume_form than derived.
 struct PbsOptions {
     int iterations = 24;  // at most, of lines 11-13 of Algorithm 1; 0: LBS as it is given (and integrated particles as predicted)

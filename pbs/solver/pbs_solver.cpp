@@ -85,7 +85,7 @@ void check_poses(const std::vector<PbsOptions>& options)
     const auto refuse = [](const char* field, const std::string& rule) { throw InputError("pbs", 0, field, "", rule); };
     if (options.empty()) refuse("poses", "expected one or more");
     for (const PbsOptions& pose : options) {
-        if (pose.order == Order::plain) refuse("order", "expected ordered or grouped for many poses at once");
+        if (!is_packed(pose.order)) refuse("order", "expected ordered or grouped for many poses at once");
         if (pose.order != options[0].order || pose.precision != options[0].precision || pose.masses != options[0].masses)
             refuse("poses", "expected one order, precision and kind of masses for all");
         if (pose.jiggle.has_value() != options[0].jiggle.has_value()) refuse("jiggle", "expected in all poses or none");

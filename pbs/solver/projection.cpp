@@ -10,8 +10,8 @@
 namespace pbs {
 namespace {
 
-// Order `plain`: file order, one constraint after the other, as the paper reads. Every other order is tested against it. No constraint
-// sleeps. volume_form: derived, or Eq. 12-20 as printed, which take all masses for one.
+// One constraint after the other in the order given: in order `plain` file order, as the paper reads, against which every other order is
+// tested. No constraint sleeps. volume_form: derived, or Eq. 12-20 as printed, which take all masses for one.
 template <typename Scalar>
 class PlainProjection : public Projection<Scalar> {
 public:
@@ -109,11 +109,12 @@ private:
 template <typename Scalar>
 std::unique_ptr<Projection<Scalar>> in_own_class_order(ConstraintSet<Scalar> constraints, const Tets& tets, const PbsOptions& options)
 {
-    if (options.sleep && options.order == Order::plain)
-        throw InputError("pbs", 0, "sleep", "true", "expected false with order plain, which projects all");
-    if (options.order == Order::plain) return std::make_unique<PlainProjection<Scalar>>(std::move(constraints), options.volume_form);
+    if (options.sleep && !is_packed(options.order))
+        throw InputError("pbs", 0, "sleep", "true", "expected false with order plain or spread, which project all");
+    if (options.order == Order::spread) constraints = in_spread_order(std::move(constraints));
+    if (!is_packed(options.order)) return std::make_unique<PlainProjection<Scalar>>(std::move(constraints), options.volume_form);
     if (options.volume_form != VolumeForm::derived)
-        throw InputError("pbs", 0, "order", "ordered or grouped", "expected plain with a printed volume_form");
+        throw InputError("pbs", 0, "order", "ordered or grouped", "expected plain or spread with a printed volume_form");
     return std::make_unique<BatchedProjection<Scalar>>(constraints, tets, options);
 }
 

@@ -6,6 +6,7 @@
 #include "pbs/geometry/topology.hpp"
 #include "pbs/solver/batched/batched_projection.hpp"
 #include "pbs/solver/batched/pbs_kernels.hpp"
+#include "pbs/solver/constraint_set.hpp"
 #include "pbs/solver/particles.hpp"
 
 #include <algorithm>
@@ -270,6 +271,7 @@ private:
 template <typename Scalar>
 std::unique_ptr<XpbdProjection> in_precision(const XpbdConstraints& constraints, const Tets& tets, const XpbdOptions& options)
 {
+    if (options.order == Order::spread) return std::make_unique<PlainXpbdProjection<Scalar>>(in_spread_order(constraints));
     if (options.order == Order::plain) return std::make_unique<PlainXpbdProjection<Scalar>>(constraints);
     return std::make_unique<BatchedXpbdProjection<Scalar>>(constraints, tets, options.order, options.threads);
 }

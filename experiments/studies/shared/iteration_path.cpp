@@ -39,17 +39,6 @@ Reached reached(const IterationPath& path, double Look::*value, double bound)
     return result;
 }
 
-template <typename Constraint>
-std::vector<Constraint> spread(const std::vector<Constraint>& constraints)
-{
-    constexpr std::size_t parts = 8;
-    std::vector<Constraint> result;
-    const std::size_t length = (constraints.size() + parts - 1) / parts;
-    for (std::size_t i = 0; i < length; ++i)
-        for (std::size_t k = i; k < constraints.size(); k += length) result.push_back(constraints[k]);
-    return result;
-}
-
 // Fisher and Yates. std::shuffle may draw its numbers differently in another standard library.
 template <typename Constraint>
 void shuffle(std::vector<Constraint>& constraints, std::mt19937_64& engine)
@@ -218,13 +207,6 @@ const Look& nearest_to_reference(const IterationPath& path)
 }
 
 template <typename Scalar>
-void in_spread_sequence(pbs::ConstraintSet<Scalar>& constraints)
-{
-    constraints.stretch = spread(constraints.stretch);
-    constraints.volume = spread(constraints.volume);
-}
-
-template <typename Scalar>
 void in_random_sequence(pbs::ConstraintSet<Scalar>& constraints, unsigned seed)
 {
     std::mt19937_64 engine(seed);
@@ -232,8 +214,6 @@ void in_random_sequence(pbs::ConstraintSet<Scalar>& constraints, unsigned seed)
     shuffle(constraints.volume, engine);
 }
 
-template void in_spread_sequence(pbs::ConstraintSet<float>&);
-template void in_spread_sequence(pbs::ConstraintSet<double>&);
 template void in_random_sequence(pbs::ConstraintSet<float>&, unsigned);
 template void in_random_sequence(pbs::ConstraintSet<double>&, unsigned);
 

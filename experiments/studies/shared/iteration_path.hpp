@@ -119,12 +119,6 @@ const Look& nearest_to_reference(const IterationPath& path);    // the look with
 // derive theirs from it.
 //   pbs::ConstraintSet<float> constraints = pbs::make_constraint_set<float>(...);   // in file order
 //   in_random_sequence(constraints, 1);
-//
-// Spread: neighbours in the list come from eight distant parts of the old list in turn, so that no projection waits for the stores of the
-// one before. Sorted edges share their first vertex with their neighbours.
-template <typename Scalar>
-void in_spread_sequence(pbs::ConstraintSet<Scalar>& constraints);
-
 // Random: a permutation that depends on the seed alone: the same on every machine and for float and double.
 template <typename Scalar>
 void in_random_sequence(pbs::ConstraintSet<Scalar>& constraints, unsigned seed);

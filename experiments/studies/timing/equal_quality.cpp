@@ -109,9 +109,7 @@ void append(const EqualQualityCase& of, const pbs::Character& character, pbs::Pb
     options.precision = std::is_same_v<Scalar, float> ? pbs::Precision::f32 : pbs::Precision::f64;
     const auto in_file_order = pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, {}, options);
     add(file_sequence, in_file_order);
-    pbs::ConstraintSet<Scalar> spread = in_file_order;
-    in_spread_sequence(spread);
-    add(spread_sequence, spread);
+    add(spread_sequence, in_spread_order(in_file_order));
     for (const int seed : of.random) {
         pbs::ConstraintSet<Scalar> shuffled = in_file_order;
         in_random_sequence(shuffled, static_cast<unsigned>(seed));

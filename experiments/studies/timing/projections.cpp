@@ -116,10 +116,8 @@ void append(const BenchBody& body, const std::vector<int>& threads, std::vector<
         variants.push_back({name_of(order), precision, count, 1, step_loops(constraints, tets, options, start)});
     };
     append_order(pbs::Order::plain, 1);
-    pbs::ConstraintSet<Scalar> spread = constraints;
-    in_spread_sequence(spread);
     variants.push_back({"plain_native", precision, 1, 1, native_loops(precision, constraints, start)});
-    variants.push_back({"plain_spread", precision, 1, 1, native_loops(precision, spread, start)});
+    variants.push_back({"plain_spread", precision, 1, 1, native_loops(precision, in_spread_order(constraints), start)});
     for (const int count : threads) {
         append_order(pbs::Order::ordered, count);
         append_order(pbs::Order::grouped, count);

@@ -106,6 +106,7 @@ class ReferenceSet {
 public:
     ReferenceSet(const WorkPrecisionCase& of, const pbs::Character& character, const PosePair& poses, const std::string& solutions)
         : of_(of),
+          skin_(character.mesh.rest, character.mesh.tets),
           first_(character, reference_flesh(of.scene), poses.pose, poses.time_step_s,
                  of.reference_is_refined ? ReferenceEffort::other_tets : ReferenceEffort::own_tets, solutions)
     {
@@ -130,7 +131,10 @@ public:
     // The errors of these positions of the case's own vertices [m], #V x 3, against each reference that was reached.
     void add_errors(PointRow& row, const pbs::Positions& positions) const
     {
-        if (first_.is_reached()) row.error = first_.error_of(positions);
+        if (first_.is_reached()) {
+            row.error = first_.error_of(positions);
+            row.skin = skin_.measure(positions, first_.reference().positions, first_.masked());
+        }
         for (std::size_t m = 0; m < members_.size(); ++m)
             if (members_[m].is_reached())
                 row.members.at(place_among_further(of_.members[m].name)) = members_[m].error_of(positions).joint_pct;
@@ -168,6 +172,7 @@ public:
 
 private:
     const WorkPrecisionCase& of_;
+    analysis::SkinErrorMetrics skin_;
     PosedReference first_;
     std::deque<PosedReference> members_;  // of_.members
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "analysis/metrics/frame_metrics.hpp"
+#include "analysis/metrics/skin_error.hpp"
 #include "analysis/records/tables.hpp"
 #include "analysis/verdicts/case_record.hpp"
 #include "experiments/settings/option_names.hpp"
@@ -124,6 +125,7 @@ struct PointRow {
     int rounds = 0, failed_rounds = 0;
     std::optional<double> ms_median = {}, ms_q1 = {}, ms_q3 = {};
     std::optional<analysis::ErrorNorms> error = {};  // outside the tips of creases; nothing where there is no reference
+    std::optional<analysis::SkinError> skin = {};    // outside these tips, against the first reference
     std::optional<analysis::FrameMetrics> metrics = {};
     std::string reference = {};
     std::optional<double> reference_error_joint_pct = {};

@@ -1,6 +1,7 @@
 #include "experiments/studies/work_precision/measured_points.hpp"
 
 #include "experiments/process/machine.hpp"
+#include "experiments/run/metrics_table.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/character/character.hpp"
 #include "pbs/character/skinning_weights.hpp"
@@ -201,8 +202,9 @@ try {
 }
 
 const Points point_columns = within(&PointRow::of, pose_columns()) + within(&PointRow::key, point_key_columns()) + own_columns +
-                             within(&PointRow::error, error_columns) + within(&PointRow::metrics, volume_columns()) + reference_columns +
-                             columns_of_comparison() + columns_of_external;
+                             within(&PointRow::error, error_columns) + within(&PointRow::skin, skin_error_columns()) +
+                             within(&PointRow::metrics, volume_columns()) + reference_columns + columns_of_comparison() +
+                             columns_of_external;
 
 const Points change_columns =
     within(&PointRow::of, pose_columns()) +

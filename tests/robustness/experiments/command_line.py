@@ -27,8 +27,16 @@ REFUSED = {
 
 class CommandLine(foreign_arm.ArmTest):
     def test_every_verb_has_help(self):
-        for verb in ("list", "explain", "run", "reproduce", "check", "measure", "mesh", "fetch", "report"):
-            self.assertIn("--quiet", self.succeeds(verb, "--help").stdout)
+        """One screen with an example: at most 40 lines of at most 100 characters."""
+        verbs = ("list", "explain", "try", "run", "reproduce", "check", "measure", "mesh", "bench", "fetch", "report")
+        for verb in [[], *([verb] for verb in verbs)]:
+            lines = self.succeeds(*verb, "--help", env=os.environ | {"COLUMNS": "200"}).stdout.splitlines()
+            with self.subTest(verb):
+                self.assertLessEqual(len(lines), 40)
+                self.assertLessEqual(max(map(len, lines)), 100)
+                self.assertRegex(lines[-1], "^Example: pbskin ")
+                self.assertIn(verb[0] if verb else "run", lines[-1])
+                self.assertIn("--quiet" if verb else "--version", " ".join(lines))
 
     def test_version(self):
         self.assertRegex(self.succeeds("--version").stdout, r"^pbskin \d+\.\d+\.\d+ \(git ")
@@ -116,7 +124,8 @@ class CommandLine(foreign_arm.ArmTest):
     def test_bounds_of_measure(self):
         self.succeeds("run", self.scene, "-o", self.path("out"), "--quiet")
         frame = self.path("out", "frames", "lbs_000004.vtu")
-        self.succeeds("measure", self.path("arm.msh"), frame, "--max-volume-change", "50")
+        held = self.succeeds("measure", self.path("arm.msh"), frame, "--max-volume-change", "50")
+        self.assertRegex(held.stderr, r"\nnext: pbskin explain volume_change_pct .*\n\Z")
         process = self.ends(1, "measure", self.path("arm.msh"), frame, "--max-volume-change", "0.5")
         self.assertRegex(process.stderr, r"lbs_000004\.vtu: \|volume_change_pct\| = [0-9.]+ > 0\.5")
 

@@ -8,6 +8,7 @@
 
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/solver/projection.hpp"
 #include "tests/support/step_rounding.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
@@ -92,6 +93,28 @@ TEST(Orders, OrderedIsNoWorseThanPlainOnFineBodies)
         expect_no_worse_than_plain(twisted_and_bent(pbs::refine(coarse).mesh), Precision::f32);
 }
 
+// The order `spread` is plain code on a list in another sequence: it has the bits of order plain on that list.
+TEST(Orders, SpreadIsPlainOnTheSpreadList)
+{
+    PbsOptions options;
+    options.order = Order::spread;
+    const auto file_order = pbs::make_constraint_set<double>(limb().mesh, limb().binding.distance, {}, options);
+    const auto projected = [&](const pbs::ConstraintSet<double>& constraints, Order order) {
+        PbsOptions in_order;
+        in_order.order = order;
+        const auto projection = pbs::make_projection<double>(constraints, limb().mesh.tets, in_order);
+        projection->load(limb().lbs, limb().lbs, Vec3::Zero());
+        projection->project_stretch_constraints();
+        projection->project_volume_constraints();
+        pbs::Positions p = limb().lbs;
+        projection->store(Vec3::Zero(), p);
+        return p;
+    };
+    const pbs::Positions spread = projected(file_order, Order::spread);
+    EXPECT_EQ(spread, projected(in_spread_order(file_order), Order::plain));
+    EXPECT_NE(spread, projected(file_order, Order::plain));
+}
+
 // The order is offered with its bias, which is documented.
 TEST(Orders, GroupedHasABiasOfItsOwn)
 {
@@ -106,7 +129,7 @@ TEST(Orders, GroupedHasABiasOfItsOwn)
 // Precision is not an order: in each order, residuals in float and double differ by rounding alone.
 TEST(Orders, PrecisionsAgreeInEachOrder)
 {
-    for (const Order order : {Order::plain, Order::ordered, Order::grouped}) {
+    for (const Order order : {Order::plain, Order::ordered, Order::grouped, Order::spread}) {
         PbsOptions options;
         options.order = order;
         const ResidualRounding rounding = residual_rounding(limb(), options);

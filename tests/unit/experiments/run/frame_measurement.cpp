@@ -64,6 +64,36 @@ TEST_F(LimbMeasurement, AThinnedLimbHasAQuarterOfItsSection)
     EXPECT_FALSE(of.errors);
 }
 
+// Two bars of width 0.3, 3 m apart at rest. The upper one comes down to the lower one, shifted by 0.03 so that no vertex meets a face of a
+// tet. Its vertices in the middle of the face have the overlap as depth; to measure it, skins are moved by half of `touching`, edges in a
+// slanted direction.
+TEST(FrameMeasurement, StatesHowDeepSkinLiesInOtherFleshAndWhereItTouches)
+{
+    pbs::Character bars = test_support::bar_character({24, 4, 4});
+    const pbs::TetMesh one = bars.mesh;
+    const Eigen::Index vertices = one.rest.rows();
+    bars.mesh.rest.resize(2 * vertices, 3);
+    bars.mesh.rest << one.rest, one.rest.rowwise() + Eigen::RowVector3d(0.03, 0.03, 3.0);
+    bars.mesh.tets.resize(2 * one.tets.rows(), 4);
+    bars.mesh.tets << one.tets, one.tets.array() + static_cast<int>(vertices);
+    const double touching_m = 1e-3 * (bars.mesh.rest.colwise().maxCoeff() - bars.mesh.rest.colwise().minCoeff()).norm();
+    OutputSpec output;
+    output.errors = output.sections = output.surface = false;
+    FrameMeasurer measurer(bars, output, {});
+    const auto depths_um = [&](double overlap_m) {
+        pbs::Positions lowered = bars.mesh.rest;
+        lowered.bottomRows(vertices).col(2).array() -= 3.0 - 0.3 + overlap_m;
+        return measurer.contact_depths_um(lowered);
+    };
+    const auto least_and_most = [&](double overlap_m) {
+        const std::vector<int> depths = depths_um(overlap_m);
+        return std::pair(std::ranges::min(depths), std::ranges::max(depths));
+    };
+    EXPECT_NEAR(least_and_most(0.02).second, 20e3, 0.5e6 * touching_m);
+    EXPECT_EQ(least_and_most(-0.25 * touching_m), std::pair(-1, 0));
+    EXPECT_EQ(least_and_most(-2.0 * touching_m), std::pair(0, 0));
+}
+
 // The bar has vertices in 25 planes, at x = -1, -11/12 ... 1. The tip lies at x = 1 on the axis, with the radius 0.2. In the two planes
 // at x = 1 and 11/12 it holds the vertex on the axis and the four in the middles of the sides; the corners are 0.21 from the axis. In the
 // plane at x = 10/12 it holds the vertex on the axis alone.

@@ -241,11 +241,9 @@ Numbers randomly_numbered(int edges, int tets, unsigned seed)
 
 TEST(ConstraintSequence, SpreadTakesEightPartsInTurn)
 {
-    auto constraints = numbered<double>(20, 4), none = numbered<double>(0, 0);
-    in_spread_sequence(constraints);  // parts of three
+    const auto constraints = in_spread_order(numbered<double>(20, 4)), none = in_spread_order(numbered<double>(0, 0));  // parts of three
     EXPECT_EQ(numbers_in(constraints).edges, (std::vector<int>{0, 3, 6, 9, 12, 15, 18, 1, 4, 7, 10, 13, 16, 19, 2, 5, 8, 11, 14, 17}));
     EXPECT_EQ(numbers_in(constraints).tets, (std::vector<int>{0, 1, 2, 3}));
-    in_spread_sequence(none);
     EXPECT_EQ(numbers_in(none), Numbers());
 }
 
