@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -242,7 +243,7 @@ std::string numbers_text(const Verdict& verdict)
     return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-// One line each: how many units hold; their numbers with the bound; why a claim is not testable; what is missing.
+// One line each: how many units hold; their numbers with the bound; why a claim is not testable.
 std::string facts_text(const Verdict& verdict)
 {
     std::vector<std::string> lines;
@@ -258,18 +259,20 @@ std::string facts_text(const Verdict& verdict)
                                             other.held, other.n));
     }
     if (!verdict.claim.reason.empty()) lines.push_back("reason: " + verdict.claim.reason);
-    if (!verdict.missing.empty()) lines.push_back(fmt::format("no record: {}", fmt::join(verdict.missing, ", ")));
     return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-// What the claims leave out, e.g. a body that is not installed, each reason once; then the number of verdicts of each kind.
+// What the claims leave out, e.g. a body that is not installed, and the records that are missing, each once; then the number of verdicts of
+// each kind.
 std::vector<std::string> closing_texts(const std::vector<Verdict>& verdicts)
 {
-    std::map<std::string, std::set<std::string>> left_out;
-    for (const Verdict& verdict : verdicts)
-        for (const LeftOut& out : verdict.left_out) left_out[out.reason].insert(verdict.claim.id);
+    std::map<std::array<std::string, 2>, std::set<std::string>> absent;
+    for (const Verdict& verdict : verdicts) {
+        for (const LeftOut& out : verdict.left_out) absent[{"left out of", out.reason}].insert(verdict.claim.id);
+        for (const std::string& name : verdict.missing) absent[{"no record for", name}].insert(verdict.claim.id);
+    }
     std::vector<std::string> texts, counts;
-    for (const auto& [reason, claims] : left_out) texts.push_back(fmt::format("left out of {}: {}", fmt::join(claims, ", "), reason));
+    for (const auto& [what, claims] : absent) texts.push_back(fmt::format("{} {}: {}", what[0], fmt::join(claims, ", "), what[1]));
     for (int k = 0; k <= static_cast<int>(VerdictKind::not_computable); ++k) {
         const auto count = std::ranges::count(verdicts, static_cast<VerdictKind>(k), &Verdict::kind);
         if (count > 0) counts.push_back(fmt::format("{} {}", count, spoken(name_of(static_cast<VerdictKind>(k)))));

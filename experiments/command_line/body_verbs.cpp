@@ -176,6 +176,7 @@ int fetch(const std::vector<std::string>& bodies)
         spdlog::info("fetching {} ...", package.name);
         fmt::print("  is now in {}\n", package.bring());
     }
+    say_next("pbskin list scenes");
     return exit_finished;
 }
 
@@ -207,6 +208,7 @@ int mesh(const MeshArguments& arguments)
     const pbs::TetMesh mesh = meshed(arguments, surface);
     pbs::write_tet_mesh(arguments.tets, mesh);
     fmt::print("{}", pbs::describe(pbs::quality_of(mesh)));
+    say_next("set character.mesh = \"" + arguments.tets + "\" in a scene, and pbskin run it");
     return exit_finished;
 }
 
@@ -215,19 +217,19 @@ int mesh(const MeshArguments& arguments)
 void add_fetch_verb(CommandLine& line)
 {
     auto bodies = std::make_shared<std::vector<std::string>>();
-    CLI::App* verb =
-        line.add("fetch", "brings the bodies that are no part of the project, by npm and apt; checks them and prints their licences",
-                 [bodies] { return fetch(*bodies); });
+    CLI::App* verb = line.add("fetch", "brings further bodies by npm and apt, and prints their licences", "pbskin fetch lady",
+                              [bodies] { return fetch(*bodies); });
     verb->add_option("bodies", *bodies, "which of them; by default all")->check(CLI::IsMember({"man", "lady", "frankie"}));
 }
 
 void add_mesh_verb(CommandLine& line)
 {
     auto arguments = std::make_shared<MeshArguments>();
-    CLI::App* verb = line.add("mesh", "turns a closed or nearly closed surface into tets and prints their quality", [arguments] {
-        arguments->meshing.boundary_euler = arguments->boundary_euler;
-        return mesh(*arguments);
-    });
+    CLI::App* verb = line.add("mesh", "turns a closed or nearly closed surface into a mesh of tets",
+                              "pbskin mesh arm.obj -o arm.msh --vertices 1000", [arguments] {
+                                  arguments->meshing.boundary_euler = arguments->boundary_euler;
+                                  return mesh(*arguments);
+                              });
     verb->add_option("surface", arguments->surface, ".obj .ply .off .stl .gltf .glb .dae .zae .fbx, in metres")->required();
     verb->add_option("-o,--output", arguments->tets, ".msh .vtu .mesh")->required();
     verb->add_option("--vertices", arguments->meshing.vertices, "wanted number of vertices")

@@ -111,6 +111,7 @@ int list(const std::vector<std::string>& asked)
         fmt::print("{}\n", kind);
         for (const auto& [name, meaning] : lines()) fmt::print("  {:<26} {}\n", name, meaning);
     }
+    say_next("pbskin explain NAME");
     return exit_finished;
 }
 
@@ -266,8 +267,8 @@ std::string describe(const CLI::App& app)
 void add_list_verb(CommandLine& line)
 {
     auto asked = std::make_shared<std::vector<std::string>>();
-    CLI::App* verb =
-        line.add("list", "lists the cases, scenes, movements, deformers, studies, claims and metrics", [asked] { return list(*asked); });
+    CLI::App* verb = line.add("list", "lists cases, scenes, movements, deformers, studies, claims, metrics", "pbskin list scenes claims",
+                              [asked] { return list(*asked); });
     verb->add_option("kind", *asked, "which of them; by default all")
         ->check(CLI::IsMember({"cases", "scenes", "movements", "deformers", "studies", "claims", "metrics"}));
 }
@@ -277,7 +278,7 @@ void add_list_verb(CommandLine& line)
 void add_explain_verb(CommandLine& line)
 {
     auto name = std::make_shared<std::string>();
-    CLI::App* verb = line.add("explain", "prints what a metric, claim, scene key, study, deformer, scene or verb means",
+    CLI::App* verb = line.add("explain", "explains a metric, claim, scene key, study, deformer, scene or verb", "pbskin explain C02",
                               [&app = line.app, name] { return explain(app, *name); });
     verb->add_option("name", *name, "its name, e.g. volume_change_pct, C02, pbs.k_volume, measure")->required();
 }

@@ -3,34 +3,54 @@
 //   pbskin reproduce volume --quick                    studies -> records -> verdicts
 //   pbskin measure rest.msh frame_*.vtu --max-volume-change 0.5
 #include "analysis/records/provenance.hpp"
+#include "analysis/records/report_table.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/terminal.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
 namespace experiments {
 
-CLI::App* CommandLine::add(const std::string& name, const std::string& meaning, const std::function<int()>& its_action)
+CLI::App* CommandLine::add(const std::string& name, const std::string& meaning, const std::string& example,
+                           const std::function<int()>& its_action)
 {
     CLI::App* verb = app.add_subcommand(name, meaning);
+    verb->footer("Example: " + example);
     verb->callback([this, its_action] { action = its_action; });
     verb->add_flag("--quiet", common.quiet, "errors only");
     verb->add_flag("--verbose", common.verbose, "print more: the results of each run of a study");
     verb->add_option("--threads", common.threads,
-                     "number of threads; run and check: of a deformer (its packed code, on meshes that are large enough; by "
-                     "default 1); bench: what is timed in addition to one thread (by default all cores); the other verbs use one thread")
+                     "threads of a deformer on a large mesh (run, try, check; by default 1) or of the timings (bench; by default "
+                     "all cores)")
         ->check(CLI::Range(1, 1024));
     return verb;
 }
 
+void say_next(const std::string& words)
+{
+    std::fflush(stdout);
+    spdlog::info("next: {}", words);
+}
+
 namespace {
+
+// Help whose lines fit the terminal, up to 100 characters. Only options have long texts.
+class HelpOfOneScreen : public CLI::Formatter {
+    std::string make_option_desc(const CLI::Option* option) const override
+    {
+        const std::size_t width = std::clamp<std::size_t>(terminal_width(), 60, 100) - column_width_;
+        return fmt::format("{}", fmt::join(analysis::wrapped(option->get_description(), width), "\n"));
+    }
+};
 
 std::string version_text(bool as_json)
 {
@@ -57,6 +77,8 @@ void start_log(const CommonOptions& common)
 int parse_and_act(int argc, char** argv)
 {
     CLI::App app("pbskin: a verification suite for position based skinning", "pbskin");
+    app.formatter(std::make_shared<HelpOfOneScreen>());
+    app.footer("Example: pbskin run limb_twist, then pbskin report results/limb_twist");
     bool as_json = false;  // declared before --version, whose callback reads it
     CLI::Option* json = app.add_flag("--json", as_json, "with --version: for programs, with the whole git revision");
     json->needs(app.set_version_flag("--version", [&] { return version_text(as_json); }));

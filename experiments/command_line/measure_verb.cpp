@@ -203,6 +203,7 @@ int measure(const MeasureArguments& arguments, bool quiet)
     const std::string suite = std::filesystem::path(arguments.rest).filename().string();
     write_reports(arguments.reports, {frame_suite(suite, arguments.bounds, frames, refused, stopwatch.seconds())});
     if (!refused.empty()) return exit_input;
+    say_next("pbskin explain volume_change_pct explains a column; --max-volume-change 0.5 holds it to a bound");
     return all_hold ? exit_finished : exit_bound;
 }
 
@@ -211,9 +212,9 @@ int measure(const MeasureArguments& arguments, bool quiet)
 void add_measure_verb(CommandLine& line)
 {
     auto arguments = std::make_shared<MeasureArguments>();
-    CLI::App* verb = line.add(
-        "measure", "applies the metrics to frames of any program: a rest tet mesh and deformed frames; exit 1 if a bound does not hold",
-        [&common = line.common, arguments] { return measure(*arguments, common.quiet); });
+    CLI::App* verb = line.add("measure", "applies the metrics to frames of any program; exit 1 if a bound fails",
+                              "pbskin measure rest.vtu 'out/frame_%04d.vtu' --max-volume-change 0.5 --max-inverted 0",
+                              [&common = line.common, arguments] { return measure(*arguments, common.quiet); });
     verb->add_option("rest", arguments->rest, "rest tet mesh: .msh .vtu .vtk .mesh .tobj .ele")->required();
     verb->add_option(
             "frames", arguments->frames,

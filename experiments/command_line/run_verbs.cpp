@@ -40,7 +40,9 @@ int run(const RunArguments& arguments, const CommonOptions& common)
     spdlog::info("{}: {} frames, {:.1f} s, records in {}", scene.name, result.frames, result.seconds, folder);
     if (!result.breakdown.empty()) spdlog::error("pbskin: numerical breakdown: {}", result.breakdown);
     if (!result.bad_frame.empty()) spdlog::error("pbskin: {}", result.bad_frame);
-    return result.failure().empty() ? exit_finished : exit_breakdown;
+    if (!result.failure().empty()) return exit_breakdown;
+    say_next("pbskin report " + folder);
+    return exit_finished;
 }
 
 int check(CheckArguments arguments, const CheckReports& reports, const CommonOptions& common)
@@ -57,6 +59,8 @@ int check(CheckArguments arguments, const CheckReports& reports, const CommonOpt
     const int held = count(result.suites, analysis::CheckState::held), failed = count(result.suites, analysis::CheckState::failed);
     spdlog::info("{} hold, {} fail, {} left out; records in {}", held, failed, count(result.suites, analysis::CheckState::left_out),
                  arguments.folder);
+    say_next(failed > 0 ? fmt::format("pbskin report {}/SCENE", arguments.folder)
+                        : "pbskin check --write-baseline FILE keeps these values, --baseline FILE compares with them");
     if (!result.breakdowns.empty()) return exit_breakdown;
     return failed > 0 ? exit_bound : exit_finished;
 }
@@ -88,6 +92,7 @@ int bench(BenchArguments arguments, int threads)
     const std::string json = record.dump(2) + "\n";
     if (!file.empty()) analysis::write_text_atomically(file, json);
     fmt::print("{}", arguments.json ? json : bench_table(record));
+    say_next(arguments.options.mesh.empty() ? "pbskin bench --mesh TETS times a mesh of yours" : "pbskin explain timing");
     return exit_finished;
 }
 
@@ -96,7 +101,7 @@ int bench(BenchArguments arguments, int threads)
 void add_run_verb(CommandLine& line)
 {
     auto arguments = std::make_shared<RunArguments>();
-    CLI::App* verb = line.add("run", "runs one scene and writes frames and records",
+    CLI::App* verb = line.add("run", "runs one scene and writes frames and records", "pbskin run limb_twist --set pbs.iterations=96",
                               [&common = line.common, arguments] { return run(*arguments, common); });
     verb->add_option("scene", arguments->scene, "a scene file, or the name of a built-in scene")->required();
     verb->add_option("-o,--output", arguments->folder, "folder of the records; by default results/NAME");
@@ -110,10 +115,9 @@ void add_reproduce_verb(CommandLine& line)
 {
     auto arguments = std::make_shared<ReproduceArguments>();
     auto quick = std::make_shared<bool>(false), judge = std::make_shared<bool>(false);
-    CLI::App* verb =
-        line.add("reproduce", "runs studies, writes their records and computes verdicts; by default the studies of the quick set",
-                 [arguments, judge] { return *judge ? judge_again(*arguments) : reproduce(*arguments); });
-    verb->add_option("names", arguments->names, "claims (C02) or studies (volume)");
+    CLI::App* verb = line.add("reproduce", "runs studies, writes their records and computes verdicts", "pbskin reproduce C02 --full",
+                              [arguments, judge] { return *judge ? judge_again(*arguments) : reproduce(*arguments); });
+    verb->add_option("names", arguments->names, "claims (C02) or studies (volume); by default the studies of the quick set");
     verb->add_option("-o,--output", arguments->folder, "folder of the records")->capture_default_str();
     std::vector<std::string> in_part;
     for (const Study& study : studies())
@@ -146,9 +150,7 @@ void add_check_verb(CommandLine& line)
 {
     auto arguments = std::make_shared<CheckArguments>();
     auto reports = std::make_shared<CheckReports>();
-    CLI::App* verb = line.add("check",
-                              "checks in continuous integration: runs small real scenes and compares volume preservation and other "
-                              "values with bounds and a baseline; exit 1 if one does not hold",
+    CLI::App* verb = line.add("check", "runs small scenes and holds them to bounds; exit 1 if one fails", "pbskin check --junit volume.xml",
                               [&common = line.common, arguments, reports] { return check(*arguments, *reports, common); });
     verb->add_option("-o,--output", arguments->folder, "folder of the records")->capture_default_str();
     verb->add_option(
@@ -169,11 +171,12 @@ void add_check_verb(CommandLine& line)
 void add_bench_verb(CommandLine& line)
 {
     auto arguments = std::make_shared<BenchArguments>();
-    CLI::App* verb =
-        line.add("bench", "times projections, steps, all deformers and FEM, as ratios to plain loops in the same run", [&line, arguments] {
-            const bool asked = line.app.get_subcommand("bench")->count("--threads") > 0;
-            return bench(*arguments, asked ? line.common.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
-        });
+    CLI::App* verb = line.add("bench", "times steps, deformers and FEM relative to plain loops in the same run",
+                              "pbskin bench --sizes 1K,10K,100K", [&line, arguments] {
+                                  const bool asked = line.app.get_subcommand("bench")->count("--threads") > 0;
+                                  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+                                  return bench(*arguments, asked ? line.common.threads : cores);
+                              });
     auto* mesh = verb->add_option("--mesh", arguments->options.mesh, "a tet mesh; by default bars of about 2,200 and 19,500 vertices");
     verb->add_option("--sizes", arguments->sizes, "bars with these numbers of tets, e.g. 1K,10K,100K,1M, and the growth of the cost")
         ->delimiter(',')

@@ -105,10 +105,10 @@ int try_model(TrialOptions options, const CommonOptions& common)
     facts["animations"] = made.animations;
     facts["summary"] = trial_sentence(facts);
     analysis::write_text_atomically((fs::path(options.folder) / "try.json").string(), analysis::record_text(facts));
-    spdlog::info("{}", facts["summary"].get<std::string>());
-    spdlog::info("To go on, change {} and run it with `pbskin run`.", scene_file);
     const int page = write_report_page(options.folder, common.quiet);
     leave_what_is_of_use(options, page == exit_finished);
+    spdlog::info("{}", facts["summary"].get<std::string>());
+    if (page == exit_finished) say_next(fmt::format("xdg-open {}/report.html, or change {} and pbskin run it", options.folder, scene_file));
     if (result.failure().empty()) return page;
     spdlog::error("pbskin: {}", result.failure());
     return exit_breakdown;
@@ -135,15 +135,20 @@ int write_report_page(const std::string& folder, bool quiet)
 void add_report_verb(CommandLine& line)
 {
     auto folder = std::make_shared<std::string>();
-    CLI::App* verb = line.add("report", "writes records and drawn figures on one self-contained HTML page and states what is missing",
-                              [&common = line.common, folder] { return write_report_page(*folder, common.quiet); });
-    verb->add_option("folder", *folder, "the folder that reproduce wrote; the page is report.html in it")->required();
+    CLI::App* verb = line.add("report", "writes records and figures on one HTML page that loads nothing", "pbskin report results/reproduce",
+                              [&common = line.common, folder] {
+                                  const int status = write_report_page(*folder, common.quiet);
+                                  if (status == exit_finished) say_next("xdg-open " + *folder + "/report.html");
+                                  return status;
+                              });
+    verb->add_option("folder", *folder, "the folder that reproduce, run or try wrote; the page is report.html in it")->required();
 }
 
 void add_try_verb(CommandLine& line)
 {
     auto options = std::make_shared<TrialOptions>();
-    CLI::App* verb = line.add("try", "runs a rigged model through its own motion and shows the result on a page",
+    CLI::App* verb = line.add("try", "runs a rigged model through its own motion and writes a page",
+                              "pbskin try hero.glb, then xdg-open results/hero/report.html",
                               [&common = line.common, options] { return try_model(*options, common); });
     verb->add_option("model", options->model, ".glb .gltf .fbx .dae .zae")->required();
     verb->add_option("--animation", options->animation,

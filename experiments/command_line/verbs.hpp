@@ -24,13 +24,15 @@ struct CommandLine {
     CommonOptions common = {};
     std::function<int()> action = {};  // of the verb that is named; it returns the exit status
 
-    // A subcommand with the options of all verbs: --quiet, --verbose, --threads.
-    CLI::App* add(const std::string& verb, const std::string& meaning, const std::function<int()>& its_action);
+    // A subcommand with the options of all verbs: --quiet, --verbose, --threads. The example ends its help.
+    CLI::App* add(const std::string& verb, const std::string& meaning, const std::string& example, const std::function<int()>& its_action);
 };
 
 using AddVerb = void(CommandLine& line);
 AddVerb add_list_verb, add_explain_verb, add_try_verb, add_run_verb, add_reproduce_verb, add_check_verb, add_measure_verb, add_mesh_verb,
     add_bench_verb, add_fetch_verb, add_report_verb;
+
+void say_next(const std::string& words);  // what to do next, on stderr after all that was printed; --quiet hides it
 
 // The command line and the scene keys as JSON (`pbskin --describe`), from which the manual pages, the manual of scenes and the shells'
 // completions are written. It has name, meaning, options, verbs with their options, and scene_keys. Hidden options are left out.

@@ -353,6 +353,18 @@ nlohmann::json skin_facts(const CsvTable& metrics)
     return {{"lbs_mm", lbs_mm}, {"pbs_mm", pbs_mm}, {"removed_pct", analysis::removed_share_pct(lbs_mm, pbs_mm)}};
 }
 
+// The frame in which the surfaces of pbs and lbs are farthest apart (rms); null where they never differ.
+nlohmann::json widest_frame(const CsvTable& distances)
+{
+    double widest_mm = 0.0;
+    nlohmann::json frame;
+    for (int row = 0; row < distances.rows(); ++row)
+        if (const double mm = finite(distances, row, "rms_mm").value_or(0.0);
+            mm > widest_mm && distances.text_at(row, "deformer") == "pbs" && distances.text_at(row, "other") == "lbs")
+            widest_mm = mm, frame = distances.integer(row, "frame");
+    return frame;
+}
+
 struct JointChange {
     std::string name;
     double share_pct = 0.0;                    // of the body's volume
@@ -453,6 +465,7 @@ nlohmann::json trial_facts(const std::string& folder)
     const pbs::JsonFile run(folder + "/run.json");
     const CsvTable metrics = analysis::read_csv(folder + "/metrics.csv"), regions = analysis::read_csv(folder + "/regions.csv"),
                    bones = analysis::read_csv(folder + "/bones_rest.csv");
+    const std::string distances = folder + "/distances.csv";
     const nlohmann::json &outcome = run.at("outcome"), &character = run.at("character");
     return {{"schema", 1},
             {"model", run.at(character, "model")},
@@ -468,6 +481,7 @@ nlohmann::json trial_facts(const std::string& folder)
             {"joints", joint_facts(regions, bones)},
             {"nearer", nearer_frames(metrics)},
             {"skin", skin_facts(metrics)},
+            {"widest_frame", fs::exists(distances) ? widest_frame(analysis::read_csv(distances)) : nullptr},
             {"frame_ms", frame_ms(metrics)},
             {"error_bar", error_bar_facts(metrics, run)},
             {"control", fs::exists(folder + "/skin/artist.pvd") ? nlohmann::json("skin/artist_*.vtp") : nullptr}};

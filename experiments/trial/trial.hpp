@@ -51,6 +51,7 @@ std::string earlier_trial_scene(const TrialOptions& options);
 //   skin          distance of the skin from the reference on a body whose largest extent is 1.7 m, rms over the frames, under lbs (lbs_mm)
 //                 and pbs (pbs_mm); the share of lbs's that pbs removes (removed_pct); null without a reference, and where lbs's is below
 //                 0.01 % of the body's diagonal
+//   widest_frame  the frame in which the surfaces of pbs and lbs are farthest apart; null where they never differ
 //   frame_ms      median time of a frame, per deformer
 //   error_bar     of the reference: the number of frames in which its own error is bounded, of how many, the largest bound at the joints
 //                 [%] and the wall time of the further solutions [s]; null without an error bar
@@ -60,8 +61,8 @@ std::string earlier_trial_scene(const TrialOptions& options);
 // An InputError where the run's records are missing or damaged.
 nlohmann::json trial_facts(const std::string& folder);
 
-// Compares PBS with LBS and with the best other method by the change of volume, the distance from FEM and the time of a frame. The error of
-// FEM itself is stated where it was estimated.
+// Compares PBS with LBS and with the best other method. The error of FEM itself is stated where it was estimated. The last sentence is that
+// for whoever decides: what PBS changes on this model, by how much, at what cost, and which frame to look at.
 std::string trial_sentence(const nlohmann::json& facts);
 
 }  // namespace experiments

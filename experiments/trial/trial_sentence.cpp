@@ -1,10 +1,11 @@
-// The sentence that ends a trial, composed from its facts.
+// The summary of a trial, composed from its facts.
 #include "experiments/trial/trial.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 namespace experiments {
@@ -35,66 +36,71 @@ std::string volume_range(const nlohmann::json& of)
 std::string joint_words(const nlohmann::json& joints)
 {
     const auto names = joints.at("names").get<std::vector<std::string>>();
-    return fmt::format("; at the {} {} by {} % instead of {} % on average", names.size() > 1 ? "joints" : "joint",
+    return fmt::format("At the {} {}, PBS changes the volume by {} % on average, LBS by {} %. ", names.size() > 1 ? "joints" : "joint",
                        fmt::join(names, " and "), per_cent(joints.at("pbs_pct")), per_cent(joints.at("lbs_pct")));
 }
 
-std::string nearer_words(const nlohmann::json& nearer)
+std::string time_of(const std::string& deformer, const nlohmann::json& facts)
+{
+    const double ms = facts.at("frame_ms").at(deformer);
+    return ms < 10.0 ? fmt::format("{:.2g} ms", ms) : fmt::format("{:.0f} ms", ms);
+}
+
+std::string nearer_words(const nlohmann::json& facts)
 {
     const auto frames = [](const nlohmann::json& of) {
         return fmt::format("{} of {} frames", of.at("frames").get<int>(), of.at("of").get<int>());
     };
-    std::string text = " PBS is nearer to FEM than LBS in " + frames(nearer);
+    const nlohmann::json& nearer = facts.at("nearer");
+    std::string text = "PBS is nearer to FEM than LBS in " + frames(nearer);
     if (const nlohmann::json& best = nearer.at("best_other"); !best.is_null())
-        text += fmt::format(", and than {}, the best of the other methods, in {}", shown_name(best.at("deformer")), frames(best));
-    return text + ".";
-}
-
-std::string skin_words(const nlohmann::json& skin)
-{
-    const double removed_pct = std::round(skin.at("removed_pct").get<double>());
-    const std::string change = removed_pct > 0.0   ? fmt::format("removes {:.0f} % of the distance", removed_pct)
-                               : removed_pct < 0.0 ? fmt::format("adds {:.0f} % to the distance", -removed_pct)
-                                                   : "changes the distance by less than 1 %";
-    return fmt::format(" On a body of 1.7 m, the skin is {:.2g} mm from FEM with LBS and {:.2g} mm with PBS, which {}.",
-                       skin.at("lbs_mm").get<double>(), skin.at("pbs_mm").get<double>(), change);
+        text += fmt::format(", and than {}, the best of the other methods ({} per frame), in {}", shown_name(best.at("deformer")),
+                            time_of(best.at("deformer"), facts), frames(best));
+    return text + ". ";
 }
 
 std::string error_bar_words(const nlohmann::json& bar)
 {
     const nlohmann::json& largest_pct = bar.at("largest_pct");
-    return fmt::format(" The error of FEM itself is estimated in {} of {} frames{}, which took {:.0f} s.", bar.at("frames").get<int>(),
+    return fmt::format("The error of FEM itself is estimated in {} of {} frames{}, which took {:.0f} s. ", bar.at("frames").get<int>(),
                        bar.at("of").get<int>(), largest_pct.is_null() ? "" : fmt::format(", at most {:.2g} %", largest_pct.get<double>()),
                        bar.at("seconds").get<double>());
 }
 
-std::string time_words(const nlohmann::json& facts)
+std::string skin_words(const nlohmann::json& skin)
 {
-    std::vector<std::string> deformers = {"pbs", "lbs"}, times;
-    if (const nlohmann::json& nearer = facts.at("nearer"); !nearer.is_null() && !nearer.at("best_other").is_null())
-        deformers.push_back(nearer.at("best_other").at("deformer").get<std::string>());
-    for (const std::string& deformer : deformers) {
-        const double ms = facts.at("frame_ms").at(deformer);
-        times.push_back((ms < 10.0 ? fmt::format("{:.2g} ms", ms) : fmt::format("{:.0f} ms", ms)) + " with " + shown_name(deformer));
-    }
-    return fmt::format(" A frame takes {}.", fmt::join(times, ", "));
+    const std::string distance = "the distance of LBS from elastic flesh";
+    const double removed_pct = std::round(skin.at("removed_pct").get<double>());
+    const std::string change = removed_pct > 0.0   ? fmt::format("removes {:.0f} % of {}", removed_pct, distance)
+                               : removed_pct < 0.0 ? fmt::format("adds {:.0f} % to {}", -removed_pct, distance)
+                                                   : "changes " + distance + " by less than 1 %";
+    return fmt::format(", {} (FEM; {:.2g} mm instead of {:.2g} mm over the skin of a body of 1.7 m)", change,
+                       skin.at("pbs_mm").get<double>(), skin.at("lbs_mm").get<double>());
+}
+
+// What changes on this model, by how much, at what cost, and what to look at.
+std::string decisive_sentence(const nlohmann::json& facts)
+{
+    const nlohmann::json &volume = facts.at("volume"), &skin = facts.at("skin"), &widest = facts.at("widest_frame");
+    std::string text = fmt::format("On {}, PBS changes the volume {}, where LBS changes it {}{}, and takes {} per frame instead of {}",
+                                   std::filesystem::path(facts.at("model").at("file").get<std::string>()).filename().string(),
+                                   volume_range(volume.at("pbs")), volume_range(volume.at("lbs")), skin.is_null() ? "" : skin_words(skin),
+                                   time_of("pbs", facts), time_of("lbs", facts));
+    if (skin.is_null() && facts.at("nearer").is_null() && !facts.at("frame_ms").contains("nh_p1"))
+        text += "; which of the two is closer to elastic flesh was not measured";
+    return text + (widest.is_null() ? "." : fmt::format("; look at frame {}, where the two differ most.", widest.get<int>()));
 }
 
 }  // namespace
 
 std::string trial_sentence(const nlohmann::json& facts)
 {
-    const nlohmann::json &volume = facts.at("volume"), &joints = facts.at("joints"), &nearer = facts.at("nearer");
+    const nlohmann::json &volume = facts.at("volume"), &joints = facts.at("joints"), &bar = facts.at("error_bar");
     if (!volume.contains("pbs") || !volume.contains("lbs")) return "PBS or LBS broke down in every frame.";
     if (!facts.at("deforms").get<bool>())
         return "No flesh deforms: it rests or moves rigidly in every frame, so that there is nothing to compare.";
-    std::string text = fmt::format("PBS changes the volume {}, LBS {}", volume_range(volume.at("pbs")), volume_range(volume.at("lbs")));
-    if (!joints.is_null()) text += joint_words(joints);
-    text += ".";
-    if (!nearer.is_null()) text += nearer_words(nearer);
-    if (const nlohmann::json& skin = facts.at("skin"); !skin.is_null()) text += skin_words(skin);
-    if (const nlohmann::json& bar = facts.at("error_bar"); !bar.is_null()) text += error_bar_words(bar);
-    return text + time_words(facts);
+    return (joints.is_null() ? "" : joint_words(joints)) + (facts.at("nearer").is_null() ? "" : nearer_words(facts)) +
+           (bar.is_null() ? "" : error_bar_words(bar)) + decisive_sentence(facts);
 }
 
 }  // namespace experiments

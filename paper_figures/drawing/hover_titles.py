@@ -23,14 +23,15 @@ def group_of(axes, dpi, height):
     circles = [circle for points in points_of(axes) for circle in circles_of(axes, *points, dpi, height)]
     if not circles:
         return ""
-    names = f"data-x={quoteattr(axes.get_xlabel())} data-y={quoteattr(axes.get_ylabel())}"
+    names = f"data-x={quoteattr(axes.get_xlabel().partition(chr(10))[0])} data-y={quoteattr(axes.get_ylabel())}"
     return f'<g class="values" fill="none" pointer-events="all" {names}>\n' + "\n".join(circles) + "\n</g>\n"
 
 
 def points_of(axes):
-    """(label, x, y of the places, x, y as shown) for each line, cloud of markers and row of bars, except lines across the panel."""
+    """(label, x, y of the places, x, y as shown) for each line, cloud of markers and row of bars, except guides and lines across the
+    panel."""
     for line in axes.lines:
-        if line.get_transform() == axes.transData:
+        if line.get_transform() == axes.transData and line.get_gid() != "guide":
             x, y = line.get_data(orig=False)
             yield line.get_label(), x, y, x, y
     for cloud in axes.collections:

@@ -19,13 +19,15 @@ from words import looks  # noqa: E402
 
 column_in, page_in = 84 / 25.4, 178 / 25.4  # widths of one column and of the page
 
-black, orange, sky, green = "#000000", "#E69F00", "#56B4E9", "#009E73"
-yellow, blue, vermillion, purple = "#F0E442", "#0072B2", "#D55E00", "#CC79A7"
+black, orange, sky, green, yellow, blue, vermillion, purple, grey, light, pale = (looks.palette[name] for name in (
+    "black", "orange", "sky", "green", "yellow", "blue", "vermillion", "purple", "grey", "light", "pale"))
+label_size, tick_size = 7.5, 6.5  # of all letters in a figure [pt]
 
 matplotlib.rcParams.update({
-    "font.family": "DejaVu Sans", "font.size": 7.5, "axes.titlesize": 8, "axes.labelsize": 7.5, "legend.fontsize": 7,
-    "xtick.labelsize": 7, "ytick.labelsize": 7, "lines.linewidth": 1.2, "lines.markersize": 3.2, "axes.linewidth": 0.6,
-    "xtick.major.width": 0.6, "ytick.major.width": 0.6, "axes.grid": True, "grid.linewidth": 0.3, "grid.color": "#D0D0D0",
+    "font.family": "DejaVu Sans", "font.size": label_size, "axes.titlesize": label_size, "axes.labelsize": label_size,
+    "legend.fontsize": label_size, "xtick.labelsize": tick_size, "ytick.labelsize": tick_size,
+    "lines.linewidth": 1.2, "lines.markersize": 3.2, "axes.linewidth": 0.6,
+    "xtick.major.width": 0.6, "ytick.major.width": 0.6, "axes.grid": True, "grid.linewidth": 0.3, "grid.color": light,
     "axes.axisbelow": True, "legend.frameon": False, "savefig.dpi": 300, "pdf.fonttype": 42, "svg.fonttype": "none",
     "svg.hashsalt": "pbskin", "axes.spines.top": False, "axes.spines.right": False, "figure.constrained_layout.use": True})
 
@@ -55,7 +57,7 @@ def plot(axes, rows, x, y, **options):
 def as_of(deformer, **others):
     """The look of a deformer as options of a line, and other options, which take precedence."""
     look = looks.of(deformer)
-    return {"color": look.color, "linestyle": look.line, "marker": look.marker, "label": look.name} | others
+    return {"color": look.color, "linestyle": look.line, "marker": look.marker, "label": looks.short(deformer)} | others
 
 
 def draw(axes, deformer, rows, x, y, **options):
@@ -115,10 +117,10 @@ def per_cent_scale(axes, signed):
     axes.yaxis.set_minor_locator(ticker.NullLocator())
 
 
-def legend_above(figure, columns=None):
-    """The common legend of the panels, above them all: every label that occurs, once."""
+def legend_above(figure, columns=None, panels=None):
+    """The common legend of these panels, or of all, above them all: every label that occurs, once."""
     shown = {}
-    for panel in figure.axes:
+    for panel in figure.axes if panels is None else panels:
         for handle, label in zip(*panel.get_legend_handles_labels()):
             shown.setdefault(label, handle)
     labels, handles = list(shown), list(shown.values())
@@ -128,6 +130,47 @@ def legend_above(figure, columns=None):
     top = 1 - height / figure.get_size_inches()[1]
     figure.get_layout_engine().set(rect=(0, 0, 1, top))
     figure.legend(handles, labels, loc="lower center", bbox_to_anchor=(0.5, top), ncol=columns)
+
+
+def spread(wanted, heights, low, high):
+    """The middles of labels of these heights, from the lowest to the highest, as near as possible to the wanted ones without overlap:
+    labels that push each other have their mean place (pooled adjacent violators)."""
+    below = [sum(heights[:place]) + height / 2 for place, height in enumerate(heights)]
+    pools = []
+    for middle, under in zip(wanted, below):
+        pools.append((middle - under, 1))
+        while len(pools) > 1 and pools[-2][0] > pools[-1][0]:
+            (one, of_one), (other, of_other) = pools.pop(), pools.pop()
+            pools.append(((one * of_one + other * of_other) / (of_one + of_other), of_one + of_other))
+    free = [max(low, min(place, high - sum(heights))) for place, count in pools for _ in range(count)]
+    return [place + under for place, under in zip(free, below)]
+
+
+def label_ends(axes, texts):
+    """Labels to the right of a panel, when the figure is complete but for them; texts: line -> text. A thin line leads to the right end of
+    each line."""
+    axes.figure.canvas.figure.draw_without_rendering()  # computes the height of the panel
+    ends = {line: max(line.get_transform().transform(line.get_xydata()).tolist()) for line, text in texts.items()
+            if text and len(line.get_xydata())}
+    lines = sorted(ends, key=lambda line: ends[line][1])
+    heights = [(1.22 * texts[line].count("\n") + 1.45) * tick_size * axes.figure.dpi / 72 for line in lines]
+    middles = spread([ends[line][1] for line in lines], heights, axes.bbox.y0, max(axes.bbox.y1, axes.bbox.y0 + sum(heights)))
+    for line, middle in zip(lines, middles):
+        axes.annotate(texts[line], axes.transAxes.inverted().transform(ends[line]), (1.05, (middle - axes.bbox.y0) / axes.bbox.height),
+                      xycoords="axes fraction", textcoords="axes fraction", va="center", fontsize=tick_size, color=line.get_color(),
+                      annotation_clip=False, arrowprops={"arrowstyle": "-", "color": line.get_color(), "linewidth": 0.4, "shrinkA": 0,
+                                                         "shrinkB": 2, "relpos": (0, 0.5)})
+
+
+def label_lines(panels):
+    """Names the lines of these panels at their right ends."""
+    for axes in panels:
+        label_ends(axes, {line: line.get_label() for line in axes.lines if not str(line.get_label()).startswith("_")})
+
+
+def name_area(axes, text, place, **options):
+    """A name within a grey area of a panel, at a place in data coordinates."""
+    axes.annotate(text, place, **{"xycoords": ("axes fraction", "data"), "fontsize": tick_size, "va": "center"} | options)
 
 
 def show(panel, picture, title="", below=""):

@@ -3,7 +3,7 @@ import math
 
 import records
 from drawing import style
-from words.number_words import figure, span
+from words.number_words import span
 
 # The upper panels show the residual of the constraints, the lower ones the distance to the finite element reference. The error does not
 # follow the residual: in the twist it grows again while PBS converges to a different shape. Starting from the previous frame or the rest
@@ -39,8 +39,8 @@ def draw_case(axes, file, column, limits, pose):
     axes.axvline(24, color=style.black, linewidth=0.6)
     axes.set(xlim=(0, 1100), yscale="log", ylim=limits)
     most = {label: max(row["value"] for row in behind if row["start"] == start) for start, label in starts.items()}
-    below = "\n".join(f"{label}: at most {value:.0e}" for label, value in most.items() if value < limits[0])  # the panel
-    axes.annotate(below, (0.97, 0.97), xycoords="axes fraction", ha="right", va="top", fontsize=6, bbox={"color": "white", "pad": 1.0})
+    below = [f"{label}: below $10^{{{math.ceil(math.log10(value))}}}$" for label, value in most.items() if value < limits[0]]  # the panel
+    style.name_area(axes, "\n".join(below), (0.97, limits[1]), ha="right", va="top", bbox={"color": "white", "pad": 1.0})
     return behind
 
 
@@ -72,7 +72,7 @@ columns = setting | {"vertices", "iterations", "iterations_to_volume", "volume_r
 def draw_measure(axes, rows, name, number, early, late):
     """Where no reference was computed for a mesh, the panel states that."""
     if not any(is_measured(row, early) for row in rows):
-        axes.annotate(f"{name}: no reference on record", (0.5, 0.5 + 0.1 * number), xycoords="axes fraction", ha="center", fontsize=6)
+        axes.annotate(f"{name}: no reference on record", (0.5, 0.5 + 0.1 * number), xycoords="axes fraction", ha="center")
         return
     for column, iterations, look in ((early, 24, {}), (late, int(rows[0]["iterations"]), {"markerfacecolor": "white", "linewidth": 0.7})):
         measured = [row for row in rows if is_measured(row, column)]
@@ -88,6 +88,7 @@ def is_measured(row, column):
 def draw_iterations(axes, rows, name, number):
     """A caret marks a mesh whose tolerance was not reached at the last iteration."""
     color, marker = style.sequence[number]
+    axes.set_yscale("log")
     style.plot(axes, rows, "vertices", "iterations_to_volume", color=color, linestyle=style.lines[number], linewidth=0.7)
     for reached, words in ((True, "reached"), (False, "not reached")):
         shown = [row for row in rows if (float(row["volume_reached"]) == 1.0) == reached]
@@ -97,21 +98,11 @@ def draw_iterations(axes, rows, name, number):
 
 
 def convergence_mesh_facts(rows):
-    """The residuals of the coarsest and the finest mesh of each sequence, the early and late errors of those that have a reference, and how
-    many meshes keep volumes within 0.5 %."""
+    """The sizes of the meshes, the last iteration, and how many meshes of each sequence keep volumes within 0.5 %."""
     facts = {"vertices": span([int(row["vertices"]) for row in rows]), "last": rows[0]["iterations"]}
     for ladder in ladders:
-        shown = sorted((row for row in rows if row["ladder"] == ladder), key=lambda row: int(row["vertices"]))
-        name, ends = ladder.removeprefix("ladder_"), (shown[0], shown[-1])
-        for column, of in (("residual_24", "residual"), ("last_residual", "last_residual"), ("volume_abs_change_24_pct", "volume"),
-                           ("last_volume_abs_change_pct", "last_volume")):
-            facts[f"{name}_{of}"] = " and ".join(figure(float(row[column])) for row in ends)
-        facts[f"{name}_reached"] = f"{sum(float(row['volume_reached']) == 1.0 for row in shown)} of {len(shown)}"
-        measured = [row for row in shown if is_measured(row, "error_24_pct")]
-        facts[f"{name}_error"] = ", ".join(
-            f"{figure(float(row['error_24_pct']))} % after 24 and {figure(float(row['last_error_pct']))} % after {row['iterations']} on "
-            f"{row['vertices']} vertices" for row in (measured if len(measured) < 3 else measured[::len(measured) - 1])
-        ) or "no reference on record"
+        reached = [float(row["volume_reached"]) == 1.0 for row in rows if row["ladder"] == ladder]
+        facts[f"{ladder.removeprefix('ladder_')}_reached"] = f"{sum(reached)} of {len(reached)}"
     return facts
 
 
@@ -132,10 +123,11 @@ def convergence_mesh(results):
         low, high = panel.get_ylim()
         style.log_scale(panel.yaxis, steps=(1, 2, 5) if high > 5 * low else (1, 1.5, 2, 2.5, 3, 3.5, 4, 5, 7))
     low, high = axes[0][1].get_ylim()  # the band reaches down to the axis
-    axes[0][1].axhspan(min(low, 0.4), 0.5, color="#E8E8E8", linewidth=0, zorder=0, label="within 0.5 %")
+    axes[0][1].axhspan(min(low, 0.4), 0.5, color=style.pale, linewidth=0, zorder=0)
+    style.name_area(axes[0][1], "within 0.5 %", (0.01, min(low, 0.4)), va="bottom")
     axes[0][1].set_ylim(min(low, 0.4), high)
     for panel in axes[1]:
         style.decades(panel.xaxis)
         panel.set_xlabel("vertices of the limb")
-    style.legend_above(drawing, columns=4)
+    style.label_lines(axes.T[1])
     return drawing, behind

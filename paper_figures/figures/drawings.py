@@ -77,7 +77,7 @@ def mark_vertex(panel, frames, points):
 
 def draw_rule(panel, frames):
     """Every vertex of the human at its parameter; the zone of Eq. 2 is grey."""
-    panel.axvspan(low, high, color="#E8E8E8", linewidth=0, zorder=0)
+    panel.axvspan(low, high, color=style.pale, linewidth=0, zorder=0)
     for blended, (label, color, marker) in kinds.items():
         rows = [row for row in frames.binding() if row["blended"] == blended]
         x, y = ([float(row[name]) for row in rows] for name in ("parameter", "rest_distance_m"))
@@ -199,11 +199,11 @@ def fig_07_bind(results):
             ("o", looks.of("lbs").marker, looks.of("pbs").marker)):
         place, foot = points[vertex], frames.projections(frames.bones(at))[vertex]
         distance_mm = 1000 * numpy.linalg.norm(place - foot)
-        panel.plot(*points[abs(rest[:, 2]) < 0.05].T[:2], linestyle="", marker=".", color="#B0B0B0", markersize=2.5)
+        panel.plot(*points[abs(rest[:, 2]) < 0.05].T[:2], linestyle="", marker=".", color=style.light, markersize=2.5)
         draw_bones(panel, frames.bones(at))
         panel.plot(*zip(foot[:2], place[:2]), color=color, linewidth=1.3, marker=marker, markersize=5, zorder=3)
         for name, end, offset in ((text, place, (9, -9)), ("$q_i$", foot, (9, 7))):
-            panel.annotate(name, end[:2], offset, textcoords="offset points", color=color, ha="left", va="center", fontsize=9)
+            panel.annotate(name, end[:2], offset, textcoords="offset points", color=color, ha="left", va="center")
         panel.set(xlabel="x [m]", aspect="equal", xlim=(-0.45, 0.45), ylim=(-0.3, 0.46),
                   title=f"{title}: $|p_i - q_i|$ = {distance_mm:.0f} mm")
         behind.append({"scene": "limb_bend", "frame": at, "state": title, "vertex": vertex, "distance_mm": distance_mm,

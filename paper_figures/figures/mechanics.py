@@ -5,7 +5,7 @@ import sys
 import records
 from drawing import style
 from words import looks
-from words.number_words import figure, listed, span
+from words.number_words import figure, span
 
 # The change of linear and angular momentum by one projection of a class of constraints, relative to the momentum exchanged. With weighted
 # masses only rounding remains, in both precisions. The formulae for unit masses (Eq. 8-9) on unequal masses lose up to a third. The bind
@@ -87,21 +87,24 @@ def draw_reference(axes, rows):
         label = f"{name}, on the FEM's mesh" if row["deformer"] == "pbs" else f"{name}, in time, limb"
         axes.plot(float(row["k_stretch"]), float(row["damping_ratio"]), **style.as_of(
             row["deformer"], label=label, linestyle="none", markersize=8, markerfacecolor="none", markeredgewidth=0.8))
+    last = {row["deformer"] == "pbs": (float(row["k_stretch"]), float(row["damping_ratio"])) for row in found}
+    for is_pbs, place in last.items():
+        axes.annotate("PBS on the FEM's mesh" if is_pbs else "FEM in time, limb", place, (7, -7 if is_pbs else 7), va="center",
+                      textcoords="offset points", fontsize=style.tick_size)
     return style.taken(found, sorted(jolt_columns), body="limb_reference", varied="")
 
 
 def jiggle_response_facts(rows):
-    """The ratio by which each factor changes each body's frequency over the values shown, the settings that are held fixed, and the
-    elements' moduli."""
+    """The ratio by which each factor changes the frequency over the values shown, over the bodies; the settings that are held fixed; and
+    the elements' moduli."""
     def folds(factor):
-        hz = {body: [float(row["frequency_hz"]) for row in rows if (row["body"], row["varied"]) == (body, factor)] for body in jolted}
-        return listed([f"{figure(max(found) / min(found))}-fold ({body})" for body, found in hz.items() if len(found) > 1])
+        hz = [[float(row["frequency_hz"]) for row in rows if (row["body"], row["varied"]) == (body, factor)] for body in jolted]
+        return span([max(found) / min(found) for found in hz if len(found) > 1])
 
     young_kpa = [float(row["young_pa"]) / 1000 for row in rows if row["body"] == "limb_reference" and row["deformer"] != "pbs"]
     k_stretch, step_ms, iterations = (figure(value) for value in usual_jolt.values())
-    beside = f"{step_ms} ms and {iterations} iterations"
-    held = {"held": f"k_stretch {k_stretch}, {beside}", "held_beside": beside}
-    return {factor: folds(factor) for factor in names} | held | {"young_kpa": span(young_kpa)}
+    held = f"k_stretch {k_stretch}, {step_ms} ms and {iterations} iterations"
+    return {factor: folds(factor) for factor in names} | {"held": held, "young_kpa": span(young_kpa)}
 
 
 def jiggle_response(results):
@@ -117,7 +120,7 @@ def jiggle_response(results):
     style.log_scale(axes[0][0].yaxis)
     axes[1][0].set_ylim(bottom=-0.02)
     axes[1][0].set_xticks([0, 0.2, 0.4, 0.6, 0.8, 1.0])
-    style.legend_above(drawing)
+    style.label_lines(axes.T[-1])
     return drawing, behind
 
 
@@ -125,8 +128,8 @@ def jiggle_response(results):
 # flat line. The stiffness of PBS grows with the iterations and falls with the square of the time step. Mueller's exponent removes neither
 # dependence. XPBD, which keeps multipliers, is nearly flat. Values too stiff to move in double precision are left out.
 
-bodies = [("bar", "cantilever", "bar, held at one end"), ("limb", "zone_on_held", "limb, flesh on a held core"),
-          ("human", "zone_on_held", "human, flesh on a held core")]
+bodies = [("bar", "cantilever", "bar, held at one end"), ("limb", "zone_on_held", "limb on a held core"),
+          ("human", "zone_on_held", "human on a held core")]
 factors = {"iterations": "iterations", "time_step_ms": "time step [ms]", "vertices": "vertices"}
 usual = {"iterations": 24.0, "time_step_ms": 10.0}
 young_pa = 30e3  # of XPBD; some sweeps also use stiffer values
@@ -161,41 +164,35 @@ def draw_panel(axes, rows, factor):
     values = sorted({float(row[factor]) for row in behind})
     axes.set_yscale("log")
     if left_out:
-        axes.annotate(f"{left_out} stiffer, left out", (0.03, 0.9), xycoords="axes fraction", fontsize=6)
+        axes.annotate(f"{left_out} stiffer, left out", (0.03, 0.9), xycoords="axes fraction", fontsize=style.tick_size)
     if values and factor != "vertices":
-        style.log_scale(axes.xaxis, values)
+        style.log_scale(axes.xaxis, values[::2] if len(values) > 6 else values)
     elif values:  # mesh sizes come in pairs that are nearly equal, whose labels would overlap
         (style.log_scale if values[-1] < 30 * values[0] else style.decades)(axes.xaxis)
     return behind
 
 
 def stiffness_facts(rows):
-    """The ratio by which XPBD stiffens over the iterations shown, plain and in small steps, and the values of the other settings."""
+    """The ratio by which XPBD stiffens over the iterations shown, plain and in small steps, over the bodies; and the other settings."""
     def folds(method):
-        parts = []
-        for body, _, _ in bodies:
-            shown = [row for row in rows if (row["body"], row["varied"], row["method"]) == (body, "iterations", method)]
-            counts, found = ([float(row[name]) for row in shown] for name in ("iterations", "stiffness_n_m"))
-            if len(shown) > 1:
-                parts.append(f"{figure(found[-1] / found[0])}-fold ({body}, {figure(min(counts))} to {figure(max(counts))})")
-        return listed(parts)
+        shown = [[float(row["stiffness_n_m"]) for row in rows
+                  if (row["body"], row["varied"], row["method"]) == (body, "iterations", method)] for body, _, _ in bodies]
+        return span([found[-1] / found[0] for found in shown if len(found) > 1])
 
-    held = {"iterations": figure(usual["iterations"]), "step_ms": figure(usual["time_step_ms"]),
-            "k_exponent": listed([figure(k_stretch) for method, k_stretch, *_ in methods if method == "exponent"])}
+    held = {"iterations": figure(usual["iterations"]), "step_ms": figure(usual["time_step_ms"])}
     return {"xpbd": folds("xpbd"), "small_steps": folds("xpbd_small_steps")} | held
 
 
 def stiffness(results):
     drawing, axes = style.panels(3, 3, height_in=1.6)
     behind = []
-    for panels, (body, load, title) in zip(axes, bodies):
-        for panel, (factor, name) in zip(panels, factors.items()):
+    for panels, (body, load, _) in zip(axes, bodies):
+        for panel, factor in zip(panels, factors):
             sweep = {"time_step_ms": "time_step", "vertices": "resolution"}.get(factor, factor)
             rows = records.table(results / "stiffness" / f"{sweep}_{body}" / "stiffness.csv", columns)
             behind += draw_panel(panel, [row for row in rows if row["load"] == load], factor)
-            panel.set(title=title, xlabel=name)
-    style.label(axes, (), ["stiffness [N/m]"] * 3)
-    style.legend_above(drawing, columns=3)
+    style.label(axes, (), [f"{title}\nstiffness [N/m]" for *_, title in bodies], factors.values())
+    style.label_lines(axes.T[-1])
     return drawing, behind
 
 
@@ -206,15 +203,16 @@ def fit(results):
     sag_columns = {"vertices", "k_stretch", "k_volume", "iterations", "young_pa", "settled"}
     rows = [row for row in records.table(results / "fit" / "sag.csv", sag_columns)
             if float(row["k_volume"]) == 1.0 and float(row["settled"]) == 1.0]
-    drawing, ((axes,),) = style.panels(1, 1, height_in=3.1)
+    drawing, ((axes,),) = style.panels(1, 1, height_in=2.4, width_in=style.page_in)
     counts = sorted({int(row["iterations"]) for row in rows})
     for vertices, line in zip(sorted({int(row["vertices"]) for row in rows}), ("-", (0, (4, 1.5)), (0, (1, 1)))):
         for iterations, (color, marker) in zip(counts, style.sequence):
             chosen = [row for row in rows if int(row["vertices"]) == vertices and int(row["iterations"]) == iterations]
             axes.plot([float(row["k_stretch"]) for row in chosen], [float(row["young_pa"]) / 1e3 for row in chosen], color=color,
                       marker=marker, linestyle=line, label=f"{iterations} iterations, {vertices} vertices")
-    axes.set(xscale="log", yscale="log", xlabel="k_stretch [1]", ylabel="Young's modulus [kPa]",
-             title="by sag: k_volume 1, time step 10 ms, 1000 kg/m\u00b3")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncol=2, fontsize=6, handlelength=3.4)
+    style.log_scale(axes.xaxis)
+    style.decades(axes.yaxis)
+    axes.set(xlabel="k_stretch [1]", ylabel="Young's modulus [kPa]", title="by sag: k_volume 1, time step 10 ms, 1000 kg/m\u00b3")
+    style.label_lines([axes])
     return drawing, [{"shown": "young_kpa", "of": f"{row['vertices']} vertices, {row['iterations']} iterations", "at": row["k_stretch"],
                       "value": float(row["young_pa"]) / 1e3} for row in rows]

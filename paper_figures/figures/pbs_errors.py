@@ -3,7 +3,7 @@ converged constraints, and the bound on the reference's own discretisation error
 import math
 
 import records
-from drawing import omission_boxes, style
+from drawing import style
 from words import case_words, looks
 
 parts = {"error_joint_pct": ("whole error", style.black, "x", "-"), "solver_pct": ("solver", style.vermillion, "v", (0, (4, 1.5))),
@@ -55,7 +55,7 @@ def draw_attachments(axes, rows, pose):
     axes.set_ylim(-0.5, len(chosen) - 0.5)
     for place, row in enumerate(chosen):
         if not math.isfinite(float(row["model_pct"] or "nan")):
-            axes.annotate("not reached", (0.01, place), xycoords=("axes fraction", "data"), va="center", fontsize=7)
+            axes.annotate("not reached", (0.01, place), xycoords=("axes fraction", "data"), va="center", fontsize=style.tick_size)
     axes.set_xlabel("converged PBS from flesh [%]")
     axes.grid(axis="y", visible=False)
     return [{"pose": pose, "k_stretch": row["k_stretch"], "shown": "model_pct", "at": row["reference"], "value_pct": row["model_pct"]}
@@ -77,9 +77,9 @@ def error_split(results):
 # iterations, and the gain of each change in the time of 4, 24 and 96 iterations of PBS, with its range over the poses. A gain that is
 # decided is drawn filled.
 
-changes = {"smooth_weights": ("#C0392B", "v"), "bind_to_blended_position": ("#16A085", "^"), "region_volumes": ("#8E44AD", "D"),
-           "tet_and_region_volumes": ("#C9A400", "s"), "k_by_edge_length": ("#5D6D7E", "P"), "another_order": ("#A0522D", "x"),
-           "other_stiffnesses": ("#AAAAAA", "+")}  # no deformer has one of these colours
+markers = {"smooth_weights": "v", "bind_to_blended_position": "^", "region_volumes": "D", "tet_and_region_volumes": "s",
+           "k_by_edge_length": "P", "another_order": "x", "other_stiffnesses": "+"}
+changes = dict(zip(markers, zip(looks.palette["changes"], markers.values())))  # no deformer has one of these colours
 names = {"pbs": f"{looks.of('pbs').name} (baseline)"} | {change: case_words.of_field("change", change) for change in changes}
 curve_columns = {"body", "change", "setting", "iterations", "poses", "mean_ms", "error_joint_pct"}
 gain_columns = {"group", "budget_iterations", "change", "than", "poses", "gain_pct", "gain_low_pct", "gain_high_pct", "decision"}
@@ -109,7 +109,7 @@ def draw_gains(axes, rows):
                 axes.plot([float(row["gain_low_pct"]), float(row["gain_high_pct"])], [y, y], color=color, linewidth=0.8)
             axes.plot([gain], [y], color=color, marker=marker, linestyle="none",
                       markerfacecolor=color if row["decision"] == "decided" else "white")
-        axes.plot([], [], color=color, marker=marker, linestyle="none", label=f"gain in the time of {budget} iterations")
+        axes.plot([], [], color=color, marker=marker, linestyle="none", label=f"in the time of {budget} iterations")
     axes.plot([], [], color=style.black, marker="o", linestyle="none", markerfacecolor="white", label="hollow: not decided")
     axes.axvline(0, color=style.black, linewidth=0.6)
     axes.set_xscale("symlog", linthresh=1.0)
@@ -140,7 +140,6 @@ def improvements(results):
     behind = [row for panel, body in zip(upper, bodies) for row in draw_curves(panel, body, [row for row in curves if row["body"] == body])]
     behind += draw_gains(lower, gains)
     omitted = not_ranked(gains)
-    omission_boxes.draw(lower, omitted, 110, place=(0.01, 0.02), fontsize=5)
-    upper[0].legend(loc="best", fontsize=6)
-    lower.legend(loc="center right", fontsize=6)
+    lower.legend(loc="upper center", bbox_to_anchor=(0.35, -0.15), ncol=4)
+    style.label_lines(upper)
     return figure, behind + [{"shown": "omission", "why": line} for line in omitted]

@@ -5,18 +5,17 @@ import textwrap
 import records
 from drawing import style
 from words import case_words, looks
-from words.number_words import listed
 
-looks_of_outcomes = {"converged": ("#FFFFFF", "o", style.blue, "converged: at rest, as if undisturbed"),
-                     "bounded": ("#E3EEF7", "s", style.sky, "bounded: moving, or at rest elsewhere"),
-                     "inverted": ("#F6CFA0", "v", style.vermillion, "inverted tets at the end"),
-                     "diverged": ("#C08A9F", "x", style.black, "diverged"),
-                     "not_finite": ("#5A5A5A", "*", style.yellow, "not finite")}
+looks_of_outcomes = {"converged": ("o", style.blue, "converged: at rest, as if undisturbed"),
+                     "bounded": ("s", style.sky, "bounded: moving, or at rest elsewhere"),
+                     "inverted": ("v", style.vermillion, "inverted tets at the end"),
+                     "diverged": ("x", style.black, "diverged"), "not_finite": ("*", style.yellow, "not finite")}
+shades = dict(zip(looks_of_outcomes, looks.palette["outcomes"]))
 
 
 def draw_marks(axes, places, outcomes, size):
     """places: (x, y) of each outcome."""
-    for outcome, (_, marker, color, text) in looks_of_outcomes.items():
+    for outcome, (marker, color, text) in looks_of_outcomes.items():
         shown = [place for place, found in zip(places, outcomes) if found == outcome]
         if shown:
             fill = {"c": color, "edgecolors": style.black} if marker == "*" else {"color": color}  # yellow alone is not visible on white
@@ -24,9 +23,9 @@ def draw_marks(axes, places, outcomes, size):
                          linewidths=0.3 if marker == "*" else 0.9, label=text, zorder=3)
 
 
-def legend_of_outcomes(figure, axes):
-    """A legend of all five outcomes, so that a reader sees which do not occur."""
-    for _, marker, color, text in looks_of_outcomes.values():
+def legend_of_outcomes(figure, axes, found):
+    """A legend of the outcomes that occur."""
+    for marker, color, text in (look for outcome, look in looks_of_outcomes.items() if outcome in found):
         axes.plot([], [], linestyle="none", marker=marker, color=color, markeredgecolor=style.black if marker == "*" else color,
                   markeredgewidth=0.6 if marker == "*" else 0.8, markersize=9 if marker == "*" else 4.5, label=text)
     style.legend_above(figure, columns=3)
@@ -58,30 +57,8 @@ def draw_factor(axes, rows, place):
         step = 0.8 / max(len(cells), 4)
         places = [(across + (number - (len(cells) - 1) / 2) * step, place) for number in range(len(cells))]
         worst = max((cell["outcome"] for cell in cells), key=list(looks_of_outcomes).index)
-        axes.fill_between([across - 0.48, across + 0.48], place - 0.42, place + 0.42, color=looks_of_outcomes[worst][0], linewidth=0)
+        axes.fill_between([across - 0.48, across + 0.48], place - 0.42, place + 0.42, color=shades[worst], linewidth=0)
         draw_marks(axes, places, [cell["outcome"] for cell in cells], size=9 if len(cells) < 6 else 4)
-
-
-def factors_with(rows, model, outcome):
-    of = dict.fromkeys(row["factor"] for row in rows if (row["model"], row["outcome"]) == (model, outcome))
-    return [case_words.of_field("factor", factor) for factor in of]
-
-
-def stability_cells_facts(rows):
-    """For each method, how many cells come to rest, and which factors lead to another outcome."""
-    present = [model for model in models if any(row["model"] == model for row in rows)]
-
-    def at_rest(model):
-        ends = [row["outcome"] for row in rows if row["model"] == model]
-        return f"{looks.of(model).name} in {ends.count('converged')} of {len(ends)}"
-
-    def by_method(outcome):
-        found = {model: factors_with(rows, model, outcome) for model in present}
-        return listed([f"{looks.of(model).name} ({' and '.join(factors)})" for model, factors in found.items() if factors], "; ")
-
-    return {"at_rest": listed([at_rest(model) for model in present], "; "), "diverged": by_method("diverged"),
-            "not_finite": by_method("not_finite"), "inverted_pbs": listed(factors_with(rows, "pbs", "inverted"), "; "),
-            "inverted_jiggle": listed(factors_with(rows, "pbs_jiggle", "inverted"), "; ")}
 
 
 def stability_cells(results):
@@ -94,14 +71,12 @@ def stability_cells(results):
     figure, ((panel,),) = style.panels(1, 1, height_in=0.6 + 0.21 * len(of_factors), width_in=style.page_in)
     for place, cells in enumerate(of_factors.values()):
         draw_factor(panel, cells, place)
-    panel.set_xticks(range(len(models)), [textwrap.fill(looks.of(model).name, 12) for model in models])
+    panel.set_xticks(range(len(models)), [textwrap.fill(looks.short(model), 10) for model in models])
     panel.set_xlim(-0.5, len(models) - 0.5)
     style.name_rows(panel, [f"{case_words.of_field('factor', factor)}: {range_of(cells)}" for factor, cells in of_factors.items()])
     panel.xaxis.tick_top()
-    panel.tick_params(labelsize=6)
-    panel.tick_params(axis="x", labelsize=5)  # names of neighbouring columns may not touch
     panel.grid(False)
-    legend_of_outcomes(figure, panel)
+    legend_of_outcomes(figure, panel, {row["outcome"] for row in rows})
     return figure, style.taken(rows, ("body", "model", "factor", "value", "unit", "named", "precision", "outcome"))
 
 
@@ -122,7 +97,7 @@ def draw_map(axes, rows, title):
     up = sorted({float(row["second_value"]) for row in rows})
     places = [(across.index(float(row["value"])), up.index(float(row["second_value"]))) for row in rows]
     for (x, y), row in zip(places, rows):
-        axes.fill_between([x - 0.5, x + 0.5], y - 0.5, y + 0.5, color=looks_of_outcomes[row["outcome"]][0], linewidth=0)
+        axes.fill_between([x - 0.5, x + 0.5], y - 0.5, y + 0.5, color=shades[row["outcome"]], linewidth=0)
     draw_marks(axes, places, [row["outcome"] for row in rows], size=26)
     axes.set_xticks(range(len(across)), [f"{value:g}" for value in across])
     axes.set_yticks(range(len(up)), [f"{value:g}" for value in up])
@@ -132,13 +107,8 @@ def draw_map(axes, rows, title):
 
 
 def stability_maps_facts(rows):
-    """The number of cells of each map by outcome, and the steps of the longest run."""
-    def counts(file):
-        found = [row["outcome"] for row in rows if row["map"] == file]
-        return f"of {len(found)} cells " + ", ".join(f"{found.count(end)} {case_words.of_field('end', end)}" for end in looks_of_outcomes)
-
-    left, right = map(counts, maps)
-    return {"left": left, "right": right, "steps": max(int(row["steps"]) for row in rows)}
+    """The steps of the longest run."""
+    return {"steps": max(int(row["steps"]) for row in rows)}
 
 
 def stability_maps(results):
@@ -148,5 +118,5 @@ def stability_maps(results):
         rows = records.table(results / "stability" / file, columns)
         draw_map(panel, rows, title)
         behind += style.taken(rows, sorted(columns), map=file)
-    legend_of_outcomes(figure, axes[0])
+    legend_of_outcomes(figure, axes[0], {row["outcome"] for row in behind})
     return figure, behind

@@ -68,7 +68,7 @@ def fig_01_motion(results):
     views = {frame: above_floor(frames.skin("lbs", frame), 0.95, 0.98, (1.0, 0.15, 0.75))
              for frame in frames.frames_at(0.0, crouch_s, 0.48, 0.72, 1.08, 1.6)}
     figure, behind = grid(skins(frames, labels, views, rendering.Stage(440, 720)), "volume {volume_change_pct:+.1f} %",
-                          times_of(frames, views), [looks.of(label).name for label in labels], height_in=2.1)
+                          times_of(frames, views), [looks.short(label) for label in labels], height_in=2.1)
     return figure, style.columns_of(behind, *volumes)
 
 
@@ -100,7 +100,7 @@ def fig_05_weights(results):
               for label in labels]
     figure, behind = grid(stills, "volume {volume_change_pct:+.2f} %, {inverted_tets:.0f} inverted tets, "
                                   "smallest section {min_section_pct:.0f} %",
-                          ("each vertex on one bone", "weights of Eq. 2"), [looks.of(label).name for label in labels], height_in=2.35)
+                          ("each vertex on one bone", "weights of Eq. 2"), [looks.short(label) for label in labels], height_in=2.35)
     return figure, style.columns_of(behind, "angle_deg", *volumes, "min_section_pct")
 
 
@@ -118,7 +118,7 @@ def fig_08_artefacts(results):
         frames, stage = scenes[motion], rendering.Stage(900, int(900 * height))
         frame = frames.frame_at_angle(angle_deg)
         stills.append([(frames.row(label, frame), stage.shot([rendering.tets(frames.tets(label, frame))], view)) for label in labels])
-    figure, behind = grid(stills, artefacts, [looks.of(label).name for label in labels],
+    figure, behind = grid(stills, artefacts, [looks.short(label) for label in labels],
                           [f"{motion} {angle_deg}\u00b0" for motion, angle_deg, *_ in artefact_poses], height_in=1.75,
                           height_ratios=[height for *_, height in artefact_poses])
     style.ratio_bar(figure, figure.axes, rendering.ratio_scale, rendering.ratio_colors)
@@ -220,7 +220,7 @@ def clip_jump(results):
     still, = frames.frames_at(crouch_s)
     view, stage = rendering.Camera(rendering.middle_of(frames.skin("nh_p1", still)), 0.78, clip_direction), rendering.Stage(700, 800)
     stills = [line[0] for line in skins(frames, in_clip, {still: view}, stage)]
-    figure, _ = grid([stills], in_words, [looks.of(label).name for label in in_clip], height_in=3.0)
+    figure, _ = grid([stills], in_words, [looks.short(label) for label in in_clip], height_in=3.0)
     behind = [frames.row(label, frame) for label in in_clip for frame in range(len(frames.times_s()))]
     return (figure, style.columns_of(behind, "volume_change_pct", "inverted_tets", "min_section_pct"),
             {"webp": lambda file, origin: draw_clip(file, frames, origin)})
@@ -244,9 +244,7 @@ def frames_volume_ratio(results):
     stills = [[(frames.row(label, frame), stage.shot([rendering.tets(frames.tets(label, frame))],
                                                      rendering.Camera(sum(box) / 2, half_height_m)))
                for frame, box in shown.items()] for label in labels]
-    figure, behind = grid(stills, moment_words, times_of(frames, shown), [looks.of(label).name for label in labels], height_in=2.35)
-    for panel in figure.axes[::len(shown)]:
-        panel.yaxis.label.set_size(8)
+    figure, behind = grid(stills, moment_words, times_of(frames, shown), [looks.short(label) for label in labels], height_in=2.35)
     style.ratio_bar(figure, figure.axes, rendering.ratio_scale, rendering.ratio_colors)
     return figure, style.columns_of(behind, "volume_change_pct", "inverted_tets", "min_section_pct")
 
@@ -259,7 +257,7 @@ def frames_volume_ratio_facts(rows):
 
 def contact(results):
     """Folds under LBS, PBS without and with contact, and FEM, cut open in the plane of the two bones of a joint."""
-    labels = {label: looks.of(label).name for label in ("lbs", "pbs", "pbs_contact")} | {"nh_p1": "FEM with contact"}
+    labels = {label: looks.short(label) for label in ("lbs", "pbs", "pbs_contact")} | {"nh_p1": "FEM with contact"}
     stage, limb, human = rendering.Stage(700, 600), Frames(results, "limb_bend"), Frames(results, "human_jump")
     crouch, = human.frames_at(crouch_s)
     folds = {"limb, 110\u00b0": (limb, limb.frame_at_angle(110), "upper", "forearm", 0.24),

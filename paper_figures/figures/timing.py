@@ -13,7 +13,7 @@ orders = (("plain", "f64"), ("ordered", "f32"))  # in the order of the mesh file
 columns = {"model": ("model", 0.07), "mesh": ("mesh here", 0.08), "vertices": ("vertices\npaper / here", 0.1),
            "edges": ("edges\npaper / here", 0.115), "tets": ("tets\npaper / here", 0.115), "paper_frames_per_s": ("paper\n[fps]", 0.055),
            "plain_f64_frames_per_s": ("plain f64\nwall [fps]", 0.075), "ordered_f32_frames_per_s": ("ordered f32\nwall [fps]", 0.085),
-           "paper_ms": ("paper, by\nits fps [ms]", 0.08), "paper_ct_ms": ("paper, by\nits CT [ms]", 0.08),
+           "paper_ms": ("paper, fps\n[ms]", 0.08), "paper_ct_ms": ("paper, CT\n[ms]", 0.08),
            "plain_f64_ms": ("plain f64\nCPU [ms]", 0.075), "ordered_f32_ms": ("ordered f32\nCPU [ms]", 0.085)}
 
 
@@ -58,13 +58,14 @@ def table_1_timing(results):
     models = matched(results / "timing" / "timing.csv")
     lines = [line_of(model, mesh) for model, mesh in models.items()]
     cpu = next(iter(models.values()))["plain", "f64"]["cpu_model"]
-    figure, ((axes,),) = style.panels(1, 1, height_in=0.5 + 0.19 * len(lines), width_in=style.page_in)
+    figure, ((axes,),) = style.panels(1, 1, height_in=0.6 + 0.22 * len(lines), width_in=style.page_in)
     axes.axis("off")
     heads, widths = zip(*columns.values())
     table = axes.table([list(line.values()) for line in lines], colLabels=heads, colWidths=widths, loc="center", cellLoc="right",
                        edges="horizontal")
     table.auto_set_font_size(False)
-    table.set_fontsize(6)
+    table.set_fontsize(style.tick_size)
+    table.scale(1, 1.3)
     for (row, column), cell in table.get_celld().items():
         cell.set_linewidth(0.8 if row == 0 else 0.3)
         if column < 2:
@@ -79,7 +80,7 @@ def table_1_timing(results):
 
 kernels = {("plain", "f64"): "plain, f64", ("plain", "f32"): "plain, f32", ("ordered", "f32"): "ordered, f32"}
 parts = {"lbs_ms": ("LBS", looks.of("lbs").color, ""), "bind_ms": ("bind", style.yellow, "////"), "stretch_ms": ("stretch", style.sky, ""),
-         "volume_ms": ("volume", style.blue, "...."), "rest_ms": ("rest", "#BBBBBB", "")}
+         "volume_ms": ("volume", style.blue, "...."), "rest_ms": ("rest", style.light, "")}
 size_columns = {"mesh", "body", "variant", "precision", "vertices", "tets", "total_wall_ms", "total_wall_ms_low", "total_wall_ms_high",
                 "paper_ms", "paper_ct_ms", *parts}
 
@@ -95,8 +96,7 @@ def draw_sizes(axes, rows):
     paper = [row for row in shown if row["paper_ms"]]
     for column, marker, label in (("paper_ms", "x", "paper, by frame rate"), ("paper_ct_ms", "*", "paper, by CT")):
         style.plot(axes, paper, "vertices", column, linestyle="none", marker=marker, color=style.black, markersize=5, label=label)
-    axes.axhline(1000 / 30, color=style.black, linewidth=0.6)
-    axes.annotate("30 frames/s", (1150, 1000 / 27), fontsize=6)
+    axes.axhline(1000 / 30, color=style.black, linewidth=0.6, label="30 frames/s")
     style.decades(axes.xaxis)
     style.log_scale(axes.yaxis)
     axes.set(xlabel="vertices", ylabel="wall-clock time per frame [ms]")
@@ -111,10 +111,10 @@ def draw_parts(axes, rows, variant, precision):
         axes.barh(range(len(shown)), part_ms, left=left, color=color, hatch=hatch, height=0.7, label=label, edgecolor="white",
                   linewidth=0.3)
         left = [low + more for low, more in zip(left, part_ms)]
-    axes.set_yticks(range(len(shown)), [f"{row['body']}, {int(row['vertices']):,}" for row in shown], fontsize=6)
+    axes.set_yticks(range(len(shown)), [f"{row['body']}, {int(row['vertices']):,}" for row in shown])
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
-    axes.set(xlabel="processor time per frame [ms]", title=kernels[variant, precision])
+    axes.set(xlabel="processor time [ms]", title=kernels[variant, precision])
 
 
 def timing_sizes(results):
@@ -123,7 +123,8 @@ def timing_sizes(results):
     draw_sizes(axes[0], rows)
     draw_parts(axes[1], rows, "plain", "f64")
     draw_parts(axes[2], rows, "ordered", "f32")
-    style.legend_above(figure, columns=5)
+    style.label_lines(axes[:1])
+    style.legend_above(figure, panels=axes[1:])
     return figure, style.taken(rows, sorted(size_columns))
 
 
@@ -168,7 +169,7 @@ def write_exponents(axes, record, precision):
             lines.append(f"{variant}: e = {fits[variant]['exponent']:.2f}" + (f" [{low:.2f}, {high:.2f}]" if low is not None else ""))
             rows.append({"shown": "exponent", "order": variant, "precision": precision, "threads": 1, "value": fits[variant]["exponent"],
                          "low": low, "high": high})
-    axes.annotate("\n".join(lines), (0.03, 0.03), xycoords="axes fraction", fontsize=6, va="bottom")
+    axes.annotate("\n".join(lines), (0.03, 0.03), xycoords="axes fraction", fontsize=style.tick_size, va="bottom")
     return rows
 
 
@@ -197,10 +198,10 @@ def draw_threads(axes, record):
             found = [(mesh["tets"], timing["speedup_by_threads"]) for mesh, timing in timings_of(record, variant, precision, threads)
                      if "speedup_by_threads" in timing]
             if found:
-                axes.plot(*zip(*found), color=color, linestyle=line, marker=marker, label=name)
+                axes.plot(*zip(*found), color=color, linestyle=line, marker=marker, label=f"{name}, {precision}")
             rows += [{"shown": "speedup_by_threads", "order": variant, "precision": precision, "threads": threads, "tets": t, "value": s}
                      for t, s in found]
-    axes.axhline(1, color="#808080", linewidth=0.6)
+    axes.axhline(1, color=style.grey, linewidth=0.6)
     axes.set(xscale="log", xlabel="tets", ylabel="speedup over one thread", title=f"{threads} threads: f32 solid, f64 dashed")
     return rows
 
@@ -211,14 +212,14 @@ def scaling(results):
     figure, (axes,) = style.panels(1, 3, height_in=2.6)
     behind = draw_cost(axes[0], record, "f32") + draw_cost(axes[1], record, "f64") + draw_threads(axes[2], record)
     records.need(behind, f"{file}: no timings")
-    style.legend_above(figure, columns=6)
+    style.label_lines(axes[1:])
     return figure, behind
 
 
 # The cost of each switch of a scene: the ratio of processor time with it to that without it, per frame and per step, on the limb and the
 # human. Bars show the spread over the runs. A switch with a ratio above 1 costs time, one below 1 saves time, and one at 1 is free.
 
-ratios = [(f"{of}_cpu_ms_ratio", f"processor time per {of}, with over without [1]") for of in ("frame", "step")]
+ratios = [(f"{of}_cpu_ms_ratio", f"time per {of}, with over without [1]") for of in ("frame", "step")]
 feature_columns = {"feature", *(ratio + part for ratio, _ in ratios for part in ("", "_lower", "_upper"))}
 
 

@@ -42,7 +42,6 @@ def draw_convergence(axes, rows):
     axes.set_xscale("log", base=2)
     axes.set(yscale="log", xlabel="cell size over the cube's side", ylabel="error over the solution's norm",
              title="manufactured solution; dotted: theory")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncol=2)
     return dotted
 
 
@@ -64,12 +63,11 @@ def draw_locking(axes, rows):
     kept = [row for row in rows if (row["formulation"], row["quantity"]) == ("volume_constraints", "tip_deflection")]
     if kept:  # nu = 1/2 lies beyond a logarithmic axis, so it is a line
         axes.axhline(shown_of(kept[-1])["value_over_reference"], color=style.purple, linestyle=(0, (1, 1)),
-                     label="constraints of PBS, every volume kept")
+                     label="constraints of PBS")
     axes.axhline(1.0, color=style.black, linewidth=0.6)
     axes.set(xscale="log", ylim=(0.0, 1.65), xlabel="1 \u2212 2 \u03bd, from compressible to incompressible", ylabel="value over theory",
              title="locking: bending (full lines), torsion (dashed)")
     axes.invert_xaxis()
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncol=2)
 
 
 def finest(rows):
@@ -93,7 +91,7 @@ def label_of(row):
 
 def draw_benchmarks(axes, rows):
     places = {label: place for place, label in enumerate(dict.fromkeys(label_of(row) for row in rows))}
-    axes.axvspan(-2.0, 2.0, color="#E8E8E8", linewidth=0, zorder=0)
+    axes.axvspan(-2.0, 2.0, color=style.pale, linewidth=0, zorder=0)
     axes.axvline(0.0, color=style.black, linewidth=0.6)
     for elements, (color, marker) in looks.items():
         shown = solved_with(rows, elements)
@@ -133,6 +131,7 @@ def verification(results):
     dotted = draw_convergence(above[0], manufactured)
     draw_locking(above[1], locking)
     draw_benchmarks(below[0], shown)
+    style.label_lines(above)
     behind = [row | {"one_less_two_nu": "", "value_over_reference": ""} for row in manufactured + dotted + shown]
     behind += [row | shown_of(row) for row in locking]
     return drawing, behind

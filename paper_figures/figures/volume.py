@@ -23,8 +23,10 @@ def draw_deformers(panels, run, x, **options):
 
 def finish_measure(panel, measure):
     signed = measure == "volume_change_pct"
-    panel.axhspan(-0.5 if signed else 0.0, 0.5, color="#E8E8E8", linewidth=0, zorder=0, label="within 0.5 % (Sec. 4)")
+    panel.axhspan(-0.5 if signed else 0.0, 0.5, color=style.pale, linewidth=0, zorder=0)
     style.per_cent_scale(panel, signed)
+    if signed:
+        style.name_area(panel, "within 0.5 % (Sec. 4)", (0.01, 0.35))
 
 
 def volume_over_angle(results):
@@ -34,7 +36,7 @@ def volume_over_angle(results):
         behind += draw_deformers(panels, records.Run(results / "volume" / f"limb_{motion}"), "angle_deg")
         panels[1].xaxis.set_major_locator(style.ticker.MultipleLocator(30))
     style.label(axes, ("limb, twist", "limb, bend"), measures.values(), ("twist angle [degrees]", "bend angle [degrees]"))
-    style.legend_above(drawing, columns=3)
+    style.label_lines(axes.flat)
     return drawing, style.columns_of(behind, "angle_deg", *measures)
 
 
@@ -44,7 +46,7 @@ def volume_over_clip(results):
     for panel in axes.flat:
         panel.margins(x=0)
     style.label(axes, (), measures.values(), ["time in the clip [s]"])
-    style.legend_above(drawing)
+    style.label_lines(axes.flat)
     return drawing, style.columns_of(behind, *measures)
 
 
@@ -60,8 +62,8 @@ def draw_human(axes, run, measure, color):
     iterations, quantity = run.pbs_iterations(), measure.removesuffix("_pct")
     rows = [run.statistics("pbs", count) for count in iterations]
     low, median, high = (records.numbers(rows, f"{quantity}_{share}_pct") for share in ("p10", "median", "p90"))
-    axes.fill_between(iterations, low, high, color=color, alpha=0.25, linewidth=0, label="human, 10\u201390 % of frames")
-    axes.plot(iterations, median, color=color, linewidth=1.8, label="human, median")
+    axes.fill_between(iterations, low, high, color=color, alpha=0.25, linewidth=0)
+    axes.plot(iterations, median, color=color, linewidth=1.8, label="human, median;\n10\u201390 % of frames")
     return [{"scene": run.name, "pose": "all frames", "measure": measure, "iterations": of[0], "median": of[1], "q10": of[2], "q90": of[3]}
             for of in zip(iterations, median, low, high)]
 
@@ -75,8 +77,7 @@ def volume_over_iterations_facts(rows):
 
     facts = {"most": max(int(row["iterations"]) for row in rows)}
     for name, of in (("human", ("volume_change_pct", "human_01_01", "all frames")),
-                     ("bend", ("volume_change_pct", "limb_bend", "90 degrees")),
-                     ("absolute", ("volume_abs_change_pct", "human_01_01", "all frames"))):
+                     ("bend", ("volume_change_pct", "limb_bend", "90 degrees"))):
         facts[f"{name}_24"], facts[f"{name}_most"] = left(*of)
     return facts
 
@@ -98,7 +99,7 @@ def volume_over_iterations(results):
         panel.set_xscale("log", base=2)
         panel.set_xticks(human.pbs_iterations(), [str(iterations) for iterations in human.pbs_iterations()])
         panel.set(xlabel="iterations per step", ylabel=label.replace("\n", " "))
-    style.legend_above(drawing)
+    style.label_lines(axes.flat)
     return drawing, behind
 
 
@@ -184,7 +185,8 @@ def section_profiles(results):
         for deformer, rows in found.items():
             shown = [{"case": case, "pose": pose, "deformer": deformer, "offset_cm": 100 * offset_m, "area_over_rest_pct": 100 * area}
                      for offset_m, area in zip(records.numbers(rows, "offset_m"), records.numbers(rows, "area_over_rest"))]
-            style.draw(panel, deformer, shown, "offset_cm", "area_over_rest_pct")
+            style.draw(panel, deformer, shown, "offset_cm", "area_over_rest_pct",
+                       label="FEM" if deformer.startswith("nh") else looks.short(deformer))
             behind += shown
         panel.axhline(100, color=style.black, linewidth=0.6)
         panel.set_title(title)

@@ -1,15 +1,16 @@
 """The tables of the README and of other pages: one line per claim of DIR/claims.json with its verdict, numbers and page; the human's
-rows of DIR/timing/features_human/features.csv; and the counts of the reliability tests, DIR/*.json."""
+rows of DIR/timing/features_human/features.csv; the glossary; and the counts of the reliability tests, DIR/*.json."""
 import records
 from readme import part
 from records import kept, shapes
-from words import case_words, sentences
+from words import case_words, glossary, sentences
 
 claim_head = "| claim | verdict | units that hold, their share [95 % interval]; least to most of their numbers, bound | page |"
 claim_pages = "experiments/verdicts/claims"
 features_page = part.source / "experiments" / "studies" / "timing" / "README.md"
 features_head = ["| feature | processor ms per frame without | with | ratio [quartiles] | start [s] without | with "
                  "| peak [MB] without | with | the result moves |", "|---" * 9 + "|"]
+glossary_page = part.source / "experiments" / "GLOSSARY.md"
 reliability_page = part.source / "tests" / "README.md"
 
 
@@ -71,6 +72,10 @@ def features_lines(results):
     folder = results / "timing" / "features_human"
     rows = records.table(folder / "features.csv", {"feature", "frame_cpu_ms_ratio"})
     return [*features_head, *map(features_line, rows), "", f"Measured at revision {of_revision(records.provenance(folder))}."]
+
+
+def glossary_lines():
+    return [line for entry in glossary.entries() for line in ("", f"## {entry.name}", "", entry.sentence)][1:]
 
 
 def reliability_lines(folder):

@@ -10,7 +10,7 @@ import records
 from records import kept, whole_file
 from report import page, record_set, run_page
 
-most_mb = 25
+most_mb = 12
 
 
 def refusing(write):

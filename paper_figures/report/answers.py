@@ -1,41 +1,28 @@
-"""The first screen: which claims hold, where the others fail, the distance from the finite elements, and the cost. Every sentence is
-composed from claims.json, work_precision/*/points.csv, timing/timing.csv and the studies' costs."""
+"""The first screen: the moving character, what PBS is, and the answer in three lines. Every sentence is composed from claims.json,
+work_precision/*/points.csv, work_precision/nearest.csv and timing/timing.csv."""
 from records import shapes
-from report import origin, verdicts
-from report.markup import Markup, element, items, joined, table
+from report import verdicts
+from report.markup import Markup, element, joined, table
 from report.record_set import not_run, number
-from report.verdicts import mark_of
-from words import case_words, sentences
+from words import case_words, glossary, looks, sentences
 from words.number_words import counted, figure, span
 
-who = ("Each entry states how many of a claim\u2019s units hold and their numbers. A unit is a body with a clip, a joint or a mesh; "
-       "brackets are the interval of the share.")
-failing = ("fails", "mixed", "inconsistent_in_print", "not_testable", "not_computable")
+what_it_is = ("Position based skinning (PBS) moves a character\u2019s tetrahedral mesh with its bones by linear blend skinning (LBS). "
+              "Then it gives the flesh its volume back with a few iterations of stretch, volume and bind constraints.")
+most_classes = 2  # named in the answer to a time; more are counted
+
+
+def answer(question, told, *more):
+    """One of the three lines, with an anchor for tests and links."""
+    return element("div", joined([element("h2", question), element("p", told), *more]), class_="answer")
 
 
 def do_they_hold(found):
+    question = "Do the paper\u2019s claims hold?"
     if not found.claims:
-        return element("p", "No verdict is on record: run `pbskin reproduce`, or `pbskin reproduce --judge` on these records.",
-                       class_="missing")
-    return joined([element("p", sentences.counts(found.claims), class_="answer"), verdicts.chips(found.claims)])
-
-
-def entry(claim):
-    """Mark, claim and statement; then the name of the verdict and the numbers behind it."""
-    symbol, colour, name = mark_of(claim["verdict"])
-    link = element("a", claim["id"], href=f"#{claim['id']}")
-    sign = Markup(f'<span class="{colour}" aria-hidden="true">{symbol}</span>')
-    statement = element("span", claim["statement"].replace("k_stretch", "k_stretch (how stiff edges are, 0 to 1)"), class_="statement")
-    verdict = element("b", name[:1].upper() + name[1:], class_=colour)
-    return joined([sign, " ", link, " ", statement, " ", verdict, f": {'; '.join(sentences.facts(claim))}."])
-
-
-def when_not(found):
-    """Every claim that does not hold and could hold: those that fail come first, those that are not testable last."""
-    entries = [entry(claim) for kind in failing for claim in found.claims or [] if claim["verdict"] == kind]
-    if not entries:
-        return element("p", "Every claim that could be tested holds." if found.claims else "Not known without verdicts.")
-    return joined([element("p", who, class_="who"), items(entries, "when")])
+        told = "No verdict is on record: run `pbskin reproduce`, or `pbskin reproduce --judge` on these records."
+        return answer(question, element("span", told, class_="missing"))
+    return answer(question, sentences.counts(found.claims), verdicts.chips(found.claims))
 
 
 class Pose:
@@ -51,6 +38,10 @@ class Pose:
 
     def is_whole(self):
         return all((self.reference, self.lbs, self.pbs)) and number(self.pbs, "error_joint_pct") is not None
+
+    def removed_pct(self):
+        """The share of LBS's error at the joints that PBS removes."""
+        return 100 * (1 - number(self.pbs, "error_joint_pct") / number(self.lbs, "error_joint_pct"))
 
 
 def poses(found):
@@ -71,26 +62,68 @@ def poses(found):
 
 
 def how_far(found):
+    question = "How far is PBS from flesh?"
+    shown, _ = poses(found)
+    if not shown:
+        told = f"The distance from finite elements is {not_run(found, 'work_precision')}."
+        return answer(question, element("span", told, class_="missing"))
+    told = (f"PBS with 24 iterations removes {span([round(pose.removed_pct()) for pose in shown])} % of the error of LBS at the joints "
+            f"({counted(len(shown), 'pose')}, against neo-Hookean finite elements).")
+    away = {name: span([number(getattr(pose, name), "skin_rms_mm") for pose in shown if pose.body != "limb"]) for name in ("pbs", "lbs")}
+    if away["pbs"] != figure(None):
+        told += f" Its skin is {away['pbs']} mm away on a body of 1.7 m, that of LBS {away['lbs']} mm."
+    return answer(question, told)
+
+
+def within(row):
+    """The nearest class and those against which the references do not decide, or its only deformer."""
+    others = row["either_of"].split()
+    names = [case_words.of_field("class", name) for name in [row["nearest"], *others]]
+    if len(names) > most_classes:
+        return f"undecided; {names[0]} nearest of {len(names)} possible classes"
+    return f"{' or '.join(names)} (not decided)" if others else f"{names[0]} ({looks.of(row['deformer']).name})"
+
+
+def which_method(found):
+    question = "Which method for which time?"
+    rows = [row for row in found.rows("work_precision/nearest.csv") if (row["among"], row["comparison"]) == ("classes", "packed_f32")]
+    if not rows:
+        return answer(question, element("span", f"The nearest method is {not_run(found, 'work_precision')}.", class_="missing"))
+    means = [row for row in rows if "mean" in row["case"]]
+    case = (means or rows)[0]["case"]
+    lines = [joined([element("b", f"{number(row, 'budget_ms'):g} ms per frame: "), within(row)]) for row in rows if row["case"] == case]
+    lines.append(element("span", f"{case.replace('_', ' ')}; settings were chosen on other poses", class_="place"))
+    return answer(question, joined(lines, Markup("<br>")))
+
+
+def first_screen(viewer, answers):
+    """Beside the moving character: what PBS is, and the answers; the first use of a term links to the glossary."""
+    told = glossary.linked(joined([element("p", what_it_is, class_="what"), *answers], "\n"), set())
+    return element("div", joined([element("div", viewer, id="viewer", class_="stage"), element("div", told, class_="answers")], "\n"),
+                   class_="first-screen")
+
+
+# Further down: the distance of each pose, and the cost.
+
+def distances(found):
     """With the names of the poses that lack one of the three, including planned ones."""
     shown, names = poses(found)
     told = f"Left out, since no error of PBS, LBS or the reference is recorded: {'; '.join(names)}."
     left_out = element("p", told, class_="missing") if names else ""
-    if not shown:
-        told = f"How far PBS is from the finite elements is {not_run(found, 'work_precision')}."
-        return left_out or element("p", told, class_="missing")
-    pbs, lbs = (span([number(getattr(pose, deformer), "error_joint_pct") for pose in shown]) for deformer in ("pbs", "lbs"))
-    told = (f"At the joints, in {counted(len(shown), 'pose')}, PBS with 24 iterations is {pbs} % away from neo-Hookean finite elements, "
-            f"LBS {lbs} % (of the mean distance to the bone).")
-    return joined([element("p", told, class_="answer"), pose_table(shown), element("p", bar_sentence(shown)), left_out])
+    return joined([pose_table(shown), element("p", bar_sentence(shown)), left_out]) if shown else left_out
 
 
 def pose_table(shown):
-    bounds = [number(pose.pbs, "reference_error_joint_pct") for pose in shown]
-    rows = [[pose.name, *(figure(number(row, "error_joint_pct")) for row in (pose.lbs, pose.pbs)),
-             "\u2013" if bound is None else f"\u2264 {figure(bound)}", figure(number(pose.reference, "masked_share_pct"))]
-            for pose, bound in zip(shown, bounds)]
-    header = ["pose", "LBS", "PBS", "reference's own error", "left out [% of the volume]"]
-    return table("Distance from the FEM reference at the joints [%]", header, rows)
+    def ends(pose):
+        bound = number(pose.pbs, "reference_error_joint_pct")
+        return "\u2013" if bound is None else f"\u2264 {figure(bound)}"
+
+    rows = [[pose.name, figure(pose.removed_pct()), *(figure(number(row, column)) for column in ("error_joint_pct", "skin_rms_mm")
+                                                      for row in (pose.lbs, pose.pbs)),
+             ends(pose), figure(number(pose.reference, "masked_share_pct"))] for pose in shown]
+    header = ["pose", "share of LBS\u2019s error that PBS removes [%]", "LBS [%]", "PBS [%]", "LBS, skin [mm]", "PBS, skin [mm]",
+              "reference\u2019s own error [%]", "left out [% of the volume]"]
+    return table("Distance from the reference in single poses: at the joints, and over the skin of a body of 1.7 m", header, rows)
 
 
 def bar_sentence(shown):
@@ -127,11 +160,3 @@ def beside_sentence(found):
     ms = {name: span([number(getattr(pose, name), "ms_median") for pose in shown]) for name in ("lbs", "pbs")}
     reference_s = span([number(pose.reference, "reach_ms") / 1e3 for pose in shown])
     return f"In the poses of the comparison: LBS {ms['lbs']} ms, PBS {ms['pbs']} ms, the FEM reference {reference_s} s per pose."
-
-
-def first_screen(found):
-    costs = [told for told in (frame_sentence(found), beside_sentence(found), origin.costs_sentence(found)) if told]
-    cards = [("Do the paper\u2019s claims hold?", "hold", do_they_hold(found)), ("When not?", "not", when_not(found)),
-             ("How far from the finite elements?", "far", how_far(found)), ("At what cost?", "cost", items(costs, "answers"))]
-    return joined((element("section", joined([element("h2", title), content]), class_=f"card {name}") for title, name, content in cards),
-                  "\n")

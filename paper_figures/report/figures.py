@@ -85,8 +85,8 @@ def drawn_figure(found, entry, number, file):
 
 
 def section(found):
-    """The HTML of the figures, and a list of those that are missing."""
-    parts, missing = [], []
+    """The HTML of the figures, their entries, and a list of those that are missing."""
+    parts, shown, missing = [], [], []
     number = 0
     for entry in entries.read():  # the paper's figures come first; each keeps its number even if others are missing
         number += not entry.title.startswith("Table")
@@ -94,9 +94,10 @@ def section(found):
             file = drawn(found, entry)
             as_drawn = dataclasses.replace(entry, caption=captions.read(entry, found.results / "figures"))  # as when it was drawn
             parts.append(drawn_figure(found, as_drawn, number, file))
+            shown.append(entry)
         except records.RecordsMissing as error:
             missing.append(f"figure {entry.name}: {error}".replace(f"{found.results}/", ""))
     intro = ("R: redrawn in minutes on any machine; CR: in hours; NR: not from this repository\u2019s records. "
              "Values are shown next to the pointer or the finger; with the keyboard: tab to a plot, then the arrow keys.")
     listed = element("ul", joined(element("li", line) for line in missing), class_="not-drawn") if missing else ""
-    return joined([element("p", intro), *parts, element("h3", "Not drawn") if missing else "", listed], "\n"), missing
+    return joined([element("p", intro), *parts, element("h3", "Not drawn") if missing else "", listed], "\n"), shown, missing

@@ -64,10 +64,17 @@ for (const plot of document.querySelectorAll("svg.plot")) {
 }
 addEventListener("scroll", hide, { passive: true });
 
+// Opens all that the target of the address is folded into, and the target itself.
 function openTarget() {
-  const row = location.hash.length > 1 && document.getElementById(location.hash.slice(1));
-  if (row && row.matches("tr.claim")) row.nextElementSibling.querySelector("details").open = true;
+  const target = /^#[\w-]+$/.test(location.hash) && document.querySelector(location.hash);
+  if (!target) return;
+  for (let part = target; part; part = part.parentElement) if (part.tagName === "DETAILS") part.open = true;
+  const own = target.querySelector(":scope > details:not(.claim)");
+  if (own) own.open = true;
+  target.scrollIntoView();
 }
+// A print has everything.
+addEventListener("beforeprint", () => document.querySelectorAll("main details").forEach((part) => { part.open = true; }));
 // "See it move" scrolls to the viewer and moves the keyboard focus there.
 function goToViewer() {
   const viewer = document.getElementById("frame-viewer") ?? document.getElementById("viewer");

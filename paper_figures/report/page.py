@@ -4,7 +4,8 @@ import pathlib
 
 import records
 from report import answers, errors, figures, origin, verdicts
-from report.markup import Markup, element, escaped, joined
+from report.markup import Markup, element, escaped, items, joined
+from words import glossary
 
 here = pathlib.Path(__file__).parent
 title = "Position Based Skinning: do its claims hold?"
@@ -15,7 +16,7 @@ def lead(found):
     revisions = origin.values_of(found, "git_revision")
     runs = sum(name.count("/") == 1 for name in found.runs)  # the parts of a run are in folders below it
     text = (f"The paper of 2014 against {runs} recorded runs of pbskin {', '.join(origin.values_of(found, 'version'))}, "
-            f"revision {', '.join(revision[:10] for revision in revisions)}.")
+            f"revision {', '.join(dict.fromkeys(revision[:10] for revision in revisions))}.")
     return element("p", text, class_="lead")
 
 
@@ -36,24 +37,35 @@ def viewer_section(found):
 
 def page(found):
     """The text of the page, and what is missing in it."""
-    shown, not_shown, poses = viewer_section(found)
-    drawn, not_drawn = figures.section(found)
+    shown, not_shown, moving = viewer_section(found)
+    pictures, drawn, not_drawn = figures.section(found)
     distances, not_told = errors.section(found)
     no_verdicts = [] if found.claims else ["verdicts: claims.json does not exist (pbskin reproduce --judge)"]
     missing = not_shown + not_drawn + not_told + no_verdicts
     missing += [f"{study}: {scene} left out: {reason}" for study, scene, reason in found.left_out()]
-    sections = [("verdicts", "Verdicts", verdicts.section(found, poses)), ("viewer", "Viewer", shown),
-                ("errors", "Distance from the finite elements", distances), ("figures", "Figures", drawn),
-                ("reference", "Is the reference right?", errors.reference_section(found)),
-                ("costs", "What it cost", origin.costs_section(found)),
-                ("origin", "Where the records come from", origin.section(found, with_viewer=not not_shown)),
-                ("cite", "How to cite", origin.citation_section(found))]
-    body = [element("div", answers.first_screen(found), class_="first-screen"), navigation(sections), *written(sections)]
-    return whole(title, lead(found), body), missing
+    costs = items([told for told in (answers.frame_sentence(found), answers.beside_sentence(found), origin.costs_sentence(found)) if told])
+    folded = [("errors", "Distance from the finite elements", joined([answers.distances(found), distances], "\n")),
+              ("figures", "Figures", pictures), ("reference", "Is the reference right?", errors.reference_section(found)),
+              ("glossary", "Glossary", glossary_section()), ("costs", "Cost", joined([costs, origin.costs_section(found)])),
+              ("origin", "Where the records come from", origin.section(found, with_viewer=not not_shown)),
+              ("cite", "How to cite", origin.citation_section(found))]
+    claims = [("verdicts", "The claims, one per line", verdicts.section(found, moving, drawn))]
+    first = answers.first_screen(shown, [told(found) for told in (answers.do_they_hold, answers.how_far, answers.which_method)])
+    return whole(title, lead(found), [first, navigation(claims + folded), *written(claims), *written(folded, are_folded=True)]), missing
 
 
-def written(sections):
-    return [element("section", joined([element("h2", name), content], "\n"), id=anchor) for anchor, name, content in sections]
+def glossary_section():
+    terms = [element("dt", entry.name, id=f"term-{entry.slug}") + element("dd", entry.sentence) for entry in glossary.entries()]
+    return element("dl", Markup("\n".join(terms)), class_="glossary")
+
+
+def written(sections, are_folded=False):
+    """The sections; the reader opens those that are folded."""
+    def of(name, content):
+        heading = element("h2", name)
+        return element("details", joined([element("summary", heading), content], "\n")) if are_folded else joined([heading, content], "\n")
+
+    return [element("section", of(name, content), id=anchor) for anchor, name, content in sections]
 
 
 def whole(title, lead, body, first="verdicts"):

@@ -11,7 +11,7 @@ import types
 import records
 from drawing import style
 from records import shapes
-from report import origin
+from report import answers, origin
 from report.figures import inline_svg
 from report.markup import Markup, details, element, inline, items, joined, table
 from report.page import navigation, whole, written
@@ -78,13 +78,35 @@ def has_errors(found):
     return bool(known(found.run.rows, "error_joint_pct"))
 
 
+def lines(found):
+    """The three lines of the first screen: what changes, how far it is from flesh, and what it costs."""
+    of = {label: found.rows(label) for label in ("lbs", "pbs") if label in found.labels()}
+
+    def each(text, column, number_of):
+        """The text with the number of each deformer whose rows have the column: PBS 1.2 ms, LBS 0.03 ms."""
+        values = {looks.of(label).name: known(rows, column) for label, rows in reversed(of.items())}
+        return ", ".join(f"{name} {text.format(number_of(those))}" for name, those in values.items() if those)
+
+    def middle(values):
+        return figure(statistics.median(values))
+
+    volume = each("{} %", "volume_change_pct", span_of_thousandths)
+    changed = f"The volume changes by {volume} of that at rest." if volume else "No volume is known."
+    changes = found.trial["summary"] if found.trial else changed
+    away = each("{} mm", "skin_rms_mm", middle)
+    far = (f"The distance of the skin from the finite elements, for a body of 1.7 m: {away} (rms over the skin, median over the frames)."
+           if away and has_errors(found) else "No distance from finite elements is known.")
+    cost = each("{} ms", "step_ms", middle)
+    return [answers.answer("What changes?", changes), answers.answer("How far from flesh?", far),
+            answers.answer("At what cost?", f"Median time of a frame: {cost}." if cost else "No time is known.")]
+
+
 def summary(found):
-    """The sentence of `pbskin try`, if it made the run, and one row per deformer."""
-    sentence = element("p", found.trial["summary"], class_="answer") if found.trial else ""
+    """One row per deformer."""
     header = ["deformer", "volume change [%]", "most inverted tets in a frame",
               *(["error at the joints [%]: median (largest)"] if has_errors(found) else []), "median step [ms]"]
     rows = [of_deformer(found, label) for label in found.labels()]
-    return joined([sentence, table("Over all frames", header, rows)], "\n")
+    return table("Over all frames", header, rows)
 
 
 def joints(found):
@@ -247,8 +269,9 @@ def page(folder):
     viewer, missing = viewer_of(found)
     unseen = joined(element("p", inline(f"The moving model is missing: {reason}."), class_="missing") for reason in missing)
     as_set = types.SimpleNamespace(results=folder, runs={found.name: found.record}, left_out=lambda: [])
-    sections = [("summary", "What was found", summary(found)), ("warnings", "Warnings", items(warnings, "missing") if warnings else ""),
-                ("viewer", "Viewer", viewer or unseen), ("notes", "Notes", items(remarks["notes"]) if remarks.get("notes") else ""),
+    first = answers.first_screen(viewer or unseen, lines(found))
+    sections = [("warnings", "Warnings", items(warnings, "missing") if warnings else ""), ("summary", "What was found", summary(found)),
+                ("notes", "Notes", items(remarks["notes"]) if remarks.get("notes") else ""),
                 ("frames", "Over the frames", figures_section(found)),
                 ("joints", "Volume at the joints", joints(found)), ("distances", "Distances between the deformers", distances(found)),
                 ("model", "What was taken from the model", model(found)),
@@ -256,4 +279,4 @@ def page(folder):
     sections = [section for section in sections if section[-1]]
     names = [looks.of(label).name for label in found.labels()]
     lead = element("p", f"{found.name}, {outcome.get('frames', 0)} frames, moved by {listed(names)}.", class_="lead")
-    return whole(f"pbskin: {found.name}", lead, [navigation(sections), *written(sections)], "summary"), missing
+    return whole(f"pbskin: {found.name}", lead, [first, navigation(sections), *written(sections)], "summary"), missing

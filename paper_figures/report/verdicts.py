@@ -1,13 +1,13 @@
-"""The claims with their verdicts: the mark of each verdict with the class of its colour; a table whose rows open to the units, controls,
-comparisons and readings behind them. sentences.py composes the sentences."""
-from report.markup import Markup, beside_the_page, details, element, escaped, folder_link, items, joined, table
+"""The claims with their verdicts: the mark of each verdict with the class of its colour; a line for each claim with its numbers on an axis,
+which opens to the units, controls, comparisons and readings behind it. sentences.py composes the sentences."""
+from report import axis
+from report.markup import Markup, beside_the_page, element, escaped, folder_link, items, joined, table
 from words import case_words, sentences
-from words.number_words import counted, figure
+from words.number_words import figure
 
 marks = {"holds": ("\u2714", "holds"), "fails": ("\u2718", "fails"), "mixed": ("\u25d0", "partly"),
          "inconsistent_in_print": ("\u2260", "print"), "not_testable": ("\u25cb", "untested"), "definition": ("\u2261", "untested"),
          "not_computable": ("?", "fails")}
-columns = ("claim", "statement", "verdict", "expected", "measured")
 most_rows = 400  # rows per table; claims.json has the rest
 
 
@@ -48,12 +48,13 @@ def rows_table(claim, what, header, rows):
 
 
 def behind(claim, found):
-    """A part that the reader opens: the units, the controls, and what is compared."""
+    """What the reader sees of an open line: the facts, the units, the controls, and what is compared."""
     what = "printed value" if claim["rule"] == "printed" else "unit"
     basis = sentences.basis(claim)
     later = sentences.confirmatory(claim)
     controls_later = sentences.control_rows(later) if later else []
-    parts = [element("p", basis) if basis else "", unit_table(claim, f"{claim['id']}: {what}s", claim["cases"]),
+    parts = [listed(sentences.facts(claim) + sentences.on_confirmatory_units(claim)), element("p", basis) if basis else "",
+             unit_table(claim, f"{claim['id']}: {what}s", claim["cases"]),
              rows_table(claim, "controls", sentences.control_head, sentences.control_rows(claim)),
              rows_table(claim, "for comparison, no part of the verdict", sentences.compared_head, sentences.compared_rows(claim)),
              rows_table(claim, "other readings, no part of the verdict", sentences.reading_head, sentences.reading_rows(claim)),
@@ -63,8 +64,7 @@ def behind(claim, found):
              *(unit_table(claim, f"{claim['id']}: {of['name']}", of["cases"]) for of in claim["controls"])]
     runs = joined((folder_link(found.results, run) for run in claim["runs"] or [claim["study"]]), ", ")
     parts.append(element("p", joined(["Runs (", beside_the_page("folders"), "): ", runs])))
-    count = f" ({counted(claim['n'], what)})" if claim["n"] else ""
-    return details(f"{claim['id']}: the data behind it{count}", joined(parts, "\n"))
+    return joined(parts, "\n")
 
 
 def mark(verdict):
@@ -93,28 +93,26 @@ def listed(texts):
     return items(texts, "plain") if len(texts) > 1 else "".join(texts) or "\u2013"
 
 
-def expected(claim):
-    source = [element("span", claim["source"], class_="place")] if claim["source"] else []
-    return joined([listed(sentences.expected(claim)), *source], " ")
+def line(claim, found, pose, drawn):
+    """One line, which opens. pose: the link to it in the viewer, or None; drawn: the figures of the page."""
+    statement = element("span", joined([element("b", claim["id"]), f" {claim['statement']} ",
+                                        element("span", claim["place"], class_="place")]), class_="statement")
+    told = element("span", joined([both_marks(claim), element("span", (sentences.facts(claim) or [""])[0], class_="under")]),
+                   class_="verdict")
+    summary = element("summary", joined([statement, told, element("span", axis.drawn(claim), class_="numbers")]))
+    where = [element("a", "see it move", href=pose, class_="pose")] if pose else []
+    where += [element("a", f"figure: {entry.title}", href=f"#figure-{entry.name}") for entry in drawn if claim["id"] in entry.claims]
+    links = element("p", joined(where, ", "), class_="links") if where else ""
+    return Markup(f'<details class="claim" id="{escaped(claim["id"])}">{summary}{joined([links, behind(claim, found)])}</details>')
 
 
-def row(claim, pose):
-    """pose: the link to it in the viewer, or None."""
-    name = element("a", claim["id"], href=f"#{claim['id']}")
-    statement = joined([claim["statement"], element("span", f" {claim['place']}", class_="place")]
-                       + ([" ", element("a", "see it move", href=pose, class_="pose")] if pose else []))
-    cells = [statement, both_marks(claim), expected(claim), listed(sentences.facts(claim) + sentences.on_confirmatory_units(claim))]
-    named = joined(element("td", joined([element("span", column, class_="column"), cell]))  # on narrow screens, cells are stacked
-                   for column, cell in zip(columns[1:], cells))
-    return Markup(f'<tr id="{escaped(claim["id"])}" class="claim"><th scope="row">{name}</th>{named}</tr>')
+legend = ("A dot is a unit: a body with a clip, a joint or a mesh; green ones hold. The shaded band is the bound, which was fixed "
+          "beforehand. A triangle is a control: a method for which the claim must fail, or one for which it must hold. A line opens to "
+          "its data.")
 
 
-def section(found, poses):
+def section(found, poses, drawn):
     if found.claims is None:
         return element("p", "claims.json is missing: `pbskin reproduce --judge -o DIR` judges the records", class_="missing")
-    head = joined(element("th", name, scope="col") for name in columns)
-    rows = [Markup(row(claim, poses.get(claim["id"])) + f'<tr class="behind"><td colspan="{len(columns)}">'
-            f'{behind(claim, found)}</td></tr>') for claim in found.claims]
-    table = Markup(f"<table class='claims'><caption>Each claim against the bound fixed beforehand</caption><thead><tr>{head}</tr></thead>"
-                   "<tbody>\n" + joined(rows, "\n") + "</tbody></table>")
-    return element("div", table, class_="scroll", tabindex=0, role="region", aria_label="Verdicts")
+    lines = [line(claim, found, poses.get(claim["id"]), drawn) for claim in found.claims]
+    return joined([element("p", legend, class_="lead"), *lines], "\n")

@@ -6,6 +6,8 @@ coordinate is within step_m / 2 of the record. A frame is stored as the differen
 The rendered surface is not stored frame by frame: each of its points is the weighted sum of the corners of the tet that carries it (float32
 weights), and so within step_m / 2 times the sum of the absolute weights.
 Volume ratios take one byte: 0 is an inverted tet (ratio <= 0), a code c > 0 represents (c - 1) / 127, and 255 all ratios above 2.
+Contact takes one byte per vertex: 0 is none, 1 touching, and a code c > 1 an overlap of (c - 2) / 2 mm, 255 all that are deeper.
+Millimetres are those of a body whose largest extent at rest is 1.7 m, like the distances of metrics.csv.
 """
 import gzip
 import hashlib
@@ -20,19 +22,47 @@ from records import entries, recorded_frames
 from words import looks
 
 titles = {"limb_twist": "limb, twist", "limb_bend": "limb, bend", "human_jump": "human, jumping", "human_walk": "human, walking"}
-figures = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m", "min_section_pct", "angle_deg",
-           "masked_share_pct")
-ratio_steps, position_steps = 127, 65535
+figures = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m", "skin_rms_mm", "min_section_pct",
+           "angle_deg", "masked_share_pct")
+ratio_steps, position_steps, contact_step_mm = 127, 65535, 0.5
 
 
 def read_frame(file):
-    """Positions [m], #V x 3, tets, #T x 4, volume ratios, #T, rest positions [m], #V x 3."""
+    """Positions [m], #V x 3, tets, #T x 4, volume ratios, #T, rest positions [m], #V x 3, depths of contact [um], #V (None in
+    older frames)."""
     grid = rendering.read(file)
     ratio, rest = grid.GetCellData().GetArray("volume_ratio"), grid.GetPointData().GetArray("rest_position")
     if not ratio or not rest:
         raise records.RecordsMissing(f"{file}: no {'rest_position' if ratio else 'volume_ratio'}")
     arrays = (vtk_to_numpy(grid.GetPoints().GetData()), rendering.corners_of(grid), vtk_to_numpy(ratio), vtk_to_numpy(rest))
-    return tuple(numpy.array(array) for array in arrays)
+    depth = grid.GetPointData().GetArray("contact_depth_um")
+    return *(numpy.array(array) for array in arrays), numpy.array(vtk_to_numpy(depth)) if depth else None
+
+
+def rounded_up(value):
+    """To one digit, 1, 2 or 5, for the end of a scale; 1 for what is not above zero."""
+    if not value > 0:
+        return 1.0
+    step = 10.0 ** math.floor(math.log10(value))
+    return next(one * step for one in (1, 2, 5, 10) if one * step >= value * (1 - 1e-9))
+
+
+def scales_of(read, positions, reference, rest):
+    """Millimetres of a body of 1.7 m per metre of this one. In these millimetres: the ends of the scales of difference and overlap, which
+    one in a hundred differing or overlapping vertices exceeds."""
+    mm_per_m = 1.7e3 / float((rest.max(axis=0) - rest.min(axis=0)).max())
+    truth = positions.get(reference)
+    apart_m = [numpy.linalg.norm(of - truth, axis=2) for label, of in positions.items() if label != reference and truth is not None]
+    depths_m = [1e-6 * one[4][one[4] > 0] for of in read.values() for one in of if one[4] is not None]
+    ends = [rounded_up(mm_per_m * numpy.percentile(numpy.concatenate([numpy.ravel(part) for part in (*parts, [0.0])]), 99))
+            for parts in (apart_m, depths_m)]
+    return {"mm_per_m": mm_per_m, "difference_mm": ends[0], "deepest_mm": ends[1], "contact_step_mm": contact_step_mm}
+
+
+def contact_codes(frames, mm_per_m):
+    depths_um = numpy.stack([one[4] for one in frames])
+    overlap = numpy.minimum(2 + numpy.rint(1e-6 * mm_per_m * depths_um / contact_step_mm), 255)
+    return numpy.where(depths_um > 0, overlap, depths_um < 0).astype("u1")
 
 
 def grid_over(positions):
@@ -152,18 +182,22 @@ def pack_run(recorded, every, block):
     facts = facts_of(recorded, every)
     read = {of["label"]: [read_frame(recorded.tets(of["label"], frame)) for frame in facts["frames"]] for of in facts["deformers"]}
     positions = {label: numpy.stack([one[0] for one in of]) for label, of in read.items()}
-    _, tets, _, rest = next(iter(read.values()))[0]
+    _, tets, _, rest, _ = next(iter(read.values()))[0]
     facts = without_broken(facts, positions)
     records.need(facts["deformers"], f"{recorded.folder / 'frames'}: every deformer has a position that is not finite: nothing to show")
     low, step = grid_over(numpy.stack([positions[of["label"]] for of in facts["deformers"]]))
     rest_low, rest_step = grid_over(rest)
+    scales = scales_of(read, {of["label"]: positions[of["label"]] for of in facts["deformers"]}, facts["reference"], rest)
     for deformer in facts["deformers"]:
         deformer["positions"] = block.put(differences(codes_of(positions[deformer["label"]], low, step)))
         ratios = numpy.stack([one[2] for one in read[deformer["label"]]])
         codes = numpy.where(ratios <= 0, 0, numpy.clip(1 + numpy.rint(ratios * ratio_steps), 1, 255))
         deformer["ratios"] = block.put(codes.astype("u1"))
-    return {**facts, "vertices": len(rest), "tets": len(tets), "low_m": low.tolist(), "step_m": step, "rest_low_m": rest_low.tolist(),
-            "rest_step_m": rest_step, "tet_corners": block.put(tets.astype("<u4")), "bones": pack_bones(recorded, facts["frames"], block),
+        if all(one[4] is not None for one in read[deformer["label"]]):
+            deformer["contact"] = block.put(contact_codes(read[deformer["label"]], scales["mm_per_m"]))
+    return {**facts, **scales, "vertices": len(rest), "tets": len(tets), "low_m": low.tolist(), "step_m": step,
+            "rest_low_m": rest_low.tolist(), "rest_step_m": rest_step, "tet_corners": block.put(tets.astype("<u4")),
+            "bones": pack_bones(recorded, facts["frames"], block),
             "rest_codes": block.put(codes_of(rest, rest_low, rest_step)), "surface": pack_surface(recorded, block)}
 
 

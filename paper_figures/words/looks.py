@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 lines = {"solid": "-", "dashed": (0, (4, 1.5)), "dash-dotted": (0, (5, 1.2, 1, 1.2)), "dotted": (0, (1, 1)), "short-dashed": (0, (3, 1))}
 listed = tomllib.loads((pathlib.Path(__file__).resolve().parents[1] / "looks.toml").read_text(encoding="utf-8"))
+palette, classes, glyphs = (listed.pop(name) for name in ("palette", "classes", "glyphs"))
 # Colours, markers and lines of deformers that are not listed; no listed deformer has such a colour.
-own = list(itertools.product(("#E0218A", "#00857C", "#6A6A00", "#34495E", "#A04000"), ("X", "H", ">", "8", "|", "_", "p"),
-                             ("solid", "dashed", "dash-dotted")))
+own = list(itertools.product(palette["own"], ("X", "H", ">", "8", "|", "_", "p"), ("solid", "dashed", "dash-dotted")))
 
 
 @dataclass(frozen=True)
@@ -28,6 +28,15 @@ def group_of(deformer):
     return listed.get(deformer, {}).get("group", deformer)
 
 
+def class_of(deformer):
+    """A deformer that is not listed is a class by itself."""
+    return listed.get(group_of(deformer), {}).get("class", deformer)
+
+
+def color_of_class(name):
+    return classes.get(name) or of(name).color
+
+
 def of(deformer):
     """The look of a deformer, by its label or the name of its kind. One that is not listed, such as a user's own, has its label as its name
     and a look that depends on nothing else."""
@@ -39,9 +48,9 @@ def of(deformer):
 
 
 def short(deformer):
-    return of(deformer).name.replace(", diffused weights", " diffused")
+    return listed.get(deformer, {}).get("short") or of(deformer).name
 
 
-def in_order(names):
-    """These deformers in the order of the list; those that are not listed come last."""
-    return [name for name in listed if name in names] + sorted(set(names) - set(listed))
+def in_order(names, known=listed):
+    """These deformers (or classes) in the order of the list; those that are not listed come last."""
+    return [name for name in known if name in names] + sorted(set(names) - set(known))

@@ -140,7 +140,7 @@ std::string exceeded(const std::string& what, int value, int most, const std::st
 const std::vector<Budget>& budgets()
 {
     static const std::vector<Budget> all = {
-        {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 23'420, .least_mean = 120},
+        {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 23'444, .least_mean = 120},
         {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 10'190, .least_mean = 120},
         {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'020, .least_mean = 120},
         {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 26'603, .least_mean = 120},
@@ -148,9 +148,9 @@ const std::vector<Budget>& budgets()
          .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"},
          .endings = cpp,
          .most_lines = 66'200},
-        {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 44'150, .least_mean = 120},
-        {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'540},
-        {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 8'005},
+        {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 44'250, .least_mean = 120},
+        {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'840},
+        {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 8'505},
         {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 150},
     };
     return all;

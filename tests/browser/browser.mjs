@@ -36,10 +36,11 @@ export async function open(file, hash = "", { width = 1280, height = 900, scale 
     return { page, problems, close };
 }
 
-// Opens the file and waits until the viewer is drawn.
+// Opens the file, waits until the viewer is drawn, and stops it.
 export async function open_viewer(file, hash, size) {
     const opened = await open(file, hash, size);
     await opened.page.evaluate(() => window.viewer.ready);
+    await opened.page.evaluate(() => window.viewer.state.set({ playing: false }));
     await settle(opened.page);
     return opened;
 }

@@ -33,7 +33,7 @@ with_bones = "limb_bend"  # the whole limb is visible, and its skeleton moves
 not_of_these_records = {"convergence_iterations", "data_profiles", "scaling", "section_profiles", "stability_cells",
                         "volume_by_region", "work_precision", "work_precision_plain"}
 sampled_skins = {"human_jump": ["pbs"], "human_walk": ["lbs", "pbs_jiggle"]}
-columns = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m")
+columns = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m", "skin_rms_mm")
 
 
 def what_is_missing():
@@ -76,11 +76,12 @@ def sample_of(frames, label, frame):
     """Positions [m], ratios and distances to the reference [m] by VTK's reader, numbers from the row of metrics.csv, midpoints of bones
     [m]."""
     row, reference = frames.row(label, frame), frames.run.reference()
-    positions, _, ratios, _ = viewer_data.read_frame(frames.tets(label, frame))
+    positions, _, ratios, rest, depths = viewer_data.read_frame(frames.tets(label, frame))
     truth_m = viewer_data.read_frame(frames.tets(reference, frame))[0]
     middles = [((bone.head + bone.tail) / 2).tolist() for bone in frames.bones(frame)] if frames.run.name == with_bones else None
     return {"run": frames.run.name, "label": label, "frame": frame, "positions_m": positions.ravel().tolist(),
-            "ratios": ratios.tolist(), "distances_m": numpy.linalg.norm(positions - truth_m, axis=1).tolist(), "reference": reference,
+            "ratios": ratios.tolist(), "depths_um": depths.tolist(), "mm_per_m": mm_per_m(rest),
+            "distances_m": numpy.linalg.norm(positions - truth_m, axis=1).tolist(), "reference": reference,
             "bones": middles, "figures": {column: row[column] for column in columns if row[column]}}
 
 
@@ -90,10 +91,19 @@ def skin_sample_of(frames, label, frame):
     return {**sample_of(frames, label, frame), "skin_m": skin_m.ravel().tolist()}
 
 
-def largest_error_m(frames):
-    shown = set(frames.deformers.values())
-    with open(frames.folder / "metrics.csv", newline="") as stream:
-        return max(float(row["error_linf_m"]) for row in csv.DictReader(stream) if (row["deformer"], row["variant"]) in shown)
+def mm_per_m(rest):
+    """Millimetres of a body whose largest extent is 1.7 m."""
+    return 1700 / numpy.ptp(rest, axis=0).max()
+
+
+def distance_of_99_pct_mm(frames):
+    """The distance from the reference that one in a hundred vertices exceeds, over all frames and deformers."""
+    distances_mm = []
+    for frame in range(len(frames.times_s())):
+        truth_m, _, _, rest, _ = viewer_data.read_frame(frames.tets(frames.run.reference(), frame))
+        others = [viewer_data.read_frame(frames.tets(label, frame))[0] for label in frames.deformers if label != frames.run.reference()]
+        distances_mm += [mm_per_m(rest) * numpy.linalg.norm(one - truth_m, axis=1) for one in others]
+    return float(numpy.percentile(numpy.concatenate(distances_mm), 99))
 
 
 def truth_of(results):
@@ -104,7 +114,7 @@ def truth_of(results):
         samples += [sample_of(frames, label, frame) for label in sampled.get(frames.run.name, []) for frame in (0, last // 2, last)]
         skins += [skin_sample_of(frames, label, frame) for label in sampled_skins.get(frames.run.name, []) for frame in (last // 2, last)]
     return {"samples": samples, "skins": skins, "undrawn": sorted(undrawn(results)),
-            "colours": viewer_html.colours(), "largest_error_m": {frames.run.name: largest_error_m(frames) for frames in runs},
+            "colours": viewer_html.colours(), "distance_of_99_pct_mm": {frames.run.name: distance_of_99_pct_mm(frames) for frames in runs},
             "poses": viewer_html.poses_of([viewer_data.facts_of(frames, 1) for frames in runs])}
 
 

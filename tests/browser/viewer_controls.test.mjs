@@ -1,7 +1,7 @@
 // Keys, buttons, links and the slider of the viewer do what their labels state, on a desktop and on a phone.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { in_window, page, settle, test_in_windows, test_that_nothing_was_reported } from "./browser.mjs";
+import { in_window, open, page, settle, test_in_windows, test_that_nothing_was_reported } from "./browser.mjs";
 import { drawn_positions, file, pictures, show, show_sample, truth } from "./viewer_page.mjs";
 
 test("in a panel shift and the arrows shift the view, without turning it", async () => {
@@ -102,7 +102,7 @@ test("a claim's link opens its pose", async () => {
         assert.deepEqual({ run, frame, colour }, { run: pose.run, frame: pose.frame, colour: pose.colour });
         const stated = await page.locator("#frame-viewer .vw-claim").textContent();
         assert.ok(stated.startsWith(`${pose.claim}.`));
-        assert.match(stated, new RegExp(`Colour: ${{ skin: "skin", ratio: "volume ratio", error: "distance to FEM" }[pose.colour]}\\.$`));
+        assert.match(stated, new RegExp(`Colour: ${{ skin: "skin", ratio: "volume ratio", error: "difference" }[pose.colour]}\\.$`));
         const { drawn, known } = await page.evaluate(() => {
             const { viewer, state: { now } } = window.viewer;
             return { drawn: viewer.panels[0].body.tets.length, known: viewer.run.surface?.corners.length };
@@ -112,15 +112,47 @@ test("a claim's link opens its pose", async () => {
     }
 });
 
-test("without an address the first claim's pose is open", async () => {
-    await in_window(file, "", {}, async (other) => {
-        const [{ run, frame, claim }] = truth.poses;
-        const opened_at = await other.evaluate(() => {
+test("without an address LBS, PBS and the reference play by themselves, unless the reader prefers less motion", async () => {
+    const { page: other, problems, close } = await open(file);
+    try {
+        await other.evaluate(() => window.viewer.ready);
+        await other.waitForFunction(() => window.viewer.state.now.playing && window.viewer.state.now.at > 2);
+        const { labels, reference, colour } = await other.evaluate(() => {
             const { viewer, state: { now } } = window.viewer;
-            return { run: now.run, frame: viewer.run.frames[now.at], claim: now.claim, rendered: now.rendered };
+            return { labels: now.panels, reference: viewer.run.reference, colour: now.colour };
         });
-        assert.deepEqual(opened_at, { run, frame, claim, rendered: true });
+        assert.deepEqual([labels, colour], [["lbs", "pbs", reference], "error"]);
+        await other.emulateMedia({ reducedMotion: "reduce" });
+        await other.reload();
+        await other.evaluate(() => window.viewer.ready);
+        assert.equal(await other.evaluate(() => window.viewer.state.now.playing), false);
+        assert.deepEqual(problems, []);
+    } finally {
+        await close();
+    }
+});
+
+test("the copied link opens the same view again", async () => {
+    await page.locator("#frame-viewer .vw-more > summary").click();
+    await show({ at: 2, colour: "error" });
+    await page.evaluate(() => {
+        const { turn, zoom, shift } = window.viewer.viewer.actions();
+        turn(30, 12);
+        zoom(0.7);
+        shift(0.1, -0.05);
     });
+    await page.locator("#frame-viewer button", { hasText: "copy link" }).click();
+    await page.waitForFunction(() => /[?#].*view=/.test(location.href));
+    const seen = (on) => on.evaluate(() => ({ at: window.viewer.state.now.at, colour: window.viewer.state.now.colour,
+                                              panels: window.viewer.state.now.panels, view: window.viewer.viewer.views.seen() }));
+    const here = await seen(page);
+    await in_window(file, new URL(page.url()).hash, {}, async (other) => {
+        const there = await seen(other);
+        assert.deepEqual({ ...there, view: [] }, { ...here, view: [] });
+        // The link has four digits.
+        there.view.forEach((one, at) => assert.ok(Math.abs(one - here.view[at]) <= 1e-3 * Math.max(1, Math.abs(one)), `${one}`));
+    });
+    await page.locator("#frame-viewer .vw-more > summary").click();
 });
 
 test_in_windows("nothing is wider than the window, every control can be pressed", file, "#claim=C09a", async (other, name) => {

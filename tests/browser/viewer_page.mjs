@@ -8,10 +8,13 @@ export const truth = JSON.parse(fs.readFileSync(process.env.PBS_VIEWER_TRUTH));
 export const pictures = process.env.PBS_VIEWER_PICTURES;
 use_page(() => open_viewer(file));
 
-// The number of colours in the panel, and the share of its pixels that differ from the most frequent one.
+// The number of colours in the panel without its ground, and the share of its pixels that differ from the most frequent one.
 export function colours_of(panel) {
     return page.evaluate((at) => {
+        const ground = window.viewer.viewer.panels[at].ground.mesh;
+        ground.visible = false;
         const bytes = window.viewer.pixels(at), counts = new Map();
+        ground.visible = true;
         for (let i = 0; i < bytes.length; i += 4) {
             const key = (bytes[i] << 16) | (bytes[i + 1] << 8) | bytes[i + 2];
             counts.set(key, (counts.get(key) ?? 0) + 1);

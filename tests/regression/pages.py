@@ -12,6 +12,7 @@ import re
 import shutil
 import sys
 import tempfile
+import types
 import unittest
 
 import program
@@ -195,11 +196,12 @@ class KeptVerdicts(unittest.TestCase):
             name, kind, word = claim["id"], claim["verdict"], claim["verdict"].replace("_", " ")
             page = readme_part.cut(readme_pages.claim_pages / f"{sentences.page_of(name)}.md", "kept")[1]
             counts, numbers, span = counts_of(claim), numbers_of(claim), range_of(claim)
+            line = report_verdicts.line(claim, types.SimpleNamespace(results=self.judged), None, [])
             for place, text, patterns in (
                     ("README", re.search(rf"^.*\| \[{name}\]\(.*$", readme, re.M)[0], [rf"\| {word} \|", *counts, *numbers, *span]),
                     ("page", own_part(page, name), [rf"^{word}\.\*\*", *counts, *numbers, *span]),
                     ("explain", own_part(program.run("explain", name).stdout, name), [rf"^{word}\.\*\*", *counts, *numbers, *span]),
-                    ("report", html.unescape(report_verdicts.row(claim, None)), [f"</span> {word}</span>", *counts, *numbers, *span]),
+                    ("report", html.unescape(line), [f"</span> {word}</span>", *counts, *numbers, *span]),
                     ("claims.md", re.search(rf"^\| {name} \|.*$", listed, re.M)[0], [rf"\| {kind} \|", *numbers]),
                     ("terminal", re.search(rf"^{name} .*?(?=^C\d|\Z)", self.printed, re.M | re.S)[0],
                      [rf"^{name} +{word.split(' in ')[0]} ", *counts, *numbers])):  # "in print" is on the next line

@@ -1,7 +1,7 @@
 // The bars above the panels: run, time, colouring, cut, skeleton. Every control is a native one, with a name for screen readers.
 import { colourings, draws_surface, no_surface_because } from "./state.js";
 
-export const colour_names = { skin: "skin", ratio: "volume ratio", error: "distance to FEM", inverted: "inverted tets" };
+export const colour_names = { skin: "skin", error: "difference", contact: "contact", ratio: "volume ratio", inverted: "inverted tets" };
 
 const what_rendered_does = "show the rendered surface in place of the tets' boundary";
 const cut_names = [["", "no cut"], ["x", "across x"], ["y", "across y"], ["z", "across z"]];
@@ -25,10 +25,13 @@ export class Controls {
         const first_view = button("first view", "the camera where it began", actions.reset);
         const back = button("\u2039", "one frame back", () => actions.step(-1));
         const on = button("\u203a", "one frame on", () => actions.step(1));
-        this.bars = [
-            element("div", { class: "vw-bars" }, group("run", this.run), back, this.play, on, this.time, this.clock),
-            element("div", { class: "vw-bars" }, group("colour", ...this.colours),
-                    group("show", this.rendered, this.bones, this.follow, this.shifting, first_view),
+        this.link = button("copy link", "copy a link that opens this view again", actions.link);
+        const fewer = button("\u2212", "one panel fewer", () => actions.panels(-1));
+        const more = button("+", "one panel more", () => actions.panels(1));
+        this.first_bar = element("div", { class: "vw-bars" }, this.play, this.time, this.clock, group("colour", ...this.colours));
+        this.other_bars = [
+            element("div", { class: "vw-bars" }, group("run", this.run), back, on, group("panels", fewer, more), this.link),
+            element("div", { class: "vw-bars" }, group("show", this.rendered, this.bones, this.follow, this.shifting, first_view),
                     group("cut", this.axis, this.cut_at, this.side, this.cut_text)),
         ];
     }
@@ -49,6 +52,9 @@ export class Controls {
         const refused = no_surface_because(run, now);
         this.rendered.disabled = refused !== null;
         this.rendered.title = refused ?? what_rendered_does;
+        const contact = this.colours[colourings.indexOf("contact")];
+        contact.disabled = !run.has_contact();
+        contact.title = contact.disabled ? "these frames were written without contact" : "colour by contact";
         this.update_cut(run, now.cut);
     }
 

@@ -52,8 +52,22 @@ export class Run {
         return rendered ? carried(this.surface, this.corners, positions) : positions;
     }
 
+    // The codes of contact of the points that are drawn: 0 none, 1 touching, more: overlap in steps. A point of the rendered surface has
+    // the highest code of its tet's corners. Null if the frames were written without.
+    contact_codes(label, at, rendered) {
+        const { contact } = this.deformer(label);
+        if (contact === undefined) return null;
+        const codes = new Uint8Array(this.block, contact + at * this.vertices, this.vertices);
+        if (!rendered) return codes;
+        return Uint8Array.from(this.surface.tets, (tet) => Math.max(...this.corners.subarray(4 * tet, 4 * tet + 4).map((v) => codes[v])));
+    }
+
+    has_contact() {
+        return this.deformers.some(({ contact }) => contact !== undefined);
+    }
+
     errors_mm(label, at, rendered) {
-        return distances_mm(this.points(label, at, rendered), this.points(this.reference, at, rendered));
+        return distances_mm(this.points(label, at, rendered), this.points(this.reference, at, rendered), this.mm_per_m);
     }
 
     // The head and tail [m] of every bone.
@@ -114,10 +128,14 @@ export class Run {
         return away.indexOf(Math.min(...away));
     }
 
-    // The largest recorded distance to the reference over all frames and deformers [mm].
-    largest_error_mm() {
-        const recorded = this.deformers.flatMap((deformer) => deformer.figures.error_linf_m).filter((value) => value !== null);
-        return 1000 * Math.max(0, ...recorded);
+    // The height of the ground [m]: the lowest point of the reference, or else of the first deformer, in any frame.
+    ground_m() {
+        this.ground ??= this.frames.reduce((lowest, _, at) => {
+            const positions = this.positions(this.labels.includes(this.reference) ? this.reference : this.labels[0], at);
+            for (let i = 1; i < positions.length; i += 3) lowest = Math.min(lowest, positions[i]);
+            return lowest;
+        }, Infinity);
+        return this.ground;
     }
 }
 
@@ -144,11 +162,11 @@ export function ratio_of(code, steps) {
     return code === 0 ? -Infinity : (code - 1) / steps;
 }
 
-// The distance [mm] of each vertex from that of the reference.
-export function distances_mm(positions, reference) {
+// The distance of each vertex from that of the reference, in millimetres of a body of 1.7 m.
+export function distances_mm(positions, reference, mm_per_m) {
     const distances = new Float32Array(positions.length / 3);
     for (let v = 0; v < distances.length; ++v)
-        distances[v] = 1000 * Math.hypot(positions[3 * v] - reference[3 * v], positions[3 * v + 1] - reference[3 * v + 1],
+        distances[v] = mm_per_m * Math.hypot(positions[3 * v] - reference[3 * v], positions[3 * v + 1] - reference[3 * v + 1],
                                          positions[3 * v + 2] - reference[3 * v + 2]);
     return distances;
 }

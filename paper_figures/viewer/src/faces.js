@@ -1,4 +1,4 @@
-// The faces of a tet mesh, which are visible if only some tets are kept, and the normals of a surface.
+// The faces of a tet mesh, which are visible if only some tets are kept, the normals of a surface, and its shadow.
 
 const face_corners = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];  // face i is opposite corner i; outwards for positive volumes
 
@@ -66,6 +66,28 @@ export function area_normal(p, a, b, c) {
     const ux = p[3 * b] - p[3 * a], uy = p[3 * b + 1] - p[3 * a + 1], uz = p[3 * b + 2] - p[3 * a + 2];
     const vx = p[3 * c] - p[3 * a], vy = p[3 * c + 1] - p[3 * a + 1], vz = p[3 * c + 2] - p[3 * a + 2];
     return [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+}
+
+// The soft shadow of points on the ground below them: one byte per cell of the square around (x, z), row by row. A point counts less the
+// higher it is.
+export const cells = 64;
+const passes = 2;
+
+export function shadow_of(points, x, z, height_m, half_m) {
+    let above = new Float32Array(cells * cells);
+    const cell_of = (away) => Math.floor((away / half_m + 1) / 2 * cells), is_in = (cell) => cell >= 0 && cell < cells;
+    for (let i = 0; i < points.length; i += 3) {
+        const across = cell_of(points[i] - x), along = cell_of(points[i + 2] - z);
+        if (is_in(across) && is_in(along)) above[along * cells + across] += 1 / (1 + 4 * Math.max(0, points[i + 1] - height_m) / half_m);
+    }
+    const covered = above.filter((value) => value > 0), usual = covered.reduce((a, b) => a + b, 0) / (covered.length || 1);
+    for (let pass = 0; pass < passes; ++pass) above = blurred(blurred(above, 1), cells);
+    return Uint8Array.from(above, (value) => 255 * (1 - Math.exp(-value / (usual || 1))));
+}
+
+// The mean of three neighbours in one direction.
+function blurred(values, stride) {
+    return values.map((value, at) => (value + (values[at - stride] ?? 0) + (values[at + stride] ?? 0)) / 3);
 }
 
 // The visible part of a run's tet mesh, computed once per run, and again when the cut moves.

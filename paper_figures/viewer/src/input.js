@@ -1,12 +1,13 @@
 // Keys, while the focus is inside the viewer, and touch gestures. A control that uses a key itself keeps it.
 
 export const help = "Keys inside the viewer: space plays, comma and full stop step a frame, Home and End go to the first and last; "
-    + "s, v, e, i colour by skin, volume ratio, error, inverted tets; k rendered skin or tets; b bones; c cut, [ and ] move it; "
+    + "s, e, t, v, i colour by skin, difference, contact, volume ratio, inverted tets; k rendered skin or tets; b bones; c cut, "
+    + "[ and ] move it; "
     + "r the first view. In a panel: arrows turn, with shift they shift the view, + and \u2212 zoom. Mouse or fingers: drag turns (one "
     + "finger: sideways; up and down it scrolls the page; two turn any way, or shift after the button \u201ctwo fingers shift\u201d), "
     + "wheel or pinch zooms, right button shifts; all panels move together.";
 
-const colours = { s: "skin", v: "ratio", e: "error", i: "inverted" };
+const colours = { s: "skin", e: "error", t: "contact", v: "ratio", i: "inverted" };
 const turns = { ArrowLeft: [-8, 0], ArrowRight: [8, 0], ArrowUp: [0, 8], ArrowDown: [0, -8] };
 
 export function listen(root, actions) {

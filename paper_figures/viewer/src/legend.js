@@ -14,14 +14,10 @@ export function shade_of(shades, low, high, value) {
     return shades[Math.round(share * (shades.length - 1))];
 }
 
-// The colour of a distance. The scale uses square roots, so that small distances are distinguishable next to large ones.
-export function distance_shade(shades, most, distance) {
-    return shade_of(shades, 0, 1, Math.sqrt(distance / (most || 1)));
-}
-
 // The page's tables, parsed.
 export function palette_of(colours) {
     return { ratio: { ...colours.ratio, shades: colours.ratio.shades.map(rgb_of) }, error: { shades: colours.error.shades.map(rgb_of) },
+             contact: { touching: rgb_of(colours.contact.touching), shades: colours.contact.shades.map(rgb_of) },
              skin: rgb_of(colours.skin), inverted: rgb_of(colours.inverted) };
 }
 
@@ -47,23 +43,24 @@ export function signed(value) {
 const what = {
     skin: "plain skin: the boundary of the tets, smoothly shaded",
     ratio: "volume ratio of a tet, deformed over rest [1]",
-    error: "distance of a vertex to FEM [mm], on a scale of square roots; it ends at the largest on record in this run",
+    error: "distance of a vertex from the reference [mm on a body of 1.7 m]; one in a hundred is farther than the scale",
+    contact: "depth of the skin in other flesh [mm], and skin that touches other skin",
     inverted: "inverted tets, volume ratio \u2264 0; the rest of the body is seen through",
 };
 
 const on_the_surface = {
     ...what, skin: "the rendered surface, carried by the tets",
     ratio: "volume ratio of the tet that carries the skin there, deformed over rest [1]",
-    error: "distance of a point of the skin to the same under FEM [mm], on a scale of square roots; it ends at the largest on record in "
-        + "this run, of a vertex of the tets",
+    error: "distance of the skin from the reference [mm on a body of 1.7 m]; one in a hundred vertices is farther than the scale",
 };
 
 export function draw_legend(place, { colours }, run, state) {
-    const { low, high, shades } = colours.ratio, most = run.largest_error_mm();
+    const { low, high, shades } = colours.ratio, most = run.difference_mm;
     const parts = {
         skin: () => [swatch(colours.skin, "skin")],
         ratio: () => [bar(shades, [low, (low + high) / 2, high]), swatch(colours.inverted, "inverted")],
-        error: () => [bar(colours.error.shades, [0, most / 4, most])],
+        error: () => [bar(colours.error.shades, [0, most / 2, most])],
+        contact: () => [bar(colours.contact.shades, [0, run.deepest_mm / 2, run.deepest_mm]), swatch(colours.contact.touching, "touching")],
         inverted: () => [swatch(colours.inverted, "inverted")],
     };
     const caption = (draws_surface(run, state) ? on_the_surface : what)[state.colour] + without_errors(run, state);
@@ -94,13 +91,23 @@ const lines = [
     { column: "inverted_tets", name: "inverted tets", unit: "", text: shown },
     { column: "j_min", name: "smallest ratio", unit: "", text: shown },
     { column: "error_joint_pct", name: "error at joints", unit: "%", text: shown },
+    { column: "skin_rms_mm", name: "distance of the skin, rms", unit: "mm", text: shown },
     { column: "error_linf_m", name: "largest distance", unit: "mm", text: (value) => shown(value === null ? null : 1000 * value) },
 ];
+
+// The numbers of the frame that come first: the distance of the skin from the reference and the volume.
+export function first_numbers(run, label, at) {
+    const away_mm = run.has_errors(label, at) ? run.figure(label, "skin_rms_mm", at) : null;
+    const volume_pct = run.figure(label, "volume_change_pct", at);
+    const parts = [label === run.reference ? "the reference" : away_mm === null ? "" : `${shown(away_mm)}\u202fmm from the reference`,
+                   volume_pct === null ? "" : `volume ${signed(volume_pct)}\u202f%`];
+    return parts.filter(Boolean).join(", ");
+}
 
 export function draw_figures(place, run, label, at) {
     const is_reference = label === run.reference;
     place.replaceChildren(...lines.filter(({ column }) => run.has_figure(column)).flatMap(({ column, name, unit, text }) => {
-        const value = run.figure(label, column, at), is_error = column.startsWith("error");
+        const value = run.figure(label, column, at), is_error = /^error|^skin/.test(column);
         const mark = is_error && run.masked_share_pct(at) > 0 ? " *" : "";
         const recorded = text(value) + (unit && value !== null ? `\u202f${unit}` : "") + mark;
         return [element("dt", {}, name), element("dd", { "data-column": column, "data-value": value ?? "" },

@@ -11,7 +11,7 @@ import { Controls, colour_names, element, select } from "./controls.js";
 import { read_page } from "./data.js";
 import { Meshes } from "./faces.js";
 import { help, listen } from "./input.js";
-import { draw_figures, draw_legend, note_of, palette_of, ratio_shades } from "./legend.js";
+import { draw_figures, draw_legend, first_numbers, note_of, palette_of, ratio_shades } from "./legend.js";
 import { Panel } from "./panel.js";
 import { State, hash_of, no_surface_because, panels_for, play, pose_of } from "./state.js";
 import { Views, is_wide } from "./views.js";
@@ -24,16 +24,18 @@ class Viewer {
         this.palette = palette_of(data.colours);
         this.shades = ratio_shades(this.palette, data.ratio_steps);
         this.meshes = new Meshes();
-        const first = data.runs[0];
-        this.state = new State({ run: first.name, at: 0, panels: panels_for(first), colour: "ratio", rendered: true, bones: false,
+        const first = data.runs.find((run) => run.name === data.first) ?? data.runs[0];
+        const colour = first.labels.includes(first.reference) ? "error" : "skin";
+        this.state = new State({ run: first.name, at: 0, panels: panels_for(first), colour, rendered: true, bones: false,
                                  cut: null, claim: null, playing: false, follow: true, shifting: false });
         this.build();
         this.state.on_change((now, changed) => this.update(now, changed));
-        play(this.state, () => this.run.frames.length);
+        play(this.state, () => this.run.times_s, () => this.is_seen);
         this.update(this.state.now, new Set(Object.keys(this.state.now)));
-        // Without a pose in the address, the pose of a claim is shown, which is more instructive than a body at rest.
-        this.open(pose_of(location.hash) || !data.poses.length ? location.hash : `#claim=${data.poses[0].claim}`, false);
+        this.open(location.hash, false);
         window.addEventListener("hashchange", () => this.open(location.hash, true));
+        const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+        if (!pose_of(location.hash) && !still) this.state.set({ playing: true });
     }
 
     get run() {
@@ -47,17 +49,37 @@ class Viewer {
         this.panels_element = element("div", { class: "vw-panels" }, this.canvas);
         this.legend = element("div", { class: "vw-legend" });
         this.note = element("p", { class: "vw-small" });
-        this.root.replaceChildren(links_to(this.data.poses), this.claim, ...this.controls.bars, this.legend, this.panels_element, this.note,
-                                  element("p", { class: "vw-small" }, help));
+        this.link_words = element("output", { class: "vw-small" });
+        const more = element("details", { class: "vw-more" }, element("summary", {}, "more: other runs, cut, bones, numbers, link"),
+                             ...this.controls.other_bars, this.link_words, links_to(this.data.poses), this.note,
+                             element("p", { class: "vw-small" }, help));
+        more.addEventListener("toggle", () => this.root.classList.toggle("vw-all", more.open));
+        this.root.replaceChildren(this.claim, this.panels_element, this.controls.first_bar, this.legend, more);
         this.views = new Views(this.canvas, () => this.redraw());
         listen(this.root, this.actions());
         new ResizeObserver(() => this.redraw()).observe(this.panels_element);
+        new IntersectionObserver(([seen]) => { this.is_seen = seen.isIntersecting; }).observe(this.panels_element);
+        const take_colours = () => {
+            this.views.take_colours(this.root);
+            this.redraw();
+        };
+        take_colours();
+        matchMedia("(prefers-color-scheme: dark)").addEventListener("change", take_colours);
+        addEventListener("beforeprint", () => this.print());
+    }
+
+    // A print shows what is on the screen; browsers leave the canvas out.
+    print() {
+        this.views.draw();
+        this.printed ??= this.panels_element.appendChild(element("img", { class: "vw-printed", alt: "" }));
+        this.printed.src = this.canvas.toDataURL();
     }
 
     // Makes one element per panel: choice of deformer, view, recorded numbers.
     build_panels(now) {
         for (const { whole } of this.panel_elements ?? []) whole.remove();
-        const options = this.run.deformers.map((deformer) => [deformer.label, deformer.title]);
+        const title_of = ({ label, title }) => (label === this.run.reference ? `reference: ${title}` : title);
+        const options = this.run.deformers.map((deformer) => [deformer.label, title_of(deformer)]);
         this.panel_elements = now.panels.map((label, at) => {
             const choose = (chosen) => this.user({ panels: now.panels.map((shown, place) => place === at ? chosen : shown) });
             const choice = select(`deformer of panel ${at + 1}`, options, choose);
@@ -66,12 +88,14 @@ class Viewer {
             const name = `${title}: arrows turn, plus and minus zoom`;
             const view = element("div", { class: "vw-view", tabindex: 0, role: "application", "aria-label": name });
             const numbers = element("dl", { "aria-label": `recorded numbers of ${title}` });
-            const mark = element("p", { class: "vw-mark vw-hidden" }, "pose not reached");
-            const whole = element("div", { class: "vw-panel", style: `border-top: 4px solid ${colour}` }, choice, view, mark, numbers);
+            const mark = element("p", { class: "vw-mark vw-hidden" }, "pose not reached"), first = element("p", { class: "vw-first" });
+            const parts = [choice, view, mark, first, numbers];
+            const whole = element("div", { class: "vw-panel", style: `border-top: 4px solid ${colour}` }, ...parts);
             this.panels_element.append(whole);
-            return { whole, view, mark, numbers };
+            return { whole, view, mark, first, numbers };
         });
         this.panels_element.classList.toggle("vw-wide", is_wide(this.run));
+        this.panels_element.style.setProperty("--vw-panels", now.panels.length);
         this.panels = now.panels.map(() => new Panel());
         this.views.show(this.panel_elements.map((made) => made.view), this.panels.map((panel) => panel.contents));
     }
@@ -84,11 +108,13 @@ class Viewer {
             this.panels[at].update(mesh, label, now, this.palette, this.shades);
             this.panel_elements[at].mark.classList.toggle("vw-hidden", run.reached(label, now.at));
             draw_figures(this.panel_elements[at].numbers, run, label, now.at);
+            this.panel_elements[at].first.textContent = first_numbers(run, label, now.at);
         });
         if (changed.has("shifting") || changed.has("run") || changed.has("panels")) this.views.two_fingers(now.shifting);
         this.controls.update(run, now);
         draw_legend(this.legend, this.data, run, now);
         this.views.update(run, now, changed);
+        for (const panel of this.panels) panel.stand_on_ground(run, now.at, this.views.middle, this.views.stage);
         this.note.textContent = note_of(run, this.data.every, now.at);
         this.show_claim(now.claim);
         this.redraw();
@@ -126,7 +152,17 @@ class Viewer {
         this.state.set({ run: run.name, at: run.place_of(pose.frame ?? 0), panels: panels_for(run, pose.panels),
                          colour: pose.colour ?? "ratio", rendered: pose.rendered ?? Boolean(pose.claim), bones: pose.bones ?? false,
                          cut: pose.cut ?? null, claim: pose.claim ?? null, playing: false });
+        if (pose.view) this.views.see(pose.view);
         if (scroll) this.root.scrollIntoView({ block: "start" });
+    }
+
+    // The address opens the same view, with the camera. Where the browser does not let it be copied, it is shown.
+    async copy_link() {
+        const { now } = this.state, hash = hash_of({ ...now, frame: this.run.frames[now.at], view: this.views.seen() });
+        this.state.set({ playing: false });
+        history.replaceState(null, "", hash);
+        this.link_words.textContent = await navigator.clipboard?.writeText(location.href)
+            .then(() => "The link to this view is copied.", () => null) ?? `The address of this page opens this view: ${location.href}`;
     }
 
     actions() {
@@ -149,6 +185,12 @@ class Viewer {
                 this.user({ run: name, at: 0, panels: panels_for(run), cut: null, playing: false });
             },
             at: go, step: (by) => go(now().at + by), first: () => go(0), last: () => go(last()),
+            link: () => this.copy_link(),
+            panels: (by) => {
+                const { panels } = now(), next = this.run.labels.find((label) => !panels.includes(label));
+                if (by < 0 && panels.length > 1) this.user({ panels: panels.slice(0, -1) });
+                if (by > 0 && panels.length < 4 && next) this.user({ panels: [...panels, next] });
+            },
             play: toggle("playing"), bones: toggle("bones"), follow: toggle("follow"), shifting: toggle("shifting"),
             colour: (colour) => this.user({ colour }),
             rendered: () => no_surface_because(this.run, now()) === null && toggle("rendered")(),

@@ -1,4 +1,5 @@
-// The scene of one panel: the body (tets or rendered surface), its inverted tets and the skeleton, updated when the state changes.
+// The scene of one panel: the body (tets or rendered surface), its inverted tets, the skeleton and the ground, updated when the state
+// changes.
 import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Group, Mesh, Points, PointsMaterial, ShaderMaterial } from "three";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
@@ -6,7 +7,8 @@ import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js
 import fragment_shader from "./body.frag.glsl";
 import vertex_shader from "./body.vert.glsl";
 import { area_normal, triangles_of, vertex_normals } from "./faces.js";
-import { distance_shade } from "./legend.js";
+import { Ground } from "./ground.js";
+import { shade_of } from "./legend.js";
 import { draws_surface } from "./state.js";
 
 const ghost = [0.62, 0.66, 0.7];
@@ -16,7 +18,8 @@ export class Panel {
         this.body = new Body();
         this.inverted = new Body();
         this.skeleton = new Skeleton();
-        this.contents = [this.inverted.mesh, this.body.mesh, this.skeleton.group];
+        this.ground = new Ground();
+        this.contents = [this.ground.mesh, this.inverted.mesh, this.body.mesh, this.skeleton.group];
     }
 
     // mesh: { run, neighbours, outer, kept, faces }, see faces.js
@@ -27,11 +30,16 @@ export class Panel {
         this.points = run.points(label, at, rendered);
         this.body.move(this.points, vertex_normals(this.points, rendered ? run.surface.corners : mesh.outer));
         this.body.paint(this.colouring(run, label, shown, palette, ratio_shades, codes));
-        this.body.look(shown.colour === "skin" ? 0.3 : 0.55, shown.colour === "inverted" ? 0.3 : 1);
+        this.body.look(["skin", "contact"].includes(shown.colour) ? 0.3 : 0.55, shown.colour === "inverted" ? 0.3 : 1);
         this.inverted.mesh.visible = shown.colour === "inverted";
         if (this.inverted.mesh.visible) this.show_inverted(mesh, run.positions(label, at), codes, palette);
         this.skeleton.group.visible = shown.bones;
         if (shown.bones) this.skeleton.pose(run.posed_bones(at));
+    }
+
+    // stage: the colours of the ground and of the background
+    stand_on_ground(run, at, middle, stage) {
+        this.ground.update(this.points, middle, run.ground_m(), run.sphere().radius, stage);
     }
 
     choose_faces(mesh, rendered) {
@@ -50,9 +58,15 @@ export class Panel {
         if (shown.colour === "ratio") return (tet) => ratio_shades[codes[tet]];
         if (shown.colour === "inverted") return () => ghost;
         if (shown.colour === "skin") return () => palette.skin;
+        if (shown.colour === "contact") {
+            const codes = run.contact_codes(label, shown.at, draws_surface(run, shown)), { touching, shades } = palette.contact;
+            const shade = (code) => code === 0 ? palette.skin : code === 1 ? touching :
+                shade_of(shades, 0, run.deepest_mm, (code - 2) * run.contact_step_mm);
+            return (_, vertex) => codes ? shade(codes[vertex]) : ghost;
+        }
         if (!run.has_errors(label, shown.at)) return () => ghost;
-        const errors = run.errors_mm(label, shown.at, draws_surface(run, shown)), most = run.largest_error_mm();
-        return (_, vertex) => distance_shade(palette.error.shades, most, errors[vertex]);
+        const errors = run.errors_mm(label, shown.at, draws_surface(run, shown));
+        return (_, vertex) => shade_of(palette.error.shades, 0, run.difference_mm, errors[vertex]);
     }
 
     // All four faces of each inverted tet that the cut keeps.

@@ -2,7 +2,7 @@
 //
 // run, at        the name of the run, and the index of the frame
 // panels         labels of the deformers that are shown
-// colour         skin, ratio, error or inverted
+// colour         skin, error, contact, ratio or inverted
 // rendered       the rendered surface instead of the tets' boundary, if the run has one and nothing is cut
 // bones, cut     whether the skeleton is shown; { axis, at_m, above } or null
 // claim          the claim whose pose this is, or null
@@ -37,12 +37,13 @@ export function draws_surface(run, now) {
     return now.rendered && no_surface_because(run, now) === null;
 }
 
-// The panels that a run can show: the wanted ones that it has, filled up to four with its others in order.
-export function panels_for(run, wanted) {
-    const usual = ["lbs", "dqs", "pbs", run.reference].filter((label) => run.labels.includes(label));
-    const kept = (wanted ?? usual).filter((label) => run.labels.includes(label));
-    const rest = [...usual, ...run.labels].filter((label) => !kept.includes(label));
-    return [...new Set([...kept, ...rest])].slice(0, 4);
+// The panels that a run can show: the wanted ones that it has, at most four, or without any LBS, PBS and the reference, filled up to three
+// with its others in order.
+export function panels_for(run, wanted = []) {
+    const kept = wanted.filter((label) => run.labels.includes(label));
+    if (kept.length) return [...new Set(kept)].slice(0, 4);
+    const usual = ["lbs", "pbs", run.reference].filter((label) => run.labels.includes(label));
+    return [...new Set([...usual, ...run.labels])].slice(0, 3);
 }
 
 // The nearest and farthest distance [m] that a camera draws which is this far from the middle of a run, whose points lie within the radius:
@@ -53,22 +54,23 @@ export function range_of_sight(distance_m, radius_m) {
     return { near: Math.max(distance_m - radius_m, far / 1000), far };
 }
 
-// Plays the recorded frames at a given rate, in a loop.
-const frames_per_second = 12;
-
-export function play(state, count) {
+// Plays the recorded frames in a loop, as long as they are seen: at the speed of the motion, but each for a thirtieth to a sixth of a
+// second, and the last one for half a second.
+export function play(state, times_s, is_seen) {
+    const shown_s = (at, times) => at + 1 < times.length ? Math.min(1 / 6, Math.max(1 / 30, times[at + 1] - times[at])) : 0.5;
     const run = (since) => requestAnimationFrame((time) => {
         if (!state.now.playing) return;
-        const due = time - since >= 1000 / frames_per_second;
-        if (due) state.set({ at: (state.now.at + 1) % count() });
+        const times = times_s(), due = is_seen() && time - since >= 1000 * shown_s(state.now.at, times);
+        if (due) state.set({ at: (state.now.at + 1) % times.length });
         run(due ? time : since);
     });
     state.on_change((now, changed) => { if (changed.has("playing") && now.playing) run(performance.now()); });
 }
 
 // A pose as text in the address:
-// #run=human_jump&frame=12&colour=error&panels=lbs,dqs,pbs,nh_p1&surface=rendered&cut=x,0.1,below&bones=1&claim=C02
-export const colourings = ["skin", "ratio", "error", "inverted"];
+// #run=human_jump&frame=12&colour=error&panels=lbs,dqs,pbs,nh_p1&surface=rendered&cut=x,0.1,below&bones=1&view=24,83,1.2,0,0,0&claim=C02
+// view: the camera's direction [degrees], its distance and its shift, see Views.seen
+export const colourings = ["skin", "error", "contact", "ratio", "inverted"];
 
 // The pose that the address states; null if it is not an address of the viewer.
 export function pose_of(hash) {
@@ -83,6 +85,8 @@ export function pose_of(hash) {
     if (words.has("cut")) pose.cut = cut_of(words.get("cut"));
     if (words.has("bones")) pose.bones = words.get("bones") === "1";
     if (words.get("claim")) pose.claim = words.get("claim");
+    const view = (words.get("view") ?? "").split(",").map(Number);
+    if (view.length === 6 && view.every(Number.isFinite) && view[2] > 0) pose.view = view;
     return pose;
 }
 
@@ -91,6 +95,7 @@ export function hash_of(pose) {
     if (pose.cut) words.push(`cut=${pose.cut.axis},${Number(pose.cut.at_m.toPrecision(4))},${pose.cut.above ? "above" : "below"}`);
     if (pose.rendered) words.push("surface=rendered");
     if (pose.bones) words.push("bones=1");
+    if (pose.view) words.push(`view=${pose.view.map((number) => Number(number.toPrecision(4))).join(",")}`);
     if (pose.claim) words.push(`claim=${encodeURIComponent(pose.claim)}`);
     return `#${words.join("&")}`;
 }

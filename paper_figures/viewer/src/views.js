@@ -6,7 +6,7 @@ import { keep_level, leave_scrolling } from "./input.js";
 import { range_of_sight } from "./state.js";
 
 ColorManagement.enabled = false;  // colours appear on the screen as in the legend
-const background = new Color(0xf1f3f5), most_pixels_per_point = 2;
+const most_pixels_per_point = 2;
 const first_direction = new Vector3(0.45, 0.12, 1).normalize();
 
 export class Views {
@@ -19,6 +19,13 @@ export class Views {
         this.target = new Vector3();
         this.on_move = on_move;
         this.views = [];
+        this.stage = { paper: new Color(), shade: new Color() };
+    }
+
+    // Takes the colours of background and ground from the page's style, which may be light or dark.
+    take_colours(root) {
+        const style = getComputedStyle(root);
+        for (const name of ["paper", "shade"]) this.stage[name].set(style.getPropertyValue(`--vw-${name}`).trim());
     }
 
     // Makes a view for each of these elements, with the contents of its scene.
@@ -26,7 +33,7 @@ export class Views {
         for (const view of this.views) view.controls.dispose();
         this.views = elements.map((element, at) => {
             const scene = new Scene();
-            scene.background = background;
+            scene.background = this.stage.paper;
             scene.add(...contents[at]);
             const controls = new OrbitControls(this.camera, element);
             controls.target = this.target;
@@ -44,15 +51,22 @@ export class Views {
         for (const { controls } of this.views) controls.touches = touches;
     }
 
-    // Points the camera at this middle, at a distance from which all points of a cloud around it [m] are in the panel.
+    // Points the camera at the middle of what it sees of a cloud of points around this middle [m], at a distance from which all are in the
+    // panel.
     look_at(middle, cloud) {
         const right = new Vector3(first_direction.z, 0, -first_direction.x).normalize();
         const up = new Vector3().crossVectors(first_direction, right);
         const slope = Math.tan(this.camera.fov / 2 * Math.PI / 180), aspect = this.aspect();
-        const distances = cloud.map((point) => point.dot(first_direction)
+        const shift = new Vector3();
+        for (const axis of [right, up]) {
+            const along = cloud.map((point) => point.dot(axis));
+            shift.addScaledVector(axis, along.reduce((a, b) => Math.min(a, b)) / 2 + along.reduce((a, b) => Math.max(a, b)) / 2);
+        }
+        const distances = cloud.map((point) => point.clone().sub(shift)).map((point) => point.dot(first_direction)
             + Math.max(Math.abs(point.dot(up)), Math.abs(point.dot(right)) / aspect) / slope);
-        this.target.copy(middle);
-        this.camera.position.copy(middle).addScaledVector(first_direction, 1.06 * Math.max(...distances));
+        this.target.copy(middle).add(shift);
+        this.first_distance = 1.03 * Math.max(...distances);
+        this.camera.position.copy(this.target).addScaledVector(first_direction, this.first_distance);
         this.camera.lookAt(this.target);
     }
 
@@ -80,6 +94,20 @@ export class Views {
     move(step) {
         this.target.add(step);
         this.camera.position.add(step);
+    }
+
+    // The camera relative to the target: direction around and from above [degrees] and distance, in parts of the first one; then the shift
+    // of the target from the body's middle [m].
+    seen() {
+        const { theta, phi, radius } = new Spherical().setFromVector3(this.camera.position.clone().sub(this.target));
+        return [theta * 180 / Math.PI, phi * 180 / Math.PI, radius / this.first_distance, ...this.target.clone().sub(this.middle)];
+    }
+
+    see([around_deg, down_deg, distance, ...shift]) {
+        this.target.copy(this.middle).add(new Vector3(...shift));
+        const from = new Spherical(distance * this.first_distance, down_deg * Math.PI / 180, around_deg * Math.PI / 180);
+        this.camera.position.setFromSpherical(from).add(this.target);
+        this.camera.lookAt(this.target);
     }
 
     turn(around_deg, up_deg) {
@@ -148,12 +176,12 @@ function middle_of(run, at) {
     return sum.divideScalar(ends.length / 3);
 }
 
-// Points of the body relative to its middle [m] in some frames of the run, enough to determine the space that it takes.
+// Some points of the body relative to its middle [m] in all frames of the run, enough to determine the space that it takes.
 function cloud_of(run, label) {
     const points = [];
-    for (let at = 0; at < run.frames.length; at += 3) {
+    for (let at = 0; at < run.frames.length; ++at) {
         const positions = run.positions(label, at), middle = middle_of(run, at);
-        for (let v = 0; v < run.vertices; v += 5)
+        for (let v = at % 7; v < run.vertices; v += 7)
             points.push(new Vector3().fromArray(positions, 3 * v).sub(middle));
     }
     return points;

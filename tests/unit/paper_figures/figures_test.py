@@ -115,18 +115,22 @@ class OtherStudies(ResultsTest):
             pbs = [("pbs", ms, 40.0), ("pbs", 2 * ms, 20.0), ("pbs", 4 * ms, 10.0)]
             nearest = [lbs, ("pbs", 1.0, 40.0) if ms == 1.0 else lbs, ("pbs", 4 * ms, 10.0)]
             expected = {"point": [lbs, *pbs], "front of all": [lbs, *pbs], "front of lbs": [lbs], "front of pbs": pbs,
-                        "nearest": nearest, "bound": [("", 0.0, 15.0)]}
+                        "nearest": nearest, "nearest of its class": nearest, "reference": [("", 90000.0, 0.0)],
+                        "bound": [("", 0.0, 15.0)]}
             self.assertEqual(found, expected | ({"omission": [("xpbd", 0.0, 0.0)]} if ms == 1.0 else {}))
         drawn = (self.results / "figures" / "work_precision.svg").read_text()
-        for text in ("0.1 ms:", "LBS", "constraints or 2 more: PBS", "diverged: XPBD 2 of 9", "reference 90 s, bound 15 %",
-                     "Not decided:", "within 10 ms also: mush, blend"):
+        for text in ("0.1 ms: constraints (LBS) | 1 ms: constraints (PBS) | 10 ms: undecided (constraints nearest)",
+                     ">blending: \u25bc\u00a0LBS<", ">constraints: \u25cf\u00a0PBS<", "below the reference\u2019s own error"):
             self.assertIn(text, drawn)
-        self.assertNotIn("diverged", (self.results / "figures" / "work_precision_plain.svg").read_text())
+        for name, omitted in (("work_precision", 2), ("work_precision_plain", "none")):
+            caption = (self.results / "figures" / f"{name}.caption.txt").read_text()
+            self.assertIn(f"The reference takes 90 s; points omitted: {omitted}. Timed on", caption)
         profiles = self.drawn("data_profiles")
         self.assertEqual([(row["comparison"], row["ms"]) for row in profiles if row["ms"]], [("packed_f32", "4.0"), ("plain_f64", "20.0")])
-        self.assertEqual([row["omission"] for row in profiles if row["comparison"] == "packed_f32" and row["omission"]],
-                         ["diverged: XPBD 2 of 9", "no pose solved to 10 %: LBS", "no pose solved to 5 %: LBS, PBS",
-                          "no pose solved to 2 %: LBS, PBS"])
+        self.assertEqual([(row["why"], row["tolerance_pct"], row["deformer"] or row["group"], row["missing"]) for row in profiles
+                          if row["comparison"] == "packed_f32" and row["why"]],
+                         [("not_finite", "", "xpbd", "2"), *(("no pose solved", tolerance, group, "") for tolerance, group in (
+                             ("10.0", "lbs"), ("5.0", "lbs"), ("5.0", "pbs"), ("2.0", "lbs"), ("2.0", "pbs")))])
         self.refused_without("work_precision/fronts.csv", "work_precision")
 
     def test_work_precision_shows_deformers_of_the_users_own_with_their_clocks(self):
@@ -136,11 +140,9 @@ class OtherStudies(ResultsTest):
             found = [(row["shown"], row["deformer"], float(row["ms_median"] or 0)) for row in self.drawn(name)]
             for shown in ("point", "front of mine"):
                 self.assertIn((shown, "mine", 8.0), found)
-            drawn = (self.results / "figures" / f"{name}.svg").read_text()
-            for text in ("mine: time as the program states it", "other_one: wall time of the program", ">linked<"):
-                self.assertIn(text, drawn)
-            for words in ("time", "wall"):
-                self.assertNotIn(f"linked: {words}", drawn)
+            self.assertIn("\u00a0mine<", (self.results / "figures" / f"{name}.svg").read_text())
+            self.assertIn("mine: time as the program states it. other_one: wall time of the program over its poses. Timed",
+                          (self.results / "figures" / f"{name}.caption.txt").read_text())
 
     def test_the_bench_shows_cost_a_constraint(self):
         synthetic_records.write_bench(self.results)

@@ -12,7 +12,7 @@ from PIL import Image
 from results_case import ResultsTest
 import synthetic_frames
 import synthetic_records
-from drawing import bodies, omission_boxes, rendering, style
+from drawing import bodies, rendering, style
 from figures import mechanics, pbs_errors, stills, volume
 from records import recorded_frames
 
@@ -46,7 +46,7 @@ class Plots(ResultsTest):
         self.drawn("volume_over_clip")
         page = self.stem.with_suffix(".svg").read_text()
         circles = [tuple(map(float, place)) for place in re.findall(r'<circle cx="([-.\d]+)" cy="([-.\d]+)"', page)]
-        panels = page[page.index('id="axes_1"'):page.index('id="legend_1"')]
+        panels = page[page.index('id="axes_1"'):page.index('class="values"')]
         marks = re.findall(rf'x="([-.\d]+)" y="([-.\d]+)" style="fill: {style.blue.lower()}', panels)
         colored = [tuple(map(float, place)) for place in marks]
         self.assertGreater(len(colored), 10)
@@ -64,19 +64,6 @@ class Plots(ResultsTest):
         self.assertEqual([row["vertices"] for row in rows], ["500", "1000", "2000"] * 2)
         self.assertIn("twist 90\u00b0, reached: 1000, 100", self.titles("vertices of the limb"))
         self.assertIn("twist 90\u00b0, not reached: 500, 1000", self.titles("vertices of the limb"))
-
-    def test_omissions_of_several_poses_are_of_the_points_of_all_of_them(self):
-        study = self.results / "work_precision"
-        vbd = {"deformer": "vbd", "precision": "f32", "packed": 1, "outcome": "finished"}
-        diverged, plain = {**vbd, "outcome": "not_finite"}, {**vbd, "precision": "f64", "packed": 0}
-        reference = {**vbd, "deformer": "reference", "outcome": "reference"}
-        for case, rows in {"a": [vbd, diverged, diverged, plain, reference], "b": [vbd] * 3 + [reference], "c": [plain],
-                           "other": [vbd] * 7}.items():
-            synthetic_records.write_table(study / case / "points.csv", rows)
-        synthetic_records.write_table(study / "omissions.csv", [{"comparison": "packed_f32", "case": "a", "deformer": "vbd",
-                                                                "why": "not_finite", "missing": 2, "points": 3, "reason": ""}])
-        added = omission_boxes.added_up(self.results, "packed_f32", ("a", "b", "c"))
-        self.assertEqual([(row["deformer"], row["missing"], row["points"]) for row in added], [("vbd", 2, 6)])
 
     def test_improvements(self):
         synthetic_records.write_improvements(self.results / "work_precision")
@@ -176,7 +163,7 @@ class Plots(ResultsTest):
         rows = self.drawn("timing_sizes")
         stretch_ms = next(float(row["stretch_ms"]) for row in rows if (row["variant"], row["mesh"]) == ("plain", "man_1654"))
         # LBS and bind are not included
-        self.assertIn(f"stretch: {stretch_ms:.6g}, man, 1,654", self.titles("processor time per frame [ms]"))
+        self.assertIn(f"stretch: {stretch_ms:.6g}, man, 1,654", self.titles("processor time [ms]"))
         shown = self.titles("vertices")
         self.assertIn("ordered, f32: 20000, 2.5", shown)
         self.assertIn("paper, by frame rate: 1654, 11", shown)
@@ -185,7 +172,7 @@ class Plots(ResultsTest):
     def test_costs_of_features(self):
         synthetic_records.write_features(self.results / "timing")
         self.assertEqual(len(self.drawn("features_cost")), 3)
-        shown = self.titles("processor time per frame, with over without [1]")
+        shown = self.titles("time per frame, with over without [1]")
         self.assertEqual(shown, ["limb: 0.5, sleep", "human: 0.5, sleep", "human: 1.5, rendered surface"])
 
 

@@ -161,7 +161,7 @@ class RunPage(ResultsTest):
         self.assertNotIn("PBS keeps it", self.page())
         (self.results / "try.json").write_text(json.dumps({"summary": "PBS keeps it.", "warnings": ["of the trial", "of the run"]}))
         text = self.page()
-        self.assertIn('<p class="answer">PBS keeps it.</p>', text)
+        self.assertIn("<h2>What changes?</h2><p>PBS keeps it.</p>", re.sub("</?a[^>]*>", "", text))
         self.assertEqual((text.count("of the trial"), text.count("of the run")), (1, 1))
 
     def test_notes_are_apart_from_warnings(self):

@@ -5,10 +5,10 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Run, carried, codes_of, distances_mm, positions_of, ratio_of } from "../../../paper_figures/viewer/src/data.js";
 import {
-    area_normal, face_of, kept_by, neighbours_of, seen_faces, triangles_of, vertex_normals,
+    area_normal, face_of, kept_by, neighbours_of, seen_faces, shadow_of, triangles_of, vertex_normals,
 } from "../../../paper_figures/viewer/src/faces.js";
 import { keep_level, leave_scrolling } from "../../../paper_figures/viewer/src/input.js";
-import { distance_shade, palette_of, ratio_shades, rgb_of, shade_of, shown, signed } from "../../../paper_figures/viewer/src/legend.js";
+import { first_numbers, palette_of, ratio_shades, rgb_of, shade_of, shown, signed } from "../../../paper_figures/viewer/src/legend.js";
 import {
     State, draws_surface, hash_of, no_surface_because, panels_for, pose_of, range_of_sight,
 } from "../../../paper_figures/viewer/src/state.js";
@@ -30,7 +30,7 @@ test("code 0 is an inverted tet, 128 a tet as at rest", () => {
 });
 
 test("distances are in millimetres", () => {
-    assert.deepEqual([...distances_mm(Float32Array.from([0, 0, 0, 3, 0, 4]), Float32Array.from([0, 0, 0, 0, 0, 0]))], [0, 5000]);
+    assert.deepEqual([...distances_mm(Float32Array.from([0, 0, 0, 3, 0, 4]), Float32Array.from([0, 0, 0, 0, 0, 0]), 1000)], [0, 5000]);
 });
 
 const corners = Uint32Array.from([4, 0, 1, 2, 0, 1, 2, 3]);  // the second tet is the unit one
@@ -133,8 +133,8 @@ test("one finger leaves the tilt as it is, two are free, and so is a mouse", () 
 });
 
 test("there and back", () => {
-    const pose = { run: "human_jump", frame: 12, colour: "error", panels: ["lbs", "nh_p1"], rendered: true,
-                   cut: { axis: "x", at_m: -0.25, above: true }, bones: true, claim: "C02" };
+    const pose = { run: "human_jump", frame: 12, colour: "error", panels: ["lbs", "nh_p1"], rendered: true, bones: true,
+                   cut: { axis: "x", at_m: -0.25, above: true }, view: [24.5, 83, 1.25, 0, -0.5, 0.125], claim: "C02" };
     assert.deepEqual(pose_of(hash_of(pose)), pose);
 });
 
@@ -146,18 +146,18 @@ test("addresses of the page's own sections are not ours", () => {
 });
 
 test("nonsense is dropped", () => {
-    assert.deepEqual(pose_of("#run=a&frame=-1&colour=pink&cut=w,0,above"), { run: "a", cut: null });
+    assert.deepEqual(pose_of("#run=a&frame=-1&colour=pink&cut=w,0,above&view=1,2,0,0,0,0"), { run: "a", cut: null });
 });
 
 test("shades lie evenly between low and high and end there", () => {
     const shades = ["a", "b", "c"];
     assert.deepEqual([-9, 0.5, 0.9, 1, 1.5, 9].map((value) => shade_of(shades, 0.5, 1.5, value)), ["a", "a", "b", "b", "c", "c"]);
-    assert.deepEqual([0, 25, 100].map((distance) => distance_shade(shades, 100, distance)), ["a", "b", "c"]);
 });
 
 test("an inverted tet has the colour of its own", () => {
     const shades = ["#000000", "#808080", "#ffffff"];
-    const palette = palette_of({ ratio: { low: 0.5, high: 1.5, shades }, error: { shades }, skin: "#102030", inverted: "#ff0000" });
+    const palette = palette_of({ ratio: { low: 0.5, high: 1.5, shades }, error: { shades }, contact: { touching: "#00ff00", shades },
+                                 skin: "#102030", inverted: "#ff0000" });
     const of_code = ratio_shades(palette, 127);
     assert.deepEqual([of_code[0], of_code[1], of_code[128], of_code[255]], [[1, 0, 0], [0, 0, 0], rgb_of("#808080"), [1, 1, 1]]);
 });
@@ -167,10 +167,26 @@ test("numbers have three digits and a dash where none is on record", () => {
     assert.equal(signed(5), "+5");
 });
 
-test("a run shows four panels, those asked for first", () => {
+test("a run shows LBS, PBS and the reference, or the panels that are asked for, at most four", () => {
     const run = { reference: "nh_p1", labels: ["lbs", "dqs", "pbs", "nh_p1", "pbs_jiggle"] };
-    assert.deepEqual(panels_for(run), ["lbs", "dqs", "pbs", "nh_p1"]);
-    assert.deepEqual(panels_for(run, ["pbs_jiggle", "unheard_of"]), ["pbs_jiggle", "lbs", "dqs", "pbs"]);
+    assert.deepEqual(panels_for(run), ["lbs", "pbs", "nh_p1"]);
+    assert.deepEqual(panels_for({ reference: "", labels: ["lbs", "dqs", "pbs"] }), ["lbs", "pbs", "dqs"]);
+    assert.deepEqual(panels_for(run, ["pbs_jiggle", "unheard_of"]), ["pbs_jiggle"]);
+    assert.deepEqual(panels_for(run, run.labels), ["lbs", "dqs", "pbs", "nh_p1"]);
+});
+
+test("the first numbers are those of the frame; without a distance the volume alone", () => {
+    const figures = { lbs: { skin_rms_mm: 12.345, volume_change_pct: -8 }, pbs: { skin_rms_mm: null, volume_change_pct: 1 } };
+    const run = { reference: "nh_p1", has_errors: () => true, figure: (label, column) => figures[label]?.[column] ?? null };
+    assert.equal(first_numbers(run, "lbs", 0), "12.3\u202fmm from the reference, volume \u22128\u202f%");
+    assert.equal(first_numbers(run, "pbs", 0), "volume +1\u202f%");
+    assert.equal(first_numbers(run, "nh_p1", 0), "the reference");
+});
+
+test("the shadow is dark under the body, and lighter under what is high above the ground", () => {
+    const low = shadow_of([0, 0, 0, 0.5, 1, 0.5], 0, 0, 0, 1), at = (x, z) => low[Math.floor((z + 1) * 32) * 64 + Math.floor((x + 1) * 32)];
+    assert.ok(at(0, 0) > at(0.5, 0.5) && at(0.5, 0.5) > at(-0.8, -0.8));
+    assert.equal(at(-0.8, -0.8), 0);
 });
 
 test("the rendered surface is drawn where the body has one and nothing is cut", () => {

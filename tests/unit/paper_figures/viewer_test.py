@@ -4,6 +4,7 @@ import base64
 import csv
 import gzip
 import json
+import math
 import os
 import re
 import shutil
@@ -157,6 +158,17 @@ class Viewer(ResultsTest):
         with self.refused("frames: every deformer has a position that is not finite"):
             self.pack()
 
+    def test_scales_and_codes_of_difference_and_contact(self):
+        rest = numpy.array([[0, 0, 0], [0, 0.85, 0]])  # half of 1.7 m
+        positions = {"nh_p1": numpy.zeros((1, 2, 3)), "lbs": numpy.full((1, 2, 3), 0.03 / math.sqrt(3))}
+        depths = numpy.array([0, -1, 1, 400, 10000, 1000000])
+        scales = viewer_data.scales_of({"lbs": [(None,) * 4 + (depths,)]}, positions, "nh_p1", rest)
+        self.assertEqual([scales[name] for name in ("mm_per_m", "difference_mm", "deepest_mm")], [2000, 100, 2000])
+        self.assertEqual(viewer_data.contact_codes([(None,) * 4 + (depths,)], 2000).tolist(), [[0, 1, 2, 4, 42, 255]])
+        older = viewer_data.scales_of({"lbs": [(None,) * 5]}, positions, "", rest)
+        self.assertEqual((older["difference_mm"], older["deepest_mm"]), (1, 1))
+        self.assertEqual([viewer_data.rounded_up(value) for value in (0, 1, 1.01, 3, 60, 0.02)], [1, 1, 2, 5, 100, 0.02])
+
     def test_panels_of_a_claim_are_those_on_record(self):
         figures = {column: [0.0, 1.0] for column in viewer_data.figures}
         run = {"name": "human_walk", "frames": [0, 1], "deformers": [{"label": label, "figures": figures}
@@ -168,7 +180,7 @@ class Viewer(ResultsTest):
     def test_a_claim_opens_at_the_recorded_extreme(self):
         links = viewer_html.claim_links(self.results)
         self.assertEqual(links, {"C01": "#run=limb_twist&frame=2&colour=ratio&claim=C01",
-                                 "C04": "#run=limb_twist&frame=3&colour=skin&claim=C04"})
+                                 "C04": "#run=limb_twist&frame=3&colour=skin&panels=lbs,dqs,pbs,nh_p1&claim=C04"})
         self.assertEqual(viewer_html.position_of([1.0, None, -3.0], "far"), 2)
         self.assertIsNone(viewer_html.position_of([None], max))
 

@@ -2,6 +2,7 @@
 contain no number that another run would change. Reference: the definition, and looks.toml, with which checked_looks.py compares every
 figure that other tests draw."""
 import dataclasses
+import pathlib
 import re
 import tomllib
 import unittest
@@ -217,9 +218,19 @@ class Looks(unittest.TestCase):
         for name, entry in looks.listed.items():
             with self.subTest(name):
                 self.assertIn(entry.get("group", name), own)
-                self.assertEqual(set(entry), {"name", "group"} if "group" in entry else {"name", "color", "marker", "line"})
+                whole = {"name", "group"} if "group" in entry else {"name", "color", "marker", "line", "class"}
+                self.assertEqual(set(entry) - {"short"}, whole)
                 self.assertRegex(looks.of(name).color, r"^#[0-9A-F]{6}$")
+                self.assertIn(looks.class_of(name), looks.classes)
         self.assertEqual(len({(entry["color"], entry["marker"]) for entry in own.values()}), len(own))
+
+    def test_the_classes_are_those_of_the_study_and_each_has_a_marker_of_its_own_for_each_method(self):
+        compared = tomllib.loads((root / "experiments/studies/work_precision/cases.toml").read_text(encoding="utf-8"))["deformer"]
+        for entry in compared:
+            self.assertEqual(looks.class_of(entry["name"]), entry["class"], entry["name"])
+        of = {looks.group_of(entry["name"]): (entry["class"], looks.of(entry["name"]).marker) for entry in compared}
+        self.assertEqual(len(set(of.values())), len(of))
+        self.assertEqual(len(set(looks.classes.values())), len(looks.classes))
 
     def test_a_deformer_that_is_not_listed_has_its_name_and_a_look_that_depends_on_nothing_else(self):
         listed = {entry.get("color") for entry in looks.listed.values()}
@@ -228,6 +239,28 @@ class Looks(unittest.TestCase):
         for other in ("other_one", "linked"):
             self.assertNotEqual(looks.of(other), first)
         self.assertEqual((looks.of("mine"), first.name), (first, "mine"))
+
+    def test_a_figure_with_strange_colours_or_letters_or_labels_that_overlap_is_refused(self):
+        def drawn(color=style.blue, size=style.label_size, apart=0.3):
+            figure, ((axes,),) = style.panels(1, 1)
+            axes.plot([0, 1], [0, 1], color=color)
+            axes.annotate("one", (0.5, 0.5), fontsize=size)
+            axes.annotate("other", (0.5, 0.5 - apart))
+            self.addCleanup(style.pyplot.close, figure)
+            return figure
+
+        checks = {"color": checked_looks.strange_colors, "size": checked_looks.strange_sizes, "apart": checked_looks.overlaps}
+        for broken, found in ({"color": "#123456"}, ["#123456"]), ({"size": 9.0}, [9.0]), ({"apart": 0.0}, ["one | other"]):
+            for name, check in checks.items():
+                self.assertEqual(check(drawn(**broken)), found if name in broken else [], (name, broken))
+            with self.assertRaisesRegex(AssertionError, "^broken: .*" + re.escape(str(found[0]))):
+                style.save(drawn(**broken), pathlib.Path("broken"), {}, [])
+
+    def test_labels_are_as_near_as_possible_to_their_lines(self):
+        self.assertEqual(style.spread([1, 5, 9], [2, 2, 2], 0, 10), [1, 5, 9])
+        self.assertEqual(style.spread([5, 5, 9], [2, 2, 2], 0, 10), [4, 6, 9])
+        self.assertEqual(style.spread([5, 9.5, 9.5], [1, 2, 2], 0, 10), [5, 7, 9])
+        self.assertEqual(style.spread([], [], 0, 10), [])
 
     def test_the_names_are_those_of_the_pages(self):
         for deformer in looks.listed:
@@ -284,6 +317,7 @@ class Captions(ResultsTest):
         self.assertEqual(len(timed), 8)
         for entry in timed:
             with self.subTest(entry.name):
+                write_table(self.results / f"{entry.name}.csv", [{"shown": "reference", "ms_median": 1000, "missing": ""}])
                 self.assertIn("{cpu}", entry.caption)
                 self.assertIn("a processor", captions.whole(entry, self.results, {"cpu_model": "a processor"}))
                 self.assertIn("a processor that is not on record", captions.whole(entry, self.results, {}))
@@ -302,8 +336,7 @@ class Captions(ResultsTest):
             captions.read(listed["volume_over_iterations"], file.parent)
 
     def test_a_number_that_no_script_tells_is_an_error(self):
-        rows = [{"map": "map_time_step_k_stretch.csv", "outcome": "bounded", "steps": 1}]
-        self.told("stability_maps", rows)
+        self.told("stability_maps", [{"map": "map_time_step_k_stretch.csv", "outcome": "bounded", "steps": 1}])
         with self.assertRaises(KeyError):
             captions.whole(dataclasses.replace(listed["stability_maps"], caption="see {nothing}"), self.results, {})
 

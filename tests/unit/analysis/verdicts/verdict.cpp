@@ -395,4 +395,15 @@ TEST(ClaimsReport, TheTerminalsTableKeepsItsWidthAndCountsTheVerdicts)
     EXPECT_NE(claims_table({verdict_on(20, 20)}, 100, true).find("\033[32m"), std::string::npos) << "green";
 }
 
+TEST(ClaimsReport, TheTerminalsTableNamesWhatIsMissingOnceBelowTheClaims)
+{
+    Verdict one = verdict_on(20, 20), other = verdict_on(20, 20);
+    one.claim.id = "X00";
+    for (Verdict* verdict : {&one, &other}) verdict->left_out = {{"lady", "lady is not installed"}}, verdict->missing = {"walk"};
+    const std::string table = claims_table({one, other}, 100, false);
+    EXPECT_NE(table.find("left out of X00, X01: lady is not installed\nno record for X00, X01: walk\n2 claims"), std::string::npos)
+        << table;
+    EXPECT_EQ(table.find("walk"), table.rfind("walk"));
+}
+
 }  // namespace
