@@ -59,9 +59,9 @@ int check(CheckArguments arguments, const CheckReports& reports, const CommonOpt
     const int held = count(result.suites, analysis::CheckState::held), failed = count(result.suites, analysis::CheckState::failed);
     spdlog::info("{} hold, {} fail, {} left out; records in {}", held, failed, count(result.suites, analysis::CheckState::left_out),
                  arguments.folder);
+    if (!result.breakdowns.empty()) return exit_breakdown;
     say_next(failed > 0 ? fmt::format("pbskin report {}/SCENE", arguments.folder)
                         : "pbskin check --write-baseline FILE keeps these values, --baseline FILE compares with them");
-    if (!result.breakdowns.empty()) return exit_breakdown;
     return failed > 0 ? exit_bound : exit_finished;
 }
 

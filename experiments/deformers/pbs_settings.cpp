@@ -28,7 +28,7 @@ void add_keys(OptionFields<PbsOptions>& fields)
                   "order of projection within a class: plain is the order of the file, as in the paper; ordered projects sixteen "
                   "constraints at once that share no vertex; grouped does the same with groups of neighbouring constraints and is the "
                   "fastest; spread is plain code whose constraints come from eight distant parts of the file in turn, which is faster "
-                  "than plain; printed volume_forms need plain"})
+                  "than plain; printed volume_forms need plain or spread"})
         .add("precision", &PbsOptions::precision, {.meaning = "floating point of the projections"})
         .add("masses", &PbsOptions::masses,
              {.meaning = "unit: m_i = 1 (the paper); lumped: a quarter of the rest volume of each tet at the vertex"})
@@ -159,9 +159,8 @@ void check_pbs(const SceneValues& values, const std::string& table, PbsOptions& 
 {
     if (options.sleep && !is_packed(options.order))
         values.refuse(table + ".sleep", "expected false with order plain or spread, which project all");
-    if (options.volume_form != pbs::VolumeForm::derived) {  // the printed forms are written in the plain order alone
-        if (values.given(table + ".order") && options.order != pbs::Order::plain)
-            values.refuse(table + ".order", "expected plain with a printed volume_form");
+    if (options.volume_form != pbs::VolumeForm::derived && is_packed(options.order)) {  // the printed forms have plain code alone
+        if (values.given(table + ".order")) values.refuse(table + ".order", "expected plain or spread with a printed volume_form");
         options.order = pbs::Order::plain;
     }
     if (options.volume_of != pbs::VolumeOf::tets && (options.sleep || options.volume_form != pbs::VolumeForm::derived))

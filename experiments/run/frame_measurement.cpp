@@ -249,7 +249,9 @@ std::vector<int> FrameMeasurer::contact_depths_um(const pbs::Positions& position
     for (const pbs::DepthConstraint<double>& one : contact_->constraints()) {
         const double depth_m = -value(one, contact_->points(one, moved.data())) - touching_m;
         int& depth_um = depths_um[one.vertex[0]];
-        depth_um = depth_m > 0.0 ? std::max(depth_um, static_cast<int>(std::ceil(1e6 * depth_m))) : depth_um == 0 ? -1 : depth_um;
+        depth_um = depth_m > 0.0   ? std::max(depth_um, static_cast<int>(std::min(std::ceil(1e6 * depth_m), 1e9)))
+                   : depth_um == 0 ? -1
+                                   : depth_um;
     }
     return depths_um;
 }

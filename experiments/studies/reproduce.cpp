@@ -228,7 +228,7 @@ bool report_verdicts(std::vector<analysis::Verdict> verdicts, const std::string&
     analysis::write_text_atomically((fs::path(folder) / "claims.json").string(),
                                     analysis::claims_json(verdicts, analysis::collect_provenance(1).git_revision).dump(2) + "\n");
     analysis::write_text_atomically((fs::path(folder) / "claims.md").string(), analysis::claims_markdown(verdicts));
-    fmt::print("{}all values: {}\nreport: pbskin report {}\n", analysis::claims_table(verdicts, terminal_width(), terminal_has_colours()),
+    fmt::print("{}all values: {}\nnext: pbskin report {}\n", analysis::claims_table(verdicts, terminal_width(), terminal_has_colours()),
                (fs::path(folder) / "claims.json").string(), folder);
     return std::none_of(verdicts.begin(), verdicts.end(),
                         [](const auto& verdict) { return verdict.kind == analysis::VerdictKind::not_computable; });

@@ -49,12 +49,16 @@ def draw_bones(panel, bones):
         panel.plot(*zip(bone.head[:2], bone.tail[:2]), color=style.black, linewidth=2.5, marker="o", markersize=5)
 
 
+# Thousands of points, without values under the pointer.
+dense = {"linestyle": "", "markersize": 1.6, "rasterized": True, "gid": "guide"}
+
+
 def draw_limb(panel, frames):
     """The limb at rest from the side: a slice around the plane of drawing, the bones, and one vertex with its projection."""
     points, binding = bodies.rest_positions_of(frames.tets("lbs", 0)), frames.binding()
     for blended, (label, color, marker) in kinds.items():
         shown = points[[int(row["vertex"]) for row in binding if row["blended"] == blended]]
-        panel.plot(*shown[abs(shown[:, 2]) < 0.06].T[:2], linestyle="", marker=marker, color=color, markersize=1.6, label=label)
+        panel.plot(*shown[abs(shown[:, 2]) < 0.06].T[:2], marker=marker, color=color, label=label, **dense)
     for bone in frames.bones(0):
         draw_bones(panel, [bone])
         for share in (low, high):
@@ -82,7 +86,7 @@ def draw_rule(panel, frames):
         rows = [row for row in frames.binding() if row["blended"] == blended]
         x, y = ([float(row[name]) for row in rows] for name in ("parameter", "rest_distance_m"))
         named = f"human's vertices {'on ' if blended == '0' else ''}{label}: {len(rows)}"
-        panel.plot(x, 1000 * numpy.array(y), linestyle="", marker=marker, color=color, markersize=1.6, label=named)
+        panel.plot(x, 1000 * numpy.array(y), marker=marker, color=color, label=named, **dense)
     panel.set(xlabel="position of its projection from $s_j$ (0) to $d_j$ (1) [1]", ylabel="distance to the bone [mm]", xlim=(-0.25, 1.75))
     panel.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)
 

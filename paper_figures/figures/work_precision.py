@@ -101,7 +101,7 @@ def draw_class(axes, panel, name):
 
 
 def answer(panel, row):
-    """0.1 ms: blend (DQS diffused). The deformer is named if it is decided within its class."""
+    """0.1 ms: blending (DQS diffused). The deformer is named if it is decided within its class."""
     classes = [row["nearest"], *row["either_of"].split()]
     of_class = [other for other in panel.nearest if (other["budget_ms"], other["among"]) == (row["budget_ms"], row["nearest"])]
     decided = len(classes) == 1 and all(not other["either_of"] for other in of_class)
@@ -201,7 +201,7 @@ tolerances_pct = (10.0, 5.0, 2.0)
 def draw_profiles(axes, rows, span_ms):
     """The deformers in grey, and in colour the largest share of each class."""
     labels = {}
-    for group in {row["group"] for row in rows}:
+    for group in looks.in_order({row["group"] for row in rows}):
         steps = [row for row in rows if row["group"] == group]
         ms, share = records.numbers(steps, "ms"), records.numbers(steps, "share_pct")
         axes.step([ms[0], *ms, span_ms[1]], [0, *share, share[-1]], where="post", color=style.light, linewidth=0.6,

@@ -12,9 +12,9 @@ def of_table(folder, name, title, columns, **functions):
 
 def orders(folder):
     """Each order in file order: its answer, and the time to an equal one."""
-    rows = [row for row in pages.of_runs(folder, "orders.csv", {"order", "sequence"}) if row["sequence"] == "file"]
-    if not rows:
+    if not pages.files(folder, "orders.csv"):  # the quick form has none
         return ""
+    rows = [row for row in pages.of_runs(folder, "orders.csv", {"order", "sequence"}) if row["sequence"] == "file"]
     return ("\n## Times to equal answers\n\nThe first table has each order after 24 iterations and in the limit, in file order. Every time "
             "of plain is that of the order `plain`, which is built for the same bits on every machine.\n\n"
             + pages.table(rows, "limits")

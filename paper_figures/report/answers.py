@@ -1,5 +1,7 @@
 """The first screen: the moving character, what PBS is, and the answer in three lines. Every sentence is composed from claims.json,
 work_precision/*/points.csv, work_precision/nearest.csv and timing/timing.csv."""
+import math
+
 from records import shapes
 from report import verdicts
 from report.markup import Markup, element, joined, table
@@ -9,11 +11,12 @@ from words.number_words import counted, figure, span
 
 what_it_is = ("Position based skinning (PBS) moves a character\u2019s tetrahedral mesh with its bones by linear blend skinning (LBS). "
               "Then it gives the flesh its volume back with a few iterations of stretch, volume and bind constraints.")
-most_classes = 2  # named in the answer to a time; more are counted
+where_to_go = Markup("Your own model: <code>pbskin try hero.glb</code>. "
+                     "A deformer of your own: <code>experiments/deformers/README.md</code>.")
 
 
 def answer(question, told, *more):
-    """One of the three lines, with an anchor for tests and links."""
+    """One of the three lines."""
     return element("div", joined([element("h2", question), element("p", told), *more]), class_="answer")
 
 
@@ -37,7 +40,8 @@ class Pose:
                          and row["precision"] == "f32" and number(row, "k_stretch") == k_stretch and row["substeps"] in ("", "1")), None)
 
     def is_whole(self):
-        return all((self.reference, self.lbs, self.pbs)) and number(self.pbs, "error_joint_pct") is not None
+        errors = [number(row, "error_joint_pct") for row in (self.lbs, self.pbs)] if self.reference and self.lbs and self.pbs else [None]
+        return all(error is not None and math.isfinite(error) for error in errors) and errors[0] > 0
 
     def removed_pct(self):
         """The share of LBS's error at the joints that PBS removes."""
@@ -62,45 +66,52 @@ def poses(found):
 
 
 def how_far(found):
-    question = "How far is PBS from flesh?"
+    question = "How far is PBS from simulated flesh?"
     shown, _ = poses(found)
     if not shown:
         told = f"The distance from finite elements is {not_run(found, 'work_precision')}."
         return answer(question, element("span", told, class_="missing"))
-    told = (f"PBS with 24 iterations removes {span([round(pose.removed_pct()) for pose in shown])} % of the error of LBS at the joints "
-            f"({counted(len(shown), 'pose')}, against neo-Hookean finite elements).")
+    told = (f"PBS with 24 iterations, ordered and in single precision, removes {span([round(pose.removed_pct()) for pose in shown])} % of "
+            f"the error of LBS at the joints ({counted(len(shown), 'pose')}, against neo-Hookean finite elements).")
     away = {name: span([number(getattr(pose, name), "skin_rms_mm") for pose in shown if pose.body != "limb"]) for name in ("pbs", "lbs")}
     if away["pbs"] != figure(None):
         told += f" Its skin is {away['pbs']} mm away on a body of 1.7 m, that of LBS {away['lbs']} mm."
     return answer(question, told)
 
 
-def within(row):
-    """The nearest class and those against which the references do not decide, or its only deformer."""
-    others = row["either_of"].split()
-    names = [case_words.of_field("class", name) for name in [row["nearest"], *others]]
-    if len(names) > most_classes:
-        return f"undecided; {names[0]} nearest of {len(names)} possible classes"
-    return f"{' or '.join(names)} (not decided)" if others else f"{names[0]} ({looks.of(row['deformer']).name})"
+def within(row, rows):
+    """The nearest class with its error and what it knows of the reference, and whether it is decided. Its deformer is named if that is
+    decided within the class. rows: of nearest.csv."""
+    others = [case_words.of_field("class", name) for name in row["either_of"].split()]
+    knows = f", given the reference\u2019s {' and '.join(row['knows'].split())}" if row["knows"] else ""
+    undecided = f"; undecided against {others[0] if len(others) == 1 else counted(len(others), 'other class', 'other classes')}"
+    own = [other for other in rows if other["among"] == row["nearest"]
+           and all(other[column] == row[column] for column in ("comparison", "case", "budget_ms"))]
+    is_decided = all(not other["either_of"] for other in own)
+    named = case_words.of_field("class", row["nearest"]) + (f" ({looks.of(row['deformer']).name})" if is_decided else "")
+    return f"{named}, {figure(number(row, 'error_joint_pct'))} % at the joints{knows}{undecided if others else ''}"
 
 
 def which_method(found):
     question = "Which method for which time?"
-    rows = [row for row in found.rows("work_precision/nearest.csv") if (row["among"], row["comparison"]) == ("classes", "packed_f32")]
+    nearest = found.rows("work_precision/nearest.csv")
+    rows = [row for row in nearest if (row["among"], row["comparison"]) == ("classes", "packed_f32")]
     if not rows:
         return answer(question, element("span", f"The nearest method is {not_run(found, 'work_precision')}.", class_="missing"))
     means = [row for row in rows if "mean" in row["case"]]
     case = (means or rows)[0]["case"]
-    lines = [joined([element("b", f"{number(row, 'budget_ms'):g} ms per frame: "), within(row)]) for row in rows if row["case"] == case]
+    lines = [joined([element("b", f"{number(row, 'budget_ms'):g} ms per frame: "), within(row, nearest)])
+             for row in rows if row["case"] == case]
     lines.append(element("span", f"{case.replace('_', ' ')}; settings were chosen on other poses", class_="place"))
     return answer(question, joined(lines, Markup("<br>")))
 
 
 def first_screen(viewer, answers):
     """Beside the moving character: what PBS is, and the answers; the first use of a term links to the glossary."""
-    told = glossary.linked(joined([element("p", what_it_is, class_="what"), *answers], "\n"), set())
-    return element("div", joined([element("div", viewer, id="viewer", class_="stage"), element("div", told, class_="answers")], "\n"),
-                   class_="first-screen")
+    seen = set()
+    what, told = (glossary.linked(text, seen) for text in (element("p", what_it_is, class_="what"), joined(answers, "\n")))
+    return element("div", joined([element("div", viewer, id="viewer", class_="stage"), element("div", joined(
+        [what, told, element("p", where_to_go, class_="place")], "\n"), class_="answers")], "\n"), class_="first-screen")
 
 
 # Further down: the distance of each pose, and the cost.
@@ -118,21 +129,24 @@ def pose_table(shown):
         bound = number(pose.pbs, "reference_error_joint_pct")
         return "\u2013" if bound is None else f"\u2264 {figure(bound)}"
 
-    rows = [[pose.name, figure(pose.removed_pct()), *(figure(number(row, column)) for column in ("error_joint_pct", "skin_rms_mm")
-                                                      for row in (pose.lbs, pose.pbs)),
+    measures = [("error_joint_pct", "{} [%]"), ("skin_rms_mm", "{}, skin [mm]")]
+    measures = [of for of in measures if any(number(pose.pbs, of[0]) is not None for pose in shown)]  # older records have no skin
+    rows = [[pose.name, figure(pose.removed_pct()),
+             *(figure(number(row, column)) for column, _ in measures for row in (pose.lbs, pose.pbs)),
              ends(pose), figure(number(pose.reference, "masked_share_pct"))] for pose in shown]
-    header = ["pose", "share of LBS\u2019s error that PBS removes [%]", "LBS [%]", "PBS [%]", "LBS, skin [mm]", "PBS, skin [mm]",
+    header = ["pose", "share of LBS\u2019s error that PBS removes [%]", *(of.format(name) for _, of in measures for name in ("LBS", "PBS")),
               "reference\u2019s own error [%]", "left out [% of the volume]"]
     return table("Distance from the reference in single poses: at the joints, and over the skin of a body of 1.7 m", header, rows)
 
 
 def bar_sentence(shown):
     """States the error of the reference, which is itself a computation."""
-    below = sum(pose.pbs["below_reference_error"] == "1" for pose in shown)
-    if not below:
-        return "Each of these distances exceeds the bound on the reference's own error."
-    return (f"In {below} of {counted(len(shown), 'pose')} PBS lies within the bound on the reference's own error, so that the distance "
-            "is not significant.")
+    bounded = [pose for pose in shown if number(pose.pbs, "reference_error_joint_pct") is not None]
+    below = sum(pose.pbs["below_reference_error"] == "1" for pose in bounded)
+    without = len(shown) - len(bounded)
+    rest = f" {counted(without, 'pose has', 'poses have')} no bound on record." if without else ""
+    return (f"In {below} of {counted(len(bounded), 'pose')} with a bound on the reference's own error, PBS lies within the bound, so that "
+            f"the distance is not significant.{rest}")
 
 
 def frame_sentence(found):

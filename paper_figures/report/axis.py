@@ -2,8 +2,8 @@
 import math
 
 from report.markup import Markup, element, escaped
-from words import sentences
-from words.number_words import figure
+from words import case_words, sentences
+from words.number_words import counted, figure
 
 width, height, margin = 320, 34, 6  # [px]
 log_from = 30  # numbers of which the largest is so many times the smallest are drawn on a logarithmic scale
@@ -33,13 +33,17 @@ def known(cases):
 
 
 def drawn(claim):
-    """The axis of the claim's first quantity; nothing where no unit has a number."""
+    """The axis of the claim's first quantity; nothing where no unit has a number, or each has a bound of its own."""
+    if claim["rule"] == "printed":
+        return ""
     groups = {quantity: known(cases) for quantity, cases in sentences.by_quantity(claim).items()}
     quantity, units = next(((name, cases) for name, cases in groups.items() if cases), (None, []))
     if not units:
         return ""
     units = [case for case in units if all(case[end] == units[0][end] for end in ("bound_low", "bound_high"))]  # of one bound
-    controls = [(of["name"], known(sentences.by_quantity(of).get(quantity, []))) for of in claim["controls"]]
+    others = sum(len(cases) for cases in groups.values()) - len(units)
+    controls = [(f"{of['name']}, which {case_words.of_field('role', of['role'])}", known(sentences.by_quantity(of).get(quantity, [])))
+                for of in claim["controls"]]
     low, high = units[0]["bound_low"], units[0]["bound_high"]
     ends = [end for end in (low, high) if end is not None]
     scale = Scale([case["value"] for case in units] + [middle(cases) for _, cases in controls if cases] + ends)
@@ -48,12 +52,13 @@ def drawn(claim):
         left, right = (edge if end is None else scale.place(end) for end, edge in ((low, 0), (high, width)))
         parts.append(f'<rect class="bound" x="{left:.1f}" y="2" width="{max(right - left, 1):.1f}" height="18"/>')
     parts.append(f'<line class="line" x1="0" x2="{width}" y1="20" y2="20"/>')
-    parts += [f'<circle class="{"holds" if case["holds"] else "fails"}" cx="{scale.place(case["value"]):.1f}" cy="11" r="3"/>'
-              for case in units]
+    colours = [("holds" if case["holds"] else "fails") if ends else "control" for case in units]
+    parts += [f'<circle class="{colour}" cx="{scale.place(case["value"]):.1f}" cy="11" r="3"/>' for case, colour in zip(units, colours)]
     parts += [f'<path class="control" d="M{scale.place(middle(cases)):.1f} 21l4 8h-8z"><title>{escaped(name)}</title></path>'
               for name, cases in controls if cases]
     label = f"{sentences.title(claim, quantity)}: {sentences.span(units)}; bound: {sentences.bound(low, high) or 'none'}"
-    kinds = [f"control {name}: {figure(middle(cases))}" for name, cases in controls if cases]
+    label += f"; {counted(others, 'more number has', 'more numbers have')} other bounds" if others else ""
+    kinds = [f"control {name}: {figure(middle(cases))}" for name, cases in controls if cases]  # for those who do not see it
     picture = Markup(f'<svg class="axis" viewBox="0 0 {width} {height}" role="img" aria-label="{escaped("; ".join([label, *kinds]))}">'
                      f'{"".join(parts)}</svg>')
     return Markup(picture + element("span", label, class_="under"))

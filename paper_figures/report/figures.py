@@ -10,7 +10,7 @@ from report import record_set
 from report.markup import Markup, beside_the_page, element, escaped, joined
 from words import captions
 
-most_inline_kb = 400  # size of a CSV that the page contains
+most_inline_kb = 100  # size of a CSV that the page contains
 
 
 def inline_svg(text, name, label):
@@ -33,7 +33,7 @@ def drawn(found, entry):
     if absent:
         raise records.RecordsMissing(record_set.why_absent(found, absent))
     entry.check(found.results)
-    for ending in ("svg", "png", "webp"):
+    for ending in ("svg", "png"):
         file = found.results / "figures" / f"{entry.name}.{ending}"
         if file.is_file():
             newest_s = max(behind.stat().st_mtime for behind in entry.files(found.results))
@@ -47,16 +47,7 @@ def picture(file, entry):
     label = f"{entry.title}. {entry.caption}"
     if file.suffix == ".svg":
         return element("div", inline_svg(file.read_text(), entry.name, label), class_="scroll drawing")
-    return "" if file.suffix == ".webp" else Markup(f'<img alt="{html.escape(label)}" src="{data_uri(file, "image/png")}">')
-
-
-def clip(found, entry):
-    """A clip below its still; page.js opens it unless the reader prefers reduced motion."""
-    file = found.results / "figures" / f"{entry.name}.webp"
-    if not file.is_file():
-        return ""
-    moving = Markup(f'<img alt="{html.escape(entry.title)}, moving" src="{data_uri(file, "image/webp")}">')
-    return element("details", joined([element("summary", "The clip, moving"), moving]), class_="clip")
+    return Markup(f'<img alt="{html.escape(label)}" src="{data_uri(file, "image/png")}">')
 
 
 def numbers_link(found, entry):
@@ -81,7 +72,7 @@ def drawn_figure(found, entry, number, file):
     about += ["Claims: ", claims, ". "] if entry.claims else []
     about += [Markup(f'<abbr title="{html.escape(entries.marks[entry.mark])}">{entry.mark}</abbr>'), numbers_link(found, entry)]
     caption = element("figcaption", joined(about))
-    return element("figure", joined([picture(file, entry), clip(found, entry), caption], "\n"), id=f"figure-{entry.name}")
+    return element("figure", joined([picture(file, entry), caption], "\n"), id=f"figure-{entry.name}")
 
 
 def section(found):

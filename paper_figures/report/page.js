@@ -74,7 +74,12 @@ function openTarget() {
   target.scrollIntoView();
 }
 // A print has everything.
-addEventListener("beforeprint", () => document.querySelectorAll("main details").forEach((part) => { part.open = true; }));
+let folded = [];
+addEventListener("beforeprint", () => {
+  folded = [...document.querySelectorAll("main details:not(.vw-more, [open])")];
+  for (const part of folded) part.open = true;
+});
+addEventListener("afterprint", () => { for (const part of folded) part.open = false; });
 // "See it move" scrolls to the viewer and moves the keyboard focus there.
 function goToViewer() {
   const viewer = document.getElementById("frame-viewer") ?? document.getElementById("viewer");
@@ -83,8 +88,5 @@ function goToViewer() {
   viewer.scrollIntoView();
 }
 for (const link of document.querySelectorAll("a.pose")) link.addEventListener("click", goToViewer);
-
-const lessMotion = matchMedia("(prefers-reduced-motion: reduce)").matches;
-for (const clip of document.querySelectorAll("details.clip")) clip.open = !lessMotion;
 addEventListener("hashchange", openTarget);
 openTarget();

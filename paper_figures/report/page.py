@@ -15,8 +15,10 @@ def lead(found):
     """What was examined, and at which revision."""
     revisions = origin.values_of(found, "git_revision")
     runs = sum(name.count("/") == 1 for name in found.runs)  # the parts of a run are in folders below it
-    text = (f"The paper of 2014 against {runs} recorded runs of pbskin {', '.join(origin.values_of(found, 'version'))}, "
+    text = (f"The claims of the paper of 2014 against {runs} recorded runs of pbskin {', '.join(origin.values_of(found, 'version'))}, "
             f"revision {', '.join(dict.fromkeys(revision[:10] for revision in revisions))}.")
+    if any(plan.get("extent") == "quick" for plan in found.plans.values()):
+        text += " They are those of a quick run: claims have fewer units or lack a control, so that full records may give other verdicts."
     return element("p", text, class_="lead")
 
 

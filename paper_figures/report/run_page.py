@@ -14,7 +14,7 @@ from records import shapes
 from report import answers, origin
 from report.figures import inline_svg
 from report.markup import Markup, details, element, inline, items, joined, table
-from report.page import navigation, whole, written
+from report.page import glossary_section, navigation, whole, written
 from report.record_set import number
 from words import looks
 from words.number_words import counted, figure, listed, span_of_thousandths
@@ -79,26 +79,27 @@ def has_errors(found):
 
 
 def lines(found):
-    """The three lines of the first screen: what changes, how far it is from flesh, and what it costs."""
-    of = {label: found.rows(label) for label in ("lbs", "pbs") if label in found.labels()}
+    """The three lines of the first screen: what changes, how far it is from simulated flesh, and what it costs. They compare PBS and LBS,
+    or the first two deformers of a run without both."""
+    usual = [label for label in ("pbs", "lbs") if label in found.labels()]
+    of = {looks.of(label).name: found.rows(label) for label in (usual if len(usual) == 2 else found.labels()[:2])}
 
     def each(text, column, number_of):
-        """The text with the number of each deformer whose rows have the column: PBS 1.2 ms, LBS 0.03 ms."""
-        values = {looks.of(label).name: known(rows, column) for label, rows in reversed(of.items())}
-        return ", ".join(f"{name} {text.format(number_of(those))}" for name, those in values.items() if those)
+        """The numbers of the deformers whose rows have the column: 1.2 ms with PBS and 0.03 ms with LBS."""
+        values = {name: known(rows, column) for name, rows in of.items()}
+        return " and ".join(text.format(number_of(those), name) for name, those in values.items() if those)
 
-    def middle(values):
-        return figure(statistics.median(values))
+    def rms(values):
+        return figure(math.sqrt(statistics.fmean(value * value for value in values)))
 
-    volume = each("{} %", "volume_change_pct", span_of_thousandths)
-    changed = f"The volume changes by {volume} of that at rest." if volume else "No volume is known."
-    changes = found.trial["summary"] if found.trial else changed
-    away = each("{} mm", "skin_rms_mm", middle)
-    far = (f"The distance of the skin from the finite elements, for a body of 1.7 m: {away} (rms over the skin, median over the frames)."
-           if away and has_errors(found) else "No distance from finite elements is known.")
-    cost = each("{} ms", "step_ms", middle)
-    return [answers.answer("What changes?", changes), answers.answer("How far from flesh?", far),
-            answers.answer("At what cost?", f"Median time of a frame: {cost}." if cost else "No time is known.")]
+    volume = each("{} % with {}", "volume_change_pct", span_of_thousandths)
+    changed = f"The volume changes by {volume}." if volume else "No volume is known."
+    away = each("{} mm with {}", "skin_rms_mm", rms) if has_errors(found) else ""
+    far = f"The skin is {away} from the finite elements (rms over skin and frames, on a body of 1.7 m)." if away else ""
+    cost = each("{} ms with {}", "step_ms", lambda values: figure(statistics.median(values)))
+    return [answers.answer("What changes?", found.trial["summary"] if found.trial else changed),
+            answers.answer("How far from simulated flesh?", far or "No distance from finite elements is known."),
+            answers.answer("At what cost?", f"A frame takes {cost} (median)." if cost else "No time is known.")]
 
 
 def summary(found):
@@ -275,6 +276,7 @@ def page(folder):
                 ("frames", "Over the frames", figures_section(found)),
                 ("joints", "Volume at the joints", joints(found)), ("distances", "Distances between the deformers", distances(found)),
                 ("model", "What was taken from the model", model(found)),
+                ("glossary", "Glossary", glossary_section()),
                 ("origin", "Where the records come from", origin.section(as_set, with_viewer=viewer is not None))]
     sections = [section for section in sections if section[-1]]
     names = [looks.of(label).name for label in found.labels()]

@@ -2,7 +2,7 @@
 which opens to the units, controls, comparisons and readings behind it. sentences.py composes the sentences."""
 from report import axis
 from report.markup import Markup, beside_the_page, element, escaped, folder_link, items, joined, table
-from words import case_words, sentences
+from words import case_words, glossary, sentences
 from words.number_words import figure
 
 marks = {"holds": ("\u2714", "holds"), "fails": ("\u2718", "fails"), "mixed": ("\u25d0", "partly"),
@@ -79,7 +79,7 @@ def both_marks(claim):
 
 
 def chips(claims):
-    """A mark for each claim, which links to its row."""
+    """A mark for each claim, which links to its line."""
     def chip(claim):
         symbol, colour, name = mark_of(claim["verdict"])
         return Markup(f'<a class="chip {colour}" href="#{escaped(claim["id"])}" title="{escaped(claim["statement"])}">'
@@ -106,13 +106,12 @@ def line(claim, found, pose, drawn):
     return Markup(f'<details class="claim" id="{escaped(claim["id"])}">{summary}{joined([links, behind(claim, found)])}</details>')
 
 
-legend = ("A dot is a unit: a body with a clip, a joint or a mesh; green ones hold. The shaded band is the bound, which was fixed "
-          "beforehand. A triangle is a control: a method for which the claim must fail, or one for which it must hold. A line opens to "
-          "its data.")
+legend = ("A dot is a unit: a body with a clip, a joint or a mesh; green ones hold. The shaded band is the bound. A triangle is a "
+          "control: a method for which the claim must fail, or one for which it must hold. Click a line for its data.")
 
 
 def section(found, poses, drawn):
     if found.claims is None:
         return element("p", "claims.json is missing: `pbskin reproduce --judge -o DIR` judges the records", class_="missing")
     lines = [line(claim, found, poses.get(claim["id"]), drawn) for claim in found.claims]
-    return joined([element("p", legend, class_="lead"), *lines], "\n")
+    return joined([element("p", glossary.linked(escaped(legend), set()), class_="lead"), *lines], "\n")

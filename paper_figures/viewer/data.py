@@ -49,7 +49,7 @@ def rounded_up(value):
 
 def scales_of(read, positions, reference, rest):
     """Millimetres of a body of 1.7 m per metre of this one. In these millimetres: the ends of the scales of difference and overlap, which
-    one in a hundred differing or overlapping vertices exceeds."""
+    one in a hundred vertices, or overlapping vertices, exceeds. positions: of the frames whose pose was reached."""
     mm_per_m = 1.7e3 / float((rest.max(axis=0) - rest.min(axis=0)).max())
     truth = positions.get(reference)
     apart_m = [numpy.linalg.norm(of - truth, axis=2) for label, of in positions.items() if label != reference and truth is not None]
@@ -187,7 +187,9 @@ def pack_run(recorded, every, block):
     records.need(facts["deformers"], f"{recorded.folder / 'frames'}: every deformer has a position that is not finite: nothing to show")
     low, step = grid_over(numpy.stack([positions[of["label"]] for of in facts["deformers"]]))
     rest_low, rest_step = grid_over(rest)
-    scales = scales_of(read, {of["label"]: positions[of["label"]] for of in facts["deformers"]}, facts["reference"], rest)
+    bad = {at for of in facts["deformers"] for at in of["not_reached"]}
+    good = [at for at in range(len(facts["frames"])) if at not in bad] or [0]
+    scales = scales_of(read, {of["label"]: positions[of["label"]][good] for of in facts["deformers"]}, facts["reference"], rest)
     for deformer in facts["deformers"]:
         deformer["positions"] = block.put(differences(codes_of(positions[deformer["label"]], low, step)))
         ratios = numpy.stack([one[2] for one in read[deformer["label"]]])

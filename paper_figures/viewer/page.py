@@ -18,7 +18,7 @@ import records
 from drawing import rendering
 from viewer import data as viewer_data
 
-most_bytes = 6_500_000  # limit for the viewer, so that the report stays below 12 MB
+most_bytes = 5_000_000  # limit for the viewer, so that the report stays below 12 MB
 # From the colour of the skin to dark ones, so that what agrees with the reference looks like skin.
 difference_colors = colors.LinearSegmentedColormap.from_list("difference", [rendering.skin_color, "#F4A040", "#D3341E", "#5A0F46"])
 overlap_colors = colors.LinearSegmentedColormap.from_list("overlap", ["#F08A70", "#7A0016"])

@@ -143,7 +143,7 @@ const std::vector<Budget>& budgets()
         {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 23'444, .least_mean = 120},
         {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 10'190, .least_mean = 120},
         {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'020, .least_mean = 120},
-        {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 26'603, .least_mean = 120},
+        {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 26'579, .least_mean = 120},
         {.what = "production C++",
          .folders = {"pbs/", "reference_fem/", "analysis/", "experiments/"},
          .endings = cpp,

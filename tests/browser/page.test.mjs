@@ -257,6 +257,10 @@ test_in_windows("nothing is beyond the window or lies over another", file, "", a
 test("on paper the tables are whole, without what can only be pressed", async () => {
     await page.emulateMedia({ media: "print", reducedMotion: "reduce" });
     for (const hidden of ["nav", "#frame-viewer .vw-bars", ".skip"]) assert.ok(await page.locator(hidden).first().isHidden(), hidden);
+    await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+    const printed = page.locator("#frame-viewer .vw-printed");
+    await page.waitForFunction(() => document.querySelector(".vw-printed").complete);
+    assert.ok(await printed.isVisible() && await printed.evaluate((image) => image.naturalWidth) > 300, "no picture of the viewer");
     const clipped = await page.locator(".scroll").evaluateAll((all) => all.filter((one) => one.getClientRects().length
         && getComputedStyle(one).overflowY !== "visible").length);
     assert.equal(clipped, 0);

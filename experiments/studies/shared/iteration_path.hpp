@@ -115,11 +115,10 @@ Rate rate_of(const IterationPath& path, double floor);
 const Look& look_at(const IterationPath& path, int iteration);  // the last look that is not after the iteration
 const Look& nearest_to_reference(const IterationPath& path);    // the look with the least error_joint_pct
 
-// The sequences in which a constraint set can list its edges and tets. Order `plain` projects in this sequence, and the batched orders
-// derive theirs from it.
+// Lists the edges and tets of a constraint set in a random sequence, which depends on the seed alone: it is the same on every machine and
+// for float and double. Order `plain` projects in this sequence, and the batched orders derive theirs from it.
 //   pbs::ConstraintSet<float> constraints = pbs::make_constraint_set<float>(...);   // in file order
 //   in_random_sequence(constraints, 1);
-// Random: a permutation that depends on the seed alone: the same on every machine and for float and double.
 template <typename Scalar>
 void in_random_sequence(pbs::ConstraintSet<Scalar>& constraints, unsigned seed);
 

@@ -92,7 +92,7 @@ const lines = [
     { column: "j_min", name: "smallest ratio", unit: "", text: shown },
     { column: "error_joint_pct", name: "error at joints", unit: "%", text: shown },
     { column: "skin_rms_mm", name: "distance of the skin, rms", unit: "mm", text: shown },
-    { column: "error_linf_m", name: "largest distance", unit: "mm", text: (value) => shown(value === null ? null : 1000 * value) },
+    { column: "error_linf_m", name: "largest distance", unit: "mm", text: (value, run) => shown(value && run.mm_per_m * value) },
 ];
 
 // The numbers of the frame that come first: the distance of the skin from the reference and the volume.
@@ -109,7 +109,7 @@ export function draw_figures(place, run, label, at) {
     place.replaceChildren(...lines.filter(({ column }) => run.has_figure(column)).flatMap(({ column, name, unit, text }) => {
         const value = run.figure(label, column, at), is_error = /^error|^skin/.test(column);
         const mark = is_error && run.masked_share_pct(at) > 0 ? " *" : "";
-        const recorded = text(value) + (unit && value !== null ? `\u202f${unit}` : "") + mark;
+        const recorded = text(value, run) + (unit && value !== null ? `\u202f${unit}` : "") + mark;
         return [element("dt", {}, name), element("dd", { "data-column": column, "data-value": value ?? "" },
                                                  is_reference && is_error ? "reference" : recorded)];
     }));
@@ -128,7 +128,8 @@ export function note_of(run, every, at) {
     const of_reference = run.labels.includes(run.reference) ? locking : "";
     return `${mark}${of_reference}${run.vertices} vertices, ${run.tets} tets${carried_by(run)}; ${kept}. Positions are rounded to steps of `
         + `${step_um} \u00b5m: each coordinate of a vertex is within half a step of the record's; volume ratios to 1/127 up to 2; `
-        + "the numbers are the records' own. A cut goes through the body at rest, so that every panel and frame shows the same tets. "
+        + "the numbers are the records' own. Millimetres are those of a body whose largest extent is 1.7 m. A cut goes through the body at "
+        + "rest, so that every panel and frame shows the same tets. "
         + run.rights;
 }
 

@@ -71,14 +71,14 @@ class Viewer {
     // A print shows what is on the screen; browsers leave the canvas out.
     print() {
         this.views.draw();
-        this.printed ??= this.panels_element.appendChild(element("img", { class: "vw-printed", alt: "" }));
+        this.printed ??= this.panels_element.appendChild(element("img", { class: "vw-printed", alt: "the bodies as they are shown" }));
         this.printed.src = this.canvas.toDataURL();
     }
 
     // Makes one element per panel: choice of deformer, view, recorded numbers.
     build_panels(now) {
         for (const { whole } of this.panel_elements ?? []) whole.remove();
-        const title_of = ({ label, title }) => (label === this.run.reference ? `reference: ${title}` : title);
+        const title_of = ({ label, title }) => (label === this.run.reference ? "reference: FEM" : title);
         const options = this.run.deformers.map((deformer) => [deformer.label, title_of(deformer)]);
         this.panel_elements = now.panels.map((label, at) => {
             const choose = (chosen) => this.user({ panels: now.panels.map((shown, place) => place === at ? chosen : shown) });
@@ -94,8 +94,9 @@ class Viewer {
             this.panels_element.append(whole);
             return { whole, view, mark, first, numbers };
         });
-        this.panels_element.classList.toggle("vw-wide", is_wide(this.run));
-        this.panels_element.style.setProperty("--vw-panels", now.panels.length);
+        const wide = is_wide(this.run), panels = now.panels.length;
+        this.panels_element.classList.toggle("vw-wide", wide);
+        this.panels_element.style.setProperty("--vw-columns", wide && panels === 4 ? 2 : panels);
         this.panels = now.panels.map(() => new Panel());
         this.views.show(this.panel_elements.map((made) => made.view), this.panels.map((panel) => panel.contents));
     }
@@ -192,7 +193,7 @@ class Viewer {
                 if (by > 0 && panels.length < 4 && next) this.user({ panels: [...panels, next] });
             },
             play: toggle("playing"), bones: toggle("bones"), follow: toggle("follow"), shifting: toggle("shifting"),
-            colour: (colour) => this.user({ colour }),
+            colour: (colour) => (colour !== "contact" || this.run.has_contact()) && this.user({ colour }),
             rendered: () => no_surface_because(this.run, now()) === null && toggle("rendered")(),
             cut: () => cut_axis(now().cut ? "" : "z"), cut_axis,
             cut_at: (at_m) => cut({ at_m }), cut_side: () => cut({ above: !now().cut.above }),

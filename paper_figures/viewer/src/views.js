@@ -78,6 +78,7 @@ export class Views {
     // Points the camera at the body of a new run, and moves it with the body.
     update(run, now, changed) {
         if (run.name !== this.run_name) return this.first(run, now);
+        if (changed.has("panels")) this.fit_again(run, now);
         const middle = middle_of(run, now.at);
         if (changed.has("at") && now.follow) this.move(middle.clone().sub(this.middle));
         if (changed.has("at") || !now.follow) this.middle = middle;
@@ -89,6 +90,13 @@ export class Views {
         this.sphere = { middle: new Vector3(...middle), radius };
         this.middle = middle_of(run, now.at);
         this.look_at(this.middle, cloud_of(run, now.panels[0]));
+    }
+
+    // After a change of the panels' width, the camera is as far from its target in parts of the first distance as before.
+    fit_again(run, now) {
+        const seen = this.seen();
+        this.look_at(this.middle, cloud_of(run, now.panels[0]));
+        this.see(seen);
     }
 
     move(step) {

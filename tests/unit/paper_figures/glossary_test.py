@@ -20,7 +20,7 @@ class Terms(unittest.TestCase):
                 self.assertLessEqual(len(entry.sentence.split()), 25)
                 self.assertRegex(entry.sentence, r"^[\w].*[^.]\.$")
 
-    def test_the_page_and_its_picture_are_current(self):
+    def test_the_page_is_current_and_its_picture_small(self):
         self.assertEqual(part.cut(tables.glossary_page, "glossary")[1].splitlines()[1:], tables.glossary_lines(),
                          "python3 paper_figures/make_readme.py experiments/records/full glossary")
         self.assertLess(tables.glossary_page.with_name("glossary.svg").stat().st_size, 60_000)

@@ -163,6 +163,8 @@ class RunPage(ResultsTest):
         text = self.page()
         self.assertIn("<h2>What changes?</h2><p>PBS keeps it.</p>", re.sub("</?a[^>]*>", "", text))
         self.assertEqual((text.count("of the trial"), text.count("of the run")), (1, 1))
+        links, ids = (set(re.findall(pattern, text)) for pattern in (r'href="#([^"]+)"', r'id="([^"]+)"'))
+        self.assertTrue(links and links <= ids, links - ids)
 
     def test_notes_are_apart_from_warnings(self):
         self.write(outcome={"notes": ["nothing is wrong"]})

@@ -94,7 +94,7 @@ TEST(ComparedDeformers, TakeTheirOptionsFromTheEntryTheSceneAndTheReference)
     const auto& options = options_of<pbs::PbsOptions>(spec);
     EXPECT_EQ(options.iterations, 8);
     EXPECT_EQ(options.k_stretch, 0.9);
-    EXPECT_EQ(options.order, pbs::Order::plain);
+    EXPECT_EQ(options.order, pbs::Order::spread);
     EXPECT_EQ(options.precision, pbs::Precision::f64);
     EXPECT_EQ(options.k_bind, 1.0);
     EXPECT_EQ(spec_with(entry("lbs"), scene, {}).variant, "weights_paper");

@@ -103,7 +103,7 @@ TEST(PointSettings, OfChangesToPbsAreMarked)
         }
     EXPECT_EQ(of_change.size(), changes_to_pbs().size());
     for (const ComparedDeformer& one : changes_to_pbs()) EXPECT_EQ(of_change[one.name], one.grid.size() * one.iterations.size());
-    EXPECT_EQ(settings.size(), without + 25 * 8);  // values of all changes, iterations
+    EXPECT_EQ(settings.size(), without + 26 * 8);  // values of all changes, iterations
 }
 
 // The place of a setting on its ladder depends neither on k_stretch nor on the rest of the grid.
@@ -279,7 +279,7 @@ TEST(MeasuredPoints, HaveTheChangesToPbsInATableOfTheirOwn)
                                                     {"region_volumes", 3},
                                                     {"tet_and_region_volumes", 3},
                                                     {"k_by_edge_length", 1},
-                                                    {"another_order", 2},
+                                                    {"another_order", 3},
                                                     {control, 3}}));
     for (const PointRow& row : small_points().rows)
         EXPECT_TRUE(std::ranges::none_of(changes_to_pbs(), [&](const ComparedDeformer& one) { return one.name == row.key.deformer; }));
