@@ -13,7 +13,8 @@ radius = 2.5
 
 def add(figure, file):
     """Also names a replacement for matplotlib's font on machines without it: Verdana has the same width."""
-    page, end = file.read_text().replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, sans-serif").rsplit("</svg>", 1)
+    text = file.read_text().replace(' id="guide"', "").replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, sans-serif")
+    page, end = text.rsplit("</svg>", 1)
     height = figure.get_size_inches()[1] * points_an_inch
     groups = [group_of(axes, figure.dpi, height) for axes in figure.axes if axes.get_visible() and axes.get_aspect() == "auto"]
     file.write_text(page + "".join(groups) + "</svg>" + end)
@@ -56,7 +57,7 @@ def circles_of(axes, label, x, y, said_x, said_y, dpi, height):
     places = axes.transData.transform(numpy.column_stack([x, y]).astype(float))
     box = axes.bbox.padded(1.0)
     names = names_of(axes.xaxis), names_of(axes.yaxis)
-    prefix = "" if label.startswith("_") else f"{label}: "
+    prefix = "" if label.startswith("_") else f"{label}: ".replace("\n", " ")
     for place, *values in zip(places, said_x, said_y):
         if numpy.isfinite(place).all() and box.contains(*place):
             across, up = place * points_an_inch / dpi

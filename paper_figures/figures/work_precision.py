@@ -205,14 +205,15 @@ def draw_profiles(axes, rows, span_ms):
         steps = [row for row in rows if row["group"] == group]
         ms, share = records.numbers(steps, "ms"), records.numbers(steps, "share_pct")
         axes.step([ms[0], *ms, span_ms[1]], [0, *share, share[-1]], where="post", color=style.light, linewidth=0.6,
-                  label=looks.short(group))
+                  gid="guide")
+        axes.plot(ms, share, linestyle="", marker=".", markersize=2, color=style.light, label=looks.short(group))
     for name in looks.in_order({looks.class_of(row["group"]) for row in rows}, looks.classes):
         ms, share = [], [0.0]
         for row in sorted((row for row in rows if looks.class_of(row["group"]) == name), key=lambda row: float(row["ms"])):
             ms.append(float(row["ms"]))
             share.append(max(share[-1], float(row["share_pct"])))
         line, = axes.step([ms[0], *ms, span_ms[1]], [*share, share[-1]], where="post", color=looks.color_of_class(name),
-                          label=words_of_class(name))
+                          label=words_of_class(name), gid="guide")
         labels[line] = words_of_class(name)
     if not rows:
         axes.annotate("no pose is solved", (0.5, 0.5), xycoords="axes fraction", ha="center")

@@ -108,11 +108,13 @@ def distance_of_99_pct_mm(frames):
 
 def truth_of(results):
     runs = viewer_data.recorded_runs(results)
+    every = viewer_html.pack(runs)[0]["every"]
     samples, skins = [], []
     for frames in runs:
-        last = len(frames.times_s()) - 1
-        samples += [sample_of(frames, label, frame) for label in sampled.get(frames.run.name, []) for frame in (0, last // 2, last)]
-        skins += [skin_sample_of(frames, label, frame) for label in sampled_skins.get(frames.run.name, []) for frame in (last // 2, last)]
+        packed = range(0, len(frames.times_s()), every)
+        first, middle, last = packed[0], packed[len(packed) // 2], packed[-1]
+        samples += [sample_of(frames, label, frame) for label in sampled.get(frames.run.name, []) for frame in (first, middle, last)]
+        skins += [skin_sample_of(frames, label, frame) for label in sampled_skins.get(frames.run.name, []) for frame in (middle, last)]
     return {"samples": samples, "skins": skins, "undrawn": sorted(undrawn(results)),
             "colours": viewer_html.colours(), "distance_of_99_pct_mm": {frames.run.name: distance_of_99_pct_mm(frames) for frames in runs},
             "poses": viewer_html.poses_of([viewer_data.facts_of(frames, 1) for frames in runs])}

@@ -70,6 +70,7 @@ test("two fingers drawn apart come nearer by as much; the page keeps its size", 
 
 test("two fingers shift the view once the button says so, and turn it after", async () => {
     const button = page.locator("#frame-viewer button", { hasText: "two fingers shift" });
+    await page.locator("#frame-viewer .vw-more > summary").tap();
     const upwards = () => gesture([[-30, 10], [30, 10]], [[-30, -15], [30, -15]]);
     await button.tap();
     assert.equal(await button.getAttribute("aria-pressed"), "true");
