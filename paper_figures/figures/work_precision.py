@@ -206,7 +206,7 @@ def draw_profiles(axes, rows, span_ms):
         ms, share = records.numbers(steps, "ms"), records.numbers(steps, "share_pct")
         axes.step([ms[0], *ms, span_ms[1]], [0, *share, share[-1]], where="post", color=style.light, linewidth=0.6,
                   gid="guide")
-        axes.plot(ms, share, linestyle="", marker=".", markersize=2, color=style.light, label=looks.short(group))
+        axes.plot(ms, share, **style.as_of(group, linestyle="", markersize=2))
     for name in looks.in_order({looks.class_of(row["group"]) for row in rows}, looks.classes):
         ms, share = [], [0.0]
         for row in sorted((row for row in rows if looks.class_of(row["group"]) == name), key=lambda row: float(row["ms"])):

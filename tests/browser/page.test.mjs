@@ -43,7 +43,9 @@ test_in_windows("the report", file, "", async (other, name, width, height) => {
 test("the moving character and the three answers are seen before anything is scrolled", async () => {
     assert.deepEqual(page.viewportSize(), { width: 1280, height: 900 });
     const questions = await page.locator(".first-screen .answer > h2").allTextContents();
-    assert.deepEqual(questions, ["Do the paper\u2019s claims hold?", "How far is PBS from simulated flesh?", "Which method for which time?"]);
+    assert.deepEqual(questions, [
+        "Do the paper\u2019s claims hold?", "How far is PBS from simulated flesh?", "Which method for which time?",
+    ]);
     const ends = await page.locator(".first-screen .answer, #frame-viewer .vw-view").evaluateAll((all) =>
         all.map((one) => one.getBoundingClientRect().bottom + scrollY));
     assert.equal(ends.length, 6);
