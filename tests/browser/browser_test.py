@@ -117,7 +117,7 @@ def truth_of(results):
         skins += [skin_sample_of(frames, label, frame) for label in sampled_skins.get(frames.run.name, []) for frame in (middle, last)]
     return {"samples": samples, "skins": skins, "undrawn": sorted(undrawn(results)),
             "colours": viewer_html.colours(), "distance_of_99_pct_mm": {frames.run.name: distance_of_99_pct_mm(frames) for frames in runs},
-            "poses": viewer_html.poses_of([viewer_data.facts_of(frames, 1) for frames in runs])}
+            "poses": viewer_html.poses_of([viewer_data.facts_of(frames, every) for frames in runs])}
 
 
 def unready():

@@ -6,7 +6,11 @@ import { open_viewer, page, settle, use_page } from "./browser.mjs";
 export const file = process.env.PBS_VIEWER_PAGE;
 export const truth = JSON.parse(fs.readFileSync(process.env.PBS_VIEWER_TRUTH));
 export const pictures = process.env.PBS_VIEWER_PICTURES;
-use_page(() => open_viewer(file));
+use_page(async () => {
+    const shown = await open_viewer(file);
+    await shown.page.evaluate(() => { document.querySelector(".vw-more").open = true; });
+    return shown;
+});
 
 // The number of colours in the panel without its ground, and the share of its pixels that differ from the most frequent one.
 export function colours_of(panel) {
