@@ -96,6 +96,7 @@ class Viewer {
         });
         const wide = is_wide(this.run), panels = now.panels.length;
         this.panels_element.classList.toggle("vw-wide", wide);
+        this.panels_element.classList.toggle("vw-four", panels === 4);
         this.panels_element.style.setProperty("--vw-columns", wide && panels === 4 ? 2 : panels);
         this.panels = now.panels.map(() => new Panel());
         this.views.show(this.panel_elements.map((made) => made.view), this.panels.map((panel) => panel.contents));
