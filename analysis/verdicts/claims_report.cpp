@@ -262,8 +262,8 @@ std::string facts_text(const Verdict& verdict)
     return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-// What the claims leave out, e.g. a body that is not installed, and the records that are missing, each once; then the number of verdicts of
-// each kind.
+// Names once what the claims leave out, such as a body that is not installed, and the records that are missing. Then it counts the verdicts
+// of each kind.
 std::vector<std::string> closing_texts(const std::vector<Verdict>& verdicts)
 {
     std::map<std::array<std::string, 2>, std::set<std::string>> absent;

@@ -78,7 +78,7 @@ std::string skin_words(const nlohmann::json& skin)
                        skin.at("pbs_mm").get<double>(), skin.at("lbs_mm").get<double>());
 }
 
-// What changes on this model, by how much, at what cost, and what to look at.
+// States what PBS changes on this model, by how much, at what cost, and in which frame it is seen best.
 std::string decisive_sentence(const nlohmann::json& facts)
 {
     const nlohmann::json &volume = facts.at("volume"), &skin = facts.at("skin"), &widest = facts.at("widest_frame");

@@ -15,16 +15,16 @@ where_to_go = Markup("Your own model: <code>pbskin try hero.glb</code>. "
                      "A deformer of your own: <code>experiments/deformers/README.md</code>.")
 
 
-def answer(question, told, *more):
+def answer(question, sentence, *more):
     """One of the three lines."""
-    return element("div", joined([element("h2", question), element("p", told), *more]), class_="answer")
+    return element("div", joined([element("h2", question), element("p", sentence), *more]), class_="answer")
 
 
 def do_they_hold(found):
     question = "Do the paper\u2019s claims hold?"
     if not found.claims:
-        told = "No verdict is on record: run `pbskin reproduce`, or `pbskin reproduce --judge` on these records."
-        return answer(question, element("span", told, class_="missing"))
+        sentence = "No verdict is on record: run `pbskin reproduce`, or `pbskin reproduce --judge` on these records."
+        return answer(question, element("span", sentence, class_="missing"))
     return answer(question, sentences.counts(found.claims), verdicts.chips(found.claims))
 
 
@@ -69,14 +69,15 @@ def how_far(found):
     question = "How far is PBS from simulated flesh?"
     shown, _ = poses(found)
     if not shown:
-        told = f"The distance from finite elements is {not_run(found, 'work_precision')}."
-        return answer(question, element("span", told, class_="missing"))
-    told = (f"PBS with 24 iterations, ordered and in single precision, removes {span([round(pose.removed_pct()) for pose in shown])} % of "
-            f"the error of LBS at the joints ({counted(len(shown), 'pose')}, against neo-Hookean finite elements).")
+        sentence = f"The distance from finite elements is {not_run(found, 'work_precision')}."
+        return answer(question, element("span", sentence, class_="missing"))
+    removed_pct = span([round(pose.removed_pct()) for pose in shown])
+    sentence = (f"PBS with 24 iterations, ordered and in single precision, removes {removed_pct} % of the error of LBS at the joints "
+                f"({counted(len(shown), 'pose')}, against neo-Hookean finite elements).")
     away = {name: span([number(getattr(pose, name), "skin_rms_mm") for pose in shown if pose.body != "limb"]) for name in ("pbs", "lbs")}
     if away["pbs"] != figure(None):
-        told += f" Its skin is {away['pbs']} mm away on a body of 1.7 m, that of LBS {away['lbs']} mm."
-    return answer(question, told)
+        sentence += f" Its skin is {away['pbs']} mm away on a body of 1.7 m, that of LBS {away['lbs']} mm."
+    return answer(question, sentence)
 
 
 def within(row, rows):
@@ -109,9 +110,9 @@ def which_method(found):
 def first_screen(viewer, answers):
     """Beside the moving character: what PBS is, and the answers; the first use of a term links to the glossary."""
     seen = set()
-    what, told = (glossary.linked(text, seen) for text in (element("p", what_it_is, class_="what"), joined(answers, "\n")))
+    what, sentence = (glossary.linked(text, seen) for text in (element("p", what_it_is, class_="what"), joined(answers, "\n")))
     return element("div", joined([element("div", viewer, id="viewer", class_="stage"), element("div", joined(
-        [what, told, element("p", where_to_go, class_="place")], "\n"), class_="answers")], "\n"), class_="first-screen")
+        [what, sentence, element("p", where_to_go, class_="place")], "\n"), class_="answers")], "\n"), class_="first-screen")
 
 
 # Further down: the distance of each pose, and the cost.
