@@ -187,7 +187,7 @@ double correlation_without(Trend trend, std::size_t left_out)
 {
     for (std::vector<double>* of : {&trend.stiffness, &trend.value})
         if (left_out < of->size()) of->erase(of->begin() + static_cast<std::ptrdiff_t>(left_out));
-    return std::clamp(analysis::rank_correlation(trend.stiffness, trend.value), -1.0, 1.0);  // rounding goes beyond
+    return analysis::rank_correlation(trend.stiffness, trend.value);
 }
 
 void add_correlation(std::vector<Measurement>& measurements, const std::string& quantity, const analysis::CaseKey& of, const Trend& trend)

@@ -57,17 +57,17 @@ struct Jolt {
 };
 
 struct JoltResponse {
-    double path_m = 0.0;                // length of the jolt, or of the probe's path on its bones: the unit of what is over the jolt
-    std::vector<double> excursion_m;    // of the probe, one per step, beginning with that of the jolt
-    std::vector<double> speed_rms_m_s;  // of all the body's vertices
-    analysis::DampedOscillation swing;  // fitted to the excursion
-    double peak_over_jolt = 0.0;        // largest excursion, either way; 1 where flesh stays behind at first
-    double overshoot_over_jolt = 0.0;   // largest excursion beyond the place on the skeleton
-    double settling_s = 0.0;            // after which the excursion stays within a tenth of its peak
-    double rest_over_jolt = 0.0;        // of stop_response: where the probe comes to rest, from its place without inertia
-    double left_over_peak = 0.0;        // largest excursion of the last tenth
-    double speed_growth = 0.0;          // largest speed after the first tenth over that within it; above 1, energy has grown
-    bool finished = true;               // every step
+    double path_m = 0.0;                  // length of the jolt, or of the probe's path on its bones: the unit of what is over the jolt
+    std::vector<double> excursion_m{};    // of the probe, one per step, beginning with that of the jolt
+    std::vector<double> speed_rms_m_s{};  // of all the body's vertices
+    analysis::DampedOscillation swing{};  // fitted to the excursion
+    double peak_over_jolt = 0.0;          // largest excursion, either way; 1 where flesh stays behind at first
+    double overshoot_over_jolt = 0.0;     // largest excursion beyond the place on the skeleton
+    double settling_s = 0.0;              // after which the excursion stays within a tenth of its peak
+    double rest_over_jolt = 0.0;          // of stop_response: where the probe comes to rest, from its place without inertia
+    double left_over_peak = 0.0;          // largest excursion of the last tenth
+    double speed_growth = 0.0;            // largest speed after the first tenth over that within it; above 1, energy has grown
+    bool finished = true;                 // every step
 };
 
 JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe, const Jolt& jolt);
@@ -111,8 +111,8 @@ struct StopRow {
     std::string deformer;
     double k_stretch = 0.0, young_pa = 0.0, rayleigh_stiffness_s = 0.0;  // not a number where the deformer has none
     double time_step_ms = 0.0;
-    std::string outcome;
-    JoltResponse response;
+    std::string outcome{};
+    JoltResponse response{};
 };
 extern const analysis::Columns<StopRow> stop_columns;
 

@@ -277,10 +277,11 @@ TEST(JiggleStop, LbsStopsAtOnceAfterThePathOfItsBones)
     EXPECT_GT(swings.peak_over_jolt, 1e-3);
     const double bound = 0.1 * swings.peak_over_jolt * swings.path_m;
     for (std::size_t step = 0; step < swings.excursion_m.size(); ++step)
-        if (0.01 * static_cast<double>(step) >= swings.settling_s)
+        if (0.01 * static_cast<double>(step) >= swings.settling_s) {
             EXPECT_LE(std::abs(swings.excursion_m[step]), bound) << step;
-        else if (0.01 * static_cast<double>(step + 1) >= swings.settling_s)
+        } else if (0.01 * static_cast<double>(step + 1) >= swings.settling_s) {
             EXPECT_GT(std::abs(swings.excursion_m[step]), bound) << "the last step beyond";
+        }
 }
 
 }  // namespace
