@@ -31,7 +31,6 @@ matplotlib.rcParams.update({
     "axes.axisbelow": True, "legend.frameon": False, "savefig.dpi": 300, "pdf.fonttype": 42, "svg.fonttype": "none",
     "svg.hashsalt": "pbskin", "axes.spines.top": False, "axes.spines.right": False, "figure.constrained_layout.use": True})
 
-
 sequence = [(vermillion, "v"), (blue, "o"), (green, "^"), (purple, "D"), (orange, "s"), (sky, "P"), (black, "x")]
 lines = [*looks.lines.values(), "-", looks.lines["dashed"]]
 

@@ -1,5 +1,5 @@
 """The figures of the study of run time: the paper's Table 1 with the times measured here, the time of a frame over the size of the mesh,
-its growth and the speedup by threads, and the cost of each switch of a scene."""
+its growth and the speedup by threads, the cost of each switch of a scene, and the skin from frame to frame along a clip."""
 import records
 from drawing import style
 from words import case_words, looks
@@ -240,3 +240,31 @@ def features_cost(results):
     style.name_rows(axes[0][0], [case_words.of_field("feature", name) for name in names])
     style.legend_above(figure)
     return figure, [row for scene, rows in found.items() for row in style.taken(rows, sorted(feature_columns), scene=scene)]
+
+
+# From frame to frame along a clip: the jitter of the skin, and the error against flesh by where a frame begins.
+summary_columns = {"motion", "deformer", "start", "compared", "error_joint_pct", "worse_than_cold_frames", "ms_median", "jitter_mm"}
+
+
+def clip_temporal(results):
+    folder = results / "temporal"
+    frames = records.table(folder / "human_01_01" / "frames.csv", {"deformer", "start", "frame", "jitter_mm"})
+    summary = [row for row in records.table(folder / "summary.csv", summary_columns) if row["motion"] == "01_01"]
+    figure, ((jitter, starts),) = style.panels(1, 2, height_in=2.4)
+    for name in ("pbs_author", "delta_mush", "pbs", "quasi_newton", "dqs"):
+        own = [row for row in frames if (row["deformer"], row["start"]) == (name, "own") and row["jitter_mm"]]
+        style.draw(jitter, name, own, "frame", "jitter_mm", linewidth=0.8)
+    style.log_scale(jitter.yaxis)
+    jitter.set(xlabel="frame, 60 per second", ylabel="jitter of the skin [mm]")
+    style.label_lines([jitter])
+    warm = [row for row in summary if row["start"] == "frame_before"]
+    for place, row in enumerate(warm):
+        cold = next(other for other in summary if (other["deformer"], other["start"]) == (row["deformer"], "own"))
+        for of, fill in ((cold, {"markerfacecolor": "white"}), (row, {})):
+            style.draw(starts, row["deformer"], [of | {"place": str(place)}], "error_joint_pct", "place", **fill)
+        starts.annotate(f"worse in {row['worse_than_cold_frames']} of {row['compared']}", (1.02, place), xycoords=("axes fraction", "data"),
+                        fontsize=style.tick_size, va="center")
+    style.log_scale(starts.xaxis)
+    style.name_rows(starts, [looks.short(row["deformer"]) for row in warm])
+    starts.set_xlabel("error at the joints [%]: own start hollow, frame before filled")
+    return figure, style.taken(summary, sorted(summary_columns)) + style.taken(frames, ("deformer", "start", "frame", "jitter_mm"))
