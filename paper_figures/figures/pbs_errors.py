@@ -106,7 +106,7 @@ def draw_gains(axes, rows):
         for row in (row for row in rows if row["budget_iterations"] == budget):
             y, gain = named.index(row["change"]) - 0.22 * (place - 1), float(row["gain_pct"])
             if row["gain_low_pct"]:
-                axes.plot([float(row["gain_low_pct"]), float(row["gain_high_pct"])], [y, y], color=color, linewidth=0.8)
+                axes.hlines(y, float(row["gain_low_pct"]), float(row["gain_high_pct"]), color=color, linewidth=0.8)
             axes.plot([gain], [y], color=color, marker=marker, linestyle="none",
                       markerfacecolor=color if row["decision"] == "decided" else "white")
         axes.plot([], [], color=color, marker=marker, linestyle="none", label=f"in the time of {budget} iterations")
