@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Keeps what the verdicts rest on: from the records of `pbskin reproduce --full -o DIR` the values by which claims are judged, those that
-they show for comparison, the studies' own tables and the provenance, below 14 MB, in experiments/records/full. Studies that DIR lacks keep
+they show for comparison, the studies' own tables and the provenance, below 17 MB, in experiments/records/full. Studies that DIR lacks keep
 their earlier records, with the revision of these. `pbskin reproduce --judge -o experiments/records/full` judges them all again.
 
     python3 experiments/records/keep.py results/full [FOLDER]
@@ -22,9 +22,10 @@ JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "t
           "volume_change_pct", "volume_abs_change_pct", "inverted_tets", "masked_share_pct", "error_joint_pct"]
 PROVENANCE = ["version", "git_revision", "git_dirty", "compiler", "flags", "build_type", "cpu_model", "logical_cpus"]
 DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # beside frames, which are not kept
-MOST_BYTES = 14_000_000
+MOST_BYTES = 17_000_000
 # Tables of a run from which those of the study follow: kept whatever their length. So is nearest_pairs.csv of a study.
 RAW = ("points.csv", "rates.csv", "pair_orders.csv")
+UNREAD = ("profiles.csv",)  # by verdicts and pages: left out whatever their length
 PICTURED = ("nh_p2",)  # the reference in the picture of the README, which no claim selects
 PAGES = ("bench.txt",)  # a study's texts that are no pages
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
@@ -78,7 +79,7 @@ def keep_table(source, target):
 
 
 def keep_run(source, target):
-    """Returns the tables that are too long to be kept, relative to the study's folder."""
+    """Returns the tables that are too long to be kept or not read, relative to the study's folder."""
     too_long = []
     record = json.loads((source / "run.json").read_text(encoding="utf-8"))
     provenance = {key: value for key, value in record.get("provenance", {}).items() if key in PROVENANCE}
@@ -91,7 +92,7 @@ def keep_run(source, target):
             continue
         elif table.name in ("measurements.csv", "printed.csv"):
             shutil.copyfile(table, target / table.name)
-        elif table.name in RAW or table.stat().st_size <= TABLE_BYTES:
+        elif table.name in RAW or (table.stat().st_size <= TABLE_BYTES and table.name not in UNREAD):
             keep_table(table, target / table.name)
         else:
             too_long.append(table.relative_to(source.parent))

@@ -31,7 +31,7 @@ sampled = {"limb_twist": ["lbs", "nh_p1"], "limb_bend": ["dqs"], "human_jump": [
 with_bones = "limb_bend"  # the whole limb is visible, and its skeleton moves
 # The kept records contain the verdicts, but not all tables.
 not_of_these_records = {"convergence_iterations", "data_profiles", "scaling", "section_profiles", "stability_cells",
-                        "volume_by_region", "work_precision", "work_precision_plain"}
+                        "volume_by_region", "work_precision", "work_precision_plain", "clip_temporal"}
 sampled_skins = {"human_jump": ["pbs"], "human_walk": ["lbs", "pbs_jiggle"]}
 columns = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m", "skin_rms_mm")
 
