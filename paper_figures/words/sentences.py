@@ -276,7 +276,7 @@ def basis(claim):
 
 def confirmatory(claim):
     """The verdict on the confirmatory units, as a claim; None without them, and in older records, which count them."""
-    return claim["confirmatory"] if isinstance(claim["confirmatory"], dict) else None
+    return claim["confirmatory"] | {"titles": claim["titles"]} if isinstance(claim["confirmatory"], dict) else None
 
 
 def both_verdicts(claim):

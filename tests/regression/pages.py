@@ -139,6 +139,8 @@ class Pages(program.ProgramTest):
             for file, columns in rows:
                 with self.subTest(f"{study}/{file}"):
                     tables = kept_tables(study, file)
+                    if not tables and any(f"`{file}`" in line for line in readme_pages.too_long(study, KEPT)):
+                        continue
                     self.assertTrue(tables, "no such table among the kept records")
                     self.assertEqual([column for column in columns if not any(column in header(table) for table in tables)], [])
 

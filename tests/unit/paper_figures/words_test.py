@@ -160,6 +160,7 @@ class Basis(unittest.TestCase):
 
     def test_the_verdict_on_confirmatory_units_stands_next_to_the_other(self):
         later = claim("C04", "fails", [unit(0.5, False), unit(1.0)], interval_low=0.01, interval_high=0.99)
+        del later["titles"]  # claims.json has them once
         judged = claim("C04", "holds", [unit(1.0)] * 5, confirmatory=later)
         self.assertEqual(sentences.both_verdicts(judged), "holds; on the confirmatory units: fails")
         told, = sentences.on_confirmatory_units(judged)
