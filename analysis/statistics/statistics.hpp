@@ -17,7 +17,7 @@ double median(const std::vector<double>& values);              // quantile at 0.
 double quantile(std::vector<double> values, double share);     // linear between the order statistics at share (n - 1), 0 <= share <= 1
 double standard_deviation(const std::vector<double>& values);  // n - 1 in the denominator
 
-// Spearman's rank correlation, to 12 decimals: 1 if y rises with x throughout. NaN for fewer than two pairs.
+// Spearman's rank correlation, rounded to 12 decimals; it is 1 if y rises with x throughout. NaN for fewer than two pairs.
 double rank_correlation(const std::vector<double>& x, const std::vector<double>& y);
 
 // Integrated autocorrelation time in samples, 1 + 2 sum rho_k over the first window W >= 5 tau (Sokal). The mean of n samples is as precise

@@ -25,7 +25,7 @@ DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # besid
 MOST_BYTES = 17_000_000
 # Tables of a run from which those of the study follow: kept whatever their length. So is nearest_pairs.csv of a study.
 RAW = ("points.csv", "rates.csv", "pair_orders.csv")
-UNREAD = ("profiles.csv",)  # by verdicts and pages: left out whatever their length
+UNREAD = ("profiles.csv",)  # No verdict and no page reads it. The figure section_profiles needs the records of a run.
 PICTURED = ("nh_p2",)  # the reference in the picture of the README, which no claim selects
 PAGES = ("bench.txt",)  # a study's texts that are no pages
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
@@ -79,7 +79,7 @@ def keep_table(source, target):
 
 
 def keep_run(source, target):
-    """Returns the tables that are too long to be kept or not read, relative to the study's folder."""
+    """Returns the tables that are not kept, relative to the study's folder."""
     too_long = []
     record = json.loads((source / "run.json").read_text(encoding="utf-8"))
     provenance = {key: value for key, value in record.get("provenance", {}).items() if key in PROVENANCE}
@@ -100,7 +100,7 @@ def keep_run(source, target):
 
 
 def keep_study(source, target):
-    """not_kept.csv lists the files that are too long."""
+    """not_kept.csv lists the files that are not kept."""
     target.mkdir(parents=True)
     too_long = []
     for file in sorted(source.iterdir()):

@@ -1,5 +1,5 @@
 """The figures of the study of run time: the paper's Table 1 with the times measured here, the time of a frame over the size of the mesh,
-its growth and the speedup by threads, the cost of each switch of a scene, and the skin from frame to frame along a clip."""
+its growth and the speedup by threads, and the cost of each switch of a scene. `clip_temporal` draws the study `temporal`."""
 import records
 from drawing import style
 from words import case_words, looks
@@ -130,7 +130,6 @@ def timing_sizes(results):
 
 # The growth of the cost of a step of 24 iterations with the mesh, in ns per constraint and iteration with one thread, and the speedup by
 # more threads, from the timings of `pbskin bench`.
-
 bench_schema = 2  # `memory` in place of `copy`
 # The name, colour, line style and marker of each order.
 looks_of_orders = {"plain": ("plain", style.vermillion, (0, (4, 1.5)), "v"),
@@ -216,9 +215,7 @@ def scaling(results):
     return figure, behind
 
 
-# The cost of each switch of a scene: the ratio of processor time with it to that without it, per frame and per step, on the limb and the
-# human. Bars show the spread over the runs. A switch with a ratio above 1 costs time, one below 1 saves time, and one at 1 is free.
-
+# The ratio of the processor time with each switch of a scene to that without it, per frame and per step. Bars show the spread over runs.
 ratios = [(f"{of}_cpu_ms_ratio", f"time per {of}, with over without [1]") for of in ("frame", "step")]
 feature_columns = {"feature", *(ratio + part for ratio, _ in ratios for part in ("", "_lower", "_upper"))}
 
@@ -242,29 +239,31 @@ def features_cost(results):
     return figure, [row for scene, rows in found.items() for row in style.taken(rows, sorted(feature_columns), scene=scene)]
 
 
-# From frame to frame along a clip: the jitter of the skin, and the error against flesh by where a frame begins.
-summary_columns = {"motion", "deformer", "start", "compared", "error_joint_pct", "worse_than_cold_frames", "ms_median", "jitter_mm"}
+# From frame to frame along a clip: the jitter of the skin, and the error against flesh by the initial guess of each frame.
+summary_columns = {"motion", "deformer", "start", "compared", "error_joint_pct", "worse_than_cold_frames"}
 
 
 def clip_temporal(results):
-    folder = results / "temporal"
-    frames = records.table(folder / "human_01_01" / "frames.csv", {"deformer", "start", "frame", "jitter_mm"})
-    summary = [row for row in records.table(folder / "summary.csv", summary_columns) if row["motion"] == "01_01"]
-    figure, ((jitter, starts),) = style.panels(1, 2, height_in=2.4)
+    frames = records.table(results / "temporal" / "human_01_01" / "frames.csv", {"deformer", "start", "frame", "jitter_mm"})
+    summary = [row for row in records.table(results / "temporal" / "summary.csv", summary_columns) if row["motion"] == "01_01"]
+    figure, ((jitter, starts),), behind = *style.panels(1, 2, height_in=2.4), []
     for name in ("pbs_author", "delta_mush", "pbs", "quasi_newton", "dqs"):
         own = [row for row in frames if (row["deformer"], row["start"]) == (name, "own") and row["jitter_mm"]]
         style.draw(jitter, name, own, "frame", "jitter_mm", linewidth=0.8)
+        behind += style.taken(own, ("deformer", "start", "frame", "jitter_mm"), motion="01_01")
     style.log_scale(jitter.yaxis)
     jitter.set(xlabel="frame, 60 per second", ylabel="jitter of the skin [mm]")
-    style.label_lines([jitter])
     warm = [row for row in summary if row["start"] == "frame_before"]
     for place, row in enumerate(warm):
-        cold = next(other for other in summary if (other["deformer"], other["start"]) == (row["deformer"], "own"))
-        for of, fill in ((cold, {"markerfacecolor": "white"}), (row, {})):
-            style.draw(starts, row["deformer"], [of | {"place": str(place)}], "error_joint_pct", "place", **fill)
-        starts.annotate(f"worse in {row['worse_than_cold_frames']} of {row['compared']}", (1.02, place), xycoords=("axes fraction", "data"),
-                        fontsize=style.tick_size, va="center")
+        cold = next(of for of in summary if (of["deformer"], of["start"]) == (row["deformer"], "own"))
+        for of, start, fill in ((cold, "own initial guess", "white"), (row, "frame before", None)):
+            style.draw(starts, row["deformer"], [of | {"place": str(place)}], "error_joint_pct", "place", markerfacecolor=fill,
+                       label=f"{looks.short(row['deformer'])}, {start}")
+        behind += style.taken([cold, row], sorted(summary_columns))
+        starts.annotate(f"worse in {row['worse_than_cold_frames']} of {int(row['compared']) - 1}", (1.02, place), va="center",
+                        xycoords=("axes fraction", "data"), fontsize=style.tick_size)  # the first frame has none before it
     style.log_scale(starts.xaxis)
     style.name_rows(starts, [looks.short(row["deformer"]) for row in warm])
-    starts.set_xlabel("error at the joints [%]: own start hollow, frame before filled")
-    return figure, style.taken(summary, sorted(summary_columns)) + style.taken(frames, ("deformer", "start", "frame", "jitter_mm"))
+    starts.set_xlabel("error at the joints [%]: own guess hollow, frame before filled")
+    style.label_lines([jitter])
+    return figure, behind

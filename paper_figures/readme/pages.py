@@ -56,12 +56,12 @@ def summaries(study, results):
     return [f"To read what was found: {links}."] if files else []
 
 
-def too_long(study, results):
+def not_kept(study, results):
     listed = results / study / "not_kept.csv"
     if not listed.exists():
         return []
     names = sorted({f"`RUN/{row['file']}`" if row["run"] else f"`{row['file']}`" for row in records.read_rows(listed)})
-    return [f"These files are too long to be kept, in some runs or in all: {', '.join(names)}."]
+    return [f"These files are not kept, in some runs or in all: {', '.join(names)}."]
 
 
 def markdown_table(head, rows):
@@ -95,7 +95,7 @@ def pages(results):
     """Each page with its generated lines."""
     found = {}
     for study in study_names():
-        parts = served_claims(study), drawn_figures(study), summaries(study, results), cost(study, results), too_long(study, results)
+        parts = served_claims(study), drawn_figures(study), summaries(study, results), cost(study, results), not_kept(study, results)
         found[studies / study / "README.md"] = [line for part in parts if part for line in [*part, ""]][:-1]
     served = {}
     for claim in tables.claims_of(results):

@@ -143,7 +143,8 @@ def distances(found):
         return ""
     body = [[f"{looks.of(one).name} and {looks.of(other).name}", of, figure(statistics.median(rms for rms, _ in values)),
              figure(max(largest for _, largest in values)), len(values)] for (one, other, of), values in pairs.items()]
-    return table("Distances in mm of this body, point by point", ["deformers", "of", "median rms", "largest", "frames"], body, "tall")
+    return table("Distances between the same points of two deformers, at the size of this body",
+                 ["deformers", "of", "median rms [mm]", "largest [mm]", "frames"], body, "tall")
 
 
 # Sentences about the rigged model of a run. The page shows a sentence if the record has a value for each of its placeholders.

@@ -8,6 +8,7 @@ judged again, the studies `frames` and `audit` are run (a minute or two), and al
 quick_results: the report of a quick run. PBS_QUICK_RESULTS=DIR uses the records of an existing quick run of ./reproduce, which are copied;
 otherwise one is made, which takes ten minutes on two cores. trial: the page of a model of tests/support/rig_files.py."""
 import csv
+import fnmatch
 import json
 import os
 import pathlib
@@ -173,8 +174,10 @@ def quick_records(program, scratch):
 
 
 def lacking(folder):
-    """Figures of studies that are not in the quick set."""
-    return {entry.name for entry in entries.read() if any(not (folder / study).is_dir() for study in entry.studies())}
+    """Figures of studies and of runs that are not in the quick set."""
+    plans = {file.parent.name: [run["name"] for run in json.loads(file.read_text())["runs"]] for file in folder.glob("*/plan.json")}
+    return {entry.name for entry in entries.read() for study, *run in (pattern.split("/")[:-1] for pattern in entry.records)
+            if study not in plans or (run and not fnmatch.filter(plans[study], run[0]))}
 
 
 def quick_results(program, scratch):

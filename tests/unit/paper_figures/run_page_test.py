@@ -83,7 +83,7 @@ class RunPage(ResultsTest):
         write_table(self.results / "distances.csv",
                     [{"deformer": "lbs", "other": "pbs", "of": "surface", "frame": frame, "rms_mm": rms, "largest_mm": 10 * rms}
                      for frame, rms in enumerate((1.5, 4.0, 2.5))])
-        rows = tables_of(self.page())["Distances in mm of this body, point by point"]
+        rows = tables_of(self.page())["Distances between the same points of two deformers, at the size of this body"]
         self.assertEqual(rows[1], ["LBS and PBS", "surface", "2.5", "40", "3"])
 
     def test_the_model_is_what_the_run_took_from_it(self):

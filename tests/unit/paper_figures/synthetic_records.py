@@ -403,3 +403,14 @@ def write_features(study):
         write_table(study / f"features_{scene}" / "features.csv",
               [{"feature": feature} | {f"{of}_cpu_ms_ratio{part}": factor * (0.5 if feature == "sleep" else 1.5) for of in ("frame", "step")
                                        for part, factor in (("", 1.0), ("_lower", 0.9), ("_upper", 1.1))} for feature in features])
+
+
+def write_temporal(study):
+    """Two frames are compared, and the first has none before it. Another clip is not drawn."""
+    guesses = [{"deformer": name, "start": start} for name in ("pbs_author", "delta_mush", "pbs", "quasi_newton", "dqs")
+               for start in ("own", "frame_before")]
+    write_origin(study / "human_01_01")
+    write_table(study / "human_01_01" / "frames.csv",
+                [of | {"frame": frame, "jitter_mm": 0.5 if frame else ""} for of in guesses for frame in (0, 25, 26)])
+    write_table(study / "summary.csv", [of | {"motion": motion, "compared": 2, "error_joint_pct": 5, "worse_than_cold_frames": 1}
+                                        for of in guesses for motion in ("01_01", "01_03")])

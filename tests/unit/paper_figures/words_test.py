@@ -154,17 +154,17 @@ class Basis(unittest.TestCase):
         self.assertEqual(
             sentences.basis(judged),
             "The number of a unit (body, angle) is the radius, over that of the reference; bound: 0.95 or more (Fig. 8). If each unit "
-            "held with a probability of q = 0.0625, about the share that holds without the effect, as many would hold by chance with a "
-            "probability of 0.001. Rule and bound are of revision 0123456789ab.")
+            "held with probability q = 0.0625 (the share of the control that must fail, by the rule of succession, or one half), at least "
+            "as many would hold by chance with probability 0.001. Rule and bound are of revision 0123456789ab.")
         self.assertEqual(sentences.basis(claim("C13", "holds", rule="printed")), "")
 
     def test_the_verdict_on_confirmatory_units_stands_next_to_the_other(self):
         later = claim("C04", "fails", [unit(0.5, False), unit(1.0)], interval_low=0.01, interval_high=0.99)
         del later["titles"]  # claims.json has them once
-        judged = claim("C04", "holds", [unit(1.0)] * 5, confirmatory=later)
+        judged = claim("C04", "holds", [unit(1.0)] * 5, confirmatory=later, titles={"ratio": "section radius"})
         self.assertEqual(sentences.both_verdicts(judged), "holds; on the confirmatory units: fails")
         told, = sentences.on_confirmatory_units(judged)
-        self.assertIn("the verdict is 'fails': 1 of 2 units hold, share 0.5 [0.01, 0.99]", told)
+        self.assertIn("the verdict is 'fails': 1 of 2 units hold, share 0.5 [0.01, 0.99]; section radius", told)
         self.assertEqual((sentences.both_verdicts(later), sentences.on_confirmatory_units(later)), ("fails", []))
         self.assertEqual(sentences.both_verdicts(claim("C04", "holds", confirmatory=2)), "holds", "older records count these units")
         self.assertEqual(case_words.of({"body": "human", "motion": "range_of_motion", "pose": "elbow_flexion+supination"}),
