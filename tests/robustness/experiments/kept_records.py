@@ -104,13 +104,14 @@ class KeptRecords(program.ProgramTest):
         opened = kept_records.opened(self.kept_records(tables=["study/runs/metrics.csv"]))
         self.assertEqual(kept_records.measured_apart(opened), {opened / "study" / "one" / "metrics.csv": {"version": "1"}})
 
-    def test_files_that_are_too_long_are_listed(self):
+    def test_files_that_are_not_kept_are_listed(self):
         results, kept = self.recorded("audit")
         long = "number\n" + "1\n" * 40_000
-        (results / "audit" / "print" / "lengths.csv").write_text(long)
-        (results / "audit" / "print" / "rates.csv").write_text(long)  # one of the tables that are kept whatever their length
+        for name, text in (("lengths", long), ("rates", long), ("profiles", "x\n1\n")):  # the last two whatever their length
+            (results / "audit" / "print" / f"{name}.csv").write_text(text)
         self.assertEqual(self.keep(results, kept).returncode, 0)
-        self.assertEqual((kept / "not_kept.csv").read_text(), f"study,run,file,bytes\naudit,print,lengths.csv,{len(long)}\n")
+        rows = ["study,run,file,bytes", f"audit,print,lengths.csv,{len(long)}", "audit,print,profiles.csv,4"]
+        self.assertEqual((kept / "not_kept.csv").read_text().splitlines(), rows)
         self.assertFalse((kept / "audit" / "runs" / "lengths.csv").exists())
         self.assertEqual((kept / "audit" / "runs" / "rates.csv").read_text(), long.replace("number", "run,number").replace("1", "print,1"))
 
@@ -118,8 +119,8 @@ class KeptRecords(program.ProgramTest):
         results, kept = self.recorded("audit")
         self.assertEqual(self.keep(results, kept).returncode, 0)
         before = {file: file.read_bytes() for file in kept.rglob("*.*") if file.is_file()}
-        (results / "audit" / "print" / "measurements.csv").write_text("claim\n" + ("x" * 99 + "\n") * 140_000)
-        self.assertIn("more than 14", self.keep(results, kept).stderr)
+        (results / "audit" / "print" / "measurements.csv").write_text("claim\n" + ("x" * 99 + "\n") * 170_000)
+        self.assertIn("more than 17", self.keep(results, kept).stderr)
         self.assertIn("no records", self.keep(pathlib.Path(self.path("nothing")), kept).stderr)
         self.assertEqual({file: file.read_bytes() for file in kept.rglob("*.*") if file.is_file()}, before)
 
