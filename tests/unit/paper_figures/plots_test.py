@@ -160,10 +160,8 @@ class Plots(ResultsTest):
         rows = self.drawn("timing_sizes")
         stretch_ms = next(float(row["stretch_ms"]) for row in rows if (row["variant"], row["mesh"]) == ("plain", "man_1654"))
         self.assertIn(f"stretch: {stretch_ms:.6g}, man, 1,654", self.titles("processor time [ms]"))  # without LBS and bind
-        shown = self.titles("vertices")
-        self.assertIn("ordered, f32: 20000, 2.5", shown)
-        self.assertIn("paper, by frame rate: 1654, 11", shown)
-        self.assertIn("paper, by CT: 1654, 0.52", shown)
+        expected = {"ordered, f32: 20000, 2.5", "paper, by frame rate: 1654, 11", "paper, by CT: 1654, 0.52"}
+        self.assertLessEqual(expected, set(self.titles("vertices")))
 
     def test_costs_of_features(self):
         synthetic_records.write_features(self.results / "timing")
