@@ -45,7 +45,8 @@ def rows_of(study, table):
     if not file.exists():
         return []
     with file.open(newline="", encoding="utf-8") as stream:
-        return [{name: cell for name, cell in row.items() if cell} for row in csv.DictReader(stream)]
+        rows = [{name: cell for name, cell in row.items() if cell} for row in csv.DictReader(stream)]
+    return [row for row in rows if len(row) > 1]  # a run without rows has its name alone
 
 
 def frame_values(study, plan):

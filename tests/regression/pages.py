@@ -195,13 +195,15 @@ class KeptVerdicts(unittest.TestCase):
         readme, listed = (file.read_text(encoding="utf-8") for file in (SOURCE / "README.md", self.judged / "claims.md"))
         for claim in sentences.claims_of(self.judged / "claims.json"):
             name, kind, word = claim["id"], claim["verdict"], claim["verdict"].replace("_", " ")
+            later = claim["confirmatory"] and claim["confirmatory"]["verdict"].replace("_", " ")
+            both = f"{word}; on the confirmatory units: {later}" if later else word
             page = readme_part.cut(readme_pages.claim_pages / f"{sentences.page_of(name)}.md", "kept")[1]
             counts, numbers, span = counts_of(claim), numbers_of(claim), range_of(claim)
             line = report_verdicts.line(claim, types.SimpleNamespace(results=self.judged), None, [])
             for place, text, patterns in (
-                    ("README", re.search(rf"^.*\| \[{name}\]\(.*$", readme, re.M)[0], [rf"\| {word} \|", *counts, *numbers, *span]),
-                    ("page", own_part(page, name), [rf"^{word}\.\*\*", *counts, *numbers, *span]),
-                    ("explain", own_part(program.run("explain", name).stdout, name), [rf"^{word}\.\*\*", *counts, *numbers, *span]),
+                    ("README", re.search(rf"^.*\| \[{name}\]\(.*$", readme, re.M)[0], [rf"\| {both} \|", *counts, *numbers, *span]),
+                    ("page", own_part(page, name), [rf"^{both}\.\*\*", *counts, *numbers, *span]),
+                    ("explain", own_part(program.run("explain", name).stdout, name), [rf"^{both}\.\*\*", *counts, *numbers, *span]),
                     ("report", html.unescape(line), [f"</span> {word}</span>", *counts, *numbers, *span]),
                     ("claims.md", re.search(rf"^\| {name} \|.*$", listed, re.M)[0], [rf"\| {kind} \|", *numbers]),
                     ("terminal", re.search(rf"^{name} .*?(?=^C\d|\Z)", self.printed, re.M | re.S)[0],
