@@ -25,7 +25,8 @@ DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # besid
 MOST_BYTES = 17_000_000
 # Tables of a run from which those of the study follow: kept whatever their length. So is nearest_pairs.csv of a study.
 RAW = ("points.csv", "rates.csv", "pair_orders.csv")
-UNREAD = ("profiles.csv",)  # No verdict and no page reads it. The figure section_profiles needs the records of a run.
+# Tables that no verdict and no page reads, and rows.csv, whose rows verification.csv has. Two figures need them from the records of a run.
+UNREAD = ("profiles.csv", "regions.csv", "smoothness.csv", "rows.csv")
 PICTURED = ("nh_p2",)  # the reference in the picture of the README, which no claim selects
 PAGES = ("bench.txt",)  # a study's texts that are no pages
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run

@@ -91,10 +91,8 @@ void expect_same(const analysis::Columns<Row>& all, const std::string& file, boo
 TEST(KeptTables, ReadAsRowsAndWrittenAgainAreTheSame)
 {
     expect_same(experiments::metric_columns_of(experiments::read_scene("limb_twist", {})), "volume/runs/metrics.csv", some);
-    expect_same(experiments::region_columns, "volume/runs/regions.csv");
     expect_same(experiments::section_columns, "artefacts/runs/sections.csv");
     expect_same(experiments::intersection_columns, "artefacts/runs/intersections.csv");
-    expect_same(experiments::smoothness_columns, "artefacts/runs/smoothness.csv");
     expect_same(experiments::response_columns, "jiggle/runs/responses.csv");
     expect_same(experiments::zone_columns, "jiggle/runs/zone.csv");
     expect_same(experiments::stiffness_columns, "stiffness/runs/stiffness.csv");
