@@ -201,6 +201,9 @@ def keep(results, target):
     shutil.rmtree(target, ignore_errors=True)
     beside.rename(target)
     print(f"{size / 1e6:.2f} MB in {target}")
+    for table in sorted(target.rglob("*.csv")):
+        if "not installed" in table.read_text(encoding="utf-8"):
+            print(f"keep: warning: {table}: a program that a run needs was not installed", file=sys.stderr)
 
 
 if __name__ == "__main__":
