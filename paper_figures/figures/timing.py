@@ -7,7 +7,6 @@ from words import case_words, looks
 # The paper's Table 1 compared with the times measured here on meshes matched to its counts: a drawn table, its CSV and its LaTeX. The paper
 # prints two times that exclude each other, a frame rate and a CT of 100 steps; the table shows both as milliseconds per frame. Our
 # milliseconds are processor time, our frame rates wall-clock time.
-
 orders = (("plain", "f64"), ("ordered", "f32"))  # in the order of the mesh file; and the default of this code
 # The heads of the columns, and their widths relative to the page.
 columns = {"model": ("model", 0.07), "mesh": ("mesh here", 0.08), "vertices": ("vertices\npaper / here", 0.1),

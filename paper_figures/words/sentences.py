@@ -267,8 +267,9 @@ def basis(claim):
     number = between.join(number_of(claim, quantity) for quantity in claim["quantities"])
     told = [f"The number of a unit ({unit}) is the {number}; bound: {', '.join(expected(claim))} ({claim['source']})"]
     if claim["chance"] is not None:
-        told.append(f"If each unit held with probability q = {figure(claim['q'])} (the share of the control that must fail, by the rule of "
-                    f"succession, or one half), at least as many would hold by chance with probability {figure(claim['chance'])}")
+        told += [f"If each unit held with probability q = {figure(claim['q'])}, at least as many would hold by chance with probability "
+                 f"{figure(claim['chance'])}",
+                 "This q is the share of the control that must fail, by the rule of succession, or one half"]
     if claim["fixed_at"]:
         told.append(f"Rule and bound are of revision {claim['fixed_at'][:12]}")
     return ". ".join(told) + "."

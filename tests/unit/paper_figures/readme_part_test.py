@@ -42,9 +42,9 @@ class ClaimPage(unittest.TestCase):
                       compared=[selection("DQS|2", [unit(-0.4, False)])])
         self.assertEqual(readme_pages.claim_lines(shown), [
             "**C04: holds.** Volume is kept.", "", "5 of 5 units hold, share 1 [0.48, 1]; radius: 1, bound 0.95 or more.", "",
-            "The number of a unit (body) is the radius; bound: 0.95 or more (Sec. 4). If each unit held with probability q = 0.2 (the "
-            "share of the control that must fail, by the rule of succession, or one half), at least as many would hold by chance with "
-            "probability 0.001.", "",
+            "The number of a unit (body) is the radius; bound: 0.95 or more (Sec. 4). If each unit held with probability q = 0.2, at "
+            "least as many would hold by chance with probability 0.001. This q is the share of the control that must fail, by the rule of "
+            "succession, or one half.", "",
             "| control | role | units that hold | numbers | as it must |", "|---|---|---|---|---|",
             "| LBS | must fail | 0 of 1 unit, share 0 | 0.5 | yes |", "",
             "| for comparison | units within the bound | numbers |", "|---|---|---|", "| DQS\\|2 | 0 of 1 unit, share 0 | -0.4 |"])

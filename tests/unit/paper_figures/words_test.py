@@ -154,8 +154,8 @@ class Basis(unittest.TestCase):
         self.assertEqual(
             sentences.basis(judged),
             "The number of a unit (body, angle) is the radius, over that of the reference; bound: 0.95 or more (Fig. 8). If each unit "
-            "held with probability q = 0.0625 (the share of the control that must fail, by the rule of succession, or one half), at least "
-            "as many would hold by chance with probability 0.001. Rule and bound are of revision 0123456789ab.")
+            "held with probability q = 0.0625, at least as many would hold by chance with probability 0.001. This q is the share of the "
+            "control that must fail, by the rule of succession, or one half. Rule and bound are of revision 0123456789ab.")
         self.assertEqual(sentences.basis(claim("C13", "holds", rule="printed")), "")
 
     def test_the_verdict_on_confirmatory_units_stands_next_to_the_other(self):
