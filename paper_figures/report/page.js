@@ -37,14 +37,7 @@ function nearest(plot, x, y) {
   return best;
 }
 
-for (const circle of document.querySelectorAll(".values circle")) {
-  const title = circle.querySelector("title");
-  circle.dataset.value = title ? title.textContent : "";
-  if (title) title.remove();
-}
-
 for (const plot of document.querySelectorAll("svg.plot")) {
-  const circles = [...plot.querySelectorAll(".values circle")];
   const steps = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
   for (const event of ["pointermove", "click"])
     plot.addEventListener(event, ({ clientX, clientY }) => {
@@ -55,7 +48,7 @@ for (const plot of document.querySelectorAll("svg.plot")) {
   plot.addEventListener("blur", hide);
   plot.addEventListener("keydown", (event) => {
     if (event.key === "Escape") hide();
-    const step = steps[event.key];
+    const step = steps[event.key], circles = [...plot.querySelectorAll(".values circle")];
     if (!step || !circles.length) return;
     event.preventDefault();
     const place = shown ? circles.indexOf(shown) + step : 0;

@@ -271,7 +271,7 @@ class Report(ReportTest):
         self.assertIn("url(#volume_over_clip-p1)", text)
         place = [entry.name for entry in entries.read() if not entry.title.startswith("Table")].index("volume_over_clip") + 1
         self.assertIn(f"<b>Figure {place}: Volume change over the clip. </b>", text)
-        self.assertIn("<title>PBS: 1, 2</title>", text)
+        self.assertIn('<circle r="1" data-value="PBS: 1, 2"/>', text)
         self.assertIn("missing: figure volume_over_iterations: does not exist yet", said)
         self.assertIn('download="volume_over_angle.csv"', text)
 
