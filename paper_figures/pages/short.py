@@ -79,9 +79,12 @@ def stability(folder):
 
 
 def temporal(folder):
-    """Each deformer and start along each clip."""
-    return [(file.parent.name, pages.table(records.table(file, {"deformer", "start", "jitter_mm"}), "temporal"))
-            for file in pages.files(folder, "summary.csv")]
+    """Each deformer and initial guess along each clip, and in how many frames the frame before is a worse guess than the method's own."""
+    def guess(row):
+        worse = row["worse_than_cold_frames"]
+        return f"the frame before, worse in {worse} of {int(row['compared']) - 1}" if row["start"] == "frame_before" else "the method's own"
+    return [(file.parent.name, pages.table(records.table(file, {"deformer", "start", "compared", "worse_than_cold_frames"}), "temporal",
+                                           guess=guess)) for file in pages.files(folder, "summary.csv")]
 
 
 titles = {artefacts: "The artefacts of blending", audit: "The paper against itself", convergence: "Convergence from each initial guess",

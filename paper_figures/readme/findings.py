@@ -129,13 +129,14 @@ def stiffness(claims):
                                 f"flesh {min(factors):.1f} to {max(factors):.1f} times stiffer.")
 
 
-def speed(claims):
+def speed(claims, results):
     claim, units, told = counted_units(claims, "C10a")
     compared = of(claims, "C10b")
     table_1 = f", {sentences.span(sentences.counting(compared))} times the rates of Table 1 on a processor of 2014" if compared["n"] else ""
     rates = sentences.span(units).removesuffix(" 1/s")
+    processors = sorted({row["cpu_model"] for row in records.table(results / "timing" / "timing.csv", {"cpu_model"})})
     return "**Speed.** " + (told or f"At the sizes of Table 1, PBS with {paper_s_solver} reaches {rates} frames per second on one "
-                            f"core{table_1}. The bound is {claim['bounds'][0]['low']:.0f}.")
+                            f"core ({', '.join(processors)}){table_1}. The bound is {claim['bounds'][0]['low']:.0f}.")
 
 
 def errors_and_shares(results):
@@ -187,6 +188,6 @@ def distance(results):
 
 def lines_of(results):
     claims = sentences.claims_of(results / "claims.json")
-    findings = [volume(claims, results), artefacts(claims), convergence(claims), stability(results), stiffness(claims), speed(claims),
-                distance(results)]
+    findings = [volume(claims, results), artefacts(claims), convergence(claims), stability(results), stiffness(claims),
+                speed(claims, results), distance(results)]
     return [f"{number}. {finding}".replace("\u2212", "-") for number, finding in enumerate(findings, 1)]

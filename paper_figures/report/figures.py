@@ -18,7 +18,8 @@ def inline_svg(text, name, label):
     a value becomes an attribute: the page has fewer elements, and its script need not visit them when it opens."""
     text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg"):], flags=re.S)
     text = re.sub(r'\sxmlns(:\w+)?="[^"]*"', "", text)
-    text = re.sub(r"(<circle [^>]*)><title>([^<]*)</title></circle>", r'\1 data-value="\2"/>', text)
+    text = re.sub(r"(<circle [^>]*)><title>([^<]*)</title></circle>",
+                  lambda found: f'{found[1]} data-value="{found[2].replace(chr(34), "&quot;")}"/>', text)
     text = re.sub(r'\bid="([^"]+)"', rf'id="{name}-\1"', text)
     text = re.sub(r"url\(#([^)]+)\)", rf"url(#{name}-\1)", text)
     text = re.sub(r'(?:xlink:)?href="#([^"]+)"', rf'href="#{name}-\1"', text).replace("xlink:href=", "href=")
@@ -79,8 +80,7 @@ def drawn_figure(found, entry, number, file):
 
 def section(found):
     """The HTML of the figures, their entries, and a list of those that are missing."""
-    parts, shown, missing = [], [], []
-    number = 0
+    parts, shown, missing, number = [], [], [], 0
     for entry in entries.read():  # the paper's figures come first; each keeps its number even if others are missing
         number += not entry.title.startswith("Table")
         try:
@@ -91,6 +91,6 @@ def section(found):
         except records.RecordsMissing as error:
             missing.append(f"figure {entry.name}: {error}".replace(f"{found.results}/", ""))
     intro = ("R: redrawn in minutes on any machine; CR: in hours; NR: not from this repository\u2019s records. "
-             "Values are shown next to the pointer or the finger; with the keyboard: tab to a plot, then the arrow keys.")
+             "With JavaScript, values are shown next to the pointer or the finger; with the keyboard: tab to a plot, then the arrow keys.")
     listed = element("ul", joined(element("li", line) for line in missing), class_="not-drawn") if missing else ""
     return joined([element("p", intro), *parts, element("h3", "Not drawn") if missing else "", listed], "\n"), shown, missing

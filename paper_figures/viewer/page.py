@@ -88,7 +88,7 @@ def fragment_of(recorded, claims=None):
         *(f'<p class="missing">{html.escape(words)}</p>' for words in broken),
         f'<script type="application/json" id="viewer-header">{words}</script>',
         f'<script type="application/octet-stream;base64" id="viewer-block">{block}</script>',
-        f'<script type="module">{program}</script>'))  # which starts when the whole page is there
+        f'<script type="module">{program}</script>'))
 
 
 # The recorded frame that shows a claim best: the one in which a recorded number of a deformer is at its extreme, opened by a link such as

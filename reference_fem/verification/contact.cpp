@@ -105,17 +105,17 @@ VerificationRow row_of(const Effort& effort, int element_order, int below, int a
 // Two equal spheres of radius R pressed together by the force F touch within the radius a = (3 F R* / (4 E*))^(1/3), with
 // E* = E / (2 (1 - nu^2)) and R* = R / 2, under the pressure p0 sqrt(1 - r^2/a^2), whose mean of r^2 is 2 a^2 / 5 (H. Hertz, 1881;
 // K. Johnson, Contact mechanics, Cambridge 1985, Eqs. 4.22 to 4.24). A quarter of each: a block of side L whose top is a paraboloid, the
-// sphere to first order. Its cells are nearly equal as far as the rim of the contact, where they are 0.46 a (5 cells) to 0.33 a wide
-// (7 cells), and grow beyond it.
+// sphere to first order. About half of the cells lie inside the contact, and cells grow beyond it: the cell of the rim is 0.51 a wide
+// (5 cells) and 0.36 a (6 or 7 cells).
 namespace spheres {
 
 constexpr double radius_m = 1.0, side_m = 0.3, range_m = 1e-4, gap_m = 2.0 * range_m, young_pa = 1e5, poisson = 0.3, approach_m = 4e-3;
 
-constexpr double share_of_equal_cells = 0.3;
+constexpr double slope_at_pole = 0.3;  // width of the cell at the pole over that of equal cells
 
 double graded(double p)
 {
-    return share_of_equal_cells * p + (1.0 - share_of_equal_cells) * std::pow(p, 7);
+    return slope_at_pole * p + (1.0 - slope_at_pole) * std::pow(p, 7);
 }
 
 VerificationRow row_of(const Effort& effort, int element_order, int n)
@@ -143,7 +143,7 @@ VerificationRow row_of(const Effort& effort, int element_order, int n)
         }
     const double modulus_pa = young_pa / (2.0 * (1.0 - poisson * poisson));
     VerificationRow row = row_about({"contact", elements_of(element_order), material_of("neo_hookean", poisson), text_of({n, n, n}),
-                                     side_m * share_of_equal_cells / n, bodies.space.dofs()},
+                                     side_m * slope_at_pole / n, bodies.space.dofs()},
                                     {"radius_of_contact", "radius of the contact of two spheres"},
                                     bodies.path.converged() ? std::sqrt(2.5 * moment_nm2 / force_n) : not_reached,
                                     std::cbrt(3.0 * force_n * radius_m / 2.0 / (4.0 * modulus_pa)), "m",

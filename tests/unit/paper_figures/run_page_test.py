@@ -135,7 +135,7 @@ class RunPage(ResultsTest):
     def test_without_frames_the_viewer_is_that_of_the_earlier_page(self):
         self.write()
         viewer = ('<div id="frame-viewer">a</div>\n<p class="missing">PBS is not shown</p>\n<script type="b">{}</script>\n'
-                  '<script id="viewer-block">c</script>\n<script>d</script>')
+                  '<script id="viewer-block">c</script>\n<script type="module">d</script>')
         for is_trial in (False, True):
             if is_trial:
                 (self.results / "try.json").write_text(json.dumps({"summary": "PBS keeps it.", "warnings": []}))

@@ -226,6 +226,7 @@ class Viewer(ResultsTest):
         block = re.search(r'id="viewer-block">(.*?)</script>', page)[1]
         self.assertEqual(gzip.decompress(base64.b64decode(block)), self.unpacked()[1])
         self.assertEqual(page.count("</script>"), 3)
+        self.assertIn('<script type="module">run(', page)  # starts when the whole page is there
 
 
 if __name__ == "__main__":
