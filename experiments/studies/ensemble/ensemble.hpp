@@ -94,7 +94,7 @@ struct PartsRow {
     double k_stretch = 0.0;
     int iterations = 0;
     double error_joint_pct = 0.0, solver_pct = 0.0, model_pct = 0.0, discretisation_pct = 0.0;
-    double not_converged_pct = 0.0, pbs_refinement_pct = 0.0, error_l2_pct = 0.0, error_linf_m = 0.0, whole_joint_pct = 0.0;
+    double not_converged_pct = 0.0, error_l2_pct = 0.0, error_linf_m = 0.0, whole_joint_pct = 0.0;
     double masked_share_pct = 0.0;
     std::optional<double> observed_order = {};
     std::optional<bool> order_is_reliable = {};

@@ -48,9 +48,9 @@ const Columns<PairRow> pair_columns =
                                                           not_reached, first_is_closer, second_is_closer, decision);
 
 const Columns<PartsRow> part_columns =
-    within(&PartsRow::of, pose_columns()) +
-    MEMBER_COLUMNS(PartsRow, k_stretch, iterations, error_joint_pct, solver_pct, model_pct, discretisation_pct, not_converged_pct,
-                   pbs_refinement_pct, error_l2_pct, error_linf_m, whole_joint_pct, masked_share_pct, observed_order, order_is_reliable);
+    within(&PartsRow::of, pose_columns()) + MEMBER_COLUMNS(PartsRow, k_stretch, iterations, error_joint_pct, solver_pct, model_pct,
+                                                           discretisation_pct, not_converged_pct, error_l2_pct, error_linf_m,
+                                                           whole_joint_pct, masked_share_pct, observed_order, order_is_reliable);
 
 const Columns<AttachmentRow> attachment_columns =
     within(&AttachmentRow::of, pose_columns()) +
@@ -165,12 +165,6 @@ PairRow decided(const std::vector<PairOrderRow>& orders)
     return row;
 }
 
-Scene refined(Scene scene)
-{
-    ++scene.character.refinements;
-    return scene;
-}
-
 pbs::PbsOptions in_double(const DeformerSpec& spec, double k_stretch, int iterations)
 {
     pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec);
@@ -185,11 +179,7 @@ pbs::PbsOptions in_double(const DeformerSpec& spec, double k_stretch, int iterat
 class Splitting {
 public:
     Splitting(const EnsembleCase& of, const PosedCharacter& base, const PosedReference& reference)
-        : of_(of),
-          base_(base),
-          reference_(reference),
-          fine_(refined(of.scene), {of.frame}),
-          reference_shape_{reference.reference().positions, true}
+        : of_(of), base_(base), reference_(reference), reference_shape_{reference.reference().positions, true}
     {
     }
 
@@ -202,13 +192,12 @@ public:
             std::vector<pbs::PbsOptions> all = {whole, in_double(of_.pbs, k_stretch, of_.converged_iterations / 2)};
             for (const int iterations : of_.iterations) all.push_back(in_double(of_.pbs, k_stretch, iterations));
             const std::vector<Shapes> shapes = base_.shapes(all);
-            const Shape &converged = shapes[0].front(), &half_way = shapes[1].front(), on_fine = fine_.shapes({whole}).front().front();
+            const Shape &converged = shapes[0].front(), &half_way = shapes[1].front();
             for (std::size_t n = 2; n < shapes.size(); ++n) {
                 PartsRow row = parts_of(shapes[n].front(), converged);
                 row.k_stretch = k_stretch;
                 row.iterations = all[n].iterations;
                 row.not_converged_pct = distance(converged, half_way).joint_pct;
-                row.pbs_refinement_pct = distance(converged, on_fine).joint_pct;
                 records.parts.push_back(row);
             }
             records.attachments.push_back(attachment(k_stretch, converged, of_.flesh, reference_shape_));
@@ -254,14 +243,12 @@ private:
     {
         constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
         if (!one.finished || !other.finished) return {nothing, nothing, nothing};
-        const Eigen::Index vertices = base_.character().mesh.rest.rows();
-        return reference_.distance(one.positions.topRows(vertices), other.positions.topRows(vertices));
+        return reference_.distance(one.positions, other.positions);
     }
 
     const EnsembleCase& of_;
     const PosedCharacter& base_;
     const PosedReference& reference_;
-    PosedCharacter fine_;
     Shape reference_shape_;
 };
 
