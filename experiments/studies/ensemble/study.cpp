@@ -288,10 +288,12 @@ StudyPlan plan(bool full)
             of.tuned.push_back(in_file.scene(overrides).deformers.front());
             if (of.tuned.back().kind == of.pbs.kind) options_of<pbs::PbsOptions>(of.tuned.back()).jiggle.reset();
         }
-        of.other_flesh = other_attachments(of.flesh);
-        of.k_stretch = {0.05, 0.2, 0.9};
-        of.iterations = {1, 4, 24, 96, 384};
-        of.converged_iterations = full ? 32000 : 8000;
+        if (in_file.has("parts")) {
+            of.other_flesh = other_attachments(of.flesh);
+            of.k_stretch = {0.05, 0.2, 0.9};
+            of.iterations = {1, 4, 24, 96, 384};
+            of.converged_iterations = full ? 32000 : 8000;
+        }
         plan.runs.push_back(work_run(in_file.name, of, in_file.cost_s, measure_and_record));
     });
 }

@@ -40,7 +40,7 @@ TEST(ConvergenceCase, TheDistanceToTheReferenceBeginsWithThatOfLbs)
         const Scene scene = read_scene("limb_twist", {"character.vertices=" + std::to_string(paths.of.own_mesh ? fewer : more)});
         const PosedCharacter limb(scene, {3});
         ASSERT_EQ(limb.character().mesh.rest.rows(), paths.of.vertices);
-        const PosedReference reference(limb.character(), of.reference, limb.pose(0), scene.motion.time_step_s, ReferenceEffort::refined);
+        const PosedReference reference(limb.character(), of.reference, limb.pose(0), scene.motion.time_step_s, ReferenceEffort::own_tets);
         const double of_lbs = reference.error_of(limb.shapes(spec_of(scene, "lbs")).front().positions).joint_pct;
         EXPECT_GT(of_lbs, 0.0);
         // The path's positions are relative to an origin: each coordinate goes through two more roundings. They are related to the mean
@@ -52,8 +52,7 @@ TEST(ConvergenceCase, TheDistanceToTheReferenceBeginsWithThatOfLbs)
         EXPECT_EQ(first.whole_joint_pct, first.error_joint_pct);  // nothing is creased
         EXPECT_EQ(paths.reference, "neo_hookean");
         EXPECT_EQ(paths.quality.masked_share_pct, 0.0);
-        EXPECT_EQ(paths.quality.observed_order, reference.order().value().observed);
-        EXPECT_EQ(paths.quality.bound_pct, reference.bound().joint_pct);
+        EXPECT_FALSE(paths.quality.observed_order || paths.quality.bound_pct);  // on a ladder: its references have no other tets
     }
 }
 
