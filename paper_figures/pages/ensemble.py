@@ -31,8 +31,8 @@ def of_members(members):
             "nothing, because too few of their solutions converged.\n")
     silent = [row for row in members if row["outcome"] != "reached" or not row["error_bound_pct"]]
     if silent:
-        text += ("\nThe worst tet is that with the smallest volume ratio in the finest solution. Tets that a solution inverts by their "
-                 "vertices alone are left out of the errors.\n\n" + pages.table(silent, "silent", pose=pose))
+        text += ("\nThe worst tet is that with the smallest volume ratio, in the reference or in the finest solution if none was "
+                 "reached.\n\n" + pages.table(silent, "silent", pose=pose))
     minutes = collections.Counter()
     for row in members:
         minutes[(row["body"], row["motion"], pose(row))] += float(row["solve_s"]) / 60.0

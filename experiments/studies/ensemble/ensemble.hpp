@@ -9,10 +9,10 @@
 // converged, x_h the reference and x_0 its limit on ever finer meshes,
 //   x_n - x_0 = (x_n - x_inf) + (x_inf - x_h) + (x_h - x_0)
 //               solver          model           discretisation
-// exactly, vertex by vertex; in the norm the parts bound the whole. The first two are measured, the third is bounded by PosedReference.
-// Measured as well are the effect of refinement on PBS itself, and that of the reference's own assumptions: flesh that the bones hold in
-// other ways, and the linear model. All distances except whole_joint_pct are outside the tips of the
-// reference's creases.
+// exactly, vertex by vertex; the norm of the whole is at most the sum of those of the parts. The first two are measured, the third is
+// bounded by PosedReference.
+// The effect of the reference's own assumptions is measured as well: flesh that the bones hold in other ways, and the linear model. All
+// distances except whole_joint_pct are outside the tips of the reference's creases.
 #pragma once
 
 #include "analysis/metrics/skin_error.hpp"

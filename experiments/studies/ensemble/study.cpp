@@ -335,7 +335,8 @@ EnsembleRecords measure_ensemble(const EnsembleCase& of, const std::string& solu
     for (const EnsembleMember& member : of.members) {
         const auto like = firsts.find(member.poisson);
         PosedReference solved(body.character(), flesh_of(of.flesh, member), body.pose(0), of.scene.motion.time_step_s,
-                              like == firsts.end() ? of.effort : ReferenceEffort::own_tets, solutions);
+                              like == firsts.end() ? of.effort : ReferenceEffort::own_tets, solutions,
+                              firsts.empty() ? nullptr : &firsts.begin()->second);
         if (like != firsts.end()) solved.take_bound_of(like->second);
         const PosedReference& reference = like == firsts.end() ? firsts.emplace(member.poisson, solved).first->second : solved;
         records.members.push_back(member_row(of, member, reference, metrics));

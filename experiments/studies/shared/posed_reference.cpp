@@ -149,7 +149,7 @@ std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, 
 }
 
 PosedReference::PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s,
-                               ReferenceEffort effort, const std::string& solutions)
+                               ReferenceEffort effort, const std::string& solutions, const PosedReference* same_meshes)
     : character_(character),
       spec_(spec),
       pose_(pose),
@@ -157,6 +157,7 @@ PosedReference::PosedReference(const pbs::Character& character, const DeformerSp
       label_(spec.label),
       kept_in_(solutions),
       error_metrics_(error_domain(character, {})),
+      other_tets_(same_meshes ? same_meshes->other_tets_ : std::make_shared<std::map<unsigned, pbs::Character>>()),
       masked_(character.mesh.rest.rows(), false),
       spread_{}
 {
@@ -279,16 +280,15 @@ void PosedReference::solve_on_tets(unsigned seed, double edges_per_radius)
 {
     std::vector<pbs::FineBall> fine;
     if (edges_per_radius > 0.0) fine = fine_at_bent_joints(character_, pose_, edges_per_radius);
-    std::optional<pbs::Character> other;
     try {
-        other = pbs::remeshed(character_, {.seed = seed, .fine = fine});
+        if (!other_tets_->contains(seed)) other_tets_->emplace(seed, pbs::remeshed(character_, {.seed = seed, .fine = fine}));
     } catch (const pbs::InputError& error) {  // known only now, after the long solutions
         warn({fmt::format("{} on other tets: {}", label_, error.what())});
         solutions_.push_back({.element_order = 2, .other_tets = seed, .edges_per_radius = edges_per_radius});
         return;
     }
     add(fmt::format("tets_{}", seed),
-        {{.character = *other, .element_order = 2, .other_tets = seed, .edges_per_radius = edges_per_radius}});
+        {{.character = other_tets_->at(seed), .element_order = 2, .other_tets = seed, .edges_per_radius = edges_per_radius}});
 }
 
 // The energy is compared per volume, since other tets are smaller than the skin that they fill: by 0.03 % of the limb and 0.2 to 0.3 % of

@@ -29,6 +29,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -84,9 +86,11 @@ std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, 
 class PosedReference {
 public:
     // spec: a [[fem]] deformer with a nonlinear model and attachment smooth or embedded; its element order does not matter. character: not
-    // refined itself. solutions: a folder in which solutions are kept and found again; "": none.
+    // refined itself. solutions: a folder in which solutions are kept and found again; "": none. same_meshes: another reference of the
+    // character in the pose, whose other tets serve here, too; each of these meshes takes half a minute on a body.
     PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s,
-                   ReferenceEffort effort = ReferenceEffort::other_tets, const std::string& solutions = "");
+                   ReferenceEffort effort = ReferenceEffort::other_tets, const std::string& solutions = "",
+                   const PosedReference* same_meshes = nullptr);
 
     const std::string& label() const { return label_; }  // of spec
     // The reference finished with det F > 0 at all quadrature points. With other tets, where a joint is bent, it has the lowest energy of
@@ -150,6 +154,7 @@ private:
     double time_step_s_;
     std::string label_, kept_in_;
     analysis::ErrorMetrics error_metrics_;
+    std::shared_ptr<std::map<unsigned, pbs::Character>> other_tets_;  // by seed
     std::vector<NestedSolution> solutions_;
     std::size_t nested_ = 0;  // the first ones, on the own and the refined tets
     bool creases_ = false;    // a joint is bent, and other tets show how well its crease is resolved

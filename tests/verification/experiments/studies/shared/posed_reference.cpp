@@ -201,6 +201,22 @@ TEST(PosedReference, FindsTheSolutionsThatItKeepsAndNoOthers)
     EXPECT_EQ(nowhere.reference().positions, first.reference().positions) << "a folder that cannot be made";
 }
 
+// A solution is found by its mesh, so that all are found only if the other tets are those of the first reference.
+TEST(PosedReference, TakesTheOtherTetsOfAnotherReference)
+{
+    const test_support::ScratchFolder folder;
+    const auto reference = [&](const PosedReference* same_meshes) {
+        return PosedReference(bar, flesh(), bent(60.0), time_step_s, ReferenceEffort::other_tets, folder.path(), same_meshes);
+    };
+    const PosedReference first = reference(nullptr), again = reference(&first);
+    ASSERT_EQ(again.solutions().size(), first.solutions().size());
+    EXPECT_EQ(first.solutions().back().other_tets, 3u);
+    for (std::size_t i = 0; i < first.solutions().size(); ++i) {
+        EXPECT_EQ(again.solutions()[i].seconds, first.solutions()[i].seconds);
+        EXPECT_EQ(again.solutions()[i].positions, first.solutions()[i].positions);
+    }
+}
+
 // By hand: the forearm turns about z, so that the inner side is that of y > 0; the limb's radius is the mean distance of the skin.
 TEST(FineAtBentJoints, IsOnTheInnerSideOfAJointThatIsBent)
 {
