@@ -100,7 +100,7 @@ test("the values under the pointer are the figure's CSV's", async () => {
         for (const [label, points] of lines) {
             const about = points[0].length > 1 ? rows : rows_about(rows, JSON.parse(label));
             assert.ok(stand_in(about, points), `${name}: ${label} is not in its CSV: ${JSON.stringify(points.slice(0, 3))}`);
-            // Of wrong numbers, at most one set may stand in the CSV: a point with one number may match another row by chance.
+            // A wrong number may equal that of another row by chance, so that one of the three wrong sets may be found.
             const found = [[1.0137, 0.0211], [1.0291, -0.0137], [1.0473, 0.0319]].filter(([factor, more]) =>
                 stand_in(about, points.map((numbers) => numbers.map((number) => factor * number + more))));
             assert.ok(found.length <= 1, `${name}: ${label} would be found in its CSV with any numbers`);

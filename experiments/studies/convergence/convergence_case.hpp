@@ -70,7 +70,7 @@ struct ConvergenceCase {
     bool from_lbs_alone = false;  // without the other initial guesses
     int most_iterations = 1000;
     DeformerSpec reference = {};  // as PosedReference takes it, solved on the scene's own mesh and on those of a ladder
-    ReferenceEffort effort = ReferenceEffort::other_tets;  // without other tets on a ladder's meshes
+    ReferenceEffort effort = ReferenceEffort::other_tets;  // a ladder has own_tets
     int reference_to = 100000;                             // vertices: larger meshes have no reference, and rates.csv states why
 };
 
