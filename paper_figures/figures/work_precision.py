@@ -14,7 +14,7 @@ comparisons = {"packed_f32": "packed f32 code", "plain_f64": "plain f64 code"}
 
 point_numbers = ("deformer", "iterations", "k_stretch", "order", "precision", "substeps", "element_order", "wanted_vertices", "refined",
                  "tuned", "packed", "ms_median", "error_joint_pct")
-tables = {"fronts": {"comparison", "case", "measure", "front", "reference_error_joint_pct", *point_numbers},
+tables = {"fronts": {"comparison", "case", "front", "reference_error_joint_pct", *point_numbers},
           "nearest": {"comparison", "case", "budget_ms", "among", "nearest", "deformer", "knows", "either_of", "error_joint_pct",
                       "ms_median"}}
 point_columns = {"body", "motion", "pose", "angle_deg", *point_numbers, "outcome", "half", "reach_ms", "reference_error_joint_pct"}
@@ -51,13 +51,12 @@ class Panel:
     """One pose or mean in one comparison, with the rows behind it."""
 
     def __init__(self, comparison, case, title, points, found):
-        def of_case(table, **wanted):
-            wanted = {"comparison": comparison, "case": case, **wanted}
-            return [row for row in found[table] if all(row[column] == value for column, value in wanted.items())]
+        def of_case(table):
+            return [row for row in found[table] if (row["comparison"], row["case"]) == (comparison, case)]
 
         self.title = title
         self.points = taking_part([row for row in points if row["ms_median"] and row["error_joint_pct"]], comparison)
-        self.fronts = of_case("fronts", measure="error_joint_pct")
+        self.fronts = of_case("fronts")
         self.nearest, self.omitted = of_case("nearest"), of_case("omissions")
         bound = next((row["reference_error_joint_pct"] for row in self.fronts), "")
         self.bound_pct = float(bound) if bound else None

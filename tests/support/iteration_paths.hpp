@@ -38,7 +38,6 @@ inline experiments::ConvergencePaths starts_at_rates(int vertices, const std::ve
     paths.of.order = "ordered", paths.of.precision = "f32";
     paths.of.k_stretch = 0.2;
     for (const double rate : rates) paths.paths.push_back(path_to_floor(most, 1.0, 1.0, rate));
-    paths.limit_from_lbs_pct.assign(rates.size(), 0.0);
     return paths;
 }
 

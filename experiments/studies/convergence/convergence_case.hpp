@@ -78,10 +78,9 @@ nlohmann::json to_json(const NamedFrame& frame);
 nlohmann::json to_json(const ProjectionSetting& setting);
 nlohmann::json to_json(const ConvergenceCase& of);  // everything that a run of the study depends on
 
-// The quality of a path's reference. Empty where there is none. The order and the bound need all of its nested solutions.
+// The quality of a path's reference. Empty where there is none. The bound needs all of its nested solutions.
 struct ReferenceQuality {
-    std::optional<double> masked_share_pct = {}, observed_order = {}, bound_pct = {};
-    std::optional<bool> order_is_reliable = {};
+    std::optional<double> masked_share_pct = {}, bound_pct = {};
 };
 
 // A body in a pose, a setting of the solver and, in a row of a record, the initial guess.
@@ -100,8 +99,7 @@ struct ConvergencePaths {
     bool character = false, twist = false;  // character: in a clip; twist: see NamedFrame
     std::string reference = {};             // its name, or why there is none
     ReferenceQuality quality = {};
-    std::vector<IterationPath> paths = {};        // by SolverStart
-    std::vector<double> limit_from_lbs_pct = {};  // between the last shapes of each path and of that from LBS, at the joints
+    std::vector<IterationPath> paths = {};  // by SolverStart
     // In the paper's order and precision alone, outside of twists and ladders: from LBS once more and from random positions, and on a
     // character the author's later code. None of them changes the floor of the residual.
     std::vector<IterationPath> controls = {};
@@ -124,15 +122,12 @@ struct RateRow {
     PathCase of;
     int iterations = 0;
     std::string outcome;
-    double floor = 0.0, last_half_change_pct = 0.0;
-    Rate rate;
+    double floor = 0.0;
+    double rate = 0.0;  // rate_of
     Reached residual, volume;
-    double iteration_cpu_ms = 0.0;
-    std::optional<double> cpu_ms_to_residual, cpu_ms_to_volume;
-    Look first, paper, nearest, last;  // the initial guess, after 24 iterations, with the least error, and the last one
+    Look paper, nearest, last;  // after 24 iterations, with the least error, and the last one
     std::string reference;
     ReferenceQuality quality;
-    double limit_from_lbs_pct = 0.0;
 };
 extern const analysis::Columns<RateRow> rate_columns;
 

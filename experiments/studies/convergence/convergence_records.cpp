@@ -53,22 +53,16 @@ RateRow rate_row(const ConvergencePaths& of, std::size_t start, double floor)
     RateRow row;
     row.of = case_of(of.of, start);
     row.outcome = path.finite ? "finished" : "not_finite";
-    row.first = path.looks.front();
     row.paper = look_at(path, 24);
     row.nearest = nearest_to_reference(path);
     row.last = path.looks.back();
     row.iterations = row.last.iteration;
     row.floor = floor;
-    row.last_half_change_pct = 100.0 * (row.last.combined / look_at(path, row.last.iteration / 2).combined - 1.0);
     row.rate = rate_of(path, floor);
     row.residual = reached_residual(path, floor);
     row.volume = reached_volume(path);
-    row.iteration_cpu_ms = path.iteration_ms;
-    if (row.residual.within) row.cpu_ms_to_residual = row.residual.iterations * path.iteration_ms;
-    if (row.volume.within) row.cpu_ms_to_volume = row.volume.iterations * path.iteration_ms;
     row.reference = of.reference;
     row.quality = of.quality;
-    row.limit_from_lbs_pct = of.limit_from_lbs_pct[start];
     return row;
 }
 
@@ -77,14 +71,8 @@ const Columns<Look> residual_look_columns =
 
 const Columns<Look> error_look_columns = MEMBER_COLUMNS(Look, iteration, error_joint_pct, whole_joint_pct);
 
-const Columns<analysis::Interval> rate_interval = {{"rate_per_iteration", &analysis::Interval::estimate},
-                                                   {"rate_low", &analysis::Interval::low},
-                                                   {"rate_high", &analysis::Interval::high}};
-const Columns<Rate> fitted_rate = Columns<Rate>{{"stalls_at_iteration", &Rate::stalls_at}} + within(&Rate::rate, rate_interval) +
-                                  Columns<Rate>{{"rate_log_rms_off", &Rate::log_rms_off}};
-
-const Columns<ReferenceQuality> quality_columns = MEMBER_COLUMNS(ReferenceQuality, masked_share_pct, observed_order, order_is_reliable) +
-                                                  Columns<ReferenceQuality>{{"reference_bound_pct", &ReferenceQuality::bound_pct}};
+const Columns<ReferenceQuality> quality_columns =
+    MEMBER_COLUMNS(ReferenceQuality, masked_share_pct) + Columns<ReferenceQuality>{{"reference_bound_pct", &ReferenceQuality::bound_pct}};
 
 // A value of one setting, and what it bounds where a tolerance was not reached.
 struct PathValue {
@@ -251,23 +239,15 @@ using Rates = Columns<RateRow>;
 using Looks = Columns<Look>;
 const Columns<RateRow> rate_columns =
     within(&RateRow::of, case_columns) + MEMBER_COLUMNS(RateRow, iterations, outcome, floor) +
-    within(&RateRow::first, Looks{{"start_residual", &Look::combined}}) + within(&RateRow::paper, Looks{{"residual_24", &Look::combined}}) +
-    within(&RateRow::last, Looks{{"last_residual", &Look::combined}}) + Rates{{"last_half_change_pct", &RateRow::last_half_change_pct}} +
-    within(&RateRow::rate, fitted_rate) +
+    within(&RateRow::paper, Looks{{"residual_24", &Look::combined}}) + within(&RateRow::last, Looks{{"last_residual", &Look::combined}}) +
+    Rates{{"rate_per_iteration", &RateRow::rate}} +
     within(&RateRow::residual, Columns<Reached>{{"iterations_to_residual", &Reached::iterations}, {"residual_reached", &Reached::within}}) +
     within(&RateRow::volume, Columns<Reached>{{"iterations_to_volume", &Reached::iterations}, {"volume_reached", &Reached::within}}) +
-    MEMBER_COLUMNS(RateRow, iteration_cpu_ms, cpu_ms_to_residual, cpu_ms_to_volume) +
-    within(&RateRow::paper,
-           Looks{{"volume_change_24_pct", &Look::volume_change_pct}, {"volume_abs_change_24_pct", &Look::volume_abs_change_pct}}) +
-    within(&RateRow::last, Looks{{"last_volume_change_pct", &Look::volume_change_pct},
-                                 {"last_volume_abs_change_pct", &Look::volume_abs_change_pct},
-                                 {"last_inverted_tets", &Look::inverted_tets}}) +
-    Rates{{"reference", &RateRow::reference}} + within(&RateRow::first, Looks{{"start_error_pct", &Look::error_joint_pct}}) +
-    within(&RateRow::paper, Looks{{"error_24_pct", &Look::error_joint_pct}}) +
-    within(&RateRow::nearest, Looks{{"least_error_pct", &Look::error_joint_pct}, {"least_error_iteration", &Look::iteration}}) +
-    within(&RateRow::last, Looks{{"last_error_pct", &Look::error_joint_pct}}) +
-    within(&RateRow::paper, Looks{{"whole_error_24_pct", &Look::whole_joint_pct}}) + within(&RateRow::quality, quality_columns) +
-    Rates{{"limit_from_lbs_pct", &RateRow::limit_from_lbs_pct}};
+    within(&RateRow::paper, Looks{{"volume_abs_change_24_pct", &Look::volume_abs_change_pct}}) +
+    within(&RateRow::last, Looks{{"last_volume_abs_change_pct", &Look::volume_abs_change_pct}}) +
+    Rates{{"reference", &RateRow::reference}} + within(&RateRow::paper, Looks{{"error_24_pct", &Look::error_joint_pct}}) +
+    within(&RateRow::nearest, Looks{{"least_error_iteration", &Look::iteration}}) +
+    within(&RateRow::last, Looks{{"last_error_pct", &Look::error_joint_pct}}) + within(&RateRow::quality, quality_columns);
 
 std::vector<LookRow> look_rows(const ConvergenceResult& result)
 {

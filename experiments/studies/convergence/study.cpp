@@ -132,10 +132,6 @@ private:
     static ReferenceQuality quality_of(const PosedReference& reference)
     {
         ReferenceQuality quality{.masked_share_pct = reference.masked_share_pct()};
-        if (reference.order()) {
-            quality.observed_order = reference.order()->observed;
-            quality.order_is_reliable = reference.order()->reliable;
-        }
         if (const double bound_pct = reference.bound().joint_pct; std::isfinite(bound_pct)) quality.bound_pct = bound_pct;
         return quality;
     }
@@ -174,9 +170,6 @@ private:
             paths.controls = iterated({shapes.front(), starts.random}, without_reference);
             if (paths.character) paths.author = author_path(character, posed_.pose(frame), of_.most_iterations, without_reference);
         }
-        const Shape from_lbs{paths.paths.front().last, paths.paths.front().finite};
-        for (const IterationPath& path : paths.paths)
-            paths.limit_from_lbs_pct.push_back(posed_.distance({path.last, path.finite}, from_lbs).joint_pct);
         return paths;
     }
 

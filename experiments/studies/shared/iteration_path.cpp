@@ -127,18 +127,14 @@ IterationPath follow(const StepLoops& loops, const pbs::Positions& guess, int mo
     IterationPath path{{}, guess};
     loops.load();
     int iteration = 0;
-    double seconds = 0.0;
     for (const int look : looked_at(most)) {
         stop_if_interrupted();
-        const double start_s = process_cpu_s();
         for (; iteration < look; ++iteration) loops.iterate();  // (11) to (13)
-        seconds += process_cpu_s() - start_s;
         if (look > 0) path.last = loops.store();
         path.finite = path.last.allFinite();
         path.looks.push_back(iteration_metrics.measure(look, path.last));
         if (!path.finite) break;
     }
-    path.iteration_ms = 1e3 * seconds / std::max(iteration, 1);
     return path;
 }
 
@@ -170,29 +166,23 @@ Reached reached_volume(const IterationPath& path)
     return reached(path, &Look::volume_abs_change_pct, volume_tolerance_pct);
 }
 
-Rate rate_of(const IterationPath& path, double floor)
+double rate_of(const IterationPath& path, double floor)
 {
     constexpr double unchanged = 0.01;
     const Look &last = path.looks.back(), &half = look_at(path, last.iteration / 2);
-    Rate rate;
-    const bool is_rounding = last.combined < satisfied_residual;
-    if (is_rounding || std::abs(last.combined / half.combined - 1.0) < unchanged) {
+    if (last.combined < satisfied_residual) return analysis::not_known;
+    int until = last.iteration;
+    if (std::abs(last.combined / half.combined - 1.0) < unchanged) {
         floor = last.combined;
-        rate.stalls_at = reached_residual(path, floor).iterations;
+        until = reached_residual(path, floor).iterations;
     }
     std::vector<double> iterations, excess;
     for (const Look& look : path.looks)
-        if (look.iteration > 0 && look.iteration <= rate.stalls_at.value_or(last.iteration) && look.combined > floor) {
+        if (look.iteration > 0 && look.iteration <= until && look.combined > floor) {
             iterations.push_back(look.iteration);
             excess.push_back(std::log(look.combined - floor));
         }
-    rate.rate.estimate = rate.rate.low = rate.rate.high = rate.log_rms_off = analysis::not_known;
-    if (is_rounding || iterations.size() < 3) return rate;
-    const analysis::LineFit fit = analysis::fit_line(iterations, excess);
-    rate.log_rms_off = fit.residual_rms;
-    rate.rate = fit.slope;
-    for (double* bound : {&rate.rate.estimate, &rate.rate.low, &rate.rate.high}) *bound = std::exp(*bound);
-    return rate;
+    return iterations.size() < 3 ? analysis::not_known : std::exp(analysis::fit_line(iterations, excess).slope.estimate);
 }
 
 const Look& look_at(const IterationPath& path, int iteration)

@@ -42,7 +42,6 @@ struct IterationPath {
     std::vector<Look> looks;  // by iteration; the last one is at the last iteration, or where positions ceased to be finite
     pbs::Positions last;      // [m], #V x 3
     bool finite = true;
-    double iteration_ms = 0.0;  // mean processor time per iteration, without the looks
 };
 
 class IterationMetrics {
@@ -105,12 +104,7 @@ Reached reached_volume(const IterationPath& path);
 // residual_n = floor + c rate^n, up to the iteration from which on the residual stays within 5 % of its last value (it stalls). A residual
 // that the second half of the iterations changes by more than 1 % has not stalled: then the floor is that of all initial guesses, and the
 // fit goes to the end. There is no rate where the last residual is rounding.
-struct Rate {
-    std::optional<int> stalls_at;
-    analysis::Interval rate;   // least squares of log(residual_n - floor); too narrow, since its points are no independent sample
-    double log_rms_off = 0.0;  // root mean square distance of the logarithm from the fit
-};
-Rate rate_of(const IterationPath& path, double floor);
+double rate_of(const IterationPath& path, double floor);  // least squares of log(residual_n - floor); not a number: none
 
 const Look& look_at(const IterationPath& path, int iteration);  // the last look that is not after the iteration
 const Look& nearest_to_reference(const IterationPath& path);    // the look with the least error_joint_pct

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace experiments {
 
@@ -62,17 +61,13 @@ void add(std::optional<double>& sum, const std::optional<double>& more, double s
 // The same setting in every pose; nothing where it has no error in one of them.
 std::optional<DiagramPoint> mean_of(const std::vector<Diagram>& poses, const DiagramPoint& setting)
 {
-    constexpr std::optional<double> DiagramPoint::*known_or_not[] = {&DiagramPoint::ms_q1, &DiagramPoint::ms_q3, &DiagramPoint::l2_pct,
-                                                                     &DiagramPoint::linf_m, &DiagramPoint::volume_abs_change_pct};
     DiagramPoint mean{setting.key};
-    for (const auto value : known_or_not) mean.*value = 0.0;
     mean.members.fill(0.0);
     const double share = 1.0 / double(poses.size());
     for (const Diagram& pose : poses) {
         const auto found = std::ranges::find(pose.points, setting.key, &DiagramPoint::key);
         if (found == pose.points.end()) return std::nullopt;
         for (const auto value : {&DiagramPoint::ms, &DiagramPoint::error_pct}) mean.*value += share * (*found).*value;
-        for (const auto value : known_or_not) add(mean.*value, (*found).*value, share);
         for (std::size_t m = 0; m < mean.members.size(); ++m) add(mean.members[m], found->members[m], share);
     }
     return mean;
@@ -103,10 +98,7 @@ Diagram mean_diagram(const std::string& key, const std::vector<Diagram>& poses)
     }
     if (mean.reference_error_pct) *mean.reference_error_pct /= double(poses.size());
     for (const DiagramPoint& first : poses[0].points)
-        if (auto point = mean_of(poses, first)) {
-            point->below_reference_error = mean.reference_error_pct && point->error_pct <= *mean.reference_error_pct;
-            mean.points.push_back(*point);
-        }
+        if (const auto point = mean_of(poses, first)) mean.points.push_back(*point);
     return mean;
 }
 
@@ -151,10 +143,8 @@ Diagram diagram_of(const CaseRecords& records, Comparison comparison, const std:
             diagram.reference_error_pct = row.reference_error_joint_pct;
         }
         if (row.ms_median && row.error && is_chosen(chosen, comparison, row.key))
-            diagram.points.push_back({row.key, *row.ms_median, row.ms_q1, row.ms_q3, row.error->joint_pct, row.error->l2_pct,
-                                      row.error->linf_m, row.metrics ? std::optional(row.metrics->volume_abs_change_pct) : std::nullopt,
-                                      row.below_reference_error.value_or(false), row.members,
-                                      static_cast<std::size_t>(&row - records.rows.data())});
+            diagram.points.push_back(
+                {row.key, *row.ms_median, row.error->joint_pct, row.members, static_cast<std::size_t>(&row - records.rows.data())});
     }
     diagram.groups = groups_with(external);
     return diagram;
@@ -233,36 +223,21 @@ std::vector<ChosenSetting> default_settings(const std::vector<CaseRows>& cases)
     return settings_by(first, cases);
 }
 
-const analysis::Columns<DiagramPoint>& measures()
-{
-    static const analysis::Columns<DiagramPoint> columns = {{"error_joint_pct", &DiagramPoint::error_pct},
-                                                            {"error_l2_pct", &DiagramPoint::l2_pct},
-                                                            {"error_linf_m", &DiagramPoint::linf_m},
-                                                            {"volume_abs_change_pct", &DiagramPoint::volume_abs_change_pct}};
-    return columns;
-}
-
 const analysis::Columns<DiagramPoint>& diagram_point_columns()
 {
     static const Columns<DiagramPoint> columns =
-        within(&DiagramPoint::key, point_key_columns()) + Columns<DiagramPoint>{{"ms_median", &DiagramPoint::ms}};
+        within(&DiagramPoint::key, point_key_columns()) +
+        Columns<DiagramPoint>{{"ms_median", &DiagramPoint::ms}, {"error_joint_pct", &DiagramPoint::error_pct}};
     return columns;
 }
 
-double value_of(const DiagramPoint& point, const std::string& measure)
-{
-    const analysis::CsvTable::Cell cell = measures().named(measure).cell(point);
-    return cell.kind == analysis::CsvTable::Cell::Kind::real ? cell.real : std::numeric_limits<double>::quiet_NaN();
-}
-
-std::vector<analysis::WorkPrecision> Diagram::of(const std::vector<std::string>& deformers, std::vector<std::size_t>& indices,
-                                                 const std::string& measure) const
+std::vector<analysis::WorkPrecision> Diagram::of(const std::vector<std::string>& deformers, std::vector<std::size_t>& indices) const
 {
     std::vector<analysis::WorkPrecision> chosen;
     indices.clear();
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (std::find(deformers.begin(), deformers.end(), points[i].key.deformer) == deformers.end()) continue;
-        chosen.push_back({points[i].ms, value_of(points[i], measure)});
+        chosen.push_back({points[i].ms, points[i].error_pct});
         indices.push_back(i);
     }
     return chosen;

@@ -53,20 +53,12 @@ std::vector<ChosenSetting> default_settings(const std::vector<CaseRows>& cases);
 
 struct DiagramPoint {
     SettingKey key;
-    double ms = 0.0;
-    std::optional<double> ms_q1 = {}, ms_q3 = {};  // nothing where there were too few rounds
-    double error_pct = 0.0;
-    std::optional<double> l2_pct = {}, linf_m = {}, volume_abs_change_pct = {};
-    bool below_reference_error = false;
+    double ms = 0.0, error_pct = 0.0;
     MemberErrors members = {};  // against the further references
     std::size_t row = 0;        // of the case's points
 };
 
-// The measures of fronts, named as the points' columns: error_joint_pct, by which all orders are decided, error_l2_pct, error_linf_m and
-// volume_abs_change_pct.
-const analysis::Columns<DiagramPoint>& measures();
-double value_of(const DiagramPoint& point, const std::string& measure);  // not a number where it is not recorded
-const analysis::Columns<DiagramPoint>& diagram_point_columns();          // deformer, its setting, ms_median
+const analysis::Columns<DiagramPoint>& diagram_point_columns();  // deformer, its setting, ms_median, error_joint_pct
 
 // A further reference in a diagram.
 struct DiagramMember {
@@ -88,9 +80,8 @@ struct Diagram {
     std::shared_ptr<const RecordedShapes> shapes = {};      // of one case; null: the distances of shapes are not known
     std::vector<DeformerGroup> groups = deformer_groups();  // those of the user's own deformers last
 
-    // The points of these deformers with their cost and measure. indices[k] is the place of the k-th in `points`.
-    std::vector<analysis::WorkPrecision> of(const std::vector<std::string>& deformers, std::vector<std::size_t>& indices,
-                                            const std::string& measure = "error_joint_pct") const;
+    // The points of these deformers with their cost and error. indices[k] is the place of the k-th in `points`.
+    std::vector<analysis::WorkPrecision> of(const std::vector<std::string>& deformers, std::vector<std::size_t>& indices) const;
 };
 
 struct CaseRecords {
@@ -158,8 +149,8 @@ struct NearestAnswers {
 // The answers for the evaluated poses and for their mean. A diagram of the default settings is paired with that of the same key.
 NearestAnswers nearest_classes(const std::vector<Diagram>& chosen, const std::vector<Diagram>& defaults);
 
-// fronts.csv: the Pareto front of all points of each diagram (front "all") and of each deformer's own points, by each measure. `value` is
-// that of the measure. The reference is not a candidate.
+// fronts.csv: the Pareto front of all points of each diagram (front "all") and of each deformer's own points. The reference is not a
+// candidate.
 analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams);
 
 // Data profiles (J. More, S. Wild, Benchmarking derivative-free optimization algorithms, SIAM J. Optim. 20, 2009): the share of poses that

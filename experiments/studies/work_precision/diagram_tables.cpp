@@ -16,18 +16,13 @@ constexpr double profile_tolerances_pct[] = {10.0, 5.0, 2.0};
 
 struct FrontRow {
     Comparison comparison;
-    std::string diagram, measure, front;
+    std::string diagram, front;
     DiagramPoint point;
-    double value = 0.0;
     std::optional<double> reference_error_joint_pct;
 };
 const Columns<FrontRow> front_columns =
-    Columns<FrontRow>{
-        {"comparison", &FrontRow::comparison}, {"case", &FrontRow::diagram}, {"measure", &FrontRow::measure}, {"front", &FrontRow::front}} +
-    within(&FrontRow::point, diagram_point_columns() + MEMBER_COLUMNS(DiagramPoint, ms_q1, ms_q3)) +
-    Columns<FrontRow>{{"value", &FrontRow::value}} +
-    within(&FrontRow::point, Columns<DiagramPoint>{measures().front(), {"below_reference_error", &DiagramPoint::below_reference_error}}) +
-    MEMBER_COLUMNS(FrontRow, reference_error_joint_pct);
+    Columns<FrontRow>{{"comparison", &FrontRow::comparison}, {"case", &FrontRow::diagram}, {"front", &FrontRow::front}} +
+    within(&FrontRow::point, diagram_point_columns()) + MEMBER_COLUMNS(FrontRow, reference_error_joint_pct);
 
 const std::string all_name = "all";
 
@@ -38,14 +33,11 @@ std::vector<std::string> all_deformers(const Diagram& diagram)
     return all;
 }
 
-void add_front(std::vector<FrontRow>& rows, const Diagram& diagram, const std::string& measure, const std::string& name,
-               const std::vector<std::string>& deformers)
+void add_front(std::vector<FrontRow>& rows, const Diagram& diagram, const std::string& name, const std::vector<std::string>& deformers)
 {
     std::vector<std::size_t> indices;
-    for (const std::size_t on_front : analysis::pareto_front(diagram.of(deformers, indices, measure))) {
-        const DiagramPoint& point = diagram.points[indices[on_front]];
-        rows.push_back({diagram.comparison, diagram.key, measure, name, point, value_of(point, measure), diagram.reference_error_pct});
-    }
+    for (const std::size_t on_front : analysis::pareto_front(diagram.of(deformers, indices)))
+        rows.push_back({diagram.comparison, diagram.key, name, diagram.points[indices[on_front]], diagram.reference_error_pct});
 }
 
 // The least time of a point of the group with an error of at most the tolerance. Nothing: the pose is not solved.
@@ -148,11 +140,10 @@ std::vector<Omission> omissions_in(const std::vector<const CaseRows*>& some, Com
 analysis::CsvTable fronts_table(const std::vector<Diagram>& diagrams)
 {
     std::vector<FrontRow> rows;
-    for (const Diagram& diagram : diagrams)
-        for (const std::string& measure : measures().names()) {
-            add_front(rows, diagram, measure, all_name, all_deformers(diagram));
-            for (const std::string& deformer : all_deformers(diagram)) add_front(rows, diagram, measure, deformer, {deformer});
-        }
+    for (const Diagram& diagram : diagrams) {
+        add_front(rows, diagram, all_name, all_deformers(diagram));
+        for (const std::string& deformer : all_deformers(diagram)) add_front(rows, diagram, deformer, {deformer});
+    }
     return table_of(front_columns, rows);
 }
 

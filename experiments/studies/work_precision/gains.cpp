@@ -217,11 +217,6 @@ std::map<BodyAndChange, std::string> usual_settings(const std::vector<EqualTimeR
 
 }  // namespace
 
-const Columns<EqualTimeRow> equal_time_columns =
-    Columns<EqualTimeRow>{{"group", &EqualTimeRow::group}} + within(&EqualTimeRow::of, pose_columns()) +
-    MEMBER_COLUMNS(EqualTimeRow, budget_iterations, budget_ms, change, setting, iterations, baseline_error_pct, error_pct, from_pbs_pct,
-                   reference_error_pct, volume_change_pct);
-
 std::vector<EqualTimeRow> at_equal_time(const std::vector<PointRow>& points)
 {
     std::vector<std::string> groups = {all_poses};

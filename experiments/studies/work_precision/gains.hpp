@@ -33,7 +33,6 @@ struct EqualTimeRow {
 
     double gain_pct() const { return baseline_error_pct - error_pct; }  // percentage points
 };
-extern const analysis::Columns<EqualTimeRow> equal_time_columns;
 
 // points: of all poses, in which at least one setting of every change is finite. A change without a value at the budget has no row.
 std::vector<EqualTimeRow> at_equal_time(const std::vector<PointRow>& points);

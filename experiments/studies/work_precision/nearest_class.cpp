@@ -63,8 +63,7 @@ const Columns<NearestPair> nearest_pair_columns = within(&NearestPair::of, quest
 
 const Columns<NearestAnswer> nearest_columns =
     within(&NearestAnswer::of, question_columns) + Columns<NearestAnswer>{{"nearest", &NearestAnswer::nearest}} +
-    within(&NearestAnswer::point, diagram_point_columns() + Columns<DiagramPoint>{measures().front()}) +
-    MEMBER_COLUMNS(NearestAnswer, others, either_of, decision);
+    within(&NearestAnswer::point, diagram_point_columns()) + MEMBER_COLUMNS(NearestAnswer, others, either_of, decision);
 
 NearestAnswers nearest_classes(const std::vector<Diagram>& chosen, const std::vector<Diagram>& defaults)
 {

@@ -211,12 +211,9 @@ const Points change_columns =
     within(
         &PointRow::key,
         Columns<SettingKey>{{"change", &SettingKey::deformer}, {"setting", &SettingKey::tuned}, {"iterations", &SettingKey::iterations}}) +
-    Points{{"outcome", &PointRow::outcome},
-           {"ms_median", &PointRow::ms_median},
-           {"ms_median_q1", &PointRow::ms_q1},
-           {"ms_median_q3", &PointRow::ms_q3}} +
-    within(&PointRow::error, Columns<ErrorNorms>{error_columns[0], error_columns[1]}) + within(&PointRow::metrics, volume_columns()) +
-    distance_columns() + MEMBER_COLUMNS(PointRow, reference, reference_error_joint_pct, masked_share_pct);
+    MEMBER_COLUMNS(PointRow, outcome, ms_median) + within(&PointRow::error, Columns<ErrorNorms>{error_columns.front()}) +
+    within(&PointRow::metrics, Columns<analysis::FrameMetrics>{volume_columns().front()}) + distance_columns() +
+    MEMBER_COLUMNS(PointRow, reference_error_joint_pct);
 
 Points columns_for(const std::vector<PointRow>& rows)
 {

@@ -65,19 +65,16 @@ bool conclude(const FinishedRuns& finished)
     if (finished.none()) return false;
     std::vector<CaseRecords> cases;
     std::vector<CaseRows> rows;
-    std::vector<PointRow> points;
     for (const std::string& folder : finished.folders) {
         const auto read = [&](const char* file) { return analysis::read_csv(analysis::path_in(folder, file)); };
         rows.push_back(rows_of(point_columns, read("points.csv")));
         const auto shapes = RecordedShapes::read(analysis::read_text(analysis::path_in(folder, "shapes.cbor")));
         cases.push_back({rows.back(), rows_of(family_columns, read("members.csv")), std::make_shared<RecordedShapes>(shapes)});
-        points.insert(points.end(), rows.back().begin(), rows.back().end());
     }
     const std::vector<ChosenSetting> chosen = choose_settings(rows);
     const std::vector<Diagram> diagrams = diagrams_of(cases, chosen);
     std::vector<Omission> omissions = omissions_of(rows);
     for (const Omission& omission : omissions_of_means(rows, diagrams)) omissions.push_back(omission);
-    finished.write("points.csv", columns_for(points), points);
     finished.write("settings.csv", chosen_columns, chosen);
     finished.write("fronts.csv", fronts_table(diagrams));
     const NearestAnswers answers = nearest_classes(diagrams, diagrams_of(cases, default_settings(rows)));
@@ -88,7 +85,6 @@ bool conclude(const FinishedRuns& finished)
 
     const std::vector<PointRow> changes = finished.rows(change_columns, "changes.csv");
     const std::vector<EqualTimeRow> at_budgets = at_equal_time(changes);
-    finished.write("equal_time.csv", equal_time_columns, at_budgets);
     finished.write("gains.csv", gain_columns, gains_of(at_budgets));
     finished.write("curves.csv", curve_columns, mean_curves(changes, at_budgets));
     return true;

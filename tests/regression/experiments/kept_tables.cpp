@@ -120,7 +120,6 @@ TEST(KeptTables, ReadAsRowsAndWrittenAgainAreTheSame)
     expect_same(experiments::cell_columns, "stability/map_time_step_k_stretch.csv", some);
     expect_same(experiments::cell_columns, "stability/map_iterations_twist.csv", some);
     expect_same(experiments::start_columns, "stability/starts.csv", some);
-    expect_same(experiments::equal_time_columns, "work_precision/equal_time.csv", some);
     expect_same(experiments::gain_columns, "work_precision/gains.csv", some);
     expect_same(experiments::curve_columns, "work_precision/curves.csv", some);
     expect_same(experiments::pair_columns, "ensemble/pairs.csv", some);

@@ -178,7 +178,7 @@ class OwnDeformer(program.ProgramTest):
         self.assertEqual(len(given.poses), 5)
         for pose in range(5):
             numpy.testing.assert_array_equal(given.poses[pose], given.poses[pose % 2])
-        points = self.rows("out", "work_precision", "points.csv")
+        points = self.rows("out", "work_precision", "limb_bend_60", "points.csv")
         own = {row["deformer"]: row for row in points if row["external"] == "1"}
         self.assertEqual({name: row["clock"] for name, row in own.items()}, {"mine": "own", "blended": "own", "rigid": "processor"})
         lbs = next(row for row in points if row["deformer"] == "lbs" and row["precision"] == "f64" and not row["wanted_vertices"])

@@ -111,7 +111,7 @@ def write_work_precision(results):
     fronts, best, profiles = [], [], []
     for comparison, rows in (("packed_f32", [lbs, *packed]), ("plain_f64", [lbs, *plain])):
         common = {"comparison": comparison, "case": "limb_bend_90"}
-        fronts += [{**common, "measure": "error_joint_pct", "front": front, **row, "reference_error_joint_pct": 15.0}
+        fronts += [{**common, "front": front, **row, "reference_error_joint_pct": 15.0}
                    for row in rows for front in ("all", row["deformer"])]
         fronts += [{**fronts[-1], "case": "limb_bend_60"}]
         for budget_ms, nearest in ((0.1, rows[0]), (1, rows[1 if comparison == "packed_f32" else 0]), (10, rows[3])):

@@ -165,25 +165,18 @@ double log_rate_error(int iterations, double above, double rate)
     return slope_error(n, logs, std::log(rate), 0.0, of_logs);
 }
 
-// The end of the path replaces the limit: 0.9^400 is below the spacing of numbers at 1. The residuals of n equidistant points are at most
-// the error of a point, which is below that of the slope times n / 3, and that of the slope times n / 2.
+// The end of the path replaces the limit: 0.9^400 is below the spacing of numbers at 1.
 TEST(RateOf, IsThatOfTheFormula)
 {
-    const Rate rate = rate_of(path_to_floor(400, 1.0, 1.0, 0.9), 0.3);
-    const double rounding = log_rate_error(29, 1.0, 0.9);
-    EXPECT_NEAR(rate.rate.estimate, 0.9, 0.9 * rounding + rounding_error(2, 0.9));
-    EXPECT_LT(rate.log_rms_off, 29.0 * rounding);
-    ASSERT_TRUE(rate.stalls_at.has_value());
-    EXPECT_EQ(*rate.stalls_at, 29);
+    EXPECT_NEAR(rate_of(path_to_floor(400, 1.0, 1.0, 0.9), 0.3), 0.9, 0.9 * log_rate_error(29, 1.0, 0.9) + rounding_error(2, 0.9));
 }
 
 // Rounding has no rate.
 TEST(RateOf, OfAResidualThatStillFallsIsTakenFromTheFloorOfOthers)
 {
-    EXPECT_TRUE(std::isnan(rate_of(path_by(100, [](int n) { return n % 2 == 0 ? 3e-7 : 6e-7; }), 3e-7).rate.estimate));
-    const Rate rate = rate_of(path_to_floor(400, 1.0, 10.0, 0.995), 1.0);
-    EXPECT_FALSE(rate.stalls_at.has_value());
-    EXPECT_NEAR(rate.rate.estimate, 0.995, 0.995 * log_rate_error(400, 10.0, 0.995) + rounding_error(2, 0.995));
+    EXPECT_TRUE(std::isnan(rate_of(path_by(100, [](int n) { return n % 2 == 0 ? 3e-7 : 6e-7; }), 3e-7)));
+    EXPECT_NEAR(rate_of(path_to_floor(400, 1.0, 10.0, 0.995), 1.0), 0.995,
+                0.995 * log_rate_error(400, 10.0, 0.995) + rounding_error(2, 0.995));
 }
 
 TEST(LookAt, IsTheLastOneNotAfterItAndTheNearestToTheReferenceNeedNotBeTheLast)
