@@ -4,14 +4,14 @@
     python3 paper_figures/make_readme.py experiments/records/full               # claims, findings, features, kept, glossary
     python3 paper_figures/make_readme.py results/check/reliability reliability  # the counts that the tests of ./check --long wrote
 
-claims: one line per claim in the README; findings: its findings; features: the table of the study that leaves features out; kept: the
-generated parts of the studies' READMEs and of the claims' pages; glossary: the terms of experiments/GLOSSARY.md with their picture;
-reliability: the table of tests/README.md. Exit status 2 if the records or a page are not as expected.
+claims: one line per claim in the README; findings: its findings and figure; features: the table of the study that leaves features out;
+kept: the generated parts of the studies' READMEs and of the claims' pages; glossary: the terms of experiments/GLOSSARY.md with their
+picture; reliability: the table of tests/README.md. Exit status 2 if the records or a page are not as expected.
 """
 import pathlib
 import sys
 
-from readme import findings, joint, pages, part, tables
+from readme import error_against_time, findings, joint, pages, part, tables
 from records import kept
 
 
@@ -21,7 +21,7 @@ def glossary_pages(_):
 
 
 parts = {"claims": lambda results: {part.own_readme: tables.claims_lines(results)},
-         "findings": lambda results: {part.own_readme: findings.lines_of(results)},
+         "findings": lambda results: {part.own_readme: [*findings.lines_of(results), "", *error_against_time.draw(results)]},
          "features": lambda results: {tables.features_page: tables.features_lines(results)}, "kept": pages.pages,
          "glossary": glossary_pages, "reliability": lambda folder: {tables.reliability_page: tables.reliability_lines(folder)}}
 

@@ -138,23 +138,18 @@ def joined(tables, column):
 
 
 def earlier_studies(kept_records, new, scratch):
-    """Writes the kept records of all studies that are not among the new ones, a folder per run, into scratch. Returns the origins of those
-    of their tables that were measured apart."""
+    """Writes the kept records of all studies that are not among the new ones, a folder per run, into scratch."""
     if not (kept_records / "provenance.json").is_file():
-        return []
+        return
     expanded = scratch / "earlier"
     kept.expand(kept_records, expanded)
     for folder in expanded.iterdir():
         if folder.is_dir() and folder.name not in new:
             folder.rename(scratch / folder.name)
     shutil.rmtree(expanded)
-    origins = json.loads((kept_records / "provenance.json").read_text(encoding="utf-8"))["origins"]
-    apart = [origin | {"runs": [], "tables": [table for table in origin.get("tables", []) if table.split("/")[0] not in new]}
-             for origin in origins]
-    return [origin for origin in apart if origin["tables"]]
 
 
-def merge(results, target, apart=()):
+def merge(results, target):
     """From a folder per run to one table per study and kind (paper_figures/records/kept.py reads it)."""
     origins, plans, tables = {}, {}, {}
     for file in sorted(results.rglob("*")):
@@ -176,7 +171,7 @@ def merge(results, target, apart=()):
         (target / name).parent.mkdir(parents=True, exist_ok=True)
         (target / name).write_text(joined(parts, column), encoding="utf-8")
     measured = [json.loads(text) | {"runs": runs} for text, runs in origins.items()]
-    for name, content in (("plans.json", plans), ("provenance.json", {"origins": [*measured, *apart]})):
+    for name, content in (("plans.json", plans), ("provenance.json", {"origins": measured})):
         (target / name).write_text(json.dumps(content, indent=1, sort_keys=True) + "\n", encoding="utf-8")
 
 
@@ -190,11 +185,11 @@ def keep(results, target):
     beside.mkdir(parents=True)
     with tempfile.TemporaryDirectory() as scratch:
         new = {plan.parent.name for plan in plans} - {"frames"}  # no claim is judged by them
-        apart = earlier_studies(target, new, pathlib.Path(scratch))
+        earlier_studies(target, new, pathlib.Path(scratch))
         for study in sorted(new):
             keep_study(results / study, pathlib.Path(scratch) / study)
         shutil.copyfile(results / "claims.md", pathlib.Path(scratch) / "claims.md")  # claims.json is longer, and --judge writes it again
-        merge(pathlib.Path(scratch), beside, apart)
+        merge(pathlib.Path(scratch), beside)
     size = sum(file.stat().st_size for file in beside.rglob("*") if file.is_file())
     if size > MOST_BYTES:
         sys.exit(f"keep: {size / 1e6:.2f} MB in {beside}, more than {MOST_BYTES / 1e6:g}")

@@ -31,23 +31,18 @@ def split(folder, points):
 
 
 def nearest(folder):
-    """The nearest class within each time with its nearest deformer, and the others that are not decided against. Older records have groups
-    of deformers and no classes."""
-    of_classes = (folder / "nearest.csv").is_file()
-    rows = records.read_rows(folder / ("nearest.csv" if of_classes else "best_within.csv"))
+    """The nearest class within each time with its nearest deformer, and the others that are not decided against."""
+    rows = records.read_rows(folder / "nearest.csv")
     text = ""
     for comparison, words in comparisons.items():
         shown = []
         for row in of_comparison(rows, comparison):
-            if of_classes and row["among"] == "classes" or not of_classes and row["rank"] == "1":
-                shown.append(row | {"next": "", "within_class": ""})
-            elif of_classes:
+            if row["among"] == "classes":
+                shown.append(row | {"within_class": ""})
+            else:
                 shown[-1]["within_class"] = row["either_of"]
-            elif row["rank"] == "2":
-                shown[-1]["next"] = f"{looks.of(row['group']).name}: {float(row['error_joint_pct']):.1f}"
         text += f"\n## Nearest within a time: {words}\n\n" + pages.table(
-            shown, "nearest" if of_classes else "best_within", group=lambda row: looks.of(row["group"]).name, words_of=words_of,
-            against=lambda row: ", ".join(looks.of(group).name for group in row["undecided_against"].split()),
+            shown, "nearest", words_of=words_of,
             classes=lambda row: " or ".join(name.replace("_", " ") for name in [row["nearest"], *row["either_of"].split()]),
             within_class=lambda row: ", ".join(looks.of(name).name for name in row["within_class"].split()))
     return text

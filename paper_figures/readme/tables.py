@@ -2,7 +2,7 @@
 rows of DIR/timing/features_human/features.csv; the glossary; and the counts of the reliability tests, DIR/*.json."""
 import records
 from readme import part
-from records import kept, shapes
+from records import shapes
 from words import case_words, glossary, sentences
 
 claim_head = "| claim | verdict | units that hold, their share [95 % interval]; least to most of their numbers, bound | page |"
@@ -45,14 +45,12 @@ def claims_table(results):
 
 
 def claims_lines(results):
-    """With each revision and the studies, or tables, that were measured at it; the revision with the most of them comes first."""
+    """With each revision and the studies that were measured at it; the revision with the most of them comes first."""
     table, studies = claims_table(results), {}
     for file in sorted(results.glob("*/*/run.json")):
         revision = of_revision(shapes.read(file, shapes.run).get("provenance", {}))
         studies.setdefault(revision, {})[file.parent.parent.name] = True
     records.need(studies, f"{results}: no run.json of a study's run in it")
-    for file, provenance in kept.measured_apart(results).items():
-        studies.setdefault(of_revision(provenance), {})[f"{file.relative_to(results).parts[0]}/{file.name}"] = True
     most, *others = sorted(studies, key=lambda revision: -len(studies[revision]))
     measured = ", ".join([most, *(f"{revision} ({', '.join(sorted(studies[revision]))})" for revision in others)])
     return [*table, "", f"Measured at revision {measured}."]

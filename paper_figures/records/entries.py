@@ -12,7 +12,6 @@ import tomllib
 from dataclasses import dataclass
 
 import records
-from records import kept
 
 listing = pathlib.Path(__file__).resolve().parents[1] / "figures.toml"
 marks = {"R": "minutes, on any machine: ./reproduce", "NR": "not from this repository's records",
@@ -54,9 +53,7 @@ class Entry:
 
     def origin(self, results):
         """For the figure's metadata: versions, revisions, processors and scenes of the runs (or tables) behind it; licences of bodies."""
-        apart, files = kept.measured_apart(results), self.files(results)
-        runs = {run.parent.name: records.read_json(run) for file in files if file not in apart for run in runs_behind(file, results)}
-        runs |= {file.name: {"provenance": apart[file]} for file in files if file in apart}
+        runs = {run.parent.name: records.read_json(run) for file in self.files(results) for run in runs_behind(file, results)}
         shown = [licence for run in runs.values() for licence in licences_of(run)] if "frames" in self.studies() else []
         return records.origin_of(runs) | {"rights": "; ".join(dict.fromkeys(shown))}
 

@@ -3,9 +3,9 @@ folder of results again.
 
     results = kept.opened(pathlib.Path(arguments[1]))
 
-provenance.json: {"origins": [{"schema", "provenance", "runs": ["STUDY/RUN", ...], "tables": ["STUDY/curves.csv", ...]}]}, where `tables`
-names tables that were measured apart from their runs, or is missing. plans.json: {STUDY: plan}. Tables of this folder begin with a column
-`study`, and STUDY/runs/NAME.csv is NAME.csv of all runs with a column `run` in front. Everything else is as the study wrote it.
+provenance.json: {"origins": [{"schema", "provenance", "runs": ["STUDY/RUN", ...]}]}. plans.json: {STUDY: plan}. Tables of this folder begin
+with a column `study`, and STUDY/runs/NAME.csv is NAME.csv of all runs with a column `run` in front. Everything else is as the study wrote
+it.
 """
 import atexit
 import json
@@ -14,8 +14,6 @@ import shutil
 import tempfile
 
 import records
-
-apart = "measured_apart.json"  # in the opened folder: {pattern of tables: their provenance}
 
 
 def opened(folder):
@@ -28,12 +26,6 @@ def opened(folder):
     return scratch
 
 
-def measured_apart(results):
-    """{table: provenance} of the tables that were measured apart from the runs of their study."""
-    listed = records.read_json(results / apart) if (results / apart).is_file() else {}
-    return {file: provenance for pattern, provenance in listed.items() for file in sorted(results.glob(pattern))}
-
-
 def expand(kept, into):
     """Writes each run's own files below `into`."""
     def write(text, source, *names):
@@ -43,18 +35,15 @@ def expand(kept, into):
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8")
 
-    plans, provenance, tables = kept / "plans.json", kept / "provenance.json", {}
+    plans, provenance = kept / "plans.json", kept / "provenance.json"
     for study, plan in records.read_json(plans).items():
         write(json.dumps(plan), plans, study, "plan.json")
     try:
         for origin in records.read_json(provenance)["origins"]:
             for run in origin["runs"]:
                 write(json.dumps({key: origin[key] for key in ("schema", "provenance")}) + "\n", provenance, run, "run.json")
-            tables |= {table.replace("/runs/", "/*/"): origin["provenance"] for table in origin.get("tables", [])}
     except (AttributeError, KeyError, TypeError):
         raise records.RecordsMissing(f"{provenance}: not as experiments/records/keep.py writes it") from None
-    if tables:
-        write(json.dumps(tables), provenance, apart)
     for file in sorted(kept.rglob("*")):
         if file.parent.name == "runs" or (file.parent == kept and file.suffix == ".csv"):
             study = "" if file.parent == kept else file.relative_to(kept).parts[0]

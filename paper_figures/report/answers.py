@@ -131,7 +131,6 @@ def pose_table(shown):
         return "\u2013" if bound is None else f"\u2264 {figure(bound)}"
 
     measures = [("error_joint_pct", "{} [%]"), ("skin_rms_mm", "{}, skin [mm]")]
-    measures = [of for of in measures if any(number(pose.pbs, of[0]) is not None for pose in shown)]  # older records have no skin
     rows = [[pose.name, figure(pose.removed_pct()),
              *(figure(number(row, column)) for column, _ in measures for row in (pose.lbs, pose.pbs)),
              ends(pose), figure(number(pose.reference, "masked_share_pct"))] for pose in shown]

@@ -218,17 +218,19 @@ bool SelfContact<Scalar>::is_affine(const Neighbourhood& near, const Scalar* x) 
     const Eigen::Matrix<Scalar, 3, 3> inverse = (near.rest_edges * edges.inverse()).template cast<Scalar>();  // A^-1
     const Vector3<Scalar> origin = x0.template cast<Scalar>();
     const Scalar most = Scalar(half_edge_m_ * half_edge_m_ / 4.0);
-    int beyond = 0;  // or not a number
-    for (std::size_t k = 0; k < near.offset.size(); ++k) {
-        const Scalar* p = x + near.offset[k];
-        const Scalar dx = p[0] - origin(0), dy = p[1] - origin(1), dz = p[2] - origin(2);
-        Scalar e2 = Scalar(0);
-        for (int axis = 0; axis < 3; ++axis) {
-            const Scalar e = inverse(axis, 0) * dx + inverse(axis, 1) * dy + inverse(axis, 2) * dz - near.rest[axis][k];
-            e2 += e * e;
+    constexpr std::size_t at_once = 16;  // few vertices show that a neighbourhood is not affine
+    int beyond = 0;                      // or not a number
+    for (std::size_t from = 0; from < near.offset.size() && beyond == 0; from += at_once)
+        for (std::size_t k = from; k < std::min(from + at_once, near.offset.size()); ++k) {
+            const Scalar* p = x + near.offset[k];
+            const Scalar dx = p[0] - origin(0), dy = p[1] - origin(1), dz = p[2] - origin(2);
+            Scalar e2 = Scalar(0);
+            for (int axis = 0; axis < 3; ++axis) {
+                const Scalar e = inverse(axis, 0) * dx + inverse(axis, 1) * dy + inverse(axis, 2) * dz - near.rest[axis][k];
+                e2 += e * e;
+            }
+            beyond += !(e2 < most);
         }
-        beyond += !(e2 < most);
-    }
     return beyond == 0;
 }
 
@@ -309,22 +311,22 @@ void SelfContact<Scalar>::find_in_block(int group, int block, const Scalar* x)
     for (int k = groups_.first[group]; k < groups_.first[group + 1]; ++k) {
         const Scalar* v = x + of_group_[k];
         bool is_in_box = true;
-        for (int axis = 0; axis < 3; ++axis) is_in_box &= v[axis] >= box.low[axis] && v[axis] <= box.high[axis];
+        for (int axis = 0; axis < 3; ++axis) is_in_box &= (v[axis] >= box.low[axis]) & (v[axis] <= box.high[axis]);
         if (!is_in_box) continue;
         if (!coordinates_[block]) coordinates_[block] = coordinates_in(block, x);
         const Coordinates& in = *coordinates_[block];
-        Scalar least[tets_of_block];
+        int is_around[tets_of_block], any = 0;
         for (int lane = 0; lane < tets_of_block; ++lane) {
             const Scalar dx = v[0] - in.first[0][lane], dy = v[1] - in.first[1][lane], dz = v[2] - in.first[2][lane];
             Scalar beta[3];
             for (int i = 0; i < 3; ++i) beta[i] = in.inverse[i][0][lane] * dx + in.inverse[i][1][lane] * dy + in.inverse[i][2][lane] * dz;
-            least[lane] = std::min(std::min(beta[0], beta[1]), std::min(beta[2], in.volume[lane] - (beta[0] + beta[1] + beta[2])));
+            const Scalar first = in.volume[lane] - (beta[0] + beta[1] + beta[2]);
+            is_around[lane] = (std::min(std::min(beta[0], beta[1]), std::min(beta[2], first)) >= Scalar(0)) & (in.volume[lane] > Scalar(0));
+            for (const auto& corner : corners_[block]) is_around[lane] &= corner[lane] != of_group_[k];
+            any |= is_around[lane];
         }
-        for (int lane = 0; lane < blocks_.first[block + 1] - blocks_.first[block]; ++lane) {
-            const int tet = blocks_.member[blocks_.first[block] + lane];
-            if (!(least[lane] >= Scalar(0) && in.volume[lane] > Scalar(0))) continue;
-            if ((mesh_.tets.row(tet).array() != groups_.member[k]).all()) hits_.push_back({groups_.member[k], tet});
-        }
+        for (int lane = 0; any != 0 && lane < blocks_.first[block + 1] - blocks_.first[block]; ++lane)
+            if (is_around[lane] != 0) hits_.push_back({groups_.member[k], blocks_.member[blocks_.first[block] + lane]});
     }
 }
 

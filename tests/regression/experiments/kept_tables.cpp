@@ -152,7 +152,7 @@ bool has_words(const std::string& file, const std::string& column)
     return of_any_file.contains(column) || of_one_file.contains(file + " " + column);
 }
 
-// A joint is named by its two bones: upper|forearm. undecided_against, either_of and knows are lists.
+// A joint is named by its two bones: upper|forearm. either_of and knows are lists.
 TEST(KeptTables, HaveIdentifiersInTheirKeys)
 {
     const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.+-";
@@ -162,9 +162,7 @@ TEST(KeptTables, HaveIdentifiersInTheirKeys)
         const analysis::CsvTable table = analysis::read_csv(entry.path().string());
         for (const std::string& column : table.columns()) {
             if (has_words(entry.path().filename().string(), column)) continue;
-            const std::string allowed = letters + (column == "joint"                                                             ? "|"
-                                                   : column == "undecided_against" || column == "either_of" || column == "knows" ? " "
-                                                                                                                                 : "");
+            const std::string allowed = letters + (column == "joint" ? "|" : column == "either_of" || column == "knows" ? " " : "");
             for (int row = 0; row < table.rows(); ++row, ++cells)
                 EXPECT_EQ(table.text_at(row, column).find_first_not_of(allowed), std::string::npos)
                     << entry.path() << ", row " << row << ", " << column << ": " << table.text_at(row, column);
@@ -256,9 +254,7 @@ TEST(KeptValues, OfPbsInATwistBy90DegreesAreTheSameInEachStudy)
 
 TEST(KeptValues, OfTheBoundOnAReferenceAreTheSameInEachStudy)
 {
-    const fs::path kept = PBS_KEPT_RECORDS;
-    if (!fs::exists(kept / "work_precision/nearest.csv")) GTEST_SKIP() << "work_precision was recorded with references without contact";
-    const analysis::CsvTable members = analysis::read_csv((kept / "ensemble/runs/members.csv").string());
+    const analysis::CsvTable members = analysis::read_csv(PBS_KEPT_RECORDS "/ensemble/runs/members.csv");
     for (int row = 0; row < members.rows(); ++row) {
         if (members.text_at(row, "member") != "smooth") continue;
         const std::string pose = members.text_at(row, "run");

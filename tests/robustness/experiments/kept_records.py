@@ -42,14 +42,13 @@ class KeptRecords(program.ProgramTest):
         self.ends(1, "reproduce", "--judge", "-o", kept, "--quiet")
 
     def test_studies_without_new_records_keep_their_earlier_ones(self):
-        results, kept = self.recorded("audit")[0], self.kept_records(study="study", tables=["study/runs/metrics.csv"])
+        results, kept = self.recorded("audit")[0], self.kept_records(study="study")
         before = (kept / "study" / "runs" / "metrics.csv").read_text()
         self.assertEqual(self.keep(results, kept).returncode, 0)
         self.assertEqual((kept / "study" / "runs" / "metrics.csv").read_text(), before)
         self.assertEqual(set(json.loads((kept / "plans.json").read_text())), {"audit", "study"})
         origins = json.loads((kept / "provenance.json").read_text())["origins"]
-        self.assertEqual([origin["runs"] for origin in origins], [["audit/print"], ["study/one"], []])
-        self.assertEqual(origins[2]["tables"], ["study/runs/metrics.csv"])
+        self.assertEqual([origin["runs"] for origin in origins], [["audit/print"], ["study/one"]])
 
     def test_each_run_has_its_tables_again(self):
         results, merged, opened = (pathlib.Path(self.path(name)) for name in ("results", "merged", "opened"))
@@ -96,13 +95,9 @@ class KeptRecords(program.ProgramTest):
     def test_malformed_tables_and_origins_are_refused(self):
         for message, changed in (("metrics.csv:2: one: expected a name and the cells of a row", {"table": "run,x\none\n"}),
                                  ("metrics.csv:2: : expected a name", {"table": "run,x\n,1\n"}), ("metrics.csv: no rows", {"table": ""}),
-                                 ("provenance.json: not as", {"runs": 1}), ("provenance.json: not as", {"tables": [1]})):
+                                 ("provenance.json: not as", {"runs": 1})):
             with self.subTest(changed), self.assertRaisesRegex(RecordsMissing, message):
                 kept_records.opened(self.kept_records(**changed))
-
-    def test_tables_that_were_measured_apart_keep_their_origin(self):
-        opened = kept_records.opened(self.kept_records(tables=["study/runs/metrics.csv"]))
-        self.assertEqual(kept_records.measured_apart(opened), {opened / "study" / "one" / "metrics.csv": {"version": "1"}})
 
     def test_files_that_are_not_kept_are_listed(self):
         results, kept = self.recorded("audit")

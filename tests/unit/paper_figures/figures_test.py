@@ -12,7 +12,7 @@ import synthetic_frames
 import synthetic_records
 from drawing import bodies
 from figures import timing
-from records import entries, kept, recorded_frames
+from records import entries, recorded_frames
 
 
 class Figures(ResultsTest):
@@ -293,11 +293,6 @@ class Origin(ResultsTest):
         shown = (self.results / "figures" / "volume_over_angle.png").read_bytes()
         for text in (synthetic_records.revision, "; a processor; ", *(f"scene {name} {digest}" for name, digest in scenes.items())):
             self.assertIn(text.encode(), shown)
-
-    def test_a_table_that_was_measured_apart_has_its_own(self):
-        synthetic_records.write_study(self.results)
-        (self.results / kept.apart).write_text(json.dumps({"volume/*/metrics.csv": {"git_revision": "f" * 40}}))
-        self.assertEqual(listed["volume_over_angle"].origin(self.results)["git_revision"], "f" * 40)
 
     def test_all_revisions_and_processors_are_named(self):
         runs = {name: {"work": {"name": name}, "provenance": {"git_revision": name * 4, "cpu_model": cpu, "git_dirty": name == "b"}}

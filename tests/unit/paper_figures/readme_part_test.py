@@ -136,14 +136,6 @@ class Tables(ReadmeTest):
                             "| not testable | No record of the control DQS | [C14](experiments/verdicts/claims/C14.md) |",
                             f"\nMeasured at revision {synthetic_records.revision[:12]}.")
 
-    def test_tables_that_were_measured_apart_state_their_revision(self):
-        synthetic_records.write_study(self.results)
-        synthetic_records.write_claims(self.results)
-        table = "volume/limb_twist/metrics.csv"
-        (self.results / kept.apart).write_text(json.dumps({table: {"git_revision": "f" * 40}}))
-        self.assertEqual(readme_tables.claims_lines(self.results)[-1],
-                         f"Measured at revision {synthetic_records.revision[:12]}, {'f' * 12} ({table.replace('limb_twist/', '')}).")
-
     def test_findings_without_the_values_that_they_state_are_refused(self):
         synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results)
