@@ -11,7 +11,7 @@ picture; reliability: the table of tests/README.md. Exit status 2 if the records
 import pathlib
 import sys
 
-from readme import error_against_time, findings, joint, pages, part, tables
+from readme import findings, joint, pages, part, tables
 from records import kept
 
 
@@ -21,7 +21,7 @@ def glossary_pages(_):
 
 
 parts = {"claims": lambda results: {part.own_readme: tables.claims_lines(results)},
-         "findings": lambda results: {part.own_readme: [*findings.lines_of(results), "", *error_against_time.draw(results)]},
+         "findings": lambda results: {part.own_readme: [*findings.lines_of(results), "", *findings.figure_lines(results)]},
          "features": lambda results: {tables.features_page: tables.features_lines(results)}, "kept": pages.pages,
          "glossary": glossary_pages, "reliability": lambda folder: {tables.reliability_page: tables.reliability_lines(folder)}}
 

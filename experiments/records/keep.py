@@ -27,7 +27,7 @@ MOST_BYTES = 17_000_000
 RAW = ("points.csv", "rates.csv", "pair_orders.csv")
 # Tables that no verdict and no page reads, and rows.csv, whose rows verification.csv has. Two figures need them from the records of a run.
 UNREAD = ("profiles.csv", "regions.csv", "smoothness.csv", "rows.csv")
-PICTURED = ("nh_p2",)  # the reference in the picture of the README, which no claim selects
+PICTURED = ("nh_p2",)  # the reference in the README's picture of the limb, which no claim selects
 PAGES = ("bench.txt",)  # a study's texts that are no pages
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
 SUMMARY_BYTES = 200_000  # of a study's own files, which sum up its runs'

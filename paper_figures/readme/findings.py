@@ -1,12 +1,18 @@
 """Writes the findings of the README: one statement with its key numbers per line, from the facts in DIR/claims.json and, for the distance
-from flesh and the stability, from the tables of these studies. Each finding names its solver.
+from flesh and the stability, from the tables of these studies. Each finding names its solver. Draws the figure below the findings.
 """
+import pathlib
+
 import records
+from drawing import style
+from figures import work_precision
+from records import entries
 from words import case_words, sentences
 from words.number_words import counted
 
 paper_s_solver = "the paper's own solver (file order, double precision)"
 most_exceptions = 2  # named one by one
+picture = pathlib.Path(__file__).resolve().with_name("error_against_time.png")
 read_scenes = ("human", "human_moving")  # in which the study ambiguity measures the volume over a clip
 
 
@@ -191,3 +197,24 @@ def lines_of(results):
     findings = [volume(claims, results), artefacts(claims), convergence(claims), stability(results), stiffness(claims),
                 speed(claims, results), distance(results)]
     return [f"{number}. {finding}".replace("\u2212", "-") for number, finding in enumerate(findings, 1)]
+
+
+def shown_panel(results):
+    """The mean over the evaluated poses."""
+    panel = work_precision.panels_of("packed_f32", results)[0]
+    records.need("mean" in panel.title, f"{results / 'work_precision'}: no mean over the evaluated poses")
+    return panel
+
+
+def figure_lines(results):
+    """Draws the figure of error against run time, and returns the lines that show it."""
+    panel, (entry,) = shown_panel(results), (entry for entry in entries.read() if entry.name == "work_precision")
+    origin = entry.origin(results)
+    figure, axes = style.panels(1, 1, height_in=3.4, width_in=style.page_in)
+    style.label_ends(axes[0][0], work_precision.draw_panel(axes[0][0], panel))
+    style.save(figure, picture.with_suffix(""), origin, work_precision.rows_behind(panel), formats=("png",))
+    return [f"![Error against run time of each class of deformers](paper_figures/readme/{picture.name})", "",
+            f"*Error at the joints against processor time per frame on one core ({origin['cpu_model']}), {panel.title}. Each line is a "
+            "class of deformers, each in its fastest kind of code; a filled mark is on the "
+            "[Pareto front](experiments/GLOSSARY.md#pareto-front) of all. The line below the axis names the class that is nearest within "
+            "0.1, 1 and 10 ms.*"]

@@ -1,4 +1,4 @@
-"""Draws the picture of the README: the limb twisted and bent under LBS, DQS, PBS and the finite element reference, from two runs.
+"""Draws a picture of the README: the limb twisted and bent under LBS, DQS, PBS and the finite element reference, from two runs.
 
     pbskin run limb_twist -o TWIST --set 'deformers.use=["lbs","dqs","pbs","nh_p2"]' --set output.frames_every=6
     pbskin run limb_bend -o BEND --set 'deformers.use=["lbs","dqs","pbs","nh_p1"]' --set output.frames_every=4

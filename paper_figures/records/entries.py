@@ -52,7 +52,7 @@ class Entry:
         return [file for files in found.values() for file in files]
 
     def origin(self, results):
-        """For the figure's metadata: versions, revisions, processors and scenes of the runs (or tables) behind it; licences of bodies."""
+        """For the figure's metadata: versions, revisions, processors and scenes of the runs behind it; licences of bodies."""
         runs = {run.parent.name: records.read_json(run) for file in self.files(results) for run in runs_behind(file, results)}
         shown = [licence for run in runs.values() for licence in licences_of(run)] if "frames" in self.studies() else []
         return records.origin_of(runs) | {"rights": "; ".join(dict.fromkeys(shown))}

@@ -218,7 +218,7 @@ bool SelfContact<Scalar>::is_affine(const Neighbourhood& near, const Scalar* x) 
     const Eigen::Matrix<Scalar, 3, 3> inverse = (near.rest_edges * edges.inverse()).template cast<Scalar>();  // A^-1
     const Vector3<Scalar> origin = x0.template cast<Scalar>();
     const Scalar most = Scalar(half_edge_m_ * half_edge_m_ / 4.0);
-    constexpr std::size_t at_once = 16;  // few vertices show that a neighbourhood is not affine
+    constexpr std::size_t at_once = 16;  // often a few vertices show that it is not affine
     int beyond = 0;                      // or not a number
     for (std::size_t from = 0; from < near.offset.size() && beyond == 0; from += at_once)
         for (std::size_t k = from; k < std::min(from + at_once, near.offset.size()); ++k) {

@@ -104,7 +104,7 @@ private:
     double half_edge_m_;
     PointSets groups_, blocks_;
     std::vector<int> offset_;                                             // of each vertex in x, #V
-    std::vector<int> first_of_group_, of_group_;                          // offsets of the vertices of a group
+    std::vector<int> of_group_;                                           // offsets of the vertices of a group
     std::vector<int> first_of_block_, of_block_;                          // offsets of the vertices of a block, each once
     std::vector<std::array<std::array<int, tets_of_block>, 4>> corners_;  // offsets in each block; the first tet fills up the last lanes
     std::vector<Neighbourhood> neighbourhoods_;                           // of each group

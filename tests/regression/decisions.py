@@ -106,7 +106,7 @@ class TunedSettings(unittest.TestCase):
         self.assertEqual(tuned["delta_mush"], f'"delta_mush.iterations={mush["iterations"]}"')
         self.assertEqual(mush["tuned"], "")
         factor = float(xpbd["tuned"].removeprefix("stiffness_factor_"))
-        young_pa = float(re.fullmatch(r'"xpbd.young_pa=(.*)", "xpbd.order=spread"', tuned["xpbd"]).group(1))
+        young_pa = float(re.fullmatch(rf'"xpbd.young_pa=(.*)", "xpbd.order={xpbd["order"]}"', tuned["xpbd"]).group(1))
         self.assertTrue(math.isclose(young_pa, factor * 1e5))  # of the flesh of the scenes
 
     def key(self, row):

@@ -27,13 +27,11 @@ inline experiments::CaseRows hand_case(const analysis::CaseKey& of, const std::v
         row.key = point.key;
         row.half = half;
         row.outcome = point.outcome;
-        if (point.outcome == "finished") row.ms_median = row.ms_q1 = point.ms;
-        if (point.error_pct) row.error = {.l2_pct = *point.error_pct, .joint_pct = *point.error_pct, .linf_m = std::nan("")};
+        if (point.outcome == "finished") row.ms_median = point.ms;
+        if (point.error_pct) row.error = {.joint_pct = *point.error_pct};
         row.reach_ms = 10.0 * point.ms;
         row.reference = "neo_hookean";
         row.reference_error_joint_pct = bar_pct;
-        row.below_reference_error = point.error_pct.value_or(99.0) <= bar_pct;
-        row.metrics.emplace().volume_abs_change_pct = 10.0 / point.ms;
         row.masked_share_pct = of.pose == "folded" ? 12.0 : 0.0;
     }
     return rows;

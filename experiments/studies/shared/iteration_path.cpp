@@ -1,7 +1,6 @@
 #include "experiments/studies/shared/iteration_path.hpp"
 
 #include "analysis/statistics/fits.hpp"
-#include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/solver/batched/batched_projection.hpp"

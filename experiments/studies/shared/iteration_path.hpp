@@ -12,7 +12,6 @@
 #pragma once
 
 #include "analysis/metrics/frame_metrics.hpp"
-#include "analysis/statistics/statistics.hpp"
 #include "pbs/character/character.hpp"
 #include "pbs/solver/constraint_set.hpp"
 #include "pbs/solver/options.hpp"

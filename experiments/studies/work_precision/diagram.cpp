@@ -3,7 +3,6 @@
 #include "experiments/studies/shared/posed_character.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

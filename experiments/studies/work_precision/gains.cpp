@@ -2,7 +2,6 @@
 
 #include "analysis/statistics/statistics.hpp"
 #include "analysis/verdicts/pair_order.hpp"
-#include "experiments/studies/shared/posed_character.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +16,6 @@ namespace {
 
 using analysis::CaseKey;
 using analysis::Columns;
-using analysis::within;
 
 using Curve = std::vector<PointRow>;                             // one setting in one pose, by iterations
 using CurveKey = std::tuple<CaseKey, std::string, std::string>;  // pose, change, setting
@@ -51,7 +49,6 @@ std::optional<EqualTimeRow> value_at(const Curve& curve, int budget_iterations, 
     EqualTimeRow row;
     row.of = before.of;
     row.budget_iterations = budget_iterations;
-    row.budget_ms = budget_ms;
     row.change = before.key.deformer;
     row.setting = before.key.tuned;
     row.iterations = std::lerp(double(before.key.iterations.value()), double(after.key.iterations.value()), share);

@@ -23,7 +23,6 @@ struct EqualTimeRow {
     std::string group;  // all, or a body
     analysis::CaseKey of;
     int budget_iterations = 0;
-    double budget_ms = 0.0;
     std::string change, setting;
     double iterations = 0.0;  // that fit into the budget, interpolated
     double baseline_error_pct = 0.0, error_pct = 0.0;

@@ -13,6 +13,7 @@ from results_case import ResultsTest, listening, root
 import make_readme
 import pages
 import synthetic_records
+from figures import work_precision as work_precision_figure
 from pages import ambiguity, ensemble, short, work_precision
 from readme import findings as readme_findings, pages as readme_pages, part as readme_part, tables as readme_tables
 from readme import same_pose
@@ -339,6 +340,16 @@ class Pages(ResultsTest):
 def shown():
     with open(same_pose.picture.with_suffix(".csv"), newline="") as stream:
         return list(csv.DictReader(stream))
+
+
+class ErrorAgainstTime(unittest.TestCase):
+    def test_shows_the_kept_record(self):
+        rows = work_precision_figure.rows_behind(readme_findings.shown_panel(kept.opened(KEPT)))
+        with open(readme_findings.picture.with_suffix(".csv"), newline="") as stream:
+            drawn = list(csv.DictReader(stream))
+        self.assertEqual(len(drawn), len(rows))
+        for shown, row in zip(drawn, rows):
+            self.assertEqual(shown, {column: str(row.get(column) or "") for column in shown})
 
 
 class SamePose(ResultsTest):

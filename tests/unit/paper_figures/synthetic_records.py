@@ -233,9 +233,9 @@ def write_poses(results):
         write_origin(folder, work={"settings": {"scene": {"pbs": {"k_stretch": 0.2}}}})
         common = {"body": "limb", "motion": motion, "pose": "", "angle_deg": 90, "iterations": "", "k_stretch": "", "order": "",
                   "precision": "", "substeps": "", "vertices": 1000, "outcome": "finished", "reference_error_joint_pct": bar,
-                  "masked_share_pct": masked_pct, "reach_ms": 1.0}
+                  "masked_share_pct": masked_pct, "reach_ms": 1.0, "skin_rms_mm": lbs / 10}
         paper = {"deformer": "pbs", "iterations": 24, "k_stretch": 0.2, "order": "ordered", "precision": "f32", "ms_median": 0.7,
-                 "error_joint_pct": pbs, "below_reference_error": int(pbs < bar)}
+                 "error_joint_pct": pbs, "skin_rms_mm": pbs / 10, "below_reference_error": int(pbs < bar)}
         rows = [{"deformer": "lbs", "ms_median": 0.1, "error_joint_pct": lbs, "below_reference_error": 0},
                 {**paper, "k_stretch": 0.9, "error_joint_pct": 1.0}, {**paper, "vertices": 300, "error_joint_pct": 2.0}, paper,
                 {"deformer": "reference", "outcome": "reference", "ms_median": "", "reach_ms": 90000.0, "error_joint_pct": "",

@@ -183,6 +183,7 @@ TEST(Diagram, AMeanTakesTheEvaluatedPosesAndTheSettingsThatAllOfThemHave)
     const Diagram& mean = of_key(diagrams, "mean_of_3_evaluated_poses");
     EXPECT_EQ(mean.points.size(), 6u);
     EXPECT_NEAR(mean.points[1].error_pct, 30.0, mean_error(3, 30.0));
+    EXPECT_NEAR(mean.points[1].ms, 0.5, mean_error(3, 0.5));
     EXPECT_EQ(mean.poses, 3);
 }
 

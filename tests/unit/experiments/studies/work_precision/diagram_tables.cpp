@@ -27,6 +27,8 @@ TEST(DiagramTables, FrontsOfAllAndOfEachDeformer)
     using Cells = std::vector<std::string>;
     const CsvTable fronts = analysis::parse_csv(fronts_table({diagram_of_seven(30.0)}).text(), "fronts.csv");
     EXPECT_EQ(of_front(fronts, "deformer"), (Cells{"lbs", "dqs", "delta_mush", "xpbd", "pbs", "fem_corotational"}));
+    EXPECT_EQ(of_front(fronts, "ms_median"), (Cells{"0.01", "0.02", "0.5", "0.65", "0.7", "100"}));
+    EXPECT_EQ(fronts.number(5, "error_joint_pct"), 5.0);
     EXPECT_EQ(fronts.rows(), 6 + 7);
 }
 

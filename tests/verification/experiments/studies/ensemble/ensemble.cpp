@@ -143,7 +143,6 @@ PartsRow checked_parts(const EnsembleCase& of)
     EXPECT_NEAR(row.paper.error_joint_pct, parts.error_joint_pct, rounding);
     EXPECT_NEAR(row.paper.whole_joint_pct, parts.whole_joint_pct, rounding);
     EXPECT_EQ(row.quality.masked_share_pct, parts.masked_share_pct);
-    EXPECT_EQ(row.quality.observed_order, parts.observed_order);
     EXPECT_EQ(row.quality.bound_pct, parts.discretisation_pct);
     return parts;
 }
