@@ -23,10 +23,14 @@ JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "t
 PROVENANCE = ["version", "git_revision", "git_dirty", "compiler", "flags", "build_type", "cpu_model", "logical_cpus"]
 DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # beside frames, which are not kept
 MOST_BYTES = 17_000_000
-# Tables of a run from which those of the study follow: kept whatever their length. So is nearest_pairs.csv of a study.
+# Tables of a run from which those of the study follow: kept whatever their length. So are two of a study (keep_study).
 RAW = ("points.csv", "rates.csv", "pair_orders.csv")
 # Tables that no verdict and no page reads, and rows.csv, whose rows verification.csv has. Two figures need them from the records of a run.
 UNREAD = ("profiles.csv", "regions.csv", "smoothness.csv", "rows.csv")
+# Columns of points.csv that no page, figure or test reads: half of its bytes.
+UNREAD_OF_POINTS = {"ms_q1", "ms_q3", "rounds", "failed_rounds", "error_l2_pct", "error_linf_m", "skin_p95_mm", "skin_largest_mm",
+                    "skin_rms_pct", "normals_mean_deg", "volume_change_pct", "volume_abs_change_pct", "gradients", "vertex_visits",
+                    "tet_visits", "projections", "linear_solves", "factorisations"}
 PICTURED = ("nh_p2",)  # the reference in the README's picture of the limb, which no claim selects
 PAGES = ("bench.txt",)  # a study's texts that are no pages
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
@@ -72,11 +76,14 @@ def keep_metrics(source, target):
 
 
 def keep_table(source, target):
+    """Of points.csv the columns that are read; of fronts.csv the means, which the README shows."""
     with source.open(newline="", encoding="utf-8") as file, target.open("w", newline="", encoding="utf-8") as kept:
         rows = csv.DictReader(file)
-        writer = csv.DictWriter(kept, rows.fieldnames, lineterminator="\n")
+        columns = [name for name in rows.fieldnames if source.name != "points.csv" or name not in UNREAD_OF_POINTS]
+        writer = csv.DictWriter(kept, columns, lineterminator="\n")
         writer.writeheader()
-        writer.writerows({name: rounded(cell) for name, cell in row.items()} for row in rows)
+        writer.writerows({name: rounded(row[name]) for name in columns} for row in rows
+                         if source.name != "fronts.csv" or row["case"].startswith("mean_of_"))
 
 
 def keep_run(source, target):
@@ -107,7 +114,9 @@ def keep_study(source, target):
     for file in sorted(source.iterdir()):
         if file.suffix not in (".csv", ".md", ".json") and file.name not in PAGES:
             continue
-        if file.name in ("plan.json", "nearest_pairs.csv") or file.stat().st_size <= SUMMARY_BYTES:
+        if file.name in ("nearest_pairs.csv", "fronts.csv"):
+            keep_table(file, target / file.name)
+        elif file.name == "plan.json" or file.stat().st_size <= SUMMARY_BYTES:
             shutil.copyfile(file, target / file.name)
         else:
             too_long.append(file.relative_to(source))

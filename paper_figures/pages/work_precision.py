@@ -95,8 +95,6 @@ def references(points):
 
 
 def fronts(folder):
-    if not (folder / "fronts.csv").is_file():
-        return ""
     rows = [row for row in records.table(folder / "fronts.csv", {"comparison", "case", "front"}) if row["front"] == "all"]
     return "\n## The front of all points\n\n" + pages.table(rows, "fronts", words_of=words_of)
 
