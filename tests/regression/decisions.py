@@ -6,6 +6,7 @@ import math
 import pathlib
 import re
 import sys
+import tomllib
 import unittest
 
 import program
@@ -106,7 +107,9 @@ class TunedSettings(unittest.TestCase):
         self.assertEqual(tuned["delta_mush"], f'"delta_mush.iterations={mush["iterations"]}"')
         self.assertEqual(mush["tuned"], "")
         factor = float(xpbd["tuned"].removeprefix("stiffness_factor_"))
-        young_pa = float(re.fullmatch(rf'"xpbd.young_pa=(.*)", "xpbd.order={xpbd["order"]}"', tuned["xpbd"]).group(1))
+        compared = tomllib.loads((SOURCE / "experiments/studies/work_precision/cases.toml").read_text(encoding="utf-8"))["deformer"]
+        (order, _), = (of["codes"][1] for of in compared if of["name"] == "xpbd")
+        young_pa = float(re.fullmatch(rf'"xpbd.young_pa=(.*)", "{order}"', tuned["xpbd"]).group(1))
         self.assertTrue(math.isclose(young_pa, factor * 1e5))  # of the flesh of the scenes
 
     def key(self, row):

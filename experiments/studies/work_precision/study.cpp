@@ -2,7 +2,7 @@
 // PBS most in equal time. README.md describes the poses, the rules of the comparison and the records.
 //
 //   pbskin reproduce work_precision                          minutes
-//   pbskin reproduce work_precision --full                   two and a half hours
+//   pbskin reproduce work_precision --full                   three hours
 //   pbskin reproduce work_precision --external mine.toml     with deformers of your own
 #include "experiments/studies/study.hpp"
 
