@@ -29,7 +29,7 @@ RAW = ("points.csv", "rates.csv", "pair_orders.csv")
 UNREAD = ("profiles.csv", "regions.csv", "smoothness.csv", "rows.csv")
 # Columns of points.csv that no page, figure or test reads: half of its bytes.
 UNREAD_OF_POINTS = {"ms_q1", "ms_q3", "rounds", "failed_rounds", "error_l2_pct", "error_linf_m", "skin_p95_mm", "skin_largest_mm",
-                    "skin_rms_pct", "normals_mean_deg", "volume_change_pct", "volume_abs_change_pct", "gradients", "vertex_visits",
+                    "skin_rms_pct", "normals_mean_deg", "tets", "volume_change_pct", "volume_abs_change_pct", "gradients", "vertex_visits",
                     "tet_visits", "projections", "linear_solves", "factorisations"}
 PICTURED = ("nh_p2",)  # the reference in the README's picture of the limb, which no claim selects
 PAGES = ("bench.txt",)  # a study's texts that are no pages

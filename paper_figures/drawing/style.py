@@ -212,7 +212,7 @@ def source_of(provenance):
                                        " (dirty)" if provenance.get("git_dirty") else "", processor, scenes)
 
 
-def save(figure, stem, provenance, table, formats=("pdf", "png", "svg")):
+def save(figure, stem, provenance, table, formats=("pdf", "png", "svg"), dpi=300):
     """Writes stem.pdf, stem.png and stem.svg with the revision in their metadata, and stem.csv with the rows behind the figure. In the
     SVG, every drawn point has its label and numbers as a title, which a browser shows under the pointer."""
     source, rights = source_of(provenance), provenance.get("rights", "")
@@ -223,7 +223,7 @@ def save(figure, stem, provenance, table, formats=("pdf", "png", "svg")):
     figure.set_layout_engine("none")  # the layout is computed once, so that it is the same in every format and in hover_titles
     for ending in formats:
         with whole_file.beside(stem.with_suffix("." + ending)) as path:
-            figure.savefig(path, metadata=metadata[ending], dpi=150 if ending == "svg" else 300)
+            figure.savefig(path, metadata=metadata[ending], dpi=150 if ending == "svg" else dpi)
             if ending == "svg":
                 hover_titles.add(figure, path)
     pyplot.close(figure)

@@ -208,13 +208,12 @@ def shown_panel(results):
 
 def figure_lines(results):
     """Draws the figure of error against run time, and returns the lines that show it."""
-    panel, (entry,) = shown_panel(results), (entry for entry in entries.read() if entry.name == "work_precision")
-    origin = entry.origin(results)
+    panel, (origin,) = shown_panel(results), (entry.origin(results) for entry in entries.read() if entry.name == "work_precision")
     figure, axes = style.panels(1, 1, height_in=3.4, width_in=style.page_in)
     style.label_ends(axes[0][0], work_precision.draw_panel(axes[0][0], panel))
-    style.save(figure, picture.with_suffix(""), origin, work_precision.rows_behind(panel), formats=("png",))
+    style.save(figure, picture.with_suffix(""), origin, work_precision.rows_behind(panel), formats=("png",), dpi=250)
     return [f"![Error against run time of each class of deformers](paper_figures/readme/{picture.name})", "",
             f"*Error at the joints against processor time per frame on one core ({origin['cpu_model']}), {panel.title}. Each line is a "
             "class of deformers, each in its fastest kind of code; a filled mark is on the "
-            "[Pareto front](experiments/GLOSSARY.md#pareto-front) of all. The line below the axis names the class that is nearest within "
-            "0.1, 1 and 10 ms.*"]
+            "[Pareto front](experiments/GLOSSARY.md#pareto-front) of all. The minimisers take material and attachment from the reference, "
+            "XPBD its material. The line below the axis names the class that is nearest within 0.1, 1 and 10 ms.*"]
