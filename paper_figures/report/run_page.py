@@ -147,7 +147,7 @@ def distances(found):
                  ["deformers", "of", "median rms [mm]", "largest [mm]", "frames"], body, "tall")
 
 
-# Sentences about the rigged model of a run. The page shows a sentence if the record has a value for each of its placeholders.
+# Sentences about the rigged model of a run. The page shows a sentence if the record has a value for each name in braces.
 of_model = ("File: {file}; {meshes_in_file}: {meshes}.", "Largest extent: {extent_m} m, with {metres_per_unit} m per unit of the file.",
             "Joints dropped: {dropped}.", "Containers, which only contribute their transform: {containers}.",
             "From the bind pose to the file's rest pose, bones turn by up to {bind_pose_deg}\u00b0.", "Animations: {animations}.",
