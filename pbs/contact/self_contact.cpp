@@ -2,12 +2,10 @@
 
 #include "pbs/geometry/topology.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <bit>
 #include <numeric>
 #include <utility>
 
@@ -37,19 +35,20 @@ std::vector<int> numbers_below(Eigen::Index count)
     return numbers;
 }
 
-// The vertex of `candidates` that is farthest by `distance`, the first of equals.
-template <typename Distance>
-int farthest(const std::vector<int>& candidates, const Distance& distance)
+template <typename Box, typename Boxes>
+void put(const Box& box, Boxes& boxes, int lane)
 {
-    return *std::max_element(candidates.begin(), candidates.end(), [&](int a, int b) { return distance(a) < distance(b); });
+    for (int axis = 0; axis < 3; ++axis) {
+        boxes.low[axis][lane] = box.low[axis];
+        boxes.high[axis][lane] = box.high[axis];
+    }
 }
 
-template <typename Box>
-bool meet(const Box& a, const Box& b)
+// Calls `visit` with the place of each bit, the lowest first.
+template <typename Visit>
+void for_each_bit(unsigned bits, const Visit& visit)
 {
-    bool apart = false;
-    for (int axis = 0; axis < 3; ++axis) apart |= !(a.low[axis] <= b.high[axis]) | !(b.low[axis] <= a.high[axis]);
-    return !apart;
+    for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
 }
 
 }  // namespace
@@ -135,136 +134,50 @@ SelfContact<Scalar>::SelfContact(const TetMesh& mesh, const std::vector<int>& pl
     : mesh_(mesh),
       skin_(mesh),
       half_edge_m_(mean_edge_m(mesh) / 2.0),
-      groups_(mesh.rest, skin_.vertices(), vertices_of_group),
-      blocks_(centroids(mesh), numbers_below(mesh.tets.rows()), tets_of_block),
+      groups_(mesh.rest, skin_.vertices(), at_once),
+      blocks_(centroids(mesh), numbers_below(mesh.tets.rows()), at_once),
       first_of_block_{0},
       corners_(blocks_.sets()),
-      box_of_block_(blocks_.sets()),
-      box_of_cluster_((blocks_.sets() + blocks_of_cluster - 1) / blocks_of_cluster)
+      coordinates_(blocks_.sets()),
+      clusters_((blocks_.sets() + at_once * at_once - 1) / (at_once * at_once)),
+      boxes_(at_once * clusters_.size()),
+      box_of_block_(at_once * boxes_.size())
 {
     for (const int row : place) offset_.push_back(stride * row);
     for (const int v : groups_.member) of_group_.push_back(offset_[v]);
     for (int b = 0; b < blocks_.sets(); ++b) {
         std::vector<int> vertices;
-        for (int lane = 0; lane < tets_of_block; ++lane) {
+        for (int lane = 0; lane < at_once; ++lane) {
             const int k = blocks_.first[b] + lane, tet = blocks_.member[k < blocks_.first[b + 1] ? k : blocks_.first[b]];
-            for (int i = 0; i < 4; ++i) vertices.push_back(corners_[b][i][lane] = offset_[mesh.tets(tet, i)]);
+            for (int i = 0; i < 4; ++i) vertices.push_back(corners_[b].offset[i][lane] = offset_[mesh.tets(tet, i)]);
         }
         std::sort(vertices.begin(), vertices.end());
         vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
         for (const int offset : vertices) of_block_.push_back(offset);
         first_of_block_.push_back(static_cast<int>(of_block_.size()));
     }
-    std::vector<Eigen::AlignedBox3d> rest_boxes(blocks_.sets());
-    for (int b = 0; b < blocks_.sets(); ++b)
-        for (int k = blocks_.first[b]; k < blocks_.first[b + 1]; ++k)
-            for (const int v : mesh.tets.row(blocks_.member[k])) rest_boxes[b].extend(mesh.rest.row(v).transpose());
-    for (int g = 0; g < groups_.sets(); ++g) neighbourhoods_.push_back(neighbourhood(g, rest_boxes));
-}
-
-template <typename Scalar>
-typename SelfContact<Scalar>::Neighbourhood SelfContact<Scalar>::neighbourhood(int group,
-                                                                               const std::vector<Eigen::AlignedBox3d>& rest_boxes) const
-{
-    Eigen::AlignedBox3d around;
-    for (int k = groups_.first[group]; k < groups_.first[group + 1]; ++k) around.extend(mesh_.rest.row(groups_.member[k]).transpose());
-    Neighbourhood near;
-    std::vector<int> vertices(groups_.member.begin() + groups_.first[group], groups_.member.begin() + groups_.first[group + 1]);
-    for (int b = 0; b < blocks_.sets(); ++b) {
-        if (!(rest_boxes[b].exteriorDistance(around) <= half_edge_m_)) continue;
-        near.blocks.push_back(b);
-        for (int k = blocks_.first[b]; k < blocks_.first[b + 1]; ++k)
-            for (const int v : mesh_.tets.row(blocks_.member[k])) vertices.push_back(v);
-    }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-
-    const auto X = [&](int v) -> Vec3 { return mesh_.rest.row(v); };
-    const Vec3 centre = around.center();
-    const int a = farthest(vertices, [&](int v) { return (X(v) - centre).norm(); });
-    const int b = farthest(vertices, [&](int v) { return (X(v) - X(a)).norm(); });
-    const int c = farthest(vertices, [&](int v) { return (X(v) - X(a)).cross(X(b) - X(a)).norm(); });
-    const Vec3 normal = (X(b) - X(a)).cross(X(c) - X(a));
-    const int d = farthest(vertices, [&](int v) { return std::abs((X(v) - X(a)).dot(normal)); });
-    near.frame = {offset_[a], offset_[b], offset_[c], offset_[d]};
-    near.rest_edges << X(b) - X(a), X(c) - X(a), X(d) - X(a);
-    for (const int v : vertices) {
-        near.offset.push_back(offset_[v]);
-        for (int axis = 0; axis < 3; ++axis) near.rest[axis].push_back(Scalar(X(v)(axis) - X(a)(axis)));
-    }
-    return near;
-}
-
-template <typename Scalar>
-typename SelfContact<Scalar>::Box SelfContact<Scalar>::box_of(const int* begin, const int* end, const Scalar* x) const
-{
-    constexpr Scalar far = std::numeric_limits<Scalar>::max();
-    Box box{{far, far, far, 0}, {-far, -far, -far, 0}};
-    for (; begin < end; ++begin)
-        for (int axis = 0; axis < 3; ++axis) {
-            box.low[axis] = std::min(box.low[axis], x[*begin + axis]);
-            box.high[axis] = std::max(box.high[axis], x[*begin + axis]);
-        }
-    return box;
-}
-
-template <typename Scalar>
-bool SelfContact<Scalar>::is_affine(const Neighbourhood& near, const Scalar* x) const
-{
-    using Map = Eigen::Map<const Vector3<Scalar>>;
-    const Vec3 x0 = Map(x + near.frame[0]).template cast<double>();
-    Eigen::Matrix3d edges;
-    for (int k = 0; k < 3; ++k) edges.col(k) = Map(x + near.frame[k + 1]).template cast<double>() - x0;
-    const Eigen::Matrix<Scalar, 3, 3> inverse = (near.rest_edges * edges.inverse()).template cast<Scalar>();  // A^-1
-    const Vector3<Scalar> origin = x0.template cast<Scalar>();
-    const Scalar most = Scalar(half_edge_m_ * half_edge_m_ / 4.0);
-    constexpr std::size_t at_once = 16;  // often a few vertices show that it is not affine
-    int beyond = 0;                      // or not a number
-    for (std::size_t from = 0; from < near.offset.size() && beyond == 0; from += at_once)
-        for (std::size_t k = from; k < std::min(from + at_once, near.offset.size()); ++k) {
-            const Scalar* p = x + near.offset[k];
-            const Scalar dx = p[0] - origin(0), dy = p[1] - origin(1), dz = p[2] - origin(2);
-            Scalar e2 = Scalar(0);
-            for (int axis = 0; axis < 3; ++axis) {
-                const Scalar e = inverse(axis, 0) * dx + inverse(axis, 1) * dy + inverse(axis, 2) * dz - near.rest[axis][k];
-                e2 += e * e;
-            }
-            beyond += !(e2 < most);
-        }
-    return beyond == 0;
+    first_of_block_.resize(box_of_block_.size() + 1, first_of_block_.back());  // empty blocks fill up the lanes
 }
 
 template <typename Scalar>
 void SelfContact<Scalar>::find_hits(const Scalar* x)
 {
-    for (int b = 0; b < blocks_.sets(); ++b)
-        box_of_block_[b] = box_of(of_block_.data() + first_of_block_[b], of_block_.data() + first_of_block_[b + 1], x);
-    for (int c = 0; c < static_cast<int>(box_of_cluster_.size()); ++c) {
-        Box& cluster = box_of_cluster_[c] = box_of_block_[c * blocks_of_cluster];
-        const int end = std::min(blocks_.sets(), (c + 1) * blocks_of_cluster);
-        for (int b = c * blocks_of_cluster; b < end; ++b)
-            for (int axis = 0; axis < 3; ++axis) {
-                cluster.low[axis] = std::min(cluster.low[axis], box_of_block_[b].low[axis]);
-                cluster.high[axis] = std::max(cluster.high[axis], box_of_block_[b].high[axis]);
-            }
+    for (int b = 0; b < static_cast<int>(box_of_block_.size()); ++b) {
+        box_of_block_[b] = Kernels::box_of(of_block_.data() + first_of_block_[b], of_block_.data() + first_of_block_[b + 1], x);
+        put(box_of_block_[b], boxes_[b / at_once], b % at_once);
     }
-    coordinates_.assign(blocks_.sets(), std::nullopt);
+    for (int c = 0; c < static_cast<int>(boxes_.size()); ++c) put(Kernels::box_around(boxes_[c]), clusters_[c / at_once], c % at_once);
+    is_searched_.assign(blocks_.sets(), 0);
     hits_.clear();
     for (int g = 0; g < groups_.sets(); ++g) {
-        const Box box = box_of(of_group_.data() + groups_.first[g], of_group_.data() + groups_.first[g + 1], x);
-        const Neighbourhood& near = neighbourhoods_[g];
-        const bool skips_near = is_affine(near, x);
-        std::size_t next_near = 0;
-        for (int c = 0; c < static_cast<int>(box_of_cluster_.size()); ++c) {
-            if (!meet(box, box_of_cluster_[c])) continue;
-            const int end = std::min(blocks_.sets(), (c + 1) * blocks_of_cluster);
-            for (int b = c * blocks_of_cluster; b < end; ++b) {
-                if (!meet(box, box_of_block_[b])) continue;
-                while (next_near < near.blocks.size() && near.blocks[next_near] < b) ++next_near;
-                const bool is_near = next_near < near.blocks.size() && near.blocks[next_near] == b;
-                if (!(is_near && skips_near)) find_in_block(g, b, x);
-            }
-        }
+        const Boxes points = Kernels::points_of(of_group_.data() + groups_.first[g], of_group_.data() + groups_.first[g + 1], x);
+        const Box box = Kernels::box_around(points);
+        for (int k = 0; k < static_cast<int>(clusters_.size()); ++k)
+            for_each_bit(Kernels::that_meet(clusters_[k], box), [&](int of_clusters) {
+                const int c = at_once * k + of_clusters;
+                for_each_bit(Kernels::that_meet(boxes_[c], box),
+                             [&](int of_blocks) { find_in_block(g, at_once * c + of_blocks, points, x); });
+            });
     }
     std::sort(hits_.begin(), hits_.end(),
               [](const Hit& a, const Hit& b) { return std::pair(a.vertex, a.tet) < std::pair(b.vertex, b.tet); });
@@ -284,50 +197,18 @@ void SelfContact<Scalar>::find(const Scalar* x)
 }
 
 template <typename Scalar>
-typename SelfContact<Scalar>::Coordinates SelfContact<Scalar>::coordinates_in(int block, const Scalar* x) const
+void SelfContact<Scalar>::find_in_block(int group, int block, const Boxes& points, const Scalar* x)
 {
-    Coordinates in;
-    for (int lane = 0; lane < tets_of_block; ++lane) {
-        const Scalar* p = x + corners_[block][0][lane];
-        Scalar e[3][3];
-        for (int k = 0; k < 3; ++k)
-            for (int axis = 0; axis < 3; ++axis) e[k][axis] = x[corners_[block][k + 1][lane] + axis] - p[axis];
-        for (int k = 0; k < 3; ++k) {
-            const Scalar *a = e[(k + 1) % 3], *b = e[(k + 2) % 3];
-            for (int axis = 0; axis < 3; ++axis)
-                in.inverse[k][axis][lane] = a[(axis + 1) % 3] * b[(axis + 2) % 3] - a[(axis + 2) % 3] * b[(axis + 1) % 3];
-            in.first[k][lane] = p[k];
-        }
-        in.volume[lane] = e[0][0] * in.inverse[0][0][lane] + e[0][1] * in.inverse[0][1][lane] + e[0][2] * in.inverse[0][2][lane];
-    }
-    return in;
-}
-
-// Tets with positive barycentric coordinates of a vertex that is not theirs.
-template <typename Scalar>
-void SelfContact<Scalar>::find_in_block(int group, int block, const Scalar* x)
-{
-    const Box& box = box_of_block_[block];
-    for (int k = groups_.first[group]; k < groups_.first[group + 1]; ++k) {
-        const Scalar* v = x + of_group_[k];
-        bool is_in_box = true;
-        for (int axis = 0; axis < 3; ++axis) is_in_box &= (v[axis] >= box.low[axis]) & (v[axis] <= box.high[axis]);
-        if (!is_in_box) continue;
-        if (!coordinates_[block]) coordinates_[block] = coordinates_in(block, x);
-        const Coordinates& in = *coordinates_[block];
-        int is_around[tets_of_block], any = 0;
-        for (int lane = 0; lane < tets_of_block; ++lane) {
-            const Scalar dx = v[0] - in.first[0][lane], dy = v[1] - in.first[1][lane], dz = v[2] - in.first[2][lane];
-            Scalar beta[3];
-            for (int i = 0; i < 3; ++i) beta[i] = in.inverse[i][0][lane] * dx + in.inverse[i][1][lane] * dy + in.inverse[i][2][lane] * dz;
-            const Scalar first = in.volume[lane] - (beta[0] + beta[1] + beta[2]);
-            is_around[lane] = (std::min(std::min(beta[0], beta[1]), std::min(beta[2], first)) >= Scalar(0)) & (in.volume[lane] > Scalar(0));
-            for (const auto& corner : corners_[block]) is_around[lane] &= corner[lane] != of_group_[k];
-            any |= is_around[lane];
-        }
-        for (int lane = 0; any != 0 && lane < blocks_.first[block + 1] - blocks_.first[block]; ++lane)
-            if (is_around[lane] != 0) hits_.push_back({groups_.member[k], blocks_.member[blocks_.first[block] + lane]});
-    }
+    const int first = groups_.first[group], first_tet = blocks_.first[block];
+    const unsigned vertices = (1U << (groups_.first[group + 1] - first)) - 1, tets = (1U << (blocks_.first[block + 1] - first_tet)) - 1;
+    for_each_bit(Kernels::that_meet(points, box_of_block_[block]) & vertices, [&](int k) {
+        const auto& corners = corners_[block];
+        if (is_searched_[block] == 0) Kernels::find_coordinates(corners, x, coordinates_[block]);
+        is_searched_[block] = 1;
+        for_each_bit(Kernels::tets_around(coordinates_[block], corners, of_group_[first + k], x) & tets, [&](int tet) {
+            hits_.push_back({groups_.member[first + k], blocks_.member[first_tet + tet]});
+        });
+    });
 }
 
 template <typename Scalar>

@@ -6,19 +6,15 @@
 // A pair of a vertex and a tet counts where X*, the point of the tet at rest that has come to the vertex, is farther than half of the mean
 // edge from the vertex at rest. Positions decide alone, so that frames do not depend on each other, and there are no threads.
 //
-// Most of the body cannot meet itself, and is not searched: tets lie in blocks, skin vertices in groups. A group is compared with the
-// blocks whose boxes it meets. Those near it at rest are left out if the neighbourhood deforms like an affine map A up to e, the largest
-// |A^-1 x_i - X_i|: points at rest more than 2 e from each other do not meet then, since x - A X is linear in each tet.
+// Skin vertices lie in groups of neighbours, tets in blocks, and blocks in clusters; boxes around them are compared, sixteen at once.
 //
 // No constraint where no direction can be trusted: in tets that are flat or mirrored, or strained more than tenfold along the way out, as
 // after a teleport; and where a position is not finite.
 #pragma once
 
+#include "pbs/packed/contact_kernels.hpp"
 #include "pbs/contact/depth_constraint.hpp"
 
-#include <Eigen/Geometry>
-
-#include <optional>
 #include <vector>
 
 namespace pbs {
@@ -71,45 +67,31 @@ public:
     const RestSkin& skin() const { return skin_; }
 
 private:
-    static constexpr int tets_of_block = 16, vertices_of_group = 8, blocks_of_cluster = 16;
+    using Kernels = ContactKernels<Scalar>;
+    using Box = typename Kernels::Box;
+    using Boxes = typename Kernels::Boxes;
+    static constexpr int at_once = Kernels::at_once;  // tets of a block, vertices of a group, blocks of a cluster
 
-    struct Box {
-        Scalar low[4], high[4];  // the last of each is 0
-    };
-    struct Neighbourhood {
-        std::vector<int> blocks;      // near at rest, ascending
-        std::vector<int> offset;      // of its vertices
-        std::vector<Scalar> rest[3];  // their X - X_0, by coordinates
-        std::array<int, 4> frame;     // offsets of four vertices that span it; the first is X_0
-        Eigen::Matrix3d rest_edges;   // from the first of them to the others, columns
-    };
-    // Rows of the inverse of the edges (barycentric coordinates 2 to 4) times six volumes, from the first corner.
-    struct Coordinates {
-        Scalar first[3][tets_of_block], inverse[3][3][tets_of_block], volume[tets_of_block];
-    };
     struct Hit {
         int vertex, tet;
     };
 
     void find_hits(const Scalar* x);
-    Neighbourhood neighbourhood(int group, const std::vector<Eigen::AlignedBox3d>& rest_boxes) const;
-    Box box_of(const int* begin, const int* end, const Scalar* x) const;
-    bool is_affine(const Neighbourhood& near, const Scalar* x) const;
-    Coordinates coordinates_in(int block, const Scalar* x) const;
-    void find_in_block(int group, int block, const Scalar* x);
+    void find_in_block(int group, int block, const Boxes& points, const Scalar* x);
     void add_constraint(const Hit& hit, const Scalar* x);
 
     TetMesh mesh_;
     RestSkin skin_;
     double half_edge_m_;
     PointSets groups_, blocks_;
-    std::vector<int> offset_;                                             // of each vertex in x, #V
-    std::vector<int> of_group_;                                           // offsets of the vertices of a group
-    std::vector<int> first_of_block_, of_block_;                          // offsets of the vertices of a block, each once
-    std::vector<std::array<std::array<int, tets_of_block>, 4>> corners_;  // offsets in each block; the first tet fills up the last lanes
-    std::vector<Neighbourhood> neighbourhoods_;                           // of each group
-    std::vector<Box> box_of_block_, box_of_cluster_;                      // as deformed
-    std::vector<std::optional<Coordinates>> coordinates_;                 // as deformed, of each block that was searched
+    std::vector<int> offset_;                                 // of each vertex in x, #V
+    std::vector<int> of_group_;                               // offsets of the vertices of a group
+    std::vector<int> first_of_block_, of_block_;              // offsets of the vertices of a block, each once
+    std::vector<typename Kernels::Corners> corners_;          // of each block
+    std::vector<typename Kernels::Coordinates> coordinates_;  // as deformed, of each block that was searched
+    std::vector<char> is_searched_;
+    std::vector<Boxes> clusters_, boxes_;  // as deformed, those of clusters and of blocks
+    std::vector<Box> box_of_block_;        // the same boxes, one by one
     std::vector<Hit> hits_;
     std::vector<DepthConstraint<Scalar>> constraints_;
 };

@@ -18,7 +18,7 @@ const std::vector<FolderLaw> folder_laws = {
     {"pbs/packed/", {"pbs/geometry/", "pbs/packed/"}},
     {"pbs/skinning/", {"pbs/geometry/", "pbs/packed/", "pbs/skinning/"}},
     {"pbs/constraints/", {"pbs/geometry/", "pbs/constraints/"}},
-    {"pbs/contact/", {"pbs/geometry/", "pbs/contact/"}},
+    {"pbs/contact/", {"pbs/geometry/", "pbs/packed/", "pbs/contact/"}},
     {"pbs/solver/", {"pbs/geometry/", "pbs/packed/", "pbs/constraints/", "pbs/contact/", "pbs/solver/"}},
     {"pbs/near_rest/", {"pbs/geometry/", "pbs/constraints/", "pbs/solver/", "pbs/near_rest/"}},
     {"pbs/author/", {"pbs/geometry/", "pbs/skinning/", "pbs/constraints/", "pbs/solver/", "pbs/author/"}},

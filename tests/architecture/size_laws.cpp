@@ -25,6 +25,7 @@ const std::map<std::string, std::string> named_interfaces = {
     {"pbs/geometry/meshing_cgal.hpp", "the interface of CGAL's mesher, which one source compiles"},
     {"pbs/geometry/meshing_unavailable.cpp", "in place of a library that is left out"},
     {"pbs/geometry/nearest_rotation.cpp", "Eigen's form of formulae that the kernels use without Eigen"},
+    {"pbs/packed/contact_kernels.hpp", "the interface of a source that is compiled for the machine"},
     {"pbs/rig/rig_reader_unavailable.cpp", "in place of a library that is left out"},
     {"pbs/solver/algorithm_1.hpp", "the solver in two precisions behind PbsSolver"},
     {"tests/properties/pbs/geometry/meshing_repeats.cpp", "one of two files that the mesher's library alone is linked with"},
@@ -140,7 +141,7 @@ std::string exceeded(const std::string& what, int value, int most, const std::st
 const std::vector<Budget>& budgets()
 {
     static const std::vector<Budget> all = {
-        {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 23'444, .least_mean = 120},
+        {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 23'459, .least_mean = 120},
         {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 10'190, .least_mean = 120},
         {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'020, .least_mean = 120},
         {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 26'579, .least_mean = 120},
