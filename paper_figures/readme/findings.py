@@ -71,7 +71,9 @@ def artefacts(claims):
         verb = "exception is" if len(failing) == 1 else "exceptions are"
         exceptions = f"; the {verb} {' and '.join(failing[:most_exceptions] + more)}" if failing else ""
         poses = f"{claim['held']} of the {counted(claim['n'], 'pose')} in which {where}"
-        texts.append(told or f"{solver} shows no {what} in {poses}{exceptions}.")
+        others = sorted(of["held"] for of in claim["readings"] if of["n"] == claim["n"])
+        held = f" ({' to '.join(map(str, dict.fromkeys((others[0], others[-1]))))} in other orders and precisions)" if others else ""
+        texts.append(told or f"{solver} shows no {what} in {poses}{exceptions}{held}.")
         solver = solver if told else "It"
     return f"**Artefacts.** {' '.join(texts)}"
 
@@ -212,8 +214,10 @@ def figure_lines(results):
     figure, axes = style.panels(1, 1, height_in=3.4, width_in=style.page_in)
     style.label_ends(axes[0][0], work_precision.draw_panel(axes[0][0], panel))
     style.save(figure, picture.with_suffix(""), origin, work_precision.rows_behind(panel), formats=("png",), dpi=250)
+    rows, fronts = (records.table(results / "work_precision" / name, {"case"}) for name in ("nearest.csv", "fronts.csv"))
+    nearest = next(sentences.nearest_class(row, rows, fronts) for row in panel.nearest
+                   if (row["among"], row["budget_ms"]) == ("classes", "1"))
     return [f"![Error against run time of each class of deformers](paper_figures/readme/{picture.name})", "",
             f"*Error at the joints against processor time per frame on one core ({origin['cpu_model']}), {panel.title}. Each line is a "
-            "class of deformers, each in its fastest kind of code; a filled mark is on the "
-            "[Pareto front](experiments/GLOSSARY.md#pareto-front) of all. The minimisers take material and attachment from the reference, "
-            "XPBD its material. The line below the axis names the class that is nearest within 0.1, 1 and 10 ms.*"]
+            "class of deformers, in packed single precision where it has such code; a filled mark is on the "
+            f"[Pareto front](experiments/GLOSSARY.md#pareto-front) of all. Within 1 ms: {nearest.replace(chr(0x2019), chr(39))}.*"]

@@ -53,7 +53,7 @@ def claims_lines(results):
     records.need(studies, f"{results}: no run.json of a study's run in it")
     most, *others = sorted(studies, key=lambda revision: -len(studies[revision]))
     measured = ", ".join([most, *(f"{revision} ({', '.join(sorted(studies[revision]))})" for revision in others)])
-    return [*table, "", f"Measured at revision {measured}."]
+    return [sentences.counts(claims_of(results)), "", *table, "", f"Measured at revision {measured}."]
 
 
 def features_line(row):

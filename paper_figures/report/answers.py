@@ -6,13 +6,14 @@ from records import shapes
 from report import verdicts
 from report.markup import Markup, element, joined, table
 from report.record_set import not_run, number
-from words import case_words, glossary, looks, sentences
+from words import case_words, glossary, sentences
 from words.number_words import counted, figure, span
 
 what_it_is = ("Position based skinning (PBS) moves a character\u2019s tetrahedral mesh with its bones by linear blend skinning (LBS). "
               "Then it gives the flesh its volume back with a few iterations of stretch, volume and bind constraints.")
 where_to_go = Markup("Your own model: <code>pbskin try hero.glb</code>. "
-                     "A deformer of your own: <code>experiments/deformers/README.md</code>.")
+                     "A deformer of your own: <code>experiments/deformers/external/README.md</code> (any program or C library), "
+                     "<code>experiments/deformers/README.md</code> (C++).")
 
 
 def answer(question, sentence, *more):
@@ -74,23 +75,12 @@ def how_far(found):
     removed_pct = span([round(pose.removed_pct()) for pose in shown])
     sentence = (f"PBS with 24 iterations, ordered and in single precision, removes {removed_pct} % of the error of LBS at the joints "
                 f"({counted(len(shown), 'pose')}, against neo-Hookean finite elements).")
-    away = {name: span([number(getattr(pose, name), "skin_rms_mm") for pose in shown if pose.body != "limb"]) for name in ("pbs", "lbs")}
+    bodies = [pose for pose in shown if pose.body != "limb"]
+    away = {name: span([number(getattr(pose, name), "skin_rms_mm") for pose in bodies]) for name in ("pbs", "lbs")}
     if away["pbs"] != figure(None):
-        sentence += f" Its skin is {away['pbs']} mm away on a body of 1.7 m, that of LBS {away['lbs']} mm."
+        where = bodies[0].name if len(bodies) == 1 else counted(len(bodies), "pose")
+        sentence += f" On a body of 1.7 m ({where}), its skin is {away['pbs']} mm away, that of LBS {away['lbs']} mm."
     return answer(question, sentence)
-
-
-def within(row, rows):
-    """The nearest class with its error and what it knows of the reference, and whether it is decided. Its deformer is named if that is
-    decided within the class. rows: of nearest.csv."""
-    others = [case_words.of_field("class", name) for name in row["either_of"].split()]
-    knows = f", given the reference\u2019s {' and '.join(row['knows'].split())}" if row["knows"] else ""
-    undecided = f"; undecided against {others[0] if len(others) == 1 else counted(len(others), 'other class', 'other classes')}"
-    own = [other for other in rows if other["among"] == row["nearest"]
-           and all(other[column] == row[column] for column in ("comparison", "case", "budget_ms"))]
-    is_decided = all(not other["either_of"] for other in own)
-    named = case_words.of_field("class", row["nearest"]) + (f" ({looks.of(row['deformer']).name})" if is_decided else "")
-    return f"{named}, {figure(number(row, 'error_joint_pct'))} % at the joints{knows}{undecided if others else ''}"
 
 
 def which_method(found):
@@ -101,7 +91,8 @@ def which_method(found):
         return answer(question, element("span", f"The nearest method is {not_run(found, 'work_precision')}.", class_="missing"))
     means = [row for row in rows if "mean" in row["case"]]
     case = (means or rows)[0]["case"]
-    lines = [joined([element("b", f"{number(row, 'budget_ms'):g} ms per frame: "), within(row, nearest)])
+    fronts = found.rows("work_precision/fronts.csv")
+    lines = [joined([element("b", f"{number(row, 'budget_ms'):g} ms per frame: "), sentences.nearest_class(row, nearest, fronts)])
              for row in rows if row["case"] == case]
     lines.append(element("span", f"{case.replace('_', ' ')}; settings were chosen on other poses", class_="place"))
     return answer(question, joined(lines, Markup("<br>")))

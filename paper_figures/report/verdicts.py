@@ -97,8 +97,8 @@ def line(claim, found, pose, drawn):
     """One line, which opens. pose: the link to it in the viewer, or None; drawn: the figures of the page."""
     statement = element("span", joined([element("b", claim["id"]), f" {claim['statement']} ",
                                         element("span", claim["place"], class_="place")]), class_="statement")
-    told = element("span", joined([both_marks(claim), element("span", (sentences.facts(claim) or [""])[0], class_="under")]),
-                   class_="verdict")
+    first = [*sentences.why_untested(claim), *(sentences.facts(claim) or [""])[:1], *sentences.by_chance(claim)][:2]
+    told = element("span", joined([both_marks(claim), element("span", "; ".join(dict.fromkeys(first)), class_="under")]), class_="verdict")
     summary = element("summary", joined([statement, told, element("span", axis.drawn(claim), class_="numbers")]))
     where = [element("a", "see it move", href=pose, class_="pose")] if pose else []
     where += [element("a", f"figure: {entry.title}", href=f"#figure-{entry.name}") for entry in drawn if claim["id"] in entry.claims]

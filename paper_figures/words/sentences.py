@@ -1,4 +1,5 @@
-"""Every sentence about a claim, composed from the facts of claims.json. The README, the claims' pages and the report all use these.
+"""Every sentence about a claim, composed from the facts of claims.json, and about the nearest class of deformers. The README, the claims'
+pages and the report all use these.
 
     for claim in sentences.claims_of(results / "claims.json"):
         print(claim["id"], "; ".join(sentences.facts(claim)))
@@ -9,8 +10,8 @@ only the interval of the share; ranges over meshes, frames or orders of projecti
 import math
 
 from records import shapes
-from words import case_words
-from words.number_words import counted, figure
+from words import case_words, looks
+from words.number_words import counted, figure, joined_words
 
 names = case_words.tables["verdict"]
 kinds = {"holds": ("holds", "hold"), "fails": ("fails", "fail"), "mixed": ("is mixed", "are mixed"),
@@ -196,7 +197,7 @@ def left_out_units(of):
 def by_chance(claim):
     """Where chance decides."""
     decides = claim["verdict"] == "fails" and claim["chance"] is not None and (claim["share"] or 0) > failing_share
-    return [f"chance reaches as many with a probability of {figure(claim['chance'])}"] if decides else []
+    return [f"chance alone reaches as many with probability {figure(claim['chance'])}, where less than 0.01 is asked"] if decides else []
 
 
 def difference(claim):
@@ -354,3 +355,27 @@ def disagreements(claim):
             sentences.append(f"{other['name'][:1].upper()}{other['name'][1:]} and the claim's own reading disagree: in the {len(pairs)} "
                              f"units that both have, the bound holds {extent_of_other} in the one, {extent_of_own} in the other.")
     return sentences
+
+
+def nearest_class(row, rows, fronts):
+    """The nearest class and its deformer, the error, the classes that may be as near, and what the deformer takes from the reference;
+    then the nearest that takes nothing, and PBS. row: one of rows, those of nearest.csv; fronts: the rows of fronts.csv."""
+    def same(other, *columns):
+        return all(other[column] == row[column] for column in ("comparison", "case", *columns))
+
+    def nearest(fits):
+        ends = [(float(of["error_joint_pct"]), looks.of(of["deformer"]).name) for of in fronts
+                if same(of) and fits(of) and float(of["ms_median"]) <= float(row["budget_ms"])]
+        return f"{min(ends)[1]} {figure(min(ends)[0])} %" if ends else "none"
+
+    own = [other for other in rows if other["among"] == row["nearest"] and same(other, "budget_ms")]
+    such_as = "such as " if any(other["either_of"] for other in own) else ""
+    told = (f"{case_words.of_field('class', row['nearest'])} ({such_as}{looks.of(row['deformer']).name}), "
+            f"{figure(float(row['error_joint_pct']))} % at the joints")
+    if row["either_of"]:
+        told += f"; not decided against {joined_words([case_words.of_field('class', name) for name in row['either_of'].split()])}"
+    if row["knows"]:
+        knows = joined_words([case_words.of_field("knows", name) for name in row["knows"].split()])
+        told += (f". It is given the reference\u2019s {knows}; without: {nearest(lambda of: not of['knows'])}, "
+                 f"PBS {nearest(lambda of: of['deformer'] == 'pbs').split(' ', 1)[-1]}")
+    return told

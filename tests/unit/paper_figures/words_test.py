@@ -99,7 +99,7 @@ class Facts(unittest.TestCase):
 
     def test_chance_is_stated_where_it_decides(self):
         cases = [unit(1.0)] * 14 + [unit(0.9, False)] * 4
-        words = "chance reaches as many with a probability of 0.0154"
+        words = "chance alone reaches as many with probability 0.0154, where less than 0.01 is asked"
         for verdict, chance, share, stated in (("fails", 0.0154, 14 / 18, True), ("mixed", 0.001, 14 / 18, False),
                                                ("fails", 0.9, 0.4, False)):
             judged = claim("C06", verdict, cases, chance=chance, q=0.5) | {"share": share}
