@@ -83,10 +83,6 @@ def convergence(claims):
     if not told:
         told = (f"With {paper_s_solver}, 24 iterations bring the residual within 5 % of its floor in {claim['held']} of "
                 f"{counted(claim['n'], 'case')}.")
-        volumes = only(claim["compared"], "claims.json: C12a: compared", name="to 0.5 % of absolute volume")
-        if volumes["n"]:
-            told += (f" 0.5 % of absolute volume is reached with 24 iterations in {volumes['held']} of {volumes['n']} "
-                     f"(iterations needed: {sentences.span(sentences.counting(volumes))}).")
     return f"**Convergence.** {told}"
 
 

@@ -28,10 +28,5 @@ def listed(parts, between=", "):
     return between.join(parts) or "none"
 
 
-def joined_words(words):
-    """a, b and c"""
-    return " and ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
-
-
 def counted(number, one, many=None):
     return f"{number} {one if number == 1 else many or one + 's'}"

@@ -11,7 +11,7 @@ import math
 
 from records import shapes
 from words import case_words, looks
-from words.number_words import counted, figure, joined_words
+from words.number_words import counted, figure
 
 names = case_words.tables["verdict"]
 kinds = {"holds": ("holds", "hold"), "fails": ("fails", "fail"), "mixed": ("is mixed", "are mixed"),
@@ -358,7 +358,7 @@ def disagreements(claim):
 
 
 def nearest_class(row, rows, fronts):
-    """The nearest class and its deformer, the error, the classes that may be as near, and what the deformer takes from the reference;
+    """The nearest class and a deformer of it, the error, the classes that may be as near, and what the deformer takes from the reference;
     then the nearest that takes nothing, and PBS. row: one of rows, those of nearest.csv; fronts: the rows of fronts.csv."""
     def same(other, *columns):
         return all(other[column] == row[column] for column in ("comparison", "case", *columns))
@@ -368,14 +368,11 @@ def nearest_class(row, rows, fronts):
                 if same(of) and fits(of) and float(of["ms_median"]) <= float(row["budget_ms"])]
         return f"{min(ends)[1]} {figure(min(ends)[0])} %" if ends else "none"
 
-    own = [other for other in rows if other["among"] == row["nearest"] and same(other, "budget_ms")]
+    own = [other for other in rows if same(other, "budget_ms") and other["among"] == row["nearest"]]
     such_as = "such as " if any(other["either_of"] for other in own) else ""
+    classes, knows = (", ".join(case_words.of_field(field, name) for name in row[column].split())
+                      for field, column in (("class", "either_of"), ("knows", "knows")))
     told = (f"{case_words.of_field('class', row['nearest'])} ({such_as}{looks.of(row['deformer']).name}), "
-            f"{figure(float(row['error_joint_pct']))} % at the joints")
-    if row["either_of"]:
-        told += f"; not decided against {joined_words([case_words.of_field('class', name) for name in row['either_of'].split()])}"
-    if row["knows"]:
-        knows = joined_words([case_words.of_field("knows", name) for name in row["knows"].split()])
-        told += (f". It is given the reference\u2019s {knows}; without: {nearest(lambda of: not of['knows'])}, "
-                 f"PBS {nearest(lambda of: of['deformer'] == 'pbs').split(' ', 1)[-1]}")
-    return told
+            f"{figure(float(row['error_joint_pct']))} % at the joints" + (f"; not decided against {classes}" if classes else ""))
+    return told if not knows else (f"{told}. It is given the reference\u2019s {knows}; without: {nearest(lambda of: not of['knows'])}, "
+                                   f"PBS {nearest(lambda of: of['deformer'] == 'pbs').split(' ', 1)[-1]}")

@@ -144,9 +144,9 @@ class Report(ReportTest):
         for name, lines in (("nearest", nearest), ("fronts", fronts)):
             synthetic_records.write_table(self.results / "work_precision" / f"{name}.csv", list(csv.DictReader(lines)))
         self.assertIn("0.1 ms per frame: blending (DQS), 21.7 % at the joints1 ms per frame: minimisers (such as vertex block descent), "
-                      "11.4 % at the joints; not decided against constraints. It is given the reference\u2019s material and attachment; "
+                      "11.4 % at the joints; not decided against constraints. It is given the reference\u2019s material, attachment; "
                       "without: vertex block descent, other flesh 13 %, PBS 14 %10 ms per frame: constraints (PBS), 9 % at the joints; not "
-                      "decided against blending and mushtwist;", words_of(answers.which_method(self.found())))
+                      "decided against blending, mushtwist;", words_of(answers.which_method(self.found())))
 
     def test_the_axis_has_the_units_the_bound_and_the_controls(self):
         synthetic_records.write_claims(self.results)
