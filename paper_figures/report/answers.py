@@ -1,5 +1,5 @@
 """The first screen: the moving character, what PBS is, and the answer in three lines. Every sentence is composed from claims.json,
-work_precision/*/points.csv, work_precision/nearest.csv and timing/timing.csv."""
+work_precision/*/points.csv, nearest.csv and fronts.csv of work_precision, and timing/timing.csv."""
 import math
 
 from records import shapes
@@ -75,7 +75,7 @@ def how_far(found):
     removed_pct = span([round(pose.removed_pct()) for pose in shown])
     sentence = (f"PBS with 24 iterations, ordered and in single precision, removes {removed_pct} % of the error of LBS at the joints "
                 f"({counted(len(shown), 'pose')}, against neo-Hookean finite elements).")
-    bodies = [pose for pose in shown if pose.body != "limb"]
+    bodies = [pose for pose in shown if pose.body != "limb" and number(pose.pbs, "skin_rms_mm") is not None]
     away = {name: span([number(getattr(pose, name), "skin_rms_mm") for pose in bodies]) for name in ("pbs", "lbs")}
     if away["pbs"] != figure(None):
         where = bodies[0].name if len(bodies) == 1 else counted(len(bodies), "pose")

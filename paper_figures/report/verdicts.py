@@ -97,7 +97,7 @@ def line(claim, found, pose, drawn):
     """One line, which opens. pose: the link to it in the viewer, or None; drawn: the figures of the page."""
     statement = element("span", joined([element("b", claim["id"]), f" {claim['statement']} ",
                                         element("span", claim["place"], class_="place")]), class_="statement")
-    first = [*sentences.why_untested(claim), *(sentences.facts(claim) or [""])[:1], *sentences.by_chance(claim)][:2]
+    first = [*sentences.why_untested(claim)[:1], *(sentences.facts(claim) or [""])[:1], *sentences.by_chance(claim)]
     told = element("span", joined([both_marks(claim), element("span", "; ".join(dict.fromkeys(first)), class_="under")]), class_="verdict")
     summary = element("summary", joined([statement, told, element("span", axis.drawn(claim), class_="numbers")]))
     where = [element("a", "see it move", href=pose, class_="pose")] if pose else []

@@ -358,21 +358,26 @@ def disagreements(claim):
 
 
 def nearest_class(row, rows, fronts):
-    """The nearest class and a deformer of it, the error, the classes that may be as near, and what the deformer takes from the reference;
-    then the nearest that takes nothing, and PBS. row: one of rows, those of nearest.csv; fronts: the rows of fronts.csv."""
+    """The nearest class with its error, the classes that may be as near, and what its deformer takes from the reference; then the nearest
+    that takes nothing, and PBS. row: one of rows, those of nearest.csv; fronts: the rows of fronts.csv."""
     def same(other, *columns):
         return all(other[column] == row[column] for column in ("comparison", "case", *columns))
 
     def nearest(fits):
-        ends = [(float(of["error_joint_pct"]), looks.of(of["deformer"]).name) for of in fronts
+        ends = [(float(of["error_joint_pct"]), of["deformer"]) for of in fronts
                 if same(of) and fits(of) and float(of["ms_median"]) <= float(row["budget_ms"])]
-        return f"{min(ends)[1]} {figure(min(ends)[0])} %" if ends else "none"
+        return [f"{looks.of(min(ends)[1]).name} ({figure(min(ends)[0])} %)"] if ends else []
 
     own = [other for other in rows if same(other, "budget_ms") and other["among"] == row["nearest"]]
     such_as = "such as " if any(other["either_of"] for other in own) else ""
-    classes, knows = (", ".join(case_words.of_field(field, name) for name in row[column].split())
+    classes, knows = ([case_words.of_field(field, name) for name in row[column].split()]
                       for field, column in (("class", "either_of"), ("knows", "knows")))
     told = (f"{case_words.of_field('class', row['nearest'])} ({such_as}{looks.of(row['deformer']).name}), "
-            f"{figure(float(row['error_joint_pct']))} % at the joints" + (f"; not decided against {classes}" if classes else ""))
-    return told if not knows else (f"{told}. It is given the reference\u2019s {knows}; without: {nearest(lambda of: not of['knows'])}, "
-                                   f"PBS {nearest(lambda of: of['deformer'] == 'pbs').split(' ', 1)[-1]}")
+            f"{figure(float(row['error_joint_pct']))} % at the joints")
+    if classes:
+        told += f"; not decided against {'any other class' if len(classes) == int(row['others']) > 1 else ', '.join(classes)}"
+    without = list(dict.fromkeys(nearest(lambda of: not of["knows"]) + nearest(lambda of: of["deformer"] == "pbs")))
+    if knows:
+        listed = " and ".join(filter(None, [", ".join(knows[:-1]), knows[-1]]))
+        told += f". They take {listed} from the reference" + (f"; without that: {', '.join(without)}" if without else "")
+    return told

@@ -199,6 +199,7 @@ void SelfContact<Scalar>::find(const Scalar* x)
 template <typename Scalar>
 void SelfContact<Scalar>::find_in_block(int group, int block, const Boxes& points, const Scalar* x)
 {
+    if (block >= blocks_.sets()) return;  // empty, and met by a box that is infinite
     const int first = groups_.first[group], first_tet = blocks_.first[block];
     const unsigned vertices = (1U << (groups_.first[group + 1] - first)) - 1, tets = (1U << (blocks_.first[block + 1] - first_tet)) - 1;
     for_each_bit(Kernels::that_meet(points, box_of_block_[block]) & vertices, [&](int k) {

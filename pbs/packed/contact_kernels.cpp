@@ -13,9 +13,11 @@ template <typename Scalar>
     return Lanes<Scalar>(from, std::experimental::element_aligned);
 }
 
+// By libstdc++'s own conversion: the standard one has only single lanes, whose loop takes as long as the comparison.
 template <typename Mask>
 [[gnu::always_inline]] inline unsigned bits_of(const Mask& mask)
 {
+    static_assert(16 % Mask::size() == 0);
     return static_cast<unsigned>(mask.__to_bitset().to_ulong());
 }
 
@@ -51,10 +53,10 @@ auto ContactKernels<Scalar>::box_around(const Boxes& boxes) -> Box
 template <typename Scalar>
 auto ContactKernels<Scalar>::points_of(const int* begin, const int* end, const Scalar* x) -> Boxes
 {
+    const auto count = static_cast<int>(end - begin);
     Boxes points;
     for (int k = 0; k < at_once; ++k)
-        for (int axis = 0; axis < 3; ++axis)
-            points.low[axis][k] = points.high[axis][k] = x[*(begin + k < end ? begin + k : end - 1) + axis];
+        for (int axis = 0; axis < 3; ++axis) points.low[axis][k] = points.high[axis][k] = x[begin[k < count ? k : count - 1] + axis];
     return points;
 }
 

@@ -9,7 +9,7 @@ template <typename Scalar>
 struct ContactKernels {
     static constexpr int at_once = 16;
     struct Box {
-        Scalar low[3], high[3];  // without points it is inverted, and meets none
+        Scalar low[3], high[3];  // without points it is inverted, and meets no finite one
     };
     struct Boxes {
         Scalar low[3][at_once], high[3][at_once];
@@ -25,11 +25,11 @@ struct ContactKernels {
     static Box box_of(const int* begin, const int* end, const Scalar* x);
     static Box box_around(const Boxes& boxes);
     static Boxes points_of(const int* begin, const int* end, const Scalar* x);  // the last vertex fills up the lanes
-    // Boxes that share a boundary meet; one that is not finite meets none.
+    // Boxes that share a boundary meet. A point that is not a number is in no box.
     static unsigned that_meet(const Boxes& boxes, const Box& box);
 
     static void find_coordinates(const Corners& corners, const Scalar* x, Coordinates& tets);
-    // Tets where the vertex has no negative coordinate and that are not its own.
+    // Tets where the vertex has no negative coordinate, except flat and mirrored ones and its own.
     static unsigned tets_around(const Coordinates& tets, const Corners& corners, int vertex, const Scalar* x);
 };
 

@@ -141,7 +141,7 @@ std::string exceeded(const std::string& what, int value, int most, const std::st
 const std::vector<Budget>& budgets()
 {
     static const std::vector<Budget> all = {
-        {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 23'459, .least_mean = 120},
+        {.what = "pbs", .folders = {"pbs/"}, .endings = cpp, .most_lines = 23'462, .least_mean = 120},
         {.what = "reference_fem", .folders = {"reference_fem/"}, .endings = cpp, .most_lines = 10'190, .least_mean = 120},
         {.what = "analysis", .folders = {"analysis/"}, .endings = cpp, .most_lines = 6'020, .least_mean = 120},
         {.what = "experiments", .folders = {"experiments/"}, .endings = cpp, .most_lines = 26'579, .least_mean = 120},
@@ -151,7 +151,7 @@ const std::vector<Budget>& budgets()
          .most_lines = 66'200},
         {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 44'240, .least_mean = 120},
         {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'850},
-        {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 8'518},
+        {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 8'525},
         {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 150},
     };
     return all;

@@ -157,10 +157,12 @@ class Tables(ReadmeTest):
 
     def test_artefacts_name_the_exceptions_and_what_is_not_testable(self):
         twist = unit(0.067, False, body="limb", angle_deg=180.0)
-        text = readme_findings.artefacts([claim("C04", "holds", [unit(1.0)] * 28 + [twist]),
+        text = readme_findings.artefacts([claim("C04", "holds", [unit(1.0)] * 28 + [twist],
+                                                readings=[selection("plain f32", [unit(1.0)] * held + [twist] * (29 - held))
+                                                          for held in (27, 28)]),
                                           claim("C05", "not_testable", untested="too_few_units")])
-        self.assertIn("PBS shows no candy wrapper in 28 of the 29 poses in which LBS narrows; the exception is limb, 180\u00b0 (0.067).",
-                      text)
+        self.assertIn("PBS shows no candy wrapper in 28 of the 29 poses in which LBS narrows; the exception is limb, 180\u00b0 (0.067) "
+                      "(27 or more in other orders and precisions).", text)
         self.assertIn("C05 is not testable: no unit is on record.", text)
 
     def test_convergence_counts_the_cases(self):

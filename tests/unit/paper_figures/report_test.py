@@ -134,19 +134,19 @@ class Report(ReportTest):
         self.assertIn("LBS 0.1 ms, PBS 0.7 ms, the FEM reference 90 s per pose", text)
 
     def test_the_nearest_method_is_named_with_what_it_knows_and_whether_it_is_decided(self):
-        nearest = ["comparison,case,budget_ms,among,nearest,deformer,knows,error_joint_pct,either_of",
-                   "packed_f32,twist,0.1,classes,blend,dqs,,21.7,", "packed_f32,twist,0.1,blend,dqs,dqs,,21.7,",
-                   "packed_f32,twist,1,classes,minimisers,vbd,material attachment,11.4,constraints",
-                   "packed_f32,twist,1,minimisers,vbd,vbd,material attachment,11.4,quasi_newton",
-                   "packed_f32,twist,10,classes,constraints,pbs,,9,blend mush", "plain_f64,twist,10,classes,mush,delta_mush,,9,"]
+        nearest = ["comparison,case,budget_ms,among,nearest,deformer,knows,error_joint_pct,others,either_of",
+                   "packed_f32,twist,0.1,classes,blend,dqs,,21.7,2,", "packed_f32,twist,0.1,blend,dqs,dqs,,21.7,0,",
+                   "packed_f32,twist,1,classes,minimisers,vbd,material attachment,11.4,2,constraints",
+                   "packed_f32,twist,1,minimisers,vbd,vbd,material attachment,11.4,2,quasi_newton",
+                   "packed_f32,twist,10,classes,constraints,pbs,,9,2,blend mush", "plain_f64,twist,10,classes,mush,delta_mush,,9,2,"]
         fronts = ["comparison,case,deformer,knows,ms_median,error_joint_pct", "packed_f32,twist,pbs,,0.9,14", "packed_f32,twist,pbs,,2,9",
                   "packed_f32,twist,vbd_of_other_flesh,,1,13", "packed_f32,twist,vbd,material,1,11.4", "plain_f64,twist,pbs,,0.1,1"]
         for name, lines in (("nearest", nearest), ("fronts", fronts)):
             synthetic_records.write_table(self.results / "work_precision" / f"{name}.csv", list(csv.DictReader(lines)))
         self.assertIn("0.1 ms per frame: blending (DQS), 21.7 % at the joints1 ms per frame: minimisers (such as vertex block descent), "
-                      "11.4 % at the joints; not decided against constraints. It is given the reference\u2019s material, attachment; "
-                      "without: vertex block descent, other flesh 13 %, PBS 14 %10 ms per frame: constraints (PBS), 9 % at the joints; not "
-                      "decided against blending, mushtwist;", words_of(answers.which_method(self.found())))
+                      "11.4 % at the joints; not decided against constraints. They take material and attachment from the reference; "
+                      "without that: vertex block descent, other flesh (13 %), PBS (14 %)10 ms per frame: constraints (PBS), 9 % at the "
+                      "joints; not decided against any other classtwist;", words_of(answers.which_method(self.found())))
 
     def test_the_axis_has_the_units_the_bound_and_the_controls(self):
         synthetic_records.write_claims(self.results)

@@ -20,7 +20,7 @@ using pbs::Positions;
 using pbs::Vec3;
 using Pairs = std::set<std::array<int, 5>>;
 
-const TwoBoneLimb limb = two_bone_limb({24, 4, 4}, Vec3::UnitZ(), 150.0);
+const TwoBoneLimb limb = two_bone_limb({28, 6, 6}, Vec3::UnitZ(), 150.0);  // more blocks of tets than one cluster of clusters has
 // Without its symmetry, which puts vertices on faces of tets.
 const Positions bent = [] {
     RandomPoints random(3);
@@ -151,13 +151,15 @@ TEST(SelfContact, CollapsedMirroredTornAndNotFiniteStatesGiveFiniteConstraints)
     mirrored.col(1) *= -1.0;
     for (Eigen::Index v = 0; v < rest.rows(); v += 7) teleported.row(v).array() += 1e3;
     for (Eigen::Index v = 0; v < rest.rows(); v += 5) not_finite(v, v % 3) = v % 2 ? NAN : INFINITY;
+    Positions infinite = rest;
+    for (Eigen::Index v = 0; v < rest.rows(); ++v) infinite.row(v).setConstant(v % 2 ? INFINITY : -INFINITY);
     RandomPoints random(5);
     Positions shaken = rest;
     for (auto row : shaken.rowwise()) row += random.point(10.0).transpose();
     EXPECT_TRUE(found(limb.mesh, point).empty());
     EXPECT_TRUE(found(limb.mesh, plane).empty());
     EXPECT_TRUE(found(limb.mesh, mirrored).empty());
-    for (const Positions& x : {teleported, not_finite, shaken})
+    for (const Positions& x : {teleported, not_finite, infinite, shaken})
         for (const auto& constraint : found(limb.mesh, x)) {
             EXPECT_TRUE(std::isfinite(constraint.depth));
             EXPECT_GT(constraint.m.norm(), 0.1);
