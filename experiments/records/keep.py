@@ -30,7 +30,7 @@ UNREAD = ("profiles.csv", "regions.csv", "smoothness.csv", "rows.csv")
 # Columns of points.csv that no page, figure or test reads: half of its bytes.
 UNREAD_OF_POINTS = {"ms_q1", "ms_q3", "rounds", "failed_rounds", "error_l2_pct", "error_linf_m", "skin_p95_mm", "skin_largest_mm",
                     "skin_rms_pct", "normals_mean_deg", "tets", "volume_change_pct", "volume_abs_change_pct", "gradients", "vertex_visits",
-                    "tet_visits", "projections", "linear_solves", "factorisations"}
+                    "tet_visits", "projections", "linear_solves", "factorisations", "inverted", "to_linear_elements_joint_pct"}
 PICTURED = ("nh_p2",)  # the reference in the README's picture of the limb, which no claim selects
 PAGES = ("bench.txt",)  # a study's texts that are no pages
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
@@ -76,7 +76,7 @@ def keep_metrics(source, target):
 
 
 def keep_table(source, target):
-    """Of points.csv the columns that are read; of fronts.csv the means, which the README shows."""
+    """Of points.csv the columns that are read; of fronts.csv the means, which the README shows. Numbers are rounded."""
     with source.open(newline="", encoding="utf-8") as file, target.open("w", newline="", encoding="utf-8") as kept:
         rows = csv.DictReader(file)
         columns = [name for name in rows.fieldnames if source.name != "points.csv" or name not in UNREAD_OF_POINTS]
@@ -98,9 +98,9 @@ def keep_run(source, target):
             keep_metrics(table, target / table.name)
         elif table.name in DRAWN:
             continue
-        elif table.name in ("measurements.csv", "printed.csv"):
+        elif table.name == "printed.csv":
             shutil.copyfile(table, target / table.name)
-        elif table.name in RAW or (table.stat().st_size <= TABLE_BYTES and table.name not in UNREAD):
+        elif table.name == "measurements.csv" or table.name in RAW or (table.stat().st_size <= TABLE_BYTES and table.name not in UNREAD):
             keep_table(table, target / table.name)
         else:
             too_long.append(table.relative_to(source.parent))
