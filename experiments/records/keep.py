@@ -98,9 +98,9 @@ def keep_run(source, target):
             keep_metrics(table, target / table.name)
         elif table.name in DRAWN:
             continue
-        elif table.name == "printed.csv":
+        elif table.name in ("measurements.csv", "printed.csv"):
             shutil.copyfile(table, target / table.name)
-        elif table.name == "measurements.csv" or table.name in RAW or (table.stat().st_size <= TABLE_BYTES and table.name not in UNREAD):
+        elif table.name in RAW or (table.stat().st_size <= TABLE_BYTES and table.name not in UNREAD):
             keep_table(table, target / table.name)
         else:
             too_long.append(table.relative_to(source.parent))
