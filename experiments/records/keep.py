@@ -25,8 +25,8 @@ DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # besid
 MOST_BYTES = 17_000_000
 # Tables of a run from which those of the study follow: kept whatever their length. So are two of a study (keep_study).
 RAW = ("points.csv", "rates.csv", "pair_orders.csv")
-# Tables that no verdict and no page reads, and rows.csv, whose rows verification.csv has. Two figures need them from the records of a run.
-UNREAD = ("profiles.csv", "regions.csv", "smoothness.csv", "rows.csv")
+# Tables that no verdict and no page reads, and rows.csv, whose rows verification.csv has. Three figures need them from a run.
+UNREAD = ("profiles.csv", "regions.csv", "smoothness.csv", "rows.csv", "towards.csv")
 # Columns of points.csv that no page, figure or test reads: half of its bytes.
 UNREAD_OF_POINTS = {"ms_q1", "ms_q3", "rounds", "failed_rounds", "error_l2_pct", "error_linf_m", "skin_p95_mm", "skin_largest_mm",
                     "skin_rms_pct", "normals_mean_deg", "tets", "volume_change_pct", "volume_abs_change_pct", "gradients", "vertex_visits",

@@ -108,7 +108,6 @@ TEST(KeptTables, ReadAsRowsAndWrittenAgainAreTheSame)
     expect_same(experiments::answer_columns, "timing/answers.csv", some);
     expect_same(reference_fem::verification_columns(), "verification/verification.csv");
     expect_same(experiments::rate_columns, "convergence/runs/rates.csv");
-    expect_same(experiments::towards_columns, "convergence/runs/towards.csv");
     expect_same(experiments::cell_columns, "stability/runs/cells.csv");
     expect_same(experiments::start_columns, "stability/runs/starts.csv");
     expect_same(experiments::part_columns, "ensemble/runs/parts.csv");
