@@ -78,8 +78,8 @@ def how_far(found):
     bodies = [pose for pose in shown if pose.body != "limb" and number(pose.pbs, "skin_rms_mm") is not None]
     away = {name: span([number(getattr(pose, name), "skin_rms_mm") for pose in bodies]) for name in ("pbs", "lbs")}
     if away["pbs"] != figure(None):
-        where = bodies[0].name if len(bodies) == 1 else counted(len(bodies), "pose")
-        sentence += f" On a body of 1.7 m ({where}), its skin is {away['pbs']} mm away, that of LBS {away['lbs']} mm."
+        sentence += (f" In {counted(len(bodies), 'pose')} of a body of 1.7 m, its skin is {away['pbs']} mm away, that of LBS "
+                     f"{away['lbs']} mm.")
     return answer(question, sentence)
 
 
@@ -92,9 +92,9 @@ def which_method(found):
     means = [row for row in rows if "mean" in row["case"]]
     case = (means or rows)[0]["case"]
     fronts = found.rows("work_precision/fronts.csv")
-    lines = [joined([element("b", f"{number(row, 'budget_ms'):g} ms per frame: "), sentences.nearest_class(row, nearest, fronts)])
+    lines = [joined([element("b", f"{number(row, 'budget_ms'):g} ms per frame: "), sentences.nearest_class(row, nearest, fronts, True)])
              for row in rows if row["case"] == case]
-    lines.append(element("span", f"{case.replace('_', ' ')}; settings were chosen on other poses", class_="place"))
+    lines.append(element("span", f"errors at the joints, {case.replace('_', ' ')}; settings were chosen on other poses", class_="place"))
     return answer(question, joined(lines, Markup("<br>")))
 
 

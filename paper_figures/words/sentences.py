@@ -357,26 +357,33 @@ def disagreements(claim):
     return sentences
 
 
-def nearest_class(row, rows, fronts):
+def nearest_class(row, rows, fronts, is_short=False):
     """The nearest class with its error, the classes that may be as near, and what its deformer takes from the reference; then the nearest
-    that takes nothing, and PBS. row: one of rows, those of nearest.csv; fronts: the rows of fronts.csv."""
+    that takes nothing, and PBS. Short: the number of classes, and not what is taken. row: one of rows, those of nearest.csv; fronts: the
+    rows of fronts.csv."""
     def same(other, *columns):
         return all(other[column] == row[column] for column in ("comparison", "case", *columns))
 
     def nearest(fits):
         ends = [(float(of["error_joint_pct"]), of["deformer"]) for of in fronts
                 if same(of) and fits(of) and float(of["ms_median"]) <= float(row["budget_ms"])]
-        return [f"{looks.of(min(ends)[1]).name} ({figure(min(ends)[0])} %)"] if ends else []
+        return [f"{name_of(min(ends)[1])} ({figure(min(ends)[0])} %)"] if ends else []
+
+    def name_of(deformer):
+        return looks.short(deformer) if is_short else looks.of(deformer).name
 
     own = [other for other in rows if same(other, "budget_ms") and other["among"] == row["nearest"]]
     such_as = "such as " if any(other["either_of"] for other in own) else ""
     classes, knows = ([case_words.of_field(field, name) for name in row[column].split()]
                       for field, column in (("class", "either_of"), ("knows", "knows")))
-    told = (f"{case_words.of_field('class', row['nearest'])} ({such_as}{looks.of(row['deformer']).name}), "
-            f"{figure(float(row['error_joint_pct']))} % at the joints")
+    told = (f"{case_words.of_field('class', row['nearest'])} ({such_as}{name_of(row['deformer'])}), "
+            f"{figure(float(row['error_joint_pct']))} %{'' if is_short else ' at the joints'}")
+    without = list(dict.fromkeys(nearest(lambda of: not of["knows"]) + nearest(lambda of: of["deformer"] == "pbs")))
+    if is_short:
+        told += f"; undecided against {counted(len(classes), 'class', 'classes')}" if classes else ""
+        return told + (f"; without help from the reference: {', '.join(without)}" if knows and without else "")
     if classes:
         told += f"; not decided against {'any other class' if len(classes) == int(row['others']) > 1 else ', '.join(classes)}"
-    without = list(dict.fromkeys(nearest(lambda of: not of["knows"]) + nearest(lambda of: of["deformer"] == "pbs")))
     if knows:
         listed = " and ".join(filter(None, [", ".join(knows[:-1]), knows[-1]]))
         told += f". They take {listed} from the reference" + (f"; without that: {', '.join(without)}" if without else "")
