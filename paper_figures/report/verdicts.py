@@ -98,8 +98,9 @@ def line(claim, found, pose, drawn):
     statement = element("span", joined([element("b", claim["id"]), f" {claim['statement']} ",
                                         element("span", claim["place"], class_="place")]), class_="statement")
     first = [*sentences.why_untested(claim)[:1], *(sentences.facts(claim) or [""])[:1], *sentences.by_chance(claim)]
-    told = element("span", joined([both_marks(claim), element("span", "; ".join(dict.fromkeys(first)), class_="under")]), class_="verdict")
-    summary = element("summary", joined([statement, told, element("span", axis.drawn(claim), class_="numbers")]))
+    verdict = element("span", joined([both_marks(claim), element("span", "; ".join(dict.fromkeys(first)), class_="under")]),
+                      class_="verdict")
+    summary = element("summary", joined([statement, verdict, element("span", axis.drawn(claim), class_="numbers")]))
     where = [element("a", "see it move", href=pose, class_="pose")] if pose else []
     where += [element("a", f"figure: {entry.title}", href=f"#figure-{entry.name}") for entry in drawn if claim["id"] in entry.claims]
     links = element("p", joined(where, ", "), class_="links") if where else ""

@@ -376,15 +376,15 @@ def nearest_class(row, rows, fronts, is_short=False):
     such_as = "such as " if any(other["either_of"] for other in own) else ""
     classes, knows = ([case_words.of_field(field, name) for name in row[column].split()]
                       for field, column in (("class", "either_of"), ("knows", "knows")))
-    told = (f"{case_words.of_field('class', row['nearest'])} ({such_as}{name_of(row['deformer'])}), "
+    sentence = (f"{case_words.of_field('class', row['nearest'])} ({such_as}{name_of(row['deformer'])}), "
             f"{figure(float(row['error_joint_pct']))} %{'' if is_short else ' at the joints'}")
     without = list(dict.fromkeys(nearest(lambda of: not of["knows"]) + nearest(lambda of: of["deformer"] == "pbs")))
     if is_short:
-        told += f"; undecided against {counted(len(classes), 'class', 'classes')}" if classes else ""
-        return told + (f"; without help from the reference: {', '.join(without)}" if knows and without else "")
+        sentence += f"; undecided against {counted(len(classes), 'class', 'classes')}" if classes else ""
+        return sentence + (f"; without help from the reference: {', '.join(without)}" if knows and without else "")
     if classes:
-        told += f"; not decided against {'any other class' if len(classes) == int(row['others']) > 1 else ', '.join(classes)}"
+        sentence += f"; not decided against {'any other class' if len(classes) == int(row['others']) > 1 else ', '.join(classes)}"
     if knows:
         listed = " and ".join(filter(None, [", ".join(knows[:-1]), knows[-1]]))
-        told += f". They take {listed} from the reference" + (f"; without that: {', '.join(without)}" if without else "")
-    return told
+        sentence += f". They take {listed} from the reference" + (f"; without that: {', '.join(without)}" if without else "")
+    return sentence

@@ -17,7 +17,7 @@ struct ContactKernels {
     struct Corners {
         int offset[4][at_once];
     };
-    // Of each tet: rows of the inverse of its edges (barycentric coordinates 2 to 4) times six volumes, from its first corner.
+    // For each tet, the rows of the inverse of its edges (barycentric coordinates 2 to 4) times six volumes, from its first corner.
     struct Coordinates {
         Scalar first[3][at_once], inverse[3][3][at_once], volume[at_once];
     };

@@ -151,7 +151,7 @@ const std::vector<Budget>& budgets()
          .most_lines = 66'200},
         {.what = "tests in C++", .folders = {"tests/"}, .endings = cpp, .most_lines = 44'240, .least_mean = 120},
         {.what = "tests in Python and JavaScript", .folders = {"tests/"}, .endings = scripts, .most_lines = 11'850},
-        {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 8'532},
+        {.what = "paper_figures", .folders = {"paper_figures/"}, .endings = scripts, .most_lines = 8'533},
         {.what = "kept records", .folders = {"experiments/records/full/"}, .most_files = 150},
     };
     return all;
