@@ -12,7 +12,7 @@
 // after a teleport; and where a position is not finite.
 #pragma once
 
-#include "pbs/packed/contact_kernels.hpp"
+#include "pbs/packed/batch.hpp"
 #include "pbs/contact/depth_constraint.hpp"
 
 #include <vector>

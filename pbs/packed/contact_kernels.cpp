@@ -1,5 +1,3 @@
-#include "pbs/packed/contact_kernels.hpp"
-
 #include "pbs/packed/lanes.hpp"
 
 #include <limits>

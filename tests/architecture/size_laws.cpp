@@ -25,7 +25,6 @@ const std::map<std::string, std::string> named_interfaces = {
     {"pbs/geometry/meshing_cgal.hpp", "the interface of CGAL's mesher, which one source compiles"},
     {"pbs/geometry/meshing_unavailable.cpp", "in place of a library that is left out"},
     {"pbs/geometry/nearest_rotation.cpp", "Eigen's form of formulae that the kernels use without Eigen"},
-    {"pbs/packed/contact_kernels.hpp", "the interface of a source that is compiled for the machine"},
     {"pbs/rig/rig_reader_unavailable.cpp", "in place of a library that is left out"},
     {"pbs/solver/algorithm_1.hpp", "the solver in two precisions behind PbsSolver"},
     {"tests/properties/pbs/geometry/meshing_repeats.cpp", "one of two files that the mesher's library alone is linked with"},
