@@ -2,7 +2,10 @@
 import base64
 import dataclasses
 import html
+import io
 import re
+
+from PIL import Image
 
 import records
 from records import entries
@@ -11,6 +14,14 @@ from report.markup import Markup, beside_the_page, element, escaped, joined
 from words import captions
 
 most_inline_kb = 100  # size of a CSV that the page contains
+papers_own = re.compile(r"(Figure|Table) \d")  # titles that contain the paper's own number
+
+
+def smaller(found):
+    """The URI of the same picture as WebP without loss, which needs about half of the bytes of PNG."""
+    packed = io.BytesIO()
+    Image.open(io.BytesIO(base64.b64decode(found[1]))).save(packed, "webp", lossless=True)
+    return as_uri(packed.getvalue(), "image/webp")
 
 
 def inline_svg(text, name, label):
@@ -20,14 +31,15 @@ def inline_svg(text, name, label):
     text = re.sub(r'\sxmlns(:\w+)?="[^"]*"', "", text)
     text = re.sub(r"(<circle [^>]*)><title>([^<]*)</title></circle>",
                   lambda found: f'{found[1]} data-value="{found[2].replace(chr(34), "&quot;")}"/>', text)
+    text = re.sub(r'data:image/png;base64,([^"]*)', smaller, text)
     text = re.sub(r'\bid="([^"]+)"', rf'id="{name}-\1"', text)
     text = re.sub(r"url\(#([^)]+)\)", rf"url(#{name}-\1)", text)
     text = re.sub(r'(?:xlink:)?href="#([^"]+)"', rf'href="#{name}-\1"', text).replace("xlink:href=", "href=")
     return Markup(text.replace("<svg", f'<svg role="img" aria-label="{html.escape(label)}" tabindex="0" class="plot"', 1))
 
 
-def data_uri(file, kind):
-    return f"data:{kind};base64,{base64.b64encode(file.read_bytes()).decode()}"
+def as_uri(content, kind):
+    return f"data:{kind};base64,{base64.b64encode(content).decode()}"
 
 
 def drawn(found, entry):
@@ -36,21 +48,12 @@ def drawn(found, entry):
     if absent:
         raise records.RecordsMissing(record_set.why_absent(found, absent))
     entry.check(found.results)
-    for ending in ("svg", "png"):
-        file = found.results / "figures" / f"{entry.name}.{ending}"
-        if file.is_file():
-            newest_s = max(behind.stat().st_mtime for behind in entry.files(found.results))
-            if file.stat().st_mtime < newest_s - entries.slack_s:
-                raise records.RecordsMissing("stale: its records are newer; draw it anew (paper_figures/make_all.py)")
-            return file
-    raise records.RecordsMissing("does not exist yet: paper_figures/make_all.py draws it")
-
-
-def picture(file, entry):
-    label = f"{entry.title}. {entry.caption}"
-    if file.suffix == ".svg":
-        return element("div", inline_svg(file.read_text(), entry.name, label), class_="scroll drawing")
-    return Markup(f'<img alt="{html.escape(label)}" src="{data_uri(file, "image/png")}">')
+    file = found.results / "figures" / f"{entry.name}.svg"
+    records.need(file.is_file(), "does not exist yet: paper_figures/make_all.py draws it")
+    newest_s = max(behind.stat().st_mtime for behind in entry.files(found.results))
+    if file.stat().st_mtime < newest_s - entries.slack_s:
+        raise records.RecordsMissing("stale: its records are newer; draw it anew (paper_figures/make_all.py)")
+    return file
 
 
 def numbers_link(found, entry):
@@ -58,33 +61,30 @@ def numbers_link(found, entry):
     if not file.is_file():
         return ""
     inline = file.stat().st_size <= 1000 * most_inline_kb
-    target = data_uri(file, "text/csv") if inline else f"figures/{file.name}"
+    target = as_uri(file.read_bytes(), "text/csv") if inline else f"figures/{file.name}"
     apart = "" if inline else f" ({escaped(beside_the_page('files'))})"
     return Markup(f' <a download="{file.name}" href="{target}">numbers (CSV)</a>{apart}')
 
 
-def numbered(entry, number):
-    """The title with a number; a title that contains the paper's own number stays unchanged."""
-    return entry.title if re.match(r"(Figure|Table) \d", entry.title) else f"Figure {number}: {entry.title}"
-
-
 def drawn_figure(found, entry, number, file):
     known = {claim["id"] for claim in found.claims or []}
-    about = [element("b", f"{numbered(entry, number)}. "), entry.caption, " "]
+    title = entry.title if papers_own.match(entry.title) else f"Figure {number}: {entry.title}"
+    about = [element("b", f"{title}. "), entry.caption, " "]
     claims = joined((element("a", claim, href=f"#{claim}") if claim in known else claim for claim in entry.claims), ", ")
     about += ["Claims: ", claims, ". "] if entry.claims else []
     about += [Markup(f'<abbr title="{html.escape(entries.marks[entry.mark])}">{entry.mark}</abbr>'), numbers_link(found, entry)]
-    caption = element("figcaption", joined(about))
-    return element("figure", joined([picture(file, entry), caption], "\n"), id=f"figure-{entry.name}")
+    drawing = element("div", inline_svg(file.read_text(), entry.name, f"{entry.title}. {entry.caption}"), class_="scroll drawing")
+    return element("figure", joined([drawing, element("figcaption", joined(about))], "\n"), id=f"figure-{entry.name}")
 
 
 def section(found):
     """The HTML of the figures, their entries, and a list of those that are missing."""
     parts, shown, missing, number = [], [], [], 0
-    for entry in entries.read():  # the paper's figures come first; each keeps its number even if others are missing
-        number += not entry.title.startswith("Table")
+    for entry in entries.read():  # the paper's figures come first, and keep their numbers even if others are missing
+        number += entry.title.startswith("Figure ")
         try:
             file = drawn(found, entry)
+            number += not papers_own.match(entry.title)
             as_drawn = dataclasses.replace(entry, caption=captions.read(entry, found.results / "figures"))  # as when it was drawn
             parts.append(drawn_figure(found, as_drawn, number, file))
             shown.append(entry)

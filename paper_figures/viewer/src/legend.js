@@ -123,7 +123,7 @@ export function note_of(run, every, at) {
     const masked_pct = run.masked_share_pct(at);
     const mark = masked_pct > 0 ? "* In this frame distances leave out "
         + `${masked_pct.toPrecision(2)} % of the volume, where the FEM reference is creased or overlaps itself. ` : "";
-    const kept = every === 1 ? "every recorded frame" : `one of ${every} recorded frames`;
+    const kept = every === 1 ? "every recorded frame" : `one in ${every} recorded frames`;
     const step_um = shown(1e6 * run.step_m);
     const of_reference = run.labels.includes(run.reference) ? locking : "";
     return `${mark}${of_reference}${run.vertices} vertices, ${run.tets} tets${carried_by(run)}; ${kept}. Positions are rounded to steps of `
