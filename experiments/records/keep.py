@@ -27,10 +27,10 @@ MOST_BYTES = 17_000_000
 RAW = ("points.csv", "rates.csv", "pair_orders.csv")
 # Tables that no verdict and no page reads, and rows.csv, whose rows verification.csv has. Three figures need them from a run.
 UNREAD = ("profiles.csv", "regions.csv", "smoothness.csv", "rows.csv", "towards.csv")
-# Columns of points.csv that no page, figure or test reads: half of its bytes.
-UNREAD_OF_POINTS = {"ms_q1", "ms_q3", "rounds", "failed_rounds", "error_l2_pct", "error_linf_m", "skin_p95_mm", "skin_largest_mm",
-                    "skin_rms_pct", "normals_mean_deg", "tets", "volume_change_pct", "volume_abs_change_pct", "gradients", "vertex_visits",
-                    "tet_visits", "projections", "linear_solves", "factorisations", "inverted", "to_linear_elements_joint_pct"}
+# Columns of points.csv that no page, figure or test reads, beside all errors but that at the joints: more than half of its bytes.
+UNREAD_OF_POINTS = {"ms_q1", "ms_q3", "rounds", "failed_rounds", "skin_p95_mm", "skin_largest_mm", "skin_rms_pct", "normals_mean_deg",
+                    "tets", "volume_change_pct", "volume_abs_change_pct", "gradients", "vertex_visits", "tet_visits", "projections",
+                    "linear_solves", "factorisations", "inverted", "to_linear_elements_joint_pct"}
 PICTURED = ("nh_p2",)  # the reference in the README's picture of the limb, which no claim selects
 PAGES = ("bench.txt",)  # a study's texts that are no pages
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
@@ -75,11 +75,16 @@ def keep_metrics(source, target):
         writer.writerows([rounded(row[column]) for column in columns] for row in rows)
 
 
+def is_read(column):
+    """For columns of points.csv."""
+    return column not in UNREAD_OF_POINTS and (not column.startswith("error_") or column == "error_joint_pct")
+
+
 def keep_table(source, target):
     """Of points.csv the columns that are read; of fronts.csv the means, which the README shows. Numbers are rounded."""
     with source.open(newline="", encoding="utf-8") as file, target.open("w", newline="", encoding="utf-8") as kept:
         rows = csv.DictReader(file)
-        columns = [name for name in rows.fieldnames if source.name != "points.csv" or name not in UNREAD_OF_POINTS]
+        columns = [name for name in rows.fieldnames if source.name != "points.csv" or is_read(name)]
         writer = csv.DictWriter(kept, columns, lineterminator="\n")
         writer.writeheader()
         writer.writerows({name: rounded(row[name]) for name in columns} for row in rows
