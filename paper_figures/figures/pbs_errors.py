@@ -42,7 +42,7 @@ def name_of(row):
     """The flesh by its attachment, smooth springs by their q and the radius of the core; the linear model is named, the law of the
     reference is not."""
     if row["model"] == "linear":
-        return f"linear, {row['attachment']}"
+        return f"linear {row['attachment']}"
     if row["attachment"] == "smooth":
         return f"q {float(row['spring_factor']):g}, core {float(row['core_radius']):g}"
     return "bind constraint" if row["attachment"] == "bind" else row["attachment"]
@@ -58,7 +58,7 @@ def draw_attachments(axes, rows, pose):
             axes.annotate("not reached", (0.01, place), xycoords=("axes fraction", "data"), va="center", fontsize=style.tick_size)
     axes.set_xlabel("converged PBS from flesh [%]")
     axes.grid(axis="y", visible=False)
-    return [{"pose": pose, "k_stretch": row["k_stretch"], "shown": "model_pct", "at": row["reference"], "value_pct": row["model_pct"]}
+    return [{"pose": pose, "k_stretch": row["k_stretch"], "shown": "model_pct", "at": name_of(row), "value_pct": row["model_pct"]}
             for row in chosen]
 
 

@@ -94,7 +94,7 @@ class Plots(ResultsTest):
         self.assertEqual([row["value_pct"] for row in rows if row["shown"] == "model_pct" and "bind" in row["at"]], ["80.0", "nan"])
         for panel in axes[2:4]:
             names = [text.get_text() for text in panel.get_yticklabels()]
-            self.assertEqual(names, ["linear, smooth", "bind constraint", "embedded", "q 10, core 0.7"])
+            self.assertEqual(names, ["linear smooth", "bind constraint", "embedded", "q 10, core 0.7"])
             self.assertEqual(panel.get_ylim(), (-0.5, 3.5))
         self.assertEqual([text.xy[1] for text in axes[3].texts], [1])
         self.assertEqual(self.stem.with_suffix(".svg").read_text().count("not reached"), 1)
