@@ -27,7 +27,7 @@ MOST_BYTES = 17_000_000
 RAW = ("points.csv", "rates.csv", "pair_orders.csv")
 # Tables that no verdict and no page reads, and rows.csv, whose rows verification.csv has. Three figures need them from a run.
 UNREAD = ("profiles.csv", "regions.csv", "smoothness.csv", "rows.csv", "towards.csv")
-# Columns of points.csv that no page, figure or test reads, beside all errors but that at the joints: more than half of its bytes.
+# No page, figure or test reads these columns of points.csv, nor any error except that at the joints.
 UNREAD_OF_POINTS = {"ms_q1", "ms_q3", "rounds", "failed_rounds", "skin_p95_mm", "skin_largest_mm", "skin_rms_pct", "normals_mean_deg",
                     "tets", "volume_change_pct", "volume_abs_change_pct", "gradients", "vertex_visits", "tet_visits", "projections",
                     "linear_solves", "factorisations", "inverted", "to_linear_elements_joint_pct"}
@@ -76,7 +76,7 @@ def keep_metrics(source, target):
 
 
 def is_read(column):
-    """For columns of points.csv."""
+    """Whether a column of points.csv is kept."""
     return column not in UNREAD_OF_POINTS and (not column.startswith("error_") or column == "error_joint_pct")
 
 

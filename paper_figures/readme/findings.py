@@ -163,10 +163,8 @@ def errors_and_shares(results):
 
 def undecided(notable):
     """The causes with their counts, as a sentence, or nothing."""
-    causes = {"reference_error": "the own error of a reference is too large or not known",
-              "models_disagree": "two references, or the default and the chosen settings, disagree"}
-    counts = {text: sum(pair["decision"] == cause for pair in notable) for cause, text in causes.items()}
-    parts = [f"in {count} {text}" for text, count in counts.items() if count]
+    counts = {cause: sum(pair["decision"] == cause for pair in notable) for cause in ("reference_error", "models_disagree")}
+    parts = [f"in {count} {case_words.of_field('decision', cause)}" for cause, count in counts.items() if count]
     return f" The others are undecided: {' and '.join(parts)}." if parts else ""
 
 

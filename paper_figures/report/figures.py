@@ -20,7 +20,7 @@ papers_own = re.compile(r"(Figure|Table) \d")  # titles that contain the paper's
 def smaller(found):
     """The URI of the same picture as WebP without loss, which needs about half of the bytes of PNG."""
     packed = io.BytesIO()
-    Image.open(io.BytesIO(base64.b64decode(found[1]))).save(packed, "webp", lossless=True)
+    Image.open(io.BytesIO(base64.b64decode(found[1]))).save(packed, "webp", lossless=True, exact=True)
     return as_uri(packed.getvalue(), "image/webp")
 
 
@@ -84,8 +84,8 @@ def section(found):
         number += entry.title.startswith("Figure ")
         try:
             file = drawn(found, entry)
-            number += not papers_own.match(entry.title)
             as_drawn = dataclasses.replace(entry, caption=captions.read(entry, found.results / "figures"))  # as when it was drawn
+            number += not papers_own.match(entry.title)
             parts.append(drawn_figure(found, as_drawn, number, file))
             shown.append(entry)
         except records.RecordsMissing as error:

@@ -383,7 +383,8 @@ def nearest_class(row, rows, fronts, is_short=False):
         sentence += f"; undecided against {counted(len(classes), 'class', 'classes')}" if classes else ""
         return sentence + (f"; without help from the reference: {', '.join(without)}" if knows and without else "")
     if classes:
-        sentence += f"; not decided against {'any other class' if len(classes) == int(row['others']) > 1 else ', '.join(classes)}"
+        against = "any other class" if len(classes) == int(row["others"]) > 1 else ", ".join(classes)
+        sentence += f"; not decided against {against}, since {case_words.of_field('decision', row['decision'])}"
     if knows:
         listed = " and ".join(filter(None, [", ".join(knows[:-1]), knows[-1]]))
         sentence += f". They take {listed} from the reference" + (f"; without that: {', '.join(without)}" if without else "")

@@ -1,5 +1,5 @@
 // Sixteen groups of constraints that share no vertex, side by side: the input of the kernels. Plain data, for builders and kernels alike.
-// ContactKernels are the kernels that code without batches uses as well.
+// ContactKernels declares the kernels of the search for self-contact, which code without batches uses as well.
 //
 // A group is what one lane projects before it stores its vertices: a single constraint (order `ordered`), or a few that share most of their
 // vertices (order `grouped`), so that each vertex is loaded and stored once for all of them.
@@ -71,9 +71,9 @@ struct alignas(64) BindBatch {
     Scalar stiffness[batch_size];                        // zero where the vertex is pinned or has no bind constraint
 };
 
-// The inner loops of the search for self-contact (SelfContact), in a source that is compiled for the machine (PBS_NATIVE): raw pointers
-// only. x: positions [m]; an offset is the place of a vertex's first coordinate there. Sixteen boxes, vertices or tets are compared at
-// once: bit k of a result is that of lane k.
+// The inner loops of the search for self-contact (SelfContact), in a source that is compiled for the machine (PBS_NATIVE). They take raw
+// pointers only. x: positions [m]; an offset is the place of a vertex's first coordinate there. Sixteen boxes, vertices or tets are
+// compared at once: bit k of a result is that of lane k.
 template <typename Scalar>
 struct ContactKernels {
     static constexpr int at_once = 16;

@@ -91,7 +91,7 @@ class Plots(ResultsTest):
 
         with unittest.mock.patch.object(style, "save", kept):
             rows = self.drawn("error_split")
-        self.assertEqual([row["value_pct"] for row in rows if row["shown"] == "model_pct" and "bind" in row["at"]], ["80.0", "nan"])
+        self.assertEqual([row["value_pct"] for row in rows if row["at"] == "bind constraint"], ["80.0", "nan"])
         for panel in axes[2:4]:
             names = [text.get_text() for text in panel.get_yticklabels()]
             self.assertEqual(names, ["linear smooth", "bind constraint", "embedded", "q 10, core 0.7"])
