@@ -209,8 +209,8 @@ def figure_lines(results):
     figure, axes = style.panels(1, 1, height_in=3.4, width_in=style.page_in)
     style.label_ends(axes[0][0], work_precision.draw_panel(axes[0][0], panel))
     style.save(figure, picture.with_suffix(""), origin, work_precision.rows_behind(panel), formats=("png",), dpi=250)
-    rows, fronts = (records.table(results / "work_precision" / name, {"case", "knows", "deformer", "error_joint_pct"})
-                    for name in ("nearest.csv", "fronts.csv"))
+    rows, fronts = (records.table(results / "work_precision" / name, {"case", "knows", "deformer", "error_joint_pct", *more})
+                    for name, more in (("nearest.csv", ["decision"]), ("fronts.csv", [])))
     within_1_ms = only(panel.nearest, "nearest.csv: the mean", among="classes", budget_ms="1")
     return [f"![Error against run time of each class of deformers](paper_figures/readme/{picture.name})", "",
             f"*Error at the joints against processor time per frame on one core ({origin['cpu_model']}), {panel.title}. Each line is a "

@@ -84,7 +84,7 @@ class KeptRecords(program.ProgramTest):
         return pathlib.Path(self.path("kept"))
 
     def test_of_points_the_columns_that_are_read_and_of_fronts_the_means_are_kept(self):
-        for name, text, kept in (("points.csv", "ms_q1,ms_median,error_x_pct\n1,2.1234567,4\n", "ms_median\n2.12346\n"),
+        for name, text, kept in (("points.csv", "ms_q1,error_joint_pct,error_x_pct\n1,2.1234567,4\n", "error_joint_pct\n2.12346\n"),
                                  ("fronts.csv", "case,ms_q1\nlimb,1\nmean_of_2_poses,2\n", "case,ms_q1\nmean_of_2_poses,2\n")):
             keep.keep_table(pathlib.Path(self.write(name, text)), pathlib.Path(self.path("kept.csv")))
             self.assertEqual(self.read("kept.csv"), kept)
