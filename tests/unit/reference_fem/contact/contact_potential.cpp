@@ -157,7 +157,9 @@ TEST_P(FlatFaces, KeepATenthOfTheirDistanceInAnyStep)
     EXPECT_FALSE(contact.intersects(apart + largest * step));
     EXPECT_TRUE(contact.intersects(apart + 0.7 * step));
     EXPECT_EQ(contact.largest_step(apart, -step), 1.0);
-    EXPECT_EQ(contact.largest_step(apart, Eigen::VectorXd::Constant(space.dofs(), std::numeric_limits<double>::quiet_NaN())), 0.0);
+    const Eigen::VectorXd nowhere = Eigen::VectorXd::Constant(space.dofs(), std::numeric_limits<double>::quiet_NaN());
+    EXPECT_EQ(contact.largest_step(apart, nowhere), 0.0);
+    EXPECT_FALSE(contact.intersects(nowhere));
 }
 
 // To the bit: what was searched before has no effect.
@@ -207,7 +209,6 @@ TEST(ContactPotential, OfPartsThatAreNearAtRestHasHalfTheirDistanceAsItsRange)
     EXPECT_NEAR(contact.largest_step(closed_by(0.0), closed_by(2.0)), 0.45, 1e-3);
 }
 
-// The sides of a cut through flesh, up to rounding. Their pairs would have a range of that size, and its barrier no finite slope.
 // The two sides of a cut touch at rest up to rounding, and half of their distance would be the range. These pairs would press once 0.7 of
 // the distance is closed.
 TEST(ContactPotential, LeavesOutPairsThatTouchAtRest)
@@ -222,6 +223,26 @@ TEST(ContactPotential, LeavesOutPairsThatTouchAtRest)
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(space.dofs());
     EXPECT_EQ(contact.largest_step(rest, opened), 1.0);
     EXPECT_EQ(gradient_of(contact, -0.7 * touching_m * opened).norm(), 0.0);
+}
+
+TEST(NearPairs, AreThoseThatTryingAllPairsFinds)
+{
+    const SimplexSpace space(two_blocks(5), 1);
+    const NearPairs near(space, range_m);
+    const Eigen::VectorXd at = brought_together_askew(space, 0.2 * range_m) + random_dofs(space.dofs(), 0.1 * range_m, 1);
+    const auto& [nodes, edges, triangles, node_area, edge_area] = near.surface();
+    std::vector<std::tuple<PairKind, int, int>> found, expected;
+    for (const NearPair& pair : near.at(at)) found.push_back({pair.kind, pair.first, pair.second});
+    const auto expect_if_near = [&](PairKind kind, int first, int second) {
+        const std::array<int, 4> corners = near.nodes_of({kind, first, second});
+        const bool is_across = (space.node_positions()(corners[0], 2) > 1.0) != (space.node_positions()(corners[3], 2) > 1.0);
+        if (is_across && closest_points(kind, near.points_of(corners, at)).distance_m < range_m) expected.push_back({kind, first, second});
+    };
+    for (const int node : nodes)
+        for (std::size_t t = 0; t < triangles.size(); ++t) expect_if_near(PairKind::point_triangle, node, int(t));
+    for (std::size_t one = 0; one < edges.size(); ++one)
+        for (std::size_t other = one + 1; other < edges.size(); ++other) expect_if_near(PairKind::edge_edge, int(one), int(other));
+    EXPECT_TRUE(expected.size() > 20 && std::ranges::includes(found, expected)) << expected.size() << " of " << found.size();
 }
 
 TEST(ContactPotential, IsTheSameForAMovedAndAMirroredBody)
