@@ -77,7 +77,7 @@ BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton
         const Vec3 vertex = rest.row(i);
         int nearest = 0;
         bool may_be_bound = false;
-        Projection best;
+        Projection best{};
         for (int j = 0; j < static_cast<int>(skeleton.bones.size()); ++j) {
             const Projection candidate = project_on_bone(vertex, skeleton.bones[j]);
             const bool may = !may_bind || may_bind(static_cast<int>(i), j);

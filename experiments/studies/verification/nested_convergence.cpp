@@ -25,7 +25,7 @@ double rms(const pbs::Positions& one, const pbs::Positions& other)
 
 // At the common vertices. The values are not a number where Newton's method does not converge.
 struct NestedSolutions {
-    pbs::Positions exact, linear, linear_refined, quadratic, finest;
+    pbs::Positions exact, linear{}, linear_refined{}, quadratic{}, finest{};
     int dofs = 0;  // of the finest
 
     double error_of(const pbs::Positions& positions) const { return rms(positions, exact); }
