@@ -41,7 +41,7 @@ public:
     // displacement, step [m], #dofs.
     const std::vector<NearPair>& at(const Eigen::VectorXd& displacement) const;                   // sorted
     double largest_step(const Eigen::VectorXd& displacement, const Eigen::VectorXd& step) const;  // share, 0 to 1
-    // Whether an edge of the surface passes through a triangle.
+    // Whether an edge of the surface passes through a triangle; edges and triangles whose places are not numbers do not.
     bool intersects(const Eigen::VectorXd& displacement) const;
 
     std::array<int, 4> nodes_of(const NearPair& pair) const;
