@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 namespace reference_fem {
@@ -57,12 +56,10 @@ void for_each_overlap(const std::vector<Box>& one, const std::vector<Box>& other
     const auto ends_m = [&](int column) { return second.ends_m.col(column).data(); };
     const double *x = ends_m(a), *y = ends_m(b), *z = ends_m(c), *x_end = ends_m(3 + a), *y_end = ends_m(3 + b), *z_end = ends_m(3 + c);
     const Eigen::Index count = second.ends_m.rows();
-    std::vector<double> farthest_end_m(count);  // of a box and all before it
-    std::partial_sum(x_end, x_end + count, farthest_end_m.begin(), [](double one_m, double other_m) { return std::max(one_m, other_m); });
     for (Eigen::Index i = 0, begin = 0; i < first.ends_m.rows(); ++i) {
         const Eigen::Array3d lower = first.ends_m.row(i).head<3>(), upper = first.ends_m.row(i).tail<3>();
         const double x0 = lower(a), y0 = lower(b), z0 = lower(c), x1 = upper(a), y1 = upper(b), z1 = upper(c);
-        while (begin < count && farthest_end_m[begin] < x0) ++begin;
+        while (begin < count && x_end[begin] < x0) ++begin;
         for (Eigen::Index j = is_same_list ? i + 1 : begin; j < count && x[j] <= x1; ++j)
             if ((x_end[j] >= x0) & (y[j] <= y1) & (y_end[j] >= y0) & (z[j] <= z1) & (z_end[j] >= z0))  // five comparisons, one branch
                 found(first.begin_m_and_number[i].second, second.begin_m_and_number[j].second);
