@@ -26,7 +26,7 @@ pbs::TetMesh two_blocks(int n)
     return joined({box_mesh({0, 0, 0}, {1, 1, 0.5}, {2, 2, 1}), box_mesh({0, 0, 1.5}, {1, 1, 2}, {n, n, 1})});
 }
 
-// What is above a height comes down by 1 m less gap_m: the upper block until the distance is gap_m.
+// Each node above the height above_m moves up by gap_m - 1 m. The two blocks, 1 m apart at rest, then have the distance gap_m.
 Eigen::VectorXd brought_together(const SimplexSpace& space, double gap_m, double above_m = 1.0)
 {
     Eigen::VectorXd displacement = Eigen::VectorXd::Zero(space.dofs());
