@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace pbs {
@@ -136,49 +137,42 @@ SelfContact<Scalar>::SelfContact(const TetMesh& mesh, const std::vector<int>& pl
       half_edge_m_(mean_edge_m(mesh) / 2.0),
       groups_(mesh.rest, skin_.vertices(), at_once),
       blocks_(centroids(mesh), numbers_below(mesh.tets.rows()), at_once),
+      points_(mesh.rest.rows()),
       first_of_block_{0},
       corners_(blocks_.sets()),
-      coordinates_(blocks_.sets()),
-      clusters_((blocks_.sets() + at_once * at_once - 1) / (at_once * at_once)),
-      boxes_(at_once * clusters_.size()),
-      box_of_block_(at_once * boxes_.size())
+      vertices_(groups_.sets()),
+      clusters_((groups_.sets() + at_once - 1) / at_once),
+      all_((clusters_.size() + at_once - 1) / at_once),
+      inside_(groups_.member.size()),
+      of_inside_(inside_.size()),
+      tets_around_(inside_.size())
 {
+    for (Boxes& unused : clusters_) Kernels::find_points(nullptr, nullptr, nullptr, unused);
+    for (Boxes& unused : all_) Kernels::find_points(nullptr, nullptr, nullptr, unused);
     for (const int row : place) offset_.push_back(stride * row);
-    for (const int v : groups_.member) of_group_.push_back(offset_[v]);
+    for (const int v : groups_.member) of_group_.push_back(4 * v);
     for (int b = 0; b < blocks_.sets(); ++b) {
-        std::vector<int> vertices;
+        std::set<std::uint32_t> vertices;
         for (int lane = 0; lane < at_once; ++lane) {
             const int k = blocks_.first[b] + lane, tet = blocks_.member[k < blocks_.first[b + 1] ? k : blocks_.first[b]];
-            for (int i = 0; i < 4; ++i) vertices.push_back(corners_[b].offset[i][lane] = offset_[mesh.tets(tet, i)]);
+            for (int i = 0; i < 4; ++i) vertices.insert(corners_[b].offset[i][lane] = 4 * mesh.tets(tet, i));
         }
-        std::sort(vertices.begin(), vertices.end());
-        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-        for (const int offset : vertices) of_block_.push_back(offset);
+        for (const std::uint32_t offset : vertices) of_block_.push_back(offset);
         first_of_block_.push_back(static_cast<int>(of_block_.size()));
     }
-    first_of_block_.resize(box_of_block_.size() + 1, first_of_block_.back());  // empty blocks fill up the lanes
 }
 
 template <typename Scalar>
-void SelfContact<Scalar>::find_hits(const Scalar* x)
+void SelfContact<Scalar>::find_hits()
 {
-    for (int b = 0; b < static_cast<int>(box_of_block_.size()); ++b) {
-        box_of_block_[b] = Kernels::box_of(of_block_.data() + first_of_block_[b], of_block_.data() + first_of_block_[b + 1], x);
-        put(box_of_block_[b], boxes_[b / at_once], b % at_once);
-    }
-    for (int c = 0; c < static_cast<int>(boxes_.size()); ++c) put(Kernels::box_around(boxes_[c]), clusters_[c / at_once], c % at_once);
-    is_searched_.assign(blocks_.sets(), 0);
-    hits_.clear();
     for (int g = 0; g < groups_.sets(); ++g) {
-        const Boxes points = Kernels::points_of(of_group_.data() + groups_.first[g], of_group_.data() + groups_.first[g + 1], x);
-        const Box box = Kernels::box_around(points);
-        for (int k = 0; k < static_cast<int>(clusters_.size()); ++k)
-            for_each_bit(Kernels::that_meet(clusters_[k], box), [&](int of_clusters) {
-                const int c = at_once * k + of_clusters;
-                for_each_bit(Kernels::that_meet(boxes_[c], box),
-                             [&](int of_blocks) { find_in_block(g, at_once * c + of_blocks, points, x); });
-            });
+        const std::uint32_t* offsets = of_group_.data();
+        Kernels::find_points(offsets + groups_.first[g], offsets + groups_.first[g + 1], points_.data()->x, vertices_[g]);
+        put(Kernels::box_around(vertices_[g]), clusters_[g / at_once], g % at_once);
     }
+    for (int c = 0; c < static_cast<int>(clusters_.size()); ++c) put(Kernels::box_around(clusters_[c]), all_[c / at_once], c % at_once);
+    hits_.clear();
+    for (int b = 0; b < blocks_.sets(); ++b) find_in_block(b);
     std::sort(hits_.begin(), hits_.end(),
               [](const Hit& a, const Hit& b) { return std::pair(a.vertex, a.tet) < std::pair(b.vertex, b.tet); });
 }
@@ -186,9 +180,10 @@ void SelfContact<Scalar>::find_hits(const Scalar* x)
 template <typename Scalar>
 void SelfContact<Scalar>::find(const Scalar* x)
 {
-    find_hits(x);
+    for (std::size_t v = 0; v < points_.size(); ++v) std::copy_n(x + offset_[v], 3, points_[v].x);
+    find_hits();
     const std::vector<DepthConstraint<Scalar>> before = std::exchange(constraints_, {});
-    for (const Hit& hit : hits_) add_constraint(hit, x);
+    for (const Hit& hit : hits_) add_constraint(hit);
     const auto by_vertex = [](const auto& a, const auto& b) { return a.vertex[0] < b.vertex[0]; };
     const auto found = static_cast<std::ptrdiff_t>(constraints_.size());
     for (const DepthConstraint<Scalar>& old : before)
@@ -197,27 +192,38 @@ void SelfContact<Scalar>::find(const Scalar* x)
 }
 
 template <typename Scalar>
-void SelfContact<Scalar>::find_in_block(int group, int block, const Boxes& points, const Scalar* x)
+void SelfContact<Scalar>::find_in_block(int block)
 {
-    if (block >= blocks_.sets()) return;  // empty, and met by a box that is infinite
-    const int first = groups_.first[group], first_tet = blocks_.first[block];
-    const unsigned vertices = (1U << (groups_.first[group + 1] - first)) - 1, tets = (1U << (blocks_.first[block + 1] - first_tet)) - 1;
-    for_each_bit(Kernels::that_meet(points, box_of_block_[block]) & vertices, [&](int k) {
-        const auto& corners = corners_[block];
-        if (is_searched_[block] == 0) Kernels::find_coordinates(corners, x, coordinates_[block]);
-        is_searched_[block] = 1;
-        for_each_bit(Kernels::tets_around(coordinates_[block], corners, of_group_[first + k], x) & tets, [&](int tet) {
-            hits_.push_back({groups_.member[first + k], blocks_.member[first_tet + tet]});
+    const Scalar* x = points_.data()->x;
+    const Box box = Kernels::box_of(of_block_.data() + first_of_block_[block], of_block_.data() + first_of_block_[block + 1], x);
+    int count = 0;
+    for (std::size_t k = 0; k < all_.size(); ++k)
+        for_each_bit(Kernels::that_meet(all_[k], box), [&](int cluster) {
+            const int c = at_once * static_cast<int>(k) + cluster;
+            for_each_bit(Kernels::that_meet(clusters_[c], box), [&](int group) {
+                const int g = at_once * c + group;
+                for_each_bit(Kernels::that_meet(vertices_[g], box), [&](int vertex) {
+                    inside_[count] = groups_.member[groups_.first[g] + vertex];
+                    of_inside_[count++] = of_group_[groups_.first[g] + vertex];
+                });
+            });
         });
-    });
+    if (count == 0) return;
+    typename Kernels::Coordinates coordinates;
+    Kernels::find_coordinates(corners_[block], x, coordinates);
+    Kernels::find_tets_around(coordinates, corners_[block], of_inside_.data(), of_inside_.data() + count, x, tets_around_.data());
+    const int first = blocks_.first[block];
+    const unsigned tets = (1U << (blocks_.first[block + 1] - first)) - 1;
+    for (int i = 0; i < count; ++i)
+        for_each_bit(tets_around_[i] & tets, [&](int tet) { hits_.push_back({inside_[i], blocks_.member[first + tet]}); });
 }
 
 template <typename Scalar>
-void SelfContact<Scalar>::add_constraint(const Hit& hit, const Scalar* x)
+void SelfContact<Scalar>::add_constraint(const Hit& hit)
 {
     constexpr double most_strain = 10.0, least_depth = 1e-6;  // along the way out; over half of the mean edge
     const Eigen::Vector4i tet = mesh_.tets.row(hit.tet);
-    const auto at = [&](int v) -> Vec3 { return Eigen::Map<const Vector3<Scalar>>(x + offset_[v]).template cast<double>(); };
+    const auto at = [&](int v) -> Vec3 { return Eigen::Map<const Vector3<Scalar>>(points_[v].x).template cast<double>(); };
     Eigen::Matrix3d edges, rest_edges;
     for (int k = 0; k < 3; ++k) {
         edges.col(k) = at(tet(k + 1)) - at(tet(0));

@@ -70,28 +70,29 @@ private:
     using Kernels = ContactKernels<Scalar>;
     using Box = typename Kernels::Box;
     using Boxes = typename Kernels::Boxes;
-    static constexpr int at_once = Kernels::at_once;  // tets of a block, vertices of a group, blocks of a cluster
+    static constexpr int at_once = Kernels::at_once;  // tets of a block, vertices of a group, groups of a cluster
 
     struct Hit {
         int vertex, tet;
     };
 
-    void find_hits(const Scalar* x);
-    void find_in_block(int group, int block, const Boxes& points, const Scalar* x);
-    void add_constraint(const Hit& hit, const Scalar* x);
+    void find_hits();
+    void find_in_block(int block);
+    void add_constraint(const Hit& hit);
 
     TetMesh mesh_;
     RestSkin skin_;
     double half_edge_m_;
     PointSets groups_, blocks_;
-    std::vector<int> offset_;                                 // of each vertex in x, #V
-    std::vector<int> of_group_;                               // offsets of the vertices of a group
-    std::vector<int> first_of_block_, of_block_;              // offsets of the vertices of a block, each once
-    std::vector<typename Kernels::Corners> corners_;          // of each block
-    std::vector<typename Kernels::Coordinates> coordinates_;  // as deformed, of each block that was searched
-    std::vector<char> is_searched_;
-    std::vector<Boxes> clusters_, boxes_;  // as deformed, those of clusters and of blocks
-    std::vector<Box> box_of_block_;        // the same boxes, one by one
+    std::vector<int> offset_;                         // of each vertex in x, #V
+    std::vector<typename Kernels::Point> points_;     // the vertices as deformed, #V
+    std::vector<std::uint32_t> of_group_, of_block_;  // offsets in points_ of the vertices of a group, and of a block, each once
+    std::vector<int> first_of_block_;                 // #blocks + 1
+    std::vector<typename Kernels::Corners> corners_;  // of each block
+    std::vector<Boxes> vertices_, clusters_, all_;    // as deformed, the vertices of each group, the groups and the clusters
+    std::vector<int> inside_;                         // the vertices in the box of a block
+    std::vector<std::uint32_t> of_inside_;            // their offsets
+    std::vector<unsigned> tets_around_;               // the tets of the block around each
     std::vector<Hit> hits_;
     std::vector<DepthConstraint<Scalar>> constraints_;
 };

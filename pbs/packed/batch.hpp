@@ -72,34 +72,38 @@ struct alignas(64) BindBatch {
 };
 
 // The inner loops of the search for self-contact (SelfContact), in a source that is compiled for the machine (PBS_NATIVE). They take raw
-// pointers only. x: positions [m]; an offset is the place of a vertex's first coordinate there. Sixteen boxes, vertices or tets are
+// pointers only. x: points [m]; an offset is the place of a point's first coordinate there, 4 * vertex. Sixteen boxes, vertices or tets are
 // compared at once: bit k of a result is that of lane k.
 template <typename Scalar>
 struct ContactKernels {
-    static constexpr int at_once = 16;
+    static constexpr int at_once = batch_size;
+    struct alignas(4 * sizeof(Scalar)) Point {
+        Scalar x[4];  // the last one is not read
+    };
     struct Box {
         Scalar low[3], high[3];  // without points it is inverted, and meets no finite one
     };
-    struct Boxes {
+    struct alignas(64) Boxes {
         Scalar low[3][at_once], high[3][at_once];
     };
-    struct Corners {
-        int offset[4][at_once];
+    struct alignas(64) Corners {
+        std::uint32_t offset[4][at_once];
     };
     // For each tet, the rows of the inverse of its edges (barycentric coordinates 2 to 4) times six volumes, from its first corner.
-    struct Coordinates {
+    struct alignas(64) Coordinates {
         Scalar first[3][at_once], inverse[3][3][at_once], volume[at_once];
     };
 
-    static Box box_of(const int* begin, const int* end, const Scalar* x);
+    static Box box_of(const std::uint32_t* begin, const std::uint32_t* end, const Scalar* x);
     static Box box_around(const Boxes& boxes);
-    static Boxes points_of(const int* begin, const int* end, const Scalar* x);  // the last vertex fills up the lanes
-    // Boxes that share a boundary meet. A point that is not a number is in no box.
-    static unsigned that_meet(const Boxes& boxes, const Box& box);
+    // Points as boxes. Further lanes are not numbers, and meet no box.
+    static void find_points(const std::uint32_t* begin, const std::uint32_t* end, const Scalar* x, Boxes& points);
+    static unsigned that_meet(const Boxes& boxes, const Box& box);  // boxes that share a boundary do
 
     static void find_coordinates(const Corners& corners, const Scalar* x, Coordinates& tets);
-    // Tets where the vertex has no negative coordinate, except flat and mirrored ones and its own.
-    static unsigned tets_around(const Coordinates& tets, const Corners& corners, int vertex, const Scalar* x);
+    // For each vertex, by its offset, the tets where it has no negative coordinate, except flat and mirrored ones and its own.
+    static void find_tets_around(const Coordinates& tets, const Corners& corners, const std::uint32_t* begin, const std::uint32_t* end,
+                                 const Scalar* x, unsigned* bits);
 };
 
 // Calls f with a std::integral_constant of the kind, which is `first` or a later one.

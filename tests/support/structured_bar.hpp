@@ -1,8 +1,9 @@
-// Meshes with known volume, counts and topology, without a mesher.
+// Meshes with known volume, counts and topology, without a mesher, and the mean edge of any mesh.
 //   const pbs::TetMesh bar = test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {20, 3, 3});
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
 #include <array>
@@ -111,6 +112,12 @@ pbs::TetMesh carved_box(const std::array<int, 3>& cells, Keep keep)
     }
     box.tets = kept.topRows(count);
     return box;
+}
+
+inline double mean_edge_m(const pbs::TetMesh& mesh)
+{
+    const pbs::Edges edges = pbs::edges_of(mesh.tets);
+    return (mesh.rest(edges.col(0), Eigen::all) - mesh.rest(edges.col(1), Eigen::all)).rowwise().norm().mean();
 }
 
 }  // namespace test_support

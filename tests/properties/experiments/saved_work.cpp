@@ -83,14 +83,6 @@ std::optional<Scene> human(const Variant& variant)
     }
 }
 
-double mean_edge_m(const pbs::TetMesh& mesh)
-{
-    const pbs::Edges edges = pbs::edges_of(mesh.tets);
-    double sum = 0.0;
-    for (Eigen::Index e = 0; e < edges.rows(); ++e) sum += (mesh.rest.row(edges(e, 0)) - mesh.rest.row(edges(e, 1))).norm();
-    return sum / static_cast<double>(edges.rows());
-}
-
 // A sleeping constraint is violated by at most the tolerance at the end of the frame. In each of the 24 iterations it would have moved a
 // vertex by no more than that, in the worst case always in one direction.
 TEST(SleepOnTheHuman, ChangesThePoseByLessThanItsTolerance)
@@ -98,7 +90,7 @@ TEST(SleepOnTheHuman, ChangesThePoseByLessThanItsTolerance)
     const auto awake = human({}), asleep = human({.overrides = {"pbs.sleep=true"}});
     if (!awake || !asleep) GTEST_SKIP() << "assimp-testmodels is not installed";
     const ResultChange change = change_between(*awake, *asleep);
-    const double edge_m = mean_edge_m(pbs::make_character(awake->character).mesh);
+    const double edge_m = test_support::mean_edge_m(pbs::make_character(awake->character).mesh);
     const pbs::PbsOptions& options = options_of<pbs::PbsOptions>(asleep->deformers.front());
     std::printf("largest change %.3g m, %.3g mean edges\n", change.distance_m, change.distance_m / edge_m);
     EXPECT_LT(change.distance_m, options.iterations * options.sleep_tolerance * edge_m);

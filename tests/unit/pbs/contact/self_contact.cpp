@@ -20,7 +20,7 @@ using pbs::Positions;
 using pbs::Vec3;
 using Pairs = std::set<std::array<int, 5>>;
 
-const TwoBoneLimb limb = two_bone_limb({28, 6, 6}, Vec3::UnitZ(), 150.0);  // more blocks of tets than one cluster of clusters has
+const TwoBoneLimb limb = two_bone_limb({28, 6, 6}, Vec3::UnitZ(), 150.0);  // more groups of vertices than a cluster has
 // Without its symmetry, which puts vertices on faces of tets.
 const Positions bent = [] {
     RandomPoints random(3);
@@ -37,16 +37,16 @@ std::vector<pbs::DepthConstraint<double>> found(const pbs::TetMesh& mesh, const 
     return contact.constraints();
 }
 
-Pairs pairs(const std::vector<pbs::DepthConstraint<double>>& constraints)
+Pairs pairs(const auto& constraints)
 {
     Pairs pairs;
-    for (const auto& constraint : constraints) pairs.insert(constraint.vertex);
+    for (const auto& constraint : constraints) EXPECT_TRUE(pairs.insert(constraint.vertex).second);  // each once
     return pairs;
 }
 
-// half_edge_m: half of the mean edge.
-Pairs by_trying_all(const pbs::TetMesh& mesh, const Positions& x, double half_edge_m)
+Pairs by_trying_all(const pbs::TetMesh& mesh, const Positions& x)
 {
+    const double half_edge_m = mean_edge_m(mesh) / 2.0;
     const std::vector<bool> on_skin = pbs::boundary_vertices(mesh.tets, x.rows());
     Pairs pairs;
     for (const auto tet : mesh.tets.rowwise()) {
@@ -66,34 +66,41 @@ Pairs by_trying_all(const pbs::TetMesh& mesh, const Positions& x, double half_ed
     return pairs;
 }
 
-double half_edge_m(const pbs::TetMesh& mesh)
-{
-    double sum = 0.0;
-    const pbs::Edges edges = pbs::edges_of(mesh.tets);
-    for (const auto edge : edges.rowwise()) sum += (mesh.rest.row(edge(0)) - mesh.rest.row(edge(1))).norm();
-    return sum / double(edges.rows()) / 2.0;
-}
-
 // A tet so strained that its constraint is left out is not there.
 TEST(SelfContact, FindsWhatTryingAllPairsFinds)
 {
-    const Pairs of_blocks = by_trying_all(blocks.mesh, blocks.pushed, half_edge_m(blocks.mesh));
+    const Pairs of_blocks = by_trying_all(blocks.mesh, blocks.pushed);
     EXPECT_EQ(pairs(found(blocks.mesh, blocks.pushed)), of_blocks);
     EXPECT_GE(of_blocks.size(), 9u);
 
-    Pairs of_limb = by_trying_all(limb.mesh, bent, half_edge_m(limb.mesh));
-    const Pairs found_in_limb = pairs(found(limb.mesh, bent));
+    const Pairs of_limb = by_trying_all(limb.mesh, bent), found_in_limb = pairs(found(limb.mesh, bent));
     EXPECT_GE(found_in_limb.size(), 50u);
     for (const auto& pair : found_in_limb) EXPECT_TRUE(of_limb.contains(pair));
     EXPECT_GE(double(found_in_limb.size()), 0.8 * double(of_limb.size()));
+}
+
+// More vertices than a cluster of clusters has.
+TEST(SelfContact, FindsInEachOfManyBodiesWhatItFindsInOne)
+{
+    constexpr int bodies = 40;
+    const auto V = int(blocks.mesh.rest.rows()), T = int(blocks.mesh.tets.rows());
+    pbs::TetMesh many{blocks.mesh.rest.replicate<bodies, 1>(), blocks.mesh.tets.replicate<bodies, 1>()};
+    Positions pushed = blocks.pushed.replicate<bodies, 1>();
+    Pairs in_each;
+    for (int k = 0; k < bodies; ++k) {
+        for (Positions* x : {&many.rest, &pushed}) x->middleRows(k * V, V).col(0).array() += 2.0 * k;
+        many.tets.middleRows(k * T, T).array() += k * V;
+        for (const auto& [v, a, b, c, d] : pairs(found(blocks.mesh, blocks.pushed)))
+            in_each.insert({v + k * V, a + k * V, b + k * V, c + k * V, d + k * V});
+    }
+    EXPECT_EQ(pairs(found(many, pushed)), in_each);
 }
 
 TEST(SelfContact, FindsNothingAtRestInRigidMotionAndInFlesh)
 {
     EXPECT_TRUE(found(limb.mesh, limb.mesh.rest).empty());
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.0, Vec3(1, 2, 3).normalized()).toRotationMatrix();
-    Positions turned = limb.mesh.rest * turn.transpose();
-    turned.rowwise() += Eigen::RowVector3d(100, -50, 20);
+    const Positions turned = (limb.mesh.rest * turn.transpose()).rowwise() + Eigen::RowVector3d(100, -50, 20);
     EXPECT_TRUE(found(limb.mesh, turned).empty());
     Positions sheared = limb.mesh.rest;
     sheared.col(0) += 0.7 * sheared.col(1);
@@ -119,7 +126,7 @@ TEST(SelfContact, PartsNearerThanHalfAnEdgeAtRestAreNotInContact)
         near.mesh.rest.bottomRows(near.mesh.rest.rows() - near.vertices_of_first).col(2).array() -= 2.0 - gap_m;
         return found(near.mesh, near.pushed).size();
     };
-    const double threshold_m = half_edge_m(blocks.mesh);
+    const double threshold_m = mean_edge_m(blocks.mesh) / 2.0;
     EXPECT_EQ(vertices_in_flesh(0.9 * threshold_m - 0.1), 0u);
     EXPECT_EQ(vertices_in_flesh(1.1 * threshold_m - 0.1), found(blocks.mesh, blocks.pushed).size());
 }
@@ -132,9 +139,7 @@ TEST(RestSkin, FindsTheNearestPointOfABox)
     RandomPoints random(11);
     for (int t = 0; t < box.tets.rows(); ++t) {
         const Eigen::Vector4i tet = box.tets.row(t);
-        Vec3 point = Vec3::Zero();
-        for (const int v : tet) point += box.rest.row(v).transpose() / 4.0;
-        point += random.point(0.02);
+        const Vec3 point = box.rest(tet, Eigen::all).colwise().mean().transpose() + random.point(0.02);
         const double depth = std::min(point.minCoeff(), (size - point).minCoeff());
         const double found = (skin.nearest(point, tet) - point).norm(), rounding = rounding_error(50.0, 4.0);
         EXPECT_GE(found, depth - rounding);
@@ -156,9 +161,7 @@ TEST(SelfContact, CollapsedMirroredTornAndNotFiniteStatesGiveFiniteConstraints)
     RandomPoints random(5);
     Positions shaken = rest;
     for (auto row : shaken.rowwise()) row += random.point(10.0).transpose();
-    EXPECT_TRUE(found(limb.mesh, point).empty());
-    EXPECT_TRUE(found(limb.mesh, plane).empty());
-    EXPECT_TRUE(found(limb.mesh, mirrored).empty());
+    for (const Positions& x : {point, plane, mirrored}) EXPECT_TRUE(found(limb.mesh, x).empty());
     for (const Positions& x : {teleported, not_finite, infinite, shaken})
         for (const auto& constraint : found(limb.mesh, x)) {
             EXPECT_TRUE(std::isfinite(constraint.depth));
@@ -170,17 +173,11 @@ TEST(SelfContact, CollapsedMirroredTornAndNotFiniteStatesGiveFiniteConstraints)
 TEST(SelfContact, FindsTheSamePairsAtEveryScaleAndInBothPrecisions)
 {
     const Pairs at_one = pairs(found(limb.mesh, bent));
-    for (const double scale : {1e-3, 1e3}) {
-        pbs::TetMesh scaled = limb.mesh;
-        scaled.rest *= scale;
-        EXPECT_EQ(pairs(found(scaled, scale * bent)), at_one) << scale;
-    }
+    for (const double scale : {1e-3, 1e3}) EXPECT_EQ(pairs(found({scale * limb.mesh.rest, limb.mesh.tets}, scale * bent)), at_one) << scale;
     pbs::SelfContact<float> in_float(blocks.mesh, in_order(blocks.mesh.rest.rows()), 3);
     const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> x = blocks.pushed.cast<float>();
     in_float.find(x.data());
-    Pairs found_in_float;
-    for (const auto& constraint : in_float.constraints()) found_in_float.insert(constraint.vertex);
-    EXPECT_EQ(found_in_float, pairs(found(blocks.mesh, blocks.pushed)));
+    EXPECT_EQ(pairs(in_float.constraints()), pairs(found(blocks.mesh, blocks.pushed)));
 }
 
 TEST(SelfContact, MeshWithoutTetsHasNone)
