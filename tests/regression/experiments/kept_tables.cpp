@@ -257,10 +257,12 @@ TEST(KeptValues, OfTheBoundOnAReferenceAreTheSameInEachStudy)
     for (int row = 0; row < members.rows(); ++row) {
         if (members.text_at(row, "member") != "smooth") continue;
         const std::string pose = members.text_at(row, "run");
-        expect_same_values(
-            {{"work_precision/" + pose + "/points.csv", pbs_of_the_scene, "reference_error_joint_pct"},
-             {"work_precision/" + pose + "/changes.csv", {{"change", "pbs"}, {"iterations", "24"}}, "reference_error_joint_pct"},
-             {"ensemble/" + pose + "/members.csv", {{"member", "smooth"}}, "error_bound_pct"}});
+        std::vector<KeptValue> values = {{"work_precision/" + pose + "/points.csv", pbs_of_the_scene, "reference_error_joint_pct"},
+                                         {"ensemble/" + pose + "/members.csv", {{"member", "smooth"}}, "error_bound_pct"}};
+        if (pose.starts_with("limb") || pose.starts_with("human"))  // changes to PBS are measured on these bodies alone
+            values.push_back(
+                {"work_precision/" + pose + "/changes.csv", {{"change", "pbs"}, {"iterations", "24"}}, "reference_error_joint_pct"});
+        expect_same_values(values);
     }
 }
 

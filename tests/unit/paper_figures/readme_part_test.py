@@ -213,7 +213,7 @@ class Tables(ReadmeTest):
     def test_the_distance_leaves_out_poses_whose_reference_has_no_bound(self):
         self.write_ensemble(landing_bound="")
         text = readme_findings.distance(self.results)
-        self.assertIn("In 1 pose of the limb and the human, PBS with 24 iterations (ordered, single precision) removes 21 to 75 % of", text)
+        self.assertIn("In 1 pose, PBS with 24 iterations (ordered, single precision) removes 21 to 75 % of", text)
         self.assertIn("These errors leave out 1 pose in which the reference has no bound on its own error. In all 2 poses, the", text)
 
     def test_the_distance_needs_pairs_that_differ(self):
