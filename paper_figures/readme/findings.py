@@ -180,9 +180,9 @@ def distance(results):
     decided, measured = sum(pair["decision"] == "decided" for pair in notable), len(errors["pbs"])
     left_out = "" if measured == poses else (f" These errors leave out {counted(poses - measured, 'pose')} in which the reference has no "
                                              "bound on its own error.")
-    return (f"**Distance from flesh.** In {counted(measured, 'pose')}, PBS with 24 iterations (ordered, single "
-            f"precision) removes {removed['pbs']} of the error of LBS at the joints, over {notable[0]['members']} references of "
-            f"neo-Hookean flesh with other attachments and Poisson's ratios (DQS {removed['dqs']}, delta mush {removed['delta_mush']}). "
+    return (f"**Distance from flesh.** In {counted(measured, 'pose')}, PBS with 24 iterations (ordered, single precision) removes "
+            f"{removed['pbs']} of the error of LBS at the joints, over {notable[0]['members']} references of neo-Hookean flesh with other "
+            f"attachments and Poisson's ratios (DQS {removed['dqs']}, delta mush {removed['delta_mush']}). "
             f"Its own error against the first reference is {min(errors['pbs']):.1f} to {max(errors['pbs']):.1f} % of the mean bone "
             f"distance.{left_out} In all {counted(poses, 'pose')}, the references decide which of two methods is closer in {decided} of "
             f"the {len(notable)} pairs of skinning methods that differ by more than {records.notable_points} percentage points."

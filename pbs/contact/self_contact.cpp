@@ -140,15 +140,14 @@ SelfContact<Scalar>::SelfContact(const TetMesh& mesh, const std::vector<int>& pl
       points_(mesh.rest.rows()),
       first_of_block_{0},
       corners_(blocks_.sets()),
-      vertices_(groups_.sets()),
-      clusters_((groups_.sets() + at_once - 1) / at_once),
-      all_((clusters_.size() + at_once - 1) / at_once),
+      vertex_boxes_(groups_.sets()),
       inside_(groups_.member.size()),
-      of_inside_(inside_.size()),
       tets_around_(inside_.size())
 {
-    for (Boxes& unused : clusters_) Kernels::find_points(nullptr, nullptr, nullptr, unused);
-    for (Boxes& unused : all_) Kernels::find_points(nullptr, nullptr, nullptr, unused);
+    Boxes none;
+    Kernels::find_points(nullptr, nullptr, nullptr, none);
+    group_boxes_.assign((groups_.sets() + at_once - 1) / at_once, none);  // lanes without a group stay NaN and meet no box
+    cluster_boxes_.assign((group_boxes_.size() + at_once - 1) / at_once, none);
     for (const int row : place) offset_.push_back(stride * row);
     for (const int v : groups_.member) of_group_.push_back(4 * v);
     for (int b = 0; b < blocks_.sets(); ++b) {
@@ -167,10 +166,11 @@ void SelfContact<Scalar>::find_hits()
 {
     for (int g = 0; g < groups_.sets(); ++g) {
         const std::uint32_t* offsets = of_group_.data();
-        Kernels::find_points(offsets + groups_.first[g], offsets + groups_.first[g + 1], points_.data()->x, vertices_[g]);
-        put(Kernels::box_around(vertices_[g]), clusters_[g / at_once], g % at_once);
+        Kernels::find_points(offsets + groups_.first[g], offsets + groups_.first[g + 1], points_.data()->x, vertex_boxes_[g]);
+        put(Kernels::box_around(vertex_boxes_[g]), group_boxes_[g / at_once], g % at_once);
     }
-    for (int c = 0; c < static_cast<int>(clusters_.size()); ++c) put(Kernels::box_around(clusters_[c]), all_[c / at_once], c % at_once);
+    for (int c = 0; c < static_cast<int>(group_boxes_.size()); ++c)
+        put(Kernels::box_around(group_boxes_[c]), cluster_boxes_[c / at_once], c % at_once);
     hits_.clear();
     for (int b = 0; b < blocks_.sets(); ++b) find_in_block(b);
     std::sort(hits_.begin(), hits_.end(),
@@ -197,25 +197,25 @@ void SelfContact<Scalar>::find_in_block(int block)
     const Scalar* x = points_.data()->x;
     const Box box = Kernels::box_of(of_block_.data() + first_of_block_[block], of_block_.data() + first_of_block_[block + 1], x);
     int count = 0;
-    for (std::size_t k = 0; k < all_.size(); ++k)
-        for_each_bit(Kernels::that_meet(all_[k], box), [&](int cluster) {
+    for (std::size_t k = 0; k < cluster_boxes_.size(); ++k)
+        for_each_bit(Kernels::that_meet(cluster_boxes_[k], box), [&](int cluster) {
             const int c = at_once * static_cast<int>(k) + cluster;
-            for_each_bit(Kernels::that_meet(clusters_[c], box), [&](int group) {
+            for_each_bit(Kernels::that_meet(group_boxes_[c], box), [&](int group) {
                 const int g = at_once * c + group;
-                for_each_bit(Kernels::that_meet(vertices_[g], box), [&](int vertex) {
-                    inside_[count] = groups_.member[groups_.first[g] + vertex];
-                    of_inside_[count++] = of_group_[groups_.first[g] + vertex];
-                });
+                for_each_bit(Kernels::that_meet(vertex_boxes_[g], box),
+                             [&](int vertex) { inside_[count++] = of_group_[groups_.first[g] + vertex]; });
             });
         });
     if (count == 0) return;
     typename Kernels::Coordinates coordinates;
     Kernels::find_coordinates(corners_[block], x, coordinates);
-    Kernels::find_tets_around(coordinates, corners_[block], of_inside_.data(), of_inside_.data() + count, x, tets_around_.data());
+    Kernels::find_tets_around(coordinates, corners_[block], inside_.data(), inside_.data() + count, x, tets_around_.data());
     const int first = blocks_.first[block];
     const unsigned tets = (1U << (blocks_.first[block + 1] - first)) - 1;
     for (int i = 0; i < count; ++i)
-        for_each_bit(tets_around_[i] & tets, [&](int tet) { hits_.push_back({inside_[i], blocks_.member[first + tet]}); });
+        for_each_bit(tets_around_[i] & tets, [&](int tet) {
+            hits_.push_back({static_cast<int>(inside_[i] / 4), blocks_.member[first + tet]});
+        });
 }
 
 template <typename Scalar>

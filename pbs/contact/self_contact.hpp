@@ -6,7 +6,8 @@
 // A pair of a vertex and a tet counts where X*, the point of the tet at rest that has come to the vertex, is farther than half of the mean
 // edge from the vertex at rest. Positions decide alone, so that frames do not depend on each other, and there are no threads.
 //
-// Skin vertices lie in groups of neighbours, tets in blocks, and blocks in clusters; boxes around them are compared, sixteen at once.
+// Skin vertices lie in groups of neighbours, groups in clusters, and tets in blocks. The boxes of clusters and groups, compared sixteen at
+// once, lead to the vertices in the box of a block. These are tried in all of its tets.
 //
 // No constraint where no direction can be trusted: in tets that are flat or mirrored, or strained more than tenfold along the way out, as
 // after a teleport; and where a position is not finite.
@@ -70,7 +71,7 @@ private:
     using Kernels = ContactKernels<Scalar>;
     using Box = typename Kernels::Box;
     using Boxes = typename Kernels::Boxes;
-    static constexpr int at_once = Kernels::at_once;  // tets of a block, vertices of a group, groups of a cluster
+    static constexpr int at_once = Kernels::at_once;  // at most: tets of a block, vertices of a group, groups of a cluster
 
     struct Hit {
         int vertex, tet;
@@ -84,15 +85,14 @@ private:
     RestSkin skin_;
     double half_edge_m_;
     PointSets groups_, blocks_;
-    std::vector<int> offset_;                         // of each vertex in x, #V
-    std::vector<typename Kernels::Point> points_;     // the vertices as deformed, #V
-    std::vector<std::uint32_t> of_group_, of_block_;  // offsets in points_ of the vertices of a group, and of a block, each once
-    std::vector<int> first_of_block_;                 // #blocks + 1
-    std::vector<typename Kernels::Corners> corners_;  // of each block
-    std::vector<Boxes> vertices_, clusters_, all_;    // as deformed, the vertices of each group, the groups and the clusters
-    std::vector<int> inside_;                         // the vertices in the box of a block
-    std::vector<std::uint32_t> of_inside_;            // their offsets
-    std::vector<unsigned> tets_around_;               // the tets of the block around each
+    std::vector<int> offset_;                                        // of each vertex in x, #V
+    std::vector<typename Kernels::Point> points_;                    // the vertices as deformed, #V
+    std::vector<std::uint32_t> of_group_, of_block_;                 // offsets in points_ of the vertices of each group, and of each block
+    std::vector<int> first_of_block_;                                // #blocks + 1
+    std::vector<typename Kernels::Corners> corners_;                 // of each block
+    std::vector<Boxes> vertex_boxes_, group_boxes_, cluster_boxes_;  // as deformed: of a group, of a cluster, of sixteen clusters
+    std::vector<std::uint32_t> inside_;                              // offsets of the vertices in the box of a block
+    std::vector<unsigned> tets_around_;                              // of each of these: bit k is that of the block's tet k
     std::vector<Hit> hits_;
     std::vector<DepthConstraint<Scalar>> constraints_;
 };

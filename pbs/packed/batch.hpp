@@ -72,13 +72,13 @@ struct alignas(64) BindBatch {
 };
 
 // The inner loops of the search for self-contact (SelfContact), in a source that is compiled for the machine (PBS_NATIVE). They take raw
-// pointers only. x: points [m]; an offset is the place of a point's first coordinate there, 4 * vertex. Sixteen boxes, vertices or tets are
-// compared at once: bit k of a result is that of lane k.
+// pointers only. x: an array of Point; an offset is the place of a point's first coordinate there, 4 * vertex. Sixteen boxes, vertices or
+// tets are compared at once: bit k of a result is that of lane k.
 template <typename Scalar>
 struct ContactKernels {
     static constexpr int at_once = batch_size;
     struct alignas(4 * sizeof(Scalar)) Point {
-        Scalar x[4];  // the last one is not read
+        Scalar x[4];  // [m]; the last one is loaded with the others and not used
     };
     struct Box {
         Scalar low[3], high[3];  // without points it is inverted, and meets no finite one
@@ -96,12 +96,13 @@ struct ContactKernels {
 
     static Box box_of(const std::uint32_t* begin, const std::uint32_t* end, const Scalar* x);
     static Box box_around(const Boxes& boxes);
-    // Points as boxes. Further lanes are not numbers, and meet no box.
+    // Each point becomes a box without extent. The other lanes are NaN and meet no box.
     static void find_points(const std::uint32_t* begin, const std::uint32_t* end, const Scalar* x, Boxes& points);
     static unsigned that_meet(const Boxes& boxes, const Box& box);  // boxes that share a boundary do
 
     static void find_coordinates(const Corners& corners, const Scalar* x, Coordinates& tets);
-    // For each vertex, by its offset, the tets where it has no negative coordinate, except flat and mirrored ones and its own.
+    // Finds the tets in which the vertex at each offset has no negative barycentric coordinate. It leaves out flat and mirrored tets and
+    // those of the vertex itself.
     static void find_tets_around(const Coordinates& tets, const Corners& corners, const std::uint32_t* begin, const std::uint32_t* end,
                                  const Scalar* x, unsigned* bits);
 };

@@ -18,11 +18,10 @@ template <typename Mask>
 template <typename Scalar>
 auto ContactKernels<Scalar>::box_of(const std::uint32_t* begin, const std::uint32_t* end, const Scalar* x) -> Box
 {
-    using Four = simd_detail::Vector<Scalar, 4>;
     constexpr Scalar far = std::numeric_limits<Scalar>::max();
-    Four low = {far, far, far, far}, high = -low;
+    Four<Scalar> low = {far, far, far, far}, high = -low;
     for (; begin < end; ++begin) {
-        const Four point = *reinterpret_cast<const Four*>(x + *begin);
+        const Four<Scalar> point = load_four(x + *begin);
         low = point < low ? point : low;
         high = point > high ? point : high;
     }
@@ -71,13 +70,13 @@ void ContactKernels<Scalar>::find_coordinates(const Corners& corners, const Scal
         const Vertices<Scalar> first = gather(x, &corners.offset[0][k]);
         LaneVector<Scalar> edge[3];
         for (int i = 0; i < 3; ++i) edge[i] = gather(x, &corners.offset[i + 1][k]) - first;
-        const auto put = [k](const auto& vector, Scalar(&to)[3][at_once]) {
+        const auto store_vector = [k](const auto& vector, Scalar(&to)[3][at_once]) {
             store<Scalar>(vector.x, &to[0][k]);
             store<Scalar>(vector.y, &to[1][k]);
             store<Scalar>(vector.z, &to[2][k]);
         };
-        put(first, tets.first);
-        for (int i = 0; i < 3; ++i) put(cross(edge[(i + 1) % 3], edge[(i + 2) % 3]), tets.inverse[i]);
+        store_vector(first, tets.first);
+        for (int i = 0; i < 3; ++i) store_vector(cross(edge[(i + 1) % 3], edge[(i + 2) % 3]), tets.inverse[i]);
         store<Scalar>(dot(edge[0], cross(edge[1], edge[2])), &tets.volume[k]);
     }
 }

@@ -1,4 +1,4 @@
-// Meshes with known volume, counts and topology, without a mesher, and the mean edge of any mesh.
+// Meshes with known volume, counts and topology, without a mesher, and the mean edge of a mesh with tets.
 //   const pbs::TetMesh bar = test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {20, 3, 3});
 #pragma once
 
