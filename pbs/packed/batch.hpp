@@ -96,7 +96,7 @@ struct ContactKernels {
 
     static Box box_of(const std::uint32_t* begin, const std::uint32_t* end, const Scalar* x);
     static Box box_around(const Boxes& boxes);
-    // Each point becomes a box without extent. The other lanes are NaN and meet no box.
+    // Each point becomes a box without extent. The other lanes are NaN. What is not a number meets no box.
     static void find_points(const std::uint32_t* begin, const std::uint32_t* end, const Scalar* x, Boxes& points);
     static unsigned that_meet(const Boxes& boxes, const Box& box);  // boxes that share a boundary do
 
