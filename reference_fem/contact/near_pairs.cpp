@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -25,24 +26,29 @@ Vec3 position(const pbs::Positions& rest, const Eigen::VectorXd& displacement, i
     return rest.row(node).transpose() + displacement.segment<3>(3 * node);
 }
 
-// Boxes in the order of their lower ends along one axis. A box whose place is not a number has no order, and overlaps none.
+// Boxes in the order of their lower ends along one axis. A box whose place is not a number, or beyond 1e38 m, overlaps none.
 struct OrderedBoxes {
+    static constexpr int together = 16;  // boxes are compared
+
     OrderedBoxes(const std::vector<Box>& boxes, int axis)
     {
         for (std::size_t k = 0; k < boxes.size(); ++k)
             if (!std::isnan(boxes[k].min()(axis))) begin_m_and_number.push_back({boxes[k].min()(axis), k});
         std::ranges::sort(begin_m_and_number);
-        ends_m.resize(begin_m_and_number.size(), 6);
+        ends_m.setConstant(begin_m_and_number.size() + together, 6, std::numeric_limits<float>::quiet_NaN());
         Eigen::Index row = 0;
-        for (const auto& [begin_m, k] : begin_m_and_number) ends_m.row(row++) << boxes[k].min().transpose(), boxes[k].max().transpose();
+        for (const auto& [begin_m, k] : begin_m_and_number)
+            ends_m.row(row++) << boxes[k].min().cast<float>().transpose(), boxes[k].max().cast<float>().transpose();
+        const Eigen::ArrayXXf rounding_m = std::numeric_limits<float>::epsilon() * ends_m.abs();
+        ends_m.leftCols<3>() -= rounding_m.leftCols<3>(), ends_m.rightCols<3>() += rounding_m.rightCols<3>();
     }
     std::vector<std::pair<double, int>> begin_m_and_number;  // in the list
-    Eigen::Array<double, Eigen::Dynamic, 6> ends_m;          // lower ones, then upper ones
+    Eigen::Array<float, Eigen::Dynamic, 6> ends_m;           // lower ones, then upper ones, rounded outward; then rows of NaN
 };
 
 // Sweep and prune: calls `found` once for each two boxes that overlap, one of each list or two of the same list. The boxes are sorted along
-// the axis on which the first list is longest. A box is compared with those that begin before its end, without those at the front that have
-// all ended before its beginning.
+// the axis on which the first list is longest. A box is compared with those that begin before its end, many together, without those at
+// the front that have all ended before its beginning.
 template <typename Found>
 void for_each_overlap(const std::vector<Box>& one, const std::vector<Box>& other, const Found& found)
 {
@@ -54,16 +60,30 @@ void for_each_overlap(const std::vector<Box>& one, const std::vector<Box>& other
     const bool is_same_list = &one == &other;
     const OrderedBoxes first(one, a), second = is_same_list ? first : OrderedBoxes(other, a);
     const auto ends_m = [&](int column) { return second.ends_m.col(column).data(); };
-    const double *x = ends_m(a), *y = ends_m(b), *z = ends_m(c), *x_end = ends_m(3 + a), *y_end = ends_m(3 + b), *z_end = ends_m(3 + c);
-    const Eigen::Index count = second.ends_m.rows();
-    for (Eigen::Index i = 0, begin = 0; i < first.ends_m.rows(); ++i) {
-        const Eigen::Array3d lower = first.ends_m.row(i).head<3>(), upper = first.ends_m.row(i).tail<3>();
-        const double x0 = lower(a), y0 = lower(b), z0 = lower(c), x1 = upper(a), y1 = upper(b), z1 = upper(c);
-        while (begin < count && x_end[begin] < x0) ++begin;
-        for (Eigen::Index j = is_same_list ? i + 1 : begin; j < count && x[j] <= x1; ++j)
-            if ((x_end[j] >= x0) & (y[j] <= y1) & (y_end[j] >= y0) & (z[j] <= z1) & (z_end[j] >= z0))  // five comparisons, one branch
-                found(first.begin_m_and_number[i].second, second.begin_m_and_number[j].second);
+    const float *x = ends_m(a), *y = ends_m(b), *z = ends_m(c), *x_end = ends_m(3 + a), *y_end = ends_m(3 + b), *z_end = ends_m(3 + c);
+    for (std::size_t i = 0, begin = 0; i < first.begin_m_and_number.size(); ++i) {
+        const Eigen::Array3f lower = first.ends_m.row(i).head<3>(), upper = first.ends_m.row(i).tail<3>();
+        const float x0 = lower(a), y0 = lower(b), z0 = lower(c), x1 = upper(a), y1 = upper(b), z1 = upper(c);
+        while (x_end[begin] < x0) ++begin;
+        for (std::size_t j = is_same_list ? i + 1 : begin; x[j] <= x1; j += OrderedBoxes::together) {
+            int overlaps[OrderedBoxes::together];
+            for (std::size_t k = 0; k < OrderedBoxes::together; ++k)
+                overlaps[k] = (x[j + k] <= x1) & (x_end[j + k] >= x0) & (y[j + k] <= y1) & (y_end[j + k] >= y0) & (z[j + k] <= z1) &
+                              (z_end[j + k] >= z0);
+            for (std::size_t k = 0; k < OrderedBoxes::together; ++k)
+                if (overlaps[k]) found(first.begin_m_and_number[i].second, second.begin_m_and_number[j + k].second);
+        }
     }
+}
+
+std::vector<Box> boxes_of(const auto& simplices, const std::vector<Box>& of_node)
+{
+    std::vector<Box> boxes;
+    for (const auto& simplex : simplices) {
+        boxes.push_back(of_node[simplex.front()]);
+        for (const int node : simplex) boxes.back().extend(of_node[node]);
+    }
+    return boxes;
 }
 
 // The first simplex of a pair has this many points.
@@ -182,9 +202,7 @@ std::array<int, 4> NearPairs::nodes_of(const NearPair& pair) const
 
 FourPoints NearPairs::points_of(const std::array<int, 4>& nodes, const Eigen::VectorXd& displacement) const
 {
-    FourPoints points;
-    for (int i = 0; i < 4; ++i) points.col(i) = position(rest_, displacement, nodes[i]);
-    return points;
+    return at_rest(nodes) + motion_of(nodes, displacement);
 }
 
 FourPoints NearPairs::at_rest(const std::array<int, 4>& nodes) const
@@ -203,18 +221,9 @@ void NearPairs::search(const Eigen::VectorXd& displacement, const Eigen::VectorX
     const double slack_m = slack_in_ranges * range_m_, margin_m = slack_m + 0.5 * range_m_;
     std::vector<Box> of_node(rest_.rows());
     for (const int node : surface_.nodes) {
-        Box way(position(rest_, displacement, node));
-        way.extend(Vec3(way.min() + step.segment<3>(3 * node)));
-        of_node[node] = Box(Vec3(way.min().array() - margin_m), Vec3(way.max().array() + margin_m));
+        const Vec3 from = position(rest_, displacement, node), to = from + step.segment<3>(3 * node);
+        of_node[node] = Box(Vec3(from.cwiseMin(to).array() - margin_m), Vec3(from.cwiseMax(to).array() + margin_m));
     }
-    const auto boxes_of = [&](const auto& simplices) {
-        std::vector<Box> boxes;
-        for (const auto& simplex : simplices) {
-            boxes.push_back(of_node[simplex.front()]);
-            for (const int node : simplex) boxes.back().extend(of_node[node]);
-        }
-        return boxes;
-    };
     near_.clear();
     const auto add = [&](NearPair pair) {
         const std::array<int, 4> nodes = nodes_of(pair);
@@ -229,11 +238,11 @@ void NearPairs::search(const Eigen::VectorXd& displacement, const Eigen::VectorX
     };
     std::vector<Box> node_boxes;
     for (const int node : surface_.nodes) node_boxes.push_back(of_node[node]);
-    for_each_overlap(node_boxes, boxes_of(surface_.triangles), [&](int k, int triangle) {
+    for_each_overlap(node_boxes, boxes_of(surface_.triangles, of_node), [&](int k, int triangle) {
         const std::array<int, 1> node{surface_.nodes[k]};
         if (!share_a_node(node, surface_.triangles[triangle])) add({PairKind::point_triangle, node[0], triangle});
     });
-    const std::vector<Box> edge_boxes = boxes_of(surface_.edges);
+    const std::vector<Box> edge_boxes = boxes_of(surface_.edges, of_node);
     for_each_overlap(edge_boxes, edge_boxes, [&](int one, int other) {
         if (!share_a_node(surface_.edges[one], surface_.edges[other]))
             add({PairKind::edge_edge, std::min(one, other), std::max(one, other)});
@@ -281,16 +290,10 @@ double NearPairs::largest_step(const Eigen::VectorXd& displacement, const Eigen:
 
 bool NearPairs::intersects(const Eigen::VectorXd& displacement) const
 {
-    const auto box_of = [&](const auto& simplex) {
-        Box box(position(rest_, displacement, simplex.front()));
-        for (const int node : simplex) box.extend(position(rest_, displacement, node));
-        return box;
-    };
-    std::vector<Box> edges, triangles;
-    for (const auto& edge : surface_.edges) edges.push_back(box_of(edge));
-    for (const auto& triangle : surface_.triangles) triangles.push_back(box_of(triangle));
+    std::vector<Box> of_node(rest_.rows());
+    for (const int node : surface_.nodes) of_node[node] = Box(position(rest_, displacement, node));
     bool is_found = false;
-    for_each_overlap(edges, triangles, [&](int e, int t) {
+    for_each_overlap(boxes_of(surface_.edges, of_node), boxes_of(surface_.triangles, of_node), [&](int e, int t) {
         const auto& edge = surface_.edges[e];
         const auto& triangle = surface_.triangles[t];
         if (is_found || share_a_node(edge, triangle)) return;
