@@ -26,29 +26,28 @@ Vec3 position(const pbs::Positions& rest, const Eigen::VectorXd& displacement, i
     return rest.row(node).transpose() + displacement.segment<3>(3 * node);
 }
 
-// Boxes in the order of their lower ends along one axis. A box whose place is not a number, or beyond 1e38 m, overlaps none.
+// Boxes in the order of their lower ends along one axis. A box whose place is not a number has no order, and overlaps none.
 struct OrderedBoxes {
-    static constexpr int together = 16;  // boxes are compared
+    static constexpr int at_once = 16;  // boxes that are compared with one
 
     OrderedBoxes(const std::vector<Box>& boxes, int axis)
     {
         for (std::size_t k = 0; k < boxes.size(); ++k)
             if (!std::isnan(boxes[k].min()(axis))) begin_m_and_number.push_back({boxes[k].min()(axis), k});
         std::ranges::sort(begin_m_and_number);
-        ends_m.setConstant(begin_m_and_number.size() + together, 6, std::numeric_limits<float>::quiet_NaN());
+        ends_m.setConstant(begin_m_and_number.size() + at_once, 6, std::numeric_limits<float>::quiet_NaN());
         Eigen::Index row = 0;
         for (const auto& [begin_m, k] : begin_m_and_number)
             ends_m.row(row++) << boxes[k].min().cast<float>().transpose(), boxes[k].max().cast<float>().transpose();
-        const Eigen::ArrayXXf rounding_m = std::numeric_limits<float>::epsilon() * ends_m.abs();
-        ends_m.leftCols<3>() -= rounding_m.leftCols<3>(), ends_m.rightCols<3>() += rounding_m.rightCols<3>();
     }
     std::vector<std::pair<double, int>> begin_m_and_number;  // in the list
-    Eigen::Array<float, Eigen::Dynamic, 6> ends_m;           // lower ones, then upper ones, rounded outward; then rows of NaN
+    // Lower ones, then upper ones; at_once rows of NaN end them. Rounding keeps the order of numbers, so that no overlap is lost.
+    Eigen::Array<float, Eigen::Dynamic, 6> ends_m;
 };
 
 // Sweep and prune: calls `found` once for each two boxes that overlap, one of each list or two of the same list. The boxes are sorted along
-// the axis on which the first list is longest. A box is compared with those that begin before its end, many together, without those at
-// the front that have all ended before its beginning.
+// the axis on which the first list is longest. A box is compared with those that begin before its end, sixteen at once, so that the loop
+// is vectorised. Boxes at the front that have all ended before its beginning are skipped.
 template <typename Found>
 void for_each_overlap(const std::vector<Box>& one, const std::vector<Box>& other, const Found& found)
 {
@@ -65,12 +64,12 @@ void for_each_overlap(const std::vector<Box>& one, const std::vector<Box>& other
         const Eigen::Array3f lower = first.ends_m.row(i).head<3>(), upper = first.ends_m.row(i).tail<3>();
         const float x0 = lower(a), y0 = lower(b), z0 = lower(c), x1 = upper(a), y1 = upper(b), z1 = upper(c);
         while (x_end[begin] < x0) ++begin;
-        for (std::size_t j = is_same_list ? i + 1 : begin; x[j] <= x1; j += OrderedBoxes::together) {
-            int overlaps[OrderedBoxes::together];
-            for (std::size_t k = 0; k < OrderedBoxes::together; ++k)
+        for (std::size_t j = is_same_list ? i + 1 : begin; x[j] <= x1; j += OrderedBoxes::at_once) {
+            int overlaps[OrderedBoxes::at_once];
+            for (std::size_t k = 0; k < OrderedBoxes::at_once; ++k)
                 overlaps[k] = (x[j + k] <= x1) & (x_end[j + k] >= x0) & (y[j + k] <= y1) & (y_end[j + k] >= y0) & (z[j + k] <= z1) &
                               (z_end[j + k] >= z0);
-            for (std::size_t k = 0; k < OrderedBoxes::together; ++k)
+            for (std::size_t k = 0; k < OrderedBoxes::at_once; ++k)
                 if (overlaps[k]) found(first.begin_m_and_number[i].second, second.begin_m_and_number[j + k].second);
         }
     }
