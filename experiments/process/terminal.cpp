@@ -49,10 +49,25 @@ void print_from_handler(const char* text, std::size_t length)
     if (::write(STDERR_FILENO, text, length) < 0) return;  // nobody reads it
 }
 
-void on_signal(int)
+void on_signal(int);
+
+// The next signal ends the program at once, and its workers with it. A worker goes on: where a signal is sent to all processes of a group,
+// it gets the one that its parent passes on as well.
+void watch_for(int signal)
+{
+    struct sigaction action = {};
+    action.sa_handler = on_signal;
+    action.sa_flags = getpid() == watching ? SA_RESETHAND : 0;
+    sigaction(signal, &action, nullptr);
+}
+
+void on_signal(int signal)
 {
     signalled = 1;
-    if (stages > 0 && getpid() == watching) ring_after(grace_s);
+    if (getpid() != watching)
+        watch_for(signal);
+    else if (stages > 0)
+        ring_after(grace_s);
 }
 
 void on_alarm(int)
@@ -126,15 +141,13 @@ Failure caught_failure()
 
 void watch_interrupts()
 {
+    watching = getpid();
+    watch_for(SIGINT);
+    watch_for(SIGTERM);
     struct sigaction action = {};
-    action.sa_handler = on_signal;
-    action.sa_flags = SA_RESETHAND;  // the second signal ends the program at once
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
     action.sa_handler = on_alarm;
     action.sa_flags = SA_RESTART;  // work goes on as if nothing had happened
     sigaction(SIGALRM, &action, nullptr);
-    watching = getpid();
     pbs::stage_watcher = {begin_stage, end_stage};
     pbs::ask_while_reading(stop_if_interrupted);
     std::signal(SIGXFSZ, SIG_IGN);  // then a file over the limit (ulimit -f) is a write error, as on a full disk

@@ -1,5 +1,8 @@
-// Colours and width. Reference: the conventions of no-color.org and CLICOLOR_FORCE; a test's standard output is not a terminal.
+// Failures, interruption, colours and width. References: the contract of exit statuses (experiments/command_line/README.md), and the
+// conventions of no-color.org and CLICOLOR_FORCE; a test's standard output is not a terminal.
 
+#include "analysis/records/record_files.hpp"
+#include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
 #include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/cost.hpp"
@@ -22,8 +25,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-// Reference: the contract of exit statuses (experiments/command_line/README.md).
 
 namespace {
 
@@ -82,12 +83,7 @@ std::pair<int, double> end_of(const std::function<void()>& work)
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), stopwatch.seconds()};
 }
 
-[[noreturn]] void never_end()
-{
-    for (;;) pause();
-}
-
-// Reference: the contract in the header. Without the watch, never_end() waits for the time limit of the test.
+// Reference: the contract in the header. Without the watch, the work waits for the time limit of the test.
 TEST(Interruption, EndsAStageThatGoesOnAndRemovesItsUnfinishedFiles)
 {
     const test_support::ScratchFolder folder;
@@ -97,13 +93,11 @@ TEST(Interruption, EndsAStageThatGoesOnAndRemovesItsUnfinishedFiles)
             finished.finish();
             const pbs::Stage outer("a model"), inner("a library that never ends");
             std::raise(signal);
-            never_end();
+            for (;;) pause();
         });
         EXPECT_EQ(status, exit_interrupted);
         EXPECT_LT(seconds, 2.0);
-        std::vector<std::string> left;
-        for (const auto& entry : std::filesystem::directory_iterator(folder.path())) left.push_back(entry.path().filename().string());
-        EXPECT_EQ(left, std::vector<std::string>{"finished.csv"});
+        EXPECT_EQ(analysis::files_in(folder.path()), std::vector<std::filesystem::path>{folder / "finished.csv"});
     }
 }
 
@@ -122,6 +116,12 @@ TEST(Interruption, IsNoticedWhereAStageBeginsAndLeavesTheRestInPeace)
                   while (writing.seconds() < 1.0) usleep(10'000);
               }).first,
               exit_finished);
+}
+
+// A signal to all processes of a group reaches a worker twice, since its parent passes it on.
+TEST(Interruption, AWorkerThatIsSignalledAgainGoesOn)
+{
+    EXPECT_EQ(end_of([] { in_own_process([] { return nlohmann::json(raise(SIGTERM) + raise(SIGTERM)); }); }).first, exit_finished);
 }
 
 class Terminal : public ::testing::Test {
