@@ -93,8 +93,7 @@ void listen(ForkedProcess& process)
     }
 }
 
-// Passes an interruption of this process on to a process that has not been waited for, once: a second signal would end its work in the
-// middle.
+// Passes an interruption of this process on to a process that has not been waited for, once.
 void pass_on_interruption(ForkedProcess& process)
 {
     if (interrupted() && !std::exchange(process.told_to_stop, true)) kill(process.id, SIGTERM);

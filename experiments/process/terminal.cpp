@@ -49,25 +49,18 @@ void print_from_handler(const char* text, std::size_t length)
     if (::write(STDERR_FILENO, text, length) < 0) return;  // nobody reads it
 }
 
-void on_signal(int);
-
-// The next signal ends the program at once, and its workers with it. A worker goes on: where a signal is sent to all processes of a group,
-// it gets the one that its parent passes on as well.
-void watch_for(int signal)
-{
-    struct sigaction action = {};
-    action.sa_handler = on_signal;
-    action.sa_flags = getpid() == watching ? SA_RESETHAND : 0;
-    sigaction(signal, &action, nullptr);
-}
-
+// The second signal ends the program at once, and its workers with it. A worker goes on, because a signal to its whole group reaches it
+// twice: directly, and from its parent.
 void on_signal(int signal)
 {
+    const bool is_second = signalled != 0, is_program = getpid() == watching;
     signalled = 1;
-    if (getpid() != watching)
-        watch_for(signal);
-    else if (stages > 0)
+    if (is_program && is_second) {
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);  // which waits for the end of this handler
+    } else if (is_program && stages > 0) {
         ring_after(grace_s);
+    }
 }
 
 void on_alarm(int)
@@ -142,9 +135,10 @@ Failure caught_failure()
 void watch_interrupts()
 {
     watching = getpid();
-    watch_for(SIGINT);
-    watch_for(SIGTERM);
     struct sigaction action = {};
+    action.sa_handler = on_signal;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
     action.sa_handler = on_alarm;
     action.sa_flags = SA_RESTART;  // work goes on as if nothing had happened
     sigaction(SIGALRM, &action, nullptr);

@@ -12,6 +12,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -119,9 +120,11 @@ TEST(Interruption, IsNoticedWhereAStageBeginsAndLeavesTheRestInPeace)
 }
 
 // A signal to all processes of a group reaches a worker twice, since its parent passes it on.
-TEST(Interruption, AWorkerThatIsSignalledAgainGoesOn)
+TEST(Interruption, OfASecondSignalEndsTheProgramAndNoWorker)
 {
-    EXPECT_EQ(end_of([] { in_own_process([] { return nlohmann::json(raise(SIGTERM) + raise(SIGTERM)); }); }).first, exit_finished);
+    EXPECT_EQ(end_of([] { raise(SIGINT), raise(SIGTERM); }).first, -SIGTERM);
+    const auto work = [] { return nlohmann::json(raise(SIGTERM) + raise(SIGTERM) == 0 && interrupted()); };
+    EXPECT_EQ(end_of([&] { _exit(in_own_process(work) == true ? exit_finished : exit_breakdown); }).first, exit_finished);
 }
 
 class Terminal : public ::testing::Test {
@@ -130,9 +133,7 @@ protected:
     {
         for (const char* name : {"NO_COLOR", "CLICOLOR_FORCE", "COLUMNS"}) unsetenv(name);
         kept_ = dup(STDOUT_FILENO);
-        const int nothing = open("/dev/null", O_WRONLY);
-        dup2(nothing, STDOUT_FILENO);
-        close(nothing);
+        dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
     }
 
     void TearDown() override
@@ -148,11 +149,10 @@ private:
 TEST_F(Terminal, AFileHasNoColoursUnlessTheyAreAskedForAndItsWidthIsThatOfColumnsElseAHundred)
 {
     EXPECT_FALSE(terminal_has_colours());
-    setenv("CLICOLOR_FORCE", "1", 1);
-    EXPECT_TRUE(terminal_has_colours());
     setenv("CLICOLOR_FORCE", "0", 1);
     EXPECT_FALSE(terminal_has_colours());
     setenv("CLICOLOR_FORCE", "1", 1);
+    EXPECT_TRUE(terminal_has_colours());
     setenv("NO_COLOR", "1", 1);
     EXPECT_FALSE(terminal_has_colours()) << "NO_COLOR is stronger";
     EXPECT_EQ(terminal_width(), 100u);
