@@ -93,10 +93,10 @@ void listen(ForkedProcess& process)
     }
 }
 
-// Passes an interruption of this process on to a process that has not been waited for, once.
+// Passes an interruption of this process on to a process that has not been waited for, once. METIS has a handler of its own for SIGTERM.
 void pass_on_interruption(ForkedProcess& process)
 {
-    if (interrupted() && !std::exchange(process.told_to_stop, true)) kill(process.id, SIGTERM);
+    if (interrupted() && !std::exchange(process.told_to_stop, true)) kill(process.id, SIGINT);
 }
 
 // Waits until one of the pipes has something to read, but only for a moment, so that a signal before the wait is noticed after it.

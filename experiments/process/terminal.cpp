@@ -50,7 +50,7 @@ void print_from_handler(const char* text, std::size_t length)
 }
 
 // The second signal ends the program at once, and its workers with it. A worker goes on, because a signal to its whole group reaches it
-// twice: directly, and from its parent.
+// twice: directly, and from its parent. It has the time of grace from the first one, in a stage or not.
 void on_signal(int signal)
 {
     const bool is_second = signalled != 0, is_program = getpid() == watching;
@@ -58,7 +58,7 @@ void on_signal(int signal)
     if (is_program && is_second) {
         std::signal(signal, SIG_DFL);
         std::raise(signal);  // which waits for the end of this handler
-    } else if (is_program && stages > 0) {
+    } else if (!is_second && (stages > 0 || !is_program)) {
         ring_after(grace_s);
     }
 }
@@ -68,7 +68,8 @@ void on_alarm(int)
     const int error = errno;
     if (signalled != 0) {
         pbs::AtomicFile::remove_unfinished();
-        for (const char* text : {"pbskin: ", last_words, "\n"}) print_from_handler(text, std::strlen(text));
+        if (getpid() == watching)
+            for (const char* text : {"pbskin: ", last_words, "\n"}) print_from_handler(text, std::strlen(text));
         _exit(exit_interrupted);
     }
     ring_after(long_stage_s);
@@ -155,7 +156,7 @@ bool interrupted()
 void stop_if_interrupted()
 {
     if (!interrupted()) return;
-    if (getpid() == watching) ring_after(0.0);  // from here on, the work ends by itself
+    ring_after(0.0);  // from here on, the work ends by itself
     throw Interrupted{};
 }
 
