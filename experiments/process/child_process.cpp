@@ -68,6 +68,7 @@ ForkedProcess start_process(const std::function<ProcessEnd()>& work)
     if (process < 0) throw std::runtime_error("no further process can be started");
     if (process == 0) {
         pbs::end_with_parent(parent);
+        if (interrupted()) _exit(exit_interrupted);  // by a signal that nobody passes on to this process
         close(ends[0]);
         const ProcessEnd end = work();
         write_whole(ends[1], end.text);
@@ -93,7 +94,8 @@ void listen(ForkedProcess& process)
     }
 }
 
-// Passes an interruption of this process on to a process that has not been waited for, once. METIS has a handler of its own for SIGTERM.
+// Passes an interruption of this process on, once, to a process that has not been waited for: as SIGINT, since METIS has a handler of its
+// own for SIGTERM.
 void pass_on_interruption(ForkedProcess& process)
 {
     if (interrupted() && !std::exchange(process.told_to_stop, true)) kill(process.id, SIGINT);

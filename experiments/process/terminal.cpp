@@ -32,7 +32,7 @@ bool progress_is_hidden = false;
 constexpr double grace_s = 0.7, long_stage_s = 2.0;
 constexpr char last_words[] = "interrupted; what was finished is kept";
 
-// Of stages in the process that watches; its children are ended by it. Signal handlers read them.
+// Of stages in the process that watches: its workers have none. Signal handlers read them.
 std::atomic<pid_t> watching = 0;
 std::atomic<int> stages = 0, line_length = 0;  // 0: the line of the innermost stage has been printed
 char line_of_stage[800];

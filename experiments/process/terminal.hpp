@@ -32,6 +32,7 @@ struct Failure {
 Failure caught_failure();
 
 // The first SIGINT or SIGTERM ends the work between two frames, so that finished work is kept. The second ends the program at once.
+// Workers end within a second of the first.
 struct Interrupted {};
 
 void watch_interrupts();

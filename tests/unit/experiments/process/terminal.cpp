@@ -119,11 +119,11 @@ TEST(Interruption, IsNoticedWhereAStageBeginsAndLeavesTheRestInPeace)
               exit_finished);
 }
 
-// A signal to all processes of a group reaches a worker twice, since its parent passes it on. It ends in a second all the same.
+// A signal to all processes of a group reaches a worker twice, since its parent passes it on.
 TEST(Interruption, OfASecondSignalEndsTheProgramAndNoWorker)
 {
     EXPECT_EQ(end_of([] { raise(SIGINT), raise(SIGTERM); }).first, -SIGTERM);
-    const auto work = [] { return nlohmann::json(raise(SIGTERM) + raise(SIGINT) + usleep(2'000'000)); };  // its end is cut off
+    const auto work = [] { return nlohmann::json((raise(SIGTERM), raise(SIGINT), usleep(2'000'000))); };  // its end is cut off
     EXPECT_EQ(end_of([&] { in_own_process(work); }).first, 10 + exit_internal) << "ended without a result, and by no signal";
 }
 
