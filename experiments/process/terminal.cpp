@@ -32,7 +32,7 @@ bool progress_is_hidden = false;
 constexpr double grace_s = 0.7, long_stage_s = 2.0;
 constexpr char last_words[] = "interrupted; what was finished is kept";
 
-// Of stages in the process that watches: its workers have none. Signal handlers read them.
+// The stages of the program itself. A worker counts none. Signal handlers read these variables.
 std::atomic<pid_t> watching = 0;
 std::atomic<int> stages = 0, line_length = 0;  // 0: the line of the innermost stage has been printed
 char line_of_stage[800];
