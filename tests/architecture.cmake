@@ -1,4 +1,4 @@
-# Tests that read the source tree: includes, sizes, build files and text.
+# Tests that read the source tree: includes, functions, build files and text.
 pbs_tests(architecture laws FOLDERS . LIBRARIES pbs_settings)
 target_compile_definitions(test_architecture_laws PRIVATE PBS_SOURCE_ROOT="${PROJECT_SOURCE_DIR}")
 

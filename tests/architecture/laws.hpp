@@ -79,20 +79,7 @@ Violations unit_mirror(const SourceTree& tree);       // tests/unit/A/... withou
 Violations package_list_form(const SourceTree& tree);
 Violations package_list_cover(const SourceTree& tree);
 
-// Sizes of folders, files and functions. A folder has a budget of lines; a file is a topic that is read in one scroll: 150 to 400 lines, at
-// most 500, and at least 60 unless it is a header with several users; a function has 10 to 15 lines, 9 in 10 at most 60, none over 120; a
-// line of source has at most 140 columns.
-struct Budget {
-    std::string what;
-    std::vector<std::string> folders, endings = {};  // of its files; no endings: all files
-    int most_lines = 1 << 30, most_files = 1 << 30;
-    int least_mean = 0;  // lines per file, of each folder and of each of its direct rooms; 0: files may be of any size
-};
-const std::vector<Budget>& budgets();  // of this project
-
-Violations file_sizes(const SourceTree& tree);
-Violations folder_sizes(const SourceTree& tree, const std::vector<Budget>& budgets);
-Violations small_files(const SourceTree& tree, const std::vector<Budget>& budgets);
+// A function has 10 to 15 lines, 9 in 10 at most 60, none over 120; a line of source has at most 140 columns. Files have no limits.
 Violations function_sizes(const SourceTree& tree);
 Violations line_lengths(const SourceTree& tree);
 

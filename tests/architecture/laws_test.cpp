@@ -1,5 +1,5 @@
 // The laws of the architecture hold for the actual source tree, and each law finds what is planted: a law that accepts a planted violation
-// proves nothing. References: the project's rules on includes, sizes, build files and text.
+// proves nothing. References: the project's rules on includes, functions, build files and text.
 #include "tests/architecture/laws.hpp"
 
 #include <nlohmann/json.hpp>
@@ -23,13 +23,6 @@ std::string lines(int count)
     return text;
 }
 
-const Budget made_up = {.what = "libraries",
-                        .folders = {"pbs/", "analysis/"},
-                        .endings = {".cpp", ".hpp"},
-                        .most_lines = 1000,
-                        .most_files = 8,
-                        .least_mean = 80};
-
 const std::map<std::string, Law> all_laws = {
     {"IncludesPointOneWay", include_direction},
     {"ExperimentsPointOneWay", layer_direction},
@@ -44,9 +37,6 @@ const std::map<std::string, Law> all_laws = {
     {"UnitTestsMirrorTheSource", unit_mirror},
     {"PackageListIsWellFormed", package_list_form},
     {"PackageListCoversTheCMakeFiles", package_list_cover},
-    {"FoldersKeepTheirBudgets", [](const SourceTree& tree) { return folder_sizes(tree, budgets()); }},
-    {"NoFileIsTooSmall", [](const SourceTree& tree) { return small_files(tree, budgets()); }},
-    {"NoFileIsTooLong", file_sizes},
     {"Functions", function_sizes},
     {"Lines", line_lengths},
     {"NoPathOfOneMachine", absolute_paths},
@@ -85,16 +75,13 @@ std::string planted_text(const nlohmann::json& written)
 // stands for nine. One letter of each forbidden text is written by its code, so that the file itself obeys the law.
 TEST(LawsBite, FindWhatIsPlanted)
 {
-    std::map<std::string, Law> laws = all_laws;
-    laws["MadeUpBudgets"] = [](const SourceTree& tree) { return folder_sizes(tree, {made_up}); };
-    laws["MadeUpSmallFiles"] = [](const SourceTree& tree) { return small_files(tree, {made_up}); };
     for (const nlohmann::json& planted : nlohmann::json::parse(std::ifstream(PBS_SOURCE_ROOT "/tests/architecture/planted.json"))) {
         SourceTree tree;
         for (const auto& [path, written] : planted.at("files").items())
             for (int i = 0; i < (path.find('#') == std::string::npos ? 1 : 9); ++i)
                 tree[std::regex_replace(path, std::regex("#"), std::to_string(i))] = planted_text(written);
         const std::string name = planted.at("name"), finds = planted.at("finds");
-        const Violations violations = laws.at(planted.at("law"))(tree);
+        const Violations violations = all_laws.at(planted.at("law"))(tree);
         EXPECT_EQ(violations.size(), finds.empty() ? 0u : 1u) << name;
         for (const std::string& violation : violations) EXPECT_NE(violation.find(finds), std::string::npos) << name << ": " << violation;
     }
@@ -141,16 +128,6 @@ TEST(LawsBite, EachLayerIncludesTheNext)
         EXPECT_NE(found[0].find(lower + " may not include " + upper), std::string::npos) << found[0];
         EXPECT_TRUE(layer_direction({{upper + "x.hpp", including(lower + "a.hpp")}}).empty()) << upper;
     }
-}
-
-TEST(LawsBite, AHeaderWithTwoUsersAndItsOwnSource)
-{
-    const std::string used = including("pbs/small.hpp");
-    const Violations found =
-        small_files({{"pbs/small.hpp", lines(5)}, {"pbs/small.cpp", used}, {"tests/a.cpp", used}, {"tests/b.cpp", used}}, {made_up});
-    ASSERT_EQ(found.size(), 2u);
-    EXPECT_EQ(found[0], "pbs/small.cpp:1: file of 1 lines, at least 60 unless it is a header with 3 users");
-    EXPECT_EQ(found[1], "pbs/small.hpp:1: file of 5 lines, at least 60 unless it is a header with 3 users");
 }
 
 TEST(LawsBite, LineOver140Columns)

@@ -47,9 +47,7 @@ SourceTree read_source_tree()
          ++entry) {
         const std::string path = entry->path().lexically_relative(root).generic_string();
         if (entry->is_directory() && starts_with_any(path + "/", left_out)) entry.disable_recursion_pending();
-        // Files of the kept records that are no texts are only counted.
-        if (entry->is_regular_file() && (belongs(path) || path.starts_with("experiments/records/")))
-            tree[path] = belongs(path) ? read(entry->path()) : "";
+        if (entry->is_regular_file() && belongs(path)) tree[path] = read(entry->path());
     }
     return tree;
 }
