@@ -132,16 +132,6 @@ ErrorNorms ErrorMetrics::measure(const pbs::Positions& positions, const pbs::Pos
     return error;
 }
 
-Eigen::VectorXd ErrorMetrics::joint_weights(const std::vector<bool>& left_out) const
-{
-    require_entries(left_out, mass_.size());
-    const std::vector<int> blended = without(blended_, left_out);
-    const double bone_distance_m = weighted_mean(blended, mass_, [&](int vertex) { return bone_distance_m_(vertex); });
-    Eigen::VectorXd weights = Eigen::VectorXd::Zero(mass_.size());
-    for (const int vertex : blended) weights(vertex) = mass_(vertex);
-    return weights / (weights.sum() * bone_distance_m * bone_distance_m);
-}
-
 double ErrorMetrics::share_pct(const std::vector<bool>& vertices) const
 {
     require_entries(vertices, mass_.size());

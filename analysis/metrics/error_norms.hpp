@@ -35,8 +35,6 @@ public:
     ErrorNorms measure(const pbs::Positions& positions, const pbs::Positions& reference) const;  // both [m], #V x 3, otherwise InputError
     // Without the vertices that are left out of this frame, #V; the mean bone distance is that of the remaining vertices.
     ErrorNorms measure(const pbs::Positions& positions, const pbs::Positions& reference, const std::vector<bool>& left_out) const;
-    // w with joint_pct = 100 sqrt(sum w_i |x_i - xref_i|^2), #V: for distances of many pairs. left_out: #V.
-    Eigen::VectorXd joint_weights(const std::vector<bool>& left_out) const;
 
     // The share of the body's rest volume at these vertices, #V, in per cent.
     double share_pct(const std::vector<bool>& vertices) const;

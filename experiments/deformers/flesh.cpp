@@ -20,6 +20,7 @@
 namespace experiments {
 
 NAMED_OPTIONS(pbs::Acceleration, over_relaxation, chebyshev)
+NAMED_OPTIONS(pbs::SpringPlacement, smooth, embedded, held)
 NAMED_OPTIONS(pbs::XpbdMultipliers, kept, of_step, reset)
 
 namespace {
@@ -27,7 +28,9 @@ namespace {
 // The options of a solver of pbs/flesh, and those of the flesh that it moves.
 template <typename SolverOptions>
 struct FleshOptions : SolverOptions {
-    double poisson = 0.45, core_radius = 0.7, spring_factor = 10.0;
+    double poisson = 0.45;
+    pbs::SpringPlacement attachment = pbs::SpringPlacement::smooth;
+    double core_radius = 0.7, spring_factor = 10.0;
     pbs::StartShape start = pbs::StartShape::smooth_dqs;
     pbs::Precision precision = pbs::Precision::f32;
 };
@@ -38,6 +41,10 @@ OptionFields<Options> flesh_fields(const std::string& kind)
     return OptionFields<Options>(kind)
         .add("iterations", &Options::iterations, {.range = {0, 1e6}, .meaning = "iterations per frame"})
         .add("poisson", &Options::poisson, {.range = {0.0, 0.4999}, .meaning = "Poisson's ratio of the flesh where strains are small"})
+        .add("attachment", &Options::attachment,
+             {.meaning = "smooth: springs whose density decreases from a bone's axis to the surface of a capsule around it; embedded: of one "
+                         "density, so that bones are rigid capsules with core_radius 0.35 and spring_factor 1e4; held: as smooth, and each "
+                         "bone holds the flesh that it alone moves"})
         .add("core_radius", &Options::core_radius,
              {.range = {above_zero, 1.0},
               .meaning = "radius of the capsules whose springs hold the flesh, a factor on the limb's radius, without a unit"})
@@ -60,10 +67,12 @@ FieldText contact_text()
 }
 
 // CHOLMOD is linked with BLAS, whose kernels have to be selected before the first module that brings it.
-pbs::HeldFlesh held_flesh(const pbs::Character& character, const pbs::SmoothSpringOptions& springs, const pbs::HeldFleshOptions& options)
+pbs::HeldFlesh held_flesh(const pbs::Character& character, pbs::SpringPlacement placement, const pbs::SmoothSpringOptions& springs,
+                          const pbs::HeldFleshOptions& options)
 {
     select_blas_kernels();
-    return {character.mesh, pbs::smooth_springs(character, springs).springs, static_cast<int>(character.skeleton.bones.size()), options};
+    const pbs::BoneSprings held = pbs::bone_springs(character, placement, springs).springs;
+    return {character.mesh, held, static_cast<int>(character.skeleton.bones.size()), options};
 }
 
 // The flesh of a character with the initial guess of each frame, and the solver: Solver<float> or Solver<double>.
@@ -108,7 +117,8 @@ protected:
 private:
     void set_up(const pbs::Character& character) final
     {
-        flesh_.emplace(held_flesh(character, {.core_radius = options_.core_radius, .spring_factor = options_.spring_factor},
+        flesh_.emplace(held_flesh(character, options_.attachment,
+                                  {.core_radius = options_.core_radius, .spring_factor = options_.spring_factor},
                                   {.poisson = options_.poisson, .volume_share = volume_share()}));
         const bool smooth = options_.start == pbs::StartShape::smooth_dqs;
         skinning_.emplace(character.mesh.rest, smooth ? flesh_->smooth_weights(character.weights) : character.weights);
@@ -253,7 +263,7 @@ private:
 
 pbs::Weights smooth_weights_of(const pbs::Character& character)
 {
-    return held_flesh(character, {}, {}).smooth_weights(character.weights);
+    return held_flesh(character, pbs::SpringPlacement::smooth, {}, {}).smooth_weights(character.weights);
 }
 
 DeformerKind quasi_newton_kind()

@@ -181,6 +181,7 @@ Study frames_study();  // study_cases.cpp: scenes alone
 Study timing_study();
 Study verification_study();
 Study fit_study();
+Study references_study();
 Study work_precision_study();
 Study ensemble_study();
 Study temporal_study();

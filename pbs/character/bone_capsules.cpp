@@ -1,6 +1,8 @@
 #include "pbs/character/bone_capsules.hpp"
 
+#include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
@@ -78,6 +80,48 @@ std::vector<BoneInZone> bones_of(const std::vector<bool>& zone, const Character&
         if (inside[b] > 0) bones.push_back({character.skeleton.bones[b].name, inside[b] / total, static_cast<double>(inside[b]) / all[b]});
     std::stable_sort(bones.begin(), bones.end(), [](const auto& a, const auto& b) { return a.share_of_zone > b.share_of_zone; });
     return bones;
+}
+
+class SpringList {
+public:
+    explicit SpringList(CapsuleSprings& held) : held_(held) {}
+
+    void add(const Vec3& point, int bone, double density, double stiffness_m)
+    {
+        points_.insert(points_.end(), {point.x(), point.y(), point.z()});
+        stiffness_m_.push_back(stiffness_m);
+        held_.springs.bone.push_back(bone);
+        held_.density.push_back(density);
+    }
+    void end()
+    {
+        const auto springs = static_cast<Eigen::Index>(stiffness_m_.size());
+        held_.springs.points = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(points_.data(), springs, 3);
+        held_.springs.stiffness = Eigen::VectorXd::Map(stiffness_m_.data(), springs);
+    }
+
+private:
+    CapsuleSprings& held_;
+    std::vector<double> points_, stiffness_m_;
+};
+
+// Each tet has four springs, at the points of the quadrature rule of degree 2 (Hammer, Marlowe, Stroud 1956).
+void hold_what_one_bone_moves(const Character& character, SpringList& springs)
+{
+    constexpr double near = 0.585410196624968515, far = 0.138196601125010504;  // (5 + 3 sqrt 5) / 20, (5 - sqrt 5) / 20
+    const Character& coarse = character.unrefined ? *character.unrefined : character;
+    const std::vector<BoneCapsule> rigid = bone_capsules(coarse, rigid_core_radius);
+    const std::vector<int> alone = bones_that_move_alone(coarse);
+    const Eigen::VectorXd volumes_m3 = tet_volumes(coarse.mesh.rest, coarse.mesh.tets);
+    for (std::size_t tet = 0; tet < alone.size(); ++tet) {
+        if (alone[tet] < 0) continue;
+        Eigen::Matrix<double, 4, 3> corners;
+        for (int i = 0; i < 4; ++i) corners.row(i) = coarse.mesh.rest.row(coarse.mesh.tets(tet, i));
+        const double radius_m = rigid[alone[tet]].radius_m;
+        const double stiffness_m = rigid_spring_factor / (radius_m * radius_m) * volumes_m3(tet) / 4.0;
+        for (int i = 0; i < 4; ++i)
+            springs.add(far * corners.colwise().sum() + (near - far) * corners.row(i), alone[tet], 1.0, stiffness_m);
+    }
 }
 
 }  // namespace
@@ -160,17 +204,26 @@ double smooth_density(const BoneCapsule& capsule, AttachmentKernel kernel, doubl
     return 0.0;
 }
 
-CapsuleSprings smooth_springs(const Character& character, const SmoothSpringOptions& options)
+std::vector<int> bones_that_move_alone(const Character& character)
 {
-    return capsule_springs(character, options, [&](const BoneCapsule& capsule, const Vec3& point) {
-        return smooth_density(capsule, options.kernel, options.ends, point);
-    });
+    const Weights weights = character.artist ? character.artist->weights : weights_by(WeightKind::diffused, character);
+    std::vector<int> of_tet;
+    for (const auto corners : character.mesh.tets.rowwise()) {
+        const auto is_moved_alone_by = [&](int bone) {
+            return std::ranges::all_of(corners, [&](int v) { return weights.of(v, bone) > weight_alone; });
+        };
+        const int first = corners(0);
+        const auto begin = weights.bone.begin() + weights.first[first], end = weights.bone.begin() + weights.first[first + 1];
+        const auto bone = std::find_if(begin, end, is_moved_alone_by);
+        of_tet.push_back(bone == end ? -1 : *bone);
+    }
+    return of_tet;
 }
 
-CapsuleSprings capsule_springs(const Character& character, const SmoothSpringOptions& options,
-                               const std::function<double(const BoneCapsule&, const Vec3&)>& density)
+CapsuleSprings bone_springs(const Character& character, SpringPlacement placement, const SmoothSpringOptions& options)
 {
     CapsuleSprings held{bone_capsules(character, options.core_radius), {}, {}};
+    SpringList springs(held);
     const PointLocation location(character.mesh);
     const auto may_hold = [&](const Vec3& point, int bone) {
         if (!character.artist || !character.artist->is_cut) return true;
@@ -178,23 +231,20 @@ CapsuleSprings capsule_springs(const Character& character, const SmoothSpringOpt
         const Weights& weights = character.artist->weights;
         return tet < 0 || std::ranges::any_of(character.mesh.tets.row(tet), [&](int v) { return weights.of(v, bone) >= 0.25; });
     };
-    std::vector<double> stiffness;
     for (std::size_t j = 0; j < held.capsules.size(); ++j) {
         const BoneCapsule& capsule = held.capsules[j];
         const Positions points = sample_points(capsule, options.samples);
         const double on_axis = options.spring_factor / (capsule.radius_m * capsule.radius_m);
-        auto springs = static_cast<Eigen::Index>(stiffness.size());
-        held.springs.points.conservativeResize(springs + points.rows(), 3);
-        for (const auto& point : points.rowwise()) {
-            if (!may_hold(point.transpose(), static_cast<int>(j))) continue;
-            held.springs.points.row(springs++) = point;
-            held.springs.bone.push_back(static_cast<int>(j));
-            held.density.push_back(density(capsule, point.transpose()));
-            stiffness.push_back(on_axis * held.density.back() * capsule.volume_m3() / static_cast<double>(points.rows()));
+        for (const auto& row : points.rowwise()) {
+            const Vec3 point = row.transpose();
+            if (!may_hold(point, static_cast<int>(j))) continue;
+            const double density =
+                placement == SpringPlacement::embedded ? 1.0 : smooth_density(capsule, options.kernel, options.ends, point);
+            springs.add(point, static_cast<int>(j), density, on_axis * density * capsule.volume_m3() / static_cast<double>(points.rows()));
         }
     }
-    held.springs.points.conservativeResize(static_cast<Eigen::Index>(stiffness.size()), 3);
-    held.springs.stiffness = Eigen::VectorXd::Map(stiffness.data(), static_cast<Eigen::Index>(stiffness.size()));
+    if (placement == SpringPlacement::held) hold_what_one_bone_moves(character, springs);
+    springs.end();
     return held;
 }
 

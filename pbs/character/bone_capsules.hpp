@@ -57,12 +57,21 @@ struct CapsuleSprings {
     std::vector<double> density;  // #springs, relative
 };
 
-// Where the flesh is cut between parts, a bone has no springs in tets that it does not move.
-CapsuleSprings smooth_springs(const Character& character, const SmoothSpringOptions& options);
+// Where the springs are.
+//   smooth    in the capsules, their density decreasing to zero at the capsules' surface (smooth_density)
+//   embedded  in the capsules, of one density: bones that are rigid capsules in the flesh
+//   held      as smooth, and stiff ones (rigid_spring_factor over the square of rigid_core_radius) throughout the tets that one bone alone
+//             moves, as a skull holds a head: its weight is above weight_alone at all four corners. The weights are the artist's, or
+//             those of Eq. 2 smoothed over the mesh's edges
+enum class SpringPlacement { smooth, embedded, held };
+inline constexpr double rigid_spring_factor = 1e4, rigid_core_radius = 0.35, weight_alone = 0.99;
 
-// density: relative, of a point of a capsule [m]. InputError for a bone without length.
-CapsuleSprings capsule_springs(const Character& character, const SmoothSpringOptions& options,
-                               const std::function<double(const BoneCapsule&, const Vec3&)>& density);
+// Where the flesh is cut between parts, a bone has no springs in tets that it does not move. InputError for a bone without length.
+//   const BoneSprings springs = bone_springs(character, SpringPlacement::smooth, {}).springs;
+CapsuleSprings bone_springs(const Character& character, SpringPlacement placement, const SmoothSpringOptions& options);
+
+// The bone that alone moves each tet, #T; -1: none.
+std::vector<int> bones_that_move_alone(const Character& character);
 
 // The paper's jiggling zone (Sec. 4: vertices farther from the nearest bone than the mean over all vertices) on a body: its share of the
 // body, its pieces and its bones.

@@ -38,7 +38,7 @@ struct HeldFleshOptions {
 
 // Elastic flesh that the bones hold, with what a minimiser of its energy keeps for all frames: the energy, its Laplacian's factor, and
 // weights for an initial guess.
-//   const HeldFlesh flesh(mesh, smooth_springs(character, {}).springs, bones, {.poisson = 0.45});
+//   const HeldFlesh flesh(mesh, bone_springs(character, SpringPlacement::smooth, {}).springs, bones, {.poisson = 0.45});
 //   flesh.hold().centres(pose, centres);
 class HeldFlesh {
 public:

@@ -57,6 +57,18 @@ void bind_vertices(const pbs::Character& character, const FemOptions& options, B
     }
 }
 
+pbs::SpringPlacement spring_placement(FemAttachment attachment)
+{
+    switch (attachment) {
+        case FemAttachment::embedded:
+            return pbs::SpringPlacement::embedded;
+        case FemAttachment::held:
+            return pbs::SpringPlacement::held;
+        default:
+            return pbs::SpringPlacement::smooth;
+    }
+}
+
 // Springs at the sample points of the capsules, each with the stiffness of its share of the volume.
 void tie_springs(const pbs::Character& character, const FemOptions& options, BoneAttachment& bones)
 {
@@ -65,9 +77,7 @@ void tie_springs(const pbs::Character& character, const FemOptions& options, Bon
                                            .kernel = options.attachment_kernel,
                                            .ends = options.attachment_ends,
                                            .samples = options.attachment_samples};
-    const auto everywhere = [](const pbs::BoneCapsule&, const pbs::Vec3&) { return 1.0; };
-    pbs::CapsuleSprings held =
-        options.is_smooth() ? pbs::smooth_springs(character, sampled) : pbs::capsule_springs(character, sampled, everywhere);
+    pbs::CapsuleSprings held = pbs::bone_springs(character, spring_placement(options.attachment), sampled);
     bones.capsules = std::move(held.capsules);
     bones.attachment.spring_points = std::move(held.springs.points);
     bones.attachment.spring_stiffness = options.young_pa * held.springs.stiffness;

@@ -1,4 +1,4 @@
-// The attachment of the reference to the skeleton in its four forms (see FemAttachment): springs at sample points, prescribed tets, or
+// The attachment of the reference to the skeleton in its five forms (see FemAttachment): springs at sample points, prescribed tets, or
 // bound vertices, each with the bone that moves it.
 #pragma once
 
@@ -21,6 +21,7 @@ struct BoneAttachment {
 // By options.attachment:
 //   smooth    springs over each capsule's volume, of density q E / r^2 times smooth_density (pbs/character/bone_capsules.hpp)
 //   embedded  springs of density q E / r^2 over each capsule's volume
+//   held      as smooth, and stiff springs throughout the tets that one bone alone moves
 //   nodes     whole tets inside the capsules. No vertex is shared by two bones: the tet of the later bone is left out. A bone that keeps
 //             no tet (fewer than four vertices that are not in one plane) is a pbs::InputError. A refined character has the children of
 //             the tets of the unrefined one

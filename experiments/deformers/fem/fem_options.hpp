@@ -14,8 +14,9 @@ class OptionFields;  // experiments/settings/option_fields.hpp
 
 // How the bones hold the flesh. smooth: springs, whose density decreases smoothly to zero from the axis of each bone to the surface of a
 // capsule around it. embedded: each bone is a rigid capsule inside the flesh, tied to it by stiff springs of one density. nodes: whole tets
-// inside the capsule are prescribed. bind: the paper's bind constraint as an energy, for nonlinear models.
-enum class FemAttachment { smooth, embedded, nodes, bind };
+// inside the capsule are prescribed. bind: the paper's bind constraint as an energy, for nonlinear models. held: as smooth, and each bone
+// holds the flesh that it alone moves, as a skull holds a head (pbs::SpringPlacement).
+enum class FemAttachment { smooth, embedded, nodes, bind, held };
 
 struct FemOptions {
     reference_fem::Model model = reference_fem::Model::linear;
@@ -50,7 +51,7 @@ struct FemOptions {
     bool has_capsules() const { return attachment != FemAttachment::bind; }
     bool has_spring_factor() const { return attachment != FemAttachment::nodes; }
     bool has_sample_points() const { return is_smooth() || attachment == FemAttachment::embedded; }
-    bool is_smooth() const { return attachment == FemAttachment::smooth; }
+    bool is_smooth() const { return attachment == FemAttachment::smooth || attachment == FemAttachment::held; }
     // core_radius and spring_factor, or the attachment's own values where these are 0.
     double used_core_radius() const { return core_radius > 0.0 ? core_radius : is_smooth() ? 0.7 : 0.35; }
     double used_spring_factor() const { return spring_factor > 0.0 ? spring_factor : is_smooth() ? 10.0 : 1e4; }
@@ -60,7 +61,7 @@ struct FemOptions {
 NAMED_OPTIONS(reference_fem::Model, linear, corotational, stable_neo_hookean, neo_hookean, st_venant_kirchhoff)
 NAMED_OPTIONS(reference_fem::Formulation, displacement, mean_dilatation, taylor_hood)
 NAMED_OPTIONS(reference_fem::Dynamics, quasi_static, newmark, generalized_alpha)
-NAMED_OPTIONS(FemAttachment, smooth, embedded, nodes, bind)
+NAMED_OPTIONS(FemAttachment, smooth, embedded, nodes, bind, held)
 NAMED_OPTIONS(pbs::AttachmentKernel, biweight, wendland)
 NAMED_OPTIONS(reference_fem::LinearSolver, cholmod, umfpack, cg_ml)
 

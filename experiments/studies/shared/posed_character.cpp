@@ -23,6 +23,15 @@ pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose)
     return positions;
 }
 
+pbs::Positions carried_by_lbs(const pbs::Positions& shape, const pbs::Character& character, const pbs::Pose& from, const pbs::Pose& to)
+{
+    pbs::Pose moved = to;
+    for (std::size_t b = 0; b < moved.size(); ++b) moved[b] = moved[b] * from[b].inverse();
+    pbs::Positions carried;
+    pbs::linear_blend_skinning(shape, character.weights, moved, carried);
+    return carried;
+}
+
 std::vector<pbs::Positions> shapes_in_motion(const pbs::Character& character, const pbs::Motion& motion, const DeformerSpec& spec)
 {
     const std::unique_ptr<Deformer> deformer = make_deformer(spec);

@@ -34,6 +34,9 @@ pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose);
 // The shapes that a deformer gives a character in all frames of a motion [m], #V x 3. With memory it takes the steps between them, too.
 std::vector<pbs::Positions> shapes_in_motion(const pbs::Character& character, const pbs::Motion& motion, const DeformerSpec& spec);
 
+// A shape that LBS carries with the bones' motion from one pose to another [m], #V x 3: where a frame begins that continues the one before.
+pbs::Positions carried_by_lbs(const pbs::Positions& shape, const pbs::Character& character, const pbs::Pose& from, const pbs::Pose& to);
+
 // The character with the weights that the scene states, if it states any.
 pbs::Character reweighted(const pbs::Character& character, const Scene& scene);
 

@@ -33,6 +33,8 @@ namespace {
 // Each step takes about 15 s and 5 GB on tets cut into eight. In a fold without contact their number has no limit. Measured: 84 steps on
 // the human standing with stiffer springs, and 119 on the limb bent by 90 degrees whose skin has 13.5 edges per radius.
 constexpr int most_newton_steps = 200;
+// Rigid capsules take 8 to 35 steps where they are reached, and in some deep flexions more than 200.
+constexpr int most_newton_steps_rigid = 60;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr analysis::ErrorNorms unknown_bound{not_known, not_known, not_known};
 constexpr double analysis::ErrorNorms::*norms[] = {&analysis::ErrorNorms::l2_pct, &analysis::ErrorNorms::joint_pct,
@@ -149,7 +151,7 @@ std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, 
 }
 
 PosedReference::PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s,
-                               ReferenceEffort effort, const std::string& solutions, const PosedReference* same_meshes)
+                               ReferenceEffort effort, const std::string& solutions)
     : character_(character),
       spec_(spec),
       pose_(pose),
@@ -157,7 +159,6 @@ PosedReference::PosedReference(const pbs::Character& character, const DeformerSp
       label_(spec.label),
       kept_in_(solutions),
       error_metrics_(error_domain(character, {})),
-      other_tets_(same_meshes ? same_meshes->other_tets_ : std::make_shared<std::map<unsigned, pbs::Character>>()),
       masked_(character.mesh.rest.rows(), false),
       spread_{}
 {
@@ -280,15 +281,16 @@ void PosedReference::solve_on_tets(unsigned seed, double edges_per_radius)
 {
     std::vector<pbs::FineBall> fine;
     if (edges_per_radius > 0.0) fine = fine_at_bent_joints(character_, pose_, edges_per_radius);
+    std::optional<pbs::Character> other;
     try {
-        if (!other_tets_->contains(seed)) other_tets_->emplace(seed, pbs::remeshed(character_, {.seed = seed, .fine = fine}));
+        other = pbs::remeshed(character_, {.seed = seed, .fine = fine});
     } catch (const pbs::InputError& error) {  // known only now, after the long solutions
         warn({fmt::format("{} on other tets: {}", label_, error.what())});
         solutions_.push_back({.element_order = 2, .other_tets = seed, .edges_per_radius = edges_per_radius});
         return;
     }
     add(fmt::format("tets_{}", seed),
-        {{.character = other_tets_->at(seed), .element_order = 2, .other_tets = seed, .edges_per_radius = edges_per_radius}});
+        {{.character = *other, .element_order = 2, .other_tets = seed, .edges_per_radius = edges_per_radius}});
 }
 
 // The energy is compared per volume, since other tets are smaller than the skin that they fill: by 0.03 % of the limb and 0.2 to 0.3 % of
@@ -369,7 +371,7 @@ void PosedReference::observe_spread()
 analysis::ErrorNorms PosedReference::bound() const
 {
     if (!is_reached() || (creases_ && reference().element_order == 1)) return unknown_bound;
-    if (!creases_ && !order_) return reference().element_order == 2 ? borrowed_bound_.value_or(unknown_bound) : unknown_bound;
+    if (!creases_ && !order_) return unknown_bound;
     analysis::ErrorNorms bound;
     constexpr std::size_t finest = 0, quadratic = 1;
     const analysis::ErrorNorms apart = distance(solutions_[quadratic].positions, solutions_[finest].positions),
@@ -406,32 +408,22 @@ std::vector<EnsembleMember> family()
             {.name = "thinner_bones", .core_radius = 0.5},
             {.name = "stiffer_springs_thinner_bones", .spring_factor = 100.0, .core_radius = 0.5},
             {.name = "nu_0.3", .poisson = 0.3},
-            {.name = "nu_0.49", .poisson = 0.49, .formulation = reference_fem::Formulation::mean_dilatation}};
+            {.name = "nu_0.49", .poisson = 0.49, .formulation = reference_fem::Formulation::mean_dilatation},
+            {.name = "rigid_capsules", .attachment = FemAttachment::embedded, .spring_factor = 1e4, .core_radius = 0.35},
+            {.name = "held_parts", .attachment = FemAttachment::held}};
 }
 
-std::size_t place_among_further(const std::string& member)
-{
-    const std::vector<EnsembleMember> all = family();
-    return static_cast<std::size_t>(std::ranges::find(all, member, &EnsembleMember::name) - all.begin()) - 1;
-}
-
-const analysis::Columns<EnsembleMember>& family_member_columns()
-{
-    static const analysis::Columns<EnsembleMember> columns = analysis::Columns<EnsembleMember>{{"member", &EnsembleMember::name}} +
-                                                             MEMBER_COLUMNS(EnsembleMember, spring_factor, core_radius, poisson);
-    return columns;
-}
-
-RECORD_SETTINGS(EnsembleMember, name, spring_factor, core_radius, poisson, formulation)
+RECORD_SETTINGS(EnsembleMember, name, attachment, spring_factor, core_radius, poisson, formulation)
 
 DeformerSpec flesh_of(DeformerSpec flesh, const EnsembleMember& member)
 {
     auto& options = options_of<FemOptions>(flesh);
-    options.attachment = FemAttachment::smooth;
+    options.attachment = member.attachment;
     options.spring_factor = member.spring_factor;
     options.core_radius = member.core_radius;
     options.poisson = member.poisson;
     options.formulation = member.formulation;
+    if (member.attachment == FemAttachment::embedded) options.most_newton_steps = most_newton_steps_rigid;
     return flesh;
 }
 

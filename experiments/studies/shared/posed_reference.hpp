@@ -86,11 +86,9 @@ std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, 
 class PosedReference {
 public:
     // spec: a [[fem]] deformer with a nonlinear model and attachment smooth or embedded; its element order does not matter. character: not
-    // refined itself. solutions: a folder in which solutions are kept and found again; "": none. same_meshes: another reference of the
-    // character in the pose, whose other tets serve here, too; each of these meshes takes half a minute on a body.
+    // refined itself. solutions: a folder in which solutions are kept and found again; "": none.
     PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s,
-                   ReferenceEffort effort = ReferenceEffort::other_tets, const std::string& solutions = "",
-                   const PosedReference* same_meshes = nullptr);
+                   ReferenceEffort effort = ReferenceEffort::other_tets, const std::string& solutions = "");
 
     const std::string& label() const { return label_; }  // of spec
     // The reference finished with det F > 0 at all quadrature points. With other tets, where a joint is bent, it has the lowest energy of
@@ -110,7 +108,6 @@ public:
     analysis::ErrorNorms distance(const pbs::Positions& one, const pbs::Positions& other) const;
     analysis::ErrorNorms error_of(const pbs::Positions& positions) const { return distance(positions, reference().positions); }
     analysis::ErrorNorms error_on_whole_body(const pbs::Positions& positions) const;
-    Eigen::VectorXd joint_weights() const { return error_metrics_.joint_weights(masked_); }
 
     // The observed order is empty unless the four nested solutions finished.
     const std::optional<analysis::NestedOrder>& order() const { return order_; }
@@ -119,13 +116,10 @@ public:
     // bones did not, there is no second equilibrium.
     analysis::ErrorNorms spread() const { return spread_; }
     // Bounds the distance of the reference from the limit: by the order and the spread, or by the spread where a joint is bent. NaN where
-    // there is no order, unless it is like another reference.
+    // there is no order.
     analysis::ErrorNorms bound() const;
     // The same for its quadratic solution on the own tets. NaN where there is no such bound.
     analysis::ErrorNorms bound_on_own_tets() const;
-    // Gives a quadratic solution on the own tets alone the bound of that of another reference, whose flesh is held in another way.
-    void take_bound_of(const PosedReference& other) { borrowed_bound_ = other.bound_on_own_tets(); }
-
 private:
     struct Level {
         const pbs::Character& character;
@@ -154,7 +148,6 @@ private:
     double time_step_s_;
     std::string label_, kept_in_;
     analysis::ErrorMetrics error_metrics_;
-    std::shared_ptr<std::map<unsigned, pbs::Character>> other_tets_;  // by seed
     std::vector<NestedSolution> solutions_;
     std::size_t nested_ = 0;  // the first ones, on the own and the refined tets
     bool creases_ = false;    // a joint is bent, and other tets show how well its crease is resolved
@@ -162,7 +155,6 @@ private:
     std::vector<bool> masked_;
     std::optional<analysis::NestedOrder> order_;
     analysis::ErrorNorms spread_;
-    std::optional<analysis::ErrorNorms> borrowed_bound_;
 };
 
 // The family of references that a comparison of deformers has to survive: nobody knows how flesh is held by its bones, nor how
@@ -170,25 +162,18 @@ private:
 //   for (const EnsembleMember& member : family()) PosedReference(character, flesh_of(reference_flesh(scene), member), pose, dt) ...
 struct EnsembleMember {
     std::string name;  // smooth, stiffer_springs, ...
+    FemAttachment attachment = FemAttachment::smooth;
     double spring_factor = 10.0, core_radius = 0.7, poisson = 0.45;
     reference_fem::Formulation formulation = reference_fem::Formulation::displacement;
 };
 nlohmann::json to_json(const EnsembleMember& member);
 
-// q 10 and 100 with a core radius of 0.5 and 0.7; and, with 10 and 0.7, Poisson's ratio 0.3 and (with mean dilatation) 0.49. The first
-// one, smooth, is held like the reference of the other studies (reference_flesh).
+// q 10 and 100 with a core radius of 0.5 and 0.7; and, with 10 and 0.7, Poisson's ratio 0.3 and (with mean dilatation) 0.49; bones that are
+// rigid capsules; and bones that hold the flesh that they alone move. The first one, smooth, is held like the reference of the other studies
+// (reference_flesh).
 std::vector<EnsembleMember> family();
 
-// The settings of the deformers of a pair: those that are chosen on the training poses, or their own.
-enum class SettingsOf { training_poses, defaults };
-NAMED_OPTIONS(SettingsOf, training_poses, defaults)
-
-inline constexpr std::size_t further_members = 5;  // of the family, after the first one
-// The place of a further member among these, by its name; `further_members` or more for any other name.
-std::size_t place_among_further(const std::string& member);
-
-const analysis::Columns<EnsembleMember>& family_member_columns();  // member, spring_factor, core_radius, poisson
-
+inline constexpr std::size_t further_members = 7;  // of the family, after the first one
 // The flesh, a [[fem]] deformer, as the member holds and compresses it.
 DeformerSpec flesh_of(DeformerSpec flesh, const EnsembleMember& member);
 

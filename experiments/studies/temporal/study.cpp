@@ -83,15 +83,6 @@ private:
         }
     }
 
-    pbs::Positions carried(const pbs::Positions& before, int frame) const
-    {
-        pbs::Pose moved = pose(frame);
-        for (std::size_t b = 0; b < moved.size(); ++b) moved[b] = moved[b] * pose(frame - 1)[b].inverse();
-        pbs::Positions shape;
-        pbs::linear_blend_skinning(before, character_.weights, moved, shape);
-        return shape;
-    }
-
     void add(const DeformerSpec& spec, FrameStart start)
     {
         const auto deformer = make_deformer(spec);
@@ -101,7 +92,7 @@ private:
         for (int frame = 0; frame < motion_.frames(); ++frame) {
             stop_if_interrupted();
             const double start_s = process_cpu_s();
-            if (start == FrameStart::frame_before && frame > 0) deformer->start_from(carried(shapes.back(), frame));
+            if (start == FrameStart::frame_before && frame > 0) deformer->start_from(carried_by_lbs(shapes.back(), character_, pose(frame - 1), pose(frame)));
             deformer->advance(pose(frame), motion_.time_step_s);
             TemporalFrame& row = records_.frames.emplace_back(TemporalFrame{spec.label, start, frame, 1e3 * (process_cpu_s() - start_s)});
             shapes.push_back(deformer->positions());

@@ -1,0 +1,218 @@
+#include "experiments/studies/references/kept_references.hpp"
+
+#include "analysis/records/record_files.hpp"
+#include "pbs/character/body_cache.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+
+namespace experiments {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+constexpr int kept_schema = 1;
+constexpr std::size_t most_bytes = 16 << 20;  // of an unpacked file
+
+std::string deflated(const std::vector<std::uint8_t>& bytes)
+{
+    uLongf size = compressBound(bytes.size());
+    std::string text(size, '\0');
+    if (compress2(reinterpret_cast<Bytef*>(text.data()), &size, bytes.data(), bytes.size(), Z_BEST_COMPRESSION) != Z_OK)
+        throw std::runtime_error("zlib cannot compress the references");
+    text.resize(size);
+    return text;
+}
+
+// Empty if the text is damaged.
+std::vector<std::uint8_t> inflated(const std::string& text)
+{
+    std::vector<std::uint8_t> bytes(most_bytes);
+    uLongf size = bytes.size();
+    if (uncompress(bytes.data(), &size, reinterpret_cast<const Bytef*>(text.data()), text.size()) != Z_OK) return {};
+    bytes.resize(size);
+    return bytes;
+}
+
+// Small numbers of either sign have small codes, and the codes' first, second, ... bytes lie side by side, which compresses well.
+json::binary_t planes_of(const std::vector<std::int32_t>& values)
+{
+    std::vector<std::uint8_t> bytes(4 * values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto value = static_cast<std::uint32_t>(values[i]);
+        const std::uint32_t code = values[i] < 0 ? ~(value << 1) : value << 1;
+        for (std::size_t plane = 0; plane < 4; ++plane) bytes[plane * values.size() + i] = static_cast<std::uint8_t>(code >> 8 * plane);
+    }
+    return bytes;
+}
+
+std::vector<std::int32_t> values_in(const std::vector<std::uint8_t>& bytes)
+{
+    std::vector<std::int32_t> values(bytes.size() / 4);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        std::uint32_t code = 0;
+        for (std::size_t plane = 0; plane < 4; ++plane) code |= std::uint32_t{bytes[plane * values.size() + i]} << 8 * plane;
+        values[i] = static_cast<std::int32_t>(code >> 1) ^ -static_cast<std::int32_t>(code & 1);
+    }
+    return values;
+}
+
+// Each vertex as a rigid part of its nearest bone [m], #V x 3.
+pbs::Positions rigid_shape(const pbs::Character& character, const pbs::Pose& bones)
+{
+    pbs::Positions shape = character.mesh.rest;
+    for (Eigen::Index v = 0; v < shape.rows(); ++v)
+        shape.row(v) = (bones[character.binding.bone[v]] * pbs::Vec3(character.mesh.rest.row(v).transpose())).transpose();
+    return shape;
+}
+
+std::vector<std::int32_t> residual(const pbs::Positions& shape, const pbs::Positions& predicted)
+{
+    std::vector<std::int32_t> values;
+    for (int axis = 0; axis < 3; ++axis)
+        for (Eigen::Index v = 0; v < shape.rows(); ++v)
+            values.push_back(static_cast<std::int32_t>(std::lround((shape(v, axis) - predicted(v, axis)) / kept_quantum_m)));
+    return values;
+}
+
+pbs::Positions predicted_plus(const pbs::Positions& predicted, const std::vector<std::int32_t>& values, double quantum_m)
+{
+    pbs::Positions shape = predicted;
+    std::size_t next = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        for (Eigen::Index v = 0; v < shape.rows(); ++v) shape(v, axis) += quantum_m * values[next++];
+    return shape;
+}
+
+// The numbers of a member, without its shape.
+template <typename Reference, typename Visit>
+void for_each_number(Reference& of, const Visit& visit)
+{
+    visit("linear_distance_pct", of.linear_distance_pct), visit("energy_j", of.energy_j), visit("lowest_det_f", of.lowest_det_f);
+}
+
+json json_of(const KeptReference& of)
+{
+    json one = {{"member", to_json(of.member)}, {"outcome", of.outcome}, {"newton_steps", of.newton_steps}, {"seconds", of.seconds}};
+    for_each_number(of, [&](const char* name, const std::optional<double>& value) {
+        if (value) one[name] = *value;
+    });
+    std::vector<int> tips;
+    for (std::size_t v = 0; v < of.at_tips.size(); ++v)
+        if (of.at_tips[v]) tips.push_back(static_cast<int>(v));
+    one["tips"] = tips;
+    return one;
+}
+
+KeptReference reference_of(const json& one, Eigen::Index vertices)
+{
+    KeptReference of;
+    const std::string name = one.at("member").at("name");
+    for (const EnsembleMember& member : family())
+        if (member.name == name) of.member = member;
+    if (to_json(of.member) != one.at("member")) throw std::runtime_error("a member " + name + " that this program does not have");
+    one.at("outcome").get_to(of.outcome), one.at("newton_steps").get_to(of.newton_steps), one.at("seconds").get_to(of.seconds);
+    for_each_number(of, [&](const char* key, std::optional<double>& value) {
+        if (one.contains(key)) value = one.at(key).get<double>();
+    });
+    of.at_tips.assign(vertices, false);
+    for (const int v : one.at("tips")) of.at_tips.at(v) = true;
+    return of;
+}
+
+}  // namespace
+
+double KeptReference::own_error_pct() const
+{
+    return share_of_linear_distance * linear_distance_pct.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+const KeptReference* KeptReferences::find(const std::string& member) const
+{
+    const auto found = std::ranges::find_if(members, [&](const KeptReference& one) { return one.member.name == member; });
+    return found == members.end() ? nullptr : &*found;
+}
+
+std::string packed(const KeptReferences& references, const pbs::Character& character)
+{
+    json all = {{"schema", kept_schema},
+                {"pose", references.pose},
+                {"body", references.body},
+                {"mesh_hash", references.mesh_hash},
+                {"revision", references.revision},
+                {"quantum_m", kept_quantum_m}};
+    for (const Eigen::Isometry3d& bone : references.bones)
+        all["bones"].push_back(std::vector<double>(bone.data(), bone.data() + bone.matrix().size()));
+    pbs::Positions predicted = rigid_shape(character, references.bones);
+    for (const KeptReference& of : references.members) {
+        json& one = all["members"].emplace_back(json_of(of));
+        if (!of.is_reached()) continue;
+        const std::vector<std::int32_t> values = residual(of.positions, predicted);
+        one["shape"] = json::binary(planes_of(values));
+        predicted = predicted_plus(predicted, values, kept_quantum_m);
+    }
+    return deflated(json::to_cbor(all));
+}
+
+KeptReferences unpacked(const std::string& text, const std::string& file, const pbs::Character& character)
+{
+    KeptReferences references;
+    const std::string hash = pbs::content_hash(character.mesh);
+    const std::vector<std::uint8_t> bytes = inflated(text);
+    try {
+        const json all = json::from_cbor(bytes);
+        if (all.at("schema") != kept_schema) throw pbs::InputError(file, 0, "schema", all.at("schema").dump(), fmt::format("expected {}", kept_schema));
+        all.at("pose").get_to(references.pose), all.at("body").get_to(references.body);
+        all.at("mesh_hash").get_to(references.mesh_hash), all.at("revision").get_to(references.revision);
+        if (references.mesh_hash != hash)
+            throw pbs::InputError(file, 0, "mesh_hash", references.mesh_hash,
+                                  fmt::format("the tets of {} have the hash {}, so that these references do not belong to them; solve them with "
+                                              "`pbskin reproduce references --full`",
+                                              character.name, hash));
+        for (const std::vector<double> numbers : all.at("bones"))
+            references.bones.emplace_back(Eigen::Map<const Eigen::Matrix4d>(numbers.data()));
+        pbs::Positions predicted = rigid_shape(character, references.bones);
+        const double quantum_m = all.at("quantum_m");
+        for (const json& one : all.at("members")) {
+            KeptReference& of = references.members.emplace_back(reference_of(one, predicted.rows()));
+            if (!of.is_reached()) continue;
+            const std::vector<std::int32_t> values = values_in(one.at("shape").get_binary());
+            if (static_cast<Eigen::Index>(values.size()) != predicted.size()) throw std::runtime_error("a shape of another size");
+            of.positions = predicted = predicted_plus(predicted, values, quantum_m);
+        }
+    } catch (const pbs::InputError&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw pbs::InputError(file, 0, "", "", std::string("is no file of references, or damaged: ") + error.what());
+    }
+    return references;
+}
+
+std::string file_of_references(const std::string& pose)
+{
+    const char* folder = std::getenv("PBSKIN_REFERENCES");
+    const fs::path bin = fs::read_symlink("/proc/self/exe").parent_path();
+    const fs::path kept = folder && *folder ? fs::path(folder) : bin.parent_path() / "share" / "pbskin" / "references";
+    return (kept / (pose + ".ref")).string();
+}
+
+KeptReferences read_references(const std::string& pose, const pbs::Character& character)
+{
+    const std::string file = file_of_references(pose);
+    if (!fs::exists(file))
+        throw pbs::InputError(file, 0, "", "", "does not exist: solve the references of this pose with `pbskin reproduce references --full`");
+    return unpacked(analysis::read_text(file), file, character);
+}
+
+}  // namespace experiments

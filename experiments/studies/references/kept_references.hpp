@@ -1,0 +1,59 @@
+// The solved references as data: one file per pose, with the shape of the flesh for each member of the family.
+//   const KeptReferences kept = read_references(pose.name, character);
+//   for (const KeptReference& reference : kept.members) if (reference.is_reached()) ... reference.positions ...
+// The files lie in experiments/references, from where they are installed. `pbskin reproduce references --full` solves them.
+#pragma once
+
+#include "experiments/studies/shared/posed_reference.hpp"
+#include "pbs/character/character.hpp"
+#include "pbs/skinning/pose.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+// One member of the family in one pose: quadratic elements on the body's own tets.
+struct KeptReference {
+    EnsembleMember member;
+    std::string outcome;                              // reached, not_reached
+    std::optional<double> linear_distance_pct = {};   // from the solution with linear elements on the same tets, in the norm of error_joint_pct
+    std::optional<double> energy_j = {}, lowest_det_f = {};
+    int newton_steps = 0;
+    double seconds = 0.0;            // of both solutions, wall time
+    pbs::Positions positions = {};   // [m], #V x 3; empty if it was not reached
+    std::vector<bool> at_tips = {};  // of creases, which are left out, #V
+
+    bool is_reached() const { return outcome == "reached"; }
+    // U, an estimate of its own error in the norm of error_joint_pct [%]: this share of the distance from linear elements. NaN where it is not
+    // known. README.md has the check of the share.
+    double own_error_pct() const;
+};
+inline constexpr double share_of_linear_distance = 0.6;
+
+struct KeptReferences {
+    std::string pose, body;
+    std::string mesh_hash;  // content_hash of the body's tets
+    std::string revision;   // of the program that solved them
+    pbs::Pose bones;
+    std::vector<KeptReference> members = {};
+
+    const KeptReference* find(const std::string& member) const;  // null: the pose was not solved with it
+};
+
+// A file of some 60 kB: the residual of each vertex from its bone's rigid motion (the first member) or from the member before, in
+// multiples of kept_quantum_m, compressed.
+std::string packed(const KeptReferences& references, const pbs::Character& character);
+inline constexpr double kept_quantum_m = 1e-5;
+
+// InputError for a text that is damaged, and for a character whose tets are not those of the references: it names the command that solves
+// them.
+KeptReferences unpacked(const std::string& text, const std::string& file, const pbs::Character& character);
+
+// The file of a pose: in the folder of the environment variable PBSKIN_REFERENCES, or next to the program.
+std::string file_of_references(const std::string& pose);
+// InputError as unpacked, and where there is no such file.
+KeptReferences read_references(const std::string& pose, const pbs::Character& character);
+
+}  // namespace experiments

@@ -1,0 +1,155 @@
+// The references that methods are compared with: each pose with every member of the family, solved once and kept as data. The default form
+// solves two poses again and compares them with what is kept. README.md describes the poses, members and files.
+//
+//   pbskin reproduce references            two poses, three minutes
+//   pbskin reproduce references --full     all poses, two to three hours; what is solved is kept, so that it goes on where it was interrupted
+#include "analysis/metrics/error_norms.hpp"
+#include "analysis/records/provenance.hpp"
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/tables.hpp"
+#include "experiments/run/frame_measurement.hpp"
+#include "experiments/settings/recorded_settings.hpp"
+#include "experiments/studies/references/kept_references.hpp"
+#include "experiments/studies/references/reference_poses.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
+#include "experiments/studies/study.hpp"
+#include "pbs/character/bodies.hpp"
+#include "pbs/character/body_cache.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace experiments {
+namespace {
+
+constexpr double same_solution = 1e-5;  // of the body's size: the largest difference of two solutions of one problem
+
+struct ReferenceCase {
+    ReferencePose pose;
+    DeformerSpec flesh = {};
+    std::vector<EnsembleMember> members = {};
+    bool is_compared = false;  // with what is kept
+};
+
+nlohmann::json to_json(const ReferenceCase& of)
+{
+    nlohmann::json members = nlohmann::json::array();
+    for (const EnsembleMember& member : of.members) members.push_back(to_json(member));
+    return {{"pose", of.pose.name},         {"scene", to_json(of.pose.scene)}, {"frame", of.pose.frame}, {"flesh", to_json(of.flesh)},
+            {"members", std::move(members)}, {"is_compared", of.is_compared}};
+}
+
+// references.csv.
+struct ReferenceRow {
+    std::string pose, body;
+    Stratum stratum = Stratum::movement;
+    std::string member, outcome = {};
+    std::optional<double> own_error_pct = {}, linear_distance_pct = {};
+    double left_out_pct = 0.0;  // share of the body's volume at tips of creases
+    std::optional<double> energy_j = {}, lowest_det_f = {};
+    int newton_steps = 0;
+    double solve_s = 0.0;
+    std::optional<double> from_kept_m = {};  // largest distance of a vertex from the kept solution; nothing: not compared
+};
+const analysis::Columns<ReferenceRow> reference_columns =
+    MEMBER_COLUMNS(ReferenceRow, pose, body, stratum, member, outcome, own_error_pct, linear_distance_pct, left_out_pct, energy_j,
+                   lowest_det_f, newton_steps, solve_s, from_kept_m);
+
+KeptReference solved(const ReferenceCase& of, const EnsembleMember& member, const pbs::Character& character, const pbs::Pose& bones,
+                     const std::string& solutions)
+{
+    const PosedReference reference(character, flesh_of(of.flesh, member), bones, of.pose.scene.motion.time_step_s, ReferenceEffort::own_tets,
+                                   solutions);
+    KeptReference kept{.member = member, .outcome = "not_reached", .at_tips = reference.masked()};
+    for (const NestedSolution& solution : reference.solutions()) kept.seconds += solution.seconds;
+    const NestedSolution& finest = reference.solutions().front();
+    kept.newton_steps = finest.newton_steps;
+    if (!reference.is_reached() || reference.reference().element_order != 2) return kept;
+    kept.outcome = "reached";
+    kept.positions = finest.positions;
+    kept.energy_j = finest.energy_j;
+    kept.lowest_det_f = finest.lowest_det_f;
+    for (const NestedSolution& solution : reference.solutions())
+        if (solution.finished && solution.element_order == 1) kept.linear_distance_pct = reference.error_of(solution.positions).joint_pct;
+    return kept;
+}
+
+ReferenceRow row_of(const ReferenceCase& of, const KeptReference& reference, const analysis::ErrorMetrics& metrics)
+{
+    ReferenceRow row{.pose = of.pose.name, .body = of.pose.of.body, .stratum = of.pose.stratum, .member = reference.member.name};
+    row.outcome = reference.outcome;
+    if (std::isfinite(reference.own_error_pct())) row.own_error_pct = reference.own_error_pct();
+    row.linear_distance_pct = reference.linear_distance_pct;
+    row.left_out_pct = metrics.share_pct(reference.at_tips);
+    row.energy_j = reference.energy_j;
+    row.lowest_det_f = reference.lowest_det_f;
+    row.newton_steps = reference.newton_steps;
+    row.solve_s = reference.seconds;
+    return row;
+}
+
+// Returns what differs, or an empty text.
+std::string compared_with_kept(const KeptReferences& solved, const pbs::Character& character, std::vector<ReferenceRow>& rows)
+{
+    const KeptReferences kept = read_references(solved.pose, character);
+    const pbs::Positions& rest = character.mesh.rest;
+    const double size_m = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
+    std::string differing;
+    for (std::size_t m = 0; m < solved.members.size(); ++m) {
+        const KeptReference &now = solved.members[m], &before = kept.members.at(m);
+        if (now.outcome != before.outcome) differing += solved.pose + ", " + now.member.name + ": " + now.outcome + ", kept: " + before.outcome + ". ";
+        if (!now.is_reached() || !before.is_reached()) continue;
+        rows[m].from_kept_m = (now.positions - before.positions).rowwise().norm().maxCoeff();
+        if (*rows[m].from_kept_m > same_solution * size_m)
+            differing += fmt::format("{}, {}: a vertex lies {:.2g} m from the kept solution. ", solved.pose, now.member.name, *rows[m].from_kept_m);
+    }
+    return differing;
+}
+
+std::string solve_and_record(const ReferenceCase& of, const std::string& folder)
+{
+    const pbs::Character character = pbs::make_character(of.pose.scene.character);
+    KeptReferences references{.pose = of.pose.name,
+                              .body = of.pose.of.body,
+                              .mesh_hash = pbs::content_hash(character.mesh),
+                              .revision = analysis::collect_provenance(1).git_revision,
+                              .bones = bones_in(of.pose, character.skeleton)};
+    const analysis::ErrorMetrics metrics(error_domain(character, {}));
+    std::vector<ReferenceRow> rows;
+    for (const EnsembleMember& member : of.members) {
+        references.members.push_back(solved(of, member, character, references.bones, solutions_of_run(folder)));
+        rows.push_back(row_of(of, references.members.back(), metrics));
+    }
+    const std::string differing = of.is_compared ? compared_with_kept(references, character, rows) : "";
+    analysis::write_text_atomically(analysis::path_in(folder, of.pose.name + ".ref"), packed(references, character));
+    table_of(reference_columns, rows).write(analysis::path_in(folder, "references.csv"));
+    return differing;
+}
+
+StudyPlan plan(bool full)
+{
+    return plan_of_cases("references", full, [&](const StudyCase& in_file, StudyPlan& plan) {
+        ReferenceCase of{.pose = reference_pose(in_file), .is_compared = !full};
+        of.members = members_of(of.pose.stratum);
+        of.flesh = reference_flesh(of.pose.scene);
+        plan.runs.push_back(work_run(in_file.name, of, in_file.cost_s, solve_and_record));
+    });
+}
+
+bool conclude(const FinishedRuns& finished)
+{
+    finished.write("references.csv", reference_columns, finished.rows(reference_columns, "references.csv"));
+    return !finished.none();
+}
+
+}  // namespace
+
+Study references_study()
+{
+    return {"references", plan, in_short, conclude};
+}
+
+}  // namespace experiments
