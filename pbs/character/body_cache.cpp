@@ -53,11 +53,11 @@ std::string hex(const XXH128_hash_t& hash)
     return text;
 }
 
-std::vector<fs::path> files_of_key(const std::string& key)
+std::vector<fs::path> files_of_key(const std::string& folder, const std::string& key)
 {
     std::vector<fs::path> files;
     std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(cache_folder(), ignored)) {
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
         const std::string name = entry.path().filename().string();
         if (name.starts_with(key + "-") && name.ends_with(format) && name.size() == key.size() + 1 + 32 + 4) files.push_back(entry.path());
     }
@@ -65,14 +65,16 @@ std::vector<fs::path> files_of_key(const std::string& key)
     return files;
 }
 
+// What is damaged in the cache is removed, and the mesh is made again.
 std::optional<TetMesh> read_cached(const std::string& key)
 {
-    for (const fs::path& file : files_of_key(key)) try {
-            const bool is_whole = file.filename().string() == key + "-" + hash_of_file(file.string()) + format;
-            if (is_whole) return read_tet_frame(file.string());  // checked before it was stored
-            fs::remove(file);
-        } catch (const std::exception&) {  // unreadable: the mesh is made again
-        }
+    for (const std::string& folder : {references_folder() + "/tets", cache_folder()})
+        for (const fs::path& file : files_of_key(folder, key)) try {
+                const bool is_whole = file.filename().string() == key + "-" + hash_of_file(file.string()) + format;
+                if (is_whole) return read_tet_frame(file.string());  // checked before it was stored
+                if (folder == cache_folder()) fs::remove(file);
+            } catch (const std::exception&) {  // unreadable
+            }
     return std::nullopt;
 }
 
@@ -159,6 +161,12 @@ std::string cache_folder()
     if (const std::string folder = variable("XDG_CACHE_HOME"); !folder.empty()) return folder + "/pbskin";
     if (const std::string home = variable("HOME"); !home.empty()) return home + "/.cache/pbskin";
     return (fs::temp_directory_path() / "pbskin").string();
+}
+
+std::string references_folder()
+{
+    if (const char* folder = std::getenv("PBSKIN_REFERENCES"); folder && *folder) return folder;
+    return (fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share" / "pbskin" / "references").string();
 }
 
 TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make)

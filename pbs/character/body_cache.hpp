@@ -20,8 +20,13 @@ std::string hash_of_file(const std::string& path);   // of its bytes; an InputEr
 // The folder of cached tet meshes: $PBSKIN_CACHE, else $XDG_CACHE_HOME/pbskin, else ~/.cache/pbskin.
 std::string cache_folder();
 
-// Reads the mesh from the cache, or makes and stores it while other processes wait. Where the folder cannot be written, the mesh is made
-// every time.
+// The folder of the solved references that come with the program: $PBSKIN_REFERENCES, else share/pbskin/references next to its folder. In
+// `tets` it has the meshes of bodies that may be redistributed, under the names that they have in the cache, so that every system has the same
+// tets, whatever its mesher makes.
+std::string references_folder();
+
+// Reads the mesh from that folder or from the cache, or makes and stores it while other processes wait. Where the cache cannot be written,
+// the mesh is made every time.
 TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make);
 
 // Records name files, not folders of the machine.

@@ -8,7 +8,7 @@
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
-#include "experiments/studies/references/kept_references.hpp"
+#include "experiments/studies/shared/kept_references.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/solver/options.hpp"

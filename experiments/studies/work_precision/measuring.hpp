@@ -4,7 +4,7 @@
 
 #include "analysis/records/tables.hpp"
 #include "experiments/settings/option_names.hpp"
-#include "experiments/studies/references/reference_poses.hpp"
+#include "experiments/studies/shared/reference_poses.hpp"
 #include "experiments/studies/work_precision/methods.hpp"
 
 #include <array>

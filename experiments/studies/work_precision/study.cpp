@@ -5,7 +5,7 @@
 //   pbskin reproduce work_precision --full                   five bodies, the choice of settings, two clips: 15 minutes
 //   pbskin reproduce work_precision --external mine.toml     with deformers of your own
 #include "analysis/records/record_files.hpp"
-#include "experiments/studies/references/kept_references.hpp"
+#include "experiments/studies/shared/kept_references.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/work_precision/conclusions.hpp"
 #include "experiments/studies/work_precision/measuring.hpp"

@@ -4,8 +4,8 @@
     python3 own_solver.py kit limb_twist_60 smooth mine.vtu
     pbskin measure kit/bodies/limb.vtu mine.vtu --reference kit/limb_twist_60/smooth.vtu
 
-FOLDER is what `pbskin references export -o FOLDER` wrote; its README.md states the problem. The error must be the member's linear_distance_pct
-where no skin touches. This takes half a minute."""
+FOLDER is what `pbskin references export -o FOLDER` wrote; its README.md states the problem. The error must be the member's
+linear_distance_pct where no skin touches. This takes half a minute."""
 import pathlib
 import sys
 import tomllib

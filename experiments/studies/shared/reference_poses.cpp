@@ -1,4 +1,4 @@
-#include "experiments/studies/references/reference_poses.hpp"
+#include "experiments/studies/shared/reference_poses.hpp"
 
 #include <nlohmann/json.hpp>
 

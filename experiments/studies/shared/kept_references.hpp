@@ -51,7 +51,7 @@ inline constexpr double kept_quantum_m = 1e-5;
 // them.
 KeptReferences unpacked(const std::string& text, const std::string& file, const pbs::Character& character);
 
-// The file of a pose: in the folder of the environment variable PBSKIN_REFERENCES, or next to the program.
+// The file of a pose in pbs::references_folder().
 std::string file_of_references(const std::string& pose);
 // InputError as unpacked, and where there is no such file.
 KeptReferences read_references(const std::string& pose, const pbs::Character& character);

@@ -1,4 +1,4 @@
-#include "experiments/studies/references/kept_references.hpp"
+#include "experiments/studies/shared/kept_references.hpp"
 
 #include "analysis/records/record_files.hpp"
 #include "pbs/character/body_cache.hpp"
@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <limits>
 
@@ -201,10 +200,7 @@ KeptReferences unpacked(const std::string& text, const std::string& file, const 
 
 std::string file_of_references(const std::string& pose)
 {
-    const char* folder = std::getenv("PBSKIN_REFERENCES");
-    const fs::path bin = fs::read_symlink("/proc/self/exe").parent_path();
-    const fs::path kept = folder && *folder ? fs::path(folder) : bin.parent_path() / "share" / "pbskin" / "references";
-    return (kept / (pose + ".ref")).string();
+    return (fs::path(pbs::references_folder()) / (pose + ".ref")).string();
 }
 
 KeptReferences read_references(const std::string& pose, const pbs::Character& character)
