@@ -5,7 +5,7 @@ studies in DIR was drawn. If DIR holds no study at all, the status is 1. If only
 and its caption names the others. If a file cannot be written, it is named and the exit status is 2.
 
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce
-    xvfb-run -a python3 paper_figures/make_all.py results/reproduce --only work_precision --into elsewhere
+    xvfb-run -a python3 paper_figures/make_all.py results/reproduce --only error_against_time --into elsewhere
 """
 import argparse
 import pathlib

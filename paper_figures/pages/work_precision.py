@@ -1,133 +1,185 @@
-"""Error against run time: who is nearest within which time, the poses that are solved, what was tried and what is missing, and what single
-changes to PBS gain. Fronts are on the page where their table is there; it is too long to be kept."""
+"""Error against run time: the answer, the methods with known and with guessed flesh, their times, what is decided and how firmly, what other
+starts and wrong materials are worth, and the same along a clip."""
+import statistics
+
 import pages
 import records
-from words import case_words, looks
+from words import case_words, compared_methods
+from words.compared_methods import percent
 
-comparisons, clocks = (case_words.tables[field] for field in ("comparison", "clock"))
-setting = ("iterations", "k_stretch", "order", "precision", "substeps", "element_order", "wanted_vertices", "tuned")
-budgets = (1.0, 10.0, 100.0, float("inf"))
-
-
-def words_of(row, deformer="deformer"):
-    """pbs, iterations 24, k_stretch 0.2, order ordered, precision f32, packed"""
-    named = [f"{column} {row[column]}" for column in setting if row[column] and (column, row[column]) != ("substeps", "1")]
-    return ", ".join([row[deformer], *named, *(name for name in ("packed", "refined") if row[name] == "1")])
+table_words = {"known": "Flesh known", "guessed": "Flesh guessed"}
+table_notes = {"known": "Methods that take flesh are given that of each reference.",
+               "guessed": "All methods that take flesh have that of the first variant, whatever the reference is. Changes to PBS have rows of "
+                          "their own."}
+decision_words = {"first_is_nearer": "{first} is nearer", "second_is_nearer": "{second} is nearer", "level": "level", "depends": "depends",
+                  "open": "open"}
 
 
-def of_comparison(rows, comparison):
-    return [row for row in rows if row["comparison"] == comparison]
+def at(ms):
+    return f"{ms:g} ms"
 
 
-def split(folder, points):
-    training, evaluation = (", ".join(run for run, rows in points.items() if rows[0]["half"] == half) or "none"
-                            for half in ("training", "evaluation"))
-    text = (f"Settings are chosen on the training poses ({training}) and shown on the evaluated poses ({evaluation}). The poses of "
-            "each body alternate, and a body with one pose is only evaluated.\n")
-    own = {row["deformer"]: clocks.get(row["clock"], "it has no time") for rows in points.values() for row in rows
-           if row.get("external") == "1"}
-    return text + ("\nDeformers of the user's own take part in both comparisons, since it is not known whether their code is packed. Their "
-                   "times were taken as follows:\n\n" + "".join(f"- `{name}`: {clock}\n" for name, clock in own.items()) if own else "")
+def names_of(row):
+    return {which: compared_methods.name(row[which]) for which in ("first", "second")}
 
 
-def nearest(folder):
-    """The nearest class within each time with its nearest deformer, and the others that are not decided against."""
-    rows = records.read_rows(folder / "nearest.csv")
+def shown(row):
+    return decision_words[row["decision"]].format(**names_of(row))
+
+
+def limits(compared, folder):
+    """What a number is, and how much the poses can show."""
+    bodies = {row["body"] for row in records.table(folder / "references.csv", {"body", "stratum"}) if row["stratum"] == "movement"}
+    poses = max(int(row["poses"]) for row in compared.methods)
+    return (f"A number is the error at the joints in per cent of that of LBS: the geometric mean over {poses} poses, of which the table has "
+            "the median over the reference variants and in brackets their range. A method is nearer than another one if each variant shows "
+            "it (sign test over the poses, adjusted by Holm for all pairs of the table). "
+            f"{compared_methods.legend}\n\nThe number of bodies is the limit of what these poses show. A sign test over {len(bodies)} "
+            f"bodies cannot have p below {2.0 ** (1 - len(bodies)):g}, so that the decisions hold for these bodies alone.\n")
+
+
+def shares(compared, table):
+    """The movement poses, and the deep folds in columns of their own."""
+    folds = ([fold_cell(compared.row(table, ms, method)) for ms in compared.times_ms] for method in compared.ranked(table))
+    rows = [cells + of_folds for cells, of_folds in zip(compared.table(table), folds)]
+    heads = ["method", "takes", *map(at, compared.times_ms), *(f"deep folds, {at(ms)}" for ms in compared.times_ms)]
+    return pages.table(rows, {head: lambda row, place=place: row[place] for place, head in enumerate(heads)})
+
+
+def fold_cell(row):
+    if row is None or not row["fold_share"]:
+        return ""
+    return f"{percent(row['fold_share'])} [{percent(row['fold_low'])}, {percent(row['fold_high'])}]"
+
+
+def times(compared, table):
+    """The distance of the skin, and the time with its multiple of PBS."""
+    columns = {"method": compared_methods.name}
+    for ms in compared.times_ms:
+        columns[f"skin, {at(ms)} [mm]"] = lambda method, ms=ms: cell_of(compared.row(table, ms, method), skin)
+    for ms in compared.times_ms:
+        columns[f"time, {at(ms)} [ms] (\u00d7 PBS)"] = lambda method, ms=ms: cell_of(compared.row(table, ms, method), time_cell)
+    return pages.table(compared.ranked(table), columns)
+
+
+def cell_of(row, text):
+    return "" if row is None else text(row)
+
+
+def skin(row):
+    return compared_methods.millimetres(row["skin_mm"]) if row["skin_mm"] else "\u2013"
+
+
+def time_cell(row):
+    over = f" (\u00d7 {float(row['times_pbs']):.2g})" if row["times_pbs"] else ""
+    return (f"{float(row['ms']):.2g}{over}" if row["ms"] else "\u2013") + compared_methods.marks[row["within"]]
+
+
+def of_tables(compared):
     text = ""
-    for comparison, words in comparisons.items():
-        shown = []
-        for row in of_comparison(rows, comparison):
-            if row["among"] == "classes":
-                shown.append(row | {"within_class": ""})
-            else:
-                shown[-1]["within_class"] = row["either_of"]
-        text += f"\n## Nearest within a time: {words}\n\n" + pages.table(
-            shown, "nearest", words_of=words_of,
-            classes=lambda row: " or ".join(name.replace("_", " ") for name in [row["nearest"], *row["either_of"].split()]),
-            within_class=lambda row: ", ".join(looks.of(name).name for name in row["within_class"].split()))
+    for table, heading in table_words.items():
+        text += f"\n## {heading}\n\n{table_notes[table]}\n\n{shares(compared, table)}"
+    text += ("\n## Distance of the skin, and time\n\nThe distance is the root mean square over the skin of a body of 1.7 m. The time is "
+             "followed by its multiple of that of PBS with 24 iterations in plain double precision on the same machine.\n")
+    for table, heading in table_words.items():
+        text += f"\n{heading}:\n\n{times(compared, table)}"
     return text
 
 
-def profiles(folder):
-    """The poses that each group solves to a tolerance within a time, and those that are certain. There may be no evaluated pose."""
-    rows = records.read_rows(folder / "data_profiles.csv")
-    text = ""
-    for comparison, words in comparisons.items():
-        of = of_comparison(rows, comparison)
-        tolerances = sorted({float(row["tolerance_pct"]) for row in of}, reverse=True)
-
-        def solved(group, tolerance, ms):
-            steps = [row for row in of if row["group"] == group and float(row["tolerance_pct"]) == tolerance and float(row["ms"]) <= ms]
-            return f"{steps[-1]['solved']}, {steps[-1]['certain']} certain" if steps else "0"
-
-        columns = {"group": lambda row: looks.of(row["group"]).name}
-        for tolerance in tolerances:
-            for ms in budgets:
-                heading = f"{tolerance:g} %" + (f", {ms:g} ms" if ms < budgets[-1] else "")
-                columns[heading] = lambda row, tolerance=tolerance, ms=ms: solved(row["group"], tolerance, ms)
-        poses = of[0]["poses"] if of else "0"
-        text += (f"\n## Poses solved, of {poses}: {words}\n\nA pose is solved with certainty if the error plus the bound on the "
-                 "reference's own error is within the tolerance. Groups that solve no pose are not listed.\n\n"
-                 + pages.table([{"group": group} for group in looks.in_order({row["group"] for row in of})], columns))
-    return text
+def decisions(compared):
+    """How many pairs are decided, and which of them depend on the flesh."""
+    counts, depending = [], []
+    for table, heading in table_words.items():
+        for ms in compared.times_ms:
+            rows = [row for row in compared_methods.of_time(compared.decisions, table, ms) if not row["without_body"]]
+            kinds = [row["decision"] for row in rows]
+            counts.append({"table": heading.lower(), "time": at(ms), "pairs": len(kinds),
+                           "decided": sum(kind.endswith("is_nearer") for kind in kinds),
+                           **{kind: kinds.count(kind) for kind in ("level", "depends", "open")}})
+            for row in (row for row in rows if row["decision"] == "depends"):
+                for one, other in ((row["first"], row["second"]), (row["second"], row["first"])):
+                    depending.append(f"- {heading.lower()}, {at(ms)}: {compared_methods.name(one)} is nearer than "
+                                     f"{compared_methods.name(other)} if {compared.conditions(table, ms, one, other)}.\n")
+    return ("\n## Decisions\n\nTwo methods are level if on each variant their errors differ by less than the reference's own error in 80 % "
+            "of the poses, or by less than a tenth in the mean. A decision depends on the flesh if two variants decide in opposite ways.\n\n"
+            + pages.table(counts, "decisions") + ("\n" + "".join(depending) if depending else ""))
 
 
-def tried(folder):
-    counts = {}
-    for row in records.table(folder / "settings.csv", {"comparison", "deformer", "tried"}):
-        shown, settings = counts.get((row["comparison"], row["deformer"]), (0, 0))
-        counts[row["comparison"], row["deformer"]] = shown + 1, settings + int(row["tried"])
-    rows = [{"comparison": comparison, "deformer": deformer, "shown": str(shown), "tried": str(settings)}
-            for (comparison, deformer), (shown, settings) in counts.items()]
-    return ("\n## Settings tried\n\nA setting is a number of iterations (or an element order) on a mesh with one value of the grid. One "
-            "value for each of these numbers is shown.\n\n" + pages.table(rows, "settings"))
+def without_a_body(compared):
+    """The decisions that one body can change."""
+    of_pair = {}
+    for row in compared.decisions:
+        of_pair.setdefault((row["table"], float(row["budget_ms"]), row["first"], row["second"]), {})[row["without_body"]] = row
+    changed = []
+    for (table, ms, *_), rows in of_pair.items():
+        others = [f"without {body}: {shown(row)}" for body, row in rows.items() if row["decision"] != rows[""]["decision"]]
+        if others:
+            changed.append(names_of(rows[""]) | {"table": table_words[table].lower(), "time": at(ms), "all": shown(rows[""]),
+                                                 "others": "; ".join(others)})
+    text = f"\n## Decisions that change if a body is excluded: {len(changed)} of {len(of_pair)}\n\n"
+    return text + (pages.table(changed, "without_body") if changed else "None.\n")
 
 
-def omissions(folder):
-    rows = records.read_rows(folder / "omissions.csv")
-    return "\n## Omissions\n\n" + pages.table(rows, "omissions") if rows else ""
+def starts(folder):
+    """What the initial guess and the right flesh are worth."""
+    rows = records.rows_if_any(folder / "starts.csv")
+    if not rows:
+        return ""
+    cells = {(row["method"], float(row["budget_ms"])): f"{percent(row['share_of_setting'])} \u2192 {percent(row['share'])}" for row in rows}
+    of_method = {row["method"]: row["of"] for row in rows}
+    columns = {"method": lambda method: compared_methods.name(of_method[method]),
+               "change": lambda method: case_words.of_field("other_start", method.removeprefix(f"{of_method[method]}_"))}
+    for ms in sorted({ms for _, ms in cells}):
+        columns[at(ms)] = lambda method, ms=ms: cells.get((method, ms), "")
+    poses = max(int(row["poses"]) for row in rows)
+    return (f"\n## What the initial guess and the right material are worth\n\nThe share of LBS's error [%] in {poses} poses, of the method's setting and "
+            "after the change alone, against the first variant.\n\n" + pages.table(of_method, columns))
 
 
-def references(points):
-    rows = [row | {"case": run, "s": float(row["reach_ms"]) / 1e3} for run, of in points.items() for row in of
-            if row["outcome"] in ("reference", "not_reached")]
-    return "\n## References\n\n" + pages.table(rows, "references", words_of=words_of)
+def motion(compared):
+    if not compared.motion:
+        return ""
+    cells, ranked = {}, compared.ranked("guessed")
+    for row in compared.motion:
+        key = tuple(row[name] for name in ("clip", "member", "method"))
+        posed, played = (f"{percent(row[f'{start}_share'])} % ({compared_methods.millimetres(row[f'{start}_skin_mm'])} mm)"
+                         for start in ("cold", "played"))
+        cells[key, float(row["budget_ms"])] = f"{posed} \u2192 {played}"
+    columns = {"clip": lambda key: key[0], "reference": lambda key: case_words.in_plain(key[1]),
+               "method": lambda key: compared_methods.name(key[2])}
+    for ms in compared.times_ms:
+        columns[at(ms)] = lambda key, ms=ms: cells.get((key, ms), "")
+    keys = sorted({key for key, _ in cells}, key=lambda key: (*key[:2], ranked.index(key[2])))
+    frames = max(int(row["frames"]) for row in compared.motion)
+    return (f"\n## Posed and played\n\nThe share of LBS's error and the distance of the skin in {frames} frames of each clip: each frame "
+            "alone, then played at 60 frames per second, each frame from the one before.\n\n" + pages.table(keys, columns))
 
 
-def fronts(folder):
-    rows = [row for row in records.table(folder / "fronts.csv", {"comparison", "case", "front"}) if row["front"] == "all"]
-    return "\n## The front of all points\n\n" + pages.table(rows, "fronts", words_of=words_of)
+def own_errors(folder):
+    rows = records.table(folder / "references.csv", {"own_error_pct", "outcome"})
+    known = [float(row["own_error_pct"]) for row in rows if row["own_error_pct"]]
+    missing = sum(row["outcome"] != "reached" for row in rows)
+    told = (f"The error of a reference itself is estimated at {min(known):.2g} to {max(known):.2g} % of the mean bone distance (median "
+            f"{statistics.median(known):.2g} %) in {len(known)} of {len(rows)} solutions.") if known else "No own error is known."
+    return f"\n## The references\n\n{told}" + (f" Not reached: {missing}." if missing else "") + "\n"
 
 
-def remark(gain):
-    if gain["decision"] == "reference_error":
-        shift = gain["reference_error_pct"]
-        return f"the reference's own error {f'may change it by {float(shift):.2g} points' if shift else 'is not known'}"
-    return {"few_poses": "fewer than 4 poses", "poses_disagree": "the interval over the poses includes zero"}.get(gain["decision"], "")
+def settings(compared):
+    """The settings that the training poses chose."""
+    columns = {"method": compared_methods.name}
+    for ms in compared.times_ms:
+        columns[at(ms)] = lambda method, ms=ms: cell_of(compared.row("guessed", ms, method), lambda row: f"`{row['setting']}`")
+    return "\n## Settings\n\nOther poses than those above have chosen them.\n\n" + pages.table(compared.ranked("guessed"), columns)
 
 
-def gains(folder):
-    """One table per group of poses and budget, the largest gain first, and the changes that are not ranked."""
-    rows = records.read_rows(folder / "gains.csv")
-    changes = sorted({row["change"] for row in rows})
-    text = "\n# What single changes to PBS gain in equal time\n" if rows else ""
-    for group, budget in dict.fromkeys((row["group"], row["budget_iterations"]) for row in rows):
-        own = [row for row in rows if (row["group"], row["budget_iterations"]) == (group, budget)]
-        poses = "all poses" if group == "all" else f"the poses of the body {group}"
-        text += f"\n## In the time of {budget} iterations of PBS, {poses}\n\n" + pages.table(
-            own, "gains", change=lambda row: row["change"].replace("_", " "), than=lambda row: row["than"].replace("_", " "), remark=remark)
-        over_pbs = {row["change"]: int(row["poses"]) for row in own if row["than"] == "pbs"}
-        most = max(over_pbs.values())
-        omitted = [f"{change.replace('_', ' ')} ({over_pbs.get(change, 0)} of {most} poses)" for change in changes
-                   if over_pbs.get(change, 0) < most]
-        if omitted:
-            text += f"\nNot ranked, because no setting fits into the budget in every pose: {', '.join(omitted)}.\n"
-    return text
+def own_deformers(folder):
+    clocks = compared_methods.own_clocks(folder)
+    return ("\n## Deformers of the user's own\n\nTheir times were taken as follows:\n\n" + "".join(
+        f"- `{method}`: {case_words.of_field('clock', clock)}\n" for method, clock in clocks.items())) if clocks else ""
 
 
 def page(folder):
-    runs = [run["name"] for run in records.read_json(folder / "plan.json")["runs"]]
-    points = {run: records.table(folder / run / "points.csv", {"deformer", "half", "outcome"}) for run in runs
-              if (folder / run / "points.csv").is_file()}
-    return ("# Error against run time\n\n" + split(folder, points) + nearest(folder) + profiles(folder) + references(points) + tried(folder)
-            + omissions(folder) + fronts(folder) + gains(folder))
+    compared = compared_methods.Compared(folder)
+    answers = "\n".join(f"- {answer}" for answer in compared.answers())
+    return (f"# Error against run time\n\n{answers}\n\n{limits(compared, folder)}" + of_tables(compared) + decisions(compared)
+            + without_a_body(compared) + starts(folder) + motion(compared) + own_errors(folder) + settings(compared) + own_deformers(folder))

@@ -1,13 +1,14 @@
 """Writes the findings of the README: one statement with its key numbers per line, from the facts in DIR/claims.json and, for the distance
-from flesh and the stability, from the tables of these studies. Each finding names its solver. Draws the figure below the findings.
+from flesh and the stability, from the tables of these studies. Draws the figure below the findings, with the answer and its table.
 """
 import pathlib
 
 import records
 from drawing import style
 from figures import work_precision
+from readme import tables
 from records import entries
-from words import case_words, sentences
+from words import case_words, compared_methods, sentences
 from words.number_words import counted
 
 paper_s_solver = "the paper's own solver (file order, double precision)"
@@ -144,49 +145,10 @@ def speed(claims, results):
                             f"core ({', '.join(processors)}){table_1}. The bound is {claim['bounds'][0]['low']:.0f}.")
 
 
-def errors_and_shares(results):
-    """In the poses in which the family's first reference has a bound on its own error: the errors of each deformer against it, and the
-    shares of the error of LBS that the deformer removes by each reference; and the number of all poses."""
-    errors, shares, files = {}, {}, sorted((results / "ensemble").glob("*/errors.csv"))
-    for file in files:
-        members = records.table(file.with_name("members.csv"), {"member", "error_bound_pct"})
-        if not only(members, f"{file.parent}/members.csv", member=records.first_member)["error_bound_pct"]:
-            continue
-        rows = records.table(file, {"member", "deformer", "error_joint_pct"})
-        for row in rows:
-            if row["member"] == records.first_member:
-                errors.setdefault(row["deformer"], []).append(float(row["error_joint_pct"]))
-        for deformer, of_references in records.removed_shares(rows).items():
-            shares.setdefault(deformer, []).extend(of_references)
-    return errors, shares, len(files)
-
-
-def undecided(notable):
-    """The causes with their counts, as a sentence, or nothing."""
-    counts = {cause: sum(pair["decision"] == cause for pair in notable) for cause in ("reference_error", "models_disagree")}
-    parts = [f"in {count} {case_words.of_field('decision', cause)}" for cause, count in counts.items() if count]
-    return f" The others are undecided: {' and '.join(parts)}." if parts else ""
-
-
 def distance(results):
-    """The errors against the family's first reference, and how many of the pairs that differ notably the whole family decides."""
-    errors, shares, poses = errors_and_shares(results)
-    pairs = records.table(results / "ensemble" / "pairs.csv", {"first", "second", "largest_difference_pct", "members", "decision"})
-    notable = [pair for pair in pairs if float(pair["largest_difference_pct"]) > records.notable_points and "fem_linear" not in
-               (pair["first"], pair["second"])]
-    if not notable or not {"lbs", "dqs", "delta_mush", "pbs"} <= set(errors):
-        raise records.RecordsMissing(f"{results / 'ensemble'}: no errors of LBS, DQS, delta mush and PBS, or no pair of them")
-    removed = {name: f"{round(min(of))} to {round(max(of))} %" for name, of in shares.items()}
-    decided, measured = sum(pair["decision"] == "decided" for pair in notable), len(errors["pbs"])
-    left_out = "" if measured == poses else (f" These errors leave out {counted(poses - measured, 'pose')} in which the reference has no "
-                                             "bound on its own error.")
-    return (f"**Distance from flesh.** In {counted(measured, 'pose')}, PBS with 24 iterations (ordered, single precision) removes "
-            f"{removed['pbs']} of the error of LBS at the joints, over {notable[0]['members']} references of neo-Hookean flesh with other "
-            f"attachments and Poisson's ratios (DQS {removed['dqs']}, delta mush {removed['delta_mush']}). "
-            f"Its own error against the first reference is {min(errors['pbs']):.1f} to {max(errors['pbs']):.1f} % of the mean bone "
-            f"distance.{left_out} In all {counted(poses, 'pose')}, the references decide which of two methods is closer in {decided} of "
-            f"the {len(notable)} pairs of skinning methods that differ by more than {records.notable_points} percentage points."
-            f"{undecided(notable)}")
+    told = compared_methods.Compared(results / "work_precision").share_of_pbs()
+    records.need(told, f"{results / 'work_precision' / 'methods.csv'}: no row of PBS within 1 ms")
+    return f"**Distance from flesh.** {told}"
 
 
 def lines_of(results):
@@ -196,24 +158,15 @@ def lines_of(results):
     return [f"{number}. {finding}".replace("\u2212", "-") for number, finding in enumerate(findings, 1)]
 
 
-def shown_panel(results):
-    """The mean over the evaluated poses."""
-    panel = work_precision.panels_of("packed_f32", results)[0]
-    records.need("mean" in panel.title, f"{results / 'work_precision'}: no mean over the evaluated poses")
-    return panel
-
-
 def figure_lines(results):
-    """Draws the figure of error against run time, and returns the lines that show it."""
-    panel, (origin,) = shown_panel(results), (entry.origin(results) for entry in entries.read() if entry.name == "work_precision")
-    figure, axes = style.panels(1, 1, height_in=3.4, width_in=style.page_in)
-    style.label_ends(axes[0][0], work_precision.draw_panel(axes[0][0], panel))
-    style.save(figure, picture.with_suffix(""), origin, work_precision.rows_behind(panel), formats=("png",), dpi=250)
-    rows, fronts = (records.table(results / "work_precision" / name, {"case", "knows", "deformer", "error_joint_pct", *more})
-                    for name, more in (("nearest.csv", ["decision"]), ("fronts.csv", [])))
-    within_1_ms = only(panel.nearest, "nearest.csv: the mean", among="classes", budget_ms="1")
-    return [f"![Error against run time of each class of deformers](paper_figures/readme/{picture.name})", "",
-            f"*Error at the joints against processor time per frame on one core ({origin['cpu_model']}), {panel.title}. Each line is a "
-            "class of deformers, in packed single precision where it has such code; a filled mark is on the "
-            "[Pareto front](experiments/GLOSSARY.md#pareto-front) of all. The line below the axis states the nearest class within 0.1, 1 "
-            f"and 10 ms, and whether that is decided. Within 1 ms: {sentences.nearest_class(within_1_ms, rows, fronts)}.*"]
+    """Draws the figure of error against run time, and returns the lines that show it, the answer and the table of the methods."""
+    origin, = (entry.origin(results) for entry in entries.read() if entry.name == "error_against_time")
+    drawn, rows = work_precision.error_against_time(results)
+    style.save(drawn, picture.with_suffix(""), origin, rows, formats=("png",), dpi=200)
+    compared = compared_methods.Compared(results / "work_precision")
+    poses = compared.row("known", compared.times_ms[0], "lbs")["poses"]
+    head = ["method", "takes", *(f"{ms:g} ms" for ms in compared.times_ms)]
+    return [f"![Error against run time of each method](paper_figures/readme/{picture.name})", "", " ".join(compared.answers()), "",
+            tables.line(*head), "|---" * len(head) + "|", *(tables.line(*cells) for cells in compared.table("known")), "",
+            f"*Error at the joints in per cent of that of LBS, on one core ({origin['cpu_model']}): the geometric mean over {poses} poses, and "
+            f"in brackets the range over the reference variants. {compared_methods.legend} [The whole comparison](experiments/records/full/work_precision/work_precision.md).*"]

@@ -9,9 +9,6 @@ import hashlib
 import json
 import math
 
-notable_points = 2  # pairs of deformers whose errors differ by more than this [percentage points] are to be decided
-first_member = "smooth"  # of the family of references of `ensemble`
-
 
 class RecordsMissing(Exception):
     pass
@@ -19,16 +16,6 @@ class RecordsMissing(Exception):
 
 class RecordsDamaged(RecordsMissing):
     """Records that exist and cannot be read."""
-
-
-def removed_shares(errors):
-    """{deformer: [share of LBS's error that it removes [%], by each reference]}, from rows of errors.csv of one pose."""
-    of_lbs = {row["member"]: float(row["error_joint_pct"]) for row in errors if row["deformer"] == "lbs"}
-    shares = {}
-    for row in errors:
-        if row["deformer"] != "lbs" and of_lbs.get(row["member"]):
-            shares.setdefault(row["deformer"], []).append(100.0 * (1.0 - float(row["error_joint_pct"]) / of_lbs[row["member"]]))
-    return shares
 
 
 def need(found, message):

@@ -97,7 +97,6 @@ run = {"schema?": third_schema, "provenance?": provenance, "scene?": scene, "wor
        "outcome?": {"frames?": whole, "frames_with_overlap?": whole}}
 shown_run = {"scene": {"character": {"body": text}, "motion": {}, "runs": [deformer]}}  # a run shown frame by frame
 judged_run = {"outcome": {"frames": whole}}  # a run compared with a reference
-posed_run = {"work?": {"settings?": {"scene?": {"pbs?": {"k_stretch?": number}}}}}  # a pose of the study of error against run time
 
 plan = {"extent?": text, "runs": [{"name": text}], "left_out?": [{"scene": text, "reason": text}]}
 

@@ -45,7 +45,7 @@ def page(found):
     no_verdicts = [] if found.claims else ["verdicts: claims.json does not exist (pbskin reproduce --judge)"]
     missing = not_shown + not_drawn + not_told + no_verdicts
     missing += [f"{study}: {scene} left out: {reason}" for study, scene, reason in found.left_out()]
-    costs = items([told for told in (answers.frame_sentence(found), answers.beside_sentence(found), origin.costs_sentence(found)) if told])
+    costs = items([told for told in (answers.frame_sentence(found), origin.costs_sentence(found)) if told])
     folded = [("errors", "Distance from the finite elements", joined([answers.distances(found), distances], "\n")),
               ("figures", "Figures", pictures), ("reference", "Is the reference right?", errors.reference_section(found)),
               ("glossary", "Glossary", glossary_section()), ("costs", "Cost", joined([costs, origin.costs_section(found)])),

@@ -1,7 +1,6 @@
 """The name, colour, marker and line of each deformer, from looks.toml: the same in every figure, on every page and in the viewer.
 
     look = looks.of("dqs")        # look.name, look.color, look.marker, look.line
-    looks.group_of("nh_p1")       # nonlinear_fem: figures of error against run time draw a group as one
 """
 import itertools
 import pathlib
@@ -11,7 +10,7 @@ from dataclasses import dataclass
 
 lines = {"solid": "-", "dashed": (0, (4, 1.5)), "dash-dotted": (0, (5, 1.2, 1, 1.2)), "dotted": (0, (1, 1)), "short-dashed": (0, (3, 1))}
 listed = tomllib.loads((pathlib.Path(__file__).resolve().parents[1] / "looks.toml").read_text(encoding="utf-8"))
-palette, classes, glyphs = (listed.pop(name) for name in ("palette", "classes", "glyphs"))
+palette = listed.pop("palette")
 # Colours, markers and lines of deformers that are not listed; no listed deformer has such a colour.
 own = list(itertools.product(palette["own"], ("X", "H", ">", "8", "|", "_", "p"), ("solid", "dashed", "dash-dotted")))
 
@@ -24,26 +23,13 @@ class Look:
     line: object  # a line style of matplotlib
 
 
-def group_of(deformer):
-    return listed.get(deformer, {}).get("group", deformer)
-
-
-def class_of(deformer):
-    """A deformer that is not listed is a class by itself."""
-    return listed.get(group_of(deformer), {}).get("class", deformer)
-
-
-def color_of_class(name):
-    return classes.get(name) or of(name).color
-
-
 def of(deformer):
     """The look of a deformer, by its label or the name of its kind. One that is not listed, such as a user's own, has its label as its name
     and a look that depends on nothing else."""
     if deformer not in listed:
         color, marker, line = own[zlib.crc32(deformer.encode()) % len(own)]
         return Look(deformer, color, marker, lines[line])
-    shown = listed[group_of(deformer)]
+    shown = listed[listed[deformer].get("group", deformer)]
     return Look(listed[deformer]["name"], shown["color"], shown["marker"], lines[shown["line"]])
 
 
@@ -51,6 +37,6 @@ def short(deformer):
     return listed.get(deformer, {}).get("short") or of(deformer).name
 
 
-def in_order(names, known=listed):
-    """These deformers (or classes) in the order of the list; those that are not listed come last."""
-    return [name for name in known if name in names] + sorted(set(names) - set(known))
+def in_order(names):
+    """These deformers in the order of the list; those that are not listed come last."""
+    return [name for name in listed if name in names] + sorted(set(names) - set(listed))

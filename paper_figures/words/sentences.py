@@ -1,5 +1,4 @@
-"""Every sentence about a claim, composed from the facts of claims.json, and about the nearest class of deformers. The README, the claims'
-pages and the report all use these.
+"""Every sentence about a claim, composed from the facts of claims.json. The README, the claims' pages and the report all use these.
 
     for claim in sentences.claims_of(results / "claims.json"):
         print(claim["id"], "; ".join(sentences.facts(claim)))
@@ -10,7 +9,7 @@ only the interval of the share; ranges over meshes, frames or orders of projecti
 import math
 
 from records import shapes
-from words import case_words, looks
+from words import case_words
 from words.number_words import counted, figure
 
 names = case_words.tables["verdict"]
@@ -355,37 +354,3 @@ def disagreements(claim):
             sentences.append(f"{other['name'][:1].upper()}{other['name'][1:]} and the claim's own reading disagree: in the {len(pairs)} "
                              f"units that both have, the bound holds {extent_of_other} in the one, {extent_of_own} in the other.")
     return sentences
-
-
-def nearest_class(row, rows, fronts, is_short=False):
-    """The nearest class with its error, the classes that may be as near, and what its deformer takes from the reference; then the nearest
-    that takes nothing, and PBS. Short: the number of classes, and not what is taken. row: one of rows, those of nearest.csv; fronts: the
-    rows of fronts.csv."""
-    def same(other, *columns):
-        return all(other[column] == row[column] for column in ("comparison", "case", *columns))
-
-    def nearest(fits):
-        ends = [(float(of["error_joint_pct"]), of["deformer"]) for of in fronts
-                if same(of) and fits(of) and float(of["ms_median"]) <= float(row["budget_ms"])]
-        return [f"{name_of(min(ends)[1])} ({figure(min(ends)[0])} %)"] if ends else []
-
-    def name_of(deformer):
-        return looks.short(deformer) if is_short else looks.of(deformer).name
-
-    own = [other for other in rows if same(other, "budget_ms") and other["among"] == row["nearest"]]
-    such_as = "such as " if any(other["either_of"] for other in own) else ""
-    classes, knows = ([case_words.of_field(field, name) for name in row[column].split()]
-                      for field, column in (("class", "either_of"), ("knows", "knows")))
-    sentence = (f"{case_words.of_field('class', row['nearest'])} ({such_as}{name_of(row['deformer'])}), "
-            f"{figure(float(row['error_joint_pct']))} %{'' if is_short else ' at the joints'}")
-    without = list(dict.fromkeys(nearest(lambda of: not of["knows"]) + nearest(lambda of: of["deformer"] == "pbs")))
-    if is_short:
-        sentence += f"; undecided against {counted(len(classes), 'class', 'classes')}" if classes else ""
-        return sentence + (f"; without help from the reference: {', '.join(without)}" if knows and without else "")
-    if classes:
-        against = "any other class" if len(classes) == int(row["others"]) > 1 else ", ".join(classes)
-        sentence += f"; not decided against {against}, since {case_words.of_field('decision', row['decision'])}"
-    if knows:
-        listed = " and ".join(filter(None, [", ".join(knows[:-1]), knows[-1]]))
-        sentence += f". They take {listed} from the reference" + (f"; without that: {', '.join(without)}" if without else "")
-    return sentence

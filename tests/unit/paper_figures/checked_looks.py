@@ -1,7 +1,6 @@
 """Importing this module makes style.save refuse a figure in which a line, whose label begins with the name of a deformer, has another
-marker than looks.toml states or another colour than that of the deformer or its class; in which anything has a colour that is not in
-looks.toml, or letters another size than the two of style.py; or in which two labels of a panel overlap. The tests that draw figures import
-it."""
+marker or colour than looks.toml states; in which anything has a colour that is not in looks.toml, or letters another size than the two of
+style.py; or in which two labels of a panel overlap. The tests that draw figures import it."""
 import itertools
 import re
 
@@ -10,7 +9,7 @@ from matplotlib import colors, text
 from words import looks
 
 by_name = {name: deformer for deformer in looks.listed for name in (looks.of(deformer).name, looks.short(deformer))}
-palette = looks.palette.values(), looks.classes.values(), [look["color"] for look in looks.listed.values() if "color" in look]
+palette = looks.palette.values(), [look["color"] for look in looks.listed.values() if "color" in look]
 allowed = {color for value in itertools.chain(*palette) for color in ([value] if isinstance(value, str) else value)} | {"#FFFFFF"}
 
 
@@ -30,7 +29,7 @@ def wrongly_drawn(figure):
         for line in axes.lines:
             deformer = deformer_of_label(str(line.get_label()))
             color = hex_of(line.get_color())
-            if deformer and (color not in (looks.of(deformer).color, looks.color_of_class(looks.class_of(deformer)), style.light)
+            if deformer and (color not in (looks.of(deformer).color, style.light)
                              or line.get_marker() not in (looks.of(deformer).marker, "None")):
                 found.append(f"{line.get_label()}: {color.lower()} {line.get_marker()}")
     return found

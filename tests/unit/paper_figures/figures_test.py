@@ -11,7 +11,7 @@ import records
 import synthetic_frames
 import synthetic_records
 from drawing import bodies
-from figures import timing
+from figures import timing, work_precision
 from records import entries, recorded_frames
 
 
@@ -85,7 +85,7 @@ class OtherStudies(ResultsTest):
     def test_figures_of_records_that_are_gone_are_deleted(self):
         figures = self.results / "figures"
         figures.mkdir()
-        for name in ("work_precision.svg", "work_precision.csv", "somebody's.svg"):
+        for name in ("error_against_time.svg", "error_against_time.csv", "somebody's.svg"):
             (figures / name).write_text("")
         with self.assertRaisesRegex(SystemExit, "no study in it"):
             make_all.main(self.results)
@@ -104,45 +104,46 @@ class OtherStudies(ResultsTest):
         self.assertAlmostEqual(young["300 vertices, 24 iterations", 0.2], 480.0)
         self.refused_without("fit/sag.csv")
 
-    def test_work_precision_shows_each_comparison_with_its_nearest_and_its_omissions(self):
+    def test_each_method_has_one_curve_with_a_point_for_each_setting_of_known_flesh(self):
         synthetic_records.write_work_precision(self.results)
-        lbs = ("lbs", 0.1, 50.0)
-        for name, ms in (("work_precision", 1.0), ("work_precision_plain", 5.0)):
-            rows = self.drawn(name)
-            self.assertEqual({row["panel"] for row in rows}, {"limb, bend 90\u00b0"})  # not the pose that trains
-            found = {shown: [(row["deformer"], float(row["ms_median"] or 0), float(row["error_joint_pct"] or 0)) for row in rows
-                             if row["shown"] == shown] for shown in {row["shown"]: 0 for row in rows}}
-            pbs = [("pbs", ms, 40.0), ("pbs", 2 * ms, 20.0), ("pbs", 4 * ms, 10.0)]
-            nearest = [lbs, ("pbs", 1.0, 40.0) if ms == 1.0 else lbs, ("pbs", 4 * ms, 10.0)]
-            expected = {"point": [lbs, *pbs], "front of all": [lbs, *pbs], "front of lbs": [lbs], "front of pbs": pbs,
-                        "nearest": nearest, "nearest of its class": nearest, "reference": [("", 90000.0, 0.0)],
-                        "bound": [("", 0.0, 15.0)]}
-            self.assertEqual(found, expected | ({"omission": [("xpbd", 0.0, 0.0)]} if ms == 1.0 else {}))
-        drawn = (self.results / "figures" / "work_precision.svg").read_text()
-        for text in ("0.1 ms: constraints (LBS) | 1 ms: constraints (PBS) | 10 ms: undecided (constraints nearest)",
-                     ">blending: \u25bc\u00a0LBS<", ">constraints: \u25cf\u00a0PBS<", "below the reference\u2019s own error"):
-            self.assertIn(text, drawn)
-        for name, omitted in (("work_precision", 2), ("work_precision_plain", "none")):
-            caption = (self.results / "figures" / f"{name}.caption.txt").read_text()
-            self.assertIn(f"The reference takes 90 s; points omitted: {omitted}. Timed on", caption)
-        profiles = self.drawn("data_profiles")
-        self.assertEqual([(row["comparison"], row["ms"]) for row in profiles if row["ms"]], [("packed_f32", "4.0"), ("plain_f64", "20.0")])
-        self.assertEqual([(row["why"], row["tolerance_pct"], row["deformer"] or row["group"], row["missing"]) for row in profiles
-                          if row["comparison"] == "packed_f32" and row["why"]],
-                         [("not_finite", "", "xpbd", "2"), *(("no pose solved", tolerance, group, "") for tolerance, group in (
-                             ("10.0", "lbs"), ("5.0", "lbs"), ("5.0", "pbs"), ("2.0", "lbs"), ("2.0", "pbs")))])
-        self.refused_without("work_precision/fronts.csv", "work_precision")
+        rows = self.drawn("error_against_time")
+        curves = {}
+        for row in (row for row in rows if row["shown"] == "curve"):
+            curves.setdefault(row["method"], []).append((float(row["ms"]), round(float(row["share_pct"]), 6)))
+        self.assertEqual(set(curves), set(synthetic_records.compared))
+        self.assertEqual(curves["vbd"], [(0.35, 62.0), (0.7, 34.0), (1.4, 27.0), (3.5, 22.0), (7.0, 20.0)])
+        self.assertEqual({row["takes"] for row in rows if row["method"] == "xpbd"}, {"material"})
+        drawn = (self.results / "figures" / "error_against_time.svg").read_text()
+        for text in (">vertex block descent<", ">LBS<", ">dashed: the method is given the flesh<"):
+            self.assertEqual(drawn.count(text), 1, text)
+        caption = (self.results / "figures" / "error_against_time.caption.txt").read_text()
+        self.assertTrue(caption.startswith("Within 0.1 ms per frame, DQS leaves 86 % of LBS's error"), caption)
+        self.assertIn("over 40 poses", caption)
+        self.refused_without("work_precision/pairs.csv", "error_against_time")
 
-    def test_work_precision_shows_deformers_of_the_users_own_with_their_clocks(self):
+    def test_settings_that_several_times_share_are_one_point(self):
+        rows = [{"method": "lbs", "setting": "", "ms": ms, "share": "1", "share_low": "1", "share_high": "1"} for ms in ("0.02", "0.02", "nan")]
+        self.assertEqual([row["ms"] for row in work_precision.curve_rows(rows, {"lbs": ""})], ["0.02"])
+
+    def test_poses_solved_within_a_time_and_the_methods_that_solve_none(self):
+        synthetic_records.write_work_precision(self.results)
+        rows = self.drawn("solved_within_time")
+        solved = {(float(row["target_pct"]), row["method"], float(row["budget_ms"])): float(row["solved_pct"]) for row in rows}
+        self.assertAlmostEqual(solved[20.0, "vbd", 10.0], 50.0)
+        self.assertEqual(solved[20.0, "pbs", 10.0], 0.0)
+        drawn = (self.results / "figures" / "solved_within_time.svg").read_text()
+        self.assertEqual((drawn.count(">vertex block descent<"), drawn.count(">none: LBS, DQS, delta<")), (3, 2))
+        caption = (self.results / "figures" / "solved_within_time.caption.txt").read_text()
+        self.assertIn("Most poses are solved to 35 % of LBS's error by quasi-Newton within 1 ms (54 %)", caption)
+        self.assertIn("at most 20, 35 and 50 % of that of LBS", caption)
+
+    def test_deformers_of_the_users_own_have_a_curve_and_their_clocks_are_named(self):
         synthetic_records.write_work_precision(self.results)
         synthetic_records.add_own_deformers(self.results / "work_precision", {"mine": "own", "other_one": "wall", "linked": "processor"})
-        for name in ("work_precision", "work_precision_plain"):
-            found = [(row["shown"], row["deformer"], float(row["ms_median"] or 0)) for row in self.drawn(name)]
-            for shown in ("point", "front of mine"):
-                self.assertIn((shown, "mine", 8.0), found)
-            self.assertIn("\u00a0mine<", (self.results / "figures" / f"{name}.svg").read_text())
-            self.assertIn("mine: time as the program states it. other_one: wall time of the program over its poses. Timed",
-                          (self.results / "figures" / f"{name}.caption.txt").read_text())
+        self.assertIn(("curve", "mine", "8.0"), [(row["shown"], row["method"], row["ms"]) for row in self.drawn("error_against_time")])
+        self.assertIn(">mine<", (self.results / "figures" / "error_against_time.svg").read_text())
+        self.assertIn(" mine: time as the program states it. other_one: wall time of the program over its poses. Timed",
+                      (self.results / "figures" / "error_against_time.caption.txt").read_text())
 
     def test_the_bench_shows_cost_a_constraint(self):
         synthetic_records.write_bench(self.results)

@@ -70,7 +70,7 @@ class Marks(unittest.TestCase):
         self.assertNotIn("verification", quick)
         for entry in entries.read():
             with self.subTest(entry.name):
-                of_full_form = any(re.match("timing/(bench/|features_)|work_precision/limb_bend_90/", of) for of in entry.records)
+                of_full_form = any(re.match("timing/(bench/|features_)", of) for of in entry.records)
             self.assertEqual(entry.mark, "R" if quick.issuperset(entry.studies()) and not of_full_form else "CR")
 
 
@@ -85,18 +85,17 @@ class Planned(ResultsTest):
         (self.results / study / "plan.json").write_text(json.dumps({"runs": [{"name": name} for name in names]}))
 
     def test_without_a_plan_and_with_all_on_record_nothing_is_absent(self):
-        self.assertEqual(self.entry["work_precision"].absent(self.results), ([], 0))
-        self.plan("limb_bend_90", "limb_bend_60")
-        self.assertEqual(self.entry["work_precision"].absent(self.results), ([], 2))
-        self.assertEqual(self.make_all("work_precision")[1], "")
-        self.assertNotIn("without records", (self.results / "figures" / "work_precision.caption.txt").read_text())
+        self.assertEqual(self.entry["error_against_time"].absent(self.results), ([], 3))
+        self.assertEqual(self.make_all("error_against_time")[1], "")
+        self.assertNotIn("without records", (self.results / "figures" / "error_against_time.caption.txt").read_text())
+        (self.results / "work_precision" / "plan.json").unlink()
+        self.assertEqual(self.entry["error_against_time"].absent(self.results), ([], 0))
 
     def test_what_is_not_on_record_stands_in_the_caption(self):
-        self.plan("limb_bend_90", "limb_bend_60", "human_crouch", "man_crouch")
-        synthetic_records.write_origin(self.results / "work_precision" / "man_crouch")  # a run whose table was not kept
-        self.assertEqual(self.make_all("work_precision")[1], "")
-        self.assertTrue((self.results / "figures" / "work_precision.caption.txt").read_text()
-                        .endswith(" Planned runs without records, 2 of 4: human_crouch, man_crouch.\n"))
+        self.plan("limb", "human", "played_01_01", "man", "lady")
+        self.assertEqual(self.make_all("error_against_time")[1], "")
+        self.assertTrue((self.results / "figures" / "error_against_time.caption.txt").read_text()
+                        .endswith(" Planned runs without records, 2 of 5: man, lady.\n"))
 
     def test_of_a_pattern_those_that_it_matches(self):
         synthetic_records.write_jiggle(self.results / "jiggle")

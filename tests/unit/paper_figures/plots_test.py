@@ -13,7 +13,7 @@ from results_case import ResultsTest
 import synthetic_frames
 import synthetic_records
 from drawing import bodies, rendering, style
-from figures import mechanics, pbs_errors, stills, volume
+from figures import mechanics, stills, volume
 from records import recorded_frames
 
 svg = "{http://www.w3.org/2000/svg}"
@@ -64,22 +64,6 @@ class Plots(ResultsTest):
         self.assertEqual([row["vertices"] for row in rows], ["500", "1000", "2000"] * 2)
         self.assertIn("twist 90\u00b0, reached: 1000, 100", self.titles("vertices of the limb"))
         self.assertIn("twist 90\u00b0, not reached: 500, 1000", self.titles("vertices of the limb"))
-
-    def test_improvements(self):
-        synthetic_records.write_improvements(self.results / "work_precision")
-        rows = self.drawn("improvements")
-        self.assertEqual(len([row for row in rows if row["shown"] == "curve"]), 2 * 4)
-        gains = {row["budget_iterations"]: row for row in rows if row["shown"] == "gain"}
-        self.assertEqual(len([row for row in rows if row["shown"] == "gain"]), 3)  # relative to PBS, and to no other change
-        self.assertAlmostEqual(float(gains["4"]["gain_pct"]), 5.0)
-        self.assertEqual([gains[n]["decision"] for n in ("4", "24", "96")], ["few_poses", "decided", "few_poses"])
-        self.assertFalse([row for row in rows if row["shown"] == "omission"])
-
-    def test_improvements_list_the_changes_without_a_value_in_every_pose(self):
-        rows = [{"change": change, "budget_iterations": budget, "poses": poses}
-                for change, budget, poses in (("smooth_weights", "4", "8"), ("region_volumes", "4", "6"), ("smooth_weights", "24", "8"))]
-        self.assertEqual(pbs_errors.not_ranked(rows), ["not ranked: volumes of regions in the time of 4 iterations: 6 of 8 poses",
-                                                       "not ranked: volumes of regions in the time of 24 iterations: 0 of 8 poses"])
 
     def test_an_attachment_that_was_not_reached_keeps_its_place_and_says_so(self):
         synthetic_records.write_error_split(self.results / "ensemble")

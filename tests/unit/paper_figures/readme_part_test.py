@@ -8,11 +8,14 @@ import shutil
 import subprocess
 import sys
 import unittest
+import unittest.mock
 
 from results_case import ResultsTest, listening, root
 import make_readme
 import pages
+import records
 import synthetic_records
+from drawing import style
 from figures import work_precision as work_precision_figure
 from pages import ambiguity, ensemble, short, work_precision
 from readme import findings as readme_findings, pages as readme_pages, part as readme_part, tables as readme_tables
@@ -180,46 +183,32 @@ class Tables(ReadmeTest):
         self.assertIn("at the end it is at rest in 60 % and correct (as if undisturbed) in 50 %. In the other orders and "
                       "precisions it is bounded in 6 of 8 trials, at rest in 50 % and correct in 25 %.", text)
 
-    def write_ensemble(self, difference_pct="3", landing_bound="0.1"):
-        """Two poses, two references, of which the first is reported; LBS is 4 and 6 % away, PBS 1 and 3 %. The bound on the first
-        reference's own error may be missing in the second pose."""
-        study = self.results / "ensemble"
-        for pose, far, bound in (("crouch", 0, "0.1"), ("landing", 2, landing_bound)):
-            write_table(study / pose / "members.csv", [{"member": "smooth", "error_bound_pct": bound}, {"member": "stiffer"}])
-            write_table(study / pose / "errors.csv", [
-                {"body": "human", "pose": pose, "angle_deg": "", "member": member, "deformer": name, "error_joint_pct": error + far + more}
-                for member, more in (("smooth", 0), ("stiffer", 10))
-                for name, error in (("lbs", 4), ("dqs", 3), ("delta_mush", 2), ("pbs", 1))])
-        write_table(study / "pairs.csv", [
-            {"first": first, "second": second, "largest_difference_pct": points, "members": 2, "decision": decision}
-            for first, second, points, decision in (
-                ("lbs", "pbs", difference_pct, "decided"), ("dqs", "pbs", difference_pct, "reference_error"),
-                ("delta_mush", "pbs", difference_pct, "reference_error"), ("delta_mush", "dqs", difference_pct, "models_disagree"),
-                ("lbs", "dqs", 1, "decided"), ("fem_linear", "lbs", 9, "decided"))])
-
-    def test_the_distance_from_flesh_is_that_of_the_first_reference(self):
-        self.write_ensemble()
+    def test_the_distance_from_flesh_is_that_of_pbs_within_the_middle_time(self):
+        synthetic_records.write_work_precision(self.results)
         text = readme_findings.distance(self.results)
-        # of LBS's 4 and 6 %, by the other reference of 14 and 16 %: PBS 3 points, delta mush 2, DQS 1
-        self.assertIn("PBS with 24 iterations (ordered, single precision) removes 19 to 75 % of", text)
-        self.assertIn("over 2 references of neo-Hookean flesh", text)
-        self.assertIn("(DQS 6 to 25 %, delta mush 12 to 50 %)", text)
-        self.assertIn("Its own error against the first reference is 1.0 to 3.0 % of the mean bone distance.", text)
-        self.assertIn("In all 2 poses, the references decide which of two methods is closer in 1 of the 4 pairs of", text)
-        self.assertIn("in 2 the own error of a reference is too large or not known and in 1 two references, or the "
-                      "default and the chosen settings, disagree.", text)
-        self.assertNotIn("leave out", text)
-
-    def test_the_distance_leaves_out_poses_whose_reference_has_no_bound(self):
-        self.write_ensemble(landing_bound="")
-        text = readme_findings.distance(self.results)
-        self.assertIn("In 1 pose, PBS with 24 iterations (ordered, single precision) removes 21 to 75 % of", text)
-        self.assertIn("These errors leave out 1 pose in which the reference has no bound on its own error. In all 2 poses, the", text)
-
-    def test_the_distance_needs_pairs_that_differ(self):
-        self.write_ensemble(difference_pct="1.9")
-        with self.refused("or no pair of them"):
+        self.assertTrue(text.startswith("**Distance from flesh.** Within 1 ms, PBS leaves 51 to 68 % of the error of LBS at the joints, over "))
+        self.assertIn("(40 poses). The skin of a body of 1.7 m is 6.8 mm from flesh, that of LBS 12 mm.", text)
+        methods = self.results / "work_precision" / "methods.csv"
+        write_table(methods, [row for row in records.read_rows(methods) if row["method"] != "pbs"])
+        with self.refused("methods.csv: no row of PBS within 1 ms"):
             readme_findings.distance(self.results)
+
+    def test_below_the_figure_are_the_answer_and_a_row_for_each_method(self):
+        synthetic_records.write_work_precision(self.results)
+        for run in (self.results / "work_precision").glob("*/run.json"):
+            run.write_text(run.read_text().replace('"version"', '"cpu_model": "a processor", "version"'))
+        picture = self.results / "error_against_time.png"
+        with unittest.mock.patch.object(readme_findings, "picture", picture):
+            shown, _, answer, _, head, _, *rows, _, note = readme_findings.figure_lines(self.results)
+        self.assertIn(picture.name, shown)
+        self.assertEqual(answer.count("Within "), 3)
+        self.assertEqual(head, "| method | takes | 0.1 ms | 1 ms | 10 ms |")
+        self.assertEqual(len(rows), 10)
+        self.assertIn("| DQS | nothing | 86 [77, 103] a | 86 [77, 103] h | 86 [77, 103] h |", rows)
+        self.assertIn("(a processor): the geometric mean over 40 poses", note)
+        with open(picture.with_suffix(".csv"), newline="") as stream:
+            drawn = list(csv.DictReader(stream))
+        self.assertEqual({row["method"] for row in drawn if row["shown"] == "curve"}, set(synthetic_records.compared))
 
     def test_features(self):
         synthetic_records.write_study(self.results)
@@ -256,34 +245,45 @@ class Pages(ResultsTest):
         for study, compose in composers.items():
             self.assertEqual((KEPT / study / f"{study}.md").read_text(encoding="utf-8"), compose(opened / study), study)
 
-    def test_pairs_that_differ_notably_are_counted_and_the_others_left_out(self):
-        pair = {"body": "human", "motion": "01_01", "pose": "crouch", "angle_deg": "", "first_is_closer": "1", "second_is_closer": "0"}
-        text = ensemble.of_pairs([pair | {"first": first, "second": second, "largest_difference_pct": points, "decision": decision}
-                                  for first, second, points, decision in (
-                                      ("lbs", "pbs", "3.0", "decided"), ("dqs", "pbs", "2.5", "models_disagree"),
-                                      ("lbs", "fem_linear", "9.0", "decided"), ("lbs", "dqs", "1.0", "reference_error"))])
-        self.assertIn("2 of 3 pairs of deformers", text)
-        self.assertIn("these are 1 of 2 pairs", text)
-        self.assertIn("| human | 01_01 | crouch | DQS | PBS | 2.5 |", text)
+    def test_the_page_of_error_against_time_begins_with_the_answer(self):
+        synthetic_records.write_work_precision(self.results)
+        folder = self.results / "work_precision"
+        synthetic_records.add_own_deformers(folder, {"mine": "own"})
+        text = work_precision.page(folder)
+        self.assertTrue(text.startswith("# Error against run time\n\n- Within 0.1 ms per frame, DQS leaves 86 % of LBS's error (10 mm"))
+        for line in ("| neo-Hookean XPBD | material, springs, initial guess |  | 45 [40, 54] c\u2020 | 21 [19, 25] c\u2020 |  | 50 [45, 59] | "
+                     "23 [21, 27] |",
+                     "| PBS with smooth weights |  | 6.8 | 5.6 |  | 0.7 (\u00d7 1.4)\u2020 | 7 (\u00d7 14)\u2020 |",
+                     "A sign test over 5 bodies cannot have p below 0.0625,",
+                     "| flesh known | 1 ms | 45 | 37 | 1 | 1 | 6 |",
+                     "- flesh known, 1 ms: vertex block descent is nearer than quasi-Newton if bones hold the flesh as rigid capsules.",
+                     "## Decisions that change if a body is excluded: 4 of 212",
+                     "| flesh known | 1 ms | LBS | PBS | PBS is nearer | without man: open |",
+                     "| quasi-Newton | wrong material | 30 \u2192 60 | 30 \u2192 60 |",
+                     "| 01_01 | rigid capsules | quasi-Newton |  | 48 % (5.8 mm) \u2192 24 % (2.9 mm) | 29 % (3.4 mm) \u2192 14 % (1.7 mm) |",
+                     "at 0.1 to 0.9 % of the mean bone distance (median 0.3 %) in 3 of 5 solutions. Not reached: 1.",
+                     "| vertex block descent |  | `vbd.iterations=1` | `vbd.iterations=10` |",
+                     "- `mine`: the times that the program states"):
+            self.assertIn(line, text)
+        for study_word in ("undecided", "not testable"):
+            self.assertNotIn(study_word, text)
 
-    def test_references_that_decide_nothing_are_listed_with_their_worst_tet(self):
-        member = {"body": "limb", "motion": "bend", "pose": "", "angle_deg": "90", "worst_tet": "1234", "j_min": "-0.5", "inverted": "3",
-                  "lowest_det_f": "", "solve_s": "90"}
-        text = ensemble.of_members([member | {"member": name, "outcome": outcome, "error_bound_pct": bound} for name, outcome, bound in (
-            ("smooth", "reached", "0.1"), ("nu_0.49", "reached", ""), ("nu_0.3", "not_converged", ""))])
-        self.assertIn("2 of 3 references were reached. 1 of these", text)
-        self.assertIn("| nu_0.3 | not_converged | 1234 | -0.500 | 3 |", text)
-        self.assertNotIn("| smooth |", text)
-        self.assertIn("| limb | bend | 90\u00b0 | 4.5 |", text)
+    def test_the_quick_form_has_neither_clips_nor_other_starts(self):
+        synthetic_records.write_work_precision(self.results)
+        for name in ("motion.csv", "starts.csv"):
+            (self.results / "work_precision" / name).unlink()
+        text = work_precision.page(self.results / "work_precision")
+        for heading in ("## Posed and played", "## What the initial guess"):
+            self.assertNotIn(heading, text)
 
-    def test_a_change_without_a_value_in_every_pose_is_not_ranked(self):
-        row = {"group": "all", "budget_iterations": "24", "than": "pbs", "error_pct": "4", "than_error_pct": "10", "gain_pct": "6",
-               "gain_low_pct": "5", "gain_high_pct": "7", "reference_error_pct": "6.5", "decision": "reference_error", "settings": "",
-               "iterations": "9", "volume_abs_pct": "1"}
-        write_table(self.results / "gains.csv", [row | {"change": "better", "poses": "4"}, row | {"change": "in_one_pose", "poses": "1"}])
-        text = work_precision.gains(self.results)
-        self.assertIn("Not ranked, because no setting fits into the budget in every pose: in one pose (1 of 4 poses).", text)
-        self.assertIn("the reference's own error may change it by 6.5 points", text)
+    def test_the_parts_of_the_error_of_pbs_begin_with_their_ranges(self):
+        synthetic_records.write_error_split(self.results)
+        (self.results / "plan.json").write_text(json.dumps({"runs": [{"name": "limb_twist_90"}, {"name": "limb_bend_60"}]}))
+        text = ensemble.page(self.results)
+        self.assertIn("After 24 iterations in 2 poses, the solver is 1.25 % of the mean bone distance away from the converged constraints. "
+                      "These are 20 % away from flesh, which is known within 5 %.", text)
+        self.assertIn("| limb | bend | 60\u00b0 | neo-Hookean, bind | 9.0 | \u2013 |", text)
+        self.assertIn("| limb | twist | 90\u00b0 | neo-Hookean, smooth, q 10, radius 0.7 | 9.0 | 20.0 |", text)
 
     def test_a_reading_shows_the_value_that_flips_or_changes_most(self):
         row = {"verdict_flips": "no", "a": "2", "b": "3", "change": "1", "b_over_a": "1.5"}
@@ -322,18 +322,19 @@ class Pages(ResultsTest):
     def test_a_damaged_table_is_refused_with_its_place(self):
         study = self.results / "ensemble"
         shutil.copytree(kept.opened(KEPT) / "ensemble", study)
-        whole = (study / "pairs.csv").read_text()
-        head, first, *_ = whole.splitlines()
-        columns, cells = head.split(","), first.split(",")
-        cells[columns.index("largest_difference_pct")] = "ten"
-        for damaged, message in ((",".join(cells), "pairs.csv:2: largest_difference_pct = ten: expected a number"),
-                                 (first.rpartition(",")[0], f"pairs.csv:2: expected {len(columns)} cells"),
-                                 (first + ",1", f"pairs.csv:2: expected {len(columns)} cells")):
-            (study / "pairs.csv").write_text(whole.replace(first, damaged, 1))
+        table = study / "limb_twist_90" / "attachments.csv"
+        whole = table.read_text()
+        head, line = whole.splitlines()[0], next(line for line in whole.splitlines() if ",0.2," in line)
+        place, columns, cells = whole.splitlines().index(line) + 1, head.split(","), line.split(",")
+        cells[columns.index("model_pct")] = "ten"
+        for damaged, message in ((",".join(cells), f"attachments.csv:{place}: model_pct = ten: expected a number"),
+                                 (line.rpartition(",")[0], f"attachments.csv:{place}: expected {len(columns)} cells"),
+                                 (line + ",1", f"attachments.csv:{place}: expected {len(columns)} cells")):
+            table.write_text(whole.replace(line, damaged, 1))
             with self.subTest(message), listening() as (_, complaints):
                 self.assertEqual(pages.write(self.results), ([], 2))
                 self.assertIn(message, complaints.getvalue())
-        (study / "pairs.csv").write_text(whole)
+        table.write_text(whole)
         self.assertEqual(pages.write(self.results), ([study / "ensemble.md"], 0))
 
 
@@ -344,7 +345,8 @@ def shown():
 
 class ErrorAgainstTime(unittest.TestCase):
     def test_shows_the_kept_record(self):
-        rows = work_precision_figure.rows_behind(readme_findings.shown_panel(kept.opened(KEPT)))
+        figure, rows = work_precision_figure.error_against_time(kept.opened(KEPT))
+        style.pyplot.close(figure)
         with open(readme_findings.picture.with_suffix(".csv"), newline="") as stream:
             drawn = list(csv.DictReader(stream))
         self.assertEqual(len(drawn), len(rows))

@@ -87,65 +87,98 @@ def write_fit(results):
         for k_stretch in (0.05, 0.2, 0.9) for iterations in (24, 96) for k_volume in (0.0, 1.0)])
 
 
+comparison_ms = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
+# What a method takes, and its share of LBS's error within these times, the last ones; in the table `guessed` half as much again if it takes
+# flesh.
+compared = {
+    "lbs": ("", [1.0] * 8), "dqs": ("", [0.86] * 8), "delta_mush": ("", [1.11, 0.86, 0.78, 0.75, 0.75, 0.75, 0.75]),
+    "direct_delta_mush": ("", [1.2] * 7), "pbs": ("", [0.8, 0.63, 0.57, 0.52, 0.48, 0.47]),
+    "xpbd": ("material", [0.8, 0.6, 0.53, 0.53, 0.54, 0.54]),
+    "quasi_newton": ("material attachment start", [0.6, 0.32, 0.25, 0.22, 0.19]),
+    "vbd": ("material attachment start", [0.62, 0.34, 0.27, 0.22, 0.20]),
+    "xpbd_neo_hookean": ("material attachment start", [0.7, 0.45, 0.32, 0.24, 0.21]),
+    "projective_dynamics": ("material attachment start", [0.75, 0.67, 0.55, 0.45, 0.42])}
+
+
+def share_of(method, table, ms):
+    """None where it is too slow."""
+    takes, shares = compared.get(method, ("", compared["pbs"][1]))
+    before = len(comparison_ms) - len(shares)
+    place = comparison_ms.index(ms) - before
+    return None if place < 0 else shares[place] * (1.5 if takes and table == "guessed" else 1.0)
+
+
+def decided(first, second, of):
+    """of: their shares. Level within a tenth, open within a quarter; quasi-Newton and VBD depend on the attachment."""
+    if {first, second} == {"quasi_newton", "vbd"}:
+        return "depends"
+    ratio = max(of) / min(of)
+    return "level" if ratio < 1.1 else "open" if ratio < 1.25 else "first_is_nearer" if of[0] < of[1] else "second_is_nearer"
+
+
 def write_work_precision(results):
-    """PBS in packed code: an error of 40 % / n after n iterations of a millisecond each; in plain code five times as long. LBS has one
-    code. The reference's own error is at most 15 %. In a second pose, which trains, nothing may be shown. XPBD diverges."""
+    """Ten methods in 40 poses of five bodies, which need 0.7 of each time, except LBS and DQS; 12 mm from flesh with LBS. Without the man,
+    it is open whether PBS is nearer than LBS."""
     folder = results / "work_precision"
-    case = {"body": "limb", "motion": "bend", "pose": "", "angle_deg": 90}
-    unset = {name: "" for name in ("k_stretch", "order", "substeps", "element_order", "wanted_vertices", "refined", "tuned")}
-
-    def point(deformer, n, ms, error, precision, packed):
-        return {"deformer": deformer, "iterations": n, "ms_median": ms, "error_joint_pct": error, **unset, "precision": precision,
-                "packed": packed}
-
-    lbs = point("lbs", "", 0.1, 50.0, "f64", 0)
-    packed = [point("pbs", n, float(n), 40.0 / n, "f32", 1) for n in (1, 2, 4)]
-    plain = [point("pbs", n, 5.0 * n, 40.0 / n, "f64", 0) for n in (1, 2, 4)]
-    diverged = [{**point("xpbd", n, "", "", "f32", 1), "outcome": "not_finite" if n <= 2 else "over_time_limit"} for n in range(1, 10)]
-    rest = {"outcome": "finished", "half": "evaluation", "reach_ms": 1.0, "reference_error_joint_pct": 15.0}
-    reference = {**lbs, "deformer": "reference", "ms_median": "", "error_joint_pct": "", "outcome": "reference"}
-    for name, half in (("limb_bend_90", "evaluation"), ("limb_bend_60", "training")):
-        write_origin(folder / name)
-        write_table(folder / name / "points.csv", [{**case, **rest, **row, "half": half} for row in (lbs, *packed, *plain, *diverged)]
-                    + [{**case, **reference, "half": half, "reach_ms": 90000.0, "reference_error_joint_pct": 15.0}])
-    fronts, best, profiles = [], [], []
-    for comparison, rows in (("packed_f32", [lbs, *packed]), ("plain_f64", [lbs, *plain])):
-        common = {"comparison": comparison, "case": "limb_bend_90"}
-        fronts += [{**common, "front": front, **row, "reference_error_joint_pct": 15.0}
-                   for row in rows for front in ("all", row["deformer"])]
-        fronts += [{**fronts[-1], "case": "limb_bend_60"}]
-        for budget_ms, nearest in ((0.1, rows[0]), (1, rows[1 if comparison == "packed_f32" else 0]), (10, rows[3])):
-            best += [{**common, "budget_ms": budget_ms, "among": among, "nearest": found, "deformer": nearest["deformer"], "knows": "",
-                      "ms_median": nearest["ms_median"], "error_joint_pct": nearest["error_joint_pct"],
-                      "either_of": "" if budget_ms < 10 else "mush blend"}
-                     for among, found in (("classes", "constraints"), ("constraints", nearest["deformer"]))]
-        profiles += [{"comparison": comparison, "tolerance_pct": 10, "group": "pbs", "ms": rows[3]["ms_median"], "solved": 1, "certain": 0,
-                      "poses": 1, "share_pct": 100}]
-    write_table(folder / "fronts.csv", fronts)
-    write_table(folder / "nearest.csv", best)
-    write_table(folder / "data_profiles.csv", profiles)
-    write_table(folder / "omissions.csv", [{"comparison": "packed_f32", "case": "limb_bend_90", "deformer": "xpbd", "why": "not_finite",
-                                            "missing": 2, "points": 9, "reason": ""}])
+    runs = ("limb", "human", "played_01_01")
+    write_runs(folder, runs)
+    (folder / "plan.json").write_text(json.dumps({"extent": "full", "runs": [{"name": run} for run in runs], "left_out": []}))
+    methods, curves, profiles, pairs, decisions, motion = ([] for _ in range(6))
+    for table, ms in itertools.product(("known", "guessed"), comparison_ms):
+        names = [*compared, *(["pbs_smooth_weights"] if table == "guessed" else [])]
+        shares = {name: share_of(name, table, ms) for name in names if share_of(name, table, ms) is not None}
+        place = {"table": table, "budget_ms": ms}
+        times = {name: {"lbs": 0.02, "dqs": 0.03}.get(name, 0.7 * ms) for name in shares}
+        curves += [place | {"method": name, "setting": f"{name}.iterations={ms:g}", "ms": times[name], "share": share,
+                            "share_low": 0.9 * share, "share_high": 1.2 * share} for name, share in shares.items()]
+        profiles += [{"table": table, "target_pct": target, "method": name, "budget_ms": ms,
+                      "solved_pct": max(0.0, 100 * (1 - share / target * 50))} for target in (20, 35, 50) for name, share in shares.items()]
+        if ms not in (0.1, 1.0, 10.0):
+            continue
+        ranked = sorted(shares, key=shares.get)
+        methods += [place | {"method": name, "takes": compared.get(name, ("",))[0], "setting": f"{name}.iterations={ms:g}", "ms": times[name],
+                             "times_pbs": 2 * times[name], "within": "doubled" if 2 * times[name] <= ms else "once", "poses": 40,
+                             "share": shares[name], "share_low": 0.9 * shares[name], "share_high": 1.2 * shares[name],
+                             "fold_share": 1.1 * shares[name], "fold_low": shares[name], "fold_high": 1.3 * shares[name],
+                             "skin_mm": 12 * shares[name], "inverted_poses": 0, "letters": "abcdefghijk"[number]}
+                    for number, name in enumerate(ranked)]
+        for first, second in itertools.combinations(shares, 2):
+            decision = decided(first, second, (shares[first], shares[second]))
+            of = place | {"first": first, "second": second}
+            decisions += [place | {"without_body": body, "first": first, "second": second,
+                                   "decision": "open" if (body, first, second) == ("man", "lbs", "pbs") else decision}
+                          for body in ("", "frankie", "human", "lady", "limb", "man")]
+            pairs += [of | {"member": member, "wins": wins, "ties": 2, "losses": 38 - wins, "p": p, "p_holm": 5 * p, "ratio": 1.2,
+                            "ratio_low": 1.0, "ratio_high": 1.4}
+                      for member, wins, p in (("smooth", 30, 0.001 if decision == "depends" else 0.1), ("nu_0.3", 20, 0.5),
+                                              ("rigid_capsules", 4, 0.001 if decision == "depends" else 0.1))]
+        if table == "known":
+            motion += [{"clip": clip, "budget_ms": ms, "method": name, "setting": "", "member": member, "frames": 6, "ms": times[name],
+                        "cold_share": factor * share, "played_share": 0.5 * factor * share, "cold_skin_mm": 12 * factor * share,
+                        "played_skin_mm": 6 * factor * share}
+                       for clip in ("01_01", "01_03") for member, factor in (("smooth", 1.0), ("rigid_capsules", 1.5))
+                       for name, share in shares.items()]
+    tables = {"methods": methods, "curves": curves, "profiles": profiles, "pairs": pairs, "decisions": decisions, "motion": motion}
+    tables["starts"] = [{"budget_ms": ms, "method": "quasi_newton_of_wrong_material", "of": "quasi_newton", "poses": 12, "share": 0.6,
+                         "share_of_setting": 0.3} for ms in (1.0, 10.0)]
+    tables["references"] = [{"pose": "man_crouch", "body": body, "stratum": "movement", "member": "smooth", "outcome": outcome,
+                             "own_error_pct": own} for body, outcome, own in (
+                                 ("limb", "reached", 0.1), ("human", "reached", 0.3), ("man", "reached", 0.9), ("lady", "reached", ""),
+                                 ("frankie", "not_reached", ""))]
+    for name, rows in tables.items():
+        write_table(folder / f"{name}.csv", rows)
 
 
 def add_own_deformers(folder, clocks):
-    """Deformers of the user's own with these clocks, in the records of write_work_precision: 8 ms, an error of 20 %."""
-    def extended(file, rows_of_deformer):
-        with open(file, newline="") as stream:
-            rows = list(csv.DictReader(stream))
-        write_table(file, [row for name in clocks for row in rows_of_deformer(name, rows)])
-
-    def own(row, name):
-        return {**row, "deformer": name, "precision": "", "ms_median": 8.0, "error_joint_pct": 20.0}
-
-    for case in ("limb_bend_90", "limb_bend_60"):
-        first = next(iter(clocks))
-        extended(folder / case / "points.csv", lambda name, rows: [
-            {**own(rows[0], name), "external": 1, "clock": clocks[name]},
-            *({**row, "external": 0, "clock": "processor"} for row in rows if name == first)])
-    extended(folder / "fronts.csv", lambda name, rows: [
-        *({**own(row, name), "front": name} for row in rows if row["front"] == "lbs" and row["case"] == "limb_bend_90"),
-        *(row for row in rows if name == first)])
+    """Deformers of the user's own with these clocks, in the records of write_work_precision: 8 ms, a share of 0.5."""
+    with open(folder / "methods.csv", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    with open(folder / "curves.csv", newline="") as stream:
+        curves = list(csv.DictReader(stream))
+    own = {"table": "known", "budget_ms": 10.0, "setting": "", "ms": 8.0, "share": 0.5, "share_low": 0.4, "share_high": 0.6}
+    write_table(folder / "methods.csv", rows + [rows[0] | own | {"method": name, "takes": "", "letters": "z"} for name in clocks])
+    write_table(folder / "curves.csv", curves + [own | {"method": name} for name in clocks])
+    write_table(folder / "limb" / "points.csv", [{"method": name, "clock": clock} for name, clock in clocks.items()])
 
 
 def write_bench(results):
@@ -225,24 +258,6 @@ def write_claims(results, statement="Volume is kept."):
     (results / "claims.json").write_text(json.dumps(document))
 
 
-def write_poses(results):
-    """Two poses of work_precision with PBS at 24 iterations, at another k_stretch and on a coarser mesh; in one of them 12 % of
-    the volume is left out."""
-    for motion, lbs, pbs, bar, masked_pct in (("twist", 50.0, 20.0, 10.0, 0.0), ("crouch", 30.0, 8.0, 15.0, 12.0)):
-        folder = results / "work_precision" / motion
-        write_origin(folder, work={"settings": {"scene": {"pbs": {"k_stretch": 0.2}}}})
-        common = {"body": "limb", "motion": motion, "pose": "", "angle_deg": 90, "iterations": "", "k_stretch": "", "order": "",
-                  "precision": "", "substeps": "", "vertices": 1000, "outcome": "finished", "reference_error_joint_pct": bar,
-                  "masked_share_pct": masked_pct, "reach_ms": 1.0, "skin_rms_mm": lbs / 10}
-        paper = {"deformer": "pbs", "iterations": 24, "k_stretch": 0.2, "order": "ordered", "precision": "f32", "ms_median": 0.7,
-                 "error_joint_pct": pbs, "skin_rms_mm": pbs / 10, "below_reference_error": int(pbs < bar)}
-        rows = [{"deformer": "lbs", "ms_median": 0.1, "error_joint_pct": lbs, "below_reference_error": 0},
-                {**paper, "k_stretch": 0.9, "error_joint_pct": 1.0}, {**paper, "vertices": 300, "error_joint_pct": 2.0}, paper,
-                {"deformer": "reference", "outcome": "reference", "ms_median": "", "reach_ms": 90000.0, "error_joint_pct": "",
-                 "below_reference_error": ""}]
-        write_table(folder / "points.csv", [{**common, **row} for row in rows])
-
-
 def write_timing(results):
     """Two meshes of sizes in the paper, and one of another size."""
     write_origin(results / "timing" / "man")
@@ -277,20 +292,6 @@ def write_convergence(study):
                 "volume_reached": int(vertices > 500)} for vertices in (2000, 500, 1000) for start in ("lbs", "rest_pose")])
 
 
-def write_improvements(study):
-    """PBS with an error of 40 % / n, and smooth weights with half of it, which gain half of PBS's error at each budget, decided at 24
-    iterations alone."""
-    write_origin(study / "limb_twist_90")
-    write_table(study / "limb_twist_90" / "changes.csv", [{"change": "pbs"}])
-    write_table(study / "curves.csv", [{"body": "limb", "change": change, "setting": "", "iterations": n, "poses": 1, "mean_ms": 0.1 * n,
-                                  "error_joint_pct": factor * 40.0 / n}
-                                 for change, factor in (("pbs", 1.0), ("smooth_weights", 0.5)) for n in (1, 4, 24, 96)])
-    write_table(study / "gains.csv", [{"group": "all", "budget_iterations": n, "change": "smooth_weights", "than": than, "poses": 1,
-                                 "gain_pct": 20.0 / n, "gain_low_pct": 19.0 / n, "gain_high_pct": 21.0 / n,
-                                 "decision": "decided" if n == 24 else "few_poses"}
-                                for n in (4, 24, 96) for than in ("pbs", "k_by_edge_length")])
-
-
 def write_error_split(study):
     """A solver part of 30 % / n and a model part of 20 %. In the lower panels, flesh held
     by the bind constraint converges in the twist and not in the bend."""
@@ -300,12 +301,12 @@ def write_error_split(study):
         pose = {"body": "limb", "motion": motion, "pose": "", "angle_deg": angle_deg}
         write_table(folder / "parts.csv",
               [{**pose, "k_stretch": k, "iterations": n, "error_joint_pct": 25.0, "solver_pct": 30.0 / n, "model_pct": 20.0,
-                "discretisation_pct": 5.0} for k in (0.2, 0.9) for n in (1, 24)])
+                "discretisation_pct": 5.0, "whole_joint_pct": 25.0, "masked_share_pct": 0.0, "observed_order": 1.0} for k in (0.2, 0.9) for n in (1, 24)])
         held = [("neo_hookean", "smooth", 10, 0.7, 20.0), ("neo_hookean", "embedded", 1e4, 0.35, 30.0),
                 ("neo_hookean", "bind", "", "", 80.0 if motion == "twist" else "nan"), ("linear", "smooth", 10, 0.7, 40.0)]
         write_table(folder / "attachments.csv",
               [{**pose, "k_stretch": 0.2, "reference": f"{model}_{attachment}", "model": model, "attachment": attachment,
-                "spring_factor": factor, "core_radius": core, "model_pct": pct} for model, attachment, factor, core, pct in held])
+                "spring_factor": factor, "core_radius": core, "difference_pct": 9.0, "model_pct": pct} for model, attachment, factor, core, pct in held])
 
 
 def write_artefacts(study):

@@ -10,12 +10,12 @@ import unittest
 from results_case import ResultsTest, root
 import checked_looks
 import make_all
+import records
 import synthetic_records
 from drawing import style
-from figures import pbs_errors
 from records import entries
 from synthetic_records import claim, selection, unit, write_table
-from words import captions, case_words, looks, sentences
+from words import captions, case_words, compared_methods, looks, sentences
 
 
 class CaseWords(unittest.TestCase):
@@ -213,25 +213,128 @@ class File(ResultsTest):
         self.assertEqual({name for of in selected for name in of.get("quantities", [])} - document["quantity"].keys(), set())
 
 
+class ComparedMethods(ResultsTest):
+    def setUp(self):
+        super().setUp()
+        synthetic_records.write_work_precision(self.results)
+        self.folder = self.results / "work_precision"
+
+    def changed(self, table, change):
+        """The comparison after a change to the rows of a table."""
+        file = self.folder / f"{table}.csv"
+        rows = [dict(row) for row in records.read_rows(file)]
+        for row in rows:
+            change(row)
+        if table == "methods":  # the study sorts them
+            rows.sort(key=lambda row: (row["table"], float(row["budget_ms"]), float(row["share"])))
+        write_table(file, rows)
+        return compared_methods.Compared(self.folder)
+
+    def test_each_time_has_its_nearest_method_and_those_that_may_be_as_near(self):
+        short, middle, _, clips = compared_methods.Compared(self.folder).answers()
+        self.assertEqual(short, "Within 0.1 ms per frame, DQS leaves 86 % of LBS's error (10 mm from flesh on a body of 1.7 m; LBS may be as "
+                                "near).")
+        self.assertEqual(middle, "Within 1 ms, quasi-Newton leaves 32 % with the flesh known (3.8 mm); if bones hold the flesh as rigid "
+                                 "capsules, vertex block descent is nearer. With guessed flesh, quasi-Newton leaves 48 % (5.8 mm; PBS and "
+                                 "PBS with smooth weights may be as near); if bones hold the flesh as rigid capsules, vertex block descent "
+                                 "is nearer.")
+        self.assertEqual(clips, "Played along a clip, each frame from the one before, quasi-Newton leaves 16 to 24 % within 1 ms (the same "
+                                "frames alone: 32 to 48 %).")
+
+    def test_what_is_level_is_named_and_a_long_list_is_cut(self):
+        def level(row):
+            row["decision"] = "level" if "pbs" not in (row["first"], row["second"]) else row["decision"]
+
+        self.assertIn("quasi-Newton leaves 32 % with the flesh known (3.8 mm; level with vertex block descent, neo-Hookean XPBD, XPBD, projective "
+                      "dynamics and 4 more). With", self.changed("decisions", level).answer(1.0))
+
+    def test_what_is_the_same_with_known_and_with_guessed_flesh_is_stated_once(self):
+        def same(row):
+            row["share"], row["skin_mm"] = (0.3, 4.0) if row["method"] == "pbs" else (0.6, 7.0)
+
+        def decided(row):
+            row["decision"] = {row["first"]: "first_is_nearer", row["second"]: "second_is_nearer"}.get("pbs", "level")
+
+        self.changed("methods", same)
+        self.assertEqual(self.changed("decisions", decided).answer(1.0), "Within 1 ms, PBS leaves 30 % (4.0 mm).")
+
+    def test_the_nearest_is_the_one_that_no_other_is_decided_to_be_nearer_than(self):
+        def reverse(row):
+            if {row["first"], row["second"]} == {"quasi_newton", "vbd"}:
+                row["decision"] = "second_is_nearer"  # vbd
+
+        compared = self.changed("decisions", reverse)
+        self.assertEqual(compared.nearest("known", 1.0)["method"], "vbd")
+        self.assertEqual(compared.against("known", 1.0, "quasi_newton")["farther"], ["vbd"])
+        self.assertIn("vbd", [*compared.against("known", 1.0, "pbs")["farther"]])
+
+    def test_a_method_that_misses_the_time_is_no_answer(self):
+        def late(row):
+            row["within"] = "no" if row["method"] in ("quasi_newton", "vbd", "xpbd_neo_hookean") else row["within"]
+
+        compared = self.changed("methods", late)
+        self.assertEqual(compared.nearest("known", 1.0)["method"], "xpbd")
+        self.assertEqual(compared_methods.cell(compared.row("known", 1.0, "vbd"))[-1], "\u2021")
+
+        def all_late(row):
+            row["within"] = "no"
+
+        self.assertEqual(self.changed("methods", all_late).answer(1.0), "Within 1 ms, no method is fast enough on this machine.")
+
+    def test_where_nothing_is_nearer_than_lbs_it_says_so(self):
+        def lbs_first(row):
+            row["share"] = 2.0 if row["method"] == "dqs" else row["share"]
+
+        self.assertEqual(self.changed("methods", lbs_first).answer(0.1), "Within 0.1 ms per frame, no method is nearer than LBS (12 mm from "
+                         "flesh on a body of 1.7 m; delta mush, direct delta mush and DQS may be as near).")
+
+    def test_a_decision_that_depends_names_the_variants_on_which_the_other_is_nearer(self):
+        def on_two(row):
+            if row["member"] == "nu_0.3" and {row["first"], row["second"]} == {"quasi_newton", "vbd"}:
+                row["wins"], row["losses"], row["p_holm"] = 3, 35, 0.001
+
+        compared = self.changed("pairs", on_two)
+        self.assertEqual(compared.where_nearer("known", 1.0, "vbd", "quasi_newton"), ["nu_0.3", "rigid_capsules"])
+        self.assertEqual(compared.where_nearer("known", 1.0, "quasi_newton", "vbd"), ["smooth"])
+        self.assertIn("; if the flesh can be compressed (Poisson\u2019s ratio 0.3) or bones hold the flesh as rigid capsules, vertex block "
+                      "descent is nearer", compared.answer(1.0))
+
+    def test_each_reference_variant_has_its_words(self):
+        source = (root / "experiments/studies/shared/posed_reference.cpp").read_text(encoding="utf-8")
+        family = re.search(r"family\(\)\n\{(.*?)\n\}", source, re.S)[1]
+        members = re.findall(r'\.name = "([\w.]+)"', family)
+        self.assertEqual(set(members), set(case_words.tables["member"]))
+
+    def test_without_clips_nothing_is_said_of_them(self):
+        (self.folder / "motion.csv").unlink()
+        self.assertEqual(len(compared_methods.Compared(self.folder).answers()), 3)
+
+    def test_the_table_has_the_method_with_the_least_share_first_and_its_letters(self):
+        table = list(compared_methods.Compared(self.folder).table("known"))
+        self.assertEqual(len(table), 10)
+        self.assertEqual(table[1], ["vertex block descent", "material, springs, initial guess", "", "34 [31, 41] b\u2020", "20 [18, 24] b\u2020"])
+        self.assertIn(["DQS", "nothing", "86 [77, 103] a", "86 [77, 103] h", "86 [77, 103] h"], table)
+
+    def test_pbs_has_its_range_and_its_distance(self):
+        self.assertIn("PBS leaves 51 to 68 % of the error of LBS at the joints", compared_methods.Compared(self.folder).share_of_pbs())
+
+
 class Looks(unittest.TestCase):
     def test_each_entry_is_whole_and_each_group_has_a_look_of_its_own(self):
         own = {name: entry for name, entry in looks.listed.items() if "group" not in entry}
         for name, entry in looks.listed.items():
             with self.subTest(name):
                 self.assertIn(entry.get("group", name), own)
-                whole = {"name", "group"} if "group" in entry else {"name", "color", "marker", "line", "class"}
+                whole = {"name", "group"} if "group" in entry else {"name", "color", "marker", "line"}
                 self.assertEqual(set(entry) - {"short"}, whole)
                 self.assertRegex(looks.of(name).color, r"^#[0-9A-F]{6}$")
-                self.assertIn(looks.class_of(name), looks.classes)
         self.assertEqual(len({(entry["color"], entry["marker"]) for entry in own.values()}), len(own))
 
-    def test_the_classes_are_those_of_the_study_and_each_has_a_marker_of_its_own_for_each_method(self):
-        compared = tomllib.loads((root / "experiments/studies/work_precision/cases.toml").read_text(encoding="utf-8"))["deformer"]
-        for entry in compared:
-            self.assertEqual(looks.class_of(entry["name"]), entry["class"], entry["name"])
-        of = {looks.group_of(entry["name"]): (entry["class"], looks.of(entry["name"]).marker) for entry in compared}
-        self.assertEqual(len(set(of.values())), len(of))
-        self.assertEqual(len(set(looks.classes.values())), len(looks.classes))
+    def test_each_method_of_the_comparison_has_a_name_and_those_that_are_drawn_a_look_of_their_own(self):
+        compared = tomllib.loads((root / "experiments/studies/work_precision/cases.toml").read_text(encoding="utf-8"))["method"]
+        self.assertLessEqual({method["name"] for method in compared}, set(looks.listed))
+        drawn = [looks.of(method["name"]) for method in compared if "known" in method["tables"]]
+        self.assertEqual(len({look.color for look in drawn}), 10)
 
     def test_a_deformer_that_is_not_listed_has_its_name_and_a_look_that_depends_on_nothing_else(self):
         listed = {entry.get("color") for entry in looks.listed.values()}
@@ -282,15 +385,11 @@ class Looks(unittest.TestCase):
         axes[0][0].plot([0, 1], [0, 1], color=style.black, marker=look.marker, label="DQS-like")
         self.assertEqual(checked_looks.wrongly_drawn(figure), ["DQS, 90 degrees: #000000 s", "DQS (baseline): #000000 s"])
 
-    def test_a_change_to_pbs_has_no_deformers_colour(self):
-        taken = {entry.get("color") for entry in looks.listed.values()} | {color for color, _, _ in looks.own}
-        self.assertFalse(taken & {color for color, _ in pbs_errors.changes.values()})
-
 
 listed = {entry.name: entry for entry in entries.read()}
 extents_differ = {"convergence", "jiggle", "stability", "stiffness", "volume", "work_precision"}  # a quick run has fewer settings
 same_in_every_run = {"0.5 %", "8 frames in 10", "24 iterations", "after 24", "90 degrees", "2007", "4.5e15 N/m", "1 N", "1 m", "01_01",
-                     "f32", "f64", "10, 5 and 2 %", "4, 24 and", "96 iterations", "95 %"}
+                     "95 %"}
 
 
 class Captions(ResultsTest):
@@ -315,10 +414,11 @@ class Captions(ResultsTest):
 
     def test_figures_of_time_name_the_processor(self):
         timed = [entry for entry in listed.values() if set(entry.studies()) & {"timing", "work_precision"}]
-        self.assertEqual(len(timed), 8)
+        self.assertEqual(len(timed), 6)
         for entry in timed:
             with self.subTest(entry.name):
-                write_table(self.results / f"{entry.name}.csv", [{"shown": "reference", "ms_median": 1000, "missing": ""}])
+                write_table(self.results / f"{entry.name}.csv", [
+                    {"shown": "answer", "text": "", "target_pct": 35, "budget_ms": 1, "method": "pbs", "solved_pct": 50, "poses": 40}])
                 self.assertIn("{cpu}", entry.caption)
                 self.assertIn("a processor", captions.whole(entry, self.results, {"cpu_model": "a processor"}))
                 self.assertIn("a processor that is not on record", captions.whole(entry, self.results, {}))

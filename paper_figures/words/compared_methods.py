@@ -1,0 +1,202 @@
+"""Which methods are nearest to the references for a time per frame: sentences and cells from the tables of the study work_precision. The
+figures, the README, the study's page and the report all have theirs from here.
+
+    compared = compared_methods.Compared(results / "work_precision")
+    " ".join(compared.answers())                       # Within 0.1 ms per frame, DQS leaves 86 % of LBS's error (...
+    compared_methods.cell(compared.row("known", 1.0, "vbd"))   # 33 [33, 48] ab
+
+A share is the error at the joints over that of LBS: the median over the reference variants, with the range over them. In the table `known`,
+methods that take flesh are given that of each reference; in `guessed`, they have the same flesh whatever the reference is.
+"""
+import records
+from words import case_words, looks
+from words.number_words import figure
+
+method_columns = {"table", "budget_ms", "method", "takes", "setting", "ms", "times_pbs", "within", "poses", "share", "share_low", "share_high",
+                  "fold_share", "skin_mm", "letters"}
+significance = 0.05   # of an adjusted p, as in analysis/statistics/paired_comparison.hpp
+most_names = 4        # in a list that is read aloud
+played_ms = 1.0       # the time for which the sentence has the methods along a clip
+marks = {"doubled": "", "once": "\u2020", "no": "\u2021"}  # whether a method is within its time with twice its own time, or only just, or not
+legend = ("Neither of two methods that share a letter is decided to be nearer. \u2020: not within the time if the machine is half as fast; "
+          "\u2021: not within it on this machine.")
+
+
+def name(method):
+    return looks.of(method).name
+
+
+def named(methods):
+    """A, B and C; of a longer list the first ones and how many more there are."""
+    first = [name(method) for method in methods[:most_names]]
+    rest = [f"{len(methods) - most_names} more"] if len(methods) > most_names else []
+    return conjoined(first + rest, "and")
+
+
+def conjoined(words, conjunction):
+    """A, B and C."""
+    return f" {conjunction} ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
+
+
+def percent(share):
+    return figure(round(100 * float(share)))
+
+
+def millimetres(value):
+    """Two digits, as in 9.4 mm and 12 mm."""
+    return f"{float(value):.{0 if float(value) >= 9.95 else 1}f}"
+
+
+def taken(row):
+    """What a method is given of the reference."""
+    return ", ".join(case_words.of_field("takes", word) for word in row["takes"].split()) or "nothing"
+
+
+def cell(row):
+    """33 [33, 48] ab: the share, its range and the letters; nothing where a method needs more time."""
+    return "" if row is None else (f"{percent(row['share'])} [{percent(row['share_low'])}, {percent(row['share_high'])}] "
+                                   f"{row['letters']}{marks[row['within']]}")
+
+
+def in_range(shares):
+    """30 to 36 %"""
+    return f"{' to '.join(dict.fromkeys(percent(share) for share in (min(shares), max(shares))))} %"
+
+
+class Compared:
+    def __init__(self, folder):
+        self.methods = records.table(folder / "methods.csv", method_columns)
+        self.decisions, self.pairs = (records.read_rows(folder / f"{table}.csv") for table in ("decisions", "pairs"))
+        self.motion = records.rows_if_any(folder / "motion.csv")  # the quick form has no clips
+        self.times_ms = sorted({float(row["budget_ms"]) for row in self.methods})
+        self.decided = {}  # (table, time): (first, second, decision) of all bodies
+        for row in self.decisions:
+            if not row["without_body"]:
+                pair = tuple(str(row[column]) for column in ("first", "second", "decision"))
+                self.decided.setdefault((row["table"], float(row["budget_ms"])), []).append(pair)
+
+    def rows(self, table, ms):
+        """The methods by their share, the least first."""
+        return of_time(self.methods, table, ms)
+
+    def row(self, table, ms, method):
+        return next((row for row in self.rows(table, ms) if row["method"] == method), None)
+
+    def ranked(self, table):
+        """All methods of a table, by their share within the longest time."""
+        return list(dict.fromkeys(row["method"] for ms in self.times_ms[::-1] for row in self.rows(table, ms)))
+
+    def table(self, table):
+        """The cells of each method: its name, what it takes, and its share within each time."""
+        for method in self.ranked(table):
+            rows = [self.row(table, ms, method) for ms in self.times_ms]
+            yield [name(method), taken(next(filter(None, rows))), *map(cell, rows)]
+
+    def against(self, table, ms, method):
+        """{decision: other methods, by their share}. The decisions are level, nearer (this method is), farther, depends and open."""
+        turned = {"first_is_nearer": ("nearer", "farther"), "second_is_nearer": ("farther", "nearer")}
+        found = {}
+        for first, second, decision in self.decided.get((table, ms), ()):
+            if method in (first, second):
+                found[first if method == second else second] = turned.get(decision, (decision,) * 2)[method == second]
+        ranked = [row["method"] for row in self.rows(table, ms)]
+        return {decision: [other for other in ranked if found.get(other) == decision]
+                for decision in ("level", "nearer", "farther", "depends", "open")}
+
+    def nearest(self, table, ms):
+        """The least share, unless another method is decided to be nearer. A method that misses the time on this machine is no answer."""
+        rows = [row for row in self.rows(table, ms) if row["within"] != "no"]
+        beaten = {row["method"]: self.against(table, ms, row["method"])["farther"] for row in rows}
+        return next((row for row in rows if not set(beaten[row["method"]]) & set(beaten)), rows[0] if rows else None)
+
+    def where_nearer(self, table, ms, method, other):
+        """The reference variants on which the first of the two is nearer."""
+        found = []
+        for row in of_time(self.pairs, table, ms):
+            if {row["first"], row["second"]} == {method, other} and float(row["p_holm"]) < significance:
+                wins, losses = int(row["wins"]), int(row["losses"])
+                found += [row["member"]] if (wins > losses) == (row["first"] == method) else []
+        return found
+
+    def conditions(self, table, ms, method, other):
+        """bones hold the flesh as rigid capsules: what is assumed of the flesh where the first of the two is nearer."""
+        return conjoined([case_words.of_field("member", member) for member in self.where_nearer(table, ms, method, other)], "or")
+
+    # The sentences.
+
+    def share_of_pbs(self):
+        """How far PBS is from flesh, within the time of the middle column; nothing where it has no row."""
+        ms = self.times_ms[len(self.times_ms) // 2]
+        pbs, lbs = (self.row("known", ms, method) for method in ("pbs", "lbs"))
+        if pbs is None:
+            return ""
+        shares = in_range([float(pbs[f"share_{end}"]) for end in ("low", "high")])
+        return (f"Within {ms:g} ms, PBS leaves {shares} of the error of LBS at the joints, over reference variants that differ in how bones "
+                f"hold the flesh and in its Poisson's ratio ({pbs['poses']} poses). The skin of a body of 1.7 m is "
+                f"{millimetres(pbs['skin_mm'])} mm from flesh, that of LBS {millimetres(lbs['skin_mm'])} mm.")
+
+    def clause(self, table, ms, where="", is_first=False):
+        """quasi-Newton leaves 32 % with the flesh known (4.1 mm, level with vertex block descent)"""
+        row = self.nearest(table, ms)
+        if row is None:
+            return "no method is fast enough on this machine"
+        method, share, error, on_body = row["method"], percent(row["share"]), " of LBS's error", " from flesh on a body of 1.7 m"
+        against = self.against(table, ms, method)
+        text = "no method is nearer than LBS" if method == "lbs" else f"{name(method)} leaves {share} %{error if is_first else ''}"
+        notes = [f"{millimetres(row['skin_mm'])} mm{on_body if is_first else ''}",
+                 *(f"level with {named(others)}" for others in [against["level"]] if others),
+                 *(f"{named(others)} may be as near" for others in [against["open"]] if others)]
+        by_condition = {}
+        for other in against["depends"]:
+            by_condition.setdefault(self.conditions(table, ms, other, method), []).append(other)
+        return "; ".join([f"{text}{where} ({'; '.join(notes)})",
+                          *(f"if {condition}, {named(others)} {'is' if len(others) == 1 else 'are'} nearer"
+                            for condition, others in by_condition.items())])
+
+    def answer(self, ms):
+        """The nearest method within a time, with known flesh and with guessed flesh; once if they are the same."""
+        is_first = ms == self.times_ms[0]
+        text = self.clause("known", ms, "", is_first)
+        if self.clause("guessed", ms, "", is_first) != text:
+            text = f"{self.clause('known', ms, ' with the flesh known', is_first)}. With guessed flesh, {self.clause('guessed', ms)}"
+        return f"Within {ms:g} ms{' per frame' if is_first else ''}, {text}."
+
+    def played(self):
+        """The nearest method along the clips, against each reference that they have; no sentence without clips."""
+        rows = [row for row in self.motion if float(row["budget_ms"]) == played_ms]
+        of_case = {}
+        for row in rows:
+            of_case.setdefault((row["clip"], row["member"]), []).append(row)
+        best = [min(case, key=lambda row: float(row["played_share"])) for case in of_case.values()]
+        if not best:
+            return []
+        played, posed = (in_range([float(row[column]) for row in best]) for column in ("played_share", "cold_share"))
+        methods = list(dict.fromkeys(row["method"] for row in best))
+        return [f"Played along a clip, each frame from the one before, {conjoined([name(method) for method in methods], 'or')} leaves {played} "
+                f"within {played_ms:g} ms (the same frames alone: {posed})."]
+
+    def answers(self):
+        """One sentence for each time, and one for clips."""
+        return [*map(self.answer, self.times_ms), *self.played()]
+
+
+def own_clocks(folder):
+    """{deformer of the user's own: its clock}; they have no settings and no look."""
+    own = {row["method"] for row in records.read_rows(folder / "methods.csv") if not row["setting"] and row["method"] not in looks.listed}
+    points = (row for file in sorted(folder.glob("*/points.csv")) for row in records.read_rows(file)) if own else ()
+    return {row["method"]: row["clock"] for row in points if row["method"] in own}
+
+
+def of_time(rows, table, ms):
+    return [row for row in rows if row["table"] == table and float(row["budget_ms"]) == ms]
+
+
+def solved_sentence(rows):
+    """The methods that solve the most poses within 1 and 10 ms. rows: of profiles.csv, of one table."""
+    targets, parts = sorted({float(row["target_pct"]) for row in rows}), []
+    target = targets[len(targets) // 2]
+    for ms in (1.0, 10.0):
+        solved = {row["method"]: float(row["solved_pct"]) for row in rows if (float(row["target_pct"]), float(row["budget_ms"])) == (target, ms)}
+        best = max(solved, key=solved.get, default=None)
+        parts += [f"by {name(best)} within {ms:g} ms ({solved[best]:.0f} %)"] if best and solved[best] else []
+    return f"Most poses are solved to {target:g} % of LBS's error {conjoined(parts, 'and')}." if parts else ""
