@@ -293,6 +293,8 @@ class ComparedMethods(ResultsTest):
             if row["member"] == "nu_0.3" and {row["first"], row["second"]} == {"quasi_newton", "vbd"}:
                 row["wins"], row["losses"], row["p_holm"] = 3, 35, 0.001
 
+        compared = compared_methods.Compared(self.folder)  # on nu_0.3 neither is
+        self.assertEqual(compared.where_nearer("known", 1.0, "quasi_newton", "vbd"), ["smooth"])
         compared = self.changed("pairs", on_two)
         self.assertEqual(compared.where_nearer("known", 1.0, "vbd", "quasi_newton"), ["nu_0.3", "rigid_capsules"])
         self.assertEqual(compared.where_nearer("known", 1.0, "quasi_newton", "vbd"), ["smooth"])
