@@ -4,6 +4,7 @@ import pages
 import records
 from words import case_words, compared_methods
 from words.compared_methods import percent
+from words.number_words import counted
 
 small_error_pct = 1.0  # of a reference
 table_words = {"known": "Flesh known", "guessed": "Flesh guessed"}
@@ -33,8 +34,8 @@ def limits(compared, folder):
     return (f"A number is the error at the joints in per cent of that of LBS: the geometric mean over {poses} poses, of which the table has "
             "the median over the reference variants and in brackets their range. A method is nearer than another one if each variant shows "
             "it (sign test over the poses, adjusted by Holm for all pairs of the table). "
-            f"{compared_methods.legend}\n\nThe number of bodies is the limit of what these poses show. A sign test over {len(bodies)} "
-            f"bodies cannot have p below {2.0 ** (1 - len(bodies)):g}, so that the decisions hold for these bodies alone.\n")
+            f"{compared_methods.legend}\n\nThe number of bodies is the limit of what these poses show. A sign test over "
+            f"{counted(len(bodies), 'body', 'bodies')} cannot have p below {2.0 ** (1 - len(bodies)):g}, so that the decisions hold for these bodies alone.\n")
 
 
 def shares(compared, table):
