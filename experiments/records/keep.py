@@ -23,14 +23,12 @@ JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "t
 PROVENANCE = ["version", "git_revision", "git_dirty", "compiler", "flags", "build_type", "cpu_model", "logical_cpus"]
 DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # beside frames, which are not kept
 MOST_BYTES = 17_000_000
-# Tables of a run from which those of the study follow: kept whatever their length. So are two of a study (keep_study).
-RAW = ("points.csv", "rates.csv", "pair_orders.csv")
+# Tables of a run from which those of the study follow: kept whatever their length. WHOLE: of a study, with all digits, since every decision
+# can be recomputed from them.
+RAW = ("rates.csv",)
+WHOLE = ("errors.csv", "pairs.csv")
 # Tables that no verdict and no page reads, and rows.csv, whose rows verification.csv has. Three figures need them from a run.
-UNREAD = ("profiles.csv", "regions.csv", "smoothness.csv", "rows.csv", "towards.csv")
-# No page, figure or test reads these columns of points.csv, nor any error except that at the joints.
-UNREAD_OF_POINTS = {"ms_q1", "ms_q3", "rounds", "failed_rounds", "skin_p95_mm", "skin_largest_mm", "skin_rms_pct", "normals_mean_deg",
-                    "tets", "volume_change_pct", "volume_abs_change_pct", "gradients", "vertex_visits", "tet_visits", "projections",
-                    "linear_solves", "factorisations", "inverted", "to_linear_elements_joint_pct"}
+UNREAD = ("profiles.csv", "regions.csv", "smoothness.csv", "rows.csv", "towards.csv", "points.csv", "training.csv")
 PICTURED = ("nh_p2",)  # the reference in the README's picture of the limb, which no claim selects
 PAGES = ("bench.txt",)  # a study's texts that are no pages
 TABLE_BYTES = 60_000  # of a run's further tables; longer ones are made again by the run
@@ -75,20 +73,13 @@ def keep_metrics(source, target):
         writer.writerows([rounded(row[column]) for column in columns] for row in rows)
 
 
-def is_read(column):
-    """Whether a column of points.csv is kept."""
-    return column not in UNREAD_OF_POINTS and (not column.startswith("error_") or column == "error_joint_pct")
-
-
 def keep_table(source, target):
-    """Of points.csv the columns that are read; of fronts.csv the means, which the README shows. Numbers are rounded."""
-    with source.open(newline="", encoding="utf-8") as file, target.open("w", newline="", encoding="utf-8") as kept:
+    """With rounded numbers."""
+    with source.open(newline="", encoding="utf-8") as file, target.open("w", newline="", encoding="utf-8") as kept_file:
         rows = csv.DictReader(file)
-        columns = [name for name in rows.fieldnames if source.name != "points.csv" or is_read(name)]
-        writer = csv.DictWriter(kept, columns, lineterminator="\n")
+        writer = csv.DictWriter(kept_file, rows.fieldnames, lineterminator="\n")
         writer.writeheader()
-        writer.writerows({name: rounded(row[name]) for name in columns} for row in rows
-                         if source.name != "fronts.csv" or row["case"].startswith("mean_of_"))
+        writer.writerows({name: rounded(value) for name, value in row.items()} for row in rows)
 
 
 def keep_run(source, target):
@@ -119,9 +110,7 @@ def keep_study(source, target):
     for file in sorted(source.iterdir()):
         if file.suffix not in (".csv", ".md", ".json") and file.name not in PAGES:
             continue
-        if file.name in ("nearest_pairs.csv", "fronts.csv"):
-            keep_table(file, target / file.name)
-        elif file.name == "plan.json" or file.stat().st_size <= SUMMARY_BYTES:
+        if file.name in ("plan.json", *WHOLE) or file.stat().st_size <= SUMMARY_BYTES:
             shutil.copyfile(file, target / file.name)
         else:
             too_long.append(file.relative_to(source))
