@@ -1,5 +1,5 @@
-"""Error against run time of each method, and the share of the poses that it solves within a time per frame. Methods that take flesh are given
-that of each reference (the table `known`)."""
+"""Error against run time of each method, and the share of the poses that it solves within a time per frame. Methods that take flesh are
+given that of each reference (the table `known`)."""
 import textwrap
 
 import records

@@ -14,15 +14,15 @@ def answer(parts):
     """The ranges over the poses, at the scenes' k_stretch."""
     rows = [row for row in parts if row["k_stretch"] == paper_s]
     solver, model, bound = (span([row.number(f"{part}_pct") for row in rows]) for part in ("solver", "model", "discretisation"))
-    return (f"After 24 iterations in {counted(len(rows), 'pose')}, the solver is {solver} % of the mean bone distance away from the converged "
-            f"constraints. These are {model} % away from flesh, which is known within {bound} %.\n")
+    return (f"After 24 iterations in {counted(len(rows), 'pose')}, the solver is {solver} % of the mean bone distance away from the "
+            f"converged constraints. These are {model} % away from flesh, which is known within {bound} %.\n")
 
 
 def attachments(folder):
     rows = [row for row in pages.of_runs(folder, "attachments.csv", {"attachment", "difference_pct", "model_pct", "k_stretch"})
             if row["k_stretch"] == paper_s]
-    return ("\n## Flesh that is held in other ways [% of the bone distance]\n\nThe first row of a pose is the reference. The distance from it "
-            "includes the discretisation error of the other flesh, which is solved on the body's own tets alone.\n\n"
+    return ("\n## Flesh that is held in other ways [% of the bone distance]\n\nThe first row of a pose is the reference. The distance from "
+            "it includes the discretisation error of the other flesh, which is solved on the body's own tets alone.\n\n"
             + pages.table(rows, "attachments", pose=pose, held=held))
 
 

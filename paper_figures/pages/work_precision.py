@@ -1,5 +1,5 @@
-"""Error against run time: the answer, the methods with known and with guessed flesh, their times, what is decided and how firmly, what other
-starts and wrong materials are worth, and the same along a clip."""
+"""Error against run time: the answer, the methods with known and with guessed flesh, their times, what is decided and how firmly, what
+other starts and wrong materials are worth, and the same along a clip."""
 import pages
 import records
 from words import case_words, compared_methods
@@ -9,8 +9,8 @@ from words.number_words import counted
 small_error_pct = 1.0  # of a reference
 table_words = {"known": "Flesh known", "guessed": "Flesh guessed"}
 table_notes = {"known": "Methods that take flesh are given that of each reference.",
-               "guessed": "All methods that take flesh have that of the first variant, whatever the reference is. Changes to PBS have rows of "
-                          "their own."}
+               "guessed": "All methods that take flesh have that of the first variant, whatever the reference is. Changes to PBS have rows "
+                          "of their own."}
 decision_words = {"first_is_nearer": "{first} is nearer", "second_is_nearer": "{second} is nearer", "level": "level", "depends": "depends",
                   "open": "open"}
 
@@ -31,11 +31,12 @@ def limits(compared, folder):
     """What a number is, and how much the poses can show."""
     bodies = {row["body"] for row in records.table(folder / "references.csv", {"body", "stratum"}) if row["stratum"] == "movement"}
     poses = max(int(row["poses"]) for row in compared.methods)
-    return (f"A number is the error at the joints in per cent of that of LBS: the geometric mean over {poses} poses, of which the table has "
-            "the median over the reference variants and in brackets their range. A method is nearer than another one if each variant shows "
-            "it (sign test over the poses, adjusted by Holm for all pairs of the table). "
+    return (f"A number is the error at the joints in per cent of that of LBS: the geometric mean over {poses} poses, of which the table "
+            "has the median over the reference variants and in brackets their range. A method is nearer than another one if each variant "
+            "shows it (sign test over the poses, adjusted by Holm for all pairs of the table). "
             f"{compared_methods.legend}\n\nThe number of bodies is the limit of what these poses show. A sign test over "
-            f"{counted(len(bodies), 'body', 'bodies')} cannot have p below {2.0 ** (1 - len(bodies)):g}, so that the decisions hold for these bodies alone.\n")
+            f"{counted(len(bodies), 'body', 'bodies')} cannot have p below {2.0 ** (1 - len(bodies)):g}, so that the decisions hold "
+            "for these bodies alone.\n")
 
 
 def shares(compared, table):
@@ -103,8 +104,8 @@ def decisions(compared):
                     depending.append(f"- {heading.lower()}, {at(ms)}: {compared_methods.name(one)} is nearer than "
                                      f"{compared_methods.name(other)} if {compared.conditions(table, ms, one, other)}.\n")
     return ("\n## Decisions\n\nTwo methods are level if on each variant their errors differ by less than the reference's own error in 80 % "
-            "of the poses, or by less than a tenth in the mean. A decision depends on the flesh if two variants decide in opposite ways.\n\n"
-            + pages.table(counts, "decisions") + ("\n" + "".join(depending) if depending else ""))
+            "of the poses, or by less than a tenth in the mean. A decision depends on the flesh if two variants decide in opposite "
+            "ways.\n\n" + pages.table(counts, "decisions") + ("\n" + "".join(depending) if depending else ""))
 
 
 def without_a_body(compared):
@@ -134,8 +135,8 @@ def starts(folder):
     for ms in sorted({ms for _, ms in cells}):
         columns[at(ms)] = lambda method, ms=ms: cells.get((method, ms), "")
     poses = max(int(row["poses"]) for row in rows)
-    return (f"\n## What the initial guess and the right material are worth\n\nThe share of LBS's error [%] in {poses} poses, of the method's setting and "
-            "after the change alone, against the first variant.\n\n" + pages.table(of_method, columns))
+    return (f"\n## What the initial guess and the right material are worth\n\nThe share of LBS's error [%] in {poses} poses, of the "
+            "method's setting and after the change alone, against the first variant.\n\n" + pages.table(of_method, columns))
 
 
 def motion(compared):
@@ -162,8 +163,9 @@ def own_errors(folder):
     known = [float(row["own_error_pct"]) for row in rows if row["own_error_pct"]]
     missing = sum(row["outcome"] != "reached" for row in rows)
     small = sum(value <= small_error_pct for value in known)
-    told = (f"The error of a reference itself is estimated at {min(known):.2g} to {max(known):.2g} % of the mean bone distance in {len(known)} "
-            f"of {len(rows)} solutions, and at {small_error_pct:g} % or less in {small}.") if known else "No own error is known."
+    told = (f"The error of a reference itself is estimated at {min(known):.2g} to {max(known):.2g} % of the mean bone distance in "
+            f"{len(known)} of {len(rows)} solutions, and at {small_error_pct:g} % or less in {small}."
+            ) if known else "No own error is known."
     return f"\n## The references\n\n{told}" + (f" Not reached: {missing}." if missing else "") + "\n"
 
 
@@ -185,4 +187,5 @@ def page(folder):
     compared = compared_methods.Compared(folder)
     answers = "\n".join(f"- {answer}" for answer in compared.answers())
     return (f"# Error against run time\n\n{answers}\n\n{limits(compared, folder)}" + of_tables(compared) + decisions(compared)
-            + without_a_body(compared) + starts(folder) + motion(compared) + own_errors(folder) + settings(compared) + own_deformers(folder))
+            + without_a_body(compared) + starts(folder) + motion(compared) + own_errors(folder) + settings(compared)
+            + own_deformers(folder))

@@ -13,6 +13,7 @@ from words.number_words import counted
 
 paper_s_solver = "the paper's own solver (file order, double precision)"
 most_exceptions = 2  # named one by one
+page = "experiments/records/full/work_precision/work_precision.md"
 picture = pathlib.Path(__file__).resolve().with_name("error_against_time.png")
 read_scenes = ("human", "human_moving")  # in which the study ambiguity measures the volume over a clip
 
@@ -168,5 +169,5 @@ def figure_lines(results):
     head = ["method", "takes", *(f"{ms:g} ms" for ms in compared.times_ms)]
     return [f"![Error against run time of each method](paper_figures/readme/{picture.name})", "", " ".join(compared.answers()), "",
             tables.line(*head), "|---" * len(head) + "|", *(tables.line(*cells) for cells in compared.table("known")), "",
-            f"*Error at the joints in per cent of that of LBS, on one core ({origin['cpu_model']}): the geometric mean over {poses} poses, and "
-            f"in brackets the range over the reference variants. {compared_methods.legend} [The whole comparison](experiments/records/full/work_precision/work_precision.md).*"]
+            f"*Error at the joints in per cent of that of LBS, on one core ({origin['cpu_model']}): the geometric mean over {poses} poses, "
+            f"and in brackets the range over the reference variants. {compared_methods.legend} [The whole comparison]({page}).*"]

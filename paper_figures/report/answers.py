@@ -35,9 +35,8 @@ def how_far(found):
     question = "How far is PBS from simulated flesh?"
     methods = compared(found)
     told = methods.share_of_pbs() if methods else ""
-    if not told:
-        return answer(question, element("span", f"The distance from finite elements is {not_run(found, 'work_precision')}.", class_="missing"))
-    return answer(question, told)
+    missing = f"The distance from finite elements is {not_run(found, 'work_precision')}."
+    return answer(question, told or element("span", missing, class_="missing"))
 
 
 def which_method(found):

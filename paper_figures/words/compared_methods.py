@@ -12,12 +12,12 @@ import records
 from words import case_words, looks
 from words.number_words import figure
 
-method_columns = {"table", "budget_ms", "method", "takes", "setting", "ms", "times_pbs", "within", "poses", "share", "share_low", "share_high",
-                  "fold_share", "skin_mm", "letters"}
+method_columns = {"table", "budget_ms", "method", "takes", "setting", "ms", "times_pbs", "within", "poses", "share", "share_low",
+                  "share_high", "fold_share", "skin_mm", "letters"}
 significance = 0.05   # of an adjusted p, as in analysis/statistics/paired_comparison.hpp
 most_names = 4        # in a list that is read aloud
 played_ms = 1.0       # the time for which the sentence has the methods along a clip
-marks = {"doubled": "", "once": "\u2020", "no": "\u2021"}  # whether a method is within its time with twice its own time, or only just, or not
+marks = {"doubled": "", "once": "\u2020", "no": "\u2021"}  # within the time with twice its own, only just, or not on this machine
 legend = ("Neither of two methods that share a letter is decided to be nearer. \u2020: not within the time if the machine is half as fast; "
           "\u2021: not within it on this machine.")
 
@@ -131,8 +131,8 @@ class Compared:
         if pbs is None:
             return ""
         shares = in_range([float(pbs[f"share_{end}"]) for end in ("low", "high")])
-        return (f"Within {ms:g} ms, PBS leaves {shares} of the error of LBS at the joints, over reference variants that differ in how bones "
-                f"hold the flesh and in its Poisson's ratio ({pbs['poses']} poses). The skin of a body of 1.7 m is "
+        return (f"Within {ms:g} ms, PBS leaves {shares} of the error of LBS at the joints, over reference variants that differ in how "
+                f"bones hold the flesh and in its Poisson's ratio ({pbs['poses']} poses). The skin of a body of 1.7 m is "
                 f"{millimetres(pbs['skin_mm'])} mm from flesh, that of LBS {millimetres(lbs['skin_mm'])} mm.")
 
     def clause(self, table, ms, where="", is_first=False):
@@ -171,9 +171,9 @@ class Compared:
         if not best:
             return []
         played, posed = (in_range([float(row[column]) for row in best]) for column in ("played_share", "cold_share"))
-        methods = list(dict.fromkeys(row["method"] for row in best))
-        return [f"Played along a clip, each frame from the one before, {conjoined([name(method) for method in methods], 'or')} leaves {played} "
-                f"within {played_ms:g} ms (the same frames alone: {posed})."]
+        methods = conjoined([name(method) for method in dict.fromkeys(row["method"] for row in best)], "or")
+        return [f"Played along a clip, each frame from the one before, {methods} leaves {played} within "
+                f"{played_ms:g} ms (the same frames alone: {posed})."]
 
     def answers(self):
         """One sentence for each time, and one for clips."""
@@ -196,7 +196,8 @@ def solved_sentence(rows):
     targets, parts = sorted({float(row["target_pct"]) for row in rows}), []
     target = targets[len(targets) // 2]
     for ms in (1.0, 10.0):
-        solved = {row["method"]: float(row["solved_pct"]) for row in rows if (float(row["target_pct"]), float(row["budget_ms"])) == (target, ms)}
+        solved = {row["method"]: float(row["solved_pct"]) for row in rows
+                  if (float(row["target_pct"]), float(row["budget_ms"])) == (target, ms)}
         best = max(solved, key=solved.get, default=None)
         parts += [f"by {name(best)} within {ms:g} ms ({solved[best]:.0f} %)"] if best and solved[best] else []
     return f"Most poses are solved to {target:g} % of LBS's error {conjoined(parts, 'and')}." if parts else ""

@@ -122,7 +122,8 @@ class OtherStudies(ResultsTest):
         self.refused_without("work_precision/pairs.csv", "error_against_time")
 
     def test_settings_that_several_times_share_are_one_point(self):
-        rows = [{"method": "lbs", "setting": "", "ms": ms, "share": "1", "share_low": "1", "share_high": "1"} for ms in ("0.02", "0.02", "nan")]
+        rows = [{"method": "lbs", "setting": "", "ms": ms, "share": "1", "share_low": "1", "share_high": "1"}
+                for ms in ("0.02", "0.02", "nan")]
         self.assertEqual([row["ms"] for row in work_precision.curve_rows(rows, {"lbs": ""})], ["0.02"])
 
     def test_poses_solved_within_a_time_and_the_methods_that_solve_none(self):

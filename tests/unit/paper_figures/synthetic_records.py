@@ -136,11 +136,13 @@ def write_work_precision(results):
         if ms not in (0.1, 1.0, 10.0):
             continue
         ranked = sorted(shares, key=shares.get)
-        methods += [place | {"method": name, "takes": compared.get(name, ("",))[0], "setting": f"{name}.iterations={ms:g}", "ms": times[name],
-                             "times_pbs": 2 * times[name], "within": "doubled" if 2 * times[name] <= ms else "once", "poses": 40,
+        methods += [place | {"method": name, "takes": compared.get(name, ("",))[0], "setting": f"{name}.iterations={ms:g}",
+                             "ms": times[name], "times_pbs": 2 * times[name], "within": "doubled" if 2 * times[name] <= ms else "once",
+                             "poses": 40,
                              "share": shares[name], "share_low": 0.9 * shares[name], "share_high": 1.2 * shares[name],
                              "fold_share": 1.1 * shares[name], "fold_low": shares[name], "fold_high": 1.3 * shares[name],
-                             "skin_mm": 12 * shares[name], "inverted_poses": 2 * (name == "pbs_smooth_weights"), "letters": "abcdefghijk"[number]}
+                             "skin_mm": 12 * shares[name], "inverted_poses": 2 * (name == "pbs_smooth_weights"),
+                             "letters": "abcdefghijk"[number]}
                     for number, name in enumerate(ranked)]
         for first, second in itertools.combinations(shares, 2):
             decision = decided(first, second, (shares[first], shares[second]))
@@ -301,12 +303,14 @@ def write_error_split(study):
         pose = {"body": "limb", "motion": motion, "pose": "", "angle_deg": angle_deg}
         write_table(folder / "parts.csv",
               [{**pose, "k_stretch": k, "iterations": n, "error_joint_pct": 25.0, "solver_pct": 30.0 / n, "model_pct": 20.0,
-                "discretisation_pct": 5.0, "whole_joint_pct": 25.0, "masked_share_pct": 0.0, "observed_order": 1.0} for k in (0.2, 0.9) for n in (1, 24)])
+                "discretisation_pct": 5.0, "whole_joint_pct": 25.0, "masked_share_pct": 0.0, "observed_order": 1.0}
+               for k in (0.2, 0.9) for n in (1, 24)])
         held = [("neo_hookean", "smooth", 10, 0.7, 20.0), ("neo_hookean", "embedded", 1e4, 0.35, 30.0),
                 ("neo_hookean", "bind", "", "", 80.0 if motion == "twist" else "nan"), ("linear", "smooth", 10, 0.7, 40.0)]
         write_table(folder / "attachments.csv",
               [{**pose, "k_stretch": 0.2, "reference": f"{model}_{attachment}", "model": model, "attachment": attachment,
-                "spring_factor": factor, "core_radius": core, "difference_pct": 9.0, "model_pct": pct} for model, attachment, factor, core, pct in held])
+                "spring_factor": factor, "core_radius": core, "difference_pct": 9.0, "model_pct": pct}
+               for model, attachment, factor, core, pct in held])
 
 
 def write_artefacts(study):

@@ -232,8 +232,8 @@ class ComparedMethods(ResultsTest):
 
     def test_each_time_has_its_nearest_method_and_those_that_may_be_as_near(self):
         short, middle, _, clips = compared_methods.Compared(self.folder).answers()
-        self.assertEqual(short, "Within 0.1 ms per frame, DQS leaves 86 % of LBS's error (10 mm from flesh on a body of 1.7 m; LBS may be as "
-                                "near).")
+        self.assertEqual(short, "Within 0.1 ms per frame, DQS leaves 86 % of LBS's error (10 mm from flesh on a body of 1.7 m; LBS may be "
+                                "as near).")
         self.assertEqual(middle, "Within 1 ms, quasi-Newton leaves 32 % with the flesh known (3.8 mm); if bones hold the flesh as rigid "
                                  "capsules, vertex block descent is nearer. With guessed flesh, quasi-Newton leaves 48 % (5.8 mm; PBS and "
                                  "PBS with smooth weights may be as near); if bones hold the flesh as rigid capsules, vertex block descent "
@@ -245,8 +245,8 @@ class ComparedMethods(ResultsTest):
         def level(row):
             row["decision"] = "level" if "pbs" not in (row["first"], row["second"]) else row["decision"]
 
-        self.assertIn("quasi-Newton leaves 32 % with the flesh known (3.8 mm; level with vertex block descent, neo-Hookean XPBD, XPBD, projective "
-                      "dynamics and 4 more). With", self.changed("decisions", level).answer(1.0))
+        self.assertIn("quasi-Newton leaves 32 % with the flesh known (3.8 mm; level with vertex block descent, neo-Hookean XPBD, XPBD, "
+                      "projective dynamics and 4 more). With", self.changed("decisions", level).answer(1.0))
 
     def test_what_is_the_same_with_known_and_with_guessed_flesh_is_stated_once(self):
         def same(row):
@@ -285,8 +285,8 @@ class ComparedMethods(ResultsTest):
         def lbs_first(row):
             row["share"] = 2.0 if row["method"] == "dqs" else row["share"]
 
-        self.assertEqual(self.changed("methods", lbs_first).answer(0.1), "Within 0.1 ms per frame, no method is nearer than LBS (12 mm from "
-                         "flesh on a body of 1.7 m; delta mush, direct delta mush and DQS may be as near).")
+        self.assertEqual(self.changed("methods", lbs_first).answer(0.1), "Within 0.1 ms per frame, no method is nearer than LBS (12 mm "
+                         "from flesh on a body of 1.7 m; delta mush, direct delta mush and DQS may be as near).")
 
     def test_a_decision_that_depends_names_the_variants_on_which_the_other_is_nearer(self):
         def on_two(row):
@@ -314,7 +314,8 @@ class ComparedMethods(ResultsTest):
     def test_the_table_has_the_method_with_the_least_share_first_and_its_letters(self):
         table = list(compared_methods.Compared(self.folder).table("known"))
         self.assertEqual(len(table), 10)
-        self.assertEqual(table[1], ["vertex block descent", "material, springs, initial guess", "", "34 [31, 41] b\u2020", "20 [18, 24] b\u2020"])
+        self.assertEqual(table[1], ["vertex block descent", "material, springs, initial guess", "", "34 [31, 41] b\u2020",
+                                    "20 [18, 24] b\u2020"])
         self.assertIn(["DQS", "nothing", "86 [77, 103] a", "86 [77, 103] h", "86 [77, 103] h"], table)
 
     def test_pbs_has_its_range_and_its_distance(self):
