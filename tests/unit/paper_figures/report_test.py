@@ -1,7 +1,6 @@
 """Reference: the definition. The page's sentences and tables agree with small records, it loads nothing, and it names what is missing.
 Records of another shape, in which each value takes every other kind, are refused with file, field, value and rule, and exit status 2."""
 import base64
-import csv
 import html.parser
 import io
 import json
