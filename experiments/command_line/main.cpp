@@ -86,7 +86,7 @@ int parse_and_act(int argc, char** argv)
     app.require_subcommand(1);
     CommandLine line{app};
     for (const auto add : {add_list_verb, add_explain_verb, add_try_verb, add_run_verb, add_reproduce_verb, add_check_verb,
-                           add_measure_verb, add_mesh_verb, add_bench_verb, add_fetch_verb, add_report_verb})
+                           add_measure_verb, add_references_verb, add_mesh_verb, add_bench_verb, add_fetch_verb, add_report_verb})
         add(line);
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
         return std::string("pbskin: ") + error.what() + "; `pbskin --help` lists the verbs, `pbskin VERB --help` their options\n";

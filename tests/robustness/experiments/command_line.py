@@ -28,7 +28,7 @@ REFUSED = {
 class CommandLine(foreign_arm.ArmTest):
     def test_every_verb_has_help(self):
         """One screen with an example: at most 40 lines of at most 100 characters."""
-        verbs = ("list", "explain", "try", "run", "reproduce", "check", "measure", "mesh", "bench", "fetch", "report")
+        verbs = ("list", "explain", "try", "run", "reproduce", "check", "measure", "references", "mesh", "bench", "fetch", "report")
         for verb in [[], *([verb] for verb in verbs)]:
             lines = self.succeeds(*verb, "--help", env=os.environ | {"COLUMNS": "200"}).stdout.splitlines()
             with self.subTest(verb):
