@@ -32,8 +32,9 @@ pbs_tests(unit experiments BLAS
 pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out}
     ALONE experiments/studies/ambiguity/readings experiments/studies/ambiguity/reading_values
         experiments/studies/convergence/convergence_values experiments/studies/recorded_settings experiments/studies/shared/iteration_path
-        experiments/studies/stability/stability_cells experiments/studies/stiffness/stiffness_ratios experiments/studies/timing/frames
-        experiments/studies/work_precision/measured_points
+        experiments/studies/shared/kept_references experiments/studies/shared/reference_poses experiments/studies/stability/stability_cells
+        experiments/studies/stiffness/stiffness_ratios experiments/studies/timing/frames experiments/studies/work_precision/conclusions
+        experiments/studies/work_precision/measuring experiments/studies/work_precision/methods
     LIBRARIES experiments)
 pbs_tests(properties experiments FOLDERS experiments LIBRARIES experiments)
 pbs_tests(regression experiments FOLDERS experiments LIBRARIES experiments)
@@ -68,6 +69,7 @@ pbs_program_test(robustness experiments/bench)
 pbs_program_test(robustness experiments/check)
 pbs_program_test(robustness experiments/foreign_frames)
 pbs_program_test(robustness experiments/full_disk)
+pbs_program_test(robustness experiments/references)
 if(PBS_WITH_FEM)
     pbs_program_test(robustness experiments/breakdown)
     pbs_program_test(robustness experiments/kills)
