@@ -179,8 +179,11 @@ KeptReferences unpacked(const std::string& text, const std::string& file, const 
                                   fmt::format("the tets of {} have the hash {}, so that these references do not belong to them; solve them with "
                                               "`pbskin reproduce references --full`",
                                               character.name, hash));
-        for (const std::vector<double> numbers : all.at("bones"))
+        for (const std::vector<double> numbers : all.at("bones")) {
+            if (numbers.size() != 16) throw std::runtime_error("a transform of another size");
             references.bones.emplace_back(Eigen::Map<const Eigen::Matrix4d>(numbers.data()));
+        }
+        if (references.bones.size() != character.skeleton.bones.size()) throw std::runtime_error("another number of bones");
         pbs::Positions predicted = rigid_shape(character, references.bones);
         const double quantum_m = all.at("quantum_m");
         for (const json& one : all.at("members")) {

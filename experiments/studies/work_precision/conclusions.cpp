@@ -276,12 +276,12 @@ std::vector<ChosenSetting> chosen_settings(const std::vector<PointRow>& training
     for (const PointRow& point : training) {
         auto found = std::ranges::find_if(tried, [&](const Tried& one) { return one.method == point.method && one.setting == point.setting; });
         if (found == tried.end()) found = tried.insert(found, Tried{.method = point.method, .setting = point.setting, .ms = {}, .log_error = {}});
-        ++found->poses;
+        found->poses += point.outcome == "finished";
         if (point.ms) found->ms.push_back(*point.ms);
         for (const std::optional<double>& error : point.errors)
             if (error) found->log_error.push_back(std::log(*error));
     }
-    int poses = 0;  // a ladder that ended early on one body has fewer
+    int poses = 0;  // a ladder that ended early on one body, or a shape that is not finite, has fewer
     for (const Tried& one : tried) poses = std::max(poses, one.poses);
     std::vector<ChosenSetting> chosen;
     for (const Method& method : methods())

@@ -8,6 +8,7 @@
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
+#include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/kept_references.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/character/bodies.hpp"
@@ -329,7 +330,12 @@ void play(const ComparisonCase& of, const ComparedBody& body, const Setting& set
 nlohmann::json to_json(const ComparisonCase& of)
 {
     nlohmann::json json = {{"name", of.name}, {"body", of.body}, {"what", name_of(of.what)}, {"clip", of.clip}, {"rounds", of.rounds}};
-    for (const ReferencePose& pose : of.poses) json["poses"].push_back({{"name", pose.name}, {"scene", to_json(pose.scene)}, {"frame", pose.frame}});
+    for (const ReferencePose& pose : of.poses)
+        json["poses"].push_back({{"name", pose.name},
+                                 {"of", option_json(pose.of)},
+                                 {"stratum", name_of(pose.stratum)},
+                                 {"scene", to_json(pose.scene)},
+                                 {"frame", pose.frame}});
     for (const ChosenSetting& chosen : of.settings) json["settings"].push_back({chosen.budget_ms, chosen.method, chosen.setting});
     for (const Method& method : of.external) json["external"].push_back(to_json(method.external));
     json["methods"] = cases_document("work_precision");

@@ -127,7 +127,8 @@ std::string why_not_loadable(const std::string& library)
 
 void check_external(const SceneValues& values, const std::string& table, const DeformerSpec& spec)
 {
-    if (spec.name == "reference" || std::ranges::count(methods(), spec.name, &Method::name) > 0)
+    if (spec.name == "reference" || std::ranges::count(methods(), spec.name, &Method::name) > 0 ||
+        std::ranges::count(other_starts(), spec.name, &OtherStart::name) > 0)
         values.refuse(table + ".name", "expected a name that no method or row of the comparison has");
     const auto& options = options_of<ExternalOptions>(spec);
     const bool is_command = options.library.empty();
