@@ -16,6 +16,8 @@ method_columns = {"table", "budget_ms", "method", "takes", "setting", "ms", "tim
                   "share_high", "fold_share", "skin_mm", "letters"}
 significance = 0.05   # of an adjusted p, as in analysis/statistics/paired_comparison.hpp
 most_names = 4        # in a list that is read aloud
+familiar = ("pbs", "delta_mush", "lbs")  # the sentence always states how the nearest method compares with these
+most_exceptions = 2    # that are named; more of them are counted
 played_ms = 1.0       # the time for which the sentence has the methods along a clip
 marks = {"doubled": "", "once": "\u2020", "no": "\u2021"}  # within the time with twice its own, only just, or not on this machine
 legend = ("Neither of two methods that share a letter is decided to be nearer. \u2020: not within the time if the machine is half as fast; "
@@ -45,6 +47,11 @@ def percent(share):
 def millimetres(value):
     """Two digits, as in 9.4 mm and 12 mm."""
     return f"{float(value):.{0 if float(value) >= 9.95 else 1}f}"
+
+
+def assumed(members):
+    """bones hold the flesh as rigid capsules or the flesh is nearly incompressible: what these reference variants assume."""
+    return conjoined([case_words.of_field("member", member) for member in members], "or")
 
 
 def taken(row):
@@ -103,9 +110,10 @@ class Compared:
         return {decision: [other for other in ranked if found.get(other) == decision]
                 for decision in ("level", "nearer", "farther", "depends", "open")}
 
-    def nearest(self, table, ms):
-        """The least share, unless another method is decided to be nearer. A method that misses the time on this machine is no answer."""
-        rows = [row for row in self.rows(table, ms) if row["within"] != "no"]
+    def nearest(self, table, ms, takes_nothing=False):
+        """The least share, unless another method is decided to be nearer. A method that misses the time on this machine is no answer.
+        takes_nothing: among the methods that are given nothing of the reference."""
+        rows = [row for row in self.rows(table, ms) if row["within"] != "no" and not (takes_nothing and row["takes"])]
         beaten = {row["method"]: self.against(table, ms, row["method"])["farther"] for row in rows}
         return next((row for row in rows if not set(beaten[row["method"]]) & set(beaten)), rows[0] if rows else None)
 
@@ -118,9 +126,26 @@ class Compared:
                 found += [row["member"]] if (wins > losses) == (row["first"] == method) else []
         return found
 
+    def variants(self, table, ms, method, other):
+        """The reference variants that compare the two."""
+        return [row["member"] for row in of_time(self.pairs, table, ms) if {row["first"], row["second"]} == {method, other}]
+
+    def familiar_ones(self, table, ms, method):
+        """nearer than PBS and LBS unless the flesh is nearly incompressible: how the method compares with the familiar ones."""
+        by_exception = {}
+        for other in familiar:
+            nearer, variants = self.where_nearer(table, ms, method, other), self.variants(table, ms, method, other)
+            if nearer:
+                without = [member for member in variants if member not in nearer]
+                except_for = f" for {len(nearer)} of {len(variants)} reference variants"
+                if len(without) <= most_exceptions:
+                    except_for = f" unless {assumed(without)}" if without else ""
+                by_exception.setdefault(except_for, []).append(other)
+        return "; ".join(f"nearer than {named(others)}{except_for}" for except_for, others in by_exception.items())
+
     def conditions(self, table, ms, method, other):
         """bones hold the flesh as rigid capsules: what is assumed of the flesh where the first of the two is nearer."""
-        return conjoined([case_words.of_field("member", member) for member in self.where_nearer(table, ms, method, other)], "or")
+        return assumed(self.where_nearer(table, ms, method, other))
 
     # The sentences.
 
@@ -135,17 +160,26 @@ class Compared:
                 f"bones hold the flesh and in its Poisson's ratio ({pbs['poses']} poses). The skin of a body of 1.7 m is "
                 f"{millimetres(pbs['skin_mm'])} mm from flesh, that of LBS {millimetres(lbs['skin_mm'])} mm.")
 
-    def clause(self, table, ms, where="", is_first=False):
+    def rivals(self, table, ms, method, others):
+        """Those than which the method is not nearer for any reference variant, or for fewer than half of them."""
+        return [other for other in others
+                if 2 * len(self.where_nearer(table, ms, method, other)) < len(self.variants(table, ms, method, other)) and other not in familiar
+                or not self.where_nearer(table, ms, method, other)]
+
+    def clause(self, table, ms, where="", is_first=False, takes_nothing=False):
         """quasi-Newton leaves 32 % with the flesh known (4.1 mm, level with vertex block descent)"""
-        row = self.nearest(table, ms)
+        row = self.nearest(table, ms, takes_nothing)
         if row is None:
             return "no method is fast enough on this machine"
         method, share, error, on_body = row["method"], percent(row["share"]), " of LBS's error", " from flesh on a body of 1.7 m"
         against = self.against(table, ms, method)
+        if takes_nothing:
+            against = {decision: [other for other in others if not self.row(table, ms, other)["takes"]] for decision, others in against.items()}
         text = "no method is nearer than LBS" if method == "lbs" else f"{name(method)} leaves {share} %{error if is_first else ''}"
         notes = [f"{millimetres(row['skin_mm'])} mm{on_body if is_first else ''}",
                  *(f"level with {named(others)}" for others in [against["level"]] if others),
-                 *(f"{named(others)} may be as near" for others in [against["open"]] if others)]
+                 *filter(None, [self.familiar_ones(table, ms, method)]),
+                 *(f"{named(others)} may be as near" for others in [self.rivals(table, ms, method, against["open"])] if others)]
         by_condition = {}
         for other in against["depends"]:
             by_condition.setdefault(self.conditions(table, ms, other, method), []).append(other)
@@ -159,6 +193,9 @@ class Compared:
         text = self.clause("known", ms, "", is_first)
         if self.clause("guessed", ms, "", is_first) != text:
             text = f"{self.clause('known', ms, ' with the flesh known', is_first)}. With guessed flesh, {self.clause('guessed', ms)}"
+        nearest, familiar_one = self.nearest("known", ms), self.nearest("known", ms, takes_nothing=True)
+        if nearest is not familiar_one and familiar_one is not None:
+            text += f". Of the methods that take nothing of the flesh, {self.clause('known', ms, takes_nothing=True)}"
         return f"Within {ms:g} ms{' per frame' if is_first else ''}, {text}."
 
     def played(self):
