@@ -121,7 +121,7 @@ std::optional<double> median_of(const std::vector<const PointRow*>& rows, const 
 
 // One method in one table at one time.
 struct Entry {
-    const Method* method;
+    const ComparedMethod* method;
     std::string setting;
     std::vector<const PointRow*> rows;
     analysis::MethodErrors errors;
@@ -131,7 +131,7 @@ std::vector<std::string> external_names(const std::vector<PointRow>& points)
 {
     std::vector<std::string> names;
     for (const PointRow& point : points)
-        if (point.setting.empty() && point.flesh == GivenFlesh::none && std::ranges::count(methods(), point.method, &Method::name) == 0 &&
+        if (point.setting.empty() && point.flesh == GivenFlesh::none && std::ranges::count(methods(), point.method, &ComparedMethod::name) == 0 &&
             std::ranges::count(names, point.method) == 0)
             names.push_back(point.method);
     return names;
@@ -141,13 +141,13 @@ std::vector<Entry> entries_of(const PosesOfTable& poses, const std::vector<Point
                               ComparisonTable table, double budget_ms)
 {
     std::vector<Entry> entries;
-    const auto add = [&](const Method* method, const std::string& name, const std::string& setting) {
+    const auto add = [&](const ComparedMethod* method, const std::string& name, const std::string& setting) {
         std::vector<const PointRow*> rows = poses.rows(name, setting, table);
         if (rows.empty()) return;
         analysis::MethodErrors errors = poses.errors(name, rows);
         entries.push_back({method, setting, std::move(rows), std::move(errors)});
     };
-    for (const Method& method : methods()) {
+    for (const ComparedMethod& method : methods()) {
         if (!method.is_in(name_of(table))) continue;
         for (const ChosenSetting& chosen : settings)
             if (chosen.method == method.name && chosen.budget_ms == budget_ms) add(&method, method.name, chosen.setting);
@@ -284,7 +284,7 @@ std::vector<ChosenSetting> chosen_settings(const std::vector<PointRow>& training
     int poses = 0;  // a ladder that ended early on one body, or a shape that is not finite, has fewer
     for (const Tried& one : tried) poses = std::max(poses, one.poses);
     std::vector<ChosenSetting> chosen;
-    for (const Method& method : methods())
+    for (const ComparedMethod& method : methods())
         for (const double budget_ms : comparison_times().budgets_ms) {
             const Tried* best = nullptr;
             for (const Tried& one : tried) {

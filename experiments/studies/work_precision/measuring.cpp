@@ -83,7 +83,7 @@ public:
                 &pose, frame(pose.frame), frame(pose.frame > 0 ? pose.frame - 1 : 1), {}, read_references(pose.name, character_)});
             for (int f = std::max(0, pose.frame - frames_of_memory); f < pose.frame; ++f) compared.way.push_back(frame(f));
         }
-        const Method pbs{.name = "pbs", .kind = "pbs", .overrides = {"pbs.iterations=24", "pbs.order=plain", "pbs.precision=f64"}};
+        const ComparedMethod pbs{.name = "pbs", .kind = "pbs", .overrides = {"pbs.iterations=24", "pbs.order=plain", "pbs.precision=f64"}};
         baseline_ = make_deformer(spec_of({&pbs}, scene_, character_, family().front()));
         baseline_->reset(character_);
     }
@@ -205,7 +205,7 @@ void train(const ComparedBody& body, Measurements& measurements)
 {
     const double longest_ms = comparison_times().budgets_ms.back();
     const std::vector<EnsembleMember> all = family(), fleshes = training_members();
-    for (const Method& method : methods())
+    for (const ComparedMethod& method : methods())
         for (const KeyValues& of_grid : method.grid)
             for (const Setting& setting : tried_settings(method, of_grid)) {
                 std::map<std::string, PosedShapes> with_flesh;  // by member
@@ -227,7 +227,7 @@ void train(const ComparedBody& body, Measurements& measurements)
 }
 
 // The chosen settings of a method, each once.
-std::vector<Setting> settings_of(const ComparisonCase& of, const Method& method)
+std::vector<Setting> settings_of(const ComparisonCase& of, const ComparedMethod& method)
 {
     std::vector<Setting> settings;
     std::set<std::string> seen;
@@ -236,7 +236,7 @@ std::vector<Setting> settings_of(const ComparisonCase& of, const Method& method)
     return settings;
 }
 
-void note_breakdown(const Method& method, const PosedShapes& posed, Measurements& measurements)
+void note_breakdown(const ComparedMethod& method, const PosedShapes& posed, Measurements& measurements)
 {
     const bool must_be_finite = method.kind.empty() || method.kind == "pbs" || method.kind == "lbs";
     const auto is_finite = [](const pbs::Positions& shape) { return shape.allFinite(); };
@@ -245,7 +245,7 @@ void note_breakdown(const Method& method, const PosedShapes& posed, Measurements
 
 void evaluate(const ComparedBody& body, const Setting& setting, Measurements& measurements)
 {
-    const Method& method = *setting.method;
+    const ComparedMethod& method = *setting.method;
     std::vector<PosedShapes> with_flesh;  // of each member, or one
     for (const EnsembleMember& member : family())
         if (method.takes_flesh() || with_flesh.empty()) with_flesh.push_back(body.posed(body.spec(setting, member), with_flesh.empty()));
@@ -270,7 +270,7 @@ void evaluate_starts(const ComparisonCase& of, const ComparedBody& body, Measure
     const std::vector<std::string> names = start_poses();
     const std::set<std::string> only(names.begin(), names.end());
     for (const OtherStart& start : other_starts()) {
-        const Method& method = *std::ranges::find(methods(), start.of, &Method::name);
+        const ComparedMethod& method = *std::ranges::find(methods(), start.of, &ComparedMethod::name);
         for (Setting setting : settings_of(of, method)) {
             const std::string text = setting.text();
             setting.keys.insert(setting.keys.end(), start.overrides.begin(), start.overrides.end());
@@ -337,7 +337,7 @@ nlohmann::json to_json(const ComparisonCase& of)
                                  {"scene", to_json(pose.scene)},
                                  {"frame", pose.frame}});
     for (const ChosenSetting& chosen : of.settings) json["settings"].push_back({chosen.budget_ms, chosen.method, chosen.setting});
-    for (const Method& method : of.external) json["external"].push_back(to_json(method.external));
+    for (const ComparedMethod& method : of.external) json["external"].push_back(to_json(method.external));
     json["methods"] = cases_document("work_precision");
     return json;
 }
@@ -346,11 +346,11 @@ Measurements measure(const ComparisonCase& of)
 {
     const ComparedBody body(of);
     Measurements measurements;
-    for (const Method& method : of.external) evaluate(body, {&method}, measurements);
+    for (const ComparedMethod& method : of.external) evaluate(body, {&method}, measurements);
     if (of.what == Measured::training) train(body, measurements);
     std::optional<pbs::Motion> motion;
     if (of.what == Measured::played) motion = played_motion(of, body.character().skeleton);
-    for (const Method& method : methods())
+    for (const ComparedMethod& method : methods())
         for (const Setting& setting : settings_of(of, method)) {
             if (of.what == Measured::evaluation) evaluate(body, setting, measurements);
             if (of.what == Measured::played) play(of, body, setting, *motion, measurements);

@@ -68,7 +68,7 @@ struct ComparisonCase {
     std::string clip = {};                    // of played
     std::vector<ReferencePose> poses = {};
     std::vector<ChosenSetting> settings = {};  // that are evaluated or played
-    std::vector<Method> external = {};         // deformers of the user's own
+    std::vector<ComparedMethod> external = {};         // deformers of the user's own
     int rounds = 3;                            // timed frames per pose
 };
 nlohmann::json to_json(const ComparisonCase& of);

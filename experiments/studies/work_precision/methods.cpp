@@ -54,9 +54,9 @@ bool exist(const KeyValues& keys)
     });
 }
 
-Method method_in(const nlohmann::json& table)
+ComparedMethod method_in(const nlohmann::json& table)
 {
-    Method method;
+    ComparedMethod method;
     for (const auto& [key, value] : table.items()) {
         if (key == "name") value.get_to(method.name);
         else if (key == "kind") value.get_to(method.kind);
@@ -73,7 +73,7 @@ Method method_in(const nlohmann::json& table)
     return method;
 }
 
-bool is_available(const Method& method)
+bool is_available(const ComparedMethod& method)
 {
     KeyValues keys = method.overrides;
     if (!method.iterations_key.empty()) keys.push_back(method.iterations_key);
@@ -86,7 +86,7 @@ std::string assigned(const std::string& key, double value)
 }
 
 // What a method takes of a member's flesh, as keys of its table.
-KeyValues flesh_keys(const Method& method, const std::string& table, const DeformerSpec& flesh, double young_times)
+KeyValues flesh_keys(const ComparedMethod& method, const std::string& table, const DeformerSpec& flesh, double young_times)
 {
     const auto& fem = options_of<FemOptions>(flesh);
     const auto takes = [&](const char* what) { return std::ranges::count(method.takes, what) > 0; };
@@ -127,7 +127,7 @@ std::string why_not_loadable(const std::string& library)
 
 void check_external(const SceneValues& values, const std::string& table, const DeformerSpec& spec)
 {
-    if (spec.name == "reference" || std::ranges::count(methods(), spec.name, &Method::name) > 0 ||
+    if (spec.name == "reference" || std::ranges::count(methods(), spec.name, &ComparedMethod::name) > 0 ||
         std::ranges::count(other_starts(), spec.name, &OtherStart::name) > 0)
         values.refuse(table + ".name", "expected a name that no method or row of the comparison has");
     const auto& options = options_of<ExternalOptions>(spec);
@@ -139,17 +139,17 @@ void check_external(const SceneValues& values, const std::string& table, const D
 
 }  // namespace
 
-bool Method::is_in(const std::string& table) const
+bool ComparedMethod::is_in(const std::string& table) const
 {
     return std::ranges::count(tables, table) > 0;
 }
 
-const std::vector<Method>& methods()
+const std::vector<ComparedMethod>& methods()
 {
-    static const std::vector<Method> available = [] {
-        std::vector<Method> all;
+    static const std::vector<ComparedMethod> available = [] {
+        std::vector<ComparedMethod> all;
         for (const nlohmann::json& table : document().at("method"))
-            if (Method method = method_in(table); is_available(method)) all.push_back(std::move(method));
+            if (ComparedMethod method = method_in(table); is_available(method)) all.push_back(std::move(method));
         return all;
     }();
     return available;
@@ -161,7 +161,7 @@ const std::vector<OtherStart>& other_starts()
         std::vector<OtherStart> starts;
         for (const nlohmann::json& table : document().at("start")) starts.push_back({table.at("name"), table.at("of"), table.at("overrides")});
         std::erase_if(starts, [](const OtherStart& start) {
-            return !exist(start.overrides) || std::ranges::count(methods(), start.of, &Method::name) == 0;
+            return !exist(start.overrides) || std::ranges::count(methods(), start.of, &ComparedMethod::name) == 0;
         });
         return starts;
     }();
@@ -198,7 +198,7 @@ KeyValues keys_in(const std::string& setting)
     return {std::istream_iterator<std::string>(text), {}};
 }
 
-std::vector<Setting> tried_settings(const Method& method, const KeyValues& of_grid)
+std::vector<Setting> tried_settings(const ComparedMethod& method, const KeyValues& of_grid)
 {
     if (method.iterations.empty()) return {{&method, of_grid}};
     std::vector<Setting> settings;
@@ -211,7 +211,7 @@ std::vector<Setting> tried_settings(const Method& method, const KeyValues& of_gr
 
 DeformerSpec spec_of(const Setting& setting, const Scene& scene, const pbs::Character& character, const EnsembleMember& member)
 {
-    const Method& method = *setting.method;
+    const ComparedMethod& method = *setting.method;
     if (method.kind.empty()) return method.external;
     std::string kind = method.kind;
     double young_times = 1.0;
@@ -248,7 +248,7 @@ const std::vector<ChosenSetting>& kept_settings()
     return kept;
 }
 
-std::vector<Method> external_methods(const std::string& file)
+std::vector<ComparedMethod> external_methods(const std::string& file)
 {
     std::error_code code;
     if (!std::filesystem::is_regular_file(file, code))
@@ -261,7 +261,7 @@ std::vector<Method> external_methods(const std::string& file)
     }
     const std::vector<DeformerSpec> entries = listed_deformers(values);
     if (entries.empty()) throw pbs::InputError(file, 0, own, "", "missing: expected at least one [[" + own + "]] table");
-    std::vector<Method> all;
+    std::vector<ComparedMethod> all;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         check_external(values, own + "." + std::to_string(i), entries[i]);
         all.push_back({.name = entries[i].name, .tables = {"known", "guessed"}, .external = entries[i]});

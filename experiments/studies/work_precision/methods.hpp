@@ -1,5 +1,5 @@
 // The methods that are compared, as a table of names with KEY=VALUE overrides of a scene (cases.toml), and their settings.
-//   for (const Method& method : methods())
+//   for (const ComparedMethod& method : methods())
 //       for (const Setting& setting : tried_settings(method)) spec_of(setting, scene, character);
 #pragma once
 
@@ -16,7 +16,7 @@ namespace experiments {
 // Keys of a scene with their values, as for --set: "pbs.k_stretch=0.5".
 using KeyValues = std::vector<std::string>;
 
-struct Method {
+struct ComparedMethod {
     std::string name = {};  // in the records
     std::string kind = {};  // of the deformer
     std::vector<std::string> takes = {};
@@ -32,7 +32,7 @@ struct Method {
     bool is_in(const std::string& table) const;
 };
 // Those whose deformers and keys this program has.
-const std::vector<Method>& methods();
+const std::vector<ComparedMethod>& methods();
 
 // A method with the setting of another one and further overrides: another start, or flesh of a wrong material.
 struct OtherStart {
@@ -50,12 +50,12 @@ std::vector<std::string> start_poses();
 
 // One setting of a method: "vbd.iterations=12 vbd.omega=1.75".
 struct Setting {
-    const Method* method = nullptr;
+    const ComparedMethod* method = nullptr;
     KeyValues keys = {};
 
     std::string text() const;
 };
-std::vector<Setting> tried_settings(const Method& method, const KeyValues& of_grid);  // by increasing iterations
+std::vector<Setting> tried_settings(const ComparedMethod& method, const KeyValues& of_grid);  // by increasing iterations
 
 // The deformer of a setting, on a scene that is built in, with the flesh of a member of the family. Members are those whose flesh a method
 // takes; another method does not depend on them. InputError for a key that does not exist.
@@ -74,7 +74,7 @@ KeyValues keys_in(const std::string& setting);
 // Deformers of the user's own: the [[external]] tables of a file, which is written like a scene. Each is a method that takes nothing, with one
 // setting. Throws an InputError for a file that cannot be read, has no such table or other tables, a name that a method or another start of
 // the comparison has, a program that cannot be started, and a library that cannot be loaded. Paths are relative to the file.
-std::vector<Method> external_methods(const std::string& file);
+std::vector<ComparedMethod> external_methods(const std::string& file);
 
 // The length at which an edge has the stiffness k, so that the mean over all edges is k too: then the scaling softens long edges and
 // stiffens short ones, and the mesh as a whole is neither softer nor stiffer. Bisection finds it to 1e-12 of the longest edge. It needs

@@ -56,7 +56,7 @@ bool is_measured(const ReferencePose& pose, const ComparisonCase& of)
 }
 
 // 1. The runs: one per body, and per clip. The default form has the settings of the tables' times alone.
-StudyPlan plan_of(bool full, const std::vector<Method>& external)
+StudyPlan plan_of(bool full, const std::vector<ComparedMethod>& external)
 {
     const std::vector<ReferencePose> poses = reference_poses();
     const std::vector<double>& shown_ms = comparison_times().tables_ms;
