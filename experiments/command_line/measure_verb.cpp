@@ -121,7 +121,11 @@ private:
     FileShape shape_of(const std::string& path, const pbs::Positions& points) const
     {
         FileShape shape{.positions = points, .is_at_rest = is_at_rest(points), .fields = read_plain_fields(path)};
-        for (auto& [name, values] : shape.fields.of_points) values = values(file_vertex_, Eigen::all).eval();
+        for (auto& [name, values] : shape.fields.of_points) {
+            if (values.rows() != file_vertices_)
+                throw pbs::InputError(path, 0, name, fmt::format("{} rows", values.rows()), fmt::format("expected {}", file_vertices_));
+            values = values(file_vertex_, Eigen::all).eval();
+        }
         const auto displacement = shape.fields.of_points.find("displacement");
         if (!shape.is_at_rest || displacement == shape.fields.of_points.end()) return shape;
         if (displacement->second.cols() != 3)
@@ -358,7 +362,8 @@ int measure(const MeasureArguments& arguments, bool quiet)
     const std::string suite = std::filesystem::path(arguments.rest).filename().string();
     write_reports(arguments.reports, {frame_suite(suite, arguments.bounds, frames, refused, stopwatch.seconds())});
     if (!refused.empty()) return exit_input;
-    say_next("pbskin explain volume_change_pct explains a column; --max-volume-change 0.5 holds it to a bound");
+    say_next(references.empty() ? "pbskin explain volume_change_pct explains a column; --max-volume-change 0.5 holds it to a bound"
+                                : "pbskin explain error_joint_pct explains a column");
     return all_hold ? exit_finished : exit_bound;
 }
 
