@@ -185,7 +185,7 @@ def own_deformers(folder):
 
 def page(folder):
     compared = compared_methods.Compared(folder)
-    answers = "\n".join(f"- {answer}" for answer in compared.answers())
+    answers = "\n".join([f"**{compared.headline()}**", "", *(f"- {answer}" for answer in compared.answers())])
     return (f"# Error against run time\n\n{answers}\n\n{limits(compared, folder)}" + of_tables(compared) + decisions(compared)
             + without_a_body(compared) + starts(folder) + motion(compared) + own_errors(folder) + settings(compared)
             + own_deformers(folder))

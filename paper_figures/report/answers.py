@@ -44,7 +44,7 @@ def which_method(found):
     methods = compared(found)
     if not methods:
         return answer(question, element("span", f"The nearest method is {not_run(found, 'work_precision')}.", class_="missing"))
-    return answer(question, joined(methods.answers(), Markup("<br>")))
+    return answer(question, joined([methods.headline(), *methods.answers()], Markup("<br>")))
 
 
 def first_screen(viewer, answers):

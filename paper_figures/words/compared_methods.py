@@ -166,6 +166,21 @@ class Compared:
                 if 2 * len(self.where_nearer(table, ms, method, other)) < len(self.variants(table, ms, method, other)) and other not in familiar
                 or not self.where_nearer(table, ms, method, other)]
 
+    def headline(self):
+        """The answer for the time of the middle column in one sentence, for a reader who has to choose."""
+        ms = self.times_ms[len(self.times_ms) // 2]
+        known, without = self.nearest("known", ms), self.nearest("known", ms, takes_nothing=True)
+        if known is None:
+            return f"No method is fast enough on this machine for {ms:g} ms per frame."
+        text = (f"With {ms:g} ms per frame, {name(known['method'])} comes nearest to flesh: it leaves {percent(known['share'])} % of the "
+                f"error of LBS")
+        guessed = self.row("guessed", ms, known["method"])
+        if known["takes"] and guessed is not None:
+            text += f" if material and springs of the flesh are known, and {percent(guessed['share'])} % if they are guessed"
+        if without is not None and without is not known:
+            text += f"; of the methods that need none of this, {name(without['method'])} leaves {percent(without['share'])} %"
+        return f"{text}."
+
     def clause(self, table, ms, where="", is_first=False, takes_nothing=False):
         """quasi-Newton leaves 32 % with the flesh known (4.1 mm, level with vertex block descent)"""
         row = self.nearest(table, ms, takes_nothing)

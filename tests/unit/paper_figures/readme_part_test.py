@@ -199,9 +199,12 @@ class Tables(ReadmeTest):
             run.write_text(run.read_text().replace('"version"', '"cpu_model": "a processor", "version"'))
         picture = self.results / "error_against_time.png"
         with unittest.mock.patch.object(readme_findings, "picture", picture):
-            shown, _, answer, _, head, _, *rows, _, note = readme_findings.figure_lines(self.results)
+            shown, _, headline, _, *answers, _, head, _ = (lines := readme_findings.figure_lines(self.results))[:11]
+            *rows, _, note = lines[11:]
         self.assertIn(picture.name, shown)
-        self.assertEqual(answer.count("Within "), 3)
+        self.assertTrue(headline.startswith("**With 1 ms per frame, "))
+        self.assertEqual([answer.split(",")[0] for answer in answers],
+                         ["- Within 0.1 ms per frame", "- Within 1 ms", "- Within 10 ms", "- Played along a clip"])
         self.assertEqual(head, "| method | takes | 0.1 ms | 1 ms | 10 ms |")
         self.assertEqual(len(rows), 10)
         self.assertIn("| DQS | nothing | 86 [77, 103] a | 86 [77, 103] h | 86 [77, 103] h |", rows)
@@ -250,7 +253,8 @@ class Pages(ResultsTest):
         folder = self.results / "work_precision"
         synthetic_records.add_own_deformers(folder, {"mine": "own"})
         text = work_precision.page(folder)
-        self.assertTrue(text.startswith("# Error against run time\n\n- Within 0.1 ms per frame, DQS leaves 86 % of LBS's error (10 mm"))
+        self.assertTrue(text.startswith("# Error against run time\n\n**With 1 ms per frame, quasi-Newton comes nearest to flesh: "))
+        self.assertIn("**\n\n- Within 0.1 ms per frame, DQS leaves 86 % of LBS's error (10 mm", text)
         for line in ("| neo-Hookean XPBD | material, springs, initial guess |  | 45 [40, 54] c\u2020 | 21 [19, 25] c\u2020 |  | "
                      "50 [45, 59] | 23 [21, 27] |",
                      "| PBS with smooth weights |  | 6.8 (2) | 5.6 (2) |  | 0.7 (\u00d7 1.4)\u2020 | 7 (\u00d7 14)\u2020 |",
