@@ -42,9 +42,10 @@ OptionFields<Options> flesh_fields(const std::string& kind)
         .add("iterations", &Options::iterations, {.range = {0, 1e6}, .meaning = "iterations per frame"})
         .add("poisson", &Options::poisson, {.range = {0.0, 0.4999}, .meaning = "Poisson's ratio of the flesh where strains are small"})
         .add("attachment", &Options::attachment,
-             {.meaning = "smooth: springs whose density decreases from a bone's axis to the surface of a capsule around it; embedded: of one "
-                         "density, so that bones are rigid capsules with core_radius 0.35 and spring_factor 1e4; held: as smooth, and each "
-                         "bone holds the flesh that it alone moves"})
+             {.meaning =
+                  "smooth: springs whose density decreases from a bone's axis to the surface of a capsule around it; embedded: of one "
+                  "density, so that bones are rigid capsules with core_radius 0.35 and spring_factor 1e4; held: as smooth, and each "
+                  "bone holds the flesh that it alone moves"})
         .add("core_radius", &Options::core_radius,
              {.range = {above_zero, 1.0},
               .meaning = "radius of the capsules whose springs hold the flesh, a factor on the limb's radius, without a unit"})

@@ -21,8 +21,8 @@ std::string hash_of_file(const std::string& path);   // of its bytes; an InputEr
 std::string cache_folder();
 
 // The folder of the solved references that come with the program: $PBSKIN_REFERENCES, else share/pbskin/references next to its folder. In
-// `tets` it has the meshes of bodies that may be redistributed, under the names that they have in the cache, so that every system has the same
-// tets, whatever its mesher makes.
+// `tets` it has the meshes of bodies that may be redistributed, under the names that they have in the cache, so that every system has the
+// same tets, whatever its mesher makes.
 std::string references_folder();
 
 // Reads the mesh from that folder or from the cache, or makes and stores it while other processes wait. Where the cache cannot be written,

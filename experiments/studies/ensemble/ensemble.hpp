@@ -1,5 +1,5 @@
-// What the error of PBS against the first member of the family is made of. With x_n the shape after n iterations, x_inf the same constraints
-// converged, x_h the reference and x_0 its limit on ever finer meshes,
+// What the error of PBS against the first member of the family is made of. With x_n the shape after n iterations, x_inf the same
+// constraints converged, x_h the reference and x_0 its limit on ever finer meshes,
 //   x_n - x_0 = (x_n - x_inf) + (x_inf - x_h) + (x_h - x_0)
 //               solver          model           discretisation
 // exactly, vertex by vertex; the norm of the whole is at most the sum of those of the parts. The first two are measured, the third is
@@ -37,8 +37,8 @@ nlohmann::json to_json(const EnsembleCase& of);
 // the paper's bind constraint; and the linear model, held by smooth springs and by embedded bones.
 std::vector<DeformerSpec> other_attachments(const DeformerSpec& flesh);
 
-// The check of KeptReference::own_error_pct: on the body's own tets, the bound that nested solutions and other tets give, and the distance of
-// linear elements.
+// The check of KeptReference::own_error_pct: on the body's own tets, the bound that nested solutions and other tets give, and the distance
+// of linear elements.
 struct OwnTetsRow {
     analysis::CaseKey of;
     std::optional<double> bound_pct = {}, linear_distance_pct = {};

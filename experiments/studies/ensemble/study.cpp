@@ -1,5 +1,5 @@
-// Is the error of PBS that of its solver, of its model or of the reference's discretisation (ensemble.hpp)? README.md describes the poses and
-// records.
+// Is the error of PBS that of its solver, of its model or of the reference's discretisation (ensemble.hpp)? README.md describes the poses
+// and records.
 //
 //   pbskin reproduce ensemble            two poses, 20 minutes on one core
 //   pbskin reproduce ensemble --full     three poses, an hour

@@ -2,7 +2,8 @@
 // solves two poses again and compares them with what is kept. README.md describes the poses, members and files.
 //
 //   pbskin reproduce references            two poses, three minutes
-//   pbskin reproduce references --full     all poses, two to three hours; what is solved is kept, so that it goes on where it was interrupted
+//   pbskin reproduce references --full     all poses, two to three hours; what is solved is kept, so that it goes on where it was
+//   interrupted
 #include "analysis/metrics/error_norms.hpp"
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
@@ -10,7 +11,7 @@
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/kept_references.hpp"
-#include "experiments/studies/shared/reference_poses.hpp"
+#include "experiments/studies/reference_poses.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/character/bodies.hpp"
@@ -38,8 +39,8 @@ nlohmann::json to_json(const ReferenceCase& of)
 {
     nlohmann::json members = nlohmann::json::array();
     for (const EnsembleMember& member : of.members) members.push_back(to_json(member));
-    return {{"pose", of.pose.name},         {"scene", to_json(of.pose.scene)}, {"frame", of.pose.frame}, {"flesh", to_json(of.flesh)},
-            {"members", std::move(members)}, {"is_compared", of.is_compared}};
+    return {{"pose", of.pose.name},       {"scene", to_json(of.pose.scene)}, {"frame", of.pose.frame},
+            {"flesh", to_json(of.flesh)}, {"members", std::move(members)},   {"is_compared", of.is_compared}};
 }
 
 // references.csv.
@@ -61,8 +62,8 @@ const analysis::Columns<ReferenceRow> reference_columns =
 KeptReference solved(const ReferenceCase& of, const EnsembleMember& member, const pbs::Character& character, const pbs::Pose& bones,
                      const std::string& solutions)
 {
-    const PosedReference reference(character, flesh_of(of.flesh, member), bones, of.pose.scene.motion.time_step_s, ReferenceEffort::own_tets,
-                                   solutions);
+    const PosedReference reference(character, flesh_of(of.flesh, member), bones, of.pose.scene.motion.time_step_s,
+                                   ReferenceEffort::own_tets, solutions);
     KeptReference kept{.member = member, .outcome = "not_reached", .at_tips = reference.masked()};
     for (const NestedSolution& solution : reference.solutions()) kept.seconds += solution.seconds;
     const NestedSolution& finest = reference.solutions().front();
@@ -100,11 +101,13 @@ std::string compared_with_kept(const KeptReferences& solved, const pbs::Characte
     std::string differing;
     for (std::size_t m = 0; m < solved.members.size(); ++m) {
         const KeptReference &now = solved.members[m], &before = kept.members.at(m);
-        if (now.outcome != before.outcome) differing += solved.pose + ", " + now.member.name + ": " + now.outcome + ", kept: " + before.outcome + ". ";
+        if (now.outcome != before.outcome)
+            differing += solved.pose + ", " + now.member.name + ": " + now.outcome + ", kept: " + before.outcome + ". ";
         if (!now.is_reached() || !before.is_reached()) continue;
         rows[m].from_kept_m = (now.positions - before.positions).rowwise().norm().maxCoeff();
         if (*rows[m].from_kept_m > same_solution * size_m)
-            differing += fmt::format("{}, {}: a vertex lies {:.2g} m from the kept solution. ", solved.pose, now.member.name, *rows[m].from_kept_m);
+            differing +=
+                fmt::format("{}, {}: a vertex lies {:.2g} m from the kept solution. ", solved.pose, now.member.name, *rows[m].from_kept_m);
     }
     return differing;
 }

@@ -145,12 +145,9 @@ const KeptReference* KeptReferences::find(const std::string& member) const
 
 std::string packed(const KeptReferences& references, const pbs::Character& character)
 {
-    json all = {{"schema", kept_schema},
-                {"pose", references.pose},
-                {"body", references.body},
-                {"mesh_hash", references.mesh_hash},
-                {"revision", references.revision},
-                {"quantum_m", kept_quantum_m}};
+    json all = {{"schema", kept_schema},           {"pose", references.pose},
+                {"body", references.body},         {"mesh_hash", references.mesh_hash},
+                {"revision", references.revision}, {"quantum_m", kept_quantum_m}};
     for (const Eigen::Isometry3d& bone : references.bones)
         all["bones"].push_back(std::vector<double>(bone.data(), bone.data() + bone.matrix().size()));
     pbs::Positions predicted = rigid_shape(character, references.bones);
@@ -171,14 +168,16 @@ KeptReferences unpacked(const std::string& text, const std::string& file, const 
     const std::vector<std::uint8_t> bytes = inflated(text);
     try {
         const json all = json::from_cbor(bytes);
-        if (all.at("schema") != kept_schema) throw pbs::InputError(file, 0, "schema", all.at("schema").dump(), fmt::format("expected {}", kept_schema));
+        if (all.at("schema") != kept_schema)
+            throw pbs::InputError(file, 0, "schema", all.at("schema").dump(), fmt::format("expected {}", kept_schema));
         all.at("pose").get_to(references.pose), all.at("body").get_to(references.body);
         all.at("mesh_hash").get_to(references.mesh_hash), all.at("revision").get_to(references.revision);
         if (references.mesh_hash != hash)
-            throw pbs::InputError(file, 0, "mesh_hash", references.mesh_hash,
-                                  fmt::format("the tets of {} have the hash {}, so that these references do not belong to them; solve them with "
-                                              "`pbskin reproduce references --full`",
-                                              character.name, hash));
+            throw pbs::InputError(
+                file, 0, "mesh_hash", references.mesh_hash,
+                fmt::format("the tets of {} have the hash {}, so that these references do not belong to them; solve them with "
+                            "`pbskin reproduce references --full`",
+                            character.name, hash));
         for (const std::vector<double> numbers : all.at("bones")) {
             if (numbers.size() != 16) throw std::runtime_error("a transform of another size");
             references.bones.emplace_back(Eigen::Map<const Eigen::Matrix4d>(numbers.data()));
@@ -210,7 +209,8 @@ KeptReferences read_references(const std::string& pose, const pbs::Character& ch
 {
     const std::string file = file_of_references(pose);
     if (!fs::exists(file))
-        throw pbs::InputError(file, 0, "", "", "does not exist: solve the references of this pose with `pbskin reproduce references --full`");
+        throw pbs::InputError(file, 0, "", "",
+                              "does not exist: solve the references of this pose with `pbskin reproduce references --full`");
     return unpacked(analysis::read_text(file), file, character);
 }
 

@@ -17,8 +17,9 @@ namespace experiments {
 // One member of the family in one pose: quadratic elements on the body's own tets.
 struct KeptReference {
     EnsembleMember member;
-    std::string outcome;                              // reached, not_reached
-    std::optional<double> linear_distance_pct = {};   // from the solution with linear elements on the same tets, in the norm of error_joint_pct
+    std::string outcome;  // reached, not_reached
+    std::optional<double> linear_distance_pct =
+        {};  // from the solution with linear elements on the same tets, in the norm of error_joint_pct
     std::optional<double> energy_j = {}, lowest_det_f = {};
     int newton_steps = 0;
     double seconds = 0.0;            // of both solutions, wall time
@@ -26,8 +27,8 @@ struct KeptReference {
     std::vector<bool> at_tips = {};  // of creases, which are left out, #V
 
     bool is_reached() const { return outcome == "reached"; }
-    // U, an estimate of its own error in the norm of error_joint_pct [%]: this share of the distance from linear elements. NaN where it is not
-    // known. README.md has the check of the share.
+    // U, an estimate of its own error in the norm of error_joint_pct [%]: this share of the distance from linear elements. NaN where it is
+    // not known. README.md has the check of the share.
     double own_error_pct() const;
 };
 inline constexpr double share_of_linear_distance = 0.6;

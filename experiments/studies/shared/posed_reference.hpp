@@ -120,6 +120,7 @@ public:
     analysis::ErrorNorms bound() const;
     // The same for its quadratic solution on the own tets. NaN where there is no such bound.
     analysis::ErrorNorms bound_on_own_tets() const;
+
 private:
     struct Level {
         const pbs::Character& character;
@@ -169,8 +170,8 @@ struct EnsembleMember {
 nlohmann::json to_json(const EnsembleMember& member);
 
 // q 10 and 100 with a core radius of 0.5 and 0.7; and, with 10 and 0.7, Poisson's ratio 0.3 and (with mean dilatation) 0.49; bones that are
-// rigid capsules; and bones that hold the flesh that they alone move. The first one, smooth, is held like the reference of the other studies
-// (reference_flesh).
+// rigid capsules; and bones that hold the flesh that they alone move. The first one, smooth, is held like the reference of the other
+// studies (reference_flesh).
 std::vector<EnsembleMember> family();
 
 inline constexpr std::size_t further_members = 7;  // of the family, after the first one

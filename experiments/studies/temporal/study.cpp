@@ -92,7 +92,8 @@ private:
         for (int frame = 0; frame < motion_.frames(); ++frame) {
             stop_if_interrupted();
             const double start_s = process_cpu_s();
-            if (start == FrameStart::frame_before && frame > 0) deformer->start_from(carried_by_lbs(shapes.back(), character_, pose(frame - 1), pose(frame)));
+            if (start == FrameStart::frame_before && frame > 0)
+                deformer->start_from(carried_by_lbs(shapes.back(), character_, pose(frame - 1), pose(frame)));
             deformer->advance(pose(frame), motion_.time_step_s);
             TemporalFrame& row = records_.frames.emplace_back(TemporalFrame{spec.label, start, frame, 1e3 * (process_cpu_s() - start_s)});
             shapes.push_back(deformer->positions());

@@ -21,14 +21,15 @@ const Columns<ComparedRow> compared_columns =
 const Columns<MethodRow> method_columns =
     MEMBER_COLUMNS(MethodRow, table, budget_ms, method, takes, setting, ms, times_pbs, within, poses, share, share_low, share_high,
                    fold_share, fold_low, fold_high, skin_mm, inverted_poses, letters);
-const Columns<MethodPairRow> method_pair_columns = MEMBER_COLUMNS(MethodPairRow, table, budget_ms, first, second, member, wins, ties, losses, p, p_holm, ratio,
-                                                     ratio_low, ratio_high);
+const Columns<MethodPairRow> method_pair_columns =
+    MEMBER_COLUMNS(MethodPairRow, table, budget_ms, first, second, member, wins, ties, losses, p, p_holm, ratio, ratio_low, ratio_high);
 const Columns<DecisionRow> decision_columns = MEMBER_COLUMNS(DecisionRow, table, budget_ms, without_body, first, second, decision);
-const Columns<MethodCurveRow> method_curve_columns = MEMBER_COLUMNS(MethodCurveRow, table, method, budget_ms, setting, ms, share, share_low, share_high);
+const Columns<MethodCurveRow> method_curve_columns =
+    MEMBER_COLUMNS(MethodCurveRow, table, method, budget_ms, setting, ms, share, share_low, share_high);
 const Columns<SolvedRow> solved_columns = MEMBER_COLUMNS(SolvedRow, table, target_pct, method, budget_ms, solved_pct);
 const Columns<OtherStartRow> other_start_columns = MEMBER_COLUMNS(OtherStartRow, budget_ms, method, of, poses, share, share_of_setting);
-const Columns<MotionRow> motion_columns = MEMBER_COLUMNS(MotionRow, clip, budget_ms, method, setting, member, frames, ms, cold_share,
-                                                         played_share, cold_skin_mm, played_skin_mm);
+const Columns<MotionRow> motion_columns =
+    MEMBER_COLUMNS(MotionRow, clip, budget_ms, method, setting, member, frames, ms, cold_share, played_share, cold_skin_mm, played_skin_mm);
 
 namespace {
 
@@ -131,8 +132,8 @@ std::vector<std::string> external_names(const std::vector<PointRow>& points)
 {
     std::vector<std::string> names;
     for (const PointRow& point : points)
-        if (point.setting.empty() && point.flesh == GivenFlesh::none && std::ranges::count(methods(), point.method, &ComparedMethod::name) == 0 &&
-            std::ranges::count(names, point.method) == 0)
+        if (point.setting.empty() && point.flesh == GivenFlesh::none &&
+            std::ranges::count(methods(), point.method, &ComparedMethod::name) == 0 && std::ranges::count(names, point.method) == 0)
             names.push_back(point.method);
     return names;
 }
@@ -232,11 +233,13 @@ std::vector<OtherStartRow> start_rows(const std::vector<PointRow>& points, const
     const auto errors_of = [&](const std::string& method, const std::string& setting, GivenFlesh flesh) {
         std::map<std::string, double> errors;  // by pose, against the first member
         for (const PointRow& point : points)
-            if (point.method == method && point.setting == setting && point.errors[0] && (point.flesh == flesh || point.flesh == GivenFlesh::none))
+            if (point.method == method && point.setting == setting && point.errors[0] &&
+                (point.flesh == flesh || point.flesh == GivenFlesh::none))
                 errors[point.pose] = *point.errors[0];
         return errors;
     };
-    const auto share = [](const std::map<std::string, double>& of, const std::map<std::string, double>& to, const std::map<std::string, double>& in) {
+    const auto share = [](const std::map<std::string, double>& of, const std::map<std::string, double>& to,
+                          const std::map<std::string, double>& in) {
         std::vector<double> own, other;
         for (const auto& [pose, error] : in)
             if (of.contains(pose) && to.contains(pose)) own.push_back(of.at(pose)), other.push_back(to.at(pose));
@@ -274,8 +277,10 @@ std::vector<ChosenSetting> chosen_settings(const std::vector<PointRow>& training
     };
     std::vector<Tried> tried;
     for (const PointRow& point : training) {
-        auto found = std::ranges::find_if(tried, [&](const Tried& one) { return one.method == point.method && one.setting == point.setting; });
-        if (found == tried.end()) found = tried.insert(found, Tried{.method = point.method, .setting = point.setting, .ms = {}, .log_error = {}});
+        auto found =
+            std::ranges::find_if(tried, [&](const Tried& one) { return one.method == point.method && one.setting == point.setting; });
+        if (found == tried.end())
+            found = tried.insert(found, Tried{.method = point.method, .setting = point.setting, .ms = {}, .log_error = {}});
         found->poses += point.outcome == "finished";
         if (point.ms) found->ms.push_back(*point.ms);
         for (const std::optional<double>& error : point.errors)
@@ -292,7 +297,8 @@ std::vector<ChosenSetting> chosen_settings(const std::vector<PointRow>& training
                 if (!best || analysis::mean(one.log_error) < analysis::mean(best->log_error)) best = &one;
             }
             if (best)
-                chosen.push_back({budget_ms, method.name, best->setting, analysis::mean(best->ms), std::exp(analysis::mean(best->log_error))});
+                chosen.push_back(
+                    {budget_ms, method.name, best->setting, analysis::mean(best->ms), std::exp(analysis::mean(best->log_error))});
         }
     return chosen;
 }
@@ -310,8 +316,8 @@ Comparison concluded(const std::vector<PointRow>& points, const std::vector<OwnE
             for (const Entry& entry : entries) {
                 rows.push_back(method_row(entry, *lbs, poses, table, budget_ms));
                 const MethodRow& row = rows.back();
-                comparison.curves.push_back({table, row.method, budget_ms, row.setting, row.ms.value_or(not_known), row.share, row.share_low,
-                                             row.share_high});
+                comparison.curves.push_back(
+                    {table, row.method, budget_ms, row.setting, row.ms.value_or(not_known), row.share, row.share_low, row.share_high});
                 for (const double target_pct : targets_pct)
                     comparison.profiles.push_back({table, target_pct, row.method, budget_ms, solved_pct(entry, *lbs, poses, target_pct)});
             }
@@ -358,15 +364,15 @@ std::vector<MotionRow> concluded(const std::vector<PlayedRow>& played, const std
         for (const ChosenSetting& chosen : settings) {
             const bool is_shown = std::ranges::count(comparison_times().tables_ms, chosen.budget_ms) > 0;
             if (!is_shown || chosen.method != method || chosen.setting != setting) continue;
-            const auto lbs_setting = std::ranges::find_if(settings, [&](const ChosenSetting& one) {
-                return one.method == baseline && one.budget_ms == chosen.budget_ms;
-            });
+            const auto lbs_setting = std::ranges::find_if(
+                settings, [&](const ChosenSetting& one) { return one.method == baseline && one.budget_ms == chosen.budget_ms; });
             if (lbs_setting == settings.end()) continue;
             const auto lbs = all.find({clip, baseline, lbs_setting->setting, member});
             if (lbs == all.end()) continue;
             const auto& of_lbs = lbs->second.error[static_cast<int>(FrameGuess::cold)];
-            rows.push_back({clip, chosen.budget_ms, method, setting, member, static_cast<int>(frames.error[0].size()), analysis::median(frames.ms),
-                            share(frames.error[0], of_lbs), share(frames.error[1], of_lbs), mean(frames.skin_mm[0]), mean(frames.skin_mm[1])});
+            rows.push_back({clip, chosen.budget_ms, method, setting, member, static_cast<int>(frames.error[0].size()),
+                            analysis::median(frames.ms), share(frames.error[0], of_lbs), share(frames.error[1], of_lbs),
+                            mean(frames.skin_mm[0]), mean(frames.skin_mm[1])});
         }
     }
     return rows;

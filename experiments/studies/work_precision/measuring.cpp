@@ -4,6 +4,7 @@
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/metrics/skin_error.hpp"
 #include "analysis/statistics/statistics.hpp"
+#include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
@@ -36,9 +37,9 @@ Columns<MemberErrors> member_error_columns()
     return columns;
 }
 
-const Columns<PointRow> point_columns = MEMBER_COLUMNS(PointRow, pose, body, stratum, method, flesh, setting, outcome, ms, times_pbs, clock,
-                                                       skin_mm, inverted) +
-                                        analysis::within(&PointRow::errors, member_error_columns());
+const Columns<PointRow> point_columns =
+    MEMBER_COLUMNS(PointRow, pose, body, stratum, method, flesh, setting, outcome, ms, times_pbs, clock, skin_mm, inverted) +
+    analysis::within(&PointRow::errors, member_error_columns());
 const Columns<PlayedRow> played_columns =
     MEMBER_COLUMNS(PlayedRow, pose, clip, method, setting, start, member, ms, error_joint_pct, skin_mm);
 
@@ -212,9 +213,11 @@ void train(const ComparedBody& body, Measurements& measurements)
                 for (const EnsembleMember& member : fleshes)
                     if (method.takes_flesh() || with_flesh.empty())
                         with_flesh.emplace(member.name, body.posed(body.spec(setting, member), with_flesh.empty()));
-                const PosedShapes& timed = with_flesh.contains(fleshes.front().name) ? with_flesh.at(fleshes.front().name) : with_flesh.begin()->second;
+                const PosedShapes& timed =
+                    with_flesh.contains(fleshes.front().name) ? with_flesh.at(fleshes.front().name) : with_flesh.begin()->second;
                 for (std::size_t pose = 0; pose < body.poses().size(); ++pose) {
-                    PointRow row = body.row(pose, method.name, method.takes_flesh() ? GivenFlesh::own : GivenFlesh::none, setting.text(), timed);
+                    PointRow row =
+                        body.row(pose, method.name, method.takes_flesh() ? GivenFlesh::own : GivenFlesh::none, setting.text(), timed);
                     body.add_errors(row, pose, [&](std::size_t m) -> const pbs::Positions* {
                         if (std::ranges::count(fleshes, all[m].name, &EnsembleMember::name) == 0) return nullptr;
                         const auto own = with_flesh.find(all[m].name);
@@ -236,11 +239,12 @@ std::vector<Setting> settings_of(const ComparisonCase& of, const ComparedMethod&
     return settings;
 }
 
-void note_breakdown(const ComparedMethod& method, const PosedShapes& posed, Measurements& measurements)
+// PBS, LBS and deformers of the user's own must be finite; another method that is not has no error there.
+void note_breakdown(const DeformerSpec& spec, const PosedShapes& posed, Measurements& measurements)
 {
-    const bool must_be_finite = method.kind.empty() || method.kind == "pbs" || method.kind == "lbs";
+    const bool must_be_finite = options_if<ExternalOptions>(spec) || options_if<pbs::PbsOptions>(spec) || traits_of(spec).blends_linearly;
     const auto is_finite = [](const pbs::Positions& shape) { return shape.allFinite(); };
-    if (must_be_finite && !std::ranges::all_of(posed.shapes, is_finite)) measurements.breakdown += method.name + " is not finite. ";
+    if (must_be_finite && !std::ranges::all_of(posed.shapes, is_finite)) measurements.breakdown += spec.label + " is not finite. ";
 }
 
 void evaluate(const ComparedBody& body, const Setting& setting, Measurements& measurements)
@@ -249,7 +253,7 @@ void evaluate(const ComparedBody& body, const Setting& setting, Measurements& me
     std::vector<PosedShapes> with_flesh;  // of each member, or one
     for (const EnsembleMember& member : family())
         if (method.takes_flesh() || with_flesh.empty()) with_flesh.push_back(body.posed(body.spec(setting, member), with_flesh.empty()));
-    note_breakdown(method, with_flesh.front(), measurements);
+    note_breakdown(body.spec(setting, family().front()), with_flesh.front(), measurements);
     for (std::size_t pose = 0; pose < body.poses().size(); ++pose) {
         const auto add = [&](GivenFlesh flesh, const auto& place) {
             PointRow row = body.row(pose, method.name, flesh, setting.text(), with_flesh.front());
@@ -314,7 +318,8 @@ void play(const ComparisonCase& of, const ComparedBody& body, const Setting& set
                 stop_if_interrupted();
                 const double start_s = process_cpu_s();
                 if (!samples_ms.empty())
-                    deformer->start_from(carried_by_lbs(deformer->positions(), body.character(), motion.steps[frame - 1], motion.steps[frame]));
+                    deformer->start_from(
+                        carried_by_lbs(deformer->positions(), body.character(), motion.steps[frame - 1], motion.steps[frame]));
                 deformer->advance(motion.steps[frame], motion.time_step_s);
                 samples_ms.push_back(1e3 * (process_cpu_s() - start_s));
             }

@@ -4,7 +4,7 @@
 
 #include "analysis/records/tables.hpp"
 #include "experiments/settings/option_names.hpp"
-#include "experiments/studies/shared/reference_poses.hpp"
+#include "experiments/studies/reference_poses.hpp"
 #include "experiments/studies/work_precision/methods.hpp"
 
 #include <array>
@@ -19,8 +19,8 @@ namespace experiments {
 enum class GivenFlesh { none, own, standard, start };
 NAMED_OPTIONS(GivenFlesh, none, own, standard, start)
 
-// The clock of a method's times. processor: processor time of this process. own: the times that a deformer in another process states itself.
-// wall: the wall time of that process, divided by the number of its poses.
+// The clock of a method's times. processor: processor time of this process. own: the times that a deformer in another process states
+// itself. wall: the wall time of that process, divided by the number of its poses.
 enum class FrameClock { processor, own, wall };
 NAMED_OPTIONS(FrameClock, processor, own, wall)
 
@@ -35,13 +35,13 @@ struct PointRow {
     std::string method;
     GivenFlesh flesh = GivenFlesh::none;
     std::string setting;
-    std::string outcome;                            // finished, not_finite
-    std::optional<double> ms = {};                  // median of several frames
-    std::optional<double> times_pbs = {};           // over the time of PBS with 24 iterations in plain code, measured right after
+    std::string outcome;                   // finished, not_finite
+    std::optional<double> ms = {};         // median of several frames
+    std::optional<double> times_pbs = {};  // over the time of PBS with 24 iterations in plain code, measured right after
     FrameClock clock = FrameClock::processor;
-    std::optional<double> skin_mm = {};             // root mean square over the skin, on a body of 1.7 m: median over the members
-    int inverted = 0;                               // tets
-    MemberErrors errors = {};                       // nothing where the member was not reached
+    std::optional<double> skin_mm = {};  // root mean square over the skin, on a body of 1.7 m: median over the members
+    int inverted = 0;                    // tets
+    MemberErrors errors = {};            // nothing where the member was not reached
 };
 extern const analysis::Columns<PointRow> point_columns;
 
@@ -57,19 +57,19 @@ struct PlayedRow {
 };
 extern const analysis::Columns<PlayedRow> played_columns;
 
-// What a run measures. training: all settings in the training poses, with the flesh of training_members(). evaluation: the chosen settings in
-// all other poses, with the flesh of every member. played: the chosen settings along a clip.
+// What a run measures. training: all settings in the training poses, with the flesh of training_members(). evaluation: the chosen settings
+// in all other poses, with the flesh of every member. played: the chosen settings along a clip.
 enum class Measured { training, evaluation, played };
 NAMED_OPTIONS(Measured, training, evaluation, played)
 
 struct ComparisonCase {
     std::string name, body;
     Measured what = Measured::evaluation;
-    std::string clip = {};                    // of played
+    std::string clip = {};  // of played
     std::vector<ReferencePose> poses = {};
-    std::vector<ChosenSetting> settings = {};  // that are evaluated or played
-    std::vector<ComparedMethod> external = {};         // deformers of the user's own
-    int rounds = 3;                            // timed frames per pose
+    std::vector<ChosenSetting> settings = {};   // that are evaluated or played
+    std::vector<ComparedMethod> external = {};  // deformers of the user's own
+    int rounds = 3;                             // timed frames per pose
 };
 nlohmann::json to_json(const ComparisonCase& of);
 

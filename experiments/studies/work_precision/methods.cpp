@@ -58,16 +58,26 @@ ComparedMethod method_in(const nlohmann::json& table)
 {
     ComparedMethod method;
     for (const auto& [key, value] : table.items()) {
-        if (key == "name") value.get_to(method.name);
-        else if (key == "kind") value.get_to(method.kind);
-        else if (key == "takes") value.get_to(method.takes);
-        else if (key == "overrides") value.get_to(method.overrides);
-        else if (key == "grid") value.get_to(method.grid);
-        else if (key == "iterations_key") value.get_to(method.iterations_key);
-        else if (key == "iterations") value.get_to(method.iterations);
-        else if (key == "tables") value.get_to(method.tables);
-        else if (key == "k_by_edge_length") value.get_to(method.k_by_edge_length);
-        else throw std::logic_error("work_precision/cases.toml: nothing reads the key " + key + " of a method");
+        if (key == "name")
+            value.get_to(method.name);
+        else if (key == "kind")
+            value.get_to(method.kind);
+        else if (key == "takes")
+            value.get_to(method.takes);
+        else if (key == "overrides")
+            value.get_to(method.overrides);
+        else if (key == "grid")
+            value.get_to(method.grid);
+        else if (key == "iterations_key")
+            value.get_to(method.iterations_key);
+        else if (key == "iterations")
+            value.get_to(method.iterations);
+        else if (key == "tables")
+            value.get_to(method.tables);
+        else if (key == "k_by_edge_length")
+            value.get_to(method.k_by_edge_length);
+        else
+            throw std::logic_error("work_precision/cases.toml: nothing reads the key " + key + " of a method");
     }
     std::erase_if(method.grid, [](const KeyValues& keys) { return !exist(keys); });
     return method;
@@ -159,7 +169,8 @@ const std::vector<OtherStart>& other_starts()
 {
     static const std::vector<OtherStart> all = [] {
         std::vector<OtherStart> starts;
-        for (const nlohmann::json& table : document().at("start")) starts.push_back({table.at("name"), table.at("of"), table.at("overrides")});
+        for (const nlohmann::json& table : document().at("start"))
+            starts.push_back({table.at("name"), table.at("of"), table.at("overrides")});
         std::erase_if(starts, [](const OtherStart& start) {
             return !exist(start.overrides) || std::ranges::count(methods(), start.of, &ComparedMethod::name) == 0;
         });

@@ -71,9 +71,9 @@ extern const analysis::Columns<ChosenSetting> chosen_columns;  // settings.csv
 const std::vector<ChosenSetting>& kept_settings();
 KeyValues keys_in(const std::string& setting);
 
-// Deformers of the user's own: the [[external]] tables of a file, which is written like a scene. Each is a method that takes nothing, with one
-// setting. Throws an InputError for a file that cannot be read, has no such table or other tables, a name that a method or another start of
-// the comparison has, a program that cannot be started, and a library that cannot be loaded. Paths are relative to the file.
+// Deformers of the user's own: the [[external]] tables of a file, which is written like a scene. Each is a method that takes nothing, with
+// one setting. Throws an InputError for a file that cannot be read, has no such table or other tables, a name that a method or another
+// start of the comparison has, a program that cannot be started, and a library that cannot be loaded. Paths are relative to the file.
 std::vector<ComparedMethod> external_methods(const std::string& file);
 
 // The length at which an edge has the stiffness k, so that the mean over all edges is k too: then the scaling softens long edges and

@@ -1,4 +1,4 @@
-#include "experiments/studies/shared/reference_poses.hpp"
+#include "experiments/studies/reference_poses.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -20,8 +20,8 @@ ReferencePose reference_pose(const StudyCase& in_file)
         return pose;
     }
     pose.frame = frames_of_a_movement - 1;
-    pose.scene = read_scene("human_01_01", {"character.body=" + pose.of.body, "motion.clip=",
-                                            "motion.movements=['" + in_file.value<std::string>("movement") + "']",
+    pose.scene = read_scene("human_01_01", {"character.body=" + pose.of.body,
+                                            "motion.clip=", "motion.movements=['" + in_file.value<std::string>("movement") + "']",
                                             "motion.frames=" + std::to_string(frames_of_a_movement)});
     return pose;
 }
