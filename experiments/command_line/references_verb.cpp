@@ -10,7 +10,7 @@
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/studies/shared/kept_references.hpp"
-#include "experiments/studies/shared/reference_poses.hpp"
+#include "experiments/studies/reference_poses.hpp"
 #include "generated/exported_texts.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/bone_capsules.hpp"
