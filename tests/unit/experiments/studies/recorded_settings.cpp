@@ -14,7 +14,7 @@
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/timing/bench.hpp"
 #include "experiments/studies/timing/timing.hpp"
-#include "experiments/studies/work_precision/measured_points.hpp"
+#include "experiments/studies/work_precision/measuring.hpp"
 #include "pbs/author/author_solver.hpp"
 #include "pbs/skinning/delta_mush.hpp"
 #include "pbs/skinning/direct_delta_mush.hpp"
@@ -64,32 +64,58 @@ TEST(RecordedSettings, OfThePosesOfStudies)
     EXPECT_GE(expect_each_change_repeats(quality), 10);
     EnsembleCase ensemble;
     ensemble.of = {.body = "limb", .motion = "bend", .angle_deg = 60.0}, ensemble.scene = limb(), ensemble.frame = 1;
-    ensemble.flesh = default_spec("fem"), ensemble.members = {family().front()}, ensemble.deformers = {default_spec("lbs")};
-    ensemble.tuned = {default_spec("pbs")}, ensemble.pbs = default_spec("pbs"), ensemble.other_flesh = {default_spec("fem")};
+    ensemble.flesh = default_spec("fem"), ensemble.pbs = default_spec("pbs"), ensemble.other_flesh = {default_spec("fem")};
     ensemble.k_stretch = {0.2}, ensemble.iterations = {24};
-    EXPECT_GE(expect_each_change_repeats(ensemble), 15);
-    WorkPrecisionCase precision;
-    precision.of = ensemble.of, precision.scene = limb(), precision.frame = 12;
-    precision.range.other_vertices = {600};
-    precision.members = {family().back()}, precision.external = {default_spec("external")};
-    EXPECT_GE(expect_each_change_repeats(precision), 20);
+    EXPECT_GE(expect_each_change_repeats(ensemble), 12);
     ConvergenceCase convergence;
     convergence.scene = limb(), convergence.frames = {{18, "bend_90"}}, convergence.k_stretch = {0.2};
     convergence.settings = {{}}, convergence.other_vertices = {600}, convergence.reference = default_spec("fem");
     EXPECT_GE(expect_each_change_repeats(convergence), 15);
 }
 
+// Its settings are those of a table of three columns, and its methods those of cases.toml and a file of the user's.
+TEST(RecordedSettings, OfAComparison)
+{
+    const ReferencePose pose{"limb_bend_60", {.body = "limb", .motion = "bend", .angle_deg = 60.0}, Stratum::movement, limb(), 12};
+    const ComparisonCase of{
+        .name = "limb", .body = "limb", .clip = "01_01", .poses = {pose}, .settings = {{1.0, "pbs", "pbs.iterations=4"}}};
+    static_assert(member_count<ComparisonCase>() == 8);
+    const test_support::ScratchFolder scratch;
+    const std::string folder = scratch / "run";
+    carry_out(work_run("run", of, 1.0, no_work<ComparisonCase>), folder);
+    const auto is_repeated = [&](const auto& change) {
+        ComparisonCase changed = of;
+        change(changed);
+        return !is_finished(work_run("run", changed, 1.0, no_work<ComparisonCase>), folder);
+    };
+    EXPECT_FALSE(is_repeated([](ComparisonCase&) {}));
+    int changes = 0;
+    test_support::for_each_change(pose, [&](const ReferencePose& changed, const std::string& what) {
+        EXPECT_TRUE(is_repeated([&](ComparisonCase& other) { other.poses[0] = changed; })) << what;
+        ++changes;
+    });
+    EXPECT_GE(changes, 10);
+    using Change = void (*)(ComparisonCase&);
+    for (const Change change : std::vector<Change>{
+             [](ComparisonCase& other) { other.name += "_2"; }, [](ComparisonCase& other) { other.body = "human"; },
+             [](ComparisonCase& other) { other.what = Measured::training; }, [](ComparisonCase& other) { other.clip = "01_03"; },
+             [](ComparisonCase& other) { other.poses.push_back(other.poses[0]); }, [](ComparisonCase& other) { other.rounds = 5; },
+             [](ComparisonCase& other) { other.settings[0].budget_ms = 2.0; },
+             [](ComparisonCase& other) { other.settings[0].method = "xpbd"; },
+             [](ComparisonCase& other) { other.settings[0].setting = "pbs.iterations=8"; },
+             [](ComparisonCase& other) { other.settings.clear(); },
+             [](ComparisonCase& other) { other.external = {ComparedMethod{.external = default_spec("external")}}; }})
+        EXPECT_TRUE(is_repeated(change)) << ++changes;
+    EXPECT_FALSE(is_repeated([](ComparisonCase& other) { other.settings[0].training_ms = 0.5; })) << "a report of the choice";
+}
+
 // Programs and libraries are recorded by their content.
 TEST(RecordedSettings, OfADeformerOfTheUsersOwn)
 {
-    WorkPrecisionCase of;
-    of.scene = limb();
-    EXPECT_TRUE(to_json(of).at("external").empty());
     DeformerSpec spec = default_spec("external");
     spec.options = ExternalOptions{.command = {"python3", "mine.py"}, .file_hashes = {"", "1f"}};
-    of.external = {spec};
     const nlohmann::json recorded = to_json(spec);
-    EXPECT_EQ(to_json(of).at("external"), nlohmann::json::array({recorded}));
+    EXPECT_EQ(to_json(ComparisonCase{.external = {ComparedMethod{.external = spec}}}).at("external"), nlohmann::json::array({recorded}));
     const auto with = [&](void (*change)(ExternalOptions & options)) {
         DeformerSpec other = spec;
         change(options_of<ExternalOptions>(other));

@@ -1,0 +1,454 @@
+// The tables over all poses. Reference: rows that are made here, whose shares, decisions and choices are known by construction, and the
+// formulas evaluated by hand. tests/unit/analysis/statistics/paired_comparison.cpp checks the steps of a decision.
+#include "experiments/studies/work_precision/conclusions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+
+namespace {
+
+using namespace experiments;
+using Decision = analysis::MethodDecision;
+using enum ComparisonTable;
+
+const std::vector<std::string> bodies = {"limb", "human", "man", "lady", "frankie"};
+constexpr int movements = 40, folds = 6;  // poses
+constexpr double rounding = 1e-12;        // relative, of geometric means of at most 40 numbers
+
+// A pose by its number: eight movements of each body, then the folds.
+std::string pose_name(int pose)
+{
+    return (pose < movements ? "movement_" : "fold_") + std::to_string(pose);
+}
+std::string body_of(int pose)
+{
+    return bodies[pose < movements ? pose / 8 : pose % 2];
+}
+
+// The error of LBS [%], different in each pose and for each member.
+double error_of_lbs(int pose, std::size_t member)
+{
+    return (1.0 + static_cast<double>(member)) * (10.0 + 0.1 * pose);
+}
+
+// A method's error over that of LBS; nothing where the member was not reached.
+using Share = std::function<std::optional<double>(int pose, std::size_t member)>;
+Share everywhere(double share)
+{
+    return [=](int, std::size_t) { return share; };
+}
+
+// Rows of all poses, own errors of the references of 0.1 %, and settings whose names are those of their methods.
+struct Rows {
+    std::vector<PointRow> points = {};
+    std::vector<OwnErrorRow> own = {};
+    std::vector<ChosenSetting> settings = {};
+    std::vector<double> times_ms;
+
+    explicit Rows(const std::vector<double>& times_of_settings_ms = {1.0}) : times_ms(times_of_settings_ms)
+    {
+        for (int pose = 0; pose < movements + folds; ++pose)
+            for (const EnsembleMember& member : family())
+                own.push_back({pose_name(pose), body_of(pose), stratum_of(pose), member.name, "reached", 0.1});
+        add("lbs", 0.02, everywhere(1.0));
+    }
+
+    static Stratum stratum_of(int pose) { return pose < movements ? Stratum::movement : Stratum::fold; }
+
+    // With one setting for these times, of which 1 ms is that of a table.
+    void add(const std::string& method, double ms, const Share& share, GivenFlesh flesh = GivenFlesh::none)
+    {
+        add_points(method, "of_" + method, ms, share, flesh);
+        for (const double budget_ms : times_ms) settings.push_back({budget_ms, method, "of_" + method, ms, 1.0});
+    }
+
+    void add_points(const std::string& method, const std::string& setting, double ms, const Share& share, GivenFlesh flesh)
+    {
+        for (int pose = 0; pose < movements + folds; ++pose) {
+            PointRow& row = points.emplace_back(PointRow{.pose = pose_name(pose), .body = body_of(pose), .stratum = stratum_of(pose)});
+            row.method = method, row.flesh = flesh, row.setting = setting, row.outcome = "finished";
+            row.ms = ms, row.times_pbs = 2.0 * ms, row.skin_mm = 3.0;
+            for (std::size_t m = 0; m < members_of_family; ++m)
+                if (const auto of_lbs = share(pose, m)) row.errors[m] = *of_lbs * error_of_lbs(pose, m);
+        }
+    }
+
+    Comparison concluded() const { return experiments::concluded(points, own, settings); }
+};
+
+const MethodRow& method_row(const Comparison& comparison, ComparisonTable table, double budget_ms, const std::string& method)
+{
+    const auto found = std::ranges::find_if(
+        comparison.methods, [&](const MethodRow& row) { return row.table == table && row.budget_ms == budget_ms && row.method == method; });
+    if (found == comparison.methods.end()) throw std::out_of_range(method);
+    return *found;
+}
+
+std::vector<std::string> ranked(const Comparison& comparison, ComparisonTable table, double budget_ms)
+{
+    std::vector<std::string> methods;
+    for (const MethodRow& row : comparison.methods)
+        if (row.table == table && row.budget_ms == budget_ms) methods.push_back(row.method + " " + row.letters);
+    return methods;
+}
+
+Decision decision(const Comparison& comparison, const std::string& first, const std::string& second, ComparisonTable table = known,
+                  const std::string& without_body = "", double budget_ms = 1.0)
+{
+    const auto found = std::ranges::find_if(comparison.decisions, [&](const DecisionRow& row) {
+        return std::tie(row.table, row.budget_ms, row.without_body, row.first, row.second) ==
+               std::tie(table, budget_ms, without_body, first, second);
+    });
+    if (found == comparison.decisions.end()) throw std::out_of_range(first + " and " + second);
+    return found->decision;
+}
+
+// By member, at 1 ms.
+std::map<std::string, MethodPairRow> pairs(const Comparison& comparison, const std::string& first, const std::string& second)
+{
+    std::map<std::string, MethodPairRow> of_member;
+    for (const MethodPairRow& row : comparison.pairs)
+        if (row.table == known && row.budget_ms == 1.0 && row.first == first && row.second == second) of_member[row.member] = row;
+    return of_member;
+}
+
+// Flesh of each reference leaves 10 to 17 % of LBS's error, flesh of the first member 10 % against it and 90 % against all others.
+Rows four_methods(const std::vector<double>& times_ms = {1.0})
+{
+    Rows rows(times_ms);
+    rows.add("delta_mush", 0.05, everywhere(0.6));
+    rows.add("pbs", 0.3, everywhere(0.5));
+    rows.add(
+        "quasi_newton", 0.6, [](int, std::size_t m) { return 0.1 + 0.01 * static_cast<double>(m); }, GivenFlesh::own);
+    rows.add_points(
+        "quasi_newton", "of_quasi_newton", 0.6, [](int, std::size_t m) { return m == 0 ? 0.1 : 0.9; }, GivenFlesh::standard);
+    return rows;
+}
+
+const Comparison& comparison_of_four()
+{
+    static const Comparison comparison = four_methods(comparison_times().tables_ms).concluded();
+    return comparison;
+}
+
+TEST(Conclusions, RankMethodsByTheirShareOfTheErrorOfLbs)
+{
+    const Comparison& comparison = comparison_of_four();
+    const MethodRow& newton = method_row(comparison, known, 1.0, "quasi_newton");
+    EXPECT_NEAR(newton.share, 0.135, rounding) << "the median over the members";
+    EXPECT_NEAR(newton.share_low, 0.10, rounding);
+    EXPECT_NEAR(newton.share_high, 0.17, rounding);
+    EXPECT_EQ(newton.poses, movements);
+    EXPECT_EQ(newton.takes, (std::vector<std::string>{"material", "attachment", "start"}));
+    EXPECT_EQ(newton.setting, "of_quasi_newton");
+    EXPECT_EQ(newton.ms, 0.6);
+    EXPECT_EQ(newton.times_pbs, 1.2);
+    EXPECT_EQ(newton.skin_mm, 3.0);
+    EXPECT_NEAR(method_row(comparison, known, 1.0, "lbs").share, 1.0, rounding);
+    EXPECT_EQ(ranked(comparison, known, 1.0), (std::vector<std::string>{"quasi_newton a", "pbs b", "delta_mush c", "lbs d"}));
+    // Of a guess, the median is 0.9. The pairs with PBS and delta mush depend on the member, so that their letters are shared.
+    EXPECT_NEAR(method_row(comparison, guessed, 1.0, "quasi_newton").share, 0.9, rounding);
+    EXPECT_EQ(ranked(comparison, guessed, 1.0), (std::vector<std::string>{"pbs a", "delta_mush b", "quasi_newton ab", "lbs c"}));
+}
+
+TEST(Conclusions, DecidePairsByWhatEachMethodIsGiven)
+{
+    const Comparison& comparison = comparison_of_four();
+    EXPECT_EQ(decision(comparison, "lbs", "pbs"), Decision::second_is_nearer);
+    EXPECT_EQ(decision(comparison, "pbs", "quasi_newton"), Decision::second_is_nearer);
+    EXPECT_EQ(decision(comparison, "pbs", "quasi_newton", guessed), Decision::depends);
+    EXPECT_EQ(decision(comparison, "lbs", "quasi_newton", guessed), Decision::second_is_nearer);
+    const auto of_member = pairs(comparison, "lbs", "pbs");
+    ASSERT_EQ(of_member.size(), members_of_family);
+    for (const auto& [member, row] : of_member) {
+        EXPECT_EQ(std::tuple(row.wins, row.ties, row.losses), std::tuple(0, 0, movements)) << member;
+        EXPECT_NEAR(row.p, std::exp2(1 - movements), 1e-9 * row.p);
+        EXPECT_NEAR(row.p_holm, 6.0 * row.p, 1e-9 * row.p) << "of six pairs, all of which are as clear";
+        for (const double ratio : {row.ratio, row.ratio_low, row.ratio_high}) EXPECT_NEAR(ratio, 0.5, rounding);
+    }
+}
+
+TEST(Conclusions, HaveTheRowsThatTheyCompareInTheirTable)
+{
+    const Comparison& comparison = comparison_of_four();
+    std::map<std::tuple<ComparisonTable, double, std::string>, int> rows;
+    for (const ComparedRow& row : comparison.errors) {
+        ++rows[{row.table, row.budget_ms, row.point.method}];
+        const GivenFlesh flesh = row.table == known ? GivenFlesh::own : GivenFlesh::standard;
+        EXPECT_EQ(row.point.flesh, row.point.method == "quasi_newton" ? flesh : GivenFlesh::none);
+    }
+    EXPECT_EQ(rows.size(), 2 * comparison_times().tables_ms.size() * 4);
+    for (const auto& [key, count] : rows) EXPECT_EQ(count, movements + folds) << std::get<2>(key);
+}
+
+// Twice the time of a setting on this machine is within the budget, only its time is, or not even that.
+TEST(Conclusions, StateWhetherTheTimeIsKept)
+{
+    const Comparison& comparison = comparison_of_four();
+    const auto within = [&](double budget_ms, const char* name) { return method_row(comparison, known, budget_ms, name).within; };
+    EXPECT_EQ(within(10.0, "quasi_newton"), "doubled");
+    EXPECT_EQ(within(1.0, "quasi_newton"), "once");
+    EXPECT_EQ(within(0.1, "quasi_newton"), "no");
+    EXPECT_EQ(within(0.1, "delta_mush"), "doubled") << "equal";
+}
+
+TEST(Conclusions, AreTiesWhereTheDifferenceIsNotAboveTheReferencesOwnError)
+{
+    Rows rows = four_methods();
+    for (OwnErrorRow& row : rows.own)
+        if (row.pose == pose_name(0) && row.member == "smooth") row.own_error_pct = 0.5 * error_of_lbs(0, 0);  // LBS's error minus PBS's
+    const auto of_member = pairs(rows.concluded(), "lbs", "pbs");
+    EXPECT_EQ(of_member.at("smooth").ties, 1);
+    EXPECT_EQ(of_member.at("smooth").losses, movements - 1);
+    EXPECT_EQ(of_member.at("nu_0.3").ties, 0);
+}
+
+// On one member PBS is farther than LBS.
+TEST(Conclusions, AreNotChangedByAMemberWithoutAnOwnError)
+{
+    constexpr std::size_t other = 4;
+    const std::string name = family()[other].name;
+    Rows rows;
+    rows.add("pbs", 0.3, [](int, std::size_t m) { return m == other ? 2.0 : 0.5; });
+    EXPECT_EQ(decision(rows.concluded(), "lbs", "pbs"), Decision::depends);
+    for (OwnErrorRow& row : rows.own)
+        if (row.member == name) row.own_error_pct.reset();
+    const Comparison unknown = rows.concluded();
+    EXPECT_EQ(decision(unknown, "lbs", "pbs"), Decision::second_is_nearer);
+    EXPECT_EQ(pairs(unknown, "lbs", "pbs").size(), members_of_family - 1);
+    std::erase_if(rows.own, [&](const OwnErrorRow& row) { return row.member == name; });
+    EXPECT_EQ(decision(rows.concluded(), "lbs", "pbs"), Decision::second_is_nearer) << "without rows";
+}
+
+TEST(Conclusions, SkipPosesInWhichAMemberWasNotReached)
+{
+    Rows rows;
+    rows.add("pbs", 0.3, [](int pose, std::size_t m) { return pose < 3 && m == 6 ? std::nullopt : std::optional(0.5); });
+    const auto of_member = pairs(rows.concluded(), "lbs", "pbs");
+    EXPECT_EQ(of_member.at("rigid_capsules").losses, movements - 3);
+    EXPECT_EQ(of_member.at("smooth").losses, movements);
+    EXPECT_NEAR(method_row(rows.concluded(), known, 1.0, "pbs").share_high, 0.5, rounding);
+}
+
+// Two methods leave 40 and 80 % of the error. Their labels are exchanged in some of the poses.
+Rows with_exchanged_labels(const std::function<bool(int pose)>& is_exchanged)
+{
+    Rows rows;
+    rows.add("delta_mush", 0.05, [&](int pose, std::size_t) { return is_exchanged(pose) ? 0.8 : 0.4; });
+    rows.add("pbs", 0.3, [&](int pose, std::size_t) { return is_exchanged(pose) ? 0.4 : 0.8; });
+    return rows;
+}
+
+TEST(Attacks, ExchangedLabelsReverseTheAnswerOrLeaveItOpen)
+{
+    const auto answer = [](const std::function<bool(int)>& is_exchanged) {
+        return decision(with_exchanged_labels(is_exchanged).concluded(), "delta_mush", "pbs");
+    };
+    EXPECT_EQ(answer([](int) { return false; }), Decision::first_is_nearer);
+    EXPECT_EQ(answer([](int) { return true; }), Decision::second_is_nearer);
+    EXPECT_EQ(answer([](int pose) { return pose % 2 == 0; }), Decision::open);
+    EXPECT_EQ(answer([](int pose) { return pose >= movements; }), Decision::first_is_nearer) << "folds decide nothing";
+    const Comparison open = with_exchanged_labels([](int pose) { return pose % 2 == 0; }).concluded();
+    EXPECT_EQ(method_row(open, known, 1.0, "pbs").letters, method_row(open, known, 1.0, "delta_mush").letters);
+}
+
+// PBS is nearer on three bodies and farther on two. 24 to 16 of the poses are no difference, and 24 to 8 have p = 0.007, of one pair.
+TEST(Conclusions, AreDrawnAgainWithoutEachBody)
+{
+    Rows rows;
+    rows.add("pbs", 0.3, [](int pose, std::size_t) { return pose < 24 ? 0.5 : 2.0; });
+    const Comparison comparison = rows.concluded();
+    EXPECT_EQ(decision(comparison, "lbs", "pbs"), Decision::open);
+    for (const char* body : {"limb", "human", "man"}) EXPECT_EQ(decision(comparison, "lbs", "pbs", known, body), Decision::open) << body;
+    for (const char* body : {"lady", "frankie"})
+        EXPECT_EQ(decision(comparison, "lbs", "pbs", known, body), Decision::second_is_nearer) << body;
+    std::set<std::string> excluded;
+    for (const DecisionRow& row : comparison.decisions) excluded.insert(row.without_body);
+    EXPECT_EQ(excluded, (std::set<std::string>{"", "limb", "human", "man", "lady", "frankie"}));
+}
+
+TEST(Conclusions, HaveFoldsInSharesOfTheirOwn)
+{
+    Rows rows;
+    rows.add("pbs", 0.3, [](int pose, std::size_t m) { return pose < movements ? 0.5 : 2.0 + 0.1 * static_cast<double>(m); });
+    for (PointRow& row : rows.points) row.inverted = row.method == "pbs" && (row.pose == pose_name(1) || row.pose == pose_name(41)) ? 7 : 0;
+    const Comparison comparison = rows.concluded();
+    const MethodRow& pbs = method_row(comparison, known, 1.0, "pbs");
+    EXPECT_NEAR(pbs.share, 0.5, rounding);
+    EXPECT_NEAR(pbs.fold_share.value(), 2.35, 10.0 * rounding);
+    EXPECT_NEAR(pbs.fold_low.value(), 2.0, 10.0 * rounding);
+    EXPECT_NEAR(pbs.fold_high.value(), 2.7, 10.0 * rounding);
+    EXPECT_EQ(pbs.inverted_poses, 2);
+    EXPECT_EQ(decision(comparison, "lbs", "pbs"), Decision::second_is_nearer);
+    std::erase_if(rows.points, [](const PointRow& row) { return row.stratum == Stratum::fold; });
+    EXPECT_FALSE(method_row(rows.concluded(), known, 1.0, "pbs").fold_share);
+}
+
+// It has no setting, and no time before it is measured.
+TEST(Conclusions, HaveAMethodOfTheUsersOwnWithinTimesThatItKeeps)
+{
+    Rows rows = four_methods(comparison_times().budgets_ms);
+    rows.add_points("mine", "", 0.5, everywhere(0.2), GivenFlesh::none);
+    const Comparison comparison = rows.concluded();
+    std::set<double> tables, curves;
+    for (const MethodRow& row : comparison.methods)
+        if (row.method == "mine") {
+            tables.insert(row.budget_ms);
+            EXPECT_NEAR(row.share, 0.2, rounding);
+            EXPECT_TRUE(row.takes.empty());
+        }
+    for (const MethodCurveRow& row : comparison.curves)
+        if (row.method == "mine") curves.insert(row.budget_ms);
+    EXPECT_EQ(tables, (std::set<double>{1.0, 10.0}));
+    EXPECT_EQ(curves, (std::set<double>{0.5, 1.0, 2.0, 5.0, 10.0}));
+    EXPECT_EQ(decision(comparison, "pbs", "mine"), Decision::second_is_nearer);
+    EXPECT_EQ(decision(comparison, "quasi_newton", "mine"), Decision::first_is_nearer);
+    EXPECT_EQ(decision(comparison, "quasi_newton", "mine", guessed), Decision::depends);
+}
+
+TEST(Conclusions, HaveACurveOverAllTimes)
+{
+    Rows rows(comparison_times().budgets_ms);
+    rows.add("pbs", 0.3, everywhere(0.5));
+    rows.add_points("pbs", "in_haste", 0.04, everywhere(0.8), GivenFlesh::none);
+    for (ChosenSetting& chosen : rows.settings)
+        if (chosen.method == "pbs" && chosen.budget_ms < 0.5) chosen.setting = "in_haste";
+    std::vector<std::tuple<double, std::string, double>> curve;
+    for (const MethodCurveRow& row : rows.concluded().curves)
+        if (row.table == known && row.method == "pbs") {
+            EXPECT_NEAR(row.share, row.setting == "in_haste" ? 0.8 : 0.5, rounding);
+            curve.emplace_back(row.budget_ms, row.setting, row.ms);
+        }
+    ASSERT_EQ(curve.size(), comparison_times().budgets_ms.size());
+    for (std::size_t i = 0; i < curve.size(); ++i)
+        EXPECT_EQ(curve[i], i < 3 ? std::tuple(comparison_times().budgets_ms[i], std::string("in_haste"), 0.04)
+                                  : std::tuple(comparison_times().budgets_ms[i], std::string("of_pbs"), 0.3));
+}
+
+// In ten of the 40 poses PBS leaves 30 % of the error and in the others 45 %; on one member it leaves 60 % everywhere, and on another one
+// half of the poses has no reference.
+TEST(Profiles, AreSharesOfSolvedPosesInTheMeanOverTheMembers)
+{
+    Rows rows;
+    const auto is_reached = [](int pose, std::size_t m) { return m != 6 || pose % 2 == 0; };
+    rows.add("pbs", 0.3, [&](int pose, std::size_t m) -> std::optional<double> {
+        if (!is_reached(pose, m)) return {};
+        return m == 2 ? 0.6 : pose < 10 ? 0.3 : 0.45;
+    });
+    for (PointRow& row : rows.points)
+        for (int pose = 0; pose < movements; ++pose)
+            if (row.pose == pose_name(pose) && !is_reached(pose, 6)) row.errors[6].reset();
+    std::map<double, double> solved_pct;  // by target, at 1 ms
+    for (const SolvedRow& row : rows.concluded().profiles)
+        if (row.table == known && row.method == "pbs" && row.budget_ms == 1.0) solved_pct[row.target_pct] = row.solved_pct;
+    ASSERT_EQ(solved_pct.size(), 3u);
+    EXPECT_EQ(solved_pct.at(20.0), 0.0);
+    EXPECT_DOUBLE_EQ(solved_pct.at(35.0), 7.0 * 25.0 / 8.0) << "five of the twenty poses with rigid capsules are a quarter, too";
+    EXPECT_DOUBLE_EQ(solved_pct.at(50.0), 7.0 * 100.0 / 8.0);
+}
+
+// Of three poses with another start. PBS leaves half of LBS's error in these and 90 % in the others.
+TEST(OtherStarts, AreComparedInTheirOwnPosesAgainstTheFirstMember)
+{
+    Rows rows;
+    rows.add("pbs", 0.3, [](int pose, std::size_t) { return pose < 3 ? 0.5 : 0.9; });
+    rows.add_points(
+        "pbs_from_the_initial_guess", "of_pbs", 0.3, [](int, std::size_t m) { return m == 0 ? std::optional(0.4) : std::nullopt; },
+        GivenFlesh::start);
+    std::erase_if(rows.points, [](const PointRow& row) {
+        return row.flesh == GivenFlesh::start && row.pose != pose_name(0) && row.pose != pose_name(1) && row.pose != pose_name(2);
+    });
+    const Comparison comparison = rows.concluded();
+    ASSERT_EQ(comparison.starts.size(), 1u);
+    const OtherStartRow& row = comparison.starts.front();
+    EXPECT_EQ(std::tie(row.budget_ms, row.method, row.of, row.poses),
+              std::tuple(1.0, std::string("pbs_from_the_initial_guess"), std::string("pbs"), 3));
+    EXPECT_NEAR(row.share, 0.4, rounding);
+    EXPECT_NEAR(row.share_of_setting, 0.5, rounding);
+    EXPECT_EQ(ranked(comparison, known, 1.0), (std::vector<std::string>{"pbs a", "lbs b"})) << "a start has no row of its own";
+}
+
+// By hand: geometric means sqrt(0.5 0.5) and sqrt(0.25 0.5) over the two frames.
+TEST(Motion, HasTheSharesOfTheColdAndThePlayedFrames)
+{
+    std::vector<PlayedRow> played;
+    const auto add = [&](const char* pose, const char* method, FrameGuess start, double error_pct, double skin_mm, double ms) {
+        played.push_back({pose, "01_01", method, std::string("of_") + method, start, "smooth", ms, error_pct, skin_mm});
+    };
+    for (const auto& [pose, error_pct] : {std::pair("one", 10.0), {"two", 20.0}})
+        for (const FrameGuess start : {FrameGuess::cold, FrameGuess::frame_before}) add(pose, "lbs", start, error_pct, 8.0, 0.02);
+    add("one", "pbs", FrameGuess::cold, 5.0, 3.0, 0.2);
+    add("two", "pbs", FrameGuess::cold, 10.0, 5.0, 0.2);
+    add("one", "pbs", FrameGuess::frame_before, 2.5, 1.0, 0.3);
+    add("two", "pbs", FrameGuess::frame_before, 10.0, 3.0, 0.5);
+    const std::vector<ChosenSetting> settings = {
+        {1.0, "lbs", "of_lbs"}, {0.5, "pbs", "of_pbs"}, {1.0, "pbs", "of_pbs"}, {10.0, "pbs", "other"}};
+    const std::vector<MotionRow> rows = concluded(played, settings);
+    ASSERT_EQ(rows.size(), 2u) << "of the times of the tables, and of settings that were played";
+    const MotionRow& pbs = *std::ranges::find(rows, "pbs", &MotionRow::method);
+    EXPECT_EQ(std::tie(pbs.clip, pbs.budget_ms, pbs.setting, pbs.member, pbs.frames),
+              std::tuple(std::string("01_01"), 1.0, std::string("of_pbs"), std::string("smooth"), 2));
+    EXPECT_NEAR(pbs.cold_share, 0.5, rounding);
+    EXPECT_NEAR(pbs.played_share, std::sqrt(0.125), rounding);
+    EXPECT_EQ(pbs.cold_skin_mm, 4.0);
+    EXPECT_EQ(pbs.played_skin_mm, 2.0);
+    EXPECT_EQ(pbs.ms, 0.4) << "the median of 0.3 and 0.5";
+}
+
+// Settings of PBS in two training poses.
+std::vector<PointRow> trained(const std::string& setting, double ms, const std::vector<std::optional<double>>& errors_pct)
+{
+    std::vector<PointRow> rows;
+    for (std::size_t pose = 0; pose < errors_pct.size(); ++pose) {
+        PointRow& row =
+            rows.emplace_back(PointRow{.pose = "training_" + std::to_string(pose), .stratum = Stratum::training, .method = "pbs"});
+        row.setting = setting;
+        row.outcome = errors_pct[pose] ? "finished" : "not_finite";
+        row.ms = pose == 0 ? 0.5 * ms : 1.5 * ms;  // the mean counts
+        row.errors[0] = row.errors[6] = errors_pct[pose];
+    }
+    return rows;
+}
+
+std::map<double, ChosenSetting> chosen_from(const std::vector<std::vector<PointRow>>& tables)
+{
+    std::vector<PointRow> training;
+    for (const auto& rows : tables) training.insert(training.end(), rows.begin(), rows.end());
+    std::map<double, ChosenSetting> chosen;
+    for (const ChosenSetting& one : chosen_settings(training)) {
+        EXPECT_EQ(one.method, "pbs");
+        chosen[one.budget_ms] = one;
+    }
+    return chosen;
+}
+
+// The geometric means are 8, 6, 4 and 3; the arithmetic mean of the third, 8.5, is above that of the second.
+TEST(ChosenSettings, HaveTheLeastGeometricMeanErrorWithinEachTime)
+{
+    const auto chosen = chosen_from({trained("quick", 0.08, {8.0, 8.0}), trained("slow", 0.5, {6.0, 6.0}),
+                                     trained("uneven", 0.4, {1.0, 16.0}), trained("long", 12.0, {3.0, 3.0})});
+    std::map<double, std::string> settings;
+    for (const auto& [budget_ms, one] : chosen) settings[budget_ms] = one.setting;
+    EXPECT_EQ(settings,
+              (std::map<double, std::string>{
+                  {0.1, "quick"}, {0.2, "quick"}, {0.5, "uneven"}, {1.0, "uneven"}, {2.0, "uneven"}, {5.0, "uneven"}, {10.0, "uneven"}}));
+    EXPECT_NEAR(chosen.at(1.0).training_error_pct, 4.0, 10.0 * rounding);
+    EXPECT_NEAR(chosen.at(1.0).training_ms, 0.4, rounding);
+}
+
+TEST(ChosenSettings, AreFiniteInAllPosesOfAllBodies)
+{
+    const std::vector<PointRow> sound = trained("sound", 0.3, {8.0, 8.0});
+    EXPECT_EQ(chosen_from({sound, trained("of_one_body", 0.3, {2.0})}).at(1.0).setting, "sound") << "a ladder that ended early on one body";
+    EXPECT_EQ(chosen_from({sound, trained("diverging", 0.3, {2.0, std::nullopt})}).at(1.0).setting, "sound");
+    EXPECT_EQ(chosen_from({sound, trained("better", 0.3, {2.0, 7.0})}).at(1.0).setting, "better");
+}
+
+}  // namespace

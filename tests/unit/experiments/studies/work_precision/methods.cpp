@@ -1,0 +1,472 @@
+// The table of compared methods. Reference: the registered kinds and their options, and the members of the family as the study's page lists
+// them. The file with deformers of the user's own: what is read, and each wrong input with its file, line, field, value and rule.
+#include "experiments/studies/work_precision/methods.hpp"
+
+#include "experiments/deformers/deformer_options.hpp"
+#include "experiments/deformers/external/external_deformers.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/deformers/registry.hpp"
+#include "experiments/studies/study.hpp"
+#include "pbs/solver/constraint_set.hpp"
+#include "pbs/solver/options.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <set>
+
+namespace {
+
+using namespace experiments;
+using nlohmann::json;
+
+const std::set<std::string> minimisers = {"quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics"};
+
+const ComparedMethod& method(const std::string& name)
+{
+    return *std::ranges::find(methods(), name, &ComparedMethod::name);
+}
+
+// The tables of this name in cases.toml of a study.
+json listed(const std::string& study, const std::string& tables)
+{
+    return cases_document(study).at(tables);
+}
+
+const Scene& twist()
+{
+    static const Scene scene = read_scene("limb_twist", {"character.vertices=300", "motion.angle_deg=60", "motion.frames=2"});
+    return scene;
+}
+
+const pbs::Character& limb()
+{
+    static const pbs::Character character = pbs::make_character(twist().character);
+    return character;
+}
+
+DeformerSpec spec(const std::string& name, const KeyValues& keys = {}, const EnsembleMember& member = family().front())
+{
+    return spec_of({&method(name), keys}, twist(), limb(), member);
+}
+
+json options(const std::string& name, const KeyValues& keys = {}, const EnsembleMember& member = family().front())
+{
+    return to_json(spec(name, keys, member)).at("options");
+}
+
+TEST(Methods, AreDeclaredOnceForKindsThatThisProgramHas)
+{
+    std::set<std::string> names;
+    for (const ComparedMethod& one : methods()) {
+        EXPECT_TRUE(names.insert(one.name).second) << one.name;
+        EXPECT_NE(find_deformer_kind(one.kind), nullptr) << one.name;
+        EXPECT_EQ(one.iterations.empty(), one.iterations_key.empty()) << one.name;
+        EXPECT_TRUE(std::ranges::is_sorted(one.iterations)) << one.name;
+        EXPECT_FALSE(one.grid.empty()) << one.name;
+        EXPECT_FALSE(one.tables.empty()) << one.name;
+        for (const std::string& table : one.tables) EXPECT_TRUE(table == "known" || table == "guessed") << one.name;
+    }
+    for (const json& table : listed("work_precision", "method"))
+        EXPECT_EQ(names.contains(table.at("name")), find_deformer_kind(table.at("kind")) != nullptr) << table.at("name");
+    for (const char* name : {"lbs", "dqs", "delta_mush", "direct_delta_mush", "pbs", "xpbd"}) EXPECT_TRUE(names.contains(name)) << name;
+}
+
+// A pose of the limb that is twisted by 60 degrees.
+TEST(Methods, DeformTheLimb)
+{
+    const pbs::Motion motion = make_motion(twist().motion, limb().skeleton, "");
+    for (const ComparedMethod& one : methods()) {
+        SCOPED_TRACE(one.name);
+        const Setting setting = tried_settings(one, one.grid.front()).front();
+        const std::unique_ptr<Deformer> deformer = make_deformer(spec_of(setting, twist(), limb(), family().front()));
+        deformer->reset(limb());
+        EXPECT_EQ(deformer->advance(motion.steps.back(), motion.time_step_s).outcome, pbs::Outcome::finished);
+        EXPECT_TRUE(deformer->positions().allFinite());
+        EXPECT_GT((deformer->positions() - limb().mesh.rest).rowwise().norm().maxCoeff(), 0.01);
+    }
+}
+
+// A key without an effect would make two settings the same.
+TEST(Methods, TryEachSettingOnceInSinglePrecisionAndOnOneThread)
+{
+    for (const ComparedMethod& one : methods()) {
+        SCOPED_TRACE(one.name);
+        std::set<std::string> tried;
+        for (const KeyValues& of_grid : one.grid)
+            for (const Setting& setting : tried_settings(one, of_grid)) {
+                const DeformerSpec made = spec_of(setting, twist(), limb(), family().front());
+                EXPECT_TRUE(tried.insert(to_json(made).dump()).second) << setting.text();
+                EXPECT_EQ(made.label, one.name);
+                EXPECT_EQ(made.threads, 1);
+                const DeformerTraits traits = traits_of(made);
+                EXPECT_TRUE(one.kind == "pbs_author" || traits.precision == "f32") << setting.text();
+                EXPECT_TRUE(one.kind == "pbs_author" || made.kind == "xpbd_small_steps" || traits.packed) << setting.text();
+                if (traits.iterations && made.kind != "xpbd_small_steps") {
+                    const std::string iterations = one.iterations_key + "=" + std::to_string(*traits.iterations);
+                    EXPECT_EQ(std::ranges::count(setting.keys, iterations), 1) << setting.text();
+                }
+            }
+        EXPECT_EQ(tried.size(), one.grid.size() * std::max<std::size_t>(one.iterations.size(), 1));
+    }
+}
+
+TEST(Settings, AreTriedByIncreasingIterationsAndReadFromTheirText)
+{
+    const std::vector<Setting> settings = tried_settings(method("xpbd"), {"young_factor=4", "kind=xpbd_small_steps"});
+    ASSERT_EQ(settings.size(), 9u);
+    EXPECT_EQ(settings[0].text(), "pbs.iterations=1 young_factor=4 kind=xpbd_small_steps");
+    EXPECT_EQ(settings[8].text(), "pbs.iterations=192 young_factor=4 kind=xpbd_small_steps");
+    EXPECT_EQ(keys_in(settings[8].text()), settings[8].keys);
+    EXPECT_EQ(tried_settings(method("lbs"), {}).size(), 1u);
+    EXPECT_EQ(tried_settings(method("lbs"), {})[0].text(), "");
+    EXPECT_TRUE(keys_in("").empty());
+}
+
+TEST(Settings, OfListedDeformersReachThemInEachScene)
+{
+    for (const BuiltInScene& scene : built_in_scenes())
+        for (const char* name : {"lbs", "dqs"}) {
+            const DeformerTraits traits = traits_of(spec_of({&method(name), {}}, read_scene(scene.name, {}), limb(), family().front()));
+            EXPECT_EQ(traits.precision, "f32") << scene.name;
+            EXPECT_TRUE(traits.packed) << scene.name;
+        }
+}
+
+struct Flesh {
+    std::string attachment;
+    double spring_factor, core_radius, poisson;
+};
+
+// As README.md of the references lists them.
+const std::map<std::string, Flesh> flesh_of_members = {{"smooth", {"smooth", 10.0, 0.7, 0.45}},
+                                                       {"stiffer_springs", {"smooth", 100.0, 0.7, 0.45}},
+                                                       {"thinner_bones", {"smooth", 10.0, 0.5, 0.45}},
+                                                       {"stiffer_springs_thinner_bones", {"smooth", 100.0, 0.5, 0.45}},
+                                                       {"nu_0.3", {"smooth", 10.0, 0.7, 0.3}},
+                                                       {"nu_0.49", {"smooth", 10.0, 0.7, 0.49}},
+                                                       {"rigid_capsules", {"embedded", 1e4, 0.35, 0.45}},
+                                                       {"held_parts", {"held", 10.0, 0.7, 0.45}}};
+
+TEST(FleshOfAMember, ReachesTheOptionsOfThoseThatTakeIt)
+{
+    ASSERT_EQ(family().size(), flesh_of_members.size());
+    for (const EnsembleMember& member : family()) {
+        const Flesh& flesh = flesh_of_members.at(member.name);
+        for (const std::string& name : minimisers) {
+            SCOPED_TRACE(name + " with " + member.name);
+            const json given = options(name, {}, member);
+            EXPECT_EQ(given.at("attachment"), flesh.attachment);
+            EXPECT_EQ(given.at("spring_factor"), flesh.spring_factor);
+            EXPECT_EQ(given.at("core_radius"), flesh.core_radius);
+            EXPECT_EQ(given.at("poisson"), flesh.poisson);
+            EXPECT_EQ(given.at("start"), "smooth_dqs");
+        }
+        const json xpbd = options("xpbd", {}, member);
+        EXPECT_EQ(xpbd.at("poisson"), flesh.poisson);
+        EXPECT_EQ(xpbd.at("young_pa"), 1e5) << "that of the scenes' finite elements";
+    }
+}
+
+// Reference: the options that exist. Flesh changes the spec of a method if and only if the table states that it takes some.
+TEST(FleshOfAMember, IsTakenByThoseThatStateIt)
+{
+    for (const ComparedMethod& one : methods()) {
+        SCOPED_TRACE(one.name);
+        const json given = options(one.name);
+        const std::vector<std::string> all = {"material", "attachment", "start"};
+        const bool has_springs = given.contains("spring_factor"), is_elastic = has_springs || given.contains("young_pa");
+        EXPECT_EQ(one.takes, has_springs ? all : is_elastic ? std::vector<std::string>{"material"} : std::vector<std::string>{});
+        EXPECT_EQ(one.takes_flesh(), is_elastic);
+        EXPECT_EQ(minimisers.contains(one.name), has_springs);
+        EXPECT_EQ(options(one.name, {}, family()[4]) != given, is_elastic) << "another Poisson's ratio";
+    }
+}
+
+TEST(Settings, OfXpbdMultiplyYoungsModulusAndTakeAnotherDeformer)
+{
+    const DeformerSpec stiff = spec("xpbd", {"pbs.iterations=4", "young_factor=16"});
+    EXPECT_EQ(stiff.kind, "xpbd");
+    EXPECT_EQ(options_of<pbs::XpbdOptions>(stiff).young_pa, 16e5);
+    EXPECT_EQ(options_of<pbs::XpbdOptions>(stiff).iterations, 4);
+    const DeformerSpec small_steps = spec("xpbd", {"pbs.iterations=8", "kind=xpbd_small_steps", "young_factor=256"}, family()[4]);
+    EXPECT_EQ(small_steps.kind, "xpbd_small_steps");
+    EXPECT_EQ(small_steps.name, "xpbd");
+    EXPECT_EQ(options_of<pbs::XpbdOptions>(small_steps).young_pa, 256e5);
+    EXPECT_EQ(options_of<pbs::XpbdOptions>(small_steps).poisson, 0.3);
+    EXPECT_EQ(options_of<pbs::XpbdOptions>(small_steps).substeps * options_of<pbs::XpbdOptions>(small_steps).iterations, 8);
+}
+
+TEST(Settings, OfWeightsAreThoseOfTheDeformer)
+{
+    EXPECT_FALSE(spec("lbs").weights);
+    EXPECT_EQ(spec("lbs", {"skinning.weights=diffused"}).weights, pbs::WeightKind::diffused);
+    EXPECT_EQ(spec("dqs", {"skinning.weights=smooth"}).weights, pbs::WeightKind::smooth);
+    EXPECT_EQ(spec("delta_mush", {"delta_mush.weights=diffused"}).weights, pbs::WeightKind::diffused);
+    EXPECT_EQ(spec("pbs_smooth_weights").weights, pbs::WeightKind::smooth);
+}
+
+TEST(Settings, LaterValuesOfAKeyAreTheOnesThatCount)
+{
+    EXPECT_EQ(options_of<pbs::PbsOptions>(spec("pbs", {"pbs.k_bind=0.5", "pbs.k_bind=0.25"})).k_bind, 0.25);
+    EXPECT_EQ(options_of<pbs::PbsOptions>(spec("pbs")).precision, pbs::Precision::f32);
+    EXPECT_EQ(options_of<pbs::PbsOptions>(spec("pbs", {"pbs.precision=f64"})).precision, pbs::Precision::f64) << "over the method's own";
+    EXPECT_EQ(options("vbd", {"vbd.poisson=0.2"}).at("poisson"), 0.2) << "over the flesh";
+}
+
+TEST(OtherStarts, ChangeTheSettingOfAMethodWhateverTheFleshIs)
+{
+    ASSERT_EQ(other_starts().size(), listed("work_precision", "start").size());
+    std::set<std::string> names;
+    for (const OtherStart& start : other_starts()) {
+        SCOPED_TRACE(start.name);
+        EXPECT_TRUE(names.insert(start.name).second);
+        EXPECT_EQ(std::ranges::count(methods(), start.name, &ComparedMethod::name), 0) << "rows are told apart by their method";
+        const ComparedMethod& of = method(start.of);
+        KeyValues keys = tried_settings(of, of.grid.front()).back().keys;
+        for (const EnsembleMember& member : {family().front(), family()[6]}) {
+            const json from = options(start.of, keys, member);
+            KeyValues changed = keys;
+            changed.insert(changed.end(), start.overrides.begin(), start.overrides.end());
+            const json made = options(start.of, changed, member);
+            if (start.name.ends_with("_of_wrong_material")) {
+                EXPECT_EQ(json({made.at("spring_factor"), made.at("core_radius"), made.at("poisson")}), json({100.0, 0.5, 0.3}));
+                EXPECT_EQ(made.at("start"), from.at("start"));
+            } else if (start.name == "initial_guess_alone") {
+                EXPECT_EQ(made.at("iterations"), 0);
+            } else {
+                EXPECT_EQ(made.at("start"), start.name.ends_with("_from_lbs") ? "lbs" : "smooth_dqs");
+            }
+            EXPECT_NE(made, from);
+        }
+    }
+    for (const std::string& name : minimisers)
+        for (const char* change : {"_from_lbs", "_of_wrong_material"}) EXPECT_TRUE(names.contains(name + change)) << name << change;
+}
+
+std::set<std::string> changed_fields(const DeformerSpec& changed, const DeformerSpec& from)
+{
+    const json ours = to_json(changed).at("options"), scene = to_json(from).at("options");
+    std::set<std::string> fields;
+    for (const auto& [name, value] : ours.items())
+        if (value != scene.at(name)) fields.insert(name);
+    return fields;
+}
+
+// Reference: the options of PBS; a change differs from it in what its name says and in nothing else.
+TEST(ChangesToPbs, ChangeOneThingAtATime)
+{
+    const std::map<std::string, std::set<std::string>> allowed = {{"pbs_smooth_weights", {}},
+                                                                  {"pbs_bound_to_blended_position", {"bind_to", "k_bind"}},
+                                                                  {"pbs_region_volumes", {"volume_of", "region_tets"}},
+                                                                  {"pbs_k_by_edge_length", {"k_stretch_length_m"}}};
+    const DeformerSpec from = spec("pbs");
+    for (const auto& [name, fields] : allowed) {
+        SCOPED_TRACE(name);
+        for (const KeyValues& of_grid : method(name).grid) {
+            const DeformerSpec changed = spec(name, of_grid);
+            const std::set<std::string> found = changed_fields(changed, from);
+            EXPECT_TRUE(std::ranges::includes(fields, found));
+            EXPECT_EQ(found.empty(), fields.empty());
+            EXPECT_EQ(changed.weights.has_value(), name == "pbs_smooth_weights");
+            EXPECT_EQ(options_of<pbs::PbsOptions>(changed).k_stretch_length_m > 0.0, name == "pbs_k_by_edge_length");
+        }
+        EXPECT_FALSE(method(name).is_in("known"));
+    }
+    for (const ComparedMethod& one : methods())
+        if (one.kind == "pbs") {
+            EXPECT_TRUE(one.name == "pbs" || allowed.contains(one.name)) << one.name;
+            EXPECT_FALSE(options_of<pbs::PbsOptions>(spec(one.name)).jiggle) << one.name;
+        }
+}
+
+// The edges of the mesh have the stiffness k in the mean.
+TEST(ChangesToPbs, KeepTheMeanStiffnessWhereItDependsOnTheLengthOfAnEdge)
+{
+    const auto& changed = spec("pbs_k_by_edge_length");
+    const auto& pbs = options_of<pbs::PbsOptions>(changed);
+    double sum = 0.0;
+    int count = 0;
+    std::set<std::pair<int, int>> edges;
+    for (const auto& tet : limb().mesh.tets.rowwise())
+        for (int a = 0; a < 4; ++a)
+            for (int b = a + 1; b < 4; ++b) edges.insert(std::minmax({tet(a), tet(b)}));
+    for (const auto& [a, b] : edges) {
+        sum += pbs::stiffness_at_length(pbs.k_stretch, (limb().mesh.rest.row(a) - limb().mesh.rest.row(b)).norm(), pbs.k_stretch_length_m);
+        ++count;
+    }
+    EXPECT_NEAR(sum / count, pbs.k_stretch, 1e-10);
+}
+
+// k / (k + (1 - k) (l / L)^2) of two edges, 1 and 2, whose mean is k: solved for (1 / L)^2 = x by hand for k = 1 / 2,
+// 1 / (1 + x) + 1 / (1 + 4 x) = 1 holds for 4 x^2 = 1, L = sqrt 2.
+TEST(NeutralLength, KeepsTheMeanStiffness)
+{
+    EXPECT_NEAR(neutral_length(0.5, {1.0, 2.0}), std::sqrt(2.0), 1e-11);
+    EXPECT_NEAR(neutral_length(0.2, {3.0, 3.0}), 3.0, 1e-11) << "of equal edges it is their length";
+    const std::vector<double> lengths_m = {0.03, 0.05, 0.08};
+    const double length_m = neutral_length(0.2, lengths_m);
+    double mean = 0.0;
+    for (const double l : lengths_m) mean += pbs::stiffness_at_length(0.2, l, length_m) / 3.0;
+    EXPECT_NEAR(mean, 0.2, 1e-11);
+}
+
+TEST(Comparison, HasItsTimesMembersAndPosesFromOtherTables)
+{
+    const ComparisonTimes& times = comparison_times();
+    EXPECT_TRUE(std::ranges::is_sorted(times.budgets_ms));
+    for (const double ms : times.tables_ms) EXPECT_EQ(std::ranges::count(times.budgets_ms, ms), 1) << ms;
+    std::vector<std::string> members;
+    for (const EnsembleMember& member : training_members()) members.push_back(member.name);
+    EXPECT_EQ(members, (std::vector<std::string>{"smooth", "nu_0.49", "rigid_capsules"}));
+    std::set<std::string> movements;
+    for (const json& pose : listed("references", "case"))
+        if (pose.at("stratum") == "movement") movements.insert(pose.at("name"));
+    EXPECT_EQ(start_poses().size(), 12u);
+    for (const std::string& pose : start_poses()) EXPECT_TRUE(movements.contains(pose)) << pose;
+}
+
+// The settings that are compiled in are some of those that are tried, one for each method and time, and within it.
+TEST(KeptSettings, AreThoseOfMethodsAndTimesThatAreTried)
+{
+    std::set<std::pair<double, std::string>> chosen_for;
+    for (const ChosenSetting& chosen : kept_settings()) {
+        SCOPED_TRACE(chosen.method + " " + chosen.setting);
+        EXPECT_TRUE(chosen_for.insert({chosen.budget_ms, chosen.method}).second) << chosen.budget_ms;
+        EXPECT_EQ(std::ranges::count(comparison_times().budgets_ms, chosen.budget_ms), 1);
+        EXPECT_LE(chosen.training_ms, chosen.budget_ms);
+        EXPECT_GT(chosen.training_error_pct, 0.0);
+        const auto of = std::ranges::find(methods(), chosen.method, &ComparedMethod::name);
+        if (of == methods().end()) continue;  // a program without finite elements lacks some methods
+        bool is_tried = false;
+        for (const KeyValues& of_grid : of->grid)
+            for (const Setting& setting : tried_settings(*of, of_grid)) is_tried = is_tried || setting.text() == chosen.setting;
+        EXPECT_TRUE(is_tried);
+    }
+    for (const double ms : comparison_times().tables_ms)
+        for (const char* name : {"lbs", "pbs"}) EXPECT_TRUE(chosen_for.contains({ms, name})) << name << " within " << ms << " ms";
+}
+
+std::string entry_table(const std::string& name, const std::string& keys = "command = [\"sh\", \"mine.sh\"]")
+{
+    return "[[external]]\nname = \"" + name + "\"\n" + keys + "\n";
+}
+
+class ExternalMethods : public testing::Test {
+protected:
+    std::vector<ComparedMethod> read(const std::string& tables) const
+    {
+        return external_methods(folder.file("mine.toml", "schema = 1\n" + tables));
+    }
+    void expect_refused(const std::string& tables, const std::string& place, const std::string& rule) const
+    {
+        expect_input_error([&] { read(tables); }, folder / "mine.toml" + place, rule);
+    }
+    test_support::ScratchFolder folder;
+};
+
+TEST_F(ExternalMethods, AreTheTablesInTheirOrder)
+{
+    const std::string program = folder.file("mine.sh", "exit 0");
+    const std::vector<ComparedMethod> all = read(entry_table("mine") + entry_table("other", "command = [\"sh\"]\nhas_memory = true"));
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_EQ(all[0].name, "mine");
+    EXPECT_FALSE(all[0].takes_flesh());
+    EXPECT_TRUE(all[0].is_in("known") && all[0].is_in("guessed"));
+    const DeformerSpec own = spec_of({&all[0]}, twist(), limb(), family().back());
+    EXPECT_EQ(own.name, "mine");
+    EXPECT_EQ(own.threads, 1);
+    const auto& given = options_of<ExternalOptions>(own);
+    EXPECT_EQ(given.command, (std::vector<std::string>{"sh", program}));
+    ASSERT_EQ(given.file_hashes.size(), 2u);
+    EXPECT_EQ(given.file_hashes[0], "") << "sh is sought on the PATH";
+    EXPECT_NE(given.file_hashes[1], "");
+    EXPECT_TRUE(options_of<ExternalOptions>(all[1].external).has_memory);
+}
+
+// Files are recorded by their place in the command, and other words in full.
+TEST_F(ExternalMethods, ChangeWithEachFileAndWord)
+{
+    for (const char* of : {"a", "b"}) std::filesystem::create_directory(folder.path() / of);
+    const auto record = [&](const std::string& a, const std::string& b, const std::string& words) {
+        folder.file("a/mine.sh", a), folder.file("b/mine.sh", b);
+        return to_json(read(entry_table("mine", "command = [\"sh\", " + words + "]"))[0].external);
+    };
+    const std::string both = R"("a/mine.sh", "b/mine.sh")", other_order = R"("b/mine.sh", "a/mine.sh")";
+    const json first = record("exit 0", "exit 1", both);
+    EXPECT_EQ(record("exit 0", "exit 1", both), first);
+    EXPECT_NE(record("exit 2", "exit 1", both), first);
+    EXPECT_NE(record("exit 0", "exit 2", both), first);
+    EXPECT_NE(record("exit 0", "exit 1", other_order), first);
+    EXPECT_EQ(record("exit 1", "exit 0", other_order), first) << "the files themselves are the same";
+    EXPECT_EQ(first.dump().find(folder.path().string()), std::string::npos) << "the record is that of any folder";
+    EXPECT_NE(record("exit 0", "exit 1", both + R"(, "/nowhere/one/data")"), record("exit 0", "exit 1", both + R"(, "/nowhere/two/data")"));
+}
+
+struct RefusedEntry {
+    std::string tables, place, rule = {};
+};
+
+class RefusedEntries : public ExternalMethods, public testing::WithParamInterface<RefusedEntry> {};
+
+TEST_P(RefusedEntries, NameThePlaceAndTheRule)
+{
+    folder.file("mine.sh", "exit 0");
+    folder.file("libmine.so", "no library");
+    expect_refused(GetParam().tables, GetParam().place, GetParam().rule);
+}
+
+const std::string alone = "expected only [[external]] tables";
+INSTANTIATE_TEST_SUITE_P(OfOtherTables, RefusedEntries,
+                         testing::Values(RefusedEntry{"", ": external: missing", "expected at least one [[external]] table"},
+                                         RefusedEntry{"[external]\nname = \"mine\"\n", ":2: external:", "expected [[external]] tables"},
+                                         RefusedEntry{entry_table("mine") + "[deformers]\nuse = [\"mine\"]\n", ":5: deformers:", alone},
+                                         RefusedEntry{entry_table("mine") + "deformers.use = [\"mine\"]\n", ":5: external.0.deformers",
+                                                      "unknown key"},
+                                         RefusedEntry{"deformers.use = [\"mine\"]\n" + entry_table("mine"), ":2: deformers:", alone},
+                                         RefusedEntry{entry_table("mine") + "[[fem]]\nname = \"solid\"\n", ":5: fem.0:", alone},
+                                         RefusedEntry{entry_table("mine") + "[[fem]]\nmodel = \"linear\"\n", ":5: fem.0:", alone},
+                                         RefusedEntry{entry_table("mine") + "[[lbs]]\n", ":5: lbs.0:", alone},
+                                         RefusedEntry{entry_table("mine") + "[pbs]\n", ":5: pbs:", alone},
+                                         RefusedEntry{entry_table("mine") + "[reference]\nname = \"mine\"\n", ":5: reference:", alone},
+                                         RefusedEntry{entry_table("mine") + "[[mine]]\n", ":5: mine", "unknown key"}));
+INSTANTIATE_TEST_SUITE_P(
+    OfTheirNames, RefusedEntries,
+    testing::Values(RefusedEntry{entry_table("reference"), ":3: external.0.name = reference", "of the comparison"},
+                    RefusedEntry{entry_table("vbd_from_lbs"), ":3: external.0.name = vbd_from_lbs", "of the comparison"},
+                    RefusedEntry{entry_table("mine") + entry_table("mine"), ":6: external.1.name = mine", "is used twice"},
+                    RefusedEntry{entry_table("my own"), ":3: external.0.name = my own", "letters, digits and underscores"},
+                    RefusedEntry{"[[external]]\ncommand = [\"sh\"]\n", ": external.0.name: missing", "states it"}));
+INSTANTIATE_TEST_SUITE_P(
+    OfTheirPrograms, RefusedEntries,
+    testing::Values(
+        RefusedEntry{entry_table("mine", "command = [\"no_such_program\"]"), ":4: external.0.command =", "No such file or directory"},
+        RefusedEntry{entry_table("mine", "command = [\"mine.sh\"]"), ":4: external.0.command =", "Permission denied"},
+        RefusedEntry{entry_table("mine", "command = [\"./none.sh\"]"), ":4: external.0.command =", "No such file or directory"},
+        RefusedEntry{entry_table("mine", "library = \"libnone.so\""), ":4: external.0.library = libnone.so", "cannot be loaded"},
+        RefusedEntry{entry_table("mine", "library = \"libmine.so\""), ":4: external.0.library = libmine.so", "cannot be loaded: "},
+        RefusedEntry{entry_table("mine", ""), ": external.0.command", "expected either a command or a library"}));
+
+TEST_F(ExternalMethods, NeedAFileAndNamesOfTheirOwn)
+{
+    expect_input_error([&] { external_methods(folder / "none.toml"); }, folder / "none.toml" + ": cannot be read", "[[external]]");
+    expect_input_error([&] { external_methods(folder.path().string()); }, folder.path().string(), "cannot be read");
+    expect_input_error([&] { external_methods(folder.file("mine.toml", entry_table("mine"))); }, folder / "mine.toml: schema",
+                       "write schema = 1");
+    for (const ComparedMethod& one : methods()) expect_refused(entry_table(one.name), ":3: external.0.name = " + one.name, "");
+}
+
+// Their rows would be those of a variation.
+TEST_F(ExternalMethods, HaveNoNameOfAnotherStart)
+{
+    for (const OtherStart& start : other_starts()) expect_refused(entry_table(start.name), ":3: external.0.name = " + start.name, "");
+}
+
+}  // namespace
