@@ -160,6 +160,71 @@ TEST_F(BodyCache, WhereTheFolderCannotBeWrittenTheMeshIsMadeEveryTime)
     EXPECT_EQ(made, 2);
 }
 
+// A folder of references with tets for the key "two", which differ from those that the mesher makes and from those in the cache.
+class KeptTets : public BodyCache {
+protected:
+    void SetUp() override
+    {
+        BodyCache::SetUp();
+        ::setenv("PBSKIN_REFERENCES", references.path().c_str(), 1);
+        fs::create_directory(references.path() / "tets");
+        write_tet_mesh(references / "tets/new.vtu", kept());
+        file = references.path() / "tets" / ("two-" + hash_of_file(references / "tets/new.vtu") + ".vtu");
+        fs::rename(references / "tets/new.vtu", file);
+    }
+    void TearDown() override
+    {
+        ::unsetenv("PBSKIN_REFERENCES");
+        BodyCache::TearDown();
+    }
+
+    static TetMesh kept()
+    {
+        TetMesh mesh = two_tets();
+        mesh.rest(4, 2) -= 0.5;
+        return mesh;
+    }
+
+    test_support::ScratchFolder references;
+    fs::path file;
+};
+
+TEST_F(KeptTets, WinOverTheCacheAndTheMesher)
+{
+    fs::rename(file, references.path() / "elsewhere.vtu");
+    EXPECT_EQ(content_hash(get()), content_hash(two_tets()));
+    fs::rename(references.path() / "elsewhere.vtu", file);
+    EXPECT_EQ(content_hash(get()), content_hash(kept()));
+    EXPECT_EQ(made, 1);
+    EXPECT_EQ(content_hash(get("one")), content_hash(two_tets())) << "another key";
+}
+
+// What a release brought is not removed, since no other program makes it again.
+TEST_F(KeptTets, ThatAreDamagedAreIgnoredAndStay)
+{
+    const std::string whole = read_text_file(file.string());
+    for (const std::string& damaged : {whole.substr(0, whole.size() / 2), std::string(), whole + " "}) {
+        std::ofstream(file, std::ios::binary) << damaged;
+        EXPECT_EQ(content_hash(get()), content_hash(two_tets())) << damaged.size() << " bytes";
+        EXPECT_EQ(read_text_file(file.string()), damaged);
+    }
+    EXPECT_EQ(made, 1) << "the mesh is found in the cache";
+    std::ofstream(file, std::ios::binary) << whole;
+    EXPECT_EQ(content_hash(get()), content_hash(kept()));
+}
+
+TEST(ReferencesFolder, FollowsTheVariableOrLiesNextToTheProgramsFolder)
+{
+    ::setenv("PBSKIN_REFERENCES", "/a", 1);
+    EXPECT_EQ(references_folder(), "/a");
+    for (const auto& unset :
+         std::vector<std::function<void()>>{[] { ::setenv("PBSKIN_REFERENCES", "", 1); }, [] { ::unsetenv("PBSKIN_REFERENCES"); }}) {
+        unset();
+        const fs::path program = fs::read_symlink("/proc/self/exe");
+        EXPECT_EQ(fs::path(references_folder()), program.parent_path().parent_path() / "share/pbskin/references");
+    }
+}
+
 TEST(CacheFolder, FollowsTheVariablesInTheirOrder)
 {
     ::setenv("PBSKIN_CACHE", "/a", 1);

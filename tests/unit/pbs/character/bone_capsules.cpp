@@ -1,6 +1,7 @@
-// Reference: the capsule of a bone of a bar of known width, by hand.
+// Reference: the capsule of a bone of a bar of known width, by hand, and integrals over its parts.
 #include "pbs/character/bone_capsules.hpp"
 #include "pbs/character/bodies.hpp"
+#include "pbs/character/skinning_weights.hpp"
 
 #include "tests/support/bar_character.hpp"
 #include "tests/support/rounding_error.hpp"
@@ -113,6 +114,134 @@ TEST(BoneCapsules, ADensityOfSamplesMultipliesTheirNumbersInEachDirection)
 {
     EXPECT_EQ(sample_points(capsule, 2).rows(), 80 * (1 + 16 * 48));
     EXPECT_THROW(sample_points(capsule, 0), std::invalid_argument);
+}
+
+// The springs.
+
+constexpr double length_m = 2.0 / 3.0;                                         // of the middle of each bone of the bar
+constexpr double limb_radius_m = 0.15 * (1.0 + std::numbers::sqrt2) / 2.0;     // of the bar
+constexpr double part_area_m2 = 0.3 * 0.3, part_square_m2 = 0.3 * 0.3 / 12.0;  // of the bar's section: its area and the mean of y^2
+
+// Sums over the springs of one bone from the first of them on: of k, k x, k x^2 and k y^2.
+Eigen::Vector4d moments(const BoneSprings& springs, int bone, Eigen::Index first = 0)
+{
+    Eigen::Vector4d sums = Eigen::Vector4d::Zero();
+    for (Eigen::Index s = first; s < springs.points.rows(); ++s) {
+        const double x = springs.points(s, 0), y = springs.points(s, 1);
+        if (springs.bone[s] == bone) sums += springs.stiffness(s) * Eigen::Vector4d(1.0, x, x * x, y * y);
+    }
+    return sums;
+}
+
+// The density q / r^2 over the volume pi r^2 L is q pi L, whatever the radius is.
+TEST(BoneSprings, OfEmbeddedBonesHaveOneDensityInTheWholeCapsule)
+{
+    const CapsuleSprings held = bone_springs(bar(), SpringPlacement::embedded, {.core_radius = 0.35, .spring_factor = 1e4});
+    ASSERT_EQ(held.springs.points.rows(), 2 * 40 * 193);
+    EXPECT_TRUE(std::ranges::all_of(held.density, [](double density) { return density == 1.0; }));
+    const double total = 1e4 * std::numbers::pi * length_m, share = total / (40 * 193);
+    for (const int bone : {0, 1}) EXPECT_NEAR(moments(held.springs, bone)(0), total, test_support::mean_error(40 * 193 + 20, total));
+    for (Eigen::Index s = 0; s < held.springs.points.rows(); ++s) {
+        ASSERT_NEAR(held.springs.stiffness(s), share, test_support::rounding_error(20, share)) << s;
+        ASSERT_TRUE(held.capsules[held.springs.bone[s]].contains(held.springs.points.row(s).transpose())) << s;
+    }
+}
+
+// The biweight (1 - s^2)^2 has a third of the section's area, and a step over one radius at each end takes half of it: q pi (L - R) / 3.
+// The midpoint rule over eight rings of equal area underestimates the first integral by 1 / (12 8^2) of the area, 0.4 % of it.
+TEST(BoneSprings, OfSmoothAttachmentsHaveTheIntegralOfTheirDensity)
+{
+    const CapsuleSprings held = bone_springs(bar(), SpringPlacement::smooth, {.core_radius = 0.7, .spring_factor = 10.0});
+    const double total = 10.0 * std::numbers::pi * (length_m - 0.7 * limb_radius_m) / 3.0;
+    for (const int bone : {0, 1}) EXPECT_NEAR(moments(held.springs, bone)(0), total, 0.005 * total);
+    for (Eigen::Index s = 0; s < held.springs.points.rows(); ++s)
+        ASSERT_EQ(held.density[s], smooth_density(held.capsules[held.springs.bone[s]], AttachmentKernel::biweight, 1.0,
+                                                  held.springs.points.row(s).transpose()));
+}
+
+// By hand: each half of the bar follows one bone alone, the plane of the joint follows both, and of the plane x = 1/2 the forearm has no
+// more than the threshold. The cells next to these planes, 1/12 long, are moved by two bones.
+pbs::Character bar_of_known_parts()
+{
+    pbs::Character character = bar();
+    Weights weights{.first = {0}, .bone = {}, .weight = {}};
+    for (const auto& point : character.mesh.rest.rowwise()) {
+        const auto is_at = [&](double x) { return std::abs(point.x() - x) < 1e-9; };
+        const double forearm = is_at(0.0) ? 0.5 : is_at(0.5) ? weight_alone : point.x() < 0.0 ? 0.0 : 1.0;
+        if (forearm < 1.0) weights.add(0, 1.0 - forearm);
+        if (forearm > 0.0) weights.add(1, forearm);
+        weights.end_vertex();
+    }
+    character.artist = ArtistSkin{.weights = weights};
+    return character;
+}
+
+struct Part {
+    double from, to;  // along x [m]
+};
+const std::vector<std::vector<Part>> parts_of_bones = {{{-1.0, -1.0 / 12.0}}, {{1.0 / 12.0, 5.0 / 12.0}, {7.0 / 12.0, 1.0}}};
+
+TEST(BonesThatMoveAlone, AreThoseOfWeightsAboveTheThresholdAtAllCorners)
+{
+    const pbs::Character character = bar_of_known_parts();
+    const std::vector<int> alone = bones_that_move_alone(character);
+    ASSERT_EQ(alone.size(), static_cast<std::size_t>(character.mesh.tets.rows()));
+    for (std::size_t tet = 0; tet < alone.size(); ++tet) {
+        double x = 0.0;
+        for (const int v : character.mesh.tets.row(tet)) x += character.mesh.rest(v, 0) / 4.0;
+        int expected = -1;
+        for (const int bone : {0, 1})
+            for (const Part& part : parts_of_bones[bone])
+                if (x > part.from && x < part.to) expected = bone;
+        EXPECT_EQ(alone[tet], expected) << "tet " << tet << ", x = " << x;
+    }
+}
+
+// The rule of four points integrates polynomials of degree 2 exactly.
+TEST(BoneSprings, OfHeldPartsFillThemAndCrossNoBones)
+{
+    const pbs::Character character = bar_of_known_parts();
+    const BoneSprings smooth = bone_springs(character, SpringPlacement::smooth, {}).springs,
+                      held = bone_springs(character, SpringPlacement::held, {}).springs;
+    const Eigen::Index first = smooth.points.rows();
+    ASSERT_GT(held.points.rows(), first);
+    EXPECT_EQ(held.points.topRows(first), smooth.points);
+    EXPECT_EQ(held.stiffness.head(first), smooth.stiffness);
+    const double density = 1e4 / std::pow(0.35 * limb_radius_m, 2);
+    for (const int bone : {0, 1}) {
+        Eigen::Vector4d expected = Eigen::Vector4d::Zero();
+        for (const auto& [a, b] : parts_of_bones[bone])
+            expected += density * part_area_m2 *
+                        Eigen::Vector4d(b - a, (b * b - a * a) / 2.0, (b * b * b - a * a * a) / 3.0, (b - a) * part_square_m2);
+        const Eigen::Vector4d sums = moments(held, bone, first);
+        // A term goes through fewer than 60 roundings, those of the tet's volume and of the limb's radius among them.
+        for (int i = 0; i < 4; ++i)
+            EXPECT_NEAR(sums(i), expected(i), test_support::mean_error(static_cast<std::size_t>(held.points.rows()) + 60, expected(0)));
+    }
+    const PointLocation location(character.mesh);
+    const std::vector<int> alone = bones_that_move_alone(character);
+    for (Eigen::Index s = first; s < held.points.rows(); ++s) ASSERT_EQ(alone[location.locate(held.points.row(s)).tet], held.bone[s]) << s;
+}
+
+// Without an artist, the weights are those of Eq. 2, smoothed over the edges. Finer tets have the same springs.
+TEST(BoneSprings, OfHeldPartsOfTheLimbAreThoseOfItsUnrefinedTets)
+{
+    const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 300});
+    const std::vector<int> alone = bones_that_move_alone(limb);
+    const Weights weights = weights_by(WeightKind::diffused, limb);
+    std::set<int> bones(alone.begin(), alone.end());
+    EXPECT_EQ(bones, (std::set<int>{-1, 0, 1}));
+    for (std::size_t tet = 0; tet < alone.size(); ++tet)
+        for (const int bone : {0, 1}) {
+            const auto corners = limb.mesh.tets.row(tet);
+            const bool is_alone = std::ranges::all_of(corners, [&](int v) { return weights.of(v, bone) > 0.99; });
+            EXPECT_EQ(alone[tet] == bone, is_alone) << tet;
+        }
+    const BoneSprings coarse = bone_springs(limb, SpringPlacement::held, {}).springs,
+                      fine = bone_springs(refined(limb), SpringPlacement::held, {}).springs;
+    EXPECT_EQ(fine.points, coarse.points);
+    EXPECT_EQ(fine.stiffness, coarse.stiffness);
+    EXPECT_EQ(fine.bone, coarse.bone);
 }
 
 // Reference: the built-in limb, whose skin is farther from the bones than the mean vertex, and a zone that consists of two known pieces.
