@@ -32,7 +32,7 @@ pbs_tests(unit experiments BLAS
 pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out}
     ALONE experiments/studies/ambiguity/readings experiments/studies/ambiguity/reading_values
         experiments/studies/convergence/convergence_values experiments/studies/recorded_settings experiments/studies/shared/iteration_path
-        experiments/studies/shared/kept_references experiments/studies/shared/reference_poses experiments/studies/stability/stability_cells
+        experiments/studies/shared/kept_references experiments/studies/reference_poses experiments/studies/stability/stability_cells
         experiments/studies/stiffness/stiffness_ratios experiments/studies/timing/frames experiments/studies/work_precision/conclusions
         experiments/studies/work_precision/measuring experiments/studies/work_precision/methods
     LIBRARIES experiments)
