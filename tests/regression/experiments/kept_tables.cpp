@@ -12,14 +12,13 @@
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "experiments/studies/timing/timing.hpp"
-#include "experiments/studies/work_precision/diagram.hpp"
-#include "experiments/studies/work_precision/gains.hpp"
-#include "experiments/studies/work_precision/measured_points.hpp"
+#include "experiments/studies/work_precision/conclusions.hpp"
 #include "reference_fem/verification/verification_record.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -102,7 +101,6 @@ TEST(KeptTables, ReadAsRowsAndWrittenAgainAreTheSame)
     expect_same(experiments::volume_change_columns, "ambiguity/runs/figures.csv");
     expect_same(experiments::timing_columns, "timing/runs/timing.csv");
     expect_same(experiments::feature_columns, "timing/runs/features.csv");
-    expect_same(experiments::change_columns, "work_precision/runs/changes.csv");
     expect_same(experiments::order_columns, "timing/runs/orders.csv");
     expect_same(experiments::target_columns, "timing/runs/targets.csv");
     expect_same(experiments::answer_columns, "timing/answers.csv", some);
@@ -112,17 +110,20 @@ TEST(KeptTables, ReadAsRowsAndWrittenAgainAreTheSame)
     expect_same(experiments::start_columns, "stability/runs/starts.csv");
     expect_same(experiments::part_columns, "ensemble/runs/parts.csv");
     expect_same(experiments::attachment_columns, "ensemble/runs/attachments.csv");
-    expect_same(experiments::family_columns, "work_precision/runs/members.csv");
-    expect_same(experiments::chosen_columns, "work_precision/settings.csv", some);
-    expect_same(experiments::data_profile_columns, "work_precision/data_profiles.csv", some);
-    expect_same(experiments::omission_columns, "work_precision/omissions.csv", some);
+    expect_same(experiments::own_tets_columns, "ensemble/own_tets.csv");
+    expect_same(experiments::own_error_columns, "work_precision/references.csv");
+    expect_same(experiments::chosen_columns, "work_precision/settings.csv");
+    expect_same(experiments::compared_columns, "work_precision/errors.csv");
+    expect_same(experiments::method_columns, "work_precision/methods.csv");
+    expect_same(experiments::method_pair_columns, "work_precision/pairs.csv");
+    expect_same(experiments::decision_columns, "work_precision/decisions.csv");
+    expect_same(experiments::method_curve_columns, "work_precision/curves.csv");
+    expect_same(experiments::solved_columns, "work_precision/profiles.csv");
+    expect_same(experiments::other_start_columns, "work_precision/starts.csv");
+    expect_same(experiments::motion_columns, "work_precision/motion.csv");
     expect_same(experiments::cell_columns, "stability/map_time_step_k_stretch.csv", some);
     expect_same(experiments::cell_columns, "stability/map_iterations_twist.csv", some);
     expect_same(experiments::start_columns, "stability/starts.csv", some);
-    expect_same(experiments::gain_columns, "work_precision/gains.csv", some);
-    expect_same(experiments::curve_columns, "work_precision/curves.csv", some);
-    expect_same(experiments::pair_columns, "ensemble/pairs.csv", some);
-    expect_same(experiments::member_columns, "ensemble/members.csv", some);
     expect_same(experiments::trial_columns, "setup/runs/trials.csv");
     expect_same(experiments::key_columns, "setup/runs/changed_keys.csv");
 }
@@ -151,7 +152,7 @@ bool has_words(const std::string& file, const std::string& column)
     return of_any_file.contains(column) || of_one_file.contains(file + " " + column);
 }
 
-// A joint is named by its two bones: upper|forearm. either_of and knows are lists.
+// A joint is named by its two bones: upper|forearm. either_of and takes are lists, and a setting is a list of KEY=VALUE.
 TEST(KeptTables, HaveIdentifiersInTheirKeys)
 {
     const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.+-";
@@ -161,7 +162,10 @@ TEST(KeptTables, HaveIdentifiersInTheirKeys)
         const analysis::CsvTable table = analysis::read_csv(entry.path().string());
         for (const std::string& column : table.columns()) {
             if (has_words(entry.path().filename().string(), column)) continue;
-            const std::string allowed = letters + (column == "joint" ? "|" : column == "either_of" || column == "knows" ? " " : "");
+            const std::string allowed = letters + (column == "joint"                            ? "|"
+                                                   : column == "setting"                        ? "= "
+                                                   : column == "either_of" || column == "takes" ? " "
+                                                                                                : "");
             for (int row = 0; row < table.rows(); ++row, ++cells)
                 EXPECT_EQ(table.text_at(row, column).find_first_not_of(allowed), std::string::npos)
                     << entry.path() << ", row " << row << ", " << column << ": " << table.text_at(row, column);
@@ -224,9 +228,6 @@ std::optional<double> only_value(const KeptValue& of)
 
 const double six_digits = 1e-5;  // relative: half a unit of the last kept digit on either side
 
-const Wanted pbs_of_the_scene = {{"deformer", "pbs"},  {"iterations", "24"}, {"k_stretch", "0.2"}, {"order", "ordered"},
-                                 {"precision", "f32"}, {"substeps", "1"},    {"tuned", ""},        {"wanted_vertices", ""}};
-
 void expect_same_values(const std::vector<KeptValue>& values)
 {
     const std::optional<double> first = only_value(values.front());
@@ -238,31 +239,47 @@ void expect_same_values(const std::vector<KeptValue>& values)
     }
 }
 
+const Wanted after_24_iterations = {{"k_stretch", "0.2"}, {"iterations", "24"}};
+
+// The row of the study convergence whose reference is solved on the same tets.
+KeptValue of_convergence(const std::string& run, const std::string& pose, const std::string& column)
+{
+    return {"convergence/" + run + "/rates.csv",
+            {{"pose", pose}, {"own_mesh", "1"}, {"order", "ordered"}, {"precision", "f32"}, {"k_stretch", "0.2"}, {"start", "lbs"}},
+            column};
+}
+
 // PBS after 24 iterations, on the scene's own tets, relative to the same reference.
 TEST(KeptValues, OfPbsInATwistBy90DegreesAreTheSameInEachStudy)
 {
     expect_same_values(
-        {{"ensemble/limb_twist_90/parts.csv", {{"k_stretch", "0.2"}, {"iterations", "24"}}},
-         {"ensemble/limb_twist_90/errors.csv", {{"member", "smooth"}, {"deformer", "pbs"}}},
-         {"work_precision/limb_twist_90/points.csv", pbs_of_the_scene},
-         {"work_precision/limb_twist_90/changes.csv", {{"change", "pbs"}, {"iterations", "24"}}},
-         {"convergence/limb_twist/rates.csv",
-          {{"pose", "twist_90"}, {"own_mesh", "1"}, {"order", "ordered"}, {"precision", "f32"}, {"k_stretch", "0.2"}, {"start", "lbs"}},
-          "error_24_pct"}});
+        {{"ensemble/limb_twist_90/parts.csv", after_24_iterations}, of_convergence("limb_twist", "twist_90", "error_24_pct")});
 }
 
 TEST(KeptValues, OfTheBoundOnAReferenceAreTheSameInEachStudy)
 {
-    const analysis::CsvTable members = analysis::read_csv(PBS_KEPT_RECORDS "/ensemble/runs/members.csv");
-    for (int row = 0; row < members.rows(); ++row) {
-        if (members.text_at(row, "member") != "smooth") continue;
-        const std::string pose = members.text_at(row, "run");
-        std::vector<KeptValue> values = {{"work_precision/" + pose + "/points.csv", pbs_of_the_scene, "reference_error_joint_pct"},
-                                         {"ensemble/" + pose + "/members.csv", {{"member", "smooth"}}, "error_bound_pct"}};
-        if (pose.starts_with("limb") || pose.starts_with("human"))  // changes to PBS are measured on these bodies alone
-            values.push_back(
-                {"work_precision/" + pose + "/changes.csv", {{"change", "pbs"}, {"iterations", "24"}}, "reference_error_joint_pct"});
-        expect_same_values(values);
+    for (const auto& [pose, run, pose_in_run] :
+         std::vector<std::array<std::string, 3>>{{"limb_twist_90", "limb_twist", "twist_90"}, {"limb_bend_60", "limb_bend", "bend_60"}})
+        expect_same_values({{"ensemble/" + pose + "/parts.csv", after_24_iterations, "discretisation_pct"},
+                            of_convergence(run, pose_in_run, "reference_bound_pct")});
+}
+
+// The comparison has the own errors of the references as they were solved.
+TEST(KeptValues, OfTheReferencesOwnErrorsAreTheSameInEachStudy)
+{
+    const auto own_errors = [](const std::string& file) {
+        std::map<std::pair<std::string, std::string>, std::string> of;  // by pose and member
+        const analysis::CsvTable table = kept_table(file);
+        for (int row = 0; row < table.rows(); ++row)
+            of[{table.text_at(row, "pose"), table.text_at(row, "member")}] =
+                table.text_at(row, "outcome") + " " + table.text_at(row, "stratum") + " " + table.text_at(row, "own_error_pct");
+        return of;
+    };
+    const auto solved = own_errors("references/references.csv"), compared = own_errors("work_precision/references.csv");
+    EXPECT_GT(compared.size(), 300u);
+    for (const auto& [key, own_error] : compared) {
+        ASSERT_TRUE(solved.contains(key)) << key.first << ", " << key.second;
+        EXPECT_EQ(own_error, solved.at(key)) << key.first << ", " << key.second;
     }
 }
 

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 namespace {
 
 using experiments::DeformerSpec;
@@ -13,7 +15,8 @@ using experiments::DeformerSpec;
 // The finite element reference's own solution on linear tets for the material of the energy-minimising deformers, in one pose of a body.
 class FleshReference {
 public:
-    FleshReference(const std::string& scene, const std::vector<std::string>& settings, int frame, double poisson)
+    FleshReference(const std::string& scene, const std::vector<std::string>& settings, int frame, double poisson,
+                   experiments::FemAttachment attachment = experiments::FemAttachment::smooth)
         : posed_(experiments::read_scene(scene, settings), {frame})
     {
         DeformerSpec spec = experiments::default_spec("fem");
@@ -22,6 +25,7 @@ public:
         fem.element_order = 1;
         fem.contact = false;
         fem.poisson = poisson;
+        fem.attachment = attachment;
         const experiments::Shapes shapes = posed_.shapes(spec);
         EXPECT_TRUE(shapes.front().finished);
         solution_ = shapes.front().positions;
@@ -98,6 +102,20 @@ TEST_P(FleshLimits, OfTheBentLimbAndOfTheHumansCrouch)
     for (const FleshReference* reference : {&bent, &crouch})
         for (const FleshMethod& method : {quasi_newton("smooth_dqs"), relaxed_vbd, kept_xpbd})
             expect_convergence(*reference, GetParam(), method);
+}
+
+// Bones that are rigid capsules, and bones that hold the flesh that they alone move. With springs of another attachment the limit differs.
+TEST(FleshAttachments, HaveTheLimitOfTheReferenceWithTheSameSprings)
+{
+    const std::vector<std::string> rigid = {"attachment=embedded", "core_radius=0.35", "spring_factor=1e4"}, held = {"attachment=held"};
+    for (const auto& [attachment, own, other] :
+         {std::tuple(experiments::FemAttachment::embedded, rigid, held), std::tuple(experiments::FemAttachment::held, held, rigid)}) {
+        SCOPED_TRACE(own.front());
+        const FleshReference reference("limb_twist", reference_of_twist, 1, 0.45, attachment);
+        expect_convergence(reference, 0.45, {"quasi_newton", own, 4, 1024, 4, 0.5});
+        for (const auto& springs : {other, std::vector<std::string>{}})
+            EXPECT_GT(reference.difference(spec_of("quasi_newton", 1024, 0.45, springs)), 1e-2);
+    }
 }
 
 // The control: the multipliers of each step begin at zero and the residual is neglected, or they are reset in each iteration.

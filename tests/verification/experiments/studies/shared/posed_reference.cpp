@@ -145,18 +145,60 @@ TEST(LargerOfTwoErrors, IsNotANumberWhereOneIsNot)
     EXPECT_TRUE(std::isnan(largest.linf_m));
 }
 
-TEST(PosedReference, LendsItsBoundToFleshThatIsHeldInAnotherWay)
+// Of a family whose members are held in other ways, each is solved on the own tets alone.
+TEST(PosedReference, OnTheOwnTetsHasItsBoundFromFinerOnes)
 {
-    const PosedReference first(bar, flesh(), bent(40.0), time_step_s, ReferenceEffort::refined);
-    PosedReference second(bar, flesh(), bent(40.0), time_step_s, ReferenceEffort::own_tets);
-    EXPECT_TRUE(std::isnan(second.bound().joint_pct));
-    second.take_bound_of(first);
-    PosedReference linear(bar, hurried(2), bent(40.0), time_step_s, ReferenceEffort::own_tets);
-    linear.take_bound_of(first);
+    const PosedReference refined(bar, flesh(), bent(40.0), time_step_s, ReferenceEffort::refined);
+    const PosedReference own(bar, flesh(), bent(40.0), time_step_s, ReferenceEffort::own_tets);
+    EXPECT_EQ(own.reference().positions, refined.solutions()[1].positions);
+    EXPECT_EQ(refined.bound_on_own_tets().joint_pct, refined.error_of(own.reference().positions).joint_pct + refined.bound().joint_pct);
+    EXPECT_TRUE(std::isnan(own.bound().joint_pct));
+    EXPECT_TRUE(std::isnan(own.bound_on_own_tets().joint_pct));
+    const PosedReference linear(bar, hurried(2), bent(40.0), time_step_s, ReferenceEffort::own_tets);
     ASSERT_TRUE(linear.is_reached());
-    EXPECT_EQ(linear.reference().element_order, 1);
-    EXPECT_TRUE(std::isnan(linear.bound().joint_pct)) << "of quadratic elements alone";
-    EXPECT_EQ(second.bound().joint_pct, first.error_of(first.solutions()[1].positions).joint_pct + first.bound().joint_pct);
+    EXPECT_EQ(linear.reference().element_order, 1) << "quadratic elements did not arrive";
+    EXPECT_TRUE(std::isnan(linear.bound_on_own_tets().joint_pct)) << "of quadratic elements alone";
+}
+
+// Each member of the family differs from the first one in what its name states.
+TEST(Family, HoldsAndCompressesTheFleshInOtherWays)
+{
+    const DeformerSpec of_scene = flesh();
+    for (const EnsembleMember& member : family()) {
+        SCOPED_TRACE(member.name);
+        const DeformerSpec spec = flesh_of(of_scene, member);
+        const auto& options = options_of<FemOptions>(spec);
+        const bool is_embedded = member.name == "rigid_capsules", is_held = member.name == "held_parts";
+        EXPECT_EQ(options.attachment, is_embedded ? FemAttachment::embedded : is_held ? FemAttachment::held : FemAttachment::smooth);
+        EXPECT_EQ(options.used_spring_factor(), is_embedded ? 1e4 : member.name.starts_with("stiffer_springs") ? 100.0 : 10.0);
+        EXPECT_EQ(options.used_core_radius(), is_embedded ? 0.35 : member.name.ends_with("thinner_bones") ? 0.5 : 0.7);
+        EXPECT_EQ(options.poisson, member.name == "nu_0.3" ? 0.3 : member.name == "nu_0.49" ? 0.49 : 0.45);
+        EXPECT_EQ(options.formulation,
+                  member.name == "nu_0.49" ? reference_fem::Formulation::mean_dilatation : reference_fem::Formulation::displacement);
+        EXPECT_EQ(options.model, reference_fem::Model::neo_hookean);
+    }
+}
+
+// Bones that hold a whole part of the flesh move it rigidly: the bar's ends have no strain, and with springs around the axis alone they do.
+TEST(Family, HeldPartsAreRigid)
+{
+    const auto furthest_m = [](const EnsembleMember& member) {
+        const PosedReference reference(bar, flesh_of(flesh(), member), bent(40.0), time_step_s, ReferenceEffort::own_tets);
+        EXPECT_TRUE(reference.is_reached()) << member.name;
+        const pbs::Pose pose = bent(40.0);
+        const std::vector<int> alone = pbs::bones_that_move_alone(bar);
+        double furthest = 0.0;
+        for (std::size_t tet = 0; tet < alone.size(); ++tet)
+            for (const int v : bar.mesh.tets.row(tet))
+                if (alone[tet] >= 0)
+                    furthest = std::max(
+                        furthest,
+                        (reference.reference().positions.row(v).transpose() - pose[alone[tet]] * pbs::Vec3(bar.mesh.rest.row(v))).norm());
+        return furthest;
+    };
+    const double held_m = furthest_m(family().back()), smooth_m = furthest_m(family().front());
+    EXPECT_LT(held_m, 0.1 * smooth_m);
+    EXPECT_GT(smooth_m, 1e-4);
 }
 
 // A solution that is read from its file has the same wall time as the one that wrote it; a new solve would take another time.
@@ -199,19 +241,6 @@ TEST(PosedReference, FindsTheSolutionsThatItKeepsAndNoOthers)
     EXPECT_FALSE(is_found(reference(165.0), first)) << "a damaged file";
     const PosedReference nowhere(bar, flesh(), bent(165.0), time_step_s, ReferenceEffort::own_tets, "/dev/null/solutions");
     EXPECT_EQ(nowhere.reference().positions, first.reference().positions) << "a folder that cannot be made";
-}
-
-// A solution is found by its mesh, so that all are found only if the other tets are those of the first reference.
-TEST(PosedReference, TakesTheOtherTetsOfAnotherReference)
-{
-    const test_support::ScratchFolder folder;
-    const auto reference = [&](const PosedReference* same_meshes) {
-        return PosedReference(bar, flesh(), bent(60.0), time_step_s, ReferenceEffort::other_tets, folder.path(), same_meshes);
-    };
-    const PosedReference first = reference(nullptr), again = reference(&first);
-    ASSERT_EQ(again.solutions().size(), first.solutions().size());
-    EXPECT_EQ(first.solutions().back().other_tets, 3u);
-    for (std::size_t i = 0; i < first.solutions().size(); ++i) EXPECT_EQ(again.solutions()[i].seconds, first.solutions()[i].seconds);
 }
 
 // By hand: the forearm turns about z, so that the inner side is that of y > 0; the limb's radius is the mean distance of the skin.
