@@ -140,7 +140,7 @@ public:
     void add(const ReferencePose& pose)
     {
         const pbs::Character& character = body_of(pose);
-        const KeptReferences kept = read_references(pose.name, character);
+        const KeptReferences kept = read_references(pose.name, character, bones_in(pose, character.skeleton));
         if (written_bodies_.insert(kept.body).second) write_body(kept.body, character);
         const std::string folder = analysis::path_in(folder_, pose.name);
         analysis::make_output_folder(folder);

@@ -95,12 +95,13 @@ ReferenceRow row_of(const ReferenceCase& of, const KeptReference& reference, con
 // Returns what differs, or an empty text.
 std::string compared_with_kept(const KeptReferences& solved, const pbs::Character& character, std::vector<ReferenceRow>& rows)
 {
-    const KeptReferences kept = read_references(solved.pose, character);
+    const KeptReferences kept = read_references(solved.pose, character, solved.bones);
     const pbs::Positions& rest = character.mesh.rest;
     const double size_m = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
     std::string differing;
     for (std::size_t m = 0; m < solved.members.size(); ++m) {
-        const KeptReference &now = solved.members[m], &before = kept.members.at(m);
+        const KeptReference& now = solved.members[m];
+        const KeptReference& before = *kept.find(now.member.name);
         if (now.outcome != before.outcome)
             differing += solved.pose + ", " + now.member.name + ": " + now.outcome + ", kept: " + before.outcome + ". ";
         if (!now.is_reached() || !before.is_reached()) continue;

@@ -22,6 +22,7 @@ using nlohmann::json;
 namespace {
 
 constexpr int kept_schema = 1;
+constexpr double same_bones = 1e-9;           // relative: sines and cosines differ by roundings from one system to the next
 constexpr std::size_t most_bytes = 16 << 20;  // of an unpacked file
 
 std::string deflated(const std::vector<std::uint8_t>& bytes)
@@ -205,13 +206,20 @@ std::string file_of_references(const std::string& pose)
     return (fs::path(pbs::references_folder()) / (pose + ".ref")).string();
 }
 
-KeptReferences read_references(const std::string& pose, const pbs::Character& character)
+KeptReferences read_references(const std::string& pose, const pbs::Character& character, const pbs::Pose& bones)
 {
     const std::string file = file_of_references(pose);
     if (!fs::exists(file))
         throw pbs::InputError(file, 0, "", "",
                               "does not exist: solve the references of this pose with `pbskin reproduce references --full`");
-    return unpacked(analysis::read_text(file), file, character);
+    KeptReferences kept = unpacked(analysis::read_text(file), file, character);
+    if (kept.pose != pose) throw pbs::InputError(file, 0, "pose", kept.pose, "expected the references of " + pose);
+    for (std::size_t b = 0; b < bones.size(); ++b)
+        if (!kept.bones[b].isApprox(bones[b], same_bones))
+            throw pbs::InputError(
+                file, 0, "bones", character.skeleton.bones[b].name,
+                "this bone is elsewhere than in the pose: solve the references again with `pbskin reproduce references --full`");
+    return kept;
 }
 
 }  // namespace experiments

@@ -1,5 +1,5 @@
 // The solved references as data: one file per pose, with the shape of the flesh for each member of the family.
-//   const KeptReferences kept = read_references(pose.name, character);
+//   const KeptReferences kept = read_references(pose.name, character, bones_in(pose, character.skeleton));
 //   for (const KeptReference& reference : kept.members) if (reference.is_reached()) ... reference.positions ...
 // The files lie in experiments/references, from where they are installed. `pbskin reproduce references --full` solves them.
 #pragma once
@@ -46,7 +46,7 @@ struct KeptReferences {
 // A file of some 60 kB: the residual of each vertex from its bone's rigid motion (the first member) or from the member before, in
 // multiples of kept_quantum_m, compressed.
 std::string packed(const KeptReferences& references, const pbs::Character& character);
-inline constexpr double kept_quantum_m = 1e-5;
+inline constexpr double kept_quantum_m = 2e-6;
 
 // InputError for a text that is damaged, and for a character whose tets are not those of the references: it names the command that solves
 // them.
@@ -54,7 +54,7 @@ KeptReferences unpacked(const std::string& text, const std::string& file, const 
 
 // The file of a pose in pbs::references_folder().
 std::string file_of_references(const std::string& pose);
-// InputError as unpacked, and where there is no such file.
-KeptReferences read_references(const std::string& pose, const pbs::Character& character);
+// InputError as unpacked; where there is no such file; and where the file has another pose, or its bones are not those of the pose.
+KeptReferences read_references(const std::string& pose, const pbs::Character& character, const pbs::Pose& bones);
 
 }  // namespace experiments

@@ -19,8 +19,8 @@ const Columns<ComparedRow> compared_columns =
     analysis::within(&ComparedRow::point, MEMBER_COLUMNS(PointRow, method, pose, body, stratum, ms, skin_mm) +
                                               analysis::within(&PointRow::errors, member_error_columns()));
 const Columns<MethodRow> method_columns =
-    MEMBER_COLUMNS(MethodRow, table, budget_ms, method, takes, setting, ms, times_pbs, within, poses, share, share_low, share_high,
-                   fold_share, fold_low, fold_high, skin_mm, inverted_poses, letters);
+    MEMBER_COLUMNS(MethodRow, table, budget_ms, method, takes, setting, ms, times_pbs, within, poses, fewest_poses, share, share_low,
+                   share_high, fold_share, fold_low, fold_high, skin_mm, inverted_poses, letters);
 const Columns<MethodPairRow> method_pair_columns =
     MEMBER_COLUMNS(MethodPairRow, table, budget_ms, first, second, member, wins, ties, losses, p, p_holm, ratio, ratio_low, ratio_high);
 const Columns<DecisionRow> decision_columns = MEMBER_COLUMNS(DecisionRow, table, budget_ms, without_body, first, second, decision);
@@ -111,12 +111,25 @@ Spread share_of(const analysis::MethodErrors& method, const analysis::MethodErro
     return spread_over(shares);
 }
 
+// The number of poses in which both methods have an error against each member.
+std::vector<int> compared_poses(const analysis::MethodErrors& one, const analysis::MethodErrors& other, const std::vector<bool>& kept)
+{
+    std::vector<int> poses;
+    for (std::size_t m = 0; m < one.error.size(); ++m) {
+        poses.push_back(0);
+        for (std::size_t pose = 0; pose < kept.size(); ++pose)
+            poses.back() += kept[pose] && !std::isnan(one.error[m][pose]) && !std::isnan(other.error[m][pose]);
+    }
+    return poses;
+}
+
+// Over the poses by movement.
 template <typename Value>
 std::optional<double> median_of(const std::vector<const PointRow*>& rows, const Value& value)
 {
     std::vector<double> values;
     for (const PointRow* row : rows)
-        if (row && value(*row)) values.push_back(*value(*row));
+        if (row && row->stratum == Stratum::movement && value(*row)) values.push_back(*value(*row));
     return values.empty() ? std::nullopt : std::optional(analysis::median(values));
 }
 
@@ -169,13 +182,20 @@ MethodRow method_row(const Entry& entry, const Entry& lbs, const PosesOfTable& p
     row.times_pbs = median_of(entry.rows, [](const PointRow& point) { return point.times_pbs; });
     const double ms = row.ms.value_or(0.0);
     row.within = 2.0 * ms <= budget_ms ? "doubled" : ms <= budget_ms ? "once" : "no";
-    row.poses = static_cast<int>(std::ranges::count(poses.is_movement(), true));
+    const std::vector<int> compared = compared_poses(entry.errors, lbs.errors, poses.is_movement());
+    row.poses = std::ranges::max(compared);
+    row.fewest_poses = std::ranges::min(compared);
     const Spread share = share_of(entry.errors, lbs.errors, poses.is_movement());
-    row.share = share.middle, row.share_low = share.low, row.share_high = share.high;
-    if (const Spread fold = share_of(entry.errors, lbs.errors, poses.is_fold()); !std::isnan(fold.middle))
-        row.fold_share = fold.middle, row.fold_low = fold.low, row.fold_high = fold.high;
+    row.share = share.middle;
+    row.share_low = share.low;
+    row.share_high = share.high;
+    if (const Spread fold = share_of(entry.errors, lbs.errors, poses.is_fold()); !std::isnan(fold.middle)) {
+        row.fold_share = fold.middle;
+        row.fold_low = fold.low;
+        row.fold_high = fold.high;
+    }
     row.skin_mm = median_of(entry.rows, [](const PointRow& point) { return point.skin_mm; });
-    for (const PointRow* point : entry.rows) row.inverted_poses += point && point->inverted > 0;
+    for (const PointRow* point : entry.rows) row.inverted_poses += point && point->stratum == Stratum::movement && point->inverted > 0;
     return row;
 }
 

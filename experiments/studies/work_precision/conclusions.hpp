@@ -41,13 +41,13 @@ struct MethodRow {
     std::string method;
     std::vector<std::string> takes = {};
     std::string setting = {};
-    std::optional<double> ms = {}, times_pbs = {};  // medians over the poses
+    std::optional<double> ms = {}, times_pbs = {};  // medians over the poses by movement
     std::string within = {};                        // doubled: within the budget with twice its time; once: only just; no: on this machine
-    int poses = 0;
+    int poses = 0, fewest_poses = 0;  // by movement, in which the member with the most and with the fewest solutions compares the method
     double share = 0.0, share_low = 0.0, share_high = 0.0;  // movement
     std::optional<double> fold_share = {}, fold_low = {}, fold_high = {};
-    std::optional<double> skin_mm = {};  // median over the poses
-    int inverted_poses = 0;              // with an inverted tet
+    std::optional<double> skin_mm = {};  // median over the poses by movement
+    int inverted_poses = 0;              // of these, with an inverted tet
     std::string letters = {};            // methods that share one are not decided
 };
 extern const analysis::Columns<MethodRow> method_columns;

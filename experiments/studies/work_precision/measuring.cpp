@@ -80,8 +80,12 @@ public:
         for (const ReferencePose& pose : of.poses) {
             const pbs::Motion motion = make_motion(pose.scene.motion, character_.skeleton, pose.scene.file);
             const auto frame = [&](int f) { return motion.steps.at(static_cast<std::size_t>(f) * motion.steps_per_frame); };
-            ComparedPose& compared = poses_.emplace_back(ComparedPose{
-                &pose, frame(pose.frame), frame(pose.frame > 0 ? pose.frame - 1 : 1), {}, read_references(pose.name, character_)});
+            const pbs::Pose bones = frame(pose.frame);
+            ComparedPose& compared = poses_.emplace_back(ComparedPose{.pose = &pose,
+                                                                      .bones = bones,
+                                                                      .neighbour = frame(pose.frame > 0 ? pose.frame - 1 : 1),
+                                                                      .way = {},
+                                                                      .kept = read_references(pose.name, character_, bones)});
             for (int f = std::max(0, pose.frame - frames_of_memory); f < pose.frame; ++f) compared.way.push_back(frame(f));
         }
         const ComparedMethod pbs{.name = "pbs", .kind = "pbs", .overrides = {"pbs.iterations=24", "pbs.order=plain", "pbs.precision=f64"}};
@@ -130,7 +134,10 @@ public:
         const pbs::Positions& shape = posed.shapes[pose];
         row.outcome = shape.allFinite() ? "finished" : "not_finite";
         row.clock = posed.clock;
-        if (pose < posed.ms.size()) row.ms = posed.ms[pose], row.times_pbs = posed.ms[pose] / posed.baseline_ms;
+        if (pose < posed.ms.size()) {
+            row.ms = posed.ms[pose];
+            row.times_pbs = posed.ms[pose] / posed.baseline_ms;
+        }
         if (shape.allFinite()) row.inverted = metrics_.measure(shape).inverted_tets;
         return row;
     }

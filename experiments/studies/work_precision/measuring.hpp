@@ -1,5 +1,5 @@
 // The measurements of the study: the error of each setting against every kept reference of a body, its time, and the same along a clip.
-//   const std::vector<PointRow> points = measure_points(of);
+//   const Measurements measurements = measure(of);
 #pragma once
 
 #include "analysis/records/tables.hpp"

@@ -1,6 +1,7 @@
 // The methods that are compared, as a table of names with KEY=VALUE overrides of a scene (cases.toml), and their settings.
 //   for (const ComparedMethod& method : methods())
-//       for (const Setting& setting : tried_settings(method)) spec_of(setting, scene, character);
+//       for (const Setting& setting : tried_settings(method, method.grid.front()))
+//           spec_of(setting, scene, character, family().front());
 #pragma once
 
 #include "analysis/records/tables.hpp"

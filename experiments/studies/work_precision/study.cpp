@@ -21,7 +21,7 @@ std::vector<OwnErrorRow> own_errors(const ComparisonCase& of)
     const pbs::Character character = pbs::make_character(of.poses.front().scene.character);
     std::vector<OwnErrorRow> rows;
     for (const ReferencePose& pose : of.poses)
-        for (const KeptReference& reference : read_references(pose.name, character).members) {
+        for (const KeptReference& reference : read_references(pose.name, character, bones_in(pose, character.skeleton)).members) {
             const double own_pct = reference.own_error_pct();
             rows.push_back({pose.name, pose.of.body, pose.stratum, reference.member.name, reference.outcome,
                             std::isfinite(own_pct) ? std::optional(own_pct) : std::nullopt});

@@ -131,7 +131,7 @@ double error_by_hand(const ReferencePose& pose, const Setting& setting, std::siz
     const auto deformer = make_deformer(spec_of(setting, pose.scene, character, family()[flesh]));
     deformer->reset(character);
     deformer->advance(bones_in(pose, character.skeleton), pose.scene.motion.time_step_s);
-    const KeptReference reference = read_references(pose.name, character).members[member];
+    const KeptReference reference = read_references(pose.name, character, bones_in(pose, character.skeleton)).members[member];
     return analysis::ErrorMetrics(error_domain(character, {}))
         .measure(deformer->positions(), reference.positions, reference.at_tips)
         .joint_pct;
