@@ -70,6 +70,12 @@ def in_range(shares):
     return f"{' to '.join(dict.fromkeys(percent(share) for share in (min(shares), max(shares))))} %"
 
 
+def in_range_of_counts(counts):
+    """1 to 3 frames"""
+    least, most = min(counts), max(counts)
+    return f"{least} to {most} frames" if least != most else f"{most} frame{'s' if most != 1 else ''}"
+
+
 class Compared:
     def __init__(self, folder):
         self.methods = records.table(folder / "methods.csv", method_columns)
@@ -131,17 +137,17 @@ class Compared:
         return [row["member"] for row in of_time(self.pairs, table, ms) if {row["first"], row["second"]} == {method, other}]
 
     def familiar_ones(self, table, ms, method):
-        """nearer than PBS and LBS unless the flesh is nearly incompressible: how the method compares with the familiar ones."""
-        by_exception = {}
+        """nearer than PBS and LBS for 7 of 8 reference variants (not decided if the flesh is nearly incompressible)"""
+        by_variants = {}
         for other in familiar:
             nearer, variants = self.where_nearer(table, ms, method, other), self.variants(table, ms, method, other)
             if nearer:
                 without = [member for member in variants if member not in nearer]
-                except_for = f" for {len(nearer)} of {len(variants)} reference variants"
-                if len(without) <= most_exceptions:
-                    except_for = f" unless {assumed(without)}" if without else ""
-                by_exception.setdefault(except_for, []).append(other)
-        return "; ".join(f"nearer than {named(others)}{except_for}" for except_for, others in by_exception.items())
+                text = f" for {len(nearer)} of {len(variants)} reference variants" if without else ""
+                if 0 < len(without) <= most_exceptions and not self.where_nearer(table, ms, other, method):
+                    text += f", not decided if {assumed(without)}"
+                by_variants.setdefault(text, []).append(other)
+        return "; ".join(f"nearer than {named(others)}{text}" for text, others in by_variants.items())
 
     def conditions(self, table, ms, method, other):
         """bones hold the flesh as rigid capsules: what is assumed of the flesh where the first of the two is nearer."""
@@ -161,10 +167,8 @@ class Compared:
                 f"{millimetres(pbs['skin_mm'])} mm from flesh, that of LBS {millimetres(lbs['skin_mm'])} mm.")
 
     def rivals(self, table, ms, method, others):
-        """Those than which the method is not nearer for any reference variant, or for fewer than half of them."""
-        return [other for other in others
-                if 2 * len(self.where_nearer(table, ms, method, other)) < len(self.variants(table, ms, method, other)) and other not in familiar
-                or not self.where_nearer(table, ms, method, other)]
+        """Those of the open pairs that the comparison with the familiar ones does not state."""
+        return [other for other in others if other not in familiar or not self.where_nearer(table, ms, method, other)]
 
     def headline(self):
         """The answer for the time of the middle column in one sentence, for a reader who has to choose."""
@@ -172,14 +176,16 @@ class Compared:
         known, without = self.nearest("known", ms), self.nearest("known", ms, takes_nothing=True)
         if known is None:
             return f"No method is fast enough on this machine for {ms:g} ms per frame."
-        text = (f"With {ms:g} ms per frame, {name(known['method'])} comes nearest to flesh: it leaves {percent(known['share'])} % of the "
+        text = (f"With {ms:g} ms per frame, {name(known['method'])} has the least error: it leaves {percent(known['share'])} % of the "
                 f"error of LBS")
         guessed = self.row("guessed", ms, known["method"])
         if known["takes"] and guessed is not None:
             text += f" if material and springs of the flesh are known, and {percent(guessed['share'])} % if they are guessed"
         if without is not None and without is not known:
             text += f"; of the methods that need none of this, {name(without['method'])} leaves {percent(without['share'])} %"
-        return f"{text}."
+        compared = self.familiar_ones("known", ms, known["method"])
+        subject = name(known["method"])
+        return f"{text}. {subject[0].upper()}{subject[1:]} is {compared}." if compared else f"{text}."
 
     def clause(self, table, ms, where="", is_first=False, takes_nothing=False):
         """quasi-Newton leaves 32 % with the flesh known (4.1 mm, level with vertex block descent)"""
@@ -214,18 +220,20 @@ class Compared:
         return f"Within {ms:g} ms{' per frame' if is_first else ''}, {text}."
 
     def played(self):
-        """The nearest method along the clips, against each reference that they have; no sentence without clips."""
+        """What the nearest method and PBS leave along the clips, and what they leave of the same frames alone; no sentence without clips."""
         rows = [row for row in self.motion if float(row["budget_ms"]) == played_ms]
-        of_case = {}
-        for row in rows:
-            of_case.setdefault((row["clip"], row["member"]), []).append(row)
-        best = [min(case, key=lambda row: float(row["played_share"])) for case in of_case.values()]
-        if not best:
+        nearest = self.nearest("known", played_ms)
+        parts = []
+        for method in dict.fromkeys([*([nearest["method"]] if nearest else []), "pbs"]):
+            of_method = [row for row in rows if row["method"] == method]
+            if of_method:
+                played, posed = (in_range([float(row[column]) for row in of_method]) for column in ("played_share", "cold_share"))
+                parts.append(f"{name(method)} leaves {played} (the same frames alone: {posed})")
+        if not parts:
             return []
-        played, posed = (in_range([float(row[column]) for row in best]) for column in ("played_share", "cold_share"))
-        methods = conjoined([name(method) for method in dict.fromkeys(row["method"] for row in best)], "or")
-        return [f"Played along a clip, each frame from the one before, {methods} leaves {played} within "
-                f"{played_ms:g} ms (the same frames alone: {posed})."]
+        frames = in_range_of_counts([int(row["frames"]) for row in rows])
+        return [f"Played along a clip, each frame from the one before, {' and '.join(parts)} within {played_ms:g} ms; {frames} of each clip "
+                "have a reference."]
 
     def answers(self):
         """One sentence for each time, and one for clips."""

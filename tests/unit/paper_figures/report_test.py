@@ -136,7 +136,7 @@ class Report(ReportTest):
         synthetic_records.write_work_precision(self.results)
         lines = str(answers.which_method(self.found())).split("<br>")
         self.assertEqual(len(lines), 5)
-        self.assertIn("<p>With 1 ms per frame, quasi-Newton comes nearest to flesh", lines[0])
+        self.assertIn("<p>With 1 ms per frame, quasi-Newton has the least error", lines[0])
         self.assertTrue(lines[2].startswith("Within 1 ms, quasi-Newton leaves 32 % with the flesh known"), lines[2])
 
     def test_the_axis_has_the_units_the_bound_and_the_controls(self):
