@@ -195,7 +195,8 @@ class Compared:
         method, share, error, on_body = row["method"], percent(row["share"]), " of LBS's error", " from flesh on a body of 1.7 m"
         against = self.against(table, ms, method)
         if takes_nothing:
-            against = {decision: [other for other in others if not self.row(table, ms, other)["takes"]] for decision, others in against.items()}
+            against = {decision: [other for other in others if not self.row(table, ms, other)["takes"]]
+                       for decision, others in against.items()}
         text = "no method is nearer than LBS" if method == "lbs" else f"{name(method)} leaves {share} %{error if is_first else ''}"
         notes = [f"{millimetres(row['skin_mm'])} mm{on_body if is_first else ''}",
                  *(f"level with {named(others)}" for others in [against["level"]] if others),
@@ -220,7 +221,7 @@ class Compared:
         return f"Within {ms:g} ms{' per frame' if is_first else ''}, {text}."
 
     def played(self):
-        """What the nearest method and PBS leave along the clips, and what they leave of the same frames alone; no sentence without clips."""
+        """What the nearest method and PBS leave along the clips, and of the same frames alone; no sentence without clips."""
         rows = [row for row in self.motion if float(row["budget_ms"]) == played_ms]
         nearest = self.nearest("known", played_ms)
         parts = []
@@ -232,8 +233,8 @@ class Compared:
         if not parts:
             return []
         frames = in_range_of_counts([int(row["frames"]) for row in rows])
-        return [f"Played along a clip, each frame from the one before, {' and '.join(parts)} within {played_ms:g} ms; {frames} of each clip "
-                "have a reference."]
+        return [f"Played along a clip, each frame from the one before, {' and '.join(parts)} within {played_ms:g} ms; {frames} of each "
+                "clip have a reference."]
 
     def answers(self):
         """One sentence for each time, and one for clips."""

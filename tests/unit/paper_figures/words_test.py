@@ -238,14 +238,15 @@ class ComparedMethods(ResultsTest):
                                  "capsules, vertex block descent is nearer. With guessed flesh, quasi-Newton leaves 48 % (5.8 mm; PBS and "
                                  "PBS with smooth weights may be as near); if bones hold the flesh as rigid capsules, vertex block descent "
                                  "is nearer. Of the methods that take nothing of the flesh, PBS leaves 57 % (6.8 mm).")
-        self.assertEqual(clips, "Played along a clip, each frame from the one before, quasi-Newton leaves 16 to 24 % (the same frames alone: "
-                                "32 to 48 %) and PBS leaves 28 to 43 % (the same frames alone: 57 to 86 %) within 1 ms; 3 frames of each "
+        self.assertEqual(clips, "Played along a clip, each frame from the one before, quasi-Newton leaves 16 to 24 % (the same frames "
+                                "alone: 32 to 48 %) and PBS leaves 28 to 43 % (the same frames alone: 57 to 86 %) within 1 ms; 6 frames of each "
                                 "clip have a reference.")
 
     def test_one_sentence_answers_for_who_has_to_choose(self):
         compared = compared_methods.Compared(self.folder)
-        self.assertEqual(compared.headline(), "With 1 ms per frame, quasi-Newton has the least error: it leaves 32 % of the error of LBS if "
-                         "material and springs of the flesh are known, and 48 % if they are guessed; of the methods that need none of this, "
+        self.assertEqual(compared.headline(), "With 1 ms per frame, quasi-Newton has the least error: it leaves 32 % of the error of LBS "
+                         "if material and springs of the flesh are known, and 48 % if they are guessed; of the methods that need none of "
+                         "this, "
                          "PBS leaves 57 %.")
 
         def takes_nothing(row):
@@ -325,13 +326,13 @@ class ComparedMethods(ResultsTest):
         return self.changed("pairs", change)
 
     def test_the_nearest_is_compared_with_the_familiar_ones_and_exceptions_are_named(self):
-        all_of_them = [row["member"] for row in records.read_rows(self.folder / "pairs.csv")
-                       if row["table"] == "known" and float(row["budget_ms"]) == 1 and {row["first"], row["second"]} == {"quasi_newton", "lbs"}]
+        rows = compared_methods.of_time(records.read_rows(self.folder / "pairs.csv"), "known", 1.0)
+        all_of_them = [row["member"] for row in rows if {row["first"], row["second"]} == {"quasi_newton", "lbs"}]
         self.assertGreaterEqual(len(all_of_them), 3)
         self.assertEqual(self.with_lbs_nearer_on([]).familiar_ones("known", 1.0, "quasi_newton"), "nearer than LBS")
         self.assertEqual(self.with_lbs_nearer_on(["rigid_capsules"]).familiar_ones("known", 1.0, "quasi_newton"),
-                         f"nearer than LBS for {len(all_of_them) - 1} of {len(all_of_them)} reference variants, not decided if bones hold the flesh as "
-                         "rigid capsules")
+                         f"nearer than LBS for {len(all_of_them) - 1} of {len(all_of_them)} reference variants, not decided if bones hold "
+                         "the flesh as rigid capsules")
         self.assertEqual(self.with_lbs_nearer_on(all_of_them[1:]).familiar_ones("known", 1.0, "quasi_newton"),
                          f"nearer than LBS for 1 of {len(all_of_them)} reference variants, not decided if "
                          f"{compared_methods.assumed(all_of_them[1:])}")
