@@ -239,7 +239,8 @@ class ComparedMethods(ResultsTest):
                                  "PBS with smooth weights may be as near); if bones hold the flesh as rigid capsules, vertex block descent "
                                  "is nearer. Of the methods that take nothing of the flesh, PBS leaves 57 % (6.8 mm).")
         self.assertEqual(clips, "Played along a clip, each frame from the one before, quasi-Newton leaves 16 to 24 % (the same frames "
-                                "alone: 32 to 48 %) and PBS leaves 28 to 43 % (the same frames alone: 57 to 86 %) within 1 ms; 6 frames of each "
+                                "alone: 32 to 48 %) and PBS leaves 28 to 43 % (the same frames alone: 57 to 86 %) within 1 ms; "
+                                "6 frames of each "
                                 "clip have a reference.")
 
     def test_one_sentence_answers_for_who_has_to_choose(self):
