@@ -127,8 +127,7 @@ private:
 bool is_level(const MemberComparison& member, const PairRule& rule)
 {
     if (static_cast<double>(member.ties) / member.poses() >= rule.tied_share) return true;
-    const auto [low, high] = std::pair(member.ratio.low, member.ratio.high);
-    return std::max(high, 1.0 / low) <= rule.level_ratio && std::min(low, 1.0 / high) >= rule.level_inverse;
+    return std::max(member.ratio.high, 1.0 / member.ratio.low) <= rule.level_ratio;
 }
 
 // Methods by their ranks that share one letter.

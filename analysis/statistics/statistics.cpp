@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 
 namespace analysis {
 namespace {
@@ -79,11 +80,6 @@ std::vector<double> values_of(const CsvTable& metrics, const std::vector<int>& r
     for (const int row : rows)
         if (const auto value = metrics.number_or_nothing(row, column); value && std::isfinite(*value)) values.push_back(*value);
     return values;
-}
-
-bool is_candidate(const WorkPrecision& point)
-{
-    return std::isfinite(point.cost) && std::isfinite(point.error);
 }
 
 }  // namespace
@@ -223,32 +219,6 @@ Interval bootstrap_share_of_groups(const std::vector<std::string>& groups, const
 double binomial_tail(int counted, int all, double q)
 {
     return counted <= 0 ? 1.0 : gsl_cdf_binomial_Q(static_cast<unsigned>(counted - 1), q, static_cast<unsigned>(all));
-}
-
-bool dominates(const WorkPrecision& a, const WorkPrecision& b)
-{
-    return a.cost <= b.cost && a.error <= b.error && (a.cost < b.cost || a.error < b.error);
-}
-
-std::vector<std::size_t> pareto_front(const std::vector<WorkPrecision>& points)
-{
-    std::vector<std::size_t> front;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const auto beats = [&](const WorkPrecision& other) { return is_candidate(other) && dominates(other, points[i]); };
-        if (is_candidate(points[i]) && std::none_of(points.begin(), points.end(), beats)) front.push_back(i);
-    }
-    std::stable_sort(front.begin(), front.end(), [&](std::size_t a, std::size_t b) { return points[a].cost < points[b].cost; });
-    return front;
-}
-
-std::optional<std::size_t> best_within(const std::vector<WorkPrecision>& points, double budget)
-{
-    std::optional<std::size_t> best;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (is_candidate(points[i]) && points[i].cost <= budget &&
-            (!best || dominates(points[i], points[*best]) || points[i].error < points[*best].error))
-            best = i;
-    return best;
 }
 
 CsvTable frame_statistics(const CsvTable& metrics)

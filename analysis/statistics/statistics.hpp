@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <vector>
 
 namespace analysis {
@@ -76,28 +75,6 @@ Interval bootstrap_share_of_groups(const std::vector<std::string>& groups, const
 
 // The probability that at least `counted` of `all` independent cases hold if each does with probability q (GSL's binomial distribution).
 double binomial_tail(int counted, int all, double q);
-
-// Work against precision: the measured points that no other point dominates, and the most precise one within a budget.
-//   const std::vector<std::size_t> front = pareto_front({{0.1, 60.0}, {0.5, 25.0}, {0.7, 40.0}});   // 0, 1
-//   best_within(points, 0.6);                                                                       // 1
-// V. Pareto, Cours d'economie politique, 1896; work-precision diagrams: E. Hairer, G. Wanner, Solving ordinary differential equations II,
-// 1996. Points whose cost or error is not finite are ignored.
-// One measured point; less is better for both members.
-struct WorkPrecision {
-    double cost = 0.0;   // any unit, the same for all points
-    double error = 0.0;  // any unit, the same for all points
-};
-
-// True if a is nowhere worse than b and somewhere better.
-bool dominates(const WorkPrecision& a, const WorkPrecision& b);
-
-// The points that none dominates, by cost and, for equal costs, in their given order; points that are equal in both are on the front
-// together.
-std::vector<std::size_t> pareto_front(const std::vector<WorkPrecision>& points);
-
-// The point with the smallest error among those whose cost is within the budget; among equal ones the cheapest, then the first. Nothing if
-// no point is within the budget.
-std::optional<std::size_t> best_within(const std::vector<WorkPrecision>& points, double budget);
 
 // Order statistics over the frames of a table of metrics. One row per deformer and setting:
 //   scene, deformer, variant, order, precision, iterations, frames

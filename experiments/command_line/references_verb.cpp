@@ -98,13 +98,6 @@ analysis::CsvTable springs_table(const pbs::Character& character, const pbs::Bon
     return table;
 }
 
-pbs::SpringPlacement placement_of(FemAttachment attachment)
-{
-    return attachment == FemAttachment::embedded ? pbs::SpringPlacement::embedded
-           : attachment == FemAttachment::held   ? pbs::SpringPlacement::held
-                                                 : pbs::SpringPlacement::smooth;
-}
-
 // Members that are held by the same springs share their file, which has the name of the first of them.
 std::string springs_file(const std::string& body, const EnsembleMember& member)
 {
@@ -214,12 +207,8 @@ private:
     {
         const std::string file = springs_file(body, member);
         if (!written_springs_.insert(file).second) return;
-        const pbs::SmoothSpringOptions options{.core_radius = flesh.used_core_radius(),
-                                               .spring_factor = flesh.used_spring_factor(),
-                                               .kernel = flesh.attachment_kernel,
-                                               .ends = flesh.attachment_ends,
-                                               .samples = flesh.attachment_samples};
-        springs_table(character, pbs::bone_springs(character, placement_of(flesh.attachment), options).springs).write(body_file(file));
+        const pbs::CapsuleSprings held = pbs::bone_springs(character, spring_placement(flesh.attachment), spring_options(flesh));
+        springs_table(character, held.springs).write(body_file(file));
     }
 
     static void write_reference(const std::string& path, const pbs::Character& character, const KeptReference& reference)

@@ -6,7 +6,6 @@
 #include "pbs/character/character.hpp"
 #include "pbs/flesh/bone_springs.hpp"
 
-#include <functional>
 #include <string>
 #include <vector>
 

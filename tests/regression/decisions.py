@@ -22,7 +22,7 @@ import unittest
 KEPT = pathlib.Path(__file__).resolve().parents[2] / "experiments" / "records" / "full"
 STUDY = "work_precision"
 TABLES = ("errors", "references", "pairs", "decisions")
-SIGNIFICANCE, TIED_SHARE, LOW, HIGH, REPLICATES = 0.05, 0.8, 0.9, 1.1, 2000
+SIGNIFICANCE, TIED_SHARE, LEVEL_RATIO, REPLICATES = 0.05, 0.8, 1.1, 2000
 PRECISION = 1e-9        # of p and of ratios, relative
 RANGE_PRECISION = 0.15  # of the ends of a range, whose random numbers differ, relative to its width in logarithms
 LEVEL_PRECISION = 0.02  # of the thresholds of `level`, where a range is not recorded
@@ -116,8 +116,8 @@ class Comparison:
 
 
 def is_close(low, high, slack):
-    """Whether a range lies within the thresholds, and that of the reciprocals does, too."""
-    return min(low, 1 / high) >= LOW * (1 - slack) and max(high, 1 / low) <= HIGH * (1 + slack)
+    """Whether a range lies within 1 / LEVEL_RATIO to LEVEL_RATIO."""
+    return max(high, 1 / low) <= LEVEL_RATIO * (1 + slack)
 
 
 def is_level(members, range_of, slack=0.0):

@@ -41,7 +41,7 @@ void hold_tets(const pbs::Character& character, BoneAttachment& bones)
         if (bones.tet_bone.empty() || bones.tet_bone.back() != j)
             throw pbs::InputError(character.name, 0, "bone", character.skeleton.bones[j].name,
                                   "expected four vertices of whole tets inside its capsule that are not in one plane; refine the mesh, "
-                                  "raise core_radius or use attachment smooth or embedded");
+                                  "raise core_radius or use attachment smooth, embedded or held");
     }
 }
 
@@ -57,27 +57,10 @@ void bind_vertices(const pbs::Character& character, const FemOptions& options, B
     }
 }
 
-pbs::SpringPlacement spring_placement(FemAttachment attachment)
-{
-    switch (attachment) {
-        case FemAttachment::embedded:
-            return pbs::SpringPlacement::embedded;
-        case FemAttachment::held:
-            return pbs::SpringPlacement::held;
-        default:
-            return pbs::SpringPlacement::smooth;
-    }
-}
-
 // Springs at the sample points of the capsules, each with the stiffness of its share of the volume.
 void tie_springs(const pbs::Character& character, const FemOptions& options, BoneAttachment& bones)
 {
-    const pbs::SmoothSpringOptions sampled{.core_radius = options.used_core_radius(),
-                                           .spring_factor = options.used_spring_factor(),
-                                           .kernel = options.attachment_kernel,
-                                           .ends = options.attachment_ends,
-                                           .samples = options.attachment_samples};
-    pbs::CapsuleSprings held = pbs::bone_springs(character, spring_placement(options.attachment), sampled);
+    pbs::CapsuleSprings held = pbs::bone_springs(character, spring_placement(options.attachment), spring_options(options));
     bones.capsules = std::move(held.capsules);
     bones.attachment.spring_points = std::move(held.springs.points);
     bones.attachment.spring_stiffness = options.young_pa * held.springs.stiffness;

@@ -57,6 +57,23 @@ struct FemOptions {
     double used_spring_factor() const { return spring_factor > 0.0 ? spring_factor : is_smooth() ? 10.0 : 1e4; }
 };
 
+// Where and how springs hold the flesh, for attachments with sample points.
+inline pbs::SpringPlacement spring_placement(FemAttachment attachment)
+{
+    return attachment == FemAttachment::embedded ? pbs::SpringPlacement::embedded
+           : attachment == FemAttachment::held   ? pbs::SpringPlacement::held
+                                                 : pbs::SpringPlacement::smooth;
+}
+
+inline pbs::SmoothSpringOptions spring_options(const FemOptions& options)
+{
+    return {.core_radius = options.used_core_radius(),
+            .spring_factor = options.used_spring_factor(),
+            .kernel = options.attachment_kernel,
+            .ends = options.attachment_ends,
+            .samples = options.attachment_samples};
+}
+
 // The names of the values of the reference's options in scenes and records.
 NAMED_OPTIONS(reference_fem::Model, linear, corotational, stable_neo_hookean, neo_hookean, st_venant_kirchhoff)
 NAMED_OPTIONS(reference_fem::Formulation, displacement, mean_dilatation, taylor_hood)

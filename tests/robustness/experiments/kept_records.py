@@ -69,10 +69,9 @@ class KeptRecords(program.ProgramTest):
         self.assertEqual(sorted(file.name for file in (merged / "study" / "runs").iterdir()), ["a.csv", "b.csv"])
 
     def test_every_column_of_another_table_is_kept(self):
-        """`setting` distinguishes the rows of work_precision/RUN/changes.csv."""
-        changes = "change,setting,iterations\nbound,0.002,4\nbound,0.01,4\n"
-        keep.keep_table(pathlib.Path(self.write("changes.csv", changes)), pathlib.Path(self.path("kept.csv")))
-        self.assertEqual(self.read("kept.csv"), changes)
+        table = "change,setting,iterations\nbound,0.002,4\nbound,0.01,4\n"
+        keep.keep_table(pathlib.Path(self.write("table.csv", table)), pathlib.Path(self.path("kept.csv")))
+        self.assertEqual(self.read("kept.csv"), table)
 
     def kept_records(self, table="run,x\none,1\n", study="study", **origin):
         """The folder of kept records of one run, which may be changed."""
@@ -82,12 +81,6 @@ class KeptRecords(program.ProgramTest):
         self.write("kept/provenance.json", json.dumps({"origins": origins}))
         self.write("kept/study/runs/metrics.csv", table)
         return pathlib.Path(self.path("kept"))
-
-    def test_of_points_the_columns_that_are_read_and_of_fronts_the_means_are_kept(self):
-        for name, text, kept in (("points.csv", "ms_q1,error_joint_pct,error_x_pct\n1,2.1234567,4\n", "error_joint_pct\n2.12346\n"),
-                                 ("fronts.csv", "case,ms_q1\nlimb,1\nmean_of_2_poses,2\n", "case,ms_q1\nmean_of_2_poses,2\n")):
-            keep.keep_table(pathlib.Path(self.write(name, text)), pathlib.Path(self.path("kept.csv")))
-            self.assertEqual(self.read("kept.csv"), kept)
 
     def test_names_that_leave_the_folder_are_refused(self):
         message = "expected no leading / and no .. in a name"

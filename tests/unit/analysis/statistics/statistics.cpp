@@ -4,8 +4,6 @@
 #include "tests/support/rounding_error.hpp"
 
 #include <cmath>
-#include <random>
-#include <tuple>
 
 namespace {
 
@@ -187,55 +185,6 @@ TEST(Jackknife, OfAMeanIsStudentsInterval)
     EXPECT_NEAR(narrow.low, 0.3867928034807977, 1e-12);
     EXPECT_TRUE(std::isnan(jackknife_interval(3.5, {3.5}).low));
     EXPECT_TRUE(std::isnan(jackknife_interval(3.5, {}).high));
-}
-
-// Fronts. Reference: the definitions, evaluated by hand on a few points.
-
-using Front = std::vector<std::size_t>;
-using Points = std::vector<WorkPrecision>;
-
-TEST(ParetoFront, HoldsWhatNoneDominatesByCost)
-{
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    const std::vector<std::tuple<const char*, Points, Front>> all = {
-        {"no point", {}, {}},
-        {"a single point", {{2.0, 5.0}}, {0}},
-        {"dominated points are left out", {{3.0, 1.0}, {1.0, 9.0}, {2.0, 9.5}, {2.0, 4.0}, {4.0, 1.5}}, {1, 3, 0}},
-        {"at equal cost the smaller error", {{1.0, 5.0}, {1.0, 4.0}}, {1}},
-        {"at equal error the cheaper", {{2.0, 5.0}, {1.0, 5.0}}, {1}},
-        {"equal in both: together", {{1.0, 5.0}, {2.0, 3.0}, {1.0, 5.0}}, {0, 2, 1}},
-        {"not finite: neither on it nor dominating",
-         {{1.0, no_number}, {no_number, 1.0}, {-infinity, 0.0}, {2.0, 3.0}, {1.0, infinity}},
-         {3}},
-    };
-    for (const auto& [name, points, front] : all) EXPECT_EQ(pareto_front(points), front) << name;
-}
-
-// Reference: the definition again, for many points: no point dominates one on the front, and some point dominates each other one.
-TEST(ParetoFront, OfManyPointsHoldsExactlyThoseThatNoneDominates)
-{
-    std::mt19937 generator(7);
-    std::uniform_int_distribution<int> tenth(0, 20);  // coarse, so that ties occur
-    Points points;
-    for (int i = 0; i < 300; ++i) points.push_back({0.1 * tenth(generator), 0.1 * tenth(generator)});
-    const Front front = pareto_front(points);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        bool dominated = false;
-        for (const WorkPrecision& other : points)
-            dominated |= other.cost <= points[i].cost && other.error <= points[i].error &&
-                         (other.cost != points[i].cost || other.error != points[i].error);
-        EXPECT_EQ(std::count(front.begin(), front.end(), i), dominated ? 0 : 1) << i;
-    }
-}
-
-TEST(BestWithin, IsTheSmallestErrorThatTheBudgetPays)
-{
-    const Points points = {{1.0, 9.0}, {2.0, 4.0}, {3.0, 6.0}, {4.0, 4.0}};
-    EXPECT_FALSE(best_within({}, 1.0));
-    EXPECT_FALSE(best_within(points, 0.5));
-    EXPECT_EQ(best_within(points, 1.0), 0u);
-    EXPECT_EQ(best_within(points, 2.0), 1u);
-    EXPECT_EQ(best_within(points, 9.0), 1u);  // the cheaper of two equal errors
 }
 
 // Reference: order statistics of a few frames by hand, linear between them.
