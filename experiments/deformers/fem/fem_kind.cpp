@@ -47,42 +47,45 @@ void add_attachment_fields(OptionFields<FemOptions>& fields)
 {
     fields.add(
         "attachment", &FemOptions::attachment,
-        {.meaning = "smooth: springs whose density decreases smoothly to zero from the bone's axis to the surface of a capsule around it; "
-                    "embedded: bones as rigid capsules tied to the flesh by stiff springs; nodes: whole tets inside the capsules "
-                    "prescribed; bind: the paper's bind constraint as an energy on every vertex, for nonlinear models"});
+        {.meaning =
+             "smooth: springs whose density decreases smoothly to zero from the bone's axis to the surface of a capsule around it; "
+             "embedded: bones as rigid capsules tied to the flesh by stiff springs; nodes: whole tets inside the capsules "
+             "prescribed; bind: the paper's bind constraint as an energy on every vertex, for nonlinear models; held: as smooth, and "
+             "each bone also holds, by stiff springs, the tets that it alone moves, as a skull holds a head"});
     // The value 0 of the next two stands for the attachment's own, which records state.
     fields.add(
         "core_radius", &FemOptions::core_radius,
         {.range = {0, 1},
          .meaning =
-             "attachments smooth, embedded and nodes: radius of the bone's capsule, a factor on the local limb radius, without a unit; 0: "
-             "0.7 with attachment smooth, otherwise 0.35. Both are choices of this project. The study ensemble compares "
+             "attachments smooth, embedded, nodes and held: radius of the bone's capsule, a factor on the local limb radius, without a "
+             "unit; 0: 0.7 with attachments smooth and held, otherwise 0.35. Both are choices of this project. The study ensemble compares "
              "smooth springs with 0.7 and 0.5"});
     fields.add(
         "spring_factor", &FemOptions::spring_factor,
         {.range = {0, 1e9},
          .meaning =
-             "attachments smooth, embedded and bind: q, a factor without a unit: the density of the springs is q E / r^2 [N/m^4], r the "
-             "capsule's radius (smooth: the density on the axis) or the local limb radius (bind); 0: 10 with attachment smooth, otherwise "
-             "1e4. Both are choices of this project. The study ensemble compares smooth springs with 10 and 100; doubling "
-             "1e4 with attachment embedded changes no reported value"});
+             "attachments smooth, embedded, bind and held: q, a factor without a unit: the density of the springs is q E / r^2 [N/m^4], r "
+             "the capsule's radius (smooth and held: the density on the axis) or the local limb radius (bind); 0: 10 with attachments "
+             "smooth and held, otherwise 1e4. Both are choices of this project. The study ensemble compares smooth springs with 10 and "
+             "100; doubling 1e4 with attachment embedded changes no reported value"});
     fields.derived("core_radius", [](const FemOptions& options) { return options.used_core_radius(); })
         .derived("spring_factor", [](const FemOptions& options) { return options.used_spring_factor(); })
-        .add("attachment_kernel", &FemOptions::attachment_kernel,
-             {.meaning =
-                  "attachment smooth, s = distance to the axis / r: biweight: density (1 - s^2)^2 across the bone (Tukey's biweight: "
-                  "A. E. Beaton, J. W. Tukey, Technometrics 16, 1974) and a cubic step at its ends, once continuously differentiable; "
-                  "wendland: (1 - s)^4 (4 s + 1) (H. Wendland, Adv. Comput. Math. 4, 1995) and a step of degree 5, twice so"})
+        .add(
+            "attachment_kernel", &FemOptions::attachment_kernel,
+            {.meaning = "attachments smooth and held, s = distance to the axis / r: biweight: density (1 - s^2)^2 across the bone (Tukey's "
+                        "biweight: A. E. Beaton, J. W. Tukey, Technometrics 16, 1974) and a cubic step at its ends, once continuously "
+                        "differentiable; wendland: (1 - s)^4 (4 s + 1) (H. Wendland, Adv. Comput. Math. 4, 1995) and a step of degree 5, "
+                        "twice so"})
         .add(
             "attachment_ends", &FemOptions::attachment_ends,
             {.unit = "r",
              .range = {0.01, 100},
-             .meaning = "attachment smooth: the length, in radii of the capsule, over which the density rises from 0 at each end of it; at "
-                        "most half of the capsule's length. The default is a choice of this project"})
+             .meaning = "attachments smooth and held: the length, in radii of the capsule, over which the density rises from 0 at each end "
+                        "of it; at most half of the capsule's length. The default is a choice of this project"})
         .add("attachment_samples", &FemOptions::attachment_samples,
              {.range = {1, 4},
-              .meaning = "attachments smooth and embedded: multiplies the 40 stations along a bone, the 8 rings of sample points across it "
-                         "and the 24 points of a ring"});
+              .meaning = "attachments smooth, embedded and held: multiplies the 40 stations along a bone, the 8 rings of sample points "
+                         "across it and the 24 points of a ring"});
 }
 
 void add_contact_fields(OptionFields<FemOptions>& fields)
@@ -143,15 +146,16 @@ void check(const SceneValues& values, const std::string& table, FemOptions& opti
         if (is_wrong) values.refuse(table + "." + key, expected);
     };
     refuse_if(linear && options.attachment == FemAttachment::bind, "attachment",
-              "expected smooth, embedded or nodes with model linear: the bind constraint is not linear");
+              "expected smooth, embedded or nodes with model linear, or held, which includes smooth: the bind constraint is not linear");
     refuse_if(!options.has_capsules() && given("core_radius"), "core_radius",
-              "expected attachment smooth, embedded or nodes, which have capsules");
+              "expected attachment smooth, embedded or nodes, which have capsules, or held, which includes smooth");
     refuse_if(!options.has_spring_factor() && given("spring_factor"), "spring_factor",
-              "expected attachment smooth, embedded or bind: prescribed nodes have no springs");
+              "expected attachment smooth, embedded or bind: prescribed nodes have no springs; held includes smooth");
     for (const char* key : {"attachment_kernel", "attachment_ends"})
-        refuse_if(!options.is_smooth() && given(key), key, "expected attachment smooth, which alone has it");
+        refuse_if(!options.is_smooth() && given(key), key,
+                  "expected attachment smooth, which alone has it, or held, which includes smooth");
     refuse_if(!options.has_sample_points() && given("attachment_samples"), "attachment_samples",
-              "expected attachment smooth or embedded, which have sample points");
+              "expected attachment smooth or embedded, which have sample points, or held, which includes smooth");
     refuse_if(options.core_radius > 0.0 && options.core_radius < 0.01, "core_radius", "expected 0, or 0.01 to 1");
     refuse_if(options.spring_factor > 0.0 && options.spring_factor < 1e-3, "spring_factor", "expected 0, or 0.001 to 1e9");
     refuse_if(!linear && options.solver != reference_fem::LinearSolver::cholmod, "solver",

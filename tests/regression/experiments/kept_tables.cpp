@@ -110,7 +110,6 @@ TEST(KeptTables, ReadAsRowsAndWrittenAgainAreTheSame)
     expect_same(experiments::start_columns, "stability/runs/starts.csv");
     expect_same(experiments::part_columns, "ensemble/runs/parts.csv");
     expect_same(experiments::attachment_columns, "ensemble/runs/attachments.csv");
-    expect_same(experiments::own_tets_columns, "ensemble/own_tets.csv");
     expect_same(experiments::own_error_columns, "work_precision/references.csv");
     expect_same(experiments::chosen_columns, "work_precision/settings.csv");
     expect_same(experiments::compared_columns, "work_precision/errors.csv");
@@ -126,6 +125,7 @@ TEST(KeptTables, ReadAsRowsAndWrittenAgainAreTheSame)
     expect_same(experiments::start_columns, "stability/starts.csv", some);
     expect_same(experiments::trial_columns, "setup/runs/trials.csv");
     expect_same(experiments::key_columns, "setup/runs/changed_keys.csv");
+    expect_same(experiments::own_tets_columns, "ensemble/own_tets.csv");
 }
 
 // No two rows of verification.csv share these; description and mesh are words for readers.
