@@ -165,10 +165,11 @@ def figure_lines(results):
     drawn, rows = work_precision.error_against_time(results)
     style.save(drawn, picture.with_suffix(""), origin, rows, formats=("png",), dpi=200)
     compared = compared_methods.Compared(results / "work_precision")
-    poses = compared.row("known", compared.times_ms[0], "lbs")["poses"]
+    lbs = compared.row("known", compared.times_ms[0], "lbs")
     head = ["method", "takes", *(f"{ms:g} ms" for ms in compared.times_ms)]
     return [f"![Error against run time of each method](paper_figures/readme/{picture.name})", "", f"**{compared.headline()}**", "",
             *(f"- {answer}" for answer in compared.answers()), "",
             tables.line(*head), "|---" * len(head) + "|", *(tables.line(*cells) for cells in compared.table("known")), "",
-            f"*Error at the joints in per cent of that of LBS, on one core ({origin['cpu_model']}): the geometric mean over {poses} poses, "
-            f"and in brackets the range over the reference variants. {compared_methods.legend} [The whole comparison]({page}).*"]
+            f"*Error at the joints in per cent of that of LBS, on one core ({origin['cpu_model']}): the geometric mean over "
+            f"{lbs['poses']} poses ({lbs['fewest_poses']} for the reference variant with the fewest solutions), and in brackets the range "
+            f"over the variants. {compared_methods.legend} [The whole comparison]({page}).*"]

@@ -12,8 +12,8 @@ import records
 from words import case_words, looks
 from words.number_words import figure
 
-method_columns = {"table", "budget_ms", "method", "takes", "setting", "ms", "times_pbs", "within", "poses", "share", "share_low",
-                  "share_high", "fold_share", "skin_mm", "letters"}
+method_columns = {"table", "budget_ms", "method", "takes", "setting", "ms", "times_pbs", "within", "poses", "fewest_poses", "share",
+                  "share_low", "share_high", "fold_share", "skin_mm", "letters"}
 significance = 0.05   # of an adjusted p, as in analysis/statistics/paired_comparison.hpp
 most_names = 4        # in a list that is read aloud
 familiar = ("pbs", "delta_mush", "lbs")  # the sentence always states how the nearest method compares with these
