@@ -211,7 +211,7 @@ class OwnDeformer(program.ProgramTest):
         subprocess.run([sys.executable, "-B", pathlib.Path(program.SOURCE) / "paper_figures/make_pages.py", self.path("out")], check=True)
         page = self.read("out", "work_precision", "work_precision.md")
         self.assertIn("- `rigid`: processor time", page)
-        self.assertIn("- `mine`: the times that the program states", page)
+        self.assertIn("- `blended`: the times that the program states", page)
         self.assertEqual(self.runs_to_do(), 0)
         renamed = tables.replace('"blended"', '"unsmoothed"')
         for name, whole, other in (("my_deformer.py", text, text + "\n"), ("mine.toml", tables, renamed), ("mine.toml", tables, example)):

@@ -1,5 +1,5 @@
 // Reference: the shapes and numbers that were packed. A coordinate is kept as a multiple of kept_quantum_m from a predicted one, so that it
-// comes back within half of it; the rounding of the sum is a thousandth of a millionth of that.
+// comes back within half of it; the rounding of the sum is below a thousand-millionth of that.
 #include "experiments/studies/shared/kept_references.hpp"
 
 #include "pbs/character/body_cache.hpp"
@@ -186,16 +186,27 @@ TEST(KeptReferences, OfOtherTetsAreRefusedByNameWithTheCommandThatSolvesThem)
         EXPECT_NE(message.find(part), std::string::npos) << message;
 }
 
-TEST(KeptReferences, AreReadByTheNameOfTheirPose)
+// A file has the pose of its name, with the bones where they are now.
+TEST(KeptReferences, AreReadByTheNameAndTheBonesOfTheirPose)
 {
     const test_support::ScratchFolder folder;
     ::setenv("PBSKIN_REFERENCES", folder.path().c_str(), 1);
-    const std::string file = folder.file("bar_bend_70.ref", packed(bent_bar(), bar));
+    const KeptReferences references = bent_bar();
+    const std::string file = folder.file("bar_bend_70.ref", packed(references, bar));
+    folder.file("renamed.ref", packed(references, bar));
     EXPECT_EQ(file_of_references("bar_bend_70"), file);
-    EXPECT_EQ(read_references("bar_bend_70", bar).members.size(), 8u);
-    const std::string message = refusal_of([] { read_references("bar_bend_80", bar); });
-    EXPECT_TRUE(message.starts_with(folder / "bar_bend_80.ref: does not exist: ")) << message;
-    EXPECT_NE(message.find("`pbskin reproduce references --full`"), std::string::npos) << message;
+    pbs::Pose nearly = references.bones, elsewhere = references.bones;
+    nearly[1].translation().x() += 1e-12;
+    elsewhere[1].translation().x() += 1e-6;
+    for (const pbs::Pose& bones : {references.bones, nearly}) EXPECT_EQ(read_references("bar_bend_70", bar, bones).members.size(), 8u);
+    const auto expect_refused = [&](const std::string& pose, const pbs::Pose& bones, const std::string& begin, const std::string& rule) {
+        const std::string message = refusal_of([&] { read_references(pose, bar, bones); });
+        EXPECT_TRUE(message.starts_with(folder / begin) && message.find(rule) != std::string::npos) << message;
+    };
+    const std::string solve = "`pbskin reproduce references --full`";
+    expect_refused("bar_bend_80", references.bones, "bar_bend_80.ref: does not exist: ", solve);
+    expect_refused("renamed", references.bones, "renamed.ref: pose = bar_bend_70: ", "expected the references of renamed");
+    expect_refused("bar_bend_70", elsewhere, "bar_bend_70.ref: bones = forearm: ", solve);
     ::unsetenv("PBSKIN_REFERENCES");
 }
 
