@@ -183,6 +183,9 @@ class Compared:
             text += f" if material and springs of the flesh are known, and {percent(guessed['share'])} % if they are guessed"
         if without is not None and without is not known:
             text += f"; of the methods that need none of this, {name(without['method'])} leaves {percent(without['share'])} %"
+            mush = self.row("known", ms, "delta_mush")
+            if mush is not None and mush is not without:
+                text += f" and {name(mush['method'])} {percent(mush['share'])} %"
         compared = self.familiar_ones("known", ms, known["method"])
         subject = name(known["method"])
         return f"{text}. {subject[0].upper()}{subject[1:]} is {compared}." if compared else f"{text}."
