@@ -85,8 +85,8 @@ std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, 
 
 class PosedReference {
 public:
-    // spec: a [[fem]] deformer with a nonlinear model and attachment smooth, embedded or held; its element order does not matter. character:
-    // not refined itself. solutions: a folder in which solutions are kept and found again; "": none.
+    // spec: a [[fem]] deformer with a nonlinear model and attachment smooth, embedded or held; its element order does not matter.
+    // character: not refined itself. solutions: a folder in which solutions are kept and found again; "": none.
     PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s,
                    ReferenceEffort effort = ReferenceEffort::other_tets, const std::string& solutions = "");
 

@@ -125,7 +125,6 @@ TEST(KeptTables, ReadAsRowsAndWrittenAgainAreTheSame)
     expect_same(experiments::start_columns, "stability/starts.csv", some);
     expect_same(experiments::trial_columns, "setup/runs/trials.csv");
     expect_same(experiments::key_columns, "setup/runs/changed_keys.csv");
-    expect_same(experiments::own_tets_columns, "ensemble/own_tets.csv");
 }
 
 // No two rows of verification.csv share these; description and mesh are words for readers.

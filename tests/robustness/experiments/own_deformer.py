@@ -170,8 +170,8 @@ class OwnDeformer(program.ProgramTest):
 
     def test_the_study_of_error_against_run_time_has_rows_for_it(self):
         """The example of the README, the same example without smoothing, which is LBS and states times of 1, 2, 3 and 4 ms for the turns of
-        each pose, and the library of the README. Reference: the shapes of LBS, the exported references, and the median of the times after the
-        first (2, 3 and 4 ms). Tolerance: references are exported with ten digits."""
+        each pose, and the library of the README. Reference: the shapes of LBS, the exported references, and the median of the times after
+        the first (2, 3 and 4 ms). Tolerance: references are exported with ten digits."""
         text = EXAMPLE
         kept = pathlib.Path(self.path("kept"))
         blended = text.replace("in range(4):", "in range(0):").replace("time.perf_counter() - start", "0.001 * (1 + len(seconds) % 4)")
