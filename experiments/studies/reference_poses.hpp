@@ -33,7 +33,7 @@ ReferencePose reference_pose(const StudyCase& in_file);
 bool is_played(const EnsembleMember& member);
 std::vector<EnsembleMember> members_of(Stratum stratum);
 
-// Those of all installed bodies.
+// The poses of all installed bodies.
 std::vector<ReferencePose> reference_poses();
 
 // The transforms of the bones in the pose, of a character of the scene.

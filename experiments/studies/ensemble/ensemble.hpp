@@ -1,4 +1,4 @@
-// What the error of PBS against the first member of the family is made of. With x_n the shape after n iterations, x_inf the same
+// The study splits the error of PBS against the first member of the family. With x_n the shape after n iterations, x_inf the same
 // constraints converged, x_h the reference and x_0 its limit on ever finer meshes,
 //   x_n - x_0 = (x_n - x_inf) + (x_inf - x_h) + (x_h - x_0)
 //               solver          model           discretisation
