@@ -19,12 +19,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 namespace {
 
@@ -279,6 +281,53 @@ TEST(KeptValues, OfTheReferencesOwnErrorsAreTheSameInEachStudy)
     for (const auto& [key, own_error] : compared) {
         ASSERT_TRUE(solved.contains(key)) << key.first << ", " << key.second;
         EXPECT_EQ(own_error, solved.at(key)) << key.first << ", " << key.second;
+    }
+}
+
+// The geometric mean over the poses by movement of the error over that of LBS: the median over the members, the least and the largest.
+TEST(KeptValues, OfTheSharesFollowFromTheErrors)
+{
+    const auto rows = rows_of(experiments::compared_columns, kept_table("work_precision/errors.csv"));
+    using Key = std::tuple<experiments::ComparisonTable, double, std::string>;  // a method in a table at a time
+    std::map<Key, std::map<std::string, experiments::MemberErrors>> errors;     // by pose
+    for (const experiments::ComparedRow& row : rows)
+        if (row.point.stratum == experiments::Stratum::movement)
+            errors[{row.table, row.budget_ms, row.point.method}][row.point.pose] = row.point.errors;
+    const auto methods = rows_of(experiments::method_columns, kept_table("work_precision/methods.csv"));
+    EXPECT_EQ(methods.size(), errors.size());
+    for (const experiments::MethodRow& method : methods) {
+        const auto& own = errors.at({method.table, method.budget_ms, method.method});
+        const auto& lbs = errors.at({method.table, method.budget_ms, "lbs"});
+        std::vector<double> shares;
+        for (std::size_t m = 0; m < experiments::members_of_family; ++m) {
+            double sum = 0.0;
+            int poses = 0;
+            for (const auto& [pose, of_members] : own)
+                if (of_members[m] && lbs.at(pose)[m]) sum += std::log(*of_members[m] / *lbs.at(pose)[m]), ++poses;
+            shares.push_back(std::exp(sum / poses));
+        }
+        std::ranges::sort(shares);
+        const double middle = (shares[3] + shares[4]) / 2.0;
+        const std::string where = method.method + " within " + std::to_string(method.budget_ms) + " ms";
+        EXPECT_NEAR(method.share, middle, six_digits * middle) << where;
+        EXPECT_NEAR(method.share_low, shares.front(), six_digits * shares.front()) << where;
+        EXPECT_NEAR(method.share_high, shares.back(), six_digits * shares.back()) << where;
+    }
+}
+
+TEST(KeptValues, OfMotionFollowFromThePlayedFrames)
+{
+    const auto played = rows_of(experiments::played_columns, kept_table("work_precision/runs/played.csv"));
+    const auto kept = rows_of(experiments::motion_columns, kept_table("work_precision/motion.csv"));
+    const std::vector<experiments::MotionRow> concluded = experiments::concluded(played, experiments::kept_settings());
+    ASSERT_EQ(concluded.size(), kept.size());
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        const experiments::MotionRow &now = concluded[i], &before = kept[i];
+        EXPECT_EQ(std::tie(now.clip, now.budget_ms, now.method, now.setting, now.member, now.frames),
+                  std::tie(before.clip, before.budget_ms, before.method, before.setting, before.member, before.frames));
+        for (const auto value : {&experiments::MotionRow::cold_share, &experiments::MotionRow::played_share,
+                                 &experiments::MotionRow::cold_skin_mm, &experiments::MotionRow::played_skin_mm})
+            EXPECT_NEAR(now.*value, before.*value, six_digits * before.*value) << now.method << ", " << now.setting;
     }
 }
 
