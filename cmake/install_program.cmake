@@ -4,6 +4,7 @@ set(data_folder share/pbskin)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/${data_folder})
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/paper_figures ${PROJECT_BINARY_DIR}/${data_folder}/paper_figures SYMBOLIC)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/experiments/references ${PROJECT_BINARY_DIR}/${data_folder}/references SYMBOLIC)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/experiments/records/full ${PROJECT_BINARY_DIR}/${data_folder}/records SYMBOLIC)
 
 set(programs pbskin)
 set(modules pbskin_native_plain)
@@ -24,6 +25,8 @@ install(DIRECTORY paper_figures DESTINATION ${data_folder} COMPONENT program
     PATTERN viewer/*.mjs EXCLUDE PATTERN viewer/.npmrc EXCLUDE)
 install(DIRECTORY experiments/scenes DESTINATION ${data_folder} COMPONENT program FILES_MATCHING PATTERN *.toml PATTERN *.obj)
 install(DIRECTORY experiments/references DESTINATION ${data_folder} COMPONENT program)
+install(DIRECTORY experiments/records/full/ DESTINATION ${data_folder}/records COMPONENT program
+    PATTERN claims.json EXCLUDE PATTERN report.html EXCLUDE)
 install(DIRECTORY experiments/deformers/external/examples DESTINATION ${data_folder} COMPONENT program)
 install(FILES experiments/deformers/external/pbskin_deformer.h DESTINATION include COMPONENT program)
 install(FILES CITATION.cff experiments/verdicts/claims.toml DESTINATION ${data_folder} COMPONENT program)

@@ -97,6 +97,16 @@ timed() {
     return "$status"
 }
 
+# logged FILE COMMAND...: what the command prints goes to the file. Its end is printed if the command fails.
+logged() {
+    local file=$1 status=0
+    shift
+    mkdir -p "$(dirname "$file")"
+    "$@" >"$file" 2>&1 || status=$?
+    ((status == 0)) || { tail -n 30 "$file" && say "all of it: $file"; }
+    return "$status"
+}
+
 # Builds the report's viewer, bundled with three.js, if npm is installed; npm fetches 50 MB once. Without the viewer, the report states how
 # to get it.
 build_viewer() {
@@ -110,6 +120,16 @@ build_viewer() {
         (cd "$folder" && npm ci --silent && touch node_modules) || return 1
     fi
     (cd "$folder" && npm run build --silent)
+}
+
+# Prints the minutes in all and those of the stages that a user waits for.
+print_stages() {
+    printf '%s\n' "${timeline[@]}" | awk -v name="${0##*/}" '
+        BEGIN { split("install npm|configure build|first fetch run|viewer figures", steps, "|"); split("packages build runs figures", stage, " ")
+            for (i in steps) { n = split(steps[i], names, " "); for (k = 1; k <= n; ++k) of[names[k]] = i } }
+        { total += $2; if ($1 in of) seconds[of[$1]] += $2 }
+        END { for (i = 1; i <= 4; ++i) line = line (i > 1 ? ", " : "") stage[i] sprintf(" %.1f", seconds[i] / 60)
+            printf "%s: done in %.0f min (%s)\n", name, total / 60, line }'
 }
 
 print_timeline() {

@@ -85,8 +85,9 @@ int parse_and_act(int argc, char** argv)
     app.add_flag_callback("--describe", [&app] { throw CLI::CallForVersion(describe(app), 0); })->group("");
     app.require_subcommand(1);
     CommandLine line{app};
-    for (const auto add : {add_list_verb, add_explain_verb, add_try_verb, add_run_verb, add_reproduce_verb, add_check_verb,
-                           add_measure_verb, add_references_verb, add_mesh_verb, add_bench_verb, add_fetch_verb, add_report_verb})
+    for (const auto add :
+         {add_list_verb, add_explain_verb, add_try_verb, add_run_verb, add_reproduce_verb, add_check_verb, add_measure_verb,
+          add_references_verb, add_compare_verb, add_mesh_verb, add_bench_verb, add_fetch_verb, add_report_verb})
         add(line);
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
         return std::string("pbskin: ") + error.what() + "; `pbskin --help` lists the verbs, `pbskin VERB --help` their options\n";

@@ -30,7 +30,7 @@ struct CommandLine {
 
 using AddVerb = void(CommandLine& line);
 AddVerb add_list_verb, add_explain_verb, add_try_verb, add_run_verb, add_reproduce_verb, add_check_verb, add_measure_verb,
-    add_references_verb, add_mesh_verb, add_bench_verb, add_fetch_verb, add_report_verb;
+    add_references_verb, add_compare_verb, add_mesh_verb, add_bench_verb, add_fetch_verb, add_report_verb;
 
 void say_next(const std::string& words);  // what to do next, on stderr after all that was printed; --quiet hides it
 

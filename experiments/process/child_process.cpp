@@ -201,6 +201,36 @@ pid_t wait_for_any(std::map<pid_t, Worker>& workers, int& status, rusage& usage)
     }
 }
 
+// Prints a line for each quarter of the expected cost that has ended; --verbose prints one for each run.
+class PoolProgress {
+public:
+    PoolProgress(const std::vector<PooledWork>& work, int jobs) : runs_(work.size()), jobs_(jobs)
+    {
+        for (const PooledWork& item : work) total_s_ += item.cost_s;
+    }
+
+    // then_s: the expected cost of what follows.
+    void ended(const PooledWork& item, const PooledResult& result, double then_s)
+    {
+        done_s_ += item.cost_s;
+        ++ended_;
+        const double left_s = done_s_ > 0.0 ? stopwatch_.seconds() * (total_s_ - done_s_) / done_s_ : 0.0;
+        const double pace = done_s_ > 0.0 ? jobs_ * stopwatch_.seconds() / done_s_ : 1.0;  // seconds per expected second
+        const double all_left_min = (left_s + std::min(pace, 4.0) * then_s) / 60.0;
+        spdlog::debug("{} {} after {:.0f} s", item.name, result.finished ? "finished" : "failed: " + result.failure, stopwatch_.seconds());
+        const int quarter = ended_ == runs_ ? 4 : static_cast<int>(4.0 * done_s_ / std::max(total_s_, 1e-9));
+        if (quarter <= std::exchange(quarter_, std::max(quarter, quarter_)) || (runs_ < 8 && ended_ < runs_)) return;
+        const std::string left = all_left_min >= 1.0 ? fmt::format(", about {:.0f} min left", all_left_min) : "";
+        spdlog::info("{} of {} runs after {:.0f} s{}", ended_, runs_, stopwatch_.seconds(), left);
+    }
+
+private:
+    std::size_t runs_, ended_ = 0;
+    int jobs_, quarter_ = 0;
+    double total_s_ = 0.0, done_s_ = 0.0;  // expected cost
+    pbs::Stopwatch stopwatch_;
+};
+
 }  // namespace
 
 nlohmann::json in_own_process(const std::function<nlohmann::json()>& work)
@@ -286,11 +316,8 @@ std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int j
 
     std::vector<PooledResult> results(work.size());
     std::map<pid_t, Worker> workers;
-    std::size_t next = 0, ended = 0;
-    double done_s = 0.0;  // expected cost of what has ended
-    const double total_s =
-        std::accumulate(work.begin(), work.end(), 0.0, [](double sum, const PooledWork& item) { return sum + item.cost_s; });
-    const pbs::Stopwatch stopwatch;
+    std::size_t next = 0;
+    PoolProgress progress(work, jobs);
     while (next < queue.size() || !workers.empty()) {
         while (next < queue.size() && static_cast<int>(workers.size()) < jobs && !interrupted()) {
             const PooledWork& item = work[queue[next]];
@@ -307,12 +334,7 @@ std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int j
         results[index] = outcome_of(work[index], found->second.process, status);
         results[index].cpu_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
         workers.erase(found);
-        done_s += work[index].cost_s;
-        const double left_s = done_s > 0.0 ? stopwatch.seconds() * (total_s - done_s) / done_s : 0.0;
-        const double pace = done_s > 0.0 ? jobs * stopwatch.seconds() / done_s : 1.0;  // seconds per expected second
-        const std::string then = then_s > 0.0 ? fmt::format(", {:.0f} min in all", (left_s + std::min(pace, 4.0) * then_s) / 60.0) : "";
-        spdlog::info("[{}/{}] {} {} after {:.0f} s, some {:.0f} s left{}", ++ended, work.size(), work[index].name,
-                     results[index].finished ? "finished" : "failed: " + results[index].failure, stopwatch.seconds(), left_s, then);
+        progress.ended(work[index], results[index], then_s);
     }
     stop_if_interrupted();
     return results;

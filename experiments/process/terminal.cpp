@@ -1,15 +1,19 @@
 #include "experiments/process/terminal.hpp"
 
+#include "analysis/records/record_files.hpp"
 #include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 #include <sys/ioctl.h>
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <charconv>
@@ -19,8 +23,11 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <map>
+#include <mutex>
 #include <new>
 #include <sstream>
+#include <stdexcept>
 
 namespace experiments {
 namespace {
@@ -211,6 +218,70 @@ void Progress::advance_to(int done)
 void warn(const std::vector<std::string>& remarks)
 {
     for (const std::string& remark : remarks) spdlog::warn("pbskin: warning: {}", remark);
+}
+
+// Passes on everything except warnings, each of which becomes one line of the file. The processes append to it in turn.
+class CollectedWarnings::Sink : public spdlog::sinks::base_sink<std::mutex> {
+public:
+    Sink(const std::string& file, std::vector<spdlog::sink_ptr> others)
+        : others(std::move(others)), file_(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666))
+    {
+        if (file_ < 0) throw pbs::InputError(file, 0, "", "", fmt::format("cannot be written: {}", std::strerror(errno)));
+    }
+    ~Sink() override { ::close(file_); }
+
+    void add(const std::string& text)
+    {
+        std::string line = text;
+        std::ranges::replace(line, '\n', ' ');
+        line += '\n';
+        if (::write(file_, line.data(), line.size()) != static_cast<ssize_t>(line.size())) throw std::runtime_error("a warning is lost");
+    }
+
+    std::vector<spdlog::sink_ptr> others;
+
+protected:
+    void sink_it_(const spdlog::details::log_msg& message) override
+    {
+        if (message.level == spdlog::level::warn) return add({message.payload.data(), message.payload.size()});
+        for (const spdlog::sink_ptr& other : others) other->log(message);
+    }
+    void flush_() override
+    {
+        for (const spdlog::sink_ptr& other : others) other->flush();
+    }
+
+private:
+    int file_;
+};
+
+CollectedWarnings::CollectedWarnings(const std::string& file) : file_(file)
+{
+    std::vector<spdlog::sink_ptr>& sinks = spdlog::default_logger()->sinks();
+    sink_ = std::make_shared<Sink>(file, sinks);
+    sinks = {sink_};
+}
+
+CollectedWarnings::~CollectedWarnings()
+{
+    spdlog::default_logger()->sinks() = sink_->others;
+}
+
+void CollectedWarnings::add(const std::string& text)
+{
+    sink_->add(text);
+}
+
+std::string CollectedWarnings::summary()
+{
+    std::istringstream lines(analysis::read_text(file_));
+    std::map<std::string, int> counts;
+    for (std::string line; std::getline(lines, line);) ++counts[line];
+    if (counts.empty()) return std::filesystem::remove(file_), "";
+    std::string text;
+    for (const auto& [line, count] : counts) text += count > 1 ? fmt::format("{} ({} times)\n", line, count) : line + "\n";
+    analysis::write_text_atomically(file_, text);
+    return fmt::format("Warnings: {}, in {}\n", counts.size(), file_);
 }
 
 }  // namespace experiments

@@ -4,6 +4,7 @@
 #include "pbs/geometry/cost.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -67,5 +68,25 @@ void show_progress();  // undoes hide_progress
 // Warnings on stderr about input that was accepted after a treatment: `pbskin: warning: FILE: FIELD = VALUE: treatment`. --quiet hides
 // them.
 void warn(const std::vector<std::string>& remarks);
+
+// While it exists, the warnings of this process and of those that it forks go to a file instead of the terminal. The end of a long run
+// names the file, which then has each warning once with its count.
+//   CollectedWarnings warnings(folder + "/warnings.txt");  ...  fmt::print("{}", warnings.summary());
+class CollectedWarnings {
+public:
+    explicit CollectedWarnings(const std::string& file);  // its folder exists; InputError if the file cannot be written
+    ~CollectedWarnings();
+    CollectedWarnings(const CollectedWarnings&) = delete;
+    CollectedWarnings& operator=(const CollectedWarnings&) = delete;
+
+    void add(const std::string& text);
+    // "Warnings: 3, in results/reproduce/warnings.txt\n"; empty without any, and then there is no file.
+    std::string summary();
+
+private:
+    class Sink;
+    std::string file_;
+    std::shared_ptr<Sink> sink_;
+};
 
 }  // namespace experiments

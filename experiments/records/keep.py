@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Keeps what the verdicts rest on: from the records of `pbskin reproduce --full -o DIR` the values by which claims are judged, those that
-they show for comparison, the studies' own tables and the provenance, below 17 MB, in experiments/records/full. Studies that DIR lacks keep
+they show for comparison, the studies' own tables and the provenance, below 8 MB, in experiments/records/full. Studies that DIR lacks keep
 their earlier records, with the revision of these. `pbskin reproduce --judge -o experiments/records/full` judges them all again.
 
     python3 experiments/records/keep.py results/full [FOLDER]
 """
 import csv
+import gzip
 import io
 import json
 import pathlib
@@ -22,7 +23,8 @@ JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "t
           "volume_change_pct", "volume_abs_change_pct", "inverted_tets", "masked_share_pct", "error_joint_pct"]
 PROVENANCE = ["version", "git_revision", "git_dirty", "compiler", "flags", "build_type", "cpu_model", "logical_cpus"]
 DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # beside frames, which are not kept
-MOST_BYTES = 17_000_000
+MOST_BYTES = 8_000_000
+COMPRESSED_FROM = 1_000_000  # bytes of a table of all runs, which is then NAME.csv.gz
 # Tables of a run from which those of the study follow: kept whatever their length. WHOLE: of a study, with all digits, since every decision
 # can be recomputed from them.
 RAW = ("rates.csv",)
@@ -172,7 +174,11 @@ def merge(results, target):
             shutil.copyfile(file, target / pathlib.Path(*place))
     for (name, column), parts in tables.items():
         (target / name).parent.mkdir(parents=True, exist_ok=True)
-        (target / name).write_text(joined(parts, column), encoding="utf-8")
+        text = joined(parts, column).encode()
+        if len(text) < COMPRESSED_FROM:
+            (target / name).write_bytes(text)
+        else:
+            (target / f"{name}.gz").write_bytes(gzip.compress(text, 9, mtime=0))
     measured = [json.loads(text) | {"runs": runs} for text, runs in origins.items()]
     for name, content in (("plans.json", plans), ("provenance.json", {"origins": measured})):
         (target / name).write_text(json.dumps(content, indent=1, sort_keys=True) + "\n", encoding="utf-8")

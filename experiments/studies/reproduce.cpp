@@ -4,6 +4,7 @@
 #include "analysis/verdicts/verdict.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
+#include "experiments/studies/last_screen.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -11,10 +12,12 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
 #include <span>
+#include <sstream>
 
 namespace experiments {
 namespace {
@@ -221,17 +224,18 @@ std::vector<analysis::Verdict> verdicts_of(const Study& study, const std::string
     return verdicts;
 }
 
-// Writes the verdicts of all studies to DIR/claims.json, DIR/claims.md and the terminal. Returns whether all could be computed.
-bool report_verdicts(std::vector<analysis::Verdict> verdicts, const std::string& folder)
+bool all_computable(const std::vector<analysis::Verdict>& verdicts)
 {
-    std::stable_sort(verdicts.begin(), verdicts.end(), [](const auto& one, const auto& other) { return one.claim.id < other.claim.id; });
-    analysis::write_text_atomically((fs::path(folder) / "claims.json").string(),
-                                    analysis::claims_json(verdicts, analysis::collect_provenance(1).git_revision).dump(2) + "\n");
-    analysis::write_text_atomically((fs::path(folder) / "claims.md").string(), analysis::claims_markdown(verdicts));
-    fmt::print("{}all values: {}\nnext: pbskin report {}\n", analysis::claims_table(verdicts, terminal_width(), terminal_has_colours()),
-               (fs::path(folder) / "claims.json").string(), folder);
-    return std::none_of(verdicts.begin(), verdicts.end(),
-                        [](const auto& verdict) { return verdict.kind == analysis::VerdictKind::not_computable; });
+    return std::ranges::none_of(verdicts, [](const auto& of) { return of.kind == analysis::VerdictKind::not_computable; });
+}
+
+// Each body that is not installed once, with the command that brings it.
+void name_left_out(const std::vector<PlannedStudy>& planned)
+{
+    std::set<std::string> reasons;
+    for (const PlannedStudy& of : planned)
+        for (const analysis::LeftOut& left_out : of.plan.left_out)
+            if (reasons.insert(left_out.reason).second) spdlog::info("excluded: {}", left_out.reason);
 }
 
 }  // namespace
@@ -243,31 +247,35 @@ int reproduce(const ReproduceArguments& arguments)
     std::vector<ExpectedCost> expected;
     for (const PlannedStudy& of : planned) expected.push_back(expected_cost(*of.study, of.to_do, arguments.jobs));
     if (arguments.cost_only) return fmt::print("{}", expected_cost_table(expected)), exit_finished;
-    if (planned.size() > 1) spdlog::info("expected cost:\n{}", expected_cost_table(expected));
+    double wall_s = 0.0;
+    for (const ExpectedCost& of : expected) wall_s += of.wall_s;
+    if (planned.size() > 1) spdlog::info("{} studies, about {:.0f} min", planned.size(), std::ceil(wall_s / 60.0));
+    name_left_out(planned);
 
+    analysis::make_output_folder(arguments.folder);
     analysis::remove_abandoned_files(arguments.folder, false);
-    std::vector<analysis::Verdict> verdicts;
-    std::string marked;           // frames that need attention
-    std::set<std::string> named;  // the reasons for which runs are left out: each is a warning once
+    CollectedWarnings warnings(analysis::path_in(arguments.folder, "warnings.txt"));
+    LastScreen screen{.folder = arguments.folder, .full = arguments.full};
     bool broke_down = false, refused = false, all_hold = true;
-    for (const PlannedStudy& of : planned)
-        for (const auto& left_out : of.plan.left_out)
-            if (named.insert(left_out.reason).second) spdlog::warn("left out: {}: {}", left_out.scene, left_out.reason);
     const std::map<const Study*, StudyOutcome> outcomes = run_all(planned, arguments.jobs);
     for (const PlannedStudy& of : planned) {
         const StudyOutcome& outcome = outcomes.at(of.study);
         broke_down |= outcome.broke_down;
         refused |= outcome.refused;
         all_hold &= !outcome.failed;
-        marked += marked_frames(outcome.finished.folders);
-        for (auto& verdict : verdicts_of(*of.study, of.folder, arguments.folder)) verdicts.push_back(std::move(verdict));
+        std::istringstream marked(marked_frames(outcome.finished.folders));
+        for (std::string line; std::getline(marked >> std::ws, line);) warnings.add(of.study->name + "/" + line);
+        for (auto& verdict : verdicts_of(*of.study, of.folder, arguments.folder)) screen.here.push_back(std::move(verdict));
         if (of.study->conclude) all_hold &= of.study->conclude(outcome.finished);
+        const bool has_own_deformers = of.study->plan_with && arguments.external;  // which no record has
+        if (!has_own_deformers) screen.studies.push_back(of.study->name);
     }
-    fmt::print("{}", marked);
-    const bool all_computed = verdicts.empty() || report_verdicts(verdicts, arguments.folder);
+    const bool repeats = show_last_screen(screen);
+    fmt::print("{}", warnings.summary());
+    fmt::print("next: pbskin report {}\n", arguments.folder);
     if (refused) return exit_input;
     if (broke_down) return exit_breakdown;
-    return all_computed && all_hold ? exit_finished : exit_bound;
+    return repeats && all_computable(screen.here) && all_hold ? exit_finished : exit_bound;
 }
 
 int judge_again(const ReproduceArguments& arguments)
@@ -283,7 +291,10 @@ int judge_again(const ReproduceArguments& arguments)
     if (verdicts.empty())
         throw pbs::InputError(arguments.folder, 0, "reproduce --judge", "",
                               "no records of a study in this folder: expected one that reproduce wrote");
-    return report_verdicts(verdicts, arguments.folder) ? exit_finished : exit_bound;
+    std::ranges::stable_sort(verdicts, {}, [](const analysis::Verdict& of) { return of.claim.id; });
+    write_verdicts(verdicts, arguments.folder);
+    fmt::print("{}", analysis::claims_table(verdicts, terminal_width(), terminal_has_colours()));
+    return all_computable(verdicts) ? exit_finished : exit_bound;
 }
 
 }  // namespace experiments

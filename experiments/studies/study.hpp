@@ -84,9 +84,9 @@ struct StudyPlan {
 //   name = "{body}_walk"             # of the run; {body} in any text is the name of the case's body
 //   bodies = ["human", "lady"]       # a case for each one that is installed; or body = "human"
 //   scene = "human_01_01"            # and overrides = ["motion.duration_s=2.5"], as `pbskin run SCENE --set KEY=VALUE`
-//   quick_s = 1.5                    # expected cost; a case without quick_s is no part of the quick form, one without full_s not of --full
+//   quick_s = 1.5                    # expected cost; a case without quick_s is no part of the default form, one without full_s not of --full
 //   full_s = 4.0
-//   full = { k_stretch = [0.1, 0.7] }    # keys for one form, or for one of the bodies
+//   quick = { k_stretch = [0.1] }    # keys for one form, or for one of the bodies: fewer rows, each measured as in the full form
 // The further keys are the study's own. A key that nothing reads is an error.
 class StudyCase {
 public:
@@ -94,7 +94,7 @@ public:
 
     std::string name;
     double cost_s = 0.0;
-    bool full = false;
+    bool full = false;  // as in the full form: in that form, and in the default one unless the case has a table `quick`
 
     bool has(const std::string& key) const;
     template <typename T>

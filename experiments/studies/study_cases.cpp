@@ -22,7 +22,7 @@ void select(nlohmann::json& values, const std::vector<std::string>& tables, cons
     values.update(chosen);
 }
 
-// The case of one body and one form.
+// The case of one body and one form. A case without a table `quick` is measured in the default form as in the full one.
 nlohmann::json resolved(nlohmann::json values, const std::string& body, bool full)
 {
     std::vector<std::string> bodies;
@@ -32,7 +32,9 @@ nlohmann::json resolved(nlohmann::json values, const std::string& body, bool ful
         values["body"] = body;
     }
     select(values, bodies, body);
-    select(values, {"quick", "full"}, full ? "full" : "quick");
+    const bool is_short = !full && values.contains("quick");
+    select(values, {"quick", "full"}, is_short ? "quick" : "full");
+    if (is_short) values["is_short"] = true;
     std::string text = values.dump();
     for (std::size_t at = 0; (at = text.find("{body}", at)) != std::string::npos;) text.replace(at, 6, body);
     return nlohmann::json::parse(text);
@@ -81,10 +83,10 @@ StudyPlan plan(bool full)
 
 nlohmann::json cases_document(const std::string& study)
 {
-    const toml::table document = analysis::parse_toml_document(
-        *::cases::by_name.at(study), study + "/cases.toml",
-        {"case", "baseline", "place", "untouched", "method", "start", "budgets_ms", "tables_ms", "training_members", "start_poses", "sweep",
-         "cells", "without_start", "tuned"});
+    const toml::table document =
+        analysis::parse_toml_document(*::cases::by_name.at(study), study + "/cases.toml",
+                                      {"case", "baseline", "place", "untouched", "method", "start", "budgets_ms", "tables_ms",
+                                       "training_members", "start_poses", "sweep", "cells", "without_start", "tuned"});
     std::ostringstream json;
     json << toml::json_formatter{document};
     return nlohmann::json::parse(json.str());
@@ -100,10 +102,10 @@ std::vector<std::string> differing_paths(const nlohmann::json& a, const nlohmann
 StudyCase::StudyCase(const std::string& study, const nlohmann::json& values, bool is_full)
     : name(values.at("name").get<std::string>()),
       cost_s(values.at(is_full ? "full_s" : "quick_s").get<double>()),
-      full(is_full),
+      full(!values.contains("is_short")),
       where_(study + "/cases.toml: case " + name),
       values_(values),
-      read_({"name", "body", "quick_s", "full_s"})
+      read_({"name", "body", "quick_s", "full_s", "is_short"})
 {
 }
 

@@ -8,10 +8,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <sstream>
 
 namespace experiments {
@@ -83,10 +86,23 @@ void add_run(analysis::Records& records, const fs::path& folder, const std::stri
         }
 }
 
+// Also of NAME.csv.gz, as long tables are kept.
+std::string table_text(const fs::path& file)
+{
+    const std::unique_ptr<gzFile_s, int (*)(gzFile)> opened(gzopen(file.c_str(), "rb"), gzclose);
+    if (!opened) throw pbs::InputError(file.string(), 0, "", "", "cannot be read");
+    std::string text;
+    std::array<char, 1 << 16> block;
+    int count = 0;
+    while ((count = gzread(opened.get(), block.data(), block.size())) > 0) text.append(block.data(), static_cast<std::size_t>(count));
+    if (count < 0) throw pbs::InputError(file.string(), 0, "", "", "expected a whole gzip file");
+    return text;
+}
+
 // The first column of a table names the run of each row. A row without further cells states that the run's table has no rows.
 void write_tables_of_runs(const fs::path& merged, const fs::path& study)
 {
-    std::istringstream text(analysis::read_text(merged.string()));
+    std::istringstream text(table_text(merged));
     std::string head, line;
     std::getline(text, head);
     std::map<std::string, std::string> tables;
@@ -96,10 +112,11 @@ void write_tables_of_runs(const fs::path& merged, const fs::path& study)
         if (table.empty()) table = head.substr(head.find(',') + 1) + '\n';
         if (line.find_first_not_of(',', comma) != std::string::npos) table += line.substr(comma + 1) + '\n';
     }
+    const fs::path name = merged.extension() == ".gz" ? merged.stem() : merged.filename();
     for (const auto& [run, table] : tables) {
         require_below(run, merged.string());
         fs::create_directories(study / run);
-        analysis::write_text_atomically((study / run / merged.filename()).string(), table);
+        analysis::write_text_atomically((study / run / name).string(), table);
     }
 }
 
@@ -151,9 +168,8 @@ OpenedRecords::OpenedRecords(const std::string& folder) : folder_(folder)
             require_below(study, all_plans);
             fs::create_directories(opened / study);
             analysis::write_text_atomically(plan_file((opened / study).string()), plan.dump());
-            for (const char* table : {"measurements.csv", "metrics.csv", "printed.csv"})
-                if (const fs::path merged = fs::path(folder) / study / "runs" / table; fs::exists(merged))
-                    write_tables_of_runs(merged, opened / study);
+            if (const fs::path merged = fs::path(folder) / study / "runs"; fs::is_directory(merged))
+                for (const fs::path& table : fs::directory_iterator(merged)) write_tables_of_runs(table, opened / study);
         }
     });
     analysis::from_record(provenance, [&](const nlohmann::json& record) {

@@ -4,10 +4,11 @@ folder of results again.
     results = kept.opened(pathlib.Path(arguments[1]))
 
 provenance.json: {"origins": [{"schema", "provenance", "runs": ["STUDY/RUN", ...]}]}. plans.json: {STUDY: plan}. Tables of this folder begin
-with a column `study`, and STUDY/runs/NAME.csv is NAME.csv of all runs with a column `run` in front. Everything else is as the study wrote
-it.
+with a column `study`, and STUDY/runs/NAME.csv is NAME.csv of all runs with a column `run` in front, or NAME.csv.gz where it is
+long. Everything else is as the study wrote it.
 """
 import atexit
+import gzip
 import json
 import pathlib
 import shutil
@@ -48,7 +49,7 @@ def expand(kept, into):
         if file.parent.name == "runs" or (file.parent == kept and file.suffix == ".csv"):
             study = "" if file.parent == kept else file.relative_to(kept).parts[0]
             for folder, lines in by_first_column(file).items():
-                write(lines, file, study, folder, file.name)
+                write(lines, file, study, folder, file.name.removesuffix(".gz"))
         elif file.is_file() and file not in (plans, provenance):
             place = into / file.relative_to(kept)
             place.parent.mkdir(parents=True, exist_ok=True)
@@ -58,7 +59,8 @@ def expand(kept, into):
 def by_first_column(file):
     """The table without its first column, for each value of it. A row without cells states that the table has no rows."""
     tables, head = {}, None
-    for number, text in enumerate(file.read_text(encoding="utf-8", errors="replace").splitlines(keepends=True), 1):
+    content = gzip.decompress(file.read_bytes()) if file.suffix == ".gz" else file.read_bytes()
+    for number, text in enumerate(content.decode(errors="replace").splitlines(keepends=True), 1):
         value, comma, line = text.partition(",")
         records.need(value and comma, f"{file}:{number}: {value.strip()}: expected a name and the cells of a row")
         if head is not None:

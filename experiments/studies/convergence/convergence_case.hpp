@@ -69,6 +69,7 @@ struct ConvergenceCase {
     bool ladder = false;  // other_vertices are a ladder of sizes with values of their own; otherwise their spread is the uncertainty
     bool from_lbs_alone = false;  // without the other initial guesses
     int most_iterations = 1000;
+    bool exponents = false;       // of a ladder: how the iterations grow with its sizes, which needs all of them
     DeformerSpec reference = {};  // as PosedReference takes it, solved on the scene's own mesh and on those of a ladder
     ReferenceEffort effort = ReferenceEffort::other_tets;  // a ladder has own_tets
     int reference_to = 100000;                             // vertices: larger meshes have no reference, and rates.csv states why
@@ -108,7 +109,8 @@ struct ConvergencePaths {
 
 struct ConvergenceResult {
     std::vector<ConvergencePaths> all;
-    bool ladder = false;    // as in the case
+    bool ladder = false;  // as in the case
+    bool exponents = false;
     std::string breakdown;  // paths that ceased to be finite; `reference` states one that was not reached
 };
 

@@ -288,7 +288,7 @@ std::vector<analysis::Measurement> convergence_values(const ConvergenceResult& r
         if (group.front()->author) add_author(measurements, group);
         if (!result.ladder) add_starts(measurements, group);
     }
-    if (result.ladder) add_exponents(measurements, result);
+    if (result.exponents) add_exponents(measurements, result);
     return measurements;
 }
 

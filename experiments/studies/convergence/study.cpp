@@ -238,9 +238,9 @@ StudyPlan plan(bool full)
         of.other_vertices = in_file.value<std::vector<int>>("other_vertices", {});
         of.every_setting_to = in_file.value("every_setting_to", 0);
         of.ladder = in_file.value("ladder", false);
+        of.exponents = of.ladder && in_file.value("exponents", true);
         of.from_lbs_alone = in_file.value("from_lbs_alone", false);
         of.reference = reference_flesh(of.scene);
-        if (!full) of.effort = ReferenceEffort::own_tets;
         of.reference_to = in_file.value("reference_to", of.reference_to);
         plan.runs.push_back(work_run(in_file.name, of, in_file.cost_s, measure_and_record));
     });
@@ -318,13 +318,14 @@ RECORD_SETTINGS_AND(ConvergenceCase,
                         .constant("residual_tolerance", residual_tolerance)
                         .constant("satisfied_residual", satisfied_residual)
                         .constant("volume_tolerance_pct", volume_tolerance_pct),
-                    scene, frames, k_stretch, settings, other_vertices, every_setting_to, ladder, from_lbs_alone, most_iterations,
-                    reference, effort, reference_to)
+                    scene, frames, k_stretch, settings, other_vertices, every_setting_to, ladder, exponents, from_lbs_alone,
+                    most_iterations, reference, effort, reference_to)
 
 ConvergenceResult measure_convergence(const ConvergenceCase& of, const std::string& solutions)
 {
     ConvergenceResult result;
     result.ladder = of.ladder;
+    result.exponents = of.exponents;
     Mesh(of, of.scene, true, solutions).add_to(result);
     for (const int vertices : of.other_vertices) Mesh(of, at_size(of.scene, vertices), false, solutions).add_to(result);
     return result;

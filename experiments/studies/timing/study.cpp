@@ -38,8 +38,8 @@ StudyRun run_of_frames(const StudyCase& of)
         read_scene("human_01_01", {"character.body=" + body, fmt::format("character.vertices={}", vertices), "motion.duration_s=4.0"});
     timed.scene.character.refinements = of.value("refinements", 0);
     timed.stands_in = row && body == "human";
-    timed.seconds = of.full ? 4.0 : 1.5;
-    timed.fewest_rounds = of.full ? 3 : 1;
+    timed.seconds = of.value("seconds", 4.0);
+    timed.fewest_rounds = of.value("fewest_rounds", 3);
     return work_run(of.name, timed, of.cost_s, measure_frames);
 }
 

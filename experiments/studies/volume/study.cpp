@@ -57,7 +57,7 @@ void add_papers_order(std::vector<DeformerSpec>& deformers, const DeformerSpec& 
 }
 
 // Table 1's "jiggling" is k_stretch in the zone; outside it is 1 here. in_the_papers_order: a second time, as C02b is judged.
-void add_jiggle(std::vector<DeformerSpec>& deformers, DeformerSpec pbs, double k_in_zone, bool in_the_papers_order)
+void add_jiggle(std::vector<DeformerSpec>& deformers, DeformerSpec pbs, double k_in_zone)
 {
     auto& options = options_of<pbs::PbsOptions>(pbs);
     pbs.label += "_jiggle";
@@ -65,7 +65,6 @@ void add_jiggle(std::vector<DeformerSpec>& deformers, DeformerSpec pbs, double k
     options.k_stretch = 1.0;
     options.jiggle = pbs::Jiggle{k_in_zone};
     deformers.push_back(pbs);
-    if (!in_the_papers_order) return;
     pbs.name = "pbs_orders";
     pbs.label += "_plain_f64";
     options.order = pbs::Order::plain;
@@ -97,7 +96,7 @@ StudyRun run_of(const StudyCase& of, const std::string& name, const Overrides& o
     run.bad_frames_are_results = of.value("goes_on", false);
     const DeformerSpec pbs = *find_deformer_with<pbs::PbsOptions>(run.scene);
     for (const auto& added : of.value<std::vector<std::string>>("add", {})) adders.at(added)(run.scene.deformers, pbs);
-    if (of.has("k_in_zone")) add_jiggle(run.scene.deformers, pbs, of.value<double>("k_in_zone"), of.full);
+    if (of.has("k_in_zone")) add_jiggle(run.scene.deformers, pbs, of.value<double>("k_in_zone"));
     return run;
 }
 

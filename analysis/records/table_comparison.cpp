@@ -1,0 +1,232 @@
+#include "analysis/records/table_comparison.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string_view>
+
+namespace analysis {
+namespace {
+
+using ColumnNames = std::vector<std::string_view>;
+
+bool is_among(const ColumnNames& names, std::string_view name)
+{
+    return std::ranges::find(names, name) != names.end();
+}
+
+// Numbers that are settings, in every table but those of `results_in`.
+const ColumnNames settings = {"motion",          "pose",           "clip",          "time_s",
+                              "angle_deg",       "frame",          "vertices",      "vertices_to",
+                              "k_stretch",       "k_stretch_to",   "k_volume",      "k_bind",
+                              "young_pa",        "iterations",     "iterations_to", "iteration",
+                              "time_step_s",     "time_step_to_s", "time_step_ms",  "masses",
+                              "own_mesh",        "order_seed",     "second_value",  "setting_value",
+                              "spring_factor",   "core_radius",    "poisson",       "budget_ms",
+                              "refinements",     "element_order",  "h_m",           "rayleigh_stiffness_s",
+                              "most_iterations", "bound",          "density_kg_m3"};
+
+// Texts that are results.
+const ColumnNames results = {"outcome", "remark", "reason", "failure", "note",       "verdict_flips",       "holds_a",
+                             "holds_b", "holds",  "limit",  "key",     "bound_from", "undisturbed_at_rest", "further_keys"};
+
+// What belongs to the machine and to the moment.
+const ColumnNames of_the_machine = {"ms",      "ms_median", "ms_p95",    "cpu_s",    "wall_s", "solve_s",
+                                    "seconds", "threads",   "cpu_model", "set_up_s", "rounds"};
+const ColumnNames parts_of_times = {"_ms", "frames_per_s", "start_s_", "peak_mb", "shared_objects", "speedup"};
+
+struct Exception {
+    std::string_view file;
+    ColumnNames settings, results, not_compared;
+};
+const std::vector<Exception> exceptions = {
+    {"metrics.csv", {}, {}, {"frame"}},  // a slower rate numbers the same times in another way
+    {"cells.csv", {"value", "unit"}, {}, {}},    {"targets.csv", {}, {"iterations"}, {"limit"}}, {"rates.csv", {}, {}, {"reference"}},
+    {"references.csv", {}, {}, {"from_kept_m"}}, {"verification.csv", {}, {"reference"}, {}},    {"sag.csv", {}, {"young_pa"}, {}},
+};
+
+const Exception& exception_of(const std::string& file)
+{
+    static const Exception none = {};
+    const auto found = std::ranges::find(exceptions, file, &Exception::file);
+    return found == exceptions.end() ? none : *found;
+}
+
+bool is_a_time(std::string_view name)
+{
+    return is_among(of_the_machine, name) ||
+           std::ranges::any_of(parts_of_times, [&](std::string_view part) { return name.find(part) != std::string_view::npos; });
+}
+
+std::optional<double> number_in(const std::string& cell)
+{
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    if (error != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
+    return value;
+}
+
+bool has_text(const CsvTable& table, const std::string& column)
+{
+    for (int row = 0; row < table.rows(); ++row)
+        if (const std::string& cell = table.text_at(row, column); !cell.empty() && !number_in(cell)) return true;
+    return false;
+}
+
+// The columns of both tables: by which rows are found, and which are compared.
+struct Shared {
+    std::vector<std::string> settings, results;
+    bool second_is_part = false;
+};
+
+Shared shared_columns(const std::string& file, const CsvTable& first, const CsvTable& second)
+{
+    const Exception& own = exception_of(file);
+    Shared shared;
+    for (const std::string& column : first.columns()) {
+        if (!second.has_column(column) || is_among(own.not_compared, column)) continue;
+        const bool is_text = has_text(first, column) || has_text(second, column);
+        const bool is_setting = is_among(own.settings, column) ||
+                                (!is_among(own.results, column) && (is_among(settings, column) || (is_text && !is_among(results, column))));
+        if (is_setting)
+            shared.settings.push_back(column);
+        else if (!is_a_time(column))
+            shared.results.push_back(column);
+    }
+    return shared;
+}
+
+// Six digits, as in records that are rounded.
+std::string setting_text(const std::string& cell)
+{
+    const std::optional<double> value = number_in(cell);
+    if (!value) return cell;
+    std::array<char, 32> text{};
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), *value, std::chars_format::general, 6).ptr};
+}
+
+std::string settings_of(const CsvTable& table, int row, const std::vector<std::string>& columns)
+{
+    std::string text;
+    for (const std::string& column : columns) {
+        const std::string& cell = table.text_at(row, column);
+        if (cell.empty()) continue;
+        text += (text.empty() ? "" : ", ") + (number_in(cell) ? column + " " : "") + setting_text(cell);
+    }
+    return text;
+}
+
+// Rows with the same settings follow each other in the same order.
+std::map<std::pair<std::string, int>, int> rows_by_settings(const CsvTable& table, const std::vector<std::string>& columns)
+{
+    std::map<std::string, int> counts;
+    std::map<std::pair<std::string, int>, int> rows;
+    for (int row = 0; row < table.rows(); ++row) {
+        const std::string text = settings_of(table, row, columns);
+        rows.emplace(std::pair(text, counts[text]++), row);
+    }
+    return rows;
+}
+
+std::string cell_or_nothing(const CsvTable& table, int row, const std::string& column)
+{
+    return table.has_column(column) ? table.text_at(row, column) : "";
+}
+
+bool is_by_finite_elements(const CsvTable& table, int row, const std::string& column)
+{
+    for (const char* part : {"error", "reference", "difference", "distance", "energy", "det_f", "share_low", "skin_mm"})
+        if (column.find(part) != std::string::npos) return true;
+    for (const char* named : {"reference", "member", "problem", "attachment"})
+        if (!cell_or_nothing(table, row, named).empty()) return true;
+    for (const char* named : {"deformer", "method", "model"})
+        for (const char* beginning : {"fem", "nh_", "linear", "corotational", "neo_hookean", "flesh"})
+            if (cell_or_nothing(table, row, named).starts_with(beginning)) return true;
+    const std::string quantity = cell_or_nothing(table, row, "quantity");
+    return quantity.find("reference") != std::string::npos || quantity.find("error") != std::string::npos;
+}
+
+// The absolute tolerance of a number of this row.
+double tolerance_of(const std::string& file, const CsvTable& table, int row, const std::string& column, double value)
+{
+    if (file == "metrics.csv" && column.ends_with("_pct")) return same_frame_points;
+    const bool is_single = cell_or_nothing(table, row, "precision") == "f32";
+    const double relative = is_single                                   ? same_in_single
+                            : is_by_finite_elements(table, row, column) ? same_by_finite_elements
+                                                                        : same_in_double;
+    // The drift of a conserved quantity is a rounding error itself, relative to 1.
+    const bool is_rounding = cell_or_nothing(table, row, "quantity").find("drift") != std::string::npos;
+    return relative * (is_rounding ? std::max(1.0, std::abs(value)) : std::abs(value));
+}
+
+constexpr int rounded_digits = 6;
+
+int significant_digits(const std::string& cell)
+{
+    int digits = 0;
+    for (const char c : cell.substr(0, cell.find_first_of("eE")))
+        if (c >= '0' && c <= '9' && (digits > 0 || c != '0')) ++digits;
+    return digits;
+}
+
+// Half a unit of the last digit, where one of the files has six digits and the other has more.
+double rounding_of(const std::string& one, const std::string& other, double value)
+{
+    const auto [fewer, more] = std::minmax({significant_digits(one), significant_digits(other)});
+    if (fewer > rounded_digits || more <= rounded_digits || value == 0.0) return 0.0;
+    return 0.5 * std::pow(10.0, std::floor(std::log10(std::abs(value))) - (rounded_digits - 1)) * (1.0 + 1e-9);
+}
+
+enum class Agreement { equal, within, differing };
+
+Agreement agreement(const std::string& first, const std::string& second, double tolerance)
+{
+    if (first == second) return Agreement::equal;
+    const std::optional<double> one = number_in(first), other = number_in(second);
+    if (!one || !other || !std::isfinite(*one) || !std::isfinite(*other)) return Agreement::differing;
+    const double apart = std::abs(*one - *other), rounding = rounding_of(first, second, *one);
+    if (apart <= rounding) return Agreement::equal;
+    return apart <= tolerance + rounding ? Agreement::within : Agreement::differing;
+}
+
+void compare_row(const std::string& file, const CsvTable& first, const CsvTable& second, const Shared& columns, ComparedRow row,
+                 TableComparison& to)
+{
+    const bool times = is_a_time(cell_or_nothing(first, row.first, "quantity"));
+    for (const std::string& column : columns.results) {
+        const std::string &one = first.text_at(row.first, column), &other = second.text_at(row.second, column);
+        if (times || other.empty() && (one.empty() || columns.second_is_part)) continue;
+        ++row.numbers;
+        const double value = number_in(one).value_or(0.0);
+        const Agreement found = agreement(one, other, tolerance_of(file, first, row.first, column, value));
+        row.equal += found == Agreement::equal;
+        if (found != Agreement::differing) continue;
+        ++row.differing;
+        to.differing.push_back({row.settings, column, one, other});
+    }
+    to.rows.push_back(row);
+}
+
+}  // namespace
+
+TableComparison compare_tables(const std::string& file, const CsvTable& first, const CsvTable& second, bool second_is_part)
+{
+    TableComparison compared;
+    Shared columns = shared_columns(file, first, second);
+    columns.second_is_part = second_is_part;
+    const auto in_first = rows_by_settings(first, columns.settings), in_second = rows_by_settings(second, columns.settings);
+    for (const auto& [settings, row] : in_first) {
+        if (const auto same = in_second.find(settings); same != in_second.end())
+            compare_row(file, first, second, columns, {.settings = settings.first, .first = row, .second = same->second}, compared);
+        else
+            compared.only_first.push_back(settings.first);
+    }
+    for (const auto& [settings, row] : in_second)
+        if (!in_first.contains(settings)) compared.only_second.push_back(settings.first);
+    return compared;
+}
+
+}  // namespace analysis

@@ -1,0 +1,55 @@
+// Compares two tables of the same quantities, row by row: the record of one machine and the results of another, or those before and after
+// a change.
+//   const TableComparison compared = compare_tables("measurements.csv", read_csv(record), read_csv(here));
+//   if (!compared.agrees()) for (const CellDifference& of : compared.differing) ...
+// Rows are found by their settings: texts, and numbers such as vertices or k_stretch. All other cells are results. Counts and texts have to
+// be equal. Numbers agree within the tolerances below, or to the last digit of a record that is rounded to six digits. Times and what else
+// belongs to the machine are not compared.
+#pragma once
+
+#include "analysis/records/tables.hpp"
+
+#include <string>
+#include <vector>
+
+namespace analysis {
+
+// The relative tolerances of two computations of one number in another order of rounding. Measured on two builds of one processor: at most
+// 1e-9 in double precision, and 1.1e-6 where a linear system of finite elements is solved.
+inline constexpr double same_in_double = 1e-9, same_in_single = 1e-5, same_by_finite_elements = 1e-5;
+inline constexpr double same_frame_points = 1e-4;  // of a volume or an error of a frame, in percentage points
+
+struct CellDifference {
+    std::string row, column, first, second;  // the row's settings; the cells as the files have them
+};
+
+// A row that both tables have.
+struct ComparedRow {
+    std::string settings;            // by which it is found
+    int first = 0, second = 0;       // its places
+    int numbers = 0, differing = 0;  // results that were compared
+    int equal = 0;                   // of these, in every digit that both files have
+};
+
+struct TableComparison {
+    std::vector<ComparedRow> rows;
+    std::vector<std::string> only_first = {}, only_second = {};  // the settings of further rows
+    std::vector<CellDifference> differing = {};
+
+    int numbers() const { return sum(&ComparedRow::numbers); }
+    int equal() const { return sum(&ComparedRow::equal); }
+
+private:
+    int sum(int ComparedRow::*member) const
+    {
+        int total = 0;
+        for (const ComparedRow& row : rows) total += row.*member;
+        return total;
+    }
+};
+
+// file: the name of both tables. Columns that only one of them has are not compared. second_is_part: neither are results that the second
+// one did not measure, whose cells are empty.
+TableComparison compare_tables(const std::string& file, const CsvTable& first, const CsvTable& second, bool second_is_part = false);
+
+}  // namespace analysis

@@ -1,0 +1,409 @@
+#include "experiments/studies/comparison.hpp"
+
+#include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/verdict.hpp"
+#include "experiments/studies/reproduce.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The tables of a study that have a row per case, whatever other cases there are.
+constexpr const char* tables_by_case[] = {"errors.csv", "verification.csv"};
+// Frames are kept of those deformers alone that claims select.
+constexpr const char* frames_table = "metrics.csv";
+// Summaries of frames, of which a part has fewer.
+constexpr const char* summary_of_frames = "frame_statistics.csv";
+
+std::string study_of(const std::string& name)
+{
+    return name.substr(0, name.find('/'));
+}
+
+// A folder of results with the tables of all its runs.
+struct Results {
+    Results(const std::string& folder, const std::vector<std::string>& studies) : stated(folder), opened(folder)
+    {
+        const fs::path root = opened.folder();
+        if (!fs::is_directory(root)) throw pbs::InputError(folder, 0, "", "", "expected a folder of results");
+        for (auto entry = fs::recursive_directory_iterator(root); entry != fs::recursive_directory_iterator(); ++entry)
+            if (entry->path().filename() == "run.json") add_run(entry->path().parent_path(), root);
+        for (const fs::path& study : fs::directory_iterator(folder))
+            for (const char* table : tables_by_case)
+                if (fs::exists(study / table)) tables[(study.filename() / table).string()] = study / table;
+        if (!studies.empty()) {
+            const auto is_other = [&](const std::string& name) { return std::ranges::count(studies, study_of(name)) == 0; };
+            std::erase_if(runs, is_other);
+            std::erase_if(tables, [&](const auto& table) { return is_other(table.first); });
+        }
+        if (runs.empty())
+            throw pbs::InputError(folder, 0, "", "", "no results in this folder: expected what `pbskin run` or `pbskin reproduce` writes");
+    }
+
+    void add_run(const fs::path& run, const fs::path& root)
+    {
+        const std::string name = run == root ? "" : run.lexically_relative(root).string();
+        runs.insert(name);
+        for (const fs::path& file : fs::directory_iterator(run))
+            if (file.extension() == ".csv") tables[(name.empty() ? fs::path() : fs::path(name)) / file.filename()] = file;
+    }
+
+    std::string stated;
+    OpenedRecords opened;
+    std::set<std::string> runs;
+    std::map<std::string, fs::path> tables;
+};
+
+// Studies that one of two lists of runs lacks altogether are named once.
+std::vector<std::string> runs_without(const std::set<std::string>& runs, const std::set<std::string>& other)
+{
+    std::set<std::string> missing, studies;
+    for (const std::string& run : other) studies.insert(study_of(run));
+    for (const std::string& run : runs)
+        if (!other.contains(run)) missing.insert(studies.contains(study_of(run)) ? run : study_of(run));
+    return {missing.begin(), missing.end()};
+}
+
+// The claims that the frames of a deformer decide.
+std::vector<std::string> claims_of_frames(const analysis::CsvTable& frames, int row)
+{
+    const auto text = [&](const char* column) { return frames.has_column(column) ? frames.text_at(row, column) : std::string(); };
+    analysis::CaseKey key{.deformer = text("deformer"), .variant = text("variant"), .order = text("order"), .precision = text("precision")};
+    if (frames.has_column("iterations")) key.iterations = frames.number_or_nothing(row, "iterations");
+    std::vector<std::string> ids;
+    for (const analysis::Claim& claim : claims())
+        if (claim.study == "volume" && claim.rule == analysis::ClaimRule::units && matches(key, claim.own.of)) ids.push_back(claim.id);
+    return ids;
+}
+
+// The claims that a measured value is one of the own numbers of.
+std::vector<std::string> claims_of_value(const analysis::Measurement& value)
+{
+    std::vector<std::string> ids;
+    for (const analysis::Claim& claim : claims())
+        if (std::ranges::count(claim.own.quantities, value.quantity) > 0 && matches(value.of, claim.own.of)) ids.push_back(claim.id);
+    return ids;
+}
+
+void count_claims(const fs::path& file, const analysis::CsvTable& table, const analysis::TableComparison& compared,
+                  std::map<std::string, ComparedClaim>& claims)
+{
+    const std::string name = file.filename().string();
+    const bool has_frames = name == frames_table, is_printed = name == "printed.csv", is_measured = name == "measurements.csv";
+    if (!has_frames && !is_printed && !is_measured) return;
+    const auto values = is_measured ? analysis::measurements(file.string()) : std::vector<analysis::Measurement>{};
+    for (const analysis::ComparedRow& row : compared.rows) {
+        const std::vector<std::string> ids = has_frames   ? claims_of_frames(table, row.first)
+                                             : is_printed ? std::vector{table.text_at(row.first, "claim")}
+                                                          : claims_of_value(values[row.first]);
+        for (const std::string& id : ids) {
+            ComparedClaim& claim = claims[id];
+            if (has_frames)
+                ++claim.frames, claim.frames_differing += row.differing > 0;
+            else
+                claim.numbers += row.numbers, claim.differing += row.differing;
+        }
+    }
+}
+
+void name_rows(const std::string& table, const std::vector<std::string>& rows, std::vector<std::string>& to)
+{
+    for (const std::string& row : rows) to.push_back(fmt::format("{}: row {}", table, row));
+}
+
+// The rows of series that the other table has rows of: a run may have more deformers than its record keeps.
+std::vector<std::string> of_known_series(const analysis::TableComparison& compared, const std::vector<std::string>& rows)
+{
+    const auto series = [](const std::string& row) { return row.substr(0, row.find(", time_s ")); };
+    std::set<std::string> known;
+    for (const analysis::ComparedRow& row : compared.rows) known.insert(series(row.settings));
+    std::vector<std::string> found;
+    std::ranges::copy_if(rows, std::back_inserter(found), [&](const std::string& row) { return known.contains(series(row)); });
+    return found;
+}
+
+void compare_tables_of(const Results& first, const Results& second, ResultComparison& to)
+{
+    const bool is_part = to.folders.second_is_part;
+    for (const auto& [name, file] : first.tables) {
+        const auto same = second.tables.find(name);
+        if (same == second.tables.end()) {
+            const bool has_run = second.runs.contains(fs::path(name).parent_path().string());
+            if (!is_part && has_run) to.only_first.push_back(name);
+            continue;
+        }
+        const std::string table = file.filename().string();
+        if (is_part && table == summary_of_frames) continue;
+        const analysis::CsvTable one = analysis::read_csv(file.string()), other = analysis::read_csv(same->second.string());
+        ComparedTable compared{name, analysis::compare_tables(table, one, other, is_part)};
+        count_claims(file, one, compared.rows, to.claims);
+        if (!is_part) name_rows(name, compared.rows.only_first, to.only_first);
+        if (is_part && table == frames_table) compared.rows.only_second = of_known_series(compared.rows, compared.rows.only_second);
+        name_rows(name, compared.rows.only_second, to.only_second);
+        if (compared.rows.numbers() > 0) to.tables.push_back(std::move(compared));
+    }
+    if (is_part) return;  // the record lacks long tables
+    for (const auto& [name, file] : second.tables)
+        if (!first.tables.contains(name) && first.runs.contains(fs::path(name).parent_path().string())) to.only_second.push_back(name);
+}
+
+std::string value_at(const nlohmann::json& settings, const std::string& path)
+{
+    const nlohmann::json* at = &settings;
+    for (std::size_t begin = 0; begin < path.size();) {
+        const std::size_t end = std::min(path.find('.', begin), path.size());
+        const std::string key = path.substr(begin, end - begin);
+        if (!at->is_object() || !at->contains(key)) return "not stated";
+        at = &at->at(key);
+        begin = end + 1;
+    }
+    constexpr std::size_t most = 40;
+    const std::string text = at->dump();
+    return text.size() > most ? "..." : text;
+}
+
+void compare_settings(const Results& first, const Results& second, ResultComparison& to)
+{
+    for (const std::string& run : first.runs) {
+        if (!second.runs.contains(run)) continue;
+        const auto settings_in = [&](const Results& of) {
+            const nlohmann::json record = analysis::read_record((fs::path(of.opened.folder()) / run / "run.json").string());
+            return record.value("scene", record.value("work", nlohmann::json()));
+        };
+        const nlohmann::json one = settings_in(first), other = settings_in(second);
+        if (one.is_null() || other.is_null()) continue;  // kept records have none
+        for (const std::string& path : differing_paths(one, other))
+            to.other_settings.push_back(
+                fmt::format("{}{}{} = {} | {}", run, run.empty() ? "" : ": ", path, value_at(one, path), value_at(other, path)));
+    }
+}
+
+std::map<std::string, analysis::Verdict> verdicts_in(const Results& results)
+{
+    std::map<std::string, analysis::Verdict> verdicts;
+    for (const Study& study : studies()) {
+        const std::string folder = (fs::path(results.opened.folder()) / study.name).string();
+        if (!has_study_plan(folder)) continue;
+        const analysis::Records records = read_study_records(folder, results.opened.folder());
+        for (const analysis::Claim& claim : claims())
+            if (claim.study == study.name) verdicts.emplace(claim.id, analysis::judge(claim, records));
+    }
+    return verdicts;
+}
+
+// A verdict is compared where both were computed from the same cases and controls.
+bool has_the_same_cases(const analysis::Verdict& one, const analysis::Verdict& other)
+{
+    const auto counts = [](const analysis::Verdict& of) {
+        std::vector<std::size_t> sizes = {of.own.units.size(), of.printed.size()};
+        for (const analysis::Judged& control : of.others) sizes.push_back(control.units.size());
+        return sizes;
+    };
+    return counts(one) == counts(other);
+}
+
+// The verdicts that kept records state, which have to be those of their tables.
+void compare_stated(const Results& results, const std::map<std::string, analysis::Verdict>& verdicts, ResultComparison& to)
+{
+    const fs::path table = fs::path(results.stated) / "claims.md";
+    if (results.opened.folder() == results.stated || !fs::exists(table)) return;
+    const std::string text = analysis::read_text(table.string());
+    for (const auto& [id, verdict] : verdicts) {
+        const std::size_t line = text.find("\n| " + id + " |");
+        const std::string row = line == std::string::npos ? "" : text.substr(line + 1, text.find('\n', line + 1) - line - 1);
+        if (row.find(fmt::format("| {} |", name_of(verdict.kind))) == std::string::npos)
+            to.other_verdicts.push_back(
+                fmt::format("{}: {} states another verdict than {}, which its tables give", id, table.string(), name_of(verdict.kind)));
+    }
+}
+
+void compare_verdicts(const Results& first, const Results& second, ResultComparison& to)
+{
+    const auto one = verdicts_in(first), other = verdicts_in(second);
+    for (const auto& [id, verdict] : one) {
+        const auto same = other.find(id);
+        if (same == other.end() || same->second.kind == verdict.kind) continue;
+        if (to.folders.second_is_part && !has_the_same_cases(verdict, same->second)) continue;
+        to.other_verdicts.push_back(fmt::format("{}: {} | {}", id, name_of(verdict.kind), name_of(same->second.kind)));
+    }
+    compare_stated(first, one, to);
+    compare_stated(second, other, to);
+}
+
+std::string count_text(int number)
+{
+    std::string text = std::to_string(number);
+    for (int place = static_cast<int>(text.size()) - 3; place > 0; place -= 3) text.insert(static_cast<std::size_t>(place), ",");
+    return text;
+}
+
+void add_list(const std::string& title, const std::vector<std::string>& names, int lines, std::string& text)
+{
+    if (names.empty()) return;
+    text += fmt::format("{} ({}):\n", title, names.size());
+    for (std::size_t i = 0; i < names.size() && i < static_cast<std::size_t>(lines); ++i) text += "  " + names[i] + "\n";
+    if (names.size() > static_cast<std::size_t>(lines)) text += fmt::format("  and {} more; --json FILE has all\n", names.size() - lines);
+}
+
+std::vector<std::string> differences_in(const ResultComparison& compared)
+{
+    std::vector<std::string> texts;
+    for (const ComparedTable& table : compared.tables)
+        for (const analysis::CellDifference& of : table.rows.differing)
+            texts.push_back(fmt::format("{}: {}: {} = {} | {}", table.name, of.row, of.column, of.first, of.second));
+    return texts;
+}
+
+}  // namespace
+
+int ResultComparison::numbers() const
+{
+    int total = 0;
+    for (const ComparedTable& table : tables) total += table.rows.numbers();
+    return total;
+}
+
+int ResultComparison::equal() const
+{
+    int total = 0;
+    for (const ComparedTable& table : tables) total += table.rows.equal();
+    return total;
+}
+
+int ResultComparison::differing() const
+{
+    int total = 0;
+    for (const ComparedTable& table : tables) total += static_cast<int>(table.rows.differing.size());
+    return total;
+}
+
+bool ResultComparison::agrees() const
+{
+    return differing() == 0 && only_first.empty() && only_second.empty() && other_verdicts.empty();
+}
+
+ResultComparison compare_results(const ComparedFolders& folders)
+{
+    const Results first(folders.first, folders.studies), second(folders.second, folders.studies);
+    ResultComparison compared{.folders = folders};
+    if (!folders.second_is_part) compared.only_first = runs_without(first.runs, second.runs);
+    compared.only_second = runs_without(second.runs, first.runs);
+    if (folders.second_is_part) {  // no record is kept of some studies, nor of the scenes that a run of a study runs
+        const auto is_kept = [&](const std::string& name) {
+            const bool knows_study = std::ranges::any_of(first.runs, [&](const auto& run) { return study_of(run) == study_of(name); });
+            return knows_study && !first.runs.contains(fs::path(name).parent_path().string());
+        };
+        std::erase_if(compared.only_second, [&](const std::string& name) { return !is_kept(name); });
+    }
+    compare_tables_of(first, second, compared);
+    compare_settings(first, second, compared);
+    compare_verdicts(first, second, compared);
+    return compared;
+}
+
+std::string comparison_text(const ResultComparison& compared, int lines)
+{
+    const int numbers = compared.numbers(), agreeing = numbers - compared.differing();
+    std::string text = fmt::format("{} of {} numbers agree, {} of them in every digit.\n", count_text(agreeing), count_text(numbers),
+                                   count_text(compared.equal()));
+    add_list("other settings, A | B", compared.other_settings, lines, text);
+    add_list("other verdicts, A | B", compared.other_verdicts, lines, text);
+    add_list("other numbers, A | B", differences_in(compared), lines, text);
+    add_list("only in A = " + compared.folders.first, compared.only_first, lines, text);
+    add_list("only in B = " + compared.folders.second, compared.only_second, lines, text);
+    return text;
+}
+
+std::string claim_text(const ComparedClaim& compared)
+{
+    const bool has_frames = compared.frames > 0;
+    const int all = has_frames ? compared.frames : compared.numbers;
+    const int differing = has_frames ? compared.frames_differing : compared.differing;
+    const char* what = has_frames ? "frames" : "numbers";
+    if (differing > 0) return fmt::format("{} of {} {} differ", count_text(differing), count_text(all), what);
+    return all > 0 ? fmt::format("{} {} agree", count_text(all), what) : "";
+}
+
+std::string repeated_text(const ResultComparison& compared)
+{
+    const int numbers = compared.numbers();
+    if (compared.agrees())
+        return fmt::format("This machine repeats the record: {0} of {0} numbers agree ({1} in every digit).", count_text(numbers),
+                           count_text(compared.equal()));
+    return fmt::format("This machine does NOT repeat the record: {} of {} numbers differ.", count_text(compared.differing()),
+                       count_text(numbers));
+}
+
+nlohmann::json to_json(const ResultComparison& compared)
+{
+    nlohmann::json tables = nlohmann::json::array(), claims = nlohmann::json::object();
+    for (const ComparedTable& table : compared.tables) {
+        nlohmann::json differing = nlohmann::json::array();
+        for (const analysis::CellDifference& of : table.rows.differing)
+            differing.push_back({{"row", of.row}, {"column", of.column}, {"first", of.first}, {"second", of.second}});
+        tables.push_back({{"table", table.name},
+                          {"rows", table.rows.rows.size()},
+                          {"numbers", table.rows.numbers()},
+                          {"equal", table.rows.equal()},
+                          {"differing", differing}});
+    }
+    for (const auto& [id, of] : compared.claims)
+        claims[id] = {
+            {"numbers", of.numbers}, {"differing", of.differing}, {"frames", of.frames}, {"frames_differing", of.frames_differing}};
+    return {{"schema", 1},
+            {"first", compared.folders.first},
+            {"second", compared.folders.second},
+            {"agrees", compared.agrees()},
+            {"numbers", compared.numbers()},
+            {"equal", compared.equal()},
+            {"tables", tables},
+            {"claims", claims},
+            {"only_first", compared.only_first},
+            {"only_second", compared.only_second},
+            {"other_settings", compared.other_settings},
+            {"other_verdicts", compared.other_verdicts}};
+}
+
+std::vector<analysis::CheckSuite> suites_of(const ResultComparison& compared)
+{
+    std::vector<analysis::CheckSuite> suites;
+    const auto add = [&](const std::string& suite, const std::string& name, bool agrees, const std::string& message) {
+        if (suites.empty() || suites.back().name != suite) suites.push_back({.name = suite});
+        suites.back().cases.push_back({.suite = suite,
+                                       .name = name,
+                                       .state = agrees ? analysis::CheckState::held : analysis::CheckState::failed,
+                                       .message = message});
+    };
+    for (const ComparedTable& table : compared.tables) {
+        const std::size_t count = table.rows.differing.size();
+        std::string message = fmt::format("{} of {} numbers agree", table.rows.numbers() - static_cast<int>(count), table.rows.numbers());
+        if (count > 0) {
+            const analysis::CellDifference& of = table.rows.differing.front();
+            message += fmt::format("; the first that differs: {}: {} = {} | {}", of.row, of.column, of.first, of.second);
+        }
+        add(study_of(table.name), table.name, count == 0, message);
+    }
+    for (const std::string& name : compared.only_first) add("only in A", name, false, "only in " + compared.folders.first);
+    for (const std::string& name : compared.only_second) add("only in B", name, false, "only in " + compared.folders.second);
+    for (const std::string& text : compared.other_verdicts) add("verdicts", study_of(text), false, text);
+    return suites;
+}
+
+std::string records_folder()
+{
+    if (const char* folder = std::getenv("PBSKIN_RECORDS"); folder && *folder) return folder;
+    return (fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share" / "pbskin" / "records").string();
+}
+
+}  // namespace experiments

@@ -1,0 +1,71 @@
+// Compares two folders of results: a run of mine with the record, before and after a change, or two machines.
+//   const ResultComparison compared = compare_results({.first = record, .second = here});
+//   if (!compared.agrees()) fmt::print("{}", comparison_text(compared));
+// Tables with the same name in runs with the same name are compared row by row (analysis/records/table_comparison.hpp). Of the tables of a
+// study, which sum up its runs, those are compared that have a row per case.
+#pragma once
+
+#include "analysis/check/check.hpp"
+#include "analysis/records/table_comparison.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+struct ComparedTable {
+    std::string name;  // volume/limb_twist/metrics.csv, or metrics.csv of a single run
+    analysis::TableComparison rows;
+};
+
+// What the comparison says of a claim: its values in the tables of measurements, or the frames that it is judged by.
+struct ComparedClaim {
+    int numbers = 0, differing = 0;
+    int frames = 0, frames_differing = 0;
+    bool agrees() const { return differing == 0 && frames_differing == 0; }
+};
+
+struct ComparedFolders {
+    std::string first, second;              // folders of results: of `reproduce`, of one run, or kept records
+    bool second_is_part = false;            // what only the first folder has is no difference
+    std::vector<std::string> studies = {};  // that are compared; empty: all
+};
+
+struct ResultComparison {
+    ComparedFolders folders;
+    std::vector<ComparedTable> tables;                           // that both have
+    std::vector<std::string> only_first = {}, only_second = {};  // studies, runs, tables and rows
+    std::vector<std::string> other_settings = {};                // of a run: "pbs.k_stretch = 0.2 | 0.5"
+    std::vector<std::string> other_verdicts = {};                // "C04: holds | fails"
+    std::map<std::string, ComparedClaim> claims = {};            // by id
+
+    int numbers() const;
+    int equal() const;
+    int differing() const;
+    bool agrees() const;
+};
+
+// InputError if a folder has no results.
+ResultComparison compare_results(const ComparedFolders& folders);
+
+// For the terminal: the answer first, then what differs, at most `lines` of each kind.
+std::string comparison_text(const ResultComparison& compared, int lines = 12);
+
+// "94 numbers agree", "115 frames agree", "2 of 94 numbers differ".
+std::string claim_text(const ComparedClaim& compared);
+
+// "This machine repeats the record: 1,293 of 1,293 numbers agree (1,269 in every digit)."
+std::string repeated_text(const ResultComparison& compared);
+
+nlohmann::json to_json(const ResultComparison& compared);
+
+// A suite per study and a case per table, for reports in JUnit's form.
+std::vector<analysis::CheckSuite> suites_of(const ResultComparison& compared);
+
+// The folder of the kept records, next to the program or at PBSKIN_RECORDS.
+std::string records_folder();
+
+}  // namespace experiments

@@ -1,0 +1,140 @@
+#include "experiments/studies/last_screen.hpp"
+
+#include "analysis/records/provenance.hpp"
+#include "analysis/records/record_files.hpp"
+#include "experiments/process/terminal.hpp"
+#include "experiments/studies/reproduce.hpp"
+#include "experiments/studies/work_precision/conclusions.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+const analysis::Verdict* find(const std::vector<analysis::Verdict>& verdicts, const std::string& id)
+{
+    const auto found = std::ranges::find(verdicts, id, [](const analysis::Verdict& of) { return of.claim.id; });
+    return found == verdicts.end() ? nullptr : &*found;
+}
+
+// 83.5 to 176 1/s; empty without numbers.
+std::string range_text(const analysis::Verdict& verdict)
+{
+    std::vector<double> values;
+    std::string unit;
+    for (const analysis::Unit& of : verdict.own.units)
+        if (std::isfinite(of.value)) values.push_back(of.value), unit = of.unit;
+    if (values.empty()) return "";
+    const auto [least, most] = std::ranges::minmax(values);
+    return fmt::format("{:.3g} to {:.3g}{}", least, most, unit.empty() || unit == "1" ? "" : " " + unit);
+}
+
+// Its own numbers, or without them those on its page, such as the controls.
+ComparedClaim compared_claim(const ResultComparison& compared, const analysis::Claim& claim)
+{
+    for (const std::string& id : {claim.id, page_of(claim)})
+        if (const auto found = compared.claims.find(id); found != compared.claims.end()) return found->second;
+    return {};
+}
+
+// The record's times belong to another machine, so that those of this one stand beside them.
+std::string here_text(const analysis::Verdict& here, const ComparedClaim& compared)
+{
+    const std::string numbers = claim_text(compared);
+    return numbers.empty() ? range_text(here) : numbers;
+}
+
+std::map<std::string, std::string> here_texts(const LastScreen& screen, const ResultComparison& compared)
+{
+    std::map<std::string, std::string> texts;
+    for (const analysis::Verdict& verdict : screen.here) {
+        const std::string text = here_text(verdict, compared_claim(compared, verdict.claim));
+        if (!text.empty()) texts[verdict.claim.id] = text;
+    }
+    return texts;
+}
+
+void write_repeated(const ResultComparison& compared, const std::map<std::string, std::string>& here, const std::string& folder)
+{
+    nlohmann::json claims = nlohmann::json::object();
+    for (const auto& [id, text] : here) {
+        const ComparedClaim of = compared_claim(compared, claim_named(id));
+        const int all = of.frames > 0 ? of.frames : of.numbers, differing = of.frames > 0 ? of.frames_differing : of.differing;
+        claims[id] = {{"compared", all}, {"agree", all - differing}, {"text", text}};
+    }
+    nlohmann::json repeated = to_json(compared);
+    repeated["claims"] = claims;
+    repeated["text"] = repeated_text(compared);
+    analysis::write_text_atomically(analysis::path_in(folder, "repeated.json"), repeated.dump(1) + "\n");
+}
+
+// The record's verdicts on the claims of these studies. A study that the record lacks is judged by the results.
+std::vector<analysis::Verdict> on_record(const LastScreen& screen, const std::string& records)
+{
+    const OpenedRecords opened(records);
+    std::vector<analysis::Verdict> verdicts;
+    for (const analysis::Verdict& here : screen.here) {
+        const std::string folder = (fs::path(opened.folder()) / here.claim.study).string();
+        verdicts.push_back(has_study_plan(folder) ? analysis::judge(here.claim, read_study_records(folder, opened.folder())) : here);
+    }
+    return verdicts;
+}
+
+// How far LBS and PBS are from flesh, and which method is nearest within 1 ms, by the record of work_precision. Empty without one.
+std::string answers_text(const std::string& records)
+{
+    const std::string file = (fs::path(records) / "work_precision" / "methods.csv").string();
+    if (!fs::exists(file)) return "";
+    std::vector<MethodRow> within = rows_of(method_columns, analysis::read_csv(file));
+    std::erase_if(within,
+                  [](const MethodRow& of) { return of.table != ComparisonTable::known || of.budget_ms != 1.0 || of.within == "no"; });
+    const auto row = [&](const std::string& method) { return std::ranges::find(within, method, &MethodRow::method); };
+    const auto best = std::ranges::min_element(within, {}, &MethodRow::share), lbs = row("lbs"), pbs = row("pbs"), mush = row("delta_mush");
+    if (lbs == within.end() || pbs == within.end() || mush == within.end()) return "";
+    return fmt::format(
+        "Far from flesh: the skin of a body of 1.7 m is {:.2g} mm off with LBS, {:.2g} mm with PBS ({} poses).\n"
+        "1 ms per frame: {} leaves {:.0f} % of LBS's error if the material is known, PBS {:.0f} %, delta mush {:.0f} %.\n",
+        lbs->skin_mm.value_or(0.0), pbs->skin_mm.value_or(0.0), pbs->poses, best->method, 100.0 * best->share, 100.0 * pbs->share,
+        100.0 * mush->share);
+}
+
+}  // namespace
+
+void write_verdicts(const std::vector<analysis::Verdict>& verdicts, const std::string& folder)
+{
+    analysis::write_text_atomically(analysis::path_in(folder, "claims.json"),
+                                    analysis::claims_json(verdicts, analysis::collect_provenance(1).git_revision).dump(2) + "\n");
+    analysis::write_text_atomically(analysis::path_in(folder, "claims.md"), analysis::claims_markdown(verdicts));
+}
+
+bool show_last_screen(LastScreen screen)
+{
+    std::ranges::stable_sort(screen.here, {}, [](const analysis::Verdict& of) { return of.claim.id; });
+    const std::string records = records_folder();
+    const std::size_t width = std::min<std::size_t>(terminal_width(), 100);
+    if (!fs::exists(fs::path(records) / "provenance.json")) {
+        write_verdicts(screen.here, screen.folder);
+        fmt::print("{}", analysis::claims_table(screen.here, width, terminal_has_colours()));
+        return true;
+    }
+    const ResultComparison compared =
+        compare_results({.first = records, .second = screen.folder, .second_is_part = true, .studies = screen.studies});
+    const std::map<std::string, std::string> here = here_texts(screen, compared);
+    const std::vector<analysis::Verdict> verdicts = screen.full ? screen.here : on_record(screen, records);
+    write_verdicts(verdicts, screen.folder);
+    write_repeated(compared, here, screen.folder);
+    fmt::print("{}\n", repeated_text(compared));
+    if (!compared.agrees()) fmt::print("{}", comparison_text(compared));
+    if (!verdicts.empty()) fmt::print("\n{}", analysis::claims_table(verdicts, width, terminal_has_colours()));
+    fmt::print("{}", answers_text(records));
+    return compared.agrees();
+}
+
+}  // namespace experiments

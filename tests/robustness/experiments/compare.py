@@ -1,0 +1,135 @@
+"""`pbskin compare` names each number, row, table, run, study and verdict that differs. Reference: what each test changes in a copy."""
+import csv
+import json
+import os
+import pathlib
+import re
+import shutil
+import unittest
+import xml.etree.ElementTree as xml
+
+import program
+
+
+class Compare(program.ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.first, self.second = pathlib.Path(self.path("first")), pathlib.Path(self.path("second"))
+        self.succeeds("reproduce", "audit", "momentum", "-o", self.first, "--quiet")
+        shutil.copytree(self.first, self.second)
+
+    def differs(self, *words, part=()):
+        """Exit status 1, and each of the words in what is printed."""
+        said = self.ends(1, "compare", *part, self.first, self.second).stdout
+        for word in words:
+            self.assertIn(word, said)
+        return said
+
+    def change(self, table, change):
+        """Applies a function to the rows of a table of the second folder, the head first."""
+        file = self.second / table
+        rows = list(csv.reader(file.open(newline="")))
+        with file.open("w", newline="") as stream:
+            csv.writer(stream, lineterminator="\n").writerows(change(rows))
+
+    def test_equal_folders_agree(self):
+        said = self.succeeds("compare", self.first, self.second).stdout
+        self.assertRegex(said, r"^([\d,]+) of \1 numbers agree, \1 of them in every digit\.\n$")
+
+    def test_a_number_that_differs_in_its_tenth_digit_is_named(self):
+        def tenth_digit(rows):
+            place = rows[0].index("printed")
+            row = next(row for row in rows[1:] if row[place] not in ("0", "1"))
+            row[place] = repr(float(row[place]) * (1 + 4e-9))
+            return rows
+        self.change("audit/print/printed.csv", tenth_digit)
+        self.differs("other numbers, A | B (1):", "audit/print/printed.csv: ", ": printed = ")
+
+    def test_a_row_that_is_missing_is_named(self):
+        self.change("momentum/limb/measurements.csv", lambda rows: rows[:-1])
+        self.differs(f"only in A = {self.first} (1):", "momentum/limb/measurements.csv: row ")
+        self.succeeds("compare", "--part", self.first, self.second)
+        self.first, self.second = self.second, self.first
+        self.differs(f"only in B = {self.second} (1):", part=["--part"])  # a part has no row of its own
+
+    def test_a_verdict_that_its_tables_do_not_give_is_named(self):
+        def exchanged(rows):
+            least, most = rows[0].index("least"), rows[0].index("most")
+            return [rows[0], *([*row[:least], "-1e9", *row[least + 1:most], "1e9", *row[most + 1:]] for row in rows[1:])]
+        self.change("audit/print/printed.csv", exchanged)
+        self.differs("other verdicts, A | B", "C14: inconsistent_in_print | holds")
+
+    def test_a_run_a_study_and_a_table_that_are_missing_are_named(self):
+        shutil.rmtree(self.second / "momentum" / "limb")
+        (self.second / "audit" / "print" / "printed.csv").unlink()
+        self.differs("  momentum/limb\n", "  audit/print/printed.csv\n")
+        shutil.rmtree(self.second / "momentum")
+        self.assertRegex(self.differs(), r"\n  momentum\n")
+
+    def test_settings_that_differ_are_named_as_the_cause(self):
+        one, other = (self.path(name) for name in ("one", "other"))
+        run = ("run", "limb_twist", "--quiet", "--set", "motion.frames=3", "--set", 'deformers.use=["lbs","pbs"]', "--set", 'reference.name=""')
+        self.succeeds(*run, "-o", one)
+        self.succeeds(*run, "-o", other, "--set", "pbs.k_stretch=0.5")
+        said = self.ends(1, "compare", one, other).stdout
+        self.assertIn("pbs.k_stretch = 0.2 | 0.5\n", said)
+        self.assertIn("other numbers, A | B", said)
+        self.assertNotRegex(said, r"metrics\.csv: [^\n]*\blbs\b[^\n]*: volume_change_pct")  # LBS has no k_stretch
+
+    def test_folders_without_results_are_refused(self):
+        self.refuses("expected a folder of results", "compare", self.first, self.path("nothing"))
+        pathlib.Path(self.path("empty")).mkdir()
+        self.refuses("no results in this folder", "compare", self.path("empty"), self.first)
+
+    def test_reports_for_programs(self):
+        self.change("momentum/limb/measurements.csv", lambda rows: rows[:-1])
+        files = self.path("differences.json"), self.path("differences.xml")
+        self.ends(1, "compare", self.first, self.second, "--json", files[0], "--junit", files[1], "--quiet")
+        found = json.loads(pathlib.Path(files[0]).read_text())
+        self.assertFalse(found["agrees"])
+        self.assertEqual((len(found["only_first"]), found["only_second"]), (1, []))
+        suites = xml.parse(files[1]).getroot()
+        self.assertEqual(suites.get("failures"), "1")
+        self.assertTrue(re.search("row ", suites.find(".//testcase[failure]").get("name")))
+
+
+class KeptRecord(program.ProgramTest):
+    """The copy of the record that the program installs."""
+
+    def setUp(self):
+        super().setUp()
+        self.records = pathlib.Path(self.path("records"))
+        shutil.copytree(pathlib.Path(program.SOURCE) / "experiments" / "records" / "full", self.records,
+                        ignore=shutil.ignore_patterns("claims.json", "report.html"))
+        self.results = pathlib.Path(self.path("results"))
+
+    def reproduces(self, status=0):
+        return self.ends(status, "reproduce", "audit", "momentum", "-o", self.results, env=os.environ | {"PBSKIN_RECORDS": str(self.records)}).stdout
+
+    def changed(self, table, old, new):
+        file = self.records / table
+        text = file.read_text()
+        self.assertIn(old, text)
+        file.write_text(text.replace(old, new, 1))
+
+    def test_this_machine_repeats_it(self):
+        self.assertRegex(self.reproduces(), r"^This machine repeats the record: ([\d,]+) of \1 numbers agree")
+
+    def test_a_changed_number_a_missing_row_and_another_verdict_are_named(self):
+        momentum, printed = "momentum/runs/measurements.csv", "audit/runs/printed.csv"
+        row = (self.records / momentum).read_text().splitlines(keepends=True)[1]
+        for named, (table, old, new) in {
+                "momentum/": (momentum, row, ""),
+                ": printed = ": (printed, ",9600,", ",9600.00004,"),
+                "C14: ": ("claims.md", "| inconsistent_in_print |", "| holds |")}.items():
+            with self.subTest(named):
+                kept = (self.records / table).read_text()
+                self.changed(table, old, new)
+                said = self.reproduces(1)
+                self.assertIn("does NOT repeat the record", said)
+                self.assertIn(named, said)
+                (self.records / table).write_text(kept)
+
+
+if __name__ == "__main__":
+    unittest.main()
