@@ -141,7 +141,7 @@ json claim_object(const Verdict& verdict)
                    {"rule", name_of(claim.rule)},
                    {"reason", claim.reason},
                    {"verdict", name_of(verdict.kind)},
-                   {"untested", name_of(verdict.untested)},
+                   {"why_inconclusive", name_of(verdict.inconclusive)},
                    {"quantities", claim.own.quantities},
                    {"of", to_json_of(claim.own.of)},
                    {"over", to_json_of(claim.own.over)},
@@ -183,7 +183,7 @@ json quantities_of(const std::vector<Verdict>& verdicts)
 const char* colour_of(VerdictKind kind)
 {
     constexpr const char *green = "\033[32m", *yellow = "\033[33m", *red = "\033[31m", *purple = "\033[35m", *grey = "\033[90m";
-    constexpr const char* colours[] = {green, red, yellow, grey, grey, purple, red};  // in the order of the enum
+    constexpr const char* colours[] = {green, red, yellow, yellow, grey, grey, grey, purple, red};  // in the order of the enum
     return colours[static_cast<int>(kind)];
 }
 
@@ -243,16 +243,16 @@ std::string numbers_text(const Verdict& verdict)
     return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-// One line each: how many units hold; their numbers with the bound; why a claim is not testable.
+// One line each: how many units hold; their numbers with the bound; why the verdict is inconclusive.
 std::string facts_text(const Verdict& verdict)
 {
     std::vector<std::string> lines;
     for (const std::string& line : {share_text(verdict), numbers_text(verdict)})
         if (!line.empty()) lines.push_back(line);
-    if (verdict.kind == VerdictKind::fails && verdict.own.share() > failing_share)
+    if (verdict.kind == VerdictKind::not_shown || verdict.inconclusive == Inconclusive::chance)
         lines.push_back(fmt::format("chance reaches as many with a probability of {:.2g}", verdict.by_chance));
-    if (verdict.untested != Untested::none && verdict.untested != Untested::reason_of_the_claim) {
-        lines.push_back(spoken(name_of(verdict.untested)));
+    else if (verdict.inconclusive != Inconclusive::no) {
+        lines.push_back(spoken(name_of(verdict.inconclusive)));
         for (const Judged& other : verdict.others)
             if (!other.behaves)
                 lines.push_back(fmt::format("{} ({}): {} of {} hold", other.selection.name, spoken(name_of(other.selection.role)),
@@ -287,7 +287,7 @@ json claims_json(const std::vector<Verdict>& verdicts, const std::string& revisi
 {
     json claims = json::array();
     for (const Verdict& verdict : verdicts) claims.push_back(claim_object(verdict));
-    return {{"schema", 3}, {"revision", revision}, {"quantities", quantities_of(verdicts)}, {"claims", claims}};
+    return {{"schema", 4}, {"revision", revision}, {"quantities", quantities_of(verdicts)}, {"claims", claims}};
 }
 
 std::string claims_markdown(const std::vector<Verdict>& verdicts)

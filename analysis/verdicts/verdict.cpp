@@ -233,17 +233,20 @@ std::vector<Judged> readings_of(const Claim& claim, const std::vector<Measuremen
     return readings;
 }
 
-Untested why_untested(const Verdict& verdict)
+Inconclusive why_inconclusive(const Verdict& verdict)
 {
     for (const Judged& other : verdict.others)
-        if (!other.behaves) return other.n == 0 ? Untested::control_without_record : Untested::control_misbehaves;
-    return verdict.own.n < least_units ? Untested::too_few_units : Untested::none;
+        if (!other.behaves) return other.n == 0 ? Inconclusive::control_without_record : Inconclusive::control_misbehaves;
+    if (verdict.own.n < least_units) return Inconclusive::too_few_units;
+    const bool by_chance = verdict.own.share() >= holding_share && !(verdict.by_chance < largest_chance);
+    return by_chance ? Inconclusive::chance : Inconclusive::no;
 }
 
 VerdictKind kind_of(const Verdict& verdict)
 {
-    if (verdict.untested != Untested::none) return VerdictKind::not_testable;
-    if (verdict.own.share() <= failing_share || !(verdict.by_chance < largest_chance)) return VerdictKind::fails;
+    if (verdict.inconclusive != Inconclusive::no) return VerdictKind::inconclusive;
+    if (verdict.own.share() <= failing_share) return VerdictKind::fails;
+    if (!(verdict.by_chance < largest_chance)) return VerdictKind::not_shown;
     return verdict.own.share() >= holding_share ? VerdictKind::holds : VerdictKind::mixed;
 }
 
@@ -253,16 +256,17 @@ void judge_units(Verdict& verdict)
     const auto unseen = std::ranges::find(verdict.others, claim.unseen_by, [](const Judged& one) { return one.selection.name; });
     if (!claim.unseen_by.empty()) {
         leave_out_unseen(*unseen, verdict.own);
+        unseen->behaves = unseen->n - unseen->held >= least_units;  // it selects the units, so that its share says nothing
         for (Judged& reading : verdict.readings) leave_out_unseen(*unseen, reading);
         for (Judged& other : verdict.others)
             if (other.selection.role == Role::comparison) leave_out_unseen(*unseen, other);
     }
     verdict.q = share_of_controls(verdict);
-    verdict.untested = why_untested(verdict);
     if (verdict.own.n > 0) {
         verdict.by_chance = binomial_tail(verdict.own.held, verdict.own.n, verdict.q);
         verdict.interval = interval_of(verdict.own);
     }
+    verdict.inconclusive = why_inconclusive(verdict);
     verdict.kind = kind_of(verdict);
     if (verdict.kind == VerdictKind::mixed) verdict.differs = largest_difference(claim, verdict.own);
 }
@@ -271,8 +275,8 @@ void judge_units(Verdict& verdict)
 void judge_single(Verdict& verdict)
 {
     if (verdict.own.units.size() != 1) {
-        verdict.kind = VerdictKind::not_testable;
-        verdict.untested = Untested::too_few_units;
+        verdict.kind = VerdictKind::inconclusive;
+        verdict.inconclusive = Inconclusive::too_few_units;
         return;
     }
     const Unit& only = verdict.own.units.front();
@@ -380,23 +384,20 @@ Verdict judge(const Claim& claim, const Records& records)
     else if (!claim.own.quantities.empty())
         judge_measured(records, verdict);
     if (claim.rule == ClaimRule::definition && verdict.missing.empty()) verdict.kind = VerdictKind::definition;
-    if (claim.rule == ClaimRule::untestable && verdict.missing.empty()) {
-        verdict.kind = VerdictKind::not_testable;
-        verdict.untested = Untested::reason_of_the_claim;
-    }
+    if (claim.rule == ClaimRule::untestable && verdict.missing.empty()) verdict.kind = VerdictKind::untestable;
     return verdict;
 }
 
 const char* name_of(VerdictKind kind)
 {
-    static constexpr std::array names = {"holds",         "fails", "mixed", "not_testable", "definition", "inconsistent_in_print",
-                                         "not_computable"};
+    static constexpr std::array names = {
+        "holds", "fails", "mixed", "not_shown", "inconclusive", "untestable", "definition", "inconsistent_in_print", "not_computable"};
     return names[static_cast<std::size_t>(kind)];
 }
 
-const char* name_of(Untested why)
+const char* name_of(Inconclusive why)
 {
-    static constexpr std::array names = {"none", "reason_of_the_claim", "too_few_units", "control_without_record", "control_misbehaves"};
+    static constexpr std::array names = {"none", "too_few_units", "control_without_record", "control_misbehaves", "chance"};
     return names[static_cast<std::size_t>(why)];
 }
 

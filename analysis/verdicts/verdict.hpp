@@ -21,10 +21,10 @@ inline constexpr double largest_chance = 0.01;                      // a result 
 inline constexpr int least_units = 5;                               // fewer units do not carry a verdict
 
 // The verdict on a claim; every kind except the last is a result.
-enum class VerdictKind { holds, fails, mixed, not_testable, definition, inconsistent_in_print, not_computable };
+enum class VerdictKind { holds, fails, mixed, not_shown, inconclusive, untestable, definition, inconsistent_in_print, not_computable };
 
-// Why a claim is not testable.
-enum class Untested { none, reason_of_the_claim, too_few_units, control_without_record, control_misbehaves };
+// Why a verdict is inconclusive.
+enum class Inconclusive { no, too_few_units, control_without_record, control_misbehaves, chance };
 
 // Why a unit does not count.
 enum class LeftOutUnit { no, nothing_to_see, no_control, nothing_to_compare_with, censored };
@@ -66,7 +66,7 @@ struct Difference {
 struct Verdict {
     Claim claim;                                     // the claim that was judged
     VerdictKind kind = VerdictKind::not_computable;  // by the claim's rule
-    Untested untested = Untested::none;
+    Inconclusive inconclusive = Inconclusive::no;
     Judged own = {};
     // Of the share: the wider one of the exact binomial interval and a bootstrap over bodies.
     Interval interval = {.estimate = not_known, .low = not_known, .high = not_known};
@@ -84,9 +84,11 @@ struct Verdict {
 
 // Rule by rule:
 // units        The dependent values of each unit are averaged and compared with the bound. Units in which the control `unseen_by` does not
-//              fail are left out. Not testable if a control has no record or misbehaves (one that must fail does so in at least half of its
-//              units, one that must hold in at least 95 %), and with fewer than five units. Fails if at most half of the units hold, or if
-//              chance reaches as many with a probability of 1 % or more; holds from 95 % on; otherwise mixed.
+//              fail are left out. Inconclusive if a control has no record or misbehaves (one that must fail does so in at least half of its
+//              units, or in at least five if it is `unseen_by`; one that must hold does so in at least 95 %), and with fewer than five
+//              units. Fails if at most half of the units hold. Otherwise chance must reach as many with a probability below 1 %: the claim
+//              holds from 95 % on, and is mixed below. If chance reaches them more often, it is inconclusive from 95 % on, and not shown
+//              below.
 // single       The one number holds if its range lies within the bound, fails if it lies outside, and is mixed otherwise.
 // printed      Holds if all printed values are consistent; otherwise inconsistent in print.
 // Confirmatory values are judged apart. Where they have no unit of a control, the control of the other values is used.
@@ -97,7 +99,7 @@ Verdict judge(const Claim& claim, const Records& records);
 Judged judged(const Claim& claim, const Selection& selection, const std::vector<Measurement>& measured);
 
 const char* name_of(VerdictKind kind);  // holds, fails, ...
-const char* name_of(Untested why);
+const char* name_of(Inconclusive why);
 const char* name_of(LeftOutUnit why);
 
 // Verdicts as files: claims.json holds the facts for programs, claims.md the most important of them as a table.

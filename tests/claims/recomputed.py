@@ -230,7 +230,7 @@ class Verdict:
 
     def __init__(self, claim, otherwise=None):
         """otherwise: the verdict on all other values, for the one on the confirmatory values: it has the controls that these lack."""
-        self.claim, self.untested, self.is_later = claim, "none", otherwise is not None
+        self.claim, self.why, self.is_later = claim, "none", otherwise is not None
         self.q = self.chance = None
         plan = json.loads((RECORDS / "plans.json").read_text())[claim["study"]]
         self.values = [value for value in rows_of(claim["study"], "measurements.csv") + frame_values(claim["study"], plan)
@@ -242,9 +242,9 @@ class Verdict:
                 self.controls[i] = otherwise.controls[i]
         self.compared = [self.units(other) for other in claim.get("compared", [])]
         self.printed = [row for row in rows_of(claim["study"], "printed.csv") if row["claim"] == claim["id"]]
-        judged = {"units": self.by_units, "single": self.by_range, "printed": self.by_print, "definition": lambda: "definition"}
+        judged = {"units": self.by_units, "single": self.by_range, "printed": self.by_print}  # the other rules name their verdicts
         is_missing = claim["rule"] != "printed" and "quantities" in claim and self.lacks_a_run(plan)
-        self.kind = "not_computable" if is_missing else judged.get(claim["rule"], self.without_a_test)()
+        self.kind = "not_computable" if is_missing else judged.get(claim["rule"], lambda: claim["rule"])()
 
     def units(self, selection):
         return Units(self.claim | {"unit": self.claim.get("unit", [])}, self.values, selection)
@@ -254,9 +254,15 @@ class Verdict:
         finished = {run for origin in origins for run in origin["runs"]}
         return any(f"{self.claim['study']}/{run['name']}" not in finished for run in plan["runs"])
 
-    def without_a_test(self, why="reason_of_the_claim"):
-        self.untested = why
-        return "not_testable"
+    def inconclusive(self, why):
+        self.why = why
+        return "inconclusive"
+
+    def behaves(self, control):
+        """The control that selects the units must fail in enough of them; every other one by its share."""
+        if control.selection["name"] == self.claim.get("unseen_by"):
+            return control.n - control.held >= LEAST_UNITS
+        return control.behaves
 
     def by_units(self):
         unseen = [control for control in self.controls if control.selection["name"] == self.claim.get("unseen_by")]
@@ -268,17 +274,19 @@ class Verdict:
             for control in self.controls if control.selection["role"] == "must_fail")
         self.chance = tail(held, n, self.q) if n else None
         for control in self.controls:
-            if not control.behaves:
-                return self.without_a_test("control_misbehaves" if control.n else "control_without_record")
+            if not self.behaves(control):
+                return self.inconclusive("control_misbehaves" if control.n else "control_without_record")
         if n < LEAST_UNITS:
-            return self.without_a_test("too_few_units")
-        if held <= FAILING * n or self.chance >= LARGEST_CHANCE:
+            return self.inconclusive("too_few_units")
+        if held <= FAILING * n:
             return "fails"
-        return "holds" if held >= HOLDING * n else "mixed"
+        if held >= HOLDING * n:
+            return "holds" if self.chance < LARGEST_CHANCE else self.inconclusive("chance")
+        return "mixed" if self.chance < LARGEST_CHANCE else "not_shown"
 
     def by_range(self):
         if len(self.own.units) != 1:
-            return self.without_a_test("too_few_units")
+            return self.inconclusive("too_few_units")
         only, = self.own.units.values()
         if lies_within(only["bound"], only["low"]) and lies_within(only["bound"], only["high"]):
             return "holds"
@@ -353,8 +361,8 @@ class Recomputed(unittest.TestCase):
         self.assertEqual(missing, [])
 
     @of_each_claim
-    def test_each_verdict_and_why_a_claim_is_not_testable(self, verdict, judged):
-        self.assertEqual((verdict.kind, verdict.untested), (judged["verdict"], judged["untested"]))
+    def test_each_verdict_and_why_it_is_inconclusive(self, verdict, judged):
+        self.assertEqual((verdict.kind, verdict.why), (judged["verdict"], judged["why_inconclusive"]))
 
     @of_each_claim
     def test_the_number_of_each_unit_and_whether_it_counts_and_holds(self, verdict, judged):
@@ -410,7 +418,7 @@ class Recomputed(unittest.TestCase):
 
     @of_each_claim
     def test_how_many_units_of_each_control_and_comparison_hold_and_whether_it_behaves(self, verdict, judged):
-        own = [(one.selection["name"], one.selection.get("role", "comparison"), one.held, one.n, one.behaves)
+        own = [(one.selection["name"], one.selection.get("role", "comparison"), one.held, one.n, verdict.behaves(one))
                for one in [*verdict.controls, *verdict.compared]]
         self.assertEqual(own, [tuple(one[key] for key in ("name", "role", "held", "n", "behaves"))
                                for one in judged["controls"] + judged["compared"]])

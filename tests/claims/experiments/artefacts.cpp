@@ -49,7 +49,7 @@ TEST_F(ArtefactsVerdict, ThinSectionsAreACandyWrapper)
     EXPECT_EQ(own_units("C04", thin(samples)).units.at(1).low, 0.4);
     EXPECT_EQ(verdict_on("C04", thin(samples_of({0.97, 0.97, 0.97, 0.97, 0.3}))), VerdictKind::mixed);
     EXPECT_EQ(verdict_on("C04", thin(samples_of({0.97, 0.97, 0.3, 0.3, 0.3}))), VerdictKind::fails);
-    EXPECT_EQ(verdict_on("C04", thin(samples_of({}))), VerdictKind::not_testable) << "there is no value of PBS";
+    EXPECT_EQ(verdict_on("C04", thin(samples_of({}))), VerdictKind::inconclusive) << "there is no value of PBS";
 }
 
 TEST_F(ArtefactsVerdict, SectionsThinnerThanThoseOfFleshAreACandyWrapper)
@@ -74,7 +74,7 @@ TEST_F(ArtefactsVerdict, WideSectionsAreABulge)
         EXPECT_EQ(verdict_on("C05", wide(samples_of(std::vector(5, wide_over_rest)))), VerdictKind::fails) << wide_over_rest;
     }
     std::erase_if(samples, [](const ArtefactSample& one) { return one.group == "reference"; });
-    EXPECT_EQ(verdict_on("C05", wide(samples)), VerdictKind::not_testable) << "there is no reference";
+    EXPECT_EQ(verdict_on("C05", wide(samples)), VerdictKind::inconclusive) << "there is no reference";
 }
 
 // The value of the body exceeds it, and its range also covers linear elements.
@@ -118,7 +118,7 @@ TEST_F(ArtefactsVerdict, RatiosAboveOneAreNotSmoother)
     EXPECT_EQ(verdict_on("C06", measured), VerdictKind::fails);
     put(jump, own, 0.5);
     put(jump, {.variant = "exchanged_weights"}, 0.5);
-    EXPECT_EQ(verdict_on("C06", measured), VerdictKind::not_testable) << "the bound cannot be missed";
+    EXPECT_EQ(verdict_on("C06", measured), VerdictKind::inconclusive) << "the bound cannot be missed";
 }
 
 // C04 from a twisted limb, with the correct solver and with broken ones. Reference:

@@ -45,7 +45,7 @@ TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndTurnsWithItsValues)
                   if (masses == "equal") one.of.masses = "unequal_by_eq_8_9";
                   if (masses == "unequal_by_eq_8_9") one.of.masses = "equal";
               }),
-              VerdictKind::not_testable);
+              VerdictKind::inconclusive);
 }
 
 // C07 from correct and broken projections. Reference:

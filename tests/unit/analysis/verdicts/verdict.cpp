@@ -65,26 +65,31 @@ TEST(Verdict, FollowsFromTheShareOfTheUnits)
                                             {10, 20, fails},
                                             {0, 20, fails},
                                             {5, 5, holds},
-                                            {4, 4, not_testable},
-                                            {0, 0, not_testable}})
+                                            {4, 4, inconclusive},
+                                            {0, 0, inconclusive}})
         EXPECT_EQ(verdict_on(held, units).kind, kind) << held << " of " << units;
-    EXPECT_EQ(verdict_on(4, 4).untested, Untested::too_few_units);
+    EXPECT_EQ(verdict_on(4, 4).inconclusive, Inconclusive::too_few_units);
     const Verdict verdict = verdict_on(18, 20);
     EXPECT_EQ(verdict.own.held, 18);
     EXPECT_EQ(verdict.own.n, 20);
     EXPECT_EQ(verdict.runs, std::vector<std::string>{"a/run"});
 }
 
-TEST(Verdict, FailsWhereChanceReachesAsManyUnits)
+TEST(Verdict, ThatChanceReachesIsInconclusiveOrNotShownAndNeverFails)
 {
     Claim claim = radius_claim();
     claim.no_effect = 0.5;  // sum over 14 or more of 18 heads: 4048 / 2^18
     const Verdict verdict = judge(claim, records_of(14, 18));
     EXPECT_NEAR(verdict.by_chance, 4048.0 / 262144.0, 1e-15);
-    EXPECT_EQ(verdict.kind, fails);
+    EXPECT_EQ(verdict.kind, not_shown);
+    EXPECT_EQ(verdict.inconclusive, Inconclusive::no);
     EXPECT_EQ(judge(claim, records_of(15, 18)).kind, mixed);
+    EXPECT_EQ(judge(claim, records_of(10, 18)).kind, not_shown);
+    EXPECT_EQ(judge(claim, records_of(9, 18)).kind, fails) << "half of the units";
     EXPECT_EQ(judge(claim, records_of(7, 7)).kind, holds) << "1 / 128";
-    EXPECT_EQ(judge(claim, records_of(6, 6)).kind, fails) << "1 / 64";
+    const Verdict six = judge(claim, records_of(6, 6));  // 1 / 64
+    EXPECT_EQ(six.kind, inconclusive);
+    EXPECT_EQ(six.inconclusive, Inconclusive::chance);
 }
 
 TEST(Verdict, TakesQFromTheControlThatMustFailByTheRuleOfSuccession)
@@ -97,7 +102,7 @@ TEST(Verdict, TakesQFromTheControlThatMustFailByTheRuleOfSuccession)
     EXPECT_EQ(verdict.kind, holds);
 }
 
-TEST(Verdict, IsNotTestableIfAControlMisbehavesOrHasNoRecord)
+TEST(Verdict, IsInconclusiveIfAControlMisbehavesOrHasNoRecord)
 {
     const auto with = [](std::size_t control, double value, int units) {  // 1: LBS, 2: flesh
         Records records = records_of(20, 20);
@@ -105,12 +110,12 @@ TEST(Verdict, IsNotTestableIfAControlMisbehavesOrHasNoRecord)
         return judge(radius_claim(), records);
     };
     EXPECT_EQ(with(1, 1.0, 10).kind, holds) << "LBS fails in half of its units";
-    EXPECT_EQ(with(1, 1.0, 11).untested, Untested::control_misbehaves);
+    EXPECT_EQ(with(1, 1.0, 11).inconclusive, Inconclusive::control_misbehaves);
     EXPECT_EQ(with(2, 0.1, 1).kind, holds) << "flesh holds in 95 %";
-    EXPECT_EQ(with(2, 0.1, 2).kind, not_testable);
+    EXPECT_EQ(with(2, 0.1, 2).kind, inconclusive);
     Records records = records_of(20, 20);
     std::erase_if(records.measurements, [](const Measurement& one) { return one.of.deformer == "flesh"; });
-    EXPECT_EQ(judge(radius_claim(), records).untested, Untested::control_without_record);
+    EXPECT_EQ(judge(radius_claim(), records).inconclusive, Inconclusive::control_without_record);
     std::erase_if(records.measurements, [](const Measurement& one) { return one.of.deformer == "dqs"; });
     EXPECT_FALSE(judge(radius_claim(), records).others[2].n) << "a comparison without a record changes nothing";
 }
@@ -127,6 +132,29 @@ TEST(Verdict, LeavesOutUnitsInWhichThereIsNothingToSee)
     EXPECT_EQ(verdict.own.units[0].left_out, LeftOutUnit::nothing_to_see);
     EXPECT_EQ(verdict.own.units[19].left_out, LeftOutUnit::no_control);
     EXPECT_EQ(verdict.others[0].n, 19) << "q counts all units of the control";
+}
+
+TEST(Verdict, TheControlThatSelectsTheUnitsMustFailInFiveOfThem)
+{
+    Claim claim = radius_claim();
+    claim.unseen_by = "LBS";
+    const auto with_lbs_failing_in = [&](int units) {
+        Records records = records_of(20, 20);
+        for (int i = units; i < 20; ++i) records.measurements[static_cast<std::size_t>(4 * i + 1)].value = 1.0;
+        return judge(claim, records);
+    };
+    EXPECT_EQ(with_lbs_failing_in(5).kind, holds) << "it holds in 15 of 20";
+    const Verdict four = with_lbs_failing_in(4);
+    EXPECT_EQ(four.kind, inconclusive);
+    EXPECT_EQ(four.inconclusive, Inconclusive::control_misbehaves);
+    Records records = records_of(20, 20);
+    std::erase_if(records.measurements, [](const Measurement& one) { return one.of.deformer == "lbs"; });
+    EXPECT_EQ(judge(claim, records).inconclusive, Inconclusive::control_without_record);
+    records = records_of(20, 20);
+    for (int i = 0; i < 16; ++i)
+        std::erase_if(records.measurements,
+                      [&](const Measurement& one) { return one.of.deformer == "pbs" && one.of.joint == std::to_string(i); });
+    EXPECT_EQ(judge(claim, records).inconclusive, Inconclusive::too_few_units) << "it fails in units that PBS lacks";
 }
 
 TEST(Verdict, AveragesTheDependentValuesOfAUnitAndDividesThemByThoseOfAnother)
@@ -284,7 +312,7 @@ TEST(Verdict, OneNumberIsJudgedByItsRange)
     EXPECT_EQ(kind(0.8, 1.0), mixed);
     EXPECT_EQ(kind(0.7, 0.8), fails);
     EXPECT_EQ(kind(0.7, NAN), fails);
-    EXPECT_EQ(judge(claim, records_of(2, 2)).kind, not_testable) << "two numbers";
+    EXPECT_EQ(judge(claim, records_of(2, 2)).kind, inconclusive) << "two numbers";
 }
 
 TEST(Verdict, ShowsTheClaimInEachOrderAndPrecision)
@@ -343,8 +371,8 @@ TEST(Verdict, DefinitionsAndUntestableClaimsSayWhy)
     EXPECT_EQ(judge(claim, records_of(3, 20)).kind, definition);
     EXPECT_EQ(judge(claim, records_of(3, 20)).own.held, 3) << "its values are reported";
     claim.rule = ClaimRule::untestable;
-    EXPECT_EQ(judge(claim, {}).kind, not_testable);
-    EXPECT_EQ(judge(claim, {}).untested, Untested::reason_of_the_claim);
+    EXPECT_EQ(judge(claim, {}).kind, untestable);
+    EXPECT_EQ(judge(claim, {}).inconclusive, Inconclusive::no);
 }
 
 // Reference: the contract of claims.json, claims.md and the terminal's table.
@@ -355,7 +383,7 @@ TEST(ClaimsReport, HoldsTheFactsOfTheVerdict)
     claim.quantities = {{"radius", "smallest radius", "1"}};
     const Verdict verdict = judge(claim, records_of(18, 20));
     const nlohmann::json document = claims_json({verdict}, "abc"), of = document.at("claims").at(0);
-    EXPECT_EQ(document.at("schema"), 3);
+    EXPECT_EQ(document.at("schema"), 4);
     EXPECT_EQ(document.at("revision"), "abc");
     EXPECT_EQ(document.at("quantities").at("radius").at("title"), "smallest radius");
     EXPECT_EQ(of.at("verdict"), "mixed");
@@ -391,7 +419,7 @@ TEST(ClaimsReport, TheTerminalsTableKeepsItsWidthAndCountsTheVerdicts)
     std::istringstream lines(table);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 60u) << line;
     EXPECT_NE(table.find("18 of 20 hold"), std::string::npos) << table;
-    EXPECT_NE(table.find("2 claims: 1 mixed, 1 not testable"), std::string::npos) << table;
+    EXPECT_NE(table.find("2 claims: 1 mixed, 1 inconclusive"), std::string::npos) << table;
     EXPECT_NE(claims_table({verdict_on(20, 20)}, 100, true).find("\033[32m"), std::string::npos) << "green";
 }
 
