@@ -67,7 +67,7 @@ VerdictKind of_timing(double ms, double last_ms, const std::vector<analysis::Mea
     return verdict_on("C10a", joined(all));
 }
 
-// The control fails in one unit of one: q = 1 / 3, which reaches 5 of 5 units with 1 / 243 and 4 with 11 / 243.
+// The control fails in one case of one: q = 1 / 3, which reaches 5 of 5 cases with 1 / 243 and 4 with 11 / 243.
 TEST(TimingVerdict, TurnsWithTheTimesOfTableOnesSizes)
 {
     EXPECT_EQ(of_timing(5.0, 6.0), VerdictKind::holds);
