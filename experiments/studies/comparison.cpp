@@ -83,7 +83,7 @@ std::vector<std::string> claims_of_frames(const analysis::CsvTable& frames, int 
     if (frames.has_column("iterations")) key.iterations = frames.number_or_nothing(row, "iterations");
     std::vector<std::string> ids;
     for (const analysis::Claim& claim : claims())
-        if (claim.study == "volume" && claim.rule == analysis::ClaimRule::units && matches(key, claim.own.of)) ids.push_back(claim.id);
+        if (claim.study == "volume" && claim.rule == analysis::ClaimRule::cases && matches(key, claim.own.of)) ids.push_back(claim.id);
     return ids;
 }
 
@@ -206,8 +206,8 @@ std::map<std::string, analysis::Verdict> verdicts_in(const Results& results)
 bool has_the_same_cases(const analysis::Verdict& one, const analysis::Verdict& other)
 {
     const auto counts = [](const analysis::Verdict& of) {
-        std::vector<std::size_t> sizes = {of.own.units.size(), of.printed.size()};
-        for (const analysis::Judged& control : of.others) sizes.push_back(control.units.size());
+        std::vector<std::size_t> sizes = {of.own.cases.size(), of.printed.size()};
+        for (const analysis::Judged& control : of.others) sizes.push_back(control.cases.size());
         return sizes;
     };
     return counts(one) == counts(other);

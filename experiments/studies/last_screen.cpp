@@ -29,7 +29,7 @@ std::string range_text(const analysis::Verdict& verdict)
 {
     std::vector<double> values;
     std::string unit;
-    for (const analysis::Unit& of : verdict.own.units)
+    for (const analysis::JudgedCase& of : verdict.own.cases)
         if (std::isfinite(of.value)) values.push_back(of.value), unit = of.unit;
     if (values.empty()) return "";
     const auto [least, most] = std::ranges::minmax(values);
@@ -132,7 +132,7 @@ bool show_last_screen(LastScreen screen)
     write_repeated(compared, here, screen.folder);
     fmt::print("{}\n", repeated_text(compared));
     if (!compared.agrees()) fmt::print("{}", comparison_text(compared));
-    if (!verdicts.empty()) fmt::print("\n{}", analysis::claims_table(verdicts, width, terminal_has_colours()));
+    if (!verdicts.empty()) fmt::print("\n{}", analysis::claims_table(verdicts, width, terminal_has_colours(), {.heading = "here", .texts = here}));
     fmt::print("{}", answers_text(records));
     return compared.agrees();
 }

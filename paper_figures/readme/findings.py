@@ -143,7 +143,7 @@ def speed(claims, results):
     rates = sentences.span(units).removesuffix(" 1/s")
     processors = sorted({row["cpu_model"] for row in records.table(results / "timing" / "timing.csv", {"cpu_model"})})
     return "**Speed.** " + (told or f"At the sizes of Table 1, PBS with {paper_s_solver} reaches {rates} frames per second on one "
-                            f"core ({', '.join(processors)}){table_1}. The bound is {claim['bounds'][0]['low']:.0f}.")
+                            f"core ({', '.join(processors)}){table_1}. The threshold is {claim['thresholds'][0]['low']:.0f}.")
 
 
 def distance(results):

@@ -21,7 +21,7 @@ from pages import ambiguity, ensemble, short, work_precision
 from readme import findings as readme_findings, pages as readme_pages, part as readme_part, tables as readme_tables
 from readme import same_pose
 from records import kept
-from synthetic_records import claim, selection, unit, write_origin, write_table
+from synthetic_records import case, claim, selection, write_origin, write_table
 
 begin, end = readme_part.markers("claims")
 
@@ -41,38 +41,38 @@ class ReadmeTest(ResultsTest):
 
 class ClaimPage(unittest.TestCase):
     def test_a_claim_has_its_verdict_then_its_basis_then_a_table_for_each_kind_of_comparison(self):
-        shown = claim("C04", "holds", [unit(1.0)] * 5, titles={"ratio": "radius"}, interval_low=0.48, interval_high=1.0, chance=0.001,
-                      q=0.2, controls=[selection("LBS", [unit(0.5, False)], "must_fail")],
-                      compared=[selection("DQS|2", [unit(-0.4, False)])])
+        shown = claim("C04", "holds", [case(1.0)] * 5, titles={"ratio": "radius"}, interval_low=0.48, interval_high=1.0, chance=0.001,
+                      q=0.2, controls=[selection("LBS", [case(0.5, False)], "negative_control")],
+                      compared=[selection("DQS|2", [case(-0.4, False)])])
         self.assertEqual(readme_pages.claim_lines(shown), [
-            "**C04: holds.** Volume is kept.", "", "5 of 5 units hold, share 1 [0.48, 1]; radius: 1, bound 0.95 or more.", "",
-            "The number of a unit (body) is the radius; bound: 0.95 or more (Sec. 4). If each unit held with probability q = 0.2, at "
+            "**C04: holds.** Volume is kept.", "", "5 of 5 cases hold, share 1 [0.48, 1]; radius: 1, threshold 0.95 or more.", "",
+            "The number of a case (body) is the radius; threshold: 0.95 or more (Sec. 4). If each case held with probability q = 0.2, at "
             "least as many would hold by chance with probability 0.001. This q is the share of the control that must fail, by the rule of "
             "succession, or one half.", "",
-            "| control | role | units that hold | numbers | as it must |", "|---|---|---|---|---|",
-            "| LBS | must fail | 0 of 1 unit, share 0 | 0.5 | yes |", "",
-            "| for comparison | units within the bound | numbers |", "|---|---|---|", "| DQS\\|2 | 0 of 1 unit, share 0 | -0.4 |"])
+            "| control | role | cases that hold | numbers | as it must |", "|---|---|---|---|---|",
+            "| LBS | negative control | 0 of 1 case, share 0 | 0.5 | yes |", "",
+            "| for comparison | cases within the threshold | numbers |", "|---|---|---|", "| DQS\\|2 | 0 of 1 case, share 0 | -0.4 |"])
 
     def test_what_disagrees_in_the_same_units_follows_the_tables(self):
         def last_line(bodies):
-            wrong = [unit(0.1, False, body=body) for body in bodies]
-            return readme_pages.claim_lines(claim("C04", "holds", [unit(1.0, body=body) for body in "abcdef"], titles={},
+            wrong = [case(0.1, False, body=body) for body in bodies]
+            return readme_pages.claim_lines(claim("C04", "holds", [case(1.0, body=body) for body in "abcdef"], titles={},
                                                   readings=[selection("plain f32", wrong)]))[-1]
 
-        self.assertRegex(last_line("abcde"), "^Plain f32 and the claim's own reading disagree: in the 5 units that both have, ")
+        self.assertRegex(last_line("abcde"), "^Plain f32 and the claim's own reading disagree: in the 5 cases that both have, ")
         for bodies in ("abcd", "abcdx"):  # fewer than five are no sample
             self.assertNotIn("disagree", last_line(bodies))
 
     def test_a_page_begins_with_verdicts_that_differ(self):
-        later = claim("C04", "fails", [unit(0.5, False)], controls=[selection("LBS", [unit(0.5, False)], "must_fail")])
-        first, *others = readme_pages.claim_page_lines([claim("C04", "holds", [unit(1.0)] * 5, confirmatory=later)])
-        self.assertEqual(first, "**C04 has two verdicts: holds; on the confirmatory units: fails.**")
-        self.assertIn("Controls on the confirmatory units:", others)
-        same = claim("C04", "holds", confirmatory=claim("C04", "holds"))
+        later = claim("C04", "fails", [case(0.5, False)], controls=[selection("LBS", [case(0.5, False)], "negative_control")])
+        first, *others = readme_pages.claim_page_lines([claim("C04", "holds", [case(1.0)] * 5, held_out=later)])
+        self.assertEqual(first, "**C04 has two verdicts: holds; on the held-out cases: fails.**")
+        self.assertIn("Controls on the held-out cases:", others)
+        same = claim("C04", "holds", held_out=claim("C04", "holds"))
         self.assertNotIn("two verdicts", "".join(readme_pages.claim_page_lines([same])))
 
     def test_a_page_serves_both_halves_of_a_sentence(self):
-        lines = readme_pages.claim_page_lines([claim("C02a", "fails", titles={}), claim("C02b", "not_testable", titles={})])
+        lines = readme_pages.claim_page_lines([claim("C02a", "fails", titles={}), claim("C02b", "inconclusive", titles={})])
         self.assertEqual([line.split(":")[0] for line in lines if line.startswith(("Study", "**"))], ["Study", "**C02a", "**C02b"])
 
 
@@ -131,13 +131,13 @@ class Tables(ReadmeTest):
         synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results)
         self.assert_written("claims", readme_tables.claims_lines,
-                            "| Volume is kept. (Sec. 4) | fails | 1 of 3 units hold, share 0.333 [0.01, 0.91]; share of frames: 0.2 to "
-                            "0.975, bound 0.95 or more; range over meshes of human, clip 01_01: 0.1 to 0.975 | "
+                            "| Volume is kept. (Sec. 4) | fails | 1 of 3 cases hold, share 0.333 [0.01, 0.91]; share of frames: 0.2 to "
+                            "0.975, threshold 0.95 or more; range over meshes of human, clip 01_01: 0.1 to 0.975 | "
                             "[C02a](experiments/verdicts/claims/C02.md) |",
-                            "| holds | 2 of 2 units hold, share 1 [0.16, 1]; frames per second: 107 to 233 1/s, bound 30 or more; "
+                            "| holds | 2 of 2 cases hold, share 1 [0.16, 1]; frames per second: 107 to 233 1/s, threshold 30 or more; "
                             "the share differs most by body: 1 for man, 1 for lady | [C10a](experiments/verdicts/claims/C10.md) |",
                             "| 1 of 2 printed values consistent | [C13](experiments/verdicts/claims/C13.md) |",
-                            "| not testable | No record of the control DQS | [C14](experiments/verdicts/claims/C14.md) |",
+                            "| inconclusive | No record of the control DQS | [C14](experiments/verdicts/claims/C14.md) |",
                             f"\nMeasured at revision {synthetic_records.revision[:12]}.")
 
     def test_findings_without_the_values_that_they_state_are_refused(self):
@@ -148,9 +148,9 @@ class Tables(ReadmeTest):
         self.assertIn("ambiguity/human/figures.csv: does not exist", said)
 
     def test_the_volume_is_that_of_each_clip_in_the_papers_order_and_the_range_of_the_others(self):
-        clips = [unit(share, False, body="human", motion=clip) for clip, share in (("01_01", 0.36), ("01_03", 0.0))]
-        judged = claim("C02a", "fails", clips, readings=[selection("plain f32", [unit(0.9)])],
-                       compared=[selection("ordered f32", [unit(0.73, False)]), selection("flesh", [unit(1.0)])])
+        clips = [case(share, False, body="human", motion=clip) for clip, share in (("01_01", 0.36), ("01_03", 0.0))]
+        judged = claim("C02a", "fails", clips, readings=[selection("plain f32", [case(0.9)])],
+                       compared=[selection("ordered f32", [case(0.73, False)]), selection("flesh", [case(1.0)])])
         for scene, share in (("human", 0.9), ("human_moving", 0.0)):
             write_table(self.results / "ambiguity" / scene / "figures.csv", [{"quantity": "share_of_frames_within_printed", "b": share}])
         text = readme_findings.volume([judged], self.results)
@@ -158,18 +158,18 @@ class Tables(ReadmeTest):
         self.assertIn("frames: human, clip 01_01: 36 %; human, clip 01_03: 0 %. In other orders and precisions it is 73 % to 90 %. In "
                       "other readings of the paper it is 0 % to 90 % (human, clip 01_01).", text)
 
-    def test_artefacts_name_the_exceptions_and_what_is_not_testable(self):
-        twist = unit(0.067, False, body="limb", angle_deg=180.0)
-        text = readme_findings.artefacts([claim("C04", "holds", [unit(1.0)] * 28 + [twist],
-                                                readings=[selection("plain f32", [unit(1.0)] * held + [twist] * (29 - held))
+    def test_artefacts_name_the_exceptions_and_what_is_inconclusive(self):
+        twist = case(0.067, False, body="limb", angle_deg=180.0)
+        text = readme_findings.artefacts([claim("C04", "holds", [case(1.0)] * 28 + [twist],
+                                                readings=[selection("plain f32", [case(1.0)] * held + [twist] * (29 - held))
                                                           for held in (27, 28)]),
-                                          claim("C05", "not_testable", untested="too_few_units")])
+                                          claim("C05", "inconclusive", why_inconclusive="too_few_cases")])
         self.assertIn("PBS shows no candy wrapper in 28 of the 29 poses in which LBS narrows; the exception is limb, 180\u00b0 (0.067) "
                       "(27 or more in other orders and precisions).", text)
-        self.assertIn("C05 is not testable: no unit is on record.", text)
+        self.assertIn("C05 is inconclusive: no case is on record.", text)
 
     def test_convergence_counts_the_cases(self):
-        text = readme_findings.convergence([claim("C12a", "fails", [unit(11.0)] * 2 + [unit(61.0, False)])])
+        text = readme_findings.convergence([claim("C12a", "fails", [case(11.0)] * 2 + [case(61.0, False)])])
         self.assertIn("24 iterations bring the residual within 5 % of its floor in 2 of 3 cases.", text)
 
     def test_bounded_is_not_at_rest_and_at_rest_is_not_undisturbed(self):
@@ -266,7 +266,7 @@ class Pages(ResultsTest):
                      "| vertex block descent |  | `vbd.iterations=1` | `vbd.iterations=10` |",
                      "- `mine`: the times that the program states"):
             self.assertIn(line, text)
-        for study_word in ("undecided", "not testable"):
+        for study_word in ("undecided", "inconclusive"):
             self.assertNotIn(study_word, text)
 
     def test_the_quick_form_has_neither_clips_nor_other_starts(self):
