@@ -7,7 +7,6 @@ from drawing import style
 from words import compared_methods, looks
 from words.number_words import figure
 
-width_in = 3.9  # a figure that a phone shows 366 pixels wide has letters of 9
 curve_columns = {"table", "method", "budget_ms", "setting", "ms", "share", "share_low", "share_high"}
 solved_columns = {"table", "target_pct", "method", "budget_ms", "solved_pct"}
 clock_words = {"own": "time as the program states it", "wall": "wall time of the program over its poses"}
@@ -53,7 +52,7 @@ def error_against_time(results):
     compared = compared_methods.Compared(folder)
     rows = curve_rows(known(records.table(folder / "curves.csv", curve_columns)), takes_of(compared))
     records.need(rows, f"{folder / 'curves.csv'}: no method with known flesh")
-    drawn, ((axes,),) = style.panels(1, 1, height_in=3.2, width_in=width_in)
+    drawn, ((axes,),) = style.panels(1, 1, height_in=3.2)
     ends = {method: draw_curve(axes, [row for row in rows if row["method"] == method], takes)
             for method, takes in {row["method"]: row["takes"] for row in rows}.items()}
     axes.set(xscale="log", xlabel="time per frame [ms]", ylabel="error [% of LBS's error]")
@@ -72,7 +71,7 @@ def error_against_time(results):
 
 def facts_rows(compared, folder):
     """What the caption states: the sentences, the number of poses, and the clocks of deformers of the user's own."""
-    rows = [{"shown": "answer", "text": text} for text in compared.answers()]
+    rows = [{"shown": "title", "text": compared.message()}, *({"shown": "answer", "text": text} for text in compared.answers())]
     rows.append({"shown": "poses", "text": max(int(row["poses"]) for row in compared.methods)})
     return rows + [{"shown": "clock", "method": method, "text": clock_words[clock]}
                    for method, clock in compared_methods.own_clocks(folder).items() if clock in clock_words]
@@ -83,7 +82,7 @@ def error_against_time_facts(rows):
         return [row["text"] for row in rows if row["shown"] == shown]
 
     clocks = "".join(f" {row['method']}: {row['text']}." for row in rows if row["shown"] == "clock")
-    return {"answer": " ".join(texts("answer")), "poses": " ".join(texts("poses")), "clocks": clocks}
+    return {"title": texts("title")[0], "answer": " ".join(texts("answer")), "poses": " ".join(texts("poses")), "clocks": clocks}
 
 
 # The share of the poses that are solved within a time (data profiles: More and Wild 2009).
@@ -114,7 +113,7 @@ def solved_within_time(results):
     records.need(rows, f"{folder / 'profiles.csv'}: no method with known flesh")
     takes, last_ms = takes_of(compared), 1.15 * max(records.numbers(rows, "budget_ms"))
     targets = sorted({float(row["target_pct"]) for row in rows})
-    drawn, panels = style.panels(len(targets), 1, height_in=1.75, width_in=width_in, sharex=True)
+    drawn, panels = style.panels(len(targets), 1, height_in=1.75, sharex=True)
     labels = {}
     for (axes,), target in zip(panels, targets):
         labels[axes] = draw_solved(axes, [row for row in rows if float(row["target_pct"]) == target], takes, last_ms)
@@ -131,5 +130,5 @@ def solved_within_time(results):
 
 def solved_within_time_facts(rows):
     targets = [figure(target) for target in sorted({float(row["target_pct"]) for row in rows})]
-    return {"solved": compared_methods.solved_sentence(rows), "poses": rows[0]["poses"],
+    return {"solved": compared_methods.solved_sentence(rows).rstrip("."), "poses": rows[0]["poses"],
             "targets": compared_methods.conjoined(targets, "and")}

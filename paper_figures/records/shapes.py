@@ -100,7 +100,7 @@ judged_run = {"outcome": {"frames": whole}}  # a run compared with a reference
 
 plan = {"extent?": text, "runs": [{"name": text}], "left_out?": [{"scene": text, "reason": text}]}
 
-verdict = one_of("holds", "fails", "mixed", "not_testable", "definition", "inconsistent_in_print", "not_computable")
+verdict = one_of("holds", "fails", "mixed", "not_testable", "inconclusive", "not_shown", "definition", "inconsistent_in_print", "not_computable")
 key = {name + "?": text for name in ("body", "motion", "pose", "joint", "deformer", "variant", "reference", "order", "precision", "masses",
                                      "constraint", "initial_guess", "tolerance", "load", "ladder", "factor", "second_factor", "model",
                                      "equation", "gradient_of", "reading")}
@@ -124,6 +124,10 @@ claim = facts | {"id": text, "statement": text, "place": text, "study": text, "r
                  "confirmatory": lambda value: claim if isinstance(value, dict) else anything,
                  "cases": [with_member("unit", unit, printed)], "controls": [selection], "compared": [selection], "readings": [selection],
                  "left_out": [{"scene": text, "reason": text}], "missing": [text], "runs": [text]}
+claim |= {name + "?": text for name in ("short", "measured", "asked")}  # the cells of the short table
 claims = {"schema": third_schema, "quantities": {"*": {"title": text, "unit": text}}, "claims": [claim]}
+
+# What this machine measured again of the record; the verdict, if there is one, is that on the record.
+repeated = {"text?": text, "claims?": {"*": {"text?": text, "verdict?": verdict, "measured?": text}}}
 
 reliability = {"name": text, "count": number, "of": number, "command": text, "revision": text, "note?": text}

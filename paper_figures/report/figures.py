@@ -84,10 +84,11 @@ def section(found):
         number += entry.title.startswith("Figure ")
         try:
             file = drawn(found, entry)
-            as_drawn = dataclasses.replace(entry, caption=captions.read(entry, found.results / "figures"))  # as when it was drawn
+            as_drawn = dataclasses.replace(entry, **{part: captions.read(entry, found.results / "figures", part)  # as when it was drawn
+                                                     for part in ("title", "caption")})
             number += not papers_own.match(entry.title)
             parts.append(drawn_figure(found, as_drawn, number, file))
-            shown.append(entry)
+            shown.append(as_drawn)
         except records.RecordsMissing as error:
             missing.append(f"figure {entry.name}: {error}".replace(f"{found.results}/", ""))
     intro = ("R: redrawn in minutes on any machine; CR: in hours; NR: not from this repository\u2019s records. "

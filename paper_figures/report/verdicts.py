@@ -6,7 +6,8 @@ from words import case_words, glossary, sentences
 from words.number_words import figure
 
 marks = {"holds": ("\u2714", "holds"), "fails": ("\u2718", "fails"), "mixed": ("\u25d0", "partly"),
-         "inconsistent_in_print": ("\u2260", "print"), "not_testable": ("\u25cb", "untested"), "definition": ("\u2261", "untested"),
+         "inconsistent_in_print": ("\u2260", "print"), "not_testable": ("\u25cb", "untested"), "inconclusive": ("\u25cb", "untested"),
+         "not_shown": ("\u25cb", "untested"), "definition": ("\u2261", "untested"),
          "not_computable": ("?", "fails")}
 most_rows = 400  # rows per table; claims.json has the rest
 
@@ -78,15 +79,33 @@ def both_marks(claim):
     return joined([mark(claim["verdict"]), *(["; on the confirmatory units: ", mark(later["verdict"])] if later else [])])
 
 
-def chips(claims):
-    """A mark for each claim, which links to its line."""
-    def chip(claim):
-        symbol, colour, name = mark_of(claim["verdict"])
-        return Markup(f'<a class="chip {colour}" href="#{escaped(claim["id"])}" title="{escaped(claim["statement"])}">'
-                      f'<span aria-hidden="true">{symbol}</span> {escaped(claim["id"])}'
-                      f'<span class="unseen">: {escaped(name)}</span></a>')
+def measured(claim):
+    """The cell of the short table: what was measured, and the threshold."""
+    first = claim.get("measured") or (sentences.facts(claim) or [""])[0]
+    return joined([first, element("span", f"asked: {claim['asked']}", class_="under") if claim.get("asked") else ""])
 
-    return element("p", joined(map(chip, claims), " "), class_="chips")
+
+def short_row(claim, here):
+    symbol, colour, name = mark_of(claim["verdict"])
+    chip = element("span", joined([element("span", symbol, aria_hidden="true"), " ", name]), class_=f"chip {colour}")
+    cells = [("name", element("a", claim["id"], href=f"#{claim['id']}")), ("short", claim.get("short") or claim["statement"]),
+             ("of-verdict", chip), ("measured", measured(claim)), *here]
+    return Markup("<tr>" + joined(element("td", text, class_=class_) for class_, text in cells) + "</tr>")
+
+
+def short_table(found):
+    """The claims by topic: what each states, its verdict, and what was measured, on the record and on this machine."""
+    by_topic, repeated = {}, found.repeated["claims"]
+    for claim in found.claims:
+        by_topic.setdefault(case_words.of_field("topic", claim["study"]), []).append(claim)
+    head = ["", "claim of the paper", "verdict", "measured", *(["on this machine"] if repeated else [])]
+    parts = ["<table class=\"claims\"><thead><tr>", joined(element("th", cell, scope="col") for cell in head), "</tr></thead>"]
+    for topic, claims in by_topic.items():
+        rows = joined((short_row(claim, [("here", repeated.get(claim["id"], {}).get("text", ""))] if repeated else []) for claim in claims),
+                      "\n")
+        title = element("th", topic, colspan=len(head), scope="rowgroup")
+        parts += [f"<tbody><tr class=\"topic\">{title}</tr>\n{rows}</tbody>"]
+    return Markup("".join(parts) + "</table>")
 
 
 def listed(texts):
@@ -107,8 +126,8 @@ def line(claim, found, pose, drawn):
     return Markup(f'<details class="claim" id="{escaped(claim["id"])}">{summary}{joined([links, behind(claim, found)])}</details>')
 
 
-legend = ("A dot is a unit: a body with a clip, a joint or a mesh; green ones hold. The shaded band is the bound. A triangle is a "
-          "control: a method for which the claim must fail, or one for which it must hold. Click a line for its data.")
+legend = ("A dot is a case: a body with a clip, a joint or a mesh; the claim holds in the green ones. The shaded band is the threshold. A "
+          "triangle is a control: the claim must fail for a negative control and hold for a positive one. Click a line for its data.")
 
 
 def section(found, poses, drawn):
