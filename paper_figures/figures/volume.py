@@ -40,20 +40,17 @@ def volume_over_angle(results):
     return drawing, style.columns_of(behind, "angle_deg", *measures)
 
 
-def is_within(row):
-    return abs(float(row["volume_change_pct"])) <= 0.5
-
-
 def volume_over_angle_facts(rows):
-    """The angle at which PBS leaves 0.5 % in each motion."""
-    return {motion: figure(min(float(row["angle_deg"]) for row in rows
-                               if (row["scene"], row["deformer"]) == (f"limb_{motion}", "pbs") and not is_within(row)))
-            for motion in ("twist", "bend")}
+    """The largest change of the volume under PBS in each motion [%]."""
+    changes = {motion: [abs(float(row["volume_change_pct"])) for row in rows
+                        if (row["scene"], row["deformer"]) == (f"limb_{motion}", "pbs")] for motion in ("twist", "bend")}
+    return {motion: figure(max(of, default=None)) for motion, of in changes.items()}
 
 
 def volume_over_clip_facts(rows):
-    """The frames of LBS and PBS within 0.5 %."""
-    within = {deformer: [is_within(row) for row in rows if row["deformer"] == deformer] for deformer in ("lbs", "pbs")}
+    """The frames in which LBS and PBS change the volume by at most 0.5 %."""
+    within = {deformer: [abs(float(row["volume_change_pct"])) <= 0.5 for row in rows if row["deformer"] == deformer]
+              for deformer in ("lbs", "pbs")}
     return {deformer: sum(found) for deformer, found in within.items()} | {"frames": len(within["pbs"])}
 
 

@@ -256,23 +256,26 @@ def error_against_time(found):
     return figure
 
 
-def drawn(found, name, figure, caption):
+def drawn(found, name, figure, title, caption):
     origin = records.origin_of({found.name: found.record})
     with tempfile.TemporaryDirectory() as folder:
         stem = pathlib.Path(folder) / name
         style.save(figure, stem, origin, [{"figure": name}], formats=("svg",))
         text = stem.with_suffix(".svg").read_text()
-    picture = element("div", inline_svg(text, name, caption), class_="scroll drawing")
-    return element("figure", joined([picture, element("figcaption", caption)], "\n"), id=f"figure-{name}")
+    title = f"{title[:1].upper()}{title[1:]}"
+    said = element("figcaption", joined([element("b", f"{title}. "), caption]))
+    return element("figure", joined([inline_svg(text, name, f"{title}. {caption}"), said], "\n"), id=f"figure-{name}")
 
 
 def figures_section(found):
-    parts = [drawn(found, "over-frames", over_frames(found), "The numbers of metrics.csv over the frames.")]
+    methods = [of for of in methods_of(found) if not of["is_reference"]]
+    parts = [drawn(found, "over-frames", over_frames(found), sentences.largest_change(methods), "The numbers of metrics.csv over the frames.")]
     against_time = error_against_time(found)
     if against_time:
-        caption = "Error against run time: the median over the frames of the error at the joints and of the time of a step."
-        parts.append(drawn(found, "error-against-time", against_time, caption))
-    return joined([element("p", Markup("Values are shown next to the pointer or the finger.")), *parts], "\n")
+        caption = "The median over the frames of the error at the joints and of the time of a step."
+        parts.append(drawn(found, "error-against-time", against_time, sentences.error_and_time(methods), caption))
+    return joined([element("p", "Values are shown next to the pointer or the finger."), element("div", joined(parts, "\n"), class_="figures")],
+                  "\n")
 
 
 def viewer_of(found):
