@@ -28,7 +28,7 @@ def fig_02_tets_and_bones(results):
     view = rendering.Camera((low + high) / 2, 0.54 * (high - low)[1], forward + 0.35 * left + (0, 0.1, 0))
     shown = ((human, rendering.read(human.skin_at_rest()), forward, view, 0.009, (1100, 1200), "human, at rest"),
              (limb, bodies.at_rest(limb.tets("lbs", 0)), (0.0, 0.0, 1.0), limb_view, 0.012, (1500, 420), "limb, at rest"))
-    figure, axes = style.panels(1, 2, height_in=2.3, width_ratios=(1, 1.2))
+    figure, axes = style.panels(1, 2, height_in=2.8, width_ratios=(1, 1.2))
     behind = []
     for panel, (frames, skin, towards, view, rod_m, pixels, title) in zip(axes[0], shown):
         counts = {name: frames.run.record["character"][name] for name in ("vertices", "tets", "bones")}

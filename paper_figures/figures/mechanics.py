@@ -169,7 +169,7 @@ def draw_panel(axes, rows, factor):
     if values and factor != "vertices":
         style.log_scale(axes.xaxis, values[::max(1, len(values) // 2)])
     elif values:  # mesh sizes come in pairs that are nearly equal, whose labels would overlap
-        (style.log_scale if values[-1] < 30 * values[0] else style.decades)(axes.xaxis)
+        style.log_scale(axes.xaxis, [values[0], values[-1]])
     return behind
 
 

@@ -19,7 +19,7 @@ def draw_marks(axes, places, outcomes, size):
         shown = [place for place, found in zip(places, outcomes) if found == outcome]
         if shown:
             axes.scatter(*zip(*shown), s=size * (3.5 if marker == "*" else 1), marker=marker, color=color,
-                         linewidths=0.3 if marker == "*" else 0.9, zorder=3)
+                         linewidths=0.3 if marker == "*" else 0.9, label=text, zorder=3)
 
 
 def legend_of_outcomes(figure, axes, found):

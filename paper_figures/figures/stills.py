@@ -105,7 +105,7 @@ def fig_05_weights(results):
 
 
 # Figure 8 with a reference: each row has one camera, and all share one colour bar.
-artefacts = "{volume_change_pct:+.1f} % volume\n{inverted_tets:.0f} inverted tet{s}\nsection {min_section_pct:.0f} %{mark}"
+artefacts = "{volume_change_pct:+.1f} % volume\n{inverted_tets:.0f} inverted\nsection {min_section_pct:.0f} %{mark}"
 twisted = rendering.Camera((0, 0, 0), 0.24, (0.0, 0.35, 1.0)), 0.62  # and the height of a still relative to its width
 bent = rendering.Camera((0, 0.14, 0), 0.36, (0.0, 0.1, 1.0)), 0.9
 artefact_poses = (("twist", 180, *twisted), ("twist", 170, *twisted), ("bend", 110, *bent))

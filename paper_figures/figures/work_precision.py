@@ -71,7 +71,7 @@ def error_against_time(results):
 
 def facts_rows(compared, folder):
     """What the caption states: the sentences, the number of poses, and the clocks of deformers of the user's own."""
-    rows = [{"shown": "title", "text": compared.message()}, *({"shown": "answer", "text": text} for text in compared.answers())]
+    rows = [{"shown": "answer", "text": text} for text in compared.answers()]
     rows.append({"shown": "poses", "text": max(int(row["poses"]) for row in compared.methods)})
     return rows + [{"shown": "clock", "method": method, "text": clock_words[clock]}
                    for method, clock in compared_methods.own_clocks(folder).items() if clock in clock_words]
@@ -82,7 +82,9 @@ def error_against_time_facts(rows):
         return [row["text"] for row in rows if row["shown"] == shown]
 
     clocks = "".join(f" {row['method']}: {row['text']}." for row in rows if row["shown"] == "clock")
-    return {"title": texts("title")[0], "answer": " ".join(texts("answer")), "poses": " ".join(texts("poses")), "clocks": clocks}
+    of_a_played_frame = next((text for text in texts("answer") if text.startswith(f"Within {compared_methods.played_ms:g} ms")), "")
+    title = of_a_played_frame.partition(" (")[0].replace(" %", " % of LBS's error", 1)
+    return {"title": title, "answer": " ".join(texts("answer")), "poses": " ".join(texts("poses")), "clocks": clocks}
 
 
 # The share of the poses that are solved within a time (data profiles: More and Wild 2009).

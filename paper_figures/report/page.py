@@ -17,7 +17,7 @@ def lead(found):
     runs = sum(name.count("/") == 1 for name in found.runs)  # the parts of a run are in folders below it
     text = (f"The claims of the paper of 2014 against {runs} recorded runs of pbskin {', '.join(origin.values_of(found, 'version'))}, "
             f"revision {', '.join(dict.fromkeys(revision[:10] for revision in revisions))}.")
-    if any(plan.get("extent") == "quick" for plan in found.plans.values()):
+    if not found.repeated["claims"] and any(plan.get("extent") == "quick" for plan in found.plans.values()):
         text += " They are those of a quick run: claims have fewer cases or lack a control, so that full records may give other verdicts."
     return element("p", text, class_="lead")
 

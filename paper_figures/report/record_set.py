@@ -22,7 +22,7 @@ class RecordSet:
         file = results / "repeated.json"
         self.repeated = {"text": "", "claims": {}} | (shapes.read(file, shapes.repeated) if file.is_file() else {})
         for claim in self.claims or []:  # the record judges; this machine repeats it
-            claim |= {name: text for name, text in self.repeated["claims"].get(claim["id"], {}).items() if name != "text"}
+            claim |= {name: text for name, text in self.repeated["claims"].get(claim["id"], {}).items() if name in ("verdict", "measured")}
 
     def run(self, name, shape):
         """The record of a run of which further members are read."""

@@ -71,13 +71,13 @@ def errors_of(found):
             for label, of in errors.items() if label != reference}
 
 
-at_rest_pct = 1e-6  # where nothing moves, the errors are rounding
+least_visible_pct = 0.01  # an error below it is no difference between two methods, as in experiments/trial/trial.cpp
 
 
 def methods_of(found):
     """What the first card has of each deformer, the nearest one first and the reference last; without errors in their own order."""
     errors, methods = errors_of(found), []
-    frames = {frame for of in errors.values() for frame, error in of.items() if error > at_rest_pct}
+    frames = {frame for of in errors.values() for frame, error in of.items() if error >= least_visible_pct}
     nearest = [min((of[frame], label) for label, of in errors.items() if frame in of)[1] for frame in frames]
     for label in found.labels():
         rows, own = found.rows(label), [error for frame, error in errors.get(label, {}).items() if frame in frames]
@@ -118,8 +118,8 @@ def lines(found):
             answers.answer("At what cost?", f"A frame takes {cost} (median)." if cost else "No time is known.")]
 
 
-card_caption = ("Error at the joints: median and, in brackets, largest value over the frames; volume: the range of its change over the "
-                "frames; ms per frame: median; inverted tets: most in a frame.")
+note_of_card = ("Error at the joints: its median and, in brackets, its largest value. Volume: the range of its change. Time: the median. "
+                "Inverted tets: the most in a frame.")
 
 
 def summary(found):
@@ -135,7 +135,7 @@ def summary(found):
     sentence = sentences.nearest_method(methods)
     shown = [element("p", f"{sentence[:1].upper()}{sentence[1:]}")] if sentence else []
     return answers.card("summary", "Which method is nearest?" if errors else "The methods", [
-        *shown, table(card_caption if errors else card_caption.partition(": ")[2], header, map(row, methods))])
+        *shown, table("Over all frames", header, map(row, methods)), element("p", note_of_card, class_="under")])
 
 
 def joints(found):

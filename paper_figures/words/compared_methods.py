@@ -190,15 +190,6 @@ class Compared:
         subject = name(known["method"])
         return f"{text}. {subject[0].upper()}{subject[1:]} is {compared}." if compared else f"{text}."
 
-    def message(self):
-        """The title of a figure: the least share within the time of the middle column."""
-        ms = self.times_ms[len(self.times_ms) // 2]
-        row, pbs = self.nearest("known", ms), self.row("known", ms, "pbs")
-        if row is None:
-            return f"No method is fast enough on this machine for {ms:g} ms per frame"
-        others = f", PBS {percent(pbs['share'])} %" if pbs is not None and pbs is not row else ""
-        return f"Within {ms:g} ms per frame, {name(row['method'])} leaves {percent(row['share'])} % of LBS's error{others}"
-
     def clause(self, table, ms, where="", is_first=False, takes_nothing=False):
         """quasi-Newton leaves 32 % with the flesh known (4.1 mm, level with vertex block descent)"""
         row = self.nearest(table, ms, takes_nothing)

@@ -1,7 +1,7 @@
 // Reference: the records of the trial. Its page shows the sentence, the warnings, and the model's own surface as each deformer moves it.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { page, settle, test_that_nothing_was_reported } from "../browser.mjs";
+import { page, settle, test_figures_on_a_phone, test_that_nothing_was_reported } from "../browser.mjs";
 import { assert_carried, colours_of, pictures, truth } from "../viewer_page.mjs";
 
 async function show(label, frame) {
