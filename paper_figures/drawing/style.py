@@ -30,7 +30,8 @@ matplotlib.rcParams.update({
     "lines.linewidth": 1.2, "lines.markersize": 3.2, "axes.linewidth": 0.6,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "axes.grid": True, "grid.linewidth": 0.3, "grid.color": light,
     "axes.axisbelow": True, "legend.frameon": False, "savefig.dpi": 300, "pdf.fonttype": 42, "svg.fonttype": "none",
-    "svg.hashsalt": "pbskin", "axes.spines.top": False, "axes.spines.right": False, "figure.constrained_layout.use": True})
+    "svg.hashsalt": "pbskin", "axes.spines.top": False, "axes.spines.right": False, "figure.constrained_layout.use": True,
+    "figure.constrained_layout.h_pad": 0.07, "figure.constrained_layout.w_pad": 0.055})  # browsers set letters a little wider
 
 sequence = [(rose, "v"), (indigo, "o"), (teal, "^"), (wine, "D"), (sand, "s"), (cyan, "P"), (ink, "x")]
 lines = [*looks.lines.values(), "-", looks.lines["dashed"]]
@@ -123,7 +124,7 @@ def key_below(figure):
         for handle, label in zip(*panel.get_legend_handles_labels()):
             shown.setdefault(textwrap.fill(label, 56), handle)
     for columns in range(min(len(shown), 4), 0, -1):
-        key = figure.legend(shown.values(), shown, loc="lower center", bbox_to_anchor=(0.5, 0), ncol=columns, borderpad=0.2, borderaxespad=0,
+        key = figure.legend(shown.values(), shown, loc="lower center", bbox_to_anchor=(0.5, 0), ncol=columns, borderpad=0.6, borderaxespad=0,
                             fontsize=tick_size, labelspacing=0.35, columnspacing=1.2, handlelength=2.4)
         box = key.get_window_extent(figure.canvas.get_renderer())
         if box.width <= figure.bbox.width:

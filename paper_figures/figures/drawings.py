@@ -159,7 +159,7 @@ def draw_lengths(panel, corners):
     for state, (color, marker, title) in states.items():
         panel.plot([f"{one + 1}{other + 1}" for one, other in edges], lengths_mm(corners[state]), color=color, linestyle="", marker=marker,
                    markersize=5, label=title, fillstyle="none" if state == "rest" else "full")
-    panel.set(xlabel="edge $ij$", ylabel="$|p_i - p_j|$ [mm]", title="six stretch constraints",
+    panel.set(xlabel="edge $ij$", ylabel="length of the edge [mm]", title="six stretch constraints",
               ylim=(0, 1.35 * max(map(max, map(lengths_mm, corners.values())))))
     panel.legend(loc="upper right", ncol=1, handletextpad=0.2)
 

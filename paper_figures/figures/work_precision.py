@@ -99,9 +99,10 @@ def draw_solved(axes, rows, takes, last_ms):
             none.append(compared_methods.name(method))
             continue
         ms = records.numbers(steps, "budget_ms")
-        line, = axes.step([ms[0], *ms, last_ms], [0, *solved, solved[-1]], where="post",
-                          **look_of(method, takes.get(method, "")) | {"marker": None})
-        labels[line] = compared_methods.name(method)
+        look = look_of(method, takes.get(method, "")) | {"marker": None}
+        axes.step(ms, solved, where="post", **look)
+        to_the_end, = axes.plot([ms[-1], last_ms], [solved[-1]] * 2, gid="guide", **look | {"label": None})
+        labels[to_the_end] = compared_methods.name(method)
     if none:
         line, = axes.plot([last_ms], [0], color=style.grey, linestyle="none", gid="guide")
         labels[line] = textwrap.fill(f"none: {', '.join(none)}", 26)

@@ -1,5 +1,5 @@
 """The claims with their verdicts: the mark of each verdict with the class of its colour; a line for each claim with its numbers on an axis,
-which opens to the units, controls, comparisons and readings behind it. sentences.py composes the sentences."""
+which opens to the cases, controls, comparisons and readings behind it. sentences.py composes the sentences."""
 from report import axis
 from report.markup import Markup, beside_the_page, element, escaped, folder_link, items, joined, table
 from words import case_words, glossary, sentences
@@ -19,12 +19,12 @@ def mark_of(verdict):
 
 def outcome(case):
     if case.get("left_out"):
-        return "left out: " + case_words.of_field("left_out", case["left_out"])
+        return "excluded: " + case_words.of_field("left_out", case["left_out"])
     return "\u2714 yes" if case["holds"] else "\u2718 no"
 
 
 def unit_rows(claim, case):
-    """One row for each quantity of the unit."""
+    """One row for each quantity of the case."""
     rows = []
     for part in sentences.parts(claim, case):
         has_quantity = "quantity" in case or "parts" in case
@@ -37,7 +37,7 @@ def unit_rows(claim, case):
 def unit_table(claim, name, cases):
     if not cases:
         return ""
-    header = ["printed value" if claim["rule"] == "printed" else "unit", "number", sentences.range_name(claim), "bound", "holds"]
+    header = ["printed value" if claim["rule"] == "printed" else "case", "number", sentences.range_name(claim), "threshold", "holds"]
     rows = [row for case in cases[:most_rows] for row in unit_rows(claim, case)]
     left = len(cases) - most_rows
     shown = table(name, header, rows, "tall")
@@ -49,8 +49,8 @@ def rows_table(claim, what, header, rows):
 
 
 def behind(claim, found):
-    """What the reader sees of an open line: the facts, the units, the controls, and what is compared."""
-    what = "printed value" if claim["rule"] == "printed" else "unit"
+    """What the reader sees of an open line: the facts, the cases, the controls, and what is compared."""
+    what = "printed value" if claim["rule"] == "printed" else "case"
     basis = sentences.basis(claim)
     later = sentences.confirmatory(claim)
     controls_later = sentences.control_rows(later) if later else []
@@ -60,8 +60,8 @@ def behind(claim, found):
              rows_table(claim, "for comparison, no part of the verdict", sentences.compared_head, sentences.compared_rows(claim)),
              rows_table(claim, "other readings, no part of the verdict", sentences.reading_head, sentences.reading_rows(claim)),
              *(element("p", text) for text in sentences.disagreements(claim)),
-             unit_table(claim, f"{claim['id']}: confirmatory units", (later or {}).get("cases")),
-             rows_table(claim, "controls of the confirmatory units", sentences.control_head, controls_later),
+             unit_table(claim, f"{claim['id']}: held-out cases", (later or {}).get("cases")),
+             rows_table(claim, "controls of the held-out cases", sentences.control_head, controls_later),
              *(unit_table(claim, f"{claim['id']}: {of['name']}", of["cases"]) for of in claim["controls"])]
     runs = joined((folder_link(found.results, run) for run in claim["runs"] or [claim["study"]]), ", ")
     parts.append(element("p", joined(["Runs (", beside_the_page("folders"), "): ", runs])))
@@ -74,9 +74,9 @@ def mark(verdict):
 
 
 def both_marks(claim):
-    """That on the confirmatory units stands next to the other one."""
+    """That on held-out cases stands next to the other one."""
     later = sentences.confirmatory(claim)
-    return joined([mark(claim["verdict"]), *(["; on the confirmatory units: ", mark(later["verdict"])] if later else [])])
+    return joined([mark(claim["verdict"]), *(["; on held-out cases: ", mark(later["verdict"])] if later else [])])
 
 
 def measured(claim):

@@ -147,7 +147,7 @@ class Report(ReportTest):
         drawn = axis.drawn(claims["C02a"] | {"controls": [claims["C02a"] | {"name": "LBS", "role": "must_fail"}]})
         parts = '<circle class="holds"', '<circle class="fails"', '<rect class="bound"', '<path class="control"'
         self.assertEqual([drawn.count(part) for part in parts], [1, 2, 1, 1])
-        self.assertRegex(drawn, 'aria-label="[^"]*; bound: 0.95 or more; control LBS, which must fail: 0.4"')
+        self.assertRegex(drawn, 'aria-label="[^"]*; threshold: 0.95 or more; control LBS, which must fail: 0.4"')
         self.assertEqual(axis.drawn(claims["C13"]), "")  # each printed value has a bound of its own
         self.assertEqual([axis.Scale([1, 1000]).is_log, axis.Scale([0, 1000]).is_log], [True, False])
         places = [axis.Scale([1, 10, 100]).place(number) for number in (1, 10, 100, 1e9, -1)]
@@ -226,7 +226,7 @@ class Report(ReportTest):
         synthetic_records.write_verification(self.results)
         text = self.page()
         self.assertIn('<th scope="row">beam</th><td>largest deflection</td><td>P1</td>', text)
-        self.assertIn("1 of 2 values with a bound fixed beforehand lie within it; 16 more have no bound", text)
+        self.assertIn("1 of 2 values with a threshold fixed beforehand lie within it; 16 more have no threshold", text)
         self.assertIn("<li>closed form: a beam</li>", text)
 
     def test_this_machine_s_repetition_stands_beside_the_verdict_on_the_record(self):
