@@ -124,8 +124,8 @@ def key_below(figure):
         for handle, label in zip(*panel.get_legend_handles_labels()):
             shown.setdefault(textwrap.fill(label, 56), handle)
     for columns in range(min(len(shown), 4), 0, -1):
-        key = figure.legend(shown.values(), shown, loc="lower center", bbox_to_anchor=(0.5, 0), ncol=columns, borderpad=0.6, borderaxespad=0,
-                            fontsize=tick_size, labelspacing=0.35, columnspacing=1.2, handlelength=2.4)
+        key = figure.legend(shown.values(), shown, loc="lower center", bbox_to_anchor=(0.5, 0), ncol=columns, borderpad=0.6,
+                            borderaxespad=0, fontsize=tick_size, labelspacing=0.35, columnspacing=1.2, handlelength=2.4)
         box = key.get_window_extent(figure.canvas.get_renderer())
         if box.width <= figure.bbox.width:
             break

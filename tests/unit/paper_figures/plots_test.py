@@ -47,7 +47,7 @@ class Plots(ResultsTest):
         self.drawn("volume_over_clip")
         page = self.stem.with_suffix(".svg").read_text()
         circles = [tuple(map(float, place)) for place in re.findall(r'<circle cx="([-.\d]+)" cy="([-.\d]+)"', page)]
-        panels = page[page.index('id="axes_1"'):page.index('class="values"')]
+        panels = page[page.index('id="axes_1"'):page.index('id="legend_1"')]
         marks = re.findall(rf'x="([-.\d]+)" y="([-.\d]+)" style="fill: {looks.of("pbs").color.lower()}', panels)
         colored = [tuple(map(float, place)) for place in marks]
         self.assertGreater(len(colored), 10)
