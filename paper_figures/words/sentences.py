@@ -358,6 +358,10 @@ def disagreements(claim):
 
 # A single run: which method is nearest to the reference.
 
+def two_digits(value):
+    return f"{value:.0f}" if value >= 99.5 else f"{value:.2g}"
+
+
 def nearest_method(methods):
     """delta mush is nearest to FEM in all 19 frames, 15 %, before PBS, 28 %; it loses 3.7 % of the volume, PBS 1.1 %. methods: dicts of name,
     error_pct (median over the frames; None without one), volume_pct (of the frame in which it changes most) and nearest_in (frames)."""
@@ -368,10 +372,10 @@ def nearest_method(methods):
     other = next((of for of in ranked[1:] if of["name"] == "PBS"), next(iter(ranked[1:]), None))  # PBS is what is examined
     frames = sum(of["nearest_in"] for of in methods)
     extent = f"all {counted(frames, 'frame')}" if best["nearest_in"] == frames else f"{best['nearest_in']} of {counted(frames, 'frame')}"
-    text = f"{best['name']} is nearest to FEM in {extent}, {figure(best['error_pct'])} %"
-    text += f", before {other['name']}, {figure(other['error_pct'])} %" if other else ""
+    text = f"{best['name']} is nearest to FEM in {extent}, {two_digits(best['error_pct'])} %"
+    text += f", before {other['name']}, {two_digits(other['error_pct'])} %" if other else ""
     changes = [(of, of["volume_pct"]) for of in (best, other) if of and of["volume_pct"] is not None]
-    words = [f"{'loses' if change < 0 else 'gains'} {figure(round(abs(change), 3))} % of the volume" for _, change in changes]
+    words = [f"{'loses' if change < 0 else 'gains'} {two_digits(abs(change))} % of the volume" for _, change in changes]
     if len(words) == 2:
         is_same = (changes[0][1] < 0) == (changes[1][1] < 0)
         words[1] = f"{other['name']} {words[1].removesuffix(' of the volume').split(' ', 1)[1] if is_same else words[1]}"
