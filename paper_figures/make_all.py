@@ -17,7 +17,7 @@ from drawing import style
 from records import entries, kept, whole_file
 from words import captions
 
-endings = ("pdf", "png", "svg", "csv", "tex", "webp", "mp4", "caption.txt")
+endings = ("pdf", "png", "svg", "csv", "tex", "webp", "mp4", "title.txt", "caption.txt")
 
 
 def delete(name, folder):

@@ -24,7 +24,8 @@ def group_of(axes, dpi, height):
     circles = [circle for points in points_of(axes) for circle in circles_of(axes, *points, dpi, height)]
     if not circles:
         return ""
-    names = f"data-x={quoteattr(axes.get_xlabel().partition(chr(10))[0])} data-y={quoteattr(axes.get_ylabel())}"
+    x, y = (quoteattr(" ".join(name.split())) for name in (axes.get_xlabel(), axes.get_ylabel()))
+    names = f"data-x={x} data-y={y}"
     return f'<g class="values" fill="none" pointer-events="all" {names}>\n' + "\n".join(circles) + "\n</g>\n"
 
 

@@ -1,11 +1,12 @@
-"""The common style of all figures: sizes of a two-column page, Okabe-Ito colours, axes, legends and files. looks.toml has the colour,
-marker and line of each deformer.
+"""The common style of all figures: the size that a phone shows whole, colours, axes, keys and files. looks.toml has the colour, marker and
+line of each deformer, and the colours of all else.
 
     figure, axes = style.panels(1, 2)
     style.plot(axes[0][0], rows, "angle_deg", "volume_change_pct", **style.as_of("pbs"))
     style.save(figure, figures / "volume", provenance, rows)
 """
 import csv
+import textwrap
 
 import matplotlib
 
@@ -17,10 +18,10 @@ from drawing import hover_titles  # noqa: E402
 from records import whole_file  # noqa: E402
 from words import looks  # noqa: E402
 
-column_in, page_in = 84 / 25.4, 178 / 25.4  # widths of one column and of the page
+width_in = 3.9  # of every figure: where a phone shows it 366 pixels wide, its letters have 9 pixels
 
-black, orange, sky, green, yellow, blue, vermillion, purple, grey, light, pale = (looks.palette[name] for name in (
-    "black", "orange", "sky", "green", "yellow", "blue", "vermillion", "purple", "grey", "light", "pale"))
+ink, indigo, rose, teal, sand, cyan, wine, olive, grey, light, pale = (looks.palette[name] for name in (
+    "ink", "indigo", "rose", "teal", "sand", "cyan", "wine", "olive", "grey", "light", "pale"))
 label_size, tick_size = 7.5, 6.5  # of all letters in a figure [pt]
 
 matplotlib.rcParams.update({
@@ -29,21 +30,21 @@ matplotlib.rcParams.update({
     "lines.linewidth": 1.2, "lines.markersize": 3.2, "axes.linewidth": 0.6,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "axes.grid": True, "grid.linewidth": 0.3, "grid.color": light,
     "axes.axisbelow": True, "legend.frameon": False, "savefig.dpi": 300, "pdf.fonttype": 42, "svg.fonttype": "none",
-    "svg.hashsalt": "pbskin", "axes.spines.top": False, "axes.spines.right": False, "figure.constrained_layout.use": True})
+    "svg.hashsalt": "pbskin", "axes.spines.top": False, "axes.spines.right": False, "figure.constrained_layout.use": True,
+    "figure.constrained_layout.h_pad": 0.07, "figure.constrained_layout.w_pad": 0.055})  # browsers set letters a little wider
 
-sequence = [(vermillion, "v"), (blue, "o"), (green, "^"), (purple, "D"), (orange, "s"), (sky, "P"), (black, "x")]
+sequence = [(rose, "v"), (indigo, "o"), (teal, "^"), (wine, "D"), (sand, "s"), (cyan, "P"), (ink, "x")]
 lines = [*looks.lines.values(), "-", looks.lines["dashed"]]
 
 
-def panels(rows, columns, height_in=2.0, width_in=None, height_ratios=None, width_ratios=None, **options):
-    width = width_in or (page_in if columns > 1 else column_in)
+def panels(rows, columns, height_in=2.0, width_in=width_in, height_ratios=None, width_ratios=None, **options):
     options["gridspec_kw"] = {"height_ratios": height_ratios, "width_ratios": width_ratios}
-    return pyplot.subplots(rows, columns, figsize=(width, height_in * rows), squeeze=False, **options)
+    return pyplot.subplots(rows, columns, figsize=(width_in, height_in * rows), squeeze=False, **options)
 
 
 def stacked(*rows):
     """Rows of panels, each with a number of columns and a height [in] and its own layout; returns the axes of each row."""
-    figure = pyplot.figure(figsize=(page_in, sum(height for _, height in rows)))
+    figure = pyplot.figure(figsize=(width_in, sum(height for _, height in rows)))
     parts = figure.subfigures(len(rows), 1, height_ratios=[height for _, height in rows])
     return figure, [part.subplots(1, columns, squeeze=False)[0] for part, (columns, _) in zip(parts, rows)]
 
@@ -84,7 +85,7 @@ def label(axes, above=(), left=(), below=()):
 
 def name_rows(axes, names, **options):
     """Names the places 0, 1, ... of the vertical axis, from the top to the bottom."""
-    axes.set_yticks(range(len(names)), names, **options)
+    axes.set_yticks(range(len(names)), [textwrap.fill(name, 26) for name in names], **options)
     axes.set_ylim(len(names) - 0.5, -0.5)
 
 
@@ -116,19 +117,36 @@ def per_cent_scale(axes, signed):
     axes.yaxis.set_minor_locator(ticker.NullLocator())
 
 
-def legend_above(figure, columns=None, panels=None):
-    """The common legend of these panels, or of all, above them all: every label that occurs, once."""
+def key_below(figure):
+    """The common key of all panels below them: every label that occurs, once, in as many columns as fit."""
     shown = {}
-    for panel in figure.axes if panels is None else panels:
+    for panel in figure.axes:
         for handle, label in zip(*panel.get_legend_handles_labels()):
-            shown.setdefault(label, handle)
-    labels, handles = list(shown), list(shown.values())
-    columns = columns or min(len(labels), 5)
-    rows = -(-len(labels) // columns)
-    height = 0.17 * rows + 0.06  # [in]
-    top = 1 - height / figure.get_size_inches()[1]
-    figure.get_layout_engine().set(rect=(0, 0, 1, top))
-    figure.legend(handles, labels, loc="lower center", bbox_to_anchor=(0.5, top), ncol=columns)
+            shown.setdefault(textwrap.fill(label, 56), handle)
+    for columns in range(min(len(shown), 4), 0, -1):
+        key = figure.legend(shown.values(), shown, loc="lower center", bbox_to_anchor=(0.5, 0), ncol=columns, borderpad=0.6,
+                            borderaxespad=0, fontsize=tick_size, labelspacing=0.35, columnspacing=1.2, handlelength=2.4)
+        box = key.get_window_extent(figure.canvas.get_renderer())
+        if box.width <= figure.bbox.width:
+            break
+        if columns > 1:
+            key.remove()
+    bottom = box.height / figure.bbox.height
+    figure.get_layout_engine().set(rect=(0, bottom, 1, 1 - bottom))
+
+
+def break_words(figure):
+    """Breaks titles and names of axes into lines that are no longer than their panel."""
+    figure.draw_without_rendering()  # computes the sizes of the panels
+    for axes in figure.axes:
+        beside = {axes.title: axes.bbox.width, axes._left_title: axes.bbox.width, axes.xaxis.label: axes.bbox.width,
+                  axes.yaxis.label: axes.bbox.height}
+        for text, room in beside.items():
+            box, words = text.get_window_extent(), text.get_text().replace(" %", "\u00a0%").replace(" [", "\u00a0[")  # a unit stays
+            length = box.height if text is axes.yaxis.label else box.width
+            if length > room and "$" not in words:
+                longest = max(map(len, words.splitlines()))
+                text.set_text("\n".join(textwrap.fill(line, max(8, int(longest * room / length))) for line in words.splitlines()))
 
 
 def spread(wanted, heights, low, high):
@@ -159,12 +177,6 @@ def label_ends(axes, texts):
                       xycoords="axes fraction", textcoords="axes fraction", va="center", fontsize=tick_size, color=line.get_color(),
                       annotation_clip=False, arrowprops={"arrowstyle": "-", "color": line.get_color(), "linewidth": 0.4, "shrinkA": 0,
                                                          "shrinkB": 2, "relpos": (0, 0.5)})
-
-
-def label_lines(panels):
-    """Names the lines of these panels at their right ends."""
-    for axes in panels:
-        label_ends(axes, {line: line.get_label() for line in axes.lines if not str(line.get_label()).startswith("_")})
 
 
 def name_area(axes, text, place, **options):
@@ -219,6 +231,7 @@ def save(figure, stem, provenance, table, formats=("pdf", "png", "svg"), dpi=300
     metadata = {"pdf": {"Title": stem.name, "Subject": source, "Keywords": rights, "CreationDate": None},
                 "png": {"Title": stem.name, "Source": source, "Copyright": rights, "Software": "pbskin paper_figures"},
                 "svg": {"Title": stem.name, "Source": source, "Rights": rights, "Creator": "pbskin paper_figures", "Date": None}}
+    break_words(figure)
     figure.canvas.draw()
     figure.set_layout_engine("none")  # the layout is computed once, so that it is the same in every format and in hover_titles
     for ending in formats:

@@ -36,7 +36,7 @@ def draw_case(axes, file, column, limits, pose):
                    for i, v in zip(records.numbers(rows, "iteration"), records.numbers(rows, column))]
     axes.set_xscale("symlog", linthresh=1, linscale=0.4)
     axes.set_xticks([0, 1, 10, 100, 1000], ["0", "1", "10", "100", "1000"])
-    axes.axvline(24, color=style.black, linewidth=0.6)
+    axes.axvline(24, color=style.ink, linewidth=0.6)
     axes.set(xlim=(0, 1100), yscale="log", ylim=limits)
     most = {label: max(row["value"] for row in behind if row["start"] == start) for start, label in starts.items()}
     below = [f"{label}: below $10^{{{math.ceil(math.log10(value))}}}$" for label, value in most.items() if value < limits[0]]  # the panel
@@ -53,7 +53,7 @@ def convergence_iterations(results):
     style.label(axes, [title for *_, title in cases], [label for _, _, label, _ in measures], ["iterations; line: the paper's 24"] * 3)
     style.log_scale(axes[1][0].yaxis, [1, 2, 5, 10, 20, 50, 100, 200, 500])
     style.log_scale(axes[0][0].yaxis, [0.01, 0.1, 1])
-    style.legend_above(drawing)
+    style.key_below(drawing)
     return drawing, behind
 
 
@@ -129,5 +129,5 @@ def convergence_mesh(results):
     for panel in axes[1]:
         style.decades(panel.xaxis)
         panel.set_xlabel("vertices of the limb")
-    style.label_lines(axes.T[1])
+    style.key_below(drawing)
     return drawing, behind

@@ -28,7 +28,7 @@ def fig_02_tets_and_bones(results):
     view = rendering.Camera((low + high) / 2, 0.54 * (high - low)[1], forward + 0.35 * left + (0, 0.1, 0))
     shown = ((human, rendering.read(human.skin_at_rest()), forward, view, 0.009, (1100, 1200), "human, at rest"),
              (limb, bodies.at_rest(limb.tets("lbs", 0)), (0.0, 0.0, 1.0), limb_view, 0.012, (1500, 420), "limb, at rest"))
-    figure, axes = style.panels(1, 2, height_in=3.4, width_ratios=(1, 1.3))
+    figure, axes = style.panels(1, 2, height_in=2.8, width_ratios=(1, 1.2))
     behind = []
     for panel, (frames, skin, towards, view, rod_m, pixels, title) in zip(axes[0], shown):
         counts = {name: frames.run.record["character"][name] for name in ("vertices", "tets", "bones")}
@@ -41,12 +41,12 @@ def fig_02_tets_and_bones(results):
 # Figure 4: the end points s_j and d_j of a bone, the projection of a vertex on it, and the blended vertices over their parameter on the
 # nearest bone.
 low, high = 1 / 6, 5 / 6  # Eq. 2: vertices between these parameters are rigid
-kinds = {"0": ("one bone", style.sky, "o"), "1": ("blended between bones", style.vermillion, "^")}
+kinds = {"0": ("one bone", style.cyan, "o"), "1": ("blended between bones", style.rose, "^")}
 
 
 def draw_bones(panel, bones):
     for bone in bones:
-        panel.plot(*zip(bone.head[:2], bone.tail[:2]), color=style.black, linewidth=2.5, marker="o", markersize=5)
+        panel.plot(*zip(bone.head[:2], bone.tail[:2]), color=style.ink, linewidth=2.5, marker="o", markersize=5)
 
 
 # Thousands of points, without values under the pointer.
@@ -62,7 +62,7 @@ def draw_limb(panel, frames):
     for bone in frames.bones(0):
         draw_bones(panel, [bone])
         for share in (low, high):
-            panel.axvline(bone.head[0] + share * (bone.tail[0] - bone.head[0]), color=style.black, linewidth=0.8, linestyle=(0, (4, 2)))
+            panel.axvline(bone.head[0] + share * (bone.tail[0] - bone.head[0]), color=style.ink, linewidth=0.8, linestyle=(0, (4, 2)))
     mark_vertex(panel, frames, points)
     panel.set(xlabel="x [m]", ylabel="y [m]", aspect="equal", ylim=(-0.2, 0.42), title="limb at rest; dashed: 1/6 and 5/6 of each bone")
 
@@ -73,7 +73,7 @@ def mark_vertex(panel, frames, points):
     row = max(rows, key=lambda row: points[int(row["vertex"])][1] - abs(points[int(row["vertex"])][2]))
     vertex, bone, parameter = points[int(row["vertex"])], frames.bones(0)[1], float(row["parameter"])
     foot = bone.head + parameter * (bone.tail - bone.head)
-    panel.plot(*zip(vertex[:2], foot[:2]), color=style.black, linewidth=1, marker="D", markersize=3)
+    panel.plot(*zip(vertex[:2], foot[:2]), color=style.ink, linewidth=1, marker="D", markersize=3)
     for text, end, offset, side in ((r"$s_j$", bone.head, (0, 32), "center"), (r"$d_j$", bone.tail, (0, 32), "center"),
                                     (f"$v_i$, at {parameter:.2f}\nof the bone", vertex, (14, 8), "left")):
         panel.annotate(text, end[:2], offset, textcoords="offset points", ha=side, arrowprops={"arrowstyle": "-", "linewidth": 0.5})
@@ -88,20 +88,26 @@ def draw_rule(panel, frames):
         named = f"human's vertices {'on ' if blended == '0' else ''}{label}: {len(rows)}"
         panel.plot(x, 1000 * numpy.array(y), marker=marker, color=color, label=named, **dense)
     panel.set(xlabel="position of its projection from $s_j$ (0) to $d_j$ (1) [1]", ylabel="distance to the bone [mm]", xlim=(-0.25, 1.75))
-    panel.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)
+    panel.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0))
 
 
 def fig_04_end_points(results):
     limb, human = (Frames(results, scene) for scene in ("limb_bend", "human_walk"))
-    figure, (first, second) = style.stacked((1, 1.75), (1, 1.9))
+    figure, (first, second) = style.stacked((1, 1.7), (1, 2.6))
     draw_limb(first[0], limb)
     draw_rule(second[0], human)
     return figure, [{"scene": frames.run.name, **row} for frames in (limb, human) for row in frames.binding()]
 
 
+def fig_04_end_points_facts(rows):
+    """How many of the human's vertices are blended."""
+    human = [row for row in rows if row["scene"] == "human_walk"]
+    return {"blended": f"{sum(row['blended'] == '1' for row in human):,}", "vertices": f"{len(human):,}"}
+
+
 # Figure 6: one tet of the bent limb with its six edge lengths and its volume, at rest, after LBS and after PBS.
 edges = list(combinations(range(4), 2))
-states = {"rest": (style.black, "o", "at rest"), "lbs": (looks.of("lbs").color, "v", "after LBS"),
+states = {"rest": (style.ink, "o", "at rest"), "lbs": (looks.of("lbs").color, "v", "after LBS"),
           "pbs": (looks.of("pbs").color, "s", "after PBS")}
 
 
@@ -153,7 +159,7 @@ def draw_lengths(panel, corners):
     for state, (color, marker, title) in states.items():
         panel.plot([f"{one + 1}{other + 1}" for one, other in edges], lengths_mm(corners[state]), color=color, linestyle="", marker=marker,
                    markersize=5, label=title, fillstyle="none" if state == "rest" else "full")
-    panel.set(xlabel="edge $ij$", ylabel="$|p_i - p_j|$ [mm]", title="six stretch constraints",
+    panel.set(xlabel="edge $ij$", ylabel="length of the edge [mm]", title="six stretch constraints",
               ylim=(0, 1.35 * max(map(max, map(lengths_mm, corners.values())))))
     panel.legend(loc="upper right", ncol=1, handletextpad=0.2)
 
@@ -166,16 +172,22 @@ def fig_06_constraints(results):
     tet = int(numpy.where(ratios > 0.2, ratios, numpy.inf).argmin())  # the one that LBS has compressed most without inverting it
     points = {"rest": bodies.rest_positions_of(lbs), "lbs": bodies.points_of(lbs), "pbs": bodies.points_of(frames.tets("pbs", frame))}
     corners = {state: points[state][rendering.corners_of(rendering.read(lbs))[tet]] for state in states}  # [m], 4 x 3
-    figure, axes = style.panels(1, 4, height_in=2.1, width_ratios=(1, 1, 1, 1.5))
-    for panel, state in zip(axes[0], states):
+    figure, (tets, (lengths,)) = style.stacked((3, 1.7), (1, 1.9))
+    for panel, state in zip(tets, states):
         draw_tet(panel, state, corners[state], corners["rest"])
-    half = max(abs(numpy.array([*panel.get_xlim(), *panel.get_ylim()])).max() for panel in axes[0][:3])
-    for panel in axes[0][:3]:  # one scale
+    half = max(abs(numpy.array([*panel.get_xlim(), *panel.get_ylim()])).max() for panel in tets)
+    for panel in tets:  # one scale
         panel.set(xlim=(-half, half), ylim=(-half, half))
-    draw_lengths(axes[0, 3], corners)
+    draw_lengths(lengths, corners)
     return figure, [{"scene": "limb_bend", "frame": frame, "tet": tet, "state": state, "volume_cm3": volume_cm3(of)}
                     | {f"length_{one + 1}{other + 1}_mm": length for (one, other), length in zip(edges, lengths_mm(of))}
                     for state, of in corners.items()]
+
+
+def fig_06_constraints_facts(rows):
+    """The volume after each step [% of that at rest]."""
+    volumes = {row["state"]: float(row["volume_cm3"]) for row in rows}
+    return {state: f"{100 * volumes[state] / volumes['rest']:.0f}" for state in ("lbs", "pbs")}
 
 
 # Figure 7: a vertex, its projection on the bone, and the distance that the bind constraint keeps, at rest and in the bent limb after LBS
@@ -196,7 +208,7 @@ def fig_07_bind(results):
     rest = bodies.rest_positions_of(frames.tets("lbs", 0))
     lbs, pbs = (bodies.points_of(frames.tets(label, frame)) for label in ("lbs", "pbs"))
     vertex = chosen_vertex(frames, rest, lbs, pbs)
-    figure, axes = style.panels(1, 3, height_in=2.3)
+    figure, axes = style.panels(1, 3, height_in=2.0, sharey=True)
     behind = []
     for panel, points, at, text, (color, _, title), marker in zip(
             axes[0], (rest, lbs, pbs), (0, frame, frame), ("$p_i$", "$p_{i,LBS}$", "$p_{i,PBD}$"), states.values(),
@@ -209,8 +221,13 @@ def fig_07_bind(results):
         for name, end, offset in ((text, place, (9, -9)), ("$q_i$", foot, (9, 7))):
             panel.annotate(name, end[:2], offset, textcoords="offset points", color=color, ha="left", va="center")
         panel.set(xlabel="x [m]", aspect="equal", xlim=(-0.45, 0.45), ylim=(-0.3, 0.46),
-                  title=f"{title}: $|p_i - q_i|$ = {distance_mm:.0f} mm")
+                  title=f"{title}:\n$|p_i - q_i|$ =\n{distance_mm:.0f} mm")
         behind.append({"scene": "limb_bend", "frame": at, "state": title, "vertex": vertex, "distance_mm": distance_mm,
                        **dict(zip(("x_m", "y_m", "z_m"), place))})
     axes[0, 0].set_ylabel("y [m]")
     return figure, behind
+
+
+def fig_07_bind_facts(rows):
+    """The distances from the bone [mm]."""
+    return dict(zip(states, (f"{float(row['distance_mm']):.0f}" for row in rows)))

@@ -6,8 +6,8 @@ import records
 from drawing import style
 from words import case_words
 
-parts = {"error_joint_pct": ("whole error", style.black, "x", "-"), "solver_pct": ("solver", style.vermillion, "v", (0, (4, 1.5))),
-         "model_pct": ("model", style.blue, "o", "-"), "discretisation_pct": ("discretisation (bound)", style.green, "^", (0, (1, 1)))}
+parts = {"error_joint_pct": ("whole error", style.ink, "x", "-"), "solver_pct": ("solver", style.rose, "v", (0, (4, 1.5))),
+         "model_pct": ("model", style.indigo, "o", "-"), "discretisation_pct": ("discretisation (bound)", style.teal, "^", (0, (1, 1)))}
 case_columns = ("body", "motion", "pose", "angle_deg")
 attachment_columns = {*case_columns, "k_stretch", "reference", "model", "attachment", "spring_factor", "core_radius", "model_pct"}
 
@@ -51,7 +51,7 @@ def name_of(row):
 def draw_attachments(axes, rows, pose):
     """The reference itself is the first row, at the top."""
     chosen = with_k_stretch(rows, 0.2)[::-1]
-    axes.barh([name_of(row) for row in chosen], [float(row["model_pct"] or "nan") for row in chosen], color=style.sky, height=0.6)
+    axes.barh([name_of(row) for row in chosen], [float(row["model_pct"] or "nan") for row in chosen], color=style.cyan, height=0.6)
     axes.set_ylim(-0.5, len(chosen) - 0.5)
     for place, row in enumerate(chosen):
         if not math.isfinite(float(row["model_pct"] or "nan")):
@@ -69,5 +69,5 @@ def error_split(results):
         folder = results / "ensemble" / pose
         behind += draw_parts(upper, records.table(folder / "parts.csv", {*case_columns, "k_stretch", "iterations", *parts}), pose)
         behind += draw_attachments(lower, records.table(folder / "attachments.csv", attachment_columns), pose)
-    style.legend_above(figure, columns=4)
+    style.key_below(figure)
     return figure, behind

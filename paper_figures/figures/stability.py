@@ -6,10 +6,10 @@ import records
 from drawing import style
 from words import case_words, looks
 
-looks_of_outcomes = {"converged": ("o", style.blue, "converged: at rest, as if undisturbed"),
-                     "bounded": ("s", style.sky, "bounded: moving, or at rest elsewhere"),
-                     "inverted": ("v", style.vermillion, "inverted tets at the end"),
-                     "diverged": ("x", style.black, "diverged"), "not_finite": ("*", style.yellow, "not finite")}
+looks_of_outcomes = {"converged": ("o", style.indigo, "converged: at rest, as if undisturbed"),
+                     "bounded": ("s", style.cyan, "bounded: moving, or at rest elsewhere"),
+                     "inverted": ("v", style.rose, "inverted tets at the end"),
+                     "diverged": ("x", style.ink, "diverged"), "not_finite": ("*", style.olive, "not finite")}
 shades = dict(zip(looks_of_outcomes, looks.palette["outcomes"]))
 
 
@@ -18,17 +18,21 @@ def draw_marks(axes, places, outcomes, size):
     for outcome, (marker, color, text) in looks_of_outcomes.items():
         shown = [place for place, found in zip(places, outcomes) if found == outcome]
         if shown:
-            fill = {"c": color, "edgecolors": style.black} if marker == "*" else {"color": color}  # yellow alone is not visible on white
-            axes.scatter(*zip(*shown), s=size * (3.5 if marker == "*" else 1), marker=marker, **fill,
+            axes.scatter(*zip(*shown), s=size * (3.5 if marker == "*" else 1), marker=marker, color=color,
                          linewidths=0.3 if marker == "*" else 0.9, label=text, zorder=3)
 
 
 def legend_of_outcomes(figure, axes, found):
-    """A legend of the outcomes that occur."""
+    """A key of the outcomes that occur."""
     for marker, color, text in (look for outcome, look in looks_of_outcomes.items() if outcome in found):
-        axes.plot([], [], linestyle="none", marker=marker, color=color, markeredgecolor=style.black if marker == "*" else color,
-                  markeredgewidth=0.6 if marker == "*" else 0.8, markersize=9 if marker == "*" else 4.5, label=text)
-    style.legend_above(figure, columns=3)
+        axes.plot([], [], linestyle="none", marker=marker, color=color, markersize=9 if marker == "*" else 4.5, label=text)
+    style.key_below(figure)
+
+
+def counts(rows):
+    """Cells, and how many of them have each outcome."""
+    found = [row["outcome"] for row in rows]
+    return {"cells": len(found)} | {outcome: found.count(outcome) for outcome in looks_of_outcomes}
 
 
 # Every disturbance of the limb with every method, and its outcome. Each row is a quantity that is varied to its extremes, with marks from
@@ -68,16 +72,19 @@ def stability_cells(results):
     single = {row["model"] for row in rows if row["precision"] == "f32"}
     rows = [row for row in rows if row["precision"] == "f32" or row["model"] not in single]
     of_factors = {factor: [row for row in rows if row["factor"] == factor] for factor in dict.fromkeys(row["factor"] for row in rows)}
-    figure, ((panel,),) = style.panels(1, 1, height_in=0.6 + 0.21 * len(of_factors), width_in=style.page_in)
+    figure, ((panel,),) = style.panels(1, 1, height_in=1.6 + 0.27 * len(of_factors))
     for place, cells in enumerate(of_factors.values()):
         draw_factor(panel, cells, place)
-    panel.set_xticks(range(len(models)), [textwrap.fill(looks.short(model), 10) for model in models])
+    panel.set_xticks(range(len(models)), [textwrap.fill(looks.short(model), 20) for model in models], rotation=90)
     panel.set_xlim(-0.5, len(models) - 0.5)
     style.name_rows(panel, [f"{case_words.of_field('factor', factor)}: {range_of(cells)}" for factor, cells in of_factors.items()])
     panel.xaxis.tick_top()
     panel.grid(False)
     legend_of_outcomes(figure, panel, {row["outcome"] for row in rows})
     return figure, style.taken(rows, ("body", "model", "factor", "value", "unit", "named", "precision", "outcome"))
+
+
+stability_cells_facts = counts
 
 
 # The outcome of jiggling PBS on the limb, disturbed and then held still, as two settings change together, cell by cell. The maps show
@@ -107,16 +114,16 @@ def draw_map(axes, rows, title):
 
 
 def stability_maps_facts(rows):
-    """The steps of the longest run."""
-    return {"steps": max(int(row["steps"]) for row in rows)}
+    """The steps of the longest run, and how many cells come to rest."""
+    return counts(rows) | {"steps": max(int(row["steps"]) for row in rows)}
 
 
 def stability_maps(results):
-    figure, (axes,) = style.panels(1, 2, height_in=2.3)
+    figure, axes = style.panels(2, 1, height_in=2.2)
     behind = []
-    for panel, (file, title) in zip(axes, maps.items()):
+    for (panel,), (file, title) in zip(axes, maps.items()):
         rows = records.table(results / "stability" / file, columns)
         draw_map(panel, rows, title)
         behind += style.taken(rows, sorted(columns), map=file)
-    legend_of_outcomes(figure, axes[0], {row["outcome"] for row in behind})
+    legend_of_outcomes(figure, axes[0][0], {row["outcome"] for row in behind})
     return figure, behind

@@ -27,7 +27,7 @@ class Facts:
 
     def __getitem__(self, name):
         if name == "section":
-            return f"\nsmallest section {self['min_section_pct']:.0f} %" if self.row.get("min_section_pct") else ""
+            return f"\nsection {self['min_section_pct']:.0f} %" if self.row.get("min_section_pct") else ""
         words = {"s": "s" * (self.row["inverted_tets"] != "1"), "mark": "" if records.is_reached(self.row) else "\npose not reached"}
         return words[name] if name in words else float(self.row[name])
 
@@ -66,9 +66,9 @@ def fig_01_motion(results):
     """A character in motion: the human jumping under LBS, PBS, and PBS with its jiggling zone."""
     frames, labels = Frames(results, "human_jump"), ("lbs", "pbs", "pbs_jiggle")
     views = {frame: above_floor(frames.skin("lbs", frame), 0.95, 0.98, (1.0, 0.15, 0.75))
-             for frame in frames.frames_at(0.0, crouch_s, 0.48, 0.72, 1.08, 1.6)}
-    figure, behind = grid(skins(frames, labels, views, rendering.Stage(440, 720)), "volume {volume_change_pct:+.1f} %",
-                          times_of(frames, views), [looks.short(label) for label in labels], height_in=2.1)
+             for frame in frames.frames_at(0.0, crouch_s, 0.72, 1.08)}
+    figure, behind = grid(skins(frames, labels, views, rendering.Stage(440, 720)), "{volume_change_pct:+.1f} % volume",
+                          times_of(frames, views), [looks.short(label) for label in labels], height_in=1.75)
     return figure, style.columns_of(behind, *volumes)
 
 
@@ -80,8 +80,8 @@ def fig_03_two_layers(results):
     rest, posed = bodies.rest_positions_of(frames.tets("lbs", frame)), bodies.points_of(frames.tets("lbs", frame))
     bodies_at = [(points.min(0) + points.max(0)) / 2 for points in (rest, posed, posed)]
     hips_at = [middle_of(points, frames.binding(), ("hip.L", "hip.R", "pelvis")) for points in (rest, posed, posed)]
-    words = [filled(row, "volume {volume_change_pct:+.1f} %, {inverted_tets:.0f} inverted tet{s}") for row in rows]
-    figure, axes = style.panels(2, 3, height_in=2.4, height_ratios=(2, 1))
+    words = [filled(row, "volume {volume_change_pct:+.1f} %\n{inverted_tets:.0f} inverted tet{s}") for row in rows]
+    figure, axes = style.panels(2, 3, height_in=1.6, height_ratios=(1.5, 1))
     for panels, centers, pixels, half_height_m, titles, below in (
             (axes[0], bodies_at, (640, 760), 0.88, ("rest", "step 1: LBS", "step 2: PBS, 24 iterations"), ("", "", "")),
             (axes[1], hips_at, (640, 380), 0.22, ("", "", ""), ("as given", *words))):
@@ -98,14 +98,14 @@ def fig_05_weights(results):
     shown = [(frames, frames.frame_at_angle(90)) for frames in scenes]
     stills = [[(frames.row(label, frame), stage.shot([bodies.skin(frames.tets(label, frame))], view)) for frames, frame in shown]
               for label in labels]
-    figure, behind = grid(stills, "volume {volume_change_pct:+.2f} %, {inverted_tets:.0f} inverted tets, "
+    figure, behind = grid(stills, "volume {volume_change_pct:+.1f} %\n{inverted_tets:.0f} inverted tets\n"
                                   "smallest section {min_section_pct:.0f} %",
-                          ("each vertex on one bone", "weights of Eq. 2"), [looks.short(label) for label in labels], height_in=2.35)
+                          ("each vertex on one bone", "weights of Eq. 2"), [looks.short(label) for label in labels], height_in=1.75)
     return figure, style.columns_of(behind, "angle_deg", *volumes, "min_section_pct")
 
 
 # Figure 8 with a reference: each row has one camera, and all share one colour bar.
-artefacts = "volume {volume_change_pct:+.2f} %, {inverted_tets:.0f} inverted\nsmallest section {min_section_pct:.0f} %{mark}"
+artefacts = "{volume_change_pct:+.1f} % volume\n{inverted_tets:.0f} inverted\nsection {min_section_pct:.0f} %{mark}"
 twisted = rendering.Camera((0, 0, 0), 0.24, (0.0, 0.35, 1.0)), 0.62  # and the height of a still relative to its width
 bent = rendering.Camera((0, 0.14, 0), 0.36, (0.0, 0.1, 1.0)), 0.9
 artefact_poses = (("twist", 180, *twisted), ("twist", 170, *twisted), ("bend", 110, *bent))
@@ -119,7 +119,7 @@ def fig_08_artefacts(results):
         frame = frames.frame_at_angle(angle_deg)
         stills.append([(frames.row(label, frame), stage.shot([rendering.tets(frames.tets(label, frame))], view)) for label in labels])
     figure, behind = grid(stills, artefacts, [looks.short(label) for label in labels],
-                          [f"{motion} {angle_deg}\u00b0" for motion, angle_deg, *_ in artefact_poses], height_in=1.75,
+                          [f"{motion} {angle_deg}\u00b0" for motion, angle_deg, *_ in artefact_poses], height_in=1.6,
                           height_ratios=[height for *_, height in artefact_poses])
     style.ratio_bar(figure, figure.axes, rendering.ratio_scale, rendering.ratio_colors)
     return figure, style.columns_of(behind, "angle_deg", *volumes, "min_section_pct")
@@ -130,8 +130,8 @@ def fig_09_jiggle(results):
     camera turns with the hips and shows the front and the back."""
     frames, stage = Frames(results, "human_walk"), rendering.Stage(440, 680)
     compared, sides = ("pbs_jiggle", "pbs_no_zone"), {"front": 1, "back": -1}
-    shown = frames.frames_at(0.0, 0.48, 0.96, 1.44, 1.92, 2.4)
-    figure, axes = style.panels(len(sides), len(shown), height_in=2.15)
+    shown = frames.frames_at(0.0, 0.48, 1.44, 2.4)
+    figure, axes = style.panels(len(sides), len(shown), height_in=1.7)
     behind = []
     for panels, frame in zip(axes.T, shown):
         away_mm, file = bodies.distances_mm(frames, frame, *compared), frames.skin("pbs_jiggle", frame)
@@ -153,20 +153,20 @@ def fig_09_jiggle_facts(rows):
     """The largest distance between the two, frame by frame."""
     words = [f"{float(row['largest_mm']):.0f} mm at the {style.bone_in_words(row['farthest_bone'])} ({float(row['time_s']):.2f} s)"
              for row in rows]
-    return {"farthest": ", ".join(words), "first": words[0]}
+    return {"farthest": ", ".join(words), "first": words[0], "largest": f"{max(float(row['largest_mm']) for row in rows):.0f}"}
 
 
 def fig_10_start_from_lbs(results):
     """Poses with and without LBS as the initial guess. No package provides a kicking clip, so the poses are from a jump."""
     frames, stage = Frames(results, "human_jump"), rendering.Stage(480, 640)
-    shown = frames.frames_at(0.16, crouch_s, 0.48, 0.72, 1.08)
+    shown = frames.frames_at(0.16, crouch_s, 0.72, 1.08)
     deformers = {"pbs": "from LBS in each frame", "pbs_increment": "moved by LBS's increment"}
     views = {frame: rendering.Camera(rendering.middle_of(frames.skin("pbs", frame)), 0.87, (0.8, 0.12, 1.0)) for frame in shown}
-    figure, axes = style.panels(3, len(shown), height_in=2.2)
+    figure, axes = style.panels(3, len(shown), height_in=1.75)
     behind = []
     for panels, (frame, view) in zip(axes.T, views.items()):
         for panel, ((row, picture),) in zip(panels, skins(frames, deformers, {frame: view}, stage)):
-            style.show(panel, picture, below=filled(row, "volume {volume_change_pct:+.2f} %\nsmallest section {min_section_pct:.0f} %"))
+            style.show(panel, picture, below=filled(row, "{volume_change_pct:+.1f} % volume\nsection {min_section_pct:.0f} %"))
             behind.append(row)
         away_mm = bodies.distances_mm(frames, frame, *deformers)
         actor = bodies.skin_by(frames.skin("pbs_increment", frame), away_mm, distance_scale, distance_colors)
@@ -220,7 +220,7 @@ def clip_jump(results):
     still, = frames.frames_at(crouch_s)
     view, stage = rendering.Camera(rendering.middle_of(frames.skin("nh_p1", still)), 0.78, clip_direction), rendering.Stage(700, 800)
     stills = [line[0] for line in skins(frames, in_clip, {still: view}, stage)]
-    figure, _ = grid([stills], in_words, [looks.short(label) for label in in_clip], height_in=3.0)
+    figure, _ = grid([stills], in_words, [looks.short(label) for label in in_clip], height_in=1.9)
     behind = [frames.row(label, frame) for label in in_clip for frame in range(len(frames.times_s()))]
     return (figure, style.columns_of(behind, "volume_change_pct", "inverted_tets", "min_section_pct"),
             {"webp": lambda file, origin: draw_clip(file, frames, origin)})
@@ -244,7 +244,7 @@ def frames_volume_ratio(results):
     stills = [[(frames.row(label, frame), stage.shot([rendering.tets(frames.tets(label, frame))],
                                                      rendering.Camera(sum(box) / 2, half_height_m)))
                for frame, box in shown.items()] for label in labels]
-    figure, behind = grid(stills, moment_words, times_of(frames, shown), [looks.short(label) for label in labels], height_in=2.35)
+    figure, behind = grid(stills, moment_words, times_of(frames, shown), [looks.short(label) for label in labels], height_in=1.75)
     style.ratio_bar(figure, figure.axes, rendering.ratio_scale, rendering.ratio_colors)
     return figure, style.columns_of(behind, "volume_change_pct", "inverted_tets", "min_section_pct")
 
@@ -271,5 +271,5 @@ def contact(results):
         view = rendering.Camera(joint + 0.35 * half_height_m * inward, half_height_m, normal, tuple(inward))
         stills.append([(frames.row(label, frame), stage.shot([bodies.section(frames.tets(label, frame), joint, normal)], view))
                        for label in labels])
-    figure, behind = grid(stills, "error at joints {error_joint_pct:.1f} %", labels.values(), folds, height_in=1.8)
+    figure, behind = grid(stills, "error {error_joint_pct:.1f} %", labels.values(), folds, height_in=1.25)
     return figure, style.columns_of(behind, "error_joint_pct", "inverted_tets")

@@ -3,17 +3,17 @@ its growth and the speedup by threads, and the cost of each switch of a scene. `
 import records
 from drawing import style
 from words import case_words, looks
+from words.number_words import figure as figure_of, span
 
 # The paper's Table 1 compared with the times measured here on meshes matched to its counts: a drawn table, its CSV and its LaTeX. The paper
 # prints two times that exclude each other, a frame rate and a CT of 100 steps; the table shows both as milliseconds per frame. Our
 # milliseconds are processor time, our frame rates wall-clock time.
 orders = (("plain", "f64"), ("ordered", "f32"))  # in the order of the mesh file; and the default of this code
-# The heads of the columns, and their widths relative to the page.
-columns = {"model": ("model", 0.07), "mesh": ("mesh here", 0.08), "vertices": ("vertices\npaper / here", 0.1),
-           "edges": ("edges\npaper / here", 0.115), "tets": ("tets\npaper / here", 0.115), "paper_frames_per_s": ("paper\n[fps]", 0.055),
-           "plain_f64_frames_per_s": ("plain f64\nwall [fps]", 0.075), "ordered_f32_frames_per_s": ("ordered f32\nwall [fps]", 0.085),
-           "paper_ms": ("paper, 1/fps\n[ms]", 0.08), "paper_ct_ms": ("paper, CT\n[ms]", 0.08),
-           "plain_f64_ms": ("plain f64\nCPU [ms]", 0.075), "ordered_f32_ms": ("ordered f32\nCPU [ms]", 0.085)}
+# The heads of the lines.
+columns = {"model": "model", "mesh": "mesh here", "vertices": "vertices, paper", "edges": "edges, paper", "tets": "tets, paper",
+           "paper_frames_per_s": "paper [fps]", "plain_f64_frames_per_s": "plain f64, wall [fps]",
+           "ordered_f32_frames_per_s": "ordered f32, wall [fps]", "paper_ms": "paper, 1/fps [ms]", "paper_ct_ms": "paper, CT [ms]",
+           "plain_f64_ms": "plain f64, CPU [ms]", "ordered_f32_ms": "ordered f32, CPU [ms]"}
 
 
 def matched(file):
@@ -46,7 +46,7 @@ def line_of(model, mesh):
 
 
 def latex(lines, cpu):
-    head = " & ".join(text.replace("\n", " ") for text, _ in columns.values())
+    head = " & ".join(columns.values())
     body = "\n".join(" & ".join(line.values()).replace("_", r"\_") + r" \\" for line in lines)
     return (f"% timed on one core of {cpu}; the paper: Intel i5 2.50 GHz, 2014\n"
             f"\\begin{{tabular}}{{ll{'r' * (len(columns) - 2)}}}\n\\toprule\n"
@@ -57,20 +57,26 @@ def table_1_timing(results):
     models = matched(results / "timing" / "timing.csv")
     lines = [line_of(model, mesh) for model, mesh in models.items()]
     cpu = next(iter(models.values()))["plain", "f64"]["cpu_model"]
-    figure, ((axes,),) = style.panels(1, 1, height_in=0.6 + 0.22 * len(lines), width_in=style.page_in)
+    figure, ((axes,),) = style.panels(1, 1, height_in=0.3 + 0.24 * len(columns))
     axes.axis("off")
-    heads, widths = zip(*columns.values())
-    table = axes.table([list(line.values()) for line in lines], colLabels=heads, colWidths=widths, loc="center", cellLoc="right",
-                       edges="horizontal")
+    cells = [[text.replace(", paper", ",\npaper / here"), *(line[name].replace(" / ", " /\n") for line in lines)]
+             for name, text in columns.items()]
+    table = axes.table(cells, colWidths=[0.32, *[0.68 / len(lines)] * len(lines)], bbox=(0, 0, 1, 1), cellLoc="right", edges="horizontal")
     table.auto_set_font_size(False)
     table.set_fontsize(style.tick_size)
-    table.scale(1, 1.3)
     for (row, column), cell in table.get_celld().items():
         cell.set_linewidth(0.8 if row == 0 else 0.3)
-        if column < 2:
+        cell.set_height(1.7 if "\n" in cells[row][0] else 1.0)
+        if column == 0:
             cell.set_text_props(ha="left")
         cell.PAD = 0.03
     return figure, lines, {"tex": lambda file, _: file.write_text(latex(lines, cpu))}
+
+
+def table_1_timing_facts(rows):
+    """Frames per second: the least here, and the range in print."""
+    least = min(float(row[f"{order}_{precision}_frames_per_s"]) for row in rows for order, precision in orders)
+    return {"slowest": f"{least:.0f}", "paper": span([float(row["paper_frames_per_s"]) for row in rows])}
 
 
 # Wall-clock time per frame on one core over the size of the mesh, for three kernels, and the parts of a frame on the meshes that represent
@@ -78,8 +84,8 @@ def table_1_timing(results):
 # be compared with 33 ms at the paper's sizes.
 
 kernels = {("plain", "f64"): "plain, f64", ("plain", "f32"): "plain, f32", ("ordered", "f32"): "ordered, f32"}
-parts = {"lbs_ms": ("LBS", looks.of("lbs").color, ""), "bind_ms": ("bind", style.yellow, "////"), "stretch_ms": ("stretch", style.sky, ""),
-         "volume_ms": ("volume", style.blue, "...."), "rest_ms": ("rest", style.light, "")}
+parts = {"lbs_ms": ("LBS", looks.of("lbs").color, ""), "bind_ms": ("bind", style.olive, "////"), "stretch_ms": ("stretch", style.cyan, ""),
+         "volume_ms": ("volume", style.indigo, "...."), "rest_ms": ("rest", style.light, "")}
 size_columns = {"mesh", "body", "variant", "precision", "vertices", "tets", "total_wall_ms", "total_wall_ms_low", "total_wall_ms_high",
                 "paper_ms", "paper_ct_ms", *parts}
 
@@ -94,8 +100,8 @@ def draw_sizes(axes, rows):
         style.draw_series(axes, number, shown, "vertices", "total_wall_ms", ("total_wall_ms_low", "total_wall_ms_high"), label=label)
     paper = [row for row in shown if row["paper_ms"]]
     for column, marker, label in (("paper_ms", "x", "paper, by frame rate"), ("paper_ct_ms", "*", "paper, by CT")):
-        style.plot(axes, paper, "vertices", column, linestyle="none", marker=marker, color=style.black, markersize=5, label=label)
-    axes.axhline(1000 / 30, color=style.black, linewidth=0.6, label="30 frames/s")
+        style.plot(axes, paper, "vertices", column, linestyle="none", marker=marker, color=style.ink, markersize=5, label=label)
+    axes.axhline(1000 / 30, color=style.ink, linewidth=0.6, label="30 frames/s")
     style.decades(axes.xaxis)
     style.log_scale(axes.yaxis)
     axes.set(xlabel="vertices", ylabel="wall-clock time per frame [ms]")
@@ -118,24 +124,27 @@ def draw_parts(axes, rows, variant, precision):
 
 def timing_sizes(results):
     rows = [row for row in records.table(results / "timing" / "timing.csv", size_columns) if (row["variant"], row["precision"]) in kernels]
-    figure, (axes,) = style.panels(1, 3, height_in=2.3)
-    draw_sizes(axes[0], rows)
-    draw_parts(axes[1], rows, "plain", "f64")
-    draw_parts(axes[2], rows, "ordered", "f32")
-    style.label_lines(axes[:1])
-    style.legend_above(figure, panels=axes[1:])
+    figure, ((sizes,), below) = style.stacked((1, 2.4), (2, 2.6))
+    draw_sizes(sizes, rows)
+    for panel, kernel in zip(below, (("plain", "f64"), ("ordered", "f32"))):
+        draw_parts(panel, rows, *kernel)
+    style.key_below(figure)
     return figure, style.taken(rows, sorted(size_columns))
+
+
+def timing_sizes_facts(rows):
+    return {"paper_sizes_ms": span([float(row["total_wall_ms"]) for row in rows if row["paper_ms"]])}
 
 
 # The growth of the cost of a step of 24 iterations with the mesh, in ns per constraint and iteration with one thread, and the speedup by
 # more threads, from the timings of `pbskin bench`.
 bench_schema = 2  # `memory` in place of `copy`
 # The name, colour, line style and marker of each order.
-looks_of_orders = {"plain": ("plain", style.vermillion, (0, (4, 1.5)), "v"),
-                   "plain_native": ("plain, native build", style.orange, (0, (2, 1)), "s"),
-                   "plain_spread": ("plain, native, spread", style.black, (0, (1, 1)), "x"), "ordered": ("ordered", style.blue, "-", "o"),
-                   "grouped": ("grouped", style.green, (0, (5, 1.2, 1, 1.2)), "^"),
-                   "poses": ("16 poses, each", style.purple, (0, (4, 1, 1, 1, 1, 1)), "D")}
+looks_of_orders = {"plain": ("plain", style.rose, (0, (4, 1.5)), "v"),
+                   "plain_native": ("plain, native build", style.sand, (0, (2, 1)), "s"),
+                   "plain_spread": ("plain, native, spread", style.ink, (0, (1, 1)), "x"), "ordered": ("ordered", style.indigo, "-", "o"),
+                   "grouped": ("grouped", style.teal, (0, (5, 1.2, 1, 1.2)), "^"),
+                   "poses": ("16 poses, each", style.wine, (0, (4, 1, 1, 1, 1, 1)), "D")}
 
 
 def read_bench(file):
@@ -207,11 +216,16 @@ def draw_threads(axes, record):
 def scaling(results):
     file = results / "timing" / "bench" / "bench.json"
     record = read_bench(file)
-    figure, (axes,) = style.panels(1, 3, height_in=2.6)
+    figure, axes = style.panels(3, 1, height_in=2.4)
+    axes = axes[:, 0]
     behind = draw_cost(axes[0], record, "f32") + draw_cost(axes[1], record, "f64") + draw_threads(axes[2], record)
     records.need(behind, f"{file}: no timings")
-    style.label_lines(axes[1:])
+    style.key_below(figure)
     return figure, behind
+
+
+def scaling_facts(rows):
+    return {"exponents": span([round(float(row["value"]), 2) for row in rows if row["shown"] == "exponent"])}
 
 
 # The ratio of the processor time with each switch of a scene to that without it, per frame and per step. Bars show the spread over runs.
@@ -223,19 +237,25 @@ def features_cost(results):
     found = {scene: records.table(results / "timing" / f"features_{scene}" / "features.csv", feature_columns)
              for scene in ("limb", "human")}
     names = list(dict.fromkeys(row["feature"] for rows in found.values() for row in rows))
-    figure, axes = style.panels(1, 2, height_in=0.7 + 0.14 * len(names), sharey=True)
+    figure, axes = style.panels(1, 2, height_in=1.0 + 0.2 * len(names), sharey=True)
     for panel, (ratio, label) in zip(axes[0], ratios):
         for number, (scene, rows) in enumerate(found.items()):
             shown, (color, marker) = [row for row in rows if row[ratio]], style.sequence[number]
             places = [names.index(row["feature"]) + (number - 0.5) * 0.3 for row in shown]
             panel.hlines(places, *(records.numbers(shown, ratio + end) for end in ("_lower", "_upper")), color=color, linewidth=0.8)
             panel.plot(records.numbers(shown, ratio), places, linestyle="none", color=color, marker=marker, markersize=3.5, label=scene)
-        panel.axvline(1, color=style.black, linewidth=0.6)
+        panel.axvline(1, color=style.ink, linewidth=0.6)
         style.log_scale(panel.xaxis)
         panel.set_xlabel(label)
     style.name_rows(axes[0][0], [case_words.of_field("feature", name) for name in names])
-    style.legend_above(figure)
+    style.key_below(figure)
     return figure, [row for scene, rows in found.items() for row in style.taken(rows, sorted(feature_columns), scene=scene)]
+
+
+def features_cost_facts(rows):
+    """The feature that multiplies the time of a frame most, and by how much."""
+    dearest = max(rows, key=lambda row: float(row["frame_cpu_ms_ratio"] or 0))
+    return {"dearest": case_words.of_field("feature", dearest["feature"]), "ratio": figure_of(float(dearest["frame_cpu_ms_ratio"]))}
 
 
 # From frame to frame along a clip: the jitter of the skin, and the error against flesh by the initial guess of each frame.
@@ -245,7 +265,7 @@ summary_columns = {"motion", "deformer", "start", "compared", "error_joint_pct",
 def clip_temporal(results):
     frames = records.table(results / "temporal" / "human_01_01" / "frames.csv", {"deformer", "start", "frame", "jitter_mm"})
     summary = [row for row in records.table(results / "temporal" / "summary.csv", summary_columns) if row["motion"] == "01_01"]
-    figure, ((jitter, starts),), behind = *style.panels(1, 2, height_in=2.4), []
+    figure, ((jitter,), (starts,)), behind = *style.panels(2, 1, height_in=2.4), []
     for name in ("pbs_author", "delta_mush", "pbs", "quasi_newton", "dqs"):
         own = [row for row in frames if (row["deformer"], row["start"]) == (name, "own") and row["jitter_mm"]]
         style.draw(jitter, name, own, "frame", "jitter_mm", linewidth=0.8)
@@ -264,5 +284,5 @@ def clip_temporal(results):
     style.log_scale(starts.xaxis)
     style.name_rows(starts, [looks.short(row["deformer"]) for row in warm])
     starts.set_xlabel("error at the joints [%]: own guess hollow, frame before filled")
-    style.label_lines([jitter])
+    style.key_below(figure)
     return figure, behind

@@ -7,8 +7,8 @@ from words import case_words
 from words.number_words import figure, span
 
 # Element order and formulation.
-looks = {("1", "displacement"): (style.vermillion, "v"), ("2", "displacement"): (style.blue, "o"),
-         ("2", "mean_dilatation"): (style.orange, "s"), ("2", "taylor_hood"): (style.green, "D")}
+looks = {("1", "displacement"): (style.rose, "v"), ("2", "displacement"): (style.indigo, "o"),
+         ("2", "mean_dilatation"): (style.sand, "s"), ("2", "taylor_hood"): (style.teal, "D")}
 norms = {"error_l2": ("$L^2$", "-", 1), "error_h1_seminorm": ("$H^1$", (0, (4, 1.5)), 0)}
 
 
@@ -38,7 +38,7 @@ def draw_convergence(axes, rows):
             style.plot(axes, ladder, "h_m", "value", color=color, linestyle=line, marker=marker,
                        label=f"{case_words.elements(*elements)} in {norm}, theory $h^{order}$")
             dotted += theory(ladder, order)
-            style.plot(axes, dotted[-len(ladder):], "h_m", "value", color=style.black, linestyle=(0, (1, 2)), linewidth=0.7)
+            style.plot(axes, dotted[-len(ladder):], "h_m", "value", color=style.ink, linestyle=(0, (1, 2)), linewidth=0.7)
     axes.set_xscale("log", base=2)
     axes.set(yscale="log", xlabel="cell size over the cube's side", ylabel="error over the solution's norm",
              title="manufactured solution; dotted: theory")
@@ -62,9 +62,9 @@ def draw_locking(axes, rows):
                 axes.plot(distance, ratio, color=color, linestyle=line, marker=marker, label=label)
     kept = [row for row in rows if (row["formulation"], row["quantity"]) == ("volume_constraints", "tip_deflection")]
     if kept:  # nu = 1/2 lies beyond a logarithmic axis, so it is a line
-        axes.axhline(shown_of(kept[-1])["value_over_reference"], color=style.purple, linestyle=(0, (1, 1)),
+        axes.axhline(shown_of(kept[-1])["value_over_reference"], color=style.wine, linestyle=(0, (1, 1)),
                      label="constraints of PBS")
-    axes.axhline(1.0, color=style.black, linewidth=0.6)
+    axes.axhline(1.0, color=style.ink, linewidth=0.6)
     axes.set(xscale="log", ylim=(0.0, 1.65), xlabel="1 \u2212 2 \u03bd, from compressible to incompressible", ylabel="value over theory",
              title="locking: bending (full lines), torsion (dashed)")
     axes.invert_xaxis()
@@ -86,13 +86,13 @@ def name_of(row):
 
 
 def label_of(row):
-    return f"{name_of(row)}, \u03bd = {float(row['poisson']):.4g}"
+    return f"{name_of(row)}, \u03bd\u00a0=\u00a0{float(row['poisson']):.4g}"
 
 
 def draw_benchmarks(axes, rows):
     places = {label: place for place, label in enumerate(dict.fromkeys(label_of(row) for row in rows))}
     axes.axvspan(-2.0, 2.0, color=style.pale, linewidth=0, zorder=0)
-    axes.axvline(0.0, color=style.black, linewidth=0.6)
+    axes.axvline(0.0, color=style.ink, linewidth=0.6)
     for elements, (color, marker) in looks.items():
         shown = solved_with(rows, elements)
         if shown:
@@ -104,7 +104,6 @@ def draw_benchmarks(axes, rows):
     style.name_rows(axes, list(places))
     axes.set(xlim=(-70, 70), xlabel="difference from the reference on the finest mesh [%]",
              title="benchmarks; grey: grade A of MacNeal and Harder (1985)")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.155), ncol=3)  # inside the panel, its marks would look like measured points
 
 
 def verification_facts(rows):
@@ -127,11 +126,11 @@ def verification(results):
     manufactured, locking = ([row for row in rows if row["problem"] == name] for name in ("manufactured_solution", "locking"))
     shown = finest(rows)
     records.need(shown, "verification.csv: no benchmark")
-    drawing, (above, below) = style.stacked((2, 2.5), (1, 3.1))
+    drawing, (above, below) = style.stacked((2, 2.2), (1, 4.4))
     dotted = draw_convergence(above[0], manufactured)
     draw_locking(above[1], locking)
     draw_benchmarks(below[0], shown)
-    style.label_lines(above)
+    style.key_below(drawing)
     behind = [row | {"one_less_two_nu": "", "value_over_reference": ""} for row in manufactured + dotted + shown]
     behind += [row | shown_of(row) for row in locking]
     return drawing, behind

@@ -36,17 +36,31 @@ def volume_over_angle(results):
         behind += draw_deformers(panels, records.Run(results / "volume" / f"limb_{motion}"), "angle_deg")
         panels[1].xaxis.set_major_locator(style.ticker.MultipleLocator(30))
     style.label(axes, ("limb, twist", "limb, bend"), measures.values(), ("twist angle [degrees]", "bend angle [degrees]"))
-    style.label_lines(axes.flat)
+    style.key_below(drawing)
     return drawing, style.columns_of(behind, "angle_deg", *measures)
 
 
+def volume_over_angle_facts(rows):
+    """The largest change of the volume under PBS in each motion [%]."""
+    changes = {motion: [abs(float(row["volume_change_pct"])) for row in rows
+                        if (row["scene"], row["deformer"]) == (f"limb_{motion}", "pbs")] for motion in ("twist", "bend")}
+    return {motion: figure(max(of, default=None)) for motion, of in changes.items()}
+
+
+def volume_over_clip_facts(rows):
+    """The frames in which LBS and PBS change the volume by at most 0.5 %."""
+    within = {deformer: [abs(float(row["volume_change_pct"])) <= 0.5 for row in rows if row["deformer"] == deformer]
+              for deformer in ("lbs", "pbs")}
+    return {deformer: sum(found) for deformer, found in within.items()} | {"frames": len(within["pbs"])}
+
+
 def volume_over_clip(results):
-    drawing, axes = style.panels(2, 1, height_in=1.7, width_in=style.page_in, sharex=True)
+    drawing, axes = style.panels(2, 1, height_in=1.7, sharex=True)
     behind = draw_deformers(axes[:, 0], records.Run(results / "volume" / "human_01_01"), "time_s", linewidth=0.8)
     for panel in axes.flat:
         panel.margins(x=0)
     style.label(axes, (), measures.values(), ["time in the clip [s]"])
-    style.label_lines(axes.flat)
+    style.key_below(drawing)
     return drawing, style.columns_of(behind, *measures)
 
 
@@ -99,7 +113,7 @@ def volume_over_iterations(results):
         panel.set_xscale("log", base=2)
         panel.set_xticks(human.pbs_iterations(), [str(iterations) for iterations in human.pbs_iterations()])
         panel.set(xlabel="iterations per step", ylabel=label.replace("\n", " "))
-    style.label_lines(axes.flat)
+    style.key_below(drawing)
     return drawing, behind
 
 
@@ -134,7 +148,7 @@ def draw_kind(axes, rows):
         axes.plot(records.numbers(shown, "change_pct"), [regions.index(bones_of(row)) for row in shown],
                   **style.as_of(deformer, linestyle="none", markersize=4))
         behind += [{name: row[name] for name in row if name in region_columns} for row in shown]
-    axes.axvline(0, color=style.black, linewidth=0.6)
+    axes.axvline(0, color=style.ink, linewidth=0.6)
     style.name_rows(axes, list(map(in_words, regions)))
     axes.set_xlabel("change [% of the body's volume]")
     return behind
@@ -144,12 +158,12 @@ def volume_by_region(results):
     file = results / "volume" / "regions.csv"
     rows = [row for row in records.table(file, region_columns) if row["run"] == run_shown and row["deformer"] in of_regions]
     records.need(rows, f"{file}: no rows of {run_shown}")
-    drawing, axes = style.panels(1, 2, height_in=2.3)
+    drawing, axes = style.panels(2, 1, height_in=2.3)
     behind = []
-    for panel, kind, title in zip(axes[0], ("bone", "joint"), ("by nearest bone", "blended between two bones")):
+    for panel, kind, title in zip(axes[:, 0], ("bone", "joint"), ("by nearest bone", "blended between two bones")):
         behind += draw_kind(panel, [row for row in rows if row["kind"] == kind])
         panel.set_title(f"human, {title}")
-    style.legend_above(drawing)
+    style.key_below(drawing)
     return drawing, behind
 
 
@@ -188,8 +202,8 @@ def section_profiles(results):
             style.draw(panel, deformer, shown, "offset_cm", "area_over_rest_pct",
                        label="FEM" if deformer.startswith("nh") else looks.short(deformer))
             behind += shown
-        panel.axhline(100, color=style.black, linewidth=0.6)
+        panel.axhline(100, color=style.ink, linewidth=0.6)
         panel.set_title(title)
     style.label(axes, (), ["area over rest [%]"] * 3, ["position along the limb, joint at 0 [cm]"] * 2)
-    style.legend_above(drawing)
+    style.key_below(drawing)
     return drawing, behind

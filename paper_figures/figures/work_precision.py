@@ -7,7 +7,6 @@ from drawing import style
 from words import compared_methods, looks
 from words.number_words import figure
 
-width_in = 3.9  # a figure that a phone shows 366 pixels wide has letters of 9
 curve_columns = {"table", "method", "budget_ms", "setting", "ms", "share", "share_low", "share_high"}
 solved_columns = {"table", "target_pct", "method", "budget_ms", "solved_pct"}
 clock_words = {"own": "time as the program states it", "wall": "wall time of the program over its poses"}
@@ -53,7 +52,7 @@ def error_against_time(results):
     compared = compared_methods.Compared(folder)
     rows = curve_rows(known(records.table(folder / "curves.csv", curve_columns)), takes_of(compared))
     records.need(rows, f"{folder / 'curves.csv'}: no method with known flesh")
-    drawn, ((axes,),) = style.panels(1, 1, height_in=3.2, width_in=width_in)
+    drawn, ((axes,),) = style.panels(1, 1, height_in=3.2)
     ends = {method: draw_curve(axes, [row for row in rows if row["method"] == method], takes)
             for method, takes in {row["method"]: row["takes"] for row in rows}.items()}
     axes.set(xscale="log", xlabel="time per frame [ms]", ylabel="error [% of LBS's error]")
@@ -83,7 +82,9 @@ def error_against_time_facts(rows):
         return [row["text"] for row in rows if row["shown"] == shown]
 
     clocks = "".join(f" {row['method']}: {row['text']}." for row in rows if row["shown"] == "clock")
-    return {"answer": " ".join(texts("answer")), "poses": " ".join(texts("poses")), "clocks": clocks}
+    of_a_played_frame = next((text for text in texts("answer") if text.startswith(f"Within {compared_methods.played_ms:g} ms")), "")
+    title = of_a_played_frame.partition(" (")[0].replace(" %", " % of LBS's error", 1)
+    return {"title": title, "answer": " ".join(texts("answer")), "poses": " ".join(texts("poses")), "clocks": clocks}
 
 
 # The share of the poses that are solved within a time (data profiles: More and Wild 2009).
@@ -98,9 +99,10 @@ def draw_solved(axes, rows, takes, last_ms):
             none.append(compared_methods.name(method))
             continue
         ms = records.numbers(steps, "budget_ms")
-        line, = axes.step([ms[0], *ms, last_ms], [0, *solved, solved[-1]], where="post",
-                          **look_of(method, takes.get(method, "")) | {"marker": None})
-        labels[line] = compared_methods.name(method)
+        look = look_of(method, takes.get(method, "")) | {"marker": None}
+        axes.step(ms, solved, where="post", **look)
+        to_the_end, = axes.plot([ms[-1], last_ms], [solved[-1]] * 2, gid="guide", **look | {"label": None})
+        labels[to_the_end] = compared_methods.name(method)
     if none:
         line, = axes.plot([last_ms], [0], color=style.grey, linestyle="none", gid="guide")
         labels[line] = textwrap.fill(f"none: {', '.join(none)}", 26)
@@ -114,7 +116,7 @@ def solved_within_time(results):
     records.need(rows, f"{folder / 'profiles.csv'}: no method with known flesh")
     takes, last_ms = takes_of(compared), 1.15 * max(records.numbers(rows, "budget_ms"))
     targets = sorted({float(row["target_pct"]) for row in rows})
-    drawn, panels = style.panels(len(targets), 1, height_in=1.75, width_in=width_in, sharex=True)
+    drawn, panels = style.panels(len(targets), 1, height_in=1.75, sharex=True)
     labels = {}
     for (axes,), target in zip(panels, targets):
         labels[axes] = draw_solved(axes, [row for row in rows if float(row["target_pct"]) == target], takes, last_ms)
@@ -131,5 +133,5 @@ def solved_within_time(results):
 
 def solved_within_time_facts(rows):
     targets = [figure(target) for target in sorted({float(row["target_pct"]) for row in rows})]
-    return {"solved": compared_methods.solved_sentence(rows), "poses": rows[0]["poses"],
+    return {"solved": compared_methods.solved_sentence(rows).rstrip("."), "poses": rows[0]["poses"],
             "targets": compared_methods.conjoined(targets, "and")}

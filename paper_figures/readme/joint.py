@@ -34,14 +34,14 @@ def draw(picture):
     for end, (color, width) in ((end, look) for end in (upper, lower) for look in ((skin, 10), ("white", 7.6))):
         axes.plot(*numpy.outer(end, [0.09 * length, 0.94 * length]), color=color, linewidth=width, solid_capstyle="round")
     axes.plot(0, 0, "o", markersize=10, markerfacecolor="white", markeredgecolor=skin, markeredgewidth=1.4)
-    excluded = matplotlib.patches.Circle(tip, 1 / 3, facecolor=style.vermillion + "44", edgecolor=style.vermillion, linewidth=1.4)
+    excluded = matplotlib.patches.Circle(tip, 1 / 3, facecolor=style.rose + "44", edgecolor=style.rose, linewidth=1.4)
     axes.add_patch(excluded)
-    axes.plot(-2.75, -0.91, "o", color=style.blue, markersize=5)
-    axes.annotate("", (-2.75, -0.91), (-2.75, -0.13), arrowprops={"arrowstyle": "<->", "color": style.blue, "shrinkA": 0})
+    axes.plot(-2.75, -0.91, "o", color=style.indigo, markersize=5)
+    axes.annotate("", (-2.75, -0.91), (-2.75, -0.13), arrowprops={"arrowstyle": "<->", "color": style.indigo, "shrinkA": 0})
     for text, at, to, color in (
-            ("vertex", (-2.3, -1.5), (-2.75, -0.91), style.blue), ("bone distance", (-2.65, -0.5), (-2.75, -0.5), style.blue),
+            ("vertex", (-2.3, -1.5), (-2.75, -0.91), style.indigo), ("bone distance", (-2.65, -0.5), (-2.75, -0.5), style.indigo),
             ("crease: the skin\ntouches itself", (-2.35, 2.9), mouth, "#333333"),
-            ("tip of the crease: excluded within\na third of the limb's radius", (-2.35, 1.75), tip + [-0.3, 0.16], style.vermillion),
+            ("tip of the crease: excluded within\na third of the limb's radius", (-2.35, 1.75), tip + [-0.3, 0.16], style.rose),
             ("region of the joint:\nEq. 2 blends its vertices", (1.55, 0.55), (0.86, 0.1), "#333333"),
             ("joint", (1.55, -0.4), (0.1, -0.03), "#333333"), ("bone", (1.55, 2.6), 2.6 * lower + [0.1, 0], "#333333")):
         axes.annotate(text, to, at, color=color, fontsize=9, ha="right" if "crease" in text else "left", va="center", linespacing=1.35,

@@ -133,4 +133,7 @@ claim = facts | {"id": text, "statement": text, "place": text, "study": text, "r
                  "excluded_scenes": [{"scene": text, "reason": text}], "missing": [text], "runs": [text]}
 claims = {"schema": fourth_schema, "quantities": {"*": {"title": text, "unit": text}}, "claims": [claim]}
 
+# What this machine measured again of the record; the verdict, if there is one, is that on the record.
+repeated = {"text?": text, "claims?": {"*": {"text?": text, "verdict?": verdict, "measured?": text}}}
+
 reliability = {"name": text, "count": number, "of": number, "command": text, "revision": text, "note?": text}

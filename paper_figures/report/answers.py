@@ -1,4 +1,4 @@
-"""The first screen: the moving character, what PBS is, and the answer in three lines. Every sentence is composed from claims.json, the
+"""The first screen: the short table of the claims, the moving character, what PBS is, and two answers. Every sentence is composed from claims.json, the
 tables of work_precision, and timing/timing.csv."""
 from report import verdicts
 from report.markup import Markup, element, joined, table
@@ -14,16 +14,23 @@ where_to_go = Markup("Your own model: <code>pbskin try hero.glb</code>. "
 
 
 def answer(question, sentence, *more):
-    """One of the three lines."""
+    """A question with its answer."""
     return element("div", joined([element("h2", question), element("p", sentence), *more]), class_="answer")
 
 
 def do_they_hold(found):
-    question = "Do the paper\u2019s claims hold?"
+    """The first card: how many claims hold, whether this machine repeats the record, and the short table."""
     if not found.claims:
         sentence = "No verdict is on record: run `pbskin reproduce`, or `pbskin reproduce --judge` on these records."
-        return answer(question, element("span", sentence, class_="missing"))
-    return answer(question, sentences.counts(found.claims), verdicts.chips(found.claims))
+        shown = [element("p", sentence, class_="missing")]
+    else:
+        shown = [element("p", " ".join(filter(None, [sentences.counts(found.claims), found.repeated["text"]]))), verdicts.short_table(found)]
+    return card("claims", "Do the paper\u2019s claims hold?", shown)
+
+
+def card(anchor, heading, parts):
+    """The first thing that is read on a page."""
+    return element("section", joined([element("h2", heading), *parts], "\n"), id=anchor, class_="card")
 
 
 def compared(found):

@@ -56,14 +56,14 @@ def section(found):
 
 
 reference_header = ["problem", "quantity", "elements", "material", "mesh", "degrees of freedom", "value", "reference", "unit",
-                    "difference [%]", "order (theory)", "bounds", "holds", "notes"]
+                    "difference [%]", "order (theory)", "threshold", "holds", "notes"]
 
 
 def verdict(rows):
-    """How many of the values with a bound lie within it."""
+    """How many of the values with a threshold lie within it."""
     bounded = [row["holds"] for row in rows if row["holds"]]
-    return (f"{bounded.count('yes')} of {counted(len(bounded), 'value')} with a bound fixed beforehand lie within it; "
-            f"{len(rows) - len(bounded)} more have no bound and are reported only.")
+    return (f"{bounded.count('yes')} of {counted(len(bounded), 'value')} with a threshold fixed beforehand lie within it; "
+            f"{len(rows) - len(bounded)} more have no threshold and are reported only.")
 
 
 def cells(row, notes):

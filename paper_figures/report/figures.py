@@ -73,7 +73,7 @@ def drawn_figure(found, entry, number, file):
     claims = joined((element("a", claim, href=f"#{claim}") if claim in known else claim for claim in entry.claims), ", ")
     about += ["Claims: ", claims, ". "] if entry.claims else []
     about += [Markup(f'<abbr title="{html.escape(entries.marks[entry.mark])}">{entry.mark}</abbr>'), numbers_link(found, entry)]
-    drawing = element("div", inline_svg(file.read_text(), entry.name, f"{entry.title}. {entry.caption}"), class_="scroll drawing")
+    drawing = inline_svg(file.read_text(), entry.name, f"{entry.title}. {entry.caption}")
     return element("figure", joined([drawing, element("figcaption", joined(about))], "\n"), id=f"figure-{entry.name}")
 
 
@@ -84,13 +84,14 @@ def section(found):
         number += entry.title.startswith("Figure ")
         try:
             file = drawn(found, entry)
-            as_drawn = dataclasses.replace(entry, caption=captions.read(entry, found.results / "figures"))  # as when it was drawn
+            as_drawn = dataclasses.replace(entry, **{part: captions.read(entry, found.results / "figures", part)  # as when it was drawn
+                                                     for part in ("title", "caption")})
             number += not papers_own.match(entry.title)
             parts.append(drawn_figure(found, as_drawn, number, file))
-            shown.append(entry)
+            shown.append(as_drawn)
         except records.RecordsMissing as error:
             missing.append(f"figure {entry.name}: {error}".replace(f"{found.results}/", ""))
     intro = ("R: redrawn in minutes on any machine; CR: in hours; NR: not from this repository\u2019s records. "
              "With JavaScript, values are shown next to the pointer or the finger; with the keyboard: tab to a plot, then the arrow keys.")
     listed = element("ul", joined(element("li", line) for line in missing), class_="not-drawn") if missing else ""
-    return joined([element("p", intro), *parts, element("h3", "Not drawn") if missing else "", listed], "\n"), shown, missing
+    return joined([element("p", intro), element("div", joined(parts, "\n"), class_="figures"), element("h3", "Not drawn") if missing else "", listed], "\n"), shown, missing

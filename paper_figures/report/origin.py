@@ -29,7 +29,7 @@ def facts_table(found):
     libraries = {f"{name} {version}" for run in found.runs.values()
                  for name, version in run.get("provenance", {}).get("libraries", {}).items()}
     rows.append(["libraries", ", ".join(sorted(libraries, key=str.lower))])
-    return table(f"Of {counted(len(found.runs), 'run')}", ["what", "value"], rows)
+    return table(f"The origin of {counted(len(found.runs), 'run')}", ["what", "value"], rows)
 
 
 def inputs_table(found):
@@ -65,7 +65,7 @@ def section(found, with_viewer=False):
     revisions = len(values_of(found, "git_revision"))
     parts = [element("p", f"Note: the records are of {revisions} revisions.", class_="missing")] if revisions > 1 else []
     parts += [facts_table(found), inputs_table(found)]
-    for title, shown in (("Left out", [f"{study}: {scene}: {reason}" for study, scene, reason in found.left_out()]),
+    for title, shown in (("Excluded", [f"{study}: {scene}: {reason}" for study, scene, reason in found.left_out()]),
                          ("Bodies and motions", rights(found)),
                          ("Program of the viewer", [case_words.tables["credit"]["viewer"]] if with_viewer else [])):
         parts += [element("h3", title), items(shown)] if shown else []

@@ -17,8 +17,8 @@ def lead(found):
     runs = sum(name.count("/") == 1 for name in found.runs)  # the parts of a run are in folders below it
     text = (f"The claims of the paper of 2014 against {runs} recorded runs of pbskin {', '.join(origin.values_of(found, 'version'))}, "
             f"revision {', '.join(dict.fromkeys(revision[:10] for revision in revisions))}.")
-    if any(plan.get("extent") == "quick" for plan in found.plans.values()):
-        text += " They are those of a quick run: claims have fewer units or lack a control, so that full records may give other verdicts."
+    if not found.repeated["claims"] and any(plan.get("extent") == "quick" for plan in found.plans.values()):
+        text += " They are those of a quick run: claims have fewer cases or lack a control, so that full records may give other verdicts."
     return element("p", text, class_="lead")
 
 
@@ -52,8 +52,8 @@ def page(found):
               ("origin", "Where the records come from", origin.section(found, with_viewer=not not_shown)),
               ("cite", "How to cite", origin.citation_section(found))]
     claims = [("verdicts", "The claims, one per line", verdicts.section(found, moving, drawn))]
-    first = answers.first_screen(shown, [told(found) for told in (answers.do_they_hold, answers.how_far, answers.which_method)])
-    return whole(title, lead(found), [first, navigation(claims + folded), *written(claims), *written(folded, are_folded=True)]), missing
+    first = [answers.do_they_hold(found), answers.first_screen(shown, [answers.how_far(found), answers.which_method(found)])]
+    return whole(title, lead(found), [*first, navigation(claims + folded), *written(claims), *written(folded, are_folded=True)]), missing
 
 
 def glossary_section():
@@ -70,7 +70,7 @@ def written(sections, are_folded=False):
     return [element("section", of(name, content), id=anchor) for anchor, name, content in sections]
 
 
-def whole(title, lead, body, first="verdicts"):
+def whole(title, lead, body, first="claims"):
     """The text of a page; `first` is the anchor of its first section."""
     template = (here / "page.html").read_text()
     return template.format(title=escaped(title), lead=lead, first=first, style=(here / "page.css").read_text(),

@@ -19,6 +19,10 @@ class RecordSet:
         self.plans = {file.parent.name: shapes.read(file, shapes.plan) for file in self.files("*/plan.json")}
         judged = results / "claims.json"
         self.claims = sentences.claims_of(judged) if judged.is_file() else None  # None if no claim was judged
+        file = results / "repeated.json"
+        self.repeated = {"text": "", "claims": {}} | (shapes.read(file, shapes.repeated) if file.is_file() else {})
+        for claim in self.claims or []:  # the record judges; this machine repeats it
+            claim |= {name: text for name, text in self.repeated["claims"].get(claim["id"], {}).items() if name in ("verdict", "measured")}
 
     def run(self, name, shape):
         """The record of a run of which further members are read."""

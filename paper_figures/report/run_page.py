@@ -16,7 +16,7 @@ from report.figures import inline_svg
 from report.markup import Markup, details, element, inline, items, joined, table
 from report.page import glossary_section, navigation, whole, written
 from report.record_set import number
-from words import looks
+from words import looks, sentences
 from words.number_words import counted, figure, listed, span_of_thousandths
 
 moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "notes?": [shapes.text], "bad_frame?": shapes.text,
@@ -63,14 +63,30 @@ def known(rows, column):
     return [value for value in (number(row, column) for row in rows) if value is not None and math.isfinite(value)]
 
 
-def of_deformer(found, label):
-    rows = found.rows(label)
-    change, error, step = (known(rows, column) for column in ("volume_change_pct", "error_joint_pct", "step_ms"))
-    inverted = known(rows, "inverted_tets")
-    is_reference = label == found.record["scene"].get("reference", {}).get("name")
-    at_joints = "the reference" if is_reference else f"{figure(statistics.median(error))} ({figure(max(error))})" if error else "\u2013"
-    return [looks.of(label).name, span_of_thousandths(change), f"{max(inverted, default=0):.0f}",
-            *([at_joints] if has_errors(found) else []), figure(statistics.median(step) if step else None)]
+def errors_of(found):
+    """label -> its errors at the joints [%] by frame; a reference has none."""
+    reference = found.record["scene"].get("reference", {}).get("name")
+    errors = {label: {row["frame"]: number(row, "error_joint_pct") for row in found.rows(label)} for label in found.labels()}
+    return {label: {frame: error for frame, error in of.items() if error is not None and math.isfinite(error)}
+            for label, of in errors.items() if label != reference}
+
+
+least_visible_pct = 0.01  # an error below it is no difference between two methods, as in experiments/trial/trial.cpp
+
+
+def methods_of(found):
+    """What the first card has of each deformer, the nearest one first and the reference last; without errors in their own order."""
+    errors, methods = errors_of(found), []
+    frames = {frame for of in errors.values() for frame, error in of.items() if error >= least_visible_pct}
+    nearest = [min((of[frame], label) for label, of in errors.items() if frame in of)[1] for frame in frames]
+    for label in found.labels():
+        rows, own = found.rows(label), [error for frame, error in errors.get(label, {}).items() if frame in frames]
+        change, step = (known(rows, column) for column in ("volume_change_pct", "step_ms"))
+        methods.append({"name": looks.of(label).name, "is_reference": label not in errors, "change": span_of_thousandths(change),
+                        "volume_pct": max(change, key=abs, default=None), "inverted": max(known(rows, "inverted_tets"), default=0),
+                        "error_pct": statistics.median(own) if own else None, "largest_pct": max(own, default=None),
+                        "step_ms": statistics.median(step) if step else None, "nearest_in": nearest.count(label)})
+    return sorted(methods, key=lambda of: (of["is_reference"], math.inf if of["error_pct"] is None else of["error_pct"]))
 
 
 def has_errors(found):
@@ -102,12 +118,24 @@ def lines(found):
             answers.answer("At what cost?", f"A frame takes {cost} (median)." if cost else "No time is known.")]
 
 
+note_of_card = ("Error at the joints: its median and, in brackets, its largest value. Volume: the range of its change. Time: the median. "
+                "Inverted tets: the most in a frame.")
+
+
 def summary(found):
-    """One row per deformer."""
-    header = ["deformer", "volume change [%]", "most inverted tets in a frame",
-              *(["error at the joints [%]: median (largest)"] if has_errors(found) else []), "median step [ms]"]
-    rows = [of_deformer(found, label) for label in found.labels()]
-    return table("Over all frames", header, rows)
+    """The first card: the nearest method in one sentence, and one row per method."""
+    methods, errors = methods_of(found), has_errors(found)
+    header = ["method", *(["error [%]"] if errors else []), "volume [%]", "ms per frame", "inverted tets"]
+
+    def row(of):
+        error = "the reference" if of["is_reference"] else (
+            "\u2013" if of["error_pct"] is None else f"{figure(of['error_pct'])} ({figure(of['largest_pct'])})")
+        return [("FEM" if of["is_reference"] else of["name"]), *([error] if errors else []), of["change"], figure(of["step_ms"]), f"{of['inverted']:.0f}"]
+
+    sentence = sentences.nearest_method(methods)
+    shown = [element("p", f"{sentence[:1].upper()}{sentence[1:]}")] if sentence else []
+    return answers.card("summary", "Which method is nearest?" if errors else "The methods", [
+        *shown, table("Over all frames", header, map(row, methods)), element("p", note_of_card, class_="under")])
 
 
 def joints(found):
@@ -195,7 +223,7 @@ def over_frames(found):
     rows = {label: found.rows(label) for label in found.labels()}
     shown = [(column, name) for column, name in measures
              if any(value for of in rows.values() for value in known(of, column))] or measures[:1]
-    figure, axes = style.panels(len(shown), 1, height_in=1.7, width_in=style.page_in, sharex=True)
+    figure, axes = style.panels(len(shown), 1, height_in=1.7, sharex=True)
     for panel, (column, name) in zip(axes[:, 0], shown):
         for label, of in rows.items():
             x, unit = abscissa(of)
@@ -204,7 +232,7 @@ def over_frames(found):
         panel.set_ylabel(name)
         panel.margins(x=0)
     axes[-1][0].set_xlabel(unit)
-    style.legend_above(figure)
+    style.key_below(figure)
     return figure
 
 
@@ -218,33 +246,36 @@ def error_against_time(found):
             points[label] = statistics.median(times_ms), statistics.median(errors)
     if not points:
         return None
-    figure, axes = style.panels(1, 1, height_in=2.6, width_in=style.page_in * 0.6)
+    figure, axes = style.panels(1, 1, height_in=2.6)
     for label, (ms, error) in points.items():
         axes[0][0].plot([ms], [error], **style.as_of(label, linestyle="none", markersize=6))
     style.decades(axes[0][0].xaxis)
     axes[0][0].set(xlabel="median time of a step [ms]", ylabel="median error at the joints [%]")
     axes[0][0].set_ylim(bottom=0)
-    style.legend_above(figure, 3)
+    style.key_below(figure)
     return figure
 
 
-def drawn(found, name, figure, caption):
+def drawn(found, name, figure, title, caption):
     origin = records.origin_of({found.name: found.record})
     with tempfile.TemporaryDirectory() as folder:
         stem = pathlib.Path(folder) / name
         style.save(figure, stem, origin, [{"figure": name}], formats=("svg",))
         text = stem.with_suffix(".svg").read_text()
-    picture = element("div", inline_svg(text, name, caption), class_="scroll drawing")
-    return element("figure", joined([picture, element("figcaption", caption)], "\n"), id=f"figure-{name}")
+    title = f"{title[:1].upper()}{title[1:]}"
+    said = element("figcaption", joined([element("b", f"{title}. "), caption]))
+    return element("figure", joined([inline_svg(text, name, f"{title}. {caption}"), said], "\n"), id=f"figure-{name}")
 
 
 def figures_section(found):
-    parts = [drawn(found, "over-frames", over_frames(found), "The numbers of metrics.csv over the frames.")]
+    methods = [of for of in methods_of(found) if not of["is_reference"]]
+    parts = [drawn(found, "over-frames", over_frames(found), sentences.largest_change(methods), "The numbers of metrics.csv over the frames.")]
     against_time = error_against_time(found)
     if against_time:
-        caption = "Error against run time: the median over the frames of the error at the joints and of the time of a step."
-        parts.append(drawn(found, "error-against-time", against_time, caption))
-    return joined([element("p", Markup("Values are shown next to the pointer or the finger.")), *parts], "\n")
+        caption = "The median over the frames of the error at the joints and of the time of a step."
+        parts.append(drawn(found, "error-against-time", against_time, sentences.error_and_time(methods), caption))
+    return joined([element("p", "Values are shown next to the pointer or the finger."), element("div", joined(parts, "\n"), class_="figures")],
+                  "\n")
 
 
 def viewer_of(found):
@@ -271,8 +302,8 @@ def page(folder):
     viewer, missing = viewer_of(found)
     unseen = joined(element("p", inline(f"The moving model is missing: {reason}."), class_="missing") for reason in missing)
     as_set = types.SimpleNamespace(results=folder, runs={found.name: found.record}, left_out=lambda: [])
-    first = answers.first_screen(viewer or unseen, lines(found))
-    sections = [("warnings", "Warnings", items(warnings, "missing") if warnings else ""), ("summary", "What was found", summary(found)),
+    first = [summary(found), answers.first_screen(viewer or unseen, lines(found))]
+    sections = [("warnings", "Warnings", items(warnings, "missing") if warnings else ""),
                 ("notes", "Notes", items(remarks["notes"]) if remarks.get("notes") else ""),
                 ("frames", "Over the frames", figures_section(found)),
                 ("joints", "Volume at the joints", joints(found)), ("distances", "Distances between the deformers", distances(found)),
@@ -282,4 +313,4 @@ def page(folder):
     sections = [section for section in sections if section[-1]]
     names = [looks.of(label).name for label in found.labels()]
     lead = element("p", f"{found.name}, {outcome.get('frames', 0)} frames, moved by {listed(names)}.", class_="lead")
-    return whole(f"pbskin: {found.name}", lead, [first, navigation(sections), *written(sections)], "summary"), missing
+    return whole(f"pbskin: {found.name}", lead, [*first, navigation(sections), *written(sections)], "summary"), missing

@@ -80,15 +80,33 @@ def both_marks(claim):
     return joined([mark(claim["verdict"]), *(["; on the held-out cases: ", mark(later["verdict"])] if later else [])])
 
 
-def chips(claims):
-    """A mark for each claim, which links to its line."""
-    def chip(claim):
-        symbol, colour, name = mark_of(claim["verdict"])
-        return Markup(f'<a class="chip {colour}" href="#{escaped(claim["id"])}" title="{escaped(claim["statement"])}">'
-                      f'<span aria-hidden="true">{symbol}</span> {escaped(claim["id"])}'
-                      f'<span class="unseen">: {escaped(name)}</span></a>')
+def measured(claim):
+    """The cell of the short table: what was measured, and the threshold."""
+    first = claim.get("measured") or (sentences.facts(claim) or [""])[0]
+    return joined([first, element("span", f"asked: {claim['asked']}", class_="under") if claim.get("asked") else ""])
 
-    return element("p", joined(map(chip, claims), " "), class_="chips")
+
+def short_row(claim, here):
+    symbol, colour, name = mark_of(claim["verdict"])
+    chip = element("span", joined([element("span", symbol, aria_hidden="true"), " ", name]), class_=f"chip {colour}")
+    cells = [("name", element("a", claim["id"], href=f"#{claim['id']}")), ("short", claim.get("short") or claim["statement"]),
+             ("of-verdict", chip), ("measured", measured(claim)), *here]
+    return Markup("<tr>" + joined(element("td", text, class_=class_) for class_, text in cells) + "</tr>")
+
+
+def short_table(found):
+    """The claims by topic: what each states, its verdict, and what was measured, on the record and on this machine."""
+    by_topic, repeated = {}, found.repeated["claims"]
+    for claim in found.claims:
+        by_topic.setdefault(case_words.of_field("topic", claim["study"]), []).append(claim)
+    head = ["", "claim of the paper", "verdict", "measured", *(["on this machine"] if repeated else [])]
+    parts = ["<table class=\"claims\"><thead><tr>", joined(element("th", cell, scope="col") for cell in head), "</tr></thead>"]
+    for topic, claims in by_topic.items():
+        rows = joined((short_row(claim, [("here", repeated.get(claim["id"], {}).get("text", ""))] if repeated else []) for claim in claims),
+                      "\n")
+        title = element("th", topic, colspan=len(head), scope="rowgroup")
+        parts += [f"<tbody><tr class=\"topic\">{title}</tr>\n{rows}</tbody>"]
+    return Markup("".join(parts) + "</table>")
 
 
 def listed(texts):

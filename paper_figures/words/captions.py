@@ -1,9 +1,9 @@
-"""Captions that contain numbers of their figure. A name in braces in figures.toml is such a number: NAME_facts(rows) of the figure's script
-computes it from the rows of NAME.csv, and {cpu} is the processor of the runs behind the figure. The whole caption is written to
-NAME.caption.txt when the figure is drawn. Its end names the planned runs that have no record.
+"""The title of a figure, which is its message, and its caption. A name in braces in figures.toml is a number of the figure:
+NAME_facts(rows) of the figure's script computes it from the rows of NAME.csv, and {cpu} is the processor of the runs behind the figure. Both
+are written to NAME.title.txt and NAME.caption.txt when the figure is drawn. The caption's end names the planned runs that have no record.
 
     captions.write(entry, results, figures)
-    captions.read(entry, figures)
+    captions.read(entry, figures, "title")
 """
 import string
 
@@ -13,34 +13,35 @@ from records import whole_file
 of_runs = {"cpu"}  # known without the rows behind the figure
 
 
-def asked(entry):
-    """The names in braces in the entry's caption."""
-    return {name for _, name, _, _ in string.Formatter().parse(entry.caption) if name is not None}
+def asked(entry, parts=("title", "caption")):
+    """The names in braces."""
+    return {name for part in parts for _, name, _, _ in string.Formatter().parse(getattr(entry, part)) if name is not None}
 
 
-def file_of(entry, figures):
-    return figures / f"{entry.name}.caption.txt"
+def file_of(entry, figures, part):
+    return figures / f"{entry.name}.{part}.txt"
 
 
-def whole(entry, figures, origin):
+def whole(entry, figures, origin, part="caption"):
     told = {"cpu": origin.get("cpu_model", "a processor that is not on record")}
-    if asked(entry) - of_runs:
+    if asked(entry, [part]) - of_runs:
         told |= entry.facts(records.table(figures / f"{entry.name}.csv", set()))
-    return entry.caption.format_map(told) if asked(entry) else entry.caption
+    return getattr(entry, part).format_map(told) if asked(entry, [part]) else getattr(entry, part)
 
 
 def write(entry, results, figures):
     absent, planned = entry.absent(results)
     told = f" Planned runs without records, {len(absent)} of {planned}: {', '.join(absent)}." if absent else ""
-    with whole_file.beside(file_of(entry, figures)) as path:
-        path.write_text(whole(entry, figures, entry.origin(results)) + told + "\n")
+    for part, more in (("title", ""), ("caption", told)):
+        with whole_file.beside(file_of(entry, figures, part)) as path:
+            path.write_text(whole(entry, figures, entry.origin(results), part) + more + "\n")
 
 
-def read(entry, figures):
-    """The caption as it was when the figure was drawn; a caption without numbers needs no file."""
-    file = file_of(entry, figures)
+def read(entry, figures, part="caption"):
+    """The title or caption as it was when the figure was drawn; one without numbers needs no file."""
+    file = file_of(entry, figures, part)
     if file.is_file():
         return file.read_text().rstrip("\n")
-    if asked(entry):
+    if asked(entry, [part]):
         raise records.RecordsMissing(f"{file}: does not exist: draw the figure anew (paper_figures/make_all.py)")
-    return entry.caption
+    return getattr(entry, part)

@@ -13,11 +13,12 @@ const options = ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "-
                  "--disable-background-networking"];
 
 // Opens the file in a window of this size; `problems` collects what the page reports, and every address it requests except itself.
-export async function open(file, hash = "", { width = 1280, height = 900, scale = 1, touch = false } = {}) {
+export async function open(file, hash = "", { width = 1280, height = 900, scale = 1, touch = false, scheme = "light" } = {}) {
     const { chromium } = createRequire(path.join(root, "paper_figures/viewer/package.json"))("playwright-core");
     const profile = fs.mkdtempSync(path.join(os.tmpdir(), "pbskin_browser_"));
     const context = await chromium.launchPersistentContext(profile, {
         executablePath: program, headless: true, args: options, viewport: { width, height }, deviceScaleFactor: scale, hasTouch: touch,
+        colorScheme: scheme,
         timeout: 120000,
     });
     const page = await context.newPage(), problems = [];
@@ -81,4 +82,38 @@ export function test_in_windows(what, file, hash, check) {
     for (const [name, width, height] of [["desktop", 1280, 900], ["phone", 390, 844]])
         test(`${what}, at ${width} px`, () => in_window(file, hash, { width, height, touch: width < 500 },
                                                         (other) => check(other, name, width, height)));
+}
+
+// On a phone, in the light and in the dark form: no page scrolls sideways, every figure with all its labels is within its box and the window,
+// its letters are large enough to be read, and the bar of the viewer's reference is visible.
+const least_letter_px = 8;
+
+export function test_figures_on_a_phone(file) {
+    for (const scheme of ["light", "dark"])
+        test(`every figure's labels are inside its box at 390 px, ${scheme}`, () =>
+            in_window(file, "", { width: 390, height: 844, touch: true, scheme }, async (phone) => {
+                await phone.evaluate(() => document.querySelectorAll("section > details:not(.claim)").forEach((part) => { part.open = true; }));
+                assert.ok(await phone.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "it scrolls sideways");
+                const { figures, faults } = await phone.evaluate(faults_of_figures, least_letter_px);
+                assert.ok(figures > 0, "no figure");
+                assert.deepEqual(faults, []);
+                const bars = await phone.locator(".vw-panel").evaluateAll((all) => all.map((one) => getComputedStyle(one).borderTopColor));
+                assert.ok(bars.length > 0 && (scheme === "light" || !bars.includes("rgb(0, 0, 0)")), `bars: ${bars}`);
+            }));
+}
+
+function faults_of_figures(least_px) {
+    const faults = [], plots = [...document.querySelectorAll("svg.plot")];
+    for (const plot of plots) {
+        const name = plot.closest("figure").id, box = plot.getBoundingClientRect();
+        if (box.left < -0.5 || box.right > innerWidth + 0.5) faults.push(`${name}: wider than the window`);
+        for (const label of plot.querySelectorAll("text")) {
+            const { left, right, top, bottom } = label.getBoundingClientRect(), what = `${name}: ${label.textContent.trim().slice(0, 30)}`;
+            if (left < box.left - 1 || right > box.right + 1 || top < box.top - 1 || bottom > box.bottom + 1)
+                faults.push(`${what}: ${[left - box.left, box.right - right, top - box.top, box.bottom - bottom].map(Math.round)} px inside`);
+            const { a, b } = label.getScreenCTM(), letter_px = parseFloat(getComputedStyle(label).fontSize) * Math.hypot(a, b);
+            if (letter_px < least_px) faults.push(`${what}: letters of ${letter_px.toFixed(1)} px`);
+        }
+    }
+    return { figures: plots.length, faults };
 }

@@ -85,12 +85,13 @@ class Viewer {
             const choice = select(`deformer of panel ${at + 1}`, options, choose);
             choice.value = label;
             const { title, colour } = this.run.deformer(label);
+            const bar = label === this.run.reference ? "currentColor" : colour;  // black, which is not visible on a dark page
             const name = `${title}: arrows turn, plus and minus zoom`;
             const view = element("div", { class: "vw-view", tabindex: 0, role: "application", "aria-label": name });
             const numbers = element("dl", { "aria-label": `recorded numbers of ${title}` });
             const mark = element("p", { class: "vw-mark vw-hidden" }, "pose not reached"), first = element("p", { class: "vw-first" });
             const parts = [choice, view, mark, first, numbers];
-            const whole = element("div", { class: "vw-panel", style: `border-top: 4px solid ${colour}` }, ...parts);
+            const whole = element("div", { class: "vw-panel", style: `border-top: 4px solid ${bar}` }, ...parts);
             this.panels_element.append(whole);
             return { whole, view, mark, first, numbers };
         });

@@ -1,8 +1,8 @@
 // Reference: the records of the trial. Its page shows the sentence, the warnings, and the model's own surface as each deformer moves it.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { page, settle, test_that_nothing_was_reported } from "../browser.mjs";
-import { assert_carried, colours_of, pictures, truth } from "../viewer_page.mjs";
+import { page, settle, test_figures_on_a_phone, test_that_nothing_was_reported } from "../browser.mjs";
+import { assert_carried, colours_of, file, pictures, truth } from "../viewer_page.mjs";
 
 async function show(label, frame) {
     await page.evaluate(([panel, at]) => {
@@ -88,5 +88,7 @@ test("another frame is another picture, and the same frame the same", async () =
 test("each deformer can be chosen", async () => {
     for (const label of truth.deformers) await show(label, truth.frames - 1);
 });
+
+test_figures_on_a_phone(file);
 
 test_that_nothing_was_reported();

@@ -70,6 +70,7 @@ def overlaps(figure):
 
 
 def save_checked(figure, stem, *rest, save=style.save, **options):
+    style.break_words(figure)
     for words, wrong in (("not drawn as in looks.toml", wrongly_drawn(figure)), ("no colour of looks.toml", strange_colors(figure)),
                          ("no size of letters of style.py", strange_sizes(figure)), ("labels that overlap", overlaps(figure))):
         if wrong:

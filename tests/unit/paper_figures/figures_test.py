@@ -135,7 +135,8 @@ class OtherStudies(ResultsTest):
         drawn = (self.results / "figures" / "solved_within_time.svg").read_text()
         self.assertEqual((drawn.count(">vertex block descent<"), drawn.count(">none: LBS, DQS, delta<")), (3, 2))
         caption = (self.results / "figures" / "solved_within_time.caption.txt").read_text()
-        self.assertIn("Most poses are solved to 35 % of LBS's error by quasi-Newton within 1 ms (54 %)", caption)
+        title = (self.results / "figures" / "solved_within_time.title.txt").read_text()
+        self.assertIn("Most poses are solved to 35 % of LBS's error by quasi-Newton within 1 ms (54 %)", title)
         self.assertIn("at most 20, 35 and 50 % of that of LBS", caption)
 
     def test_deformers_of_the_users_own_have_a_curve_and_their_clocks_are_named(self):

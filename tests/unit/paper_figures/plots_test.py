@@ -15,6 +15,7 @@ import synthetic_records
 from drawing import bodies, rendering, style
 from figures import mechanics, stills, volume
 from records import recorded_frames
+from words import looks
 
 svg = "{http://www.w3.org/2000/svg}"
 still = (120, 90)  # size of a picture [px]
@@ -46,8 +47,8 @@ class Plots(ResultsTest):
         self.drawn("volume_over_clip")
         page = self.stem.with_suffix(".svg").read_text()
         circles = [tuple(map(float, place)) for place in re.findall(r'<circle cx="([-.\d]+)" cy="([-.\d]+)"', page)]
-        panels = page[page.index('id="axes_1"'):page.index('class="values"')]
-        marks = re.findall(rf'x="([-.\d]+)" y="([-.\d]+)" style="fill: {style.blue.lower()}', panels)
+        panels = page[page.index('id="axes_1"'):page.index('id="legend_1"')]
+        marks = re.findall(rf'x="([-.\d]+)" y="([-.\d]+)" style="fill: {looks.of("pbs").color.lower()}', panels)
         colored = [tuple(map(float, place)) for place in marks]
         self.assertGreater(len(colored), 10)
         for x, y in colored:

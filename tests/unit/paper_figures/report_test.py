@@ -87,6 +87,7 @@ class Report(ReportTest):
             '<metadata><rdf resource="http://purl.org/x"/></metadata><defs><path id="m1" d="M0 0"/></defs>'
             f'<g clip-path="url(#p1)"><use xlink:href="#m1"/></g>{body}</svg>')
         (folder / f"{name}.csv").write_text("a\n1\n")
+        (folder / f"{name}.title.txt").write_text(f"{name} is shown\n")
 
     def test_no_records_no_page(self):
         shutil.rmtree(self.results / "volume")
@@ -104,7 +105,8 @@ class Report(ReportTest):
                       words_of(text))
         judged = [("C02a", "fails"), ("C10a", "holds"), ("C13", "inconsistent in print"), ("C14", "inconclusive"),
                   ("C16", "cannot be tested")]
-        self.assertEqual(re.findall(r'<a class="chip \w+" href="#(\w+)".*?: ([\w ]+)</span></a>', text), judged)
+        table = re.findall(r'<td class="name"><a href="#(\w+)".*?<span class="chip \w+">.*?</span> ([\w ]+)</span>', text)
+        self.assertEqual(sorted(table), judged)  # by topic
         lines = re.findall(r'<details class="claim" id="(\w+)"><summary>.*?<span class="mark \w+">.*?</span> ([\w ]+)</span>', text)
         self.assertEqual(lines, judged)
         self.assertIn('<a href="volume/limb_twist/">volume/limb_twist</a>', text)
@@ -227,8 +229,21 @@ class Report(ReportTest):
         synthetic_records.write_verification(self.results)
         text = self.page()
         self.assertIn('<th scope="row">beam</th><td>largest deflection</td><td>P1</td>', text)
-        self.assertIn("1 of 2 values with a bound fixed beforehand lie within it; 16 more have no bound", text)
+        self.assertIn("1 of 2 values with a threshold fixed beforehand lie within it; 16 more have no threshold", text)
         self.assertIn("<li>closed form: a beam</li>", text)
+
+    def test_this_machine_s_repetition_stands_beside_the_verdict_on_the_record(self):
+        synthetic_records.write_claims(self.results)
+        self.assertNotIn("on this machine", self.page())
+        repeated = {"text": "This machine repeats the record: 3 of 3 numbers agree.",
+                    "claims": {"C02a": {"compared": 3, "agree": 3, "text": "3 numbers agree", "verdict": "holds"}}}
+        (self.results / "repeated.json").write_text(json.dumps(repeated))
+        text = self.page()
+        for words in (repeated["text"], '<th scope="col">on this machine</th>', '<td class="here">3 numbers agree</td>'):
+            self.assertIn(words, text)
+        self.assertRegex(text, r'href="#C02a">C02a</a></td>.*<span class="chip holds">')
+        (self.results / "repeated.json").write_text('{"claims": {"C02a": {"text": 3}}}')
+        self.assertIn("repeated.json: claims.C02a.text = 3: expected a text", self.report()[3])
 
     def test_provenance_and_records_of_two_revisions(self):
         self.assertIn(synthetic_records.revision, self.page())
@@ -245,7 +260,7 @@ class Report(ReportTest):
         one, other = (Image.open(io.BytesIO(of)).convert("RGBA").tobytes() for of in (picture, shown))
         self.assertTrue(one == other, "the picture has other pixels")
         for part in ('<use href="#volume_over_angle-m1"/>', "url(#volume_over_clip-p1)", 'download="volume_over_angle.csv"',
-                     '<circle r="1" data-value="PBS, &quot;k&quot; &lt; 1: 1, 2"/>', "<b>Figure 12: Volume change over the clip. </b>"):
+                     '<circle r="1" data-value="PBS, &quot;k&quot; &lt; 1: 1, 2"/>', "<b>Figure 12: volume_over_clip is shown. </b>"):
             self.assertIn(part, text)
         self.assertIn("missing: figure volume_over_iterations: does not exist yet", said)
 
@@ -256,7 +271,7 @@ class Report(ReportTest):
         self.assertNotIn('id="figure-volume_over_iterations"', text)
         (self.results / "figures" / "volume_over_iterations.caption.txt").write_text("24 leave \u22120.53 %.\n")
         text = self.page()
-        self.assertIn("Volume change against iterations. </b>24 leave \u22120.53 %. Claims: ", text)
+        self.assertIn("volume_over_iterations is shown. </b>24 leave \u22120.53 %. Claims: ", text)
         self.assertNotIn("{human_24}", text)
 
     def test_a_figure_without_its_records_or_older_than_they_is_refused(self):

@@ -366,7 +366,7 @@ def write_jiggle(study):
 def write_stiffness(study):
     """10 N/m per iteration over the time step squared; XPBD 50 N/m; rows that did not converge, have another order or a stiffer material
     are not part of the figure."""
-    for body, load in (("bar", "cantilever"), ("limb", "zone_on_held"), ("human", "zone_on_held")):
+    for body, load in (("bar", "cantilever"), ("limb", "zone"), ("human", "zone")):
         for run, values in (("iterations", (6, 24)), ("time_step", (5, 10)), ("resolution", (300, 600))):
             write_origin(study / f"{run}_{body}")
             rows = []

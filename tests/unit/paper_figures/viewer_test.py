@@ -82,7 +82,7 @@ class Viewer(ResultsTest):
         runs = [{"label": label, "options": set_to} for label, set_to in options.items()] + [{"label": "lbs"}]
         recorded = types.SimpleNamespace(run=types.SimpleNamespace(record={"scene": {"runs": runs}}))
         self.assertEqual([viewer_data.title_of(recorded, label) for label in ("lbs", *options)],
-                         ["LBS", "PBS", "PBS, k_stretch 1, zone 0.1", "PBS, k_stretch 1, no zone", "PBS, no start from LBS",
+                         ["LBS", "PBS", "PBS, k_stretch 1, zone 0.1", "PBS, k_stretch 1, no zone", "PBS without LBS as initial guess",
                           "neo-Hookean FEM, linear elements"])
 
     def test_a_surface_and_what_carries_it_belong_together(self):

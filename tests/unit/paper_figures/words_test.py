@@ -417,13 +417,14 @@ class Looks(unittest.TestCase):
     def test_a_deformer_that_is_not_listed_has_its_name_and_a_look_that_depends_on_nothing_else(self):
         listed = {entry.get("color") for entry in looks.listed.values()}
         self.assertFalse(listed & {color for color, _, _ in looks.own})
+        self.assertFalse(listed & {color for color in looks.palette.values() if isinstance(color, str)})  # of what is no deformer
         first = looks.of("mine")
         for other in ("other_one", "linked"):
             self.assertNotEqual(looks.of(other), first)
         self.assertEqual((looks.of("mine"), first.name), (first, "mine"))
 
     def test_a_figure_with_strange_colours_or_letters_or_labels_that_overlap_is_refused(self):
-        def drawn(color=style.blue, size=style.label_size, apart=0.3):
+        def drawn(color=style.indigo, size=style.label_size, apart=0.3):
             figure, ((axes,),) = style.panels(1, 1)
             axes.plot([0, 1], [0, 1], color=color)
             axes.annotate("one", (0.5, 0.5), fontsize=size)
@@ -458,10 +459,10 @@ class Looks(unittest.TestCase):
         look = looks.of("dqs")
         axes[0][0].plot([0, 1], [0, 1], color=look.color, marker=look.marker, label="DQS")
         self.assertEqual(checked_looks.wrongly_drawn(figure), [])
-        axes[0][0].plot([0, 1], [0, 1], color=style.black, marker=look.marker, label="DQS, 90 degrees")
-        axes[0][0].plot([0, 1], [0, 1], color=style.black, marker=look.marker, label="DQS (baseline)")
-        axes[0][0].plot([0, 1], [0, 1], color=style.black, marker=look.marker, label="DQS-like")
-        self.assertEqual(checked_looks.wrongly_drawn(figure), ["DQS, 90 degrees: #000000 s", "DQS (baseline): #000000 s"])
+        axes[0][0].plot([0, 1], [0, 1], color=style.ink, marker=look.marker, label="DQS, 90 degrees")
+        axes[0][0].plot([0, 1], [0, 1], color=style.ink, marker=look.marker, label="DQS (baseline)")
+        axes[0][0].plot([0, 1], [0, 1], color=style.ink, marker=look.marker, label="DQS-like")
+        self.assertEqual(checked_looks.wrongly_drawn(figure), ["DQS, 90 degrees: #262626 s", "DQS (baseline): #262626 s"])
 
 
 listed = {entry.name: entry for entry in entries.read()}
@@ -473,7 +474,7 @@ same_in_every_run = {"0.5 %", "8 frames in 10", "24 iterations", "after 24", "90
 class Captions(ResultsTest):
     def told(self, name, rows):
         write_table(self.results / f"{name}.csv", rows)
-        return captions.whole(listed[name], self.results, {"cpu_model": "a processor"})
+        return " ".join(captions.whole(listed[name], self.results, {"cpu_model": "a processor"}, part) for part in ("title", "caption"))
 
     def test_each_states_the_facts_of_the_rows_behind_its_figure(self):
         for case in tomllib.loads((root / "tests/unit/paper_figures/captions.toml").read_text(encoding="utf-8"))["case"]:
@@ -485,7 +486,7 @@ class Captions(ResultsTest):
     def test_no_number_that_another_run_would_change_is_typed(self):
         for entry in listed.values():
             if extents_differ & set(entry.studies()):
-                rest = re.sub(r"\{\w+\}", "", entry.caption)
+                rest = re.sub(r"\{\w+\}", "", f"{entry.title} {entry.caption}")
                 for words in same_in_every_run:
                     rest = rest.replace(words, "")
                 self.assertEqual(re.findall(r"\d[\d.,]*", rest), [], entry.name)
