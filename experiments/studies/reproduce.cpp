@@ -150,7 +150,8 @@ void begin(const PlannedStudy& planned)
     for (const auto& runs : {planned.to_do, planned.absent})
         for (const StudyRun& run : runs) analysis::remove_record(fs::path(planned.folder) / run.name / "run.json");
     write_study_plan(planned.folder, planned.plan);
-    spdlog::info("study {}: {} runs to do, {} kept", planned.study->name, planned.to_do.size(), planned.kept.size());
+    const auto level = planned.kept.empty() ? spdlog::level::debug : spdlog::level::info;
+    spdlog::log(level, "study {}: {} runs to do, {} kept", planned.study->name, planned.to_do.size(), planned.kept.size());
     std::vector<std::string> names;
     for (const StudyRun& run : planned.absent) names.push_back(run.name);
     if (names.empty()) return;
