@@ -79,7 +79,8 @@ def range_of(claim):
 
 def own_part(text, name):
     """What a page states of one claim, which may be one of two on it, in one line."""
-    return " ".join(re.split(r"\*\*C\d", text.split(f"**{name}:", 1)[1])[0].split())
+    own = re.split(rf"^(?:\*\*)?{name}: ", text, flags=re.MULTILINE)[-1]
+    return " ".join(re.split(r"^(?:\*\*)?C\d", own, flags=re.MULTILINE)[0].split())
 
 
 def header(table):
@@ -203,7 +204,7 @@ class KeptVerdicts(unittest.TestCase):
             for place, text, patterns in (
                     ("README", re.search(rf"^.*\| \[{name}\]\(.*$", readme, re.M)[0], [rf"\| {both} \|", *counts, *numbers, *span]),
                     ("page", own_part(page, name), [rf"^{both}\.\*\*", *counts, *numbers, *span]),
-                    ("explain", own_part(program.run("explain", name).stdout, name), [rf"^{both}\.\*\*", *counts, *numbers, *span]),
+                    ("explain", own_part(program.run("explain", name).stdout, name), [rf"^{both}\. ", *counts, *numbers, *span]),
                     ("report", html.unescape(line), [f"</span> {word}</span>", *counts, *numbers, *span]),
                     ("claims.md", re.search(rf"^\| {name} \|.*$", listed, re.M)[0], [rf"\| {kind} \|", *numbers]),
                     ("terminal", re.search(rf"^{name} .*?(?=^C\d|\Z)", self.printed, re.M | re.S)[0],
