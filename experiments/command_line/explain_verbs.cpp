@@ -335,7 +335,7 @@ void add_list_verb(CommandLine& line)
 void add_explain_verb(CommandLine& line)
 {
     auto name = std::make_shared<std::string>();
-    CLI::App* verb = line.add("explain", "explains a term, metric, claim, scene key, study, deformer, scene or verb", "pbskin explain C02",
+    CLI::App* verb = line.add("explain", "explains a term, metric, claim, key, study, deformer, scene or verb", "pbskin explain C02",
                               [&app = line.app, name] { return explain(app, *name); });
     verb->add_option("name", *name, "its name, e.g. PBS, volume_change_pct, C02, pbs.k_volume, measure")->required();
 }

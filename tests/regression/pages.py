@@ -202,7 +202,7 @@ class KeptVerdicts(unittest.TestCase):
             counts, numbers, span = counts_of(claim), numbers_of(claim), range_of(claim)
             line = report_verdicts.line(claim, types.SimpleNamespace(results=self.judged), None, [])
             for place, text, patterns in (
-                    ("README", re.search(rf"^.*\| \[{name}\]\(.*$", readme, re.M)[0], [rf"\| {both} \|", *counts, *numbers, *span]),
+                    ("README", re.search(rf"^\| \[{name}\]\(.*$", readme, re.M)[0], [rf"\| {word} \|"]),
                     ("page", own_part(page, name), [rf"^{both}\.\*\*", *counts, *numbers, *span]),
                     ("explain", own_part(program.run("explain", name).stdout, name), [rf"^{both}\. ", *counts, *numbers, *span]),
                     ("report", html.unescape(line), [f"</span> {word}</span>", *counts, *numbers, *span]),
@@ -224,9 +224,10 @@ class KeptVerdicts(unittest.TestCase):
         for page, lines in readme_pages.pages(judged).items():
             with self.subTest(page.relative_to(SOURCE)):
                 self.assertEqual(readme_part.cut(page, "kept")[1].splitlines()[1:], lines, "python3 paper_figures/make_readme.py writes it")
-        for name, lines_of in (("claims", readme_tables.claims_lines), ("findings", readme_findings.lines_of)):
+        for name, lines_of in (("claims", readme_tables.claims_lines), ("findings", readme_findings.lines_of),
+                               ("methods", readme_findings.methods_lines)):
             _, stated, _ = readme_part.cut(SOURCE / "README.md", name)
-            self.assertEqual(stated.strip().splitlines()[:len(lines := lines_of(judged))], lines)
+            self.assertEqual(stated.strip().splitlines()[-len(lines := lines_of(judged)):], lines)
 
 
 if __name__ == "__main__":
