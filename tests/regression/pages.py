@@ -147,7 +147,8 @@ class Pages(program.ProgramTest):
     def test_each_column_on_record_is_explained(self):
         """By columns.md under the name of the study or for all of them; `pbskin explain` has those of metrics.csv."""
         page = (SOURCE / "experiments" / "records" / "columns.md").read_text(encoding="utf-8")
-        explained = {title: re.findall(r"^\| `(\w+)` \|", text, re.M) for title, text in re.findall(r"^## (.+)$([^#]+)", page, re.M)}
+        explained = {title: re.findall(r"`(\w+)`", " ".join(re.findall(r"^\| (`[^|]+) \|", text, re.M)))
+                     for title, text in re.findall(r"^## (.+)$([^#]+)", page, re.M)}
         for study in self.studies():
             names = [re.sub("[A-Z]+", r"[\\w.]+", name) for name in explained["All studies"] + explained.get(study, [])]
             pattern = re.compile(rf"({'|'.join(names)})(_low|_high|_lower|_upper)?")
