@@ -191,7 +191,7 @@ DeformerKind fem_kind()
 {
     DeformerKind kind =
         kind_of<void>("fem",
-                      "finite elements on the same tets (deal.II, CHOLMOD): linear (fictitious strain 1 - cos(rotation)), corotational, "
+                      "finite elements on the same tets (deal.II, CHOLMOD): small-strain (fictitious strain 1 - cos(rotation)), corotational, "
                       "neo-Hookean (also "
                       "stable), St Venant-Kirchhoff; in equilibrium or in time; a frame that is not reached is marked not_converged",
                       fem_fields(), check);
