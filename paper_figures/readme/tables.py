@@ -55,13 +55,13 @@ def claims_table(results):
 def measured(claim):
     """What was measured in a few words."""
     if "measured" in claim:
-        return claim["measured"]
+        return claim["measured"] or ""
     return f"{claim['held']} of {claim['n']}" if claim["rule"] in ("units", "cases", "printed") and claim["n"] else ""
 
 
 def asked(claim):
     """The claim's threshold in a few words."""
-    return claim["asked"] if "asked" in claim else "; ".join(dict.fromkeys(sentences.expected(claim)))
+    return claim["asked"] or "" if "asked" in claim else "; ".join(dict.fromkeys(sentences.expected(claim)))
 
 
 def held_out_sentences(claims):
