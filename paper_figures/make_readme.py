@@ -4,9 +4,9 @@
     python3 paper_figures/make_readme.py experiments/records/full               # all parts except reliability
     python3 paper_figures/make_readme.py results/check/reliability reliability  # the counts that the tests of ./check --long wrote
 
-claims: one line per claim in the README; findings: its findings; methods: which method in which time, with its figure; features: the table of the study that leaves features out;
-kept: the generated parts of the studies' READMEs and of the claims' pages; glossary: the terms of experiments/GLOSSARY.md with their
-picture; reliability: the table of tests/README.md. Exit status 2 if the records or a page are not as expected.
+claims: one line per claim in the README; findings: its findings; methods: which method in which time, with its figure; features: the table
+of the study that switches features off; kept: the generated parts of the studies' READMEs and of the claims' pages; glossary: the terms of
+experiments/GLOSSARY.md with their picture; reliability: the table of tests/README.md. Exit status 2 if the records or a page are not as expected.
 """
 import pathlib
 import sys

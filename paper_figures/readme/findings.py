@@ -51,7 +51,8 @@ def artefacts(claims):
         return f"{claim['held']} of {counted(claim['n'], 'pose')}"
 
     gone = all(of(claims, name)["verdict"] == "holds" for name in ("C04", "C05"))
-    return (f"**Artefacts: {'gone' if gone else 'not everywhere gone'}.** No candy wrapper of LBS is left in {stated(claims, 'C04', count)}, "
+    title = "gone" if gone else "not everywhere gone"
+    return (f"**Artefacts: {title}.** No candy wrapper of LBS is left in {stated(claims, 'C04', count)}, "
             f"and no bulge of DQS in {stated(claims, 'C05', count)}.")
 
 
@@ -119,8 +120,8 @@ def methods_lines(results):
     rows = [tables.line(*cells) for cells in compared.table("known")]
     poses = compared.row("known", compared.times_ms[0], "lbs")["poses"]
     marks = {"\u2020": "too slow on a machine half as fast", "\u2021": "too slow on this machine"}
-    told = [f"Error at the joints in per cent of that of LBS, on one core ({processor}): geometric mean over {poses} poses, in brackets the "
-            "range over the reference variants. It is not decided which of two methods with a common letter is nearer.",
+    told = [f"Error at the joints in per cent of that of LBS, on one core ({processor}): geometric mean over {poses} poses, in brackets "
+            "the range over the reference variants. It is not decided which of two methods with a common letter is nearer.",
             *(f"{mark}: {meaning}." for mark, meaning in marks.items() if mark in "".join(rows))]
     return [*tables.filled(f"**{compared.headline()}** [Other times, and what is open]({page})."), "",
             tables.line(*head), "|---" * len(head) + "|", *rows, "", *tables.filled(f"*{' '.join(told)}*")]

@@ -134,7 +134,8 @@ class Tables(ReadmeTest):
         self.assert_written("claims", readme_tables.claims_lines,
                             f"| [C02a]({page}/C02.md) | Volume is kept | fails | 1 of 3 | 0.95 or more |",
                             f"| [C10a]({page}/C10.md) | Volume is kept | holds | 2 of 2 | 30 or more |",
-                            f"| [C13]({page}/C13.md) | Volume is kept | inconsistent in print | 1 of 2 | each value as the others require |",
+                            f"| [C13]({page}/C13.md) | Volume is kept | inconsistent in print | 1 of 2 | each value as the others "
+                            "require |",
                             f"| [C14]({page}/C14.md) | Volume is kept | not testable |  | 0.95 or more |",
                             f"\nMeasured at revision {synthetic_records.revision[:12]}.")
 
@@ -167,7 +168,8 @@ class Tables(ReadmeTest):
     def test_artefacts_are_counted_and_a_claim_without_cases_states_why(self):
         twist = unit(0.067, False, body="limb", angle_deg=180.0)
         text = readme_findings.artefacts([claim("C04", "holds", [unit(1.0)] * 28 + [twist]), claim("C05", "holds", [unit(1.0)] * 5)])
-        self.assertEqual(text, "**Artefacts: gone.** No candy wrapper of LBS is left in 28 of 29 poses, and no bulge of DQS in 5 of 5 poses.")
+        self.assertEqual(text, "**Artefacts: gone.** No candy wrapper of LBS is left in 28 of 29 poses, and no bulge of DQS in 5 of 5 "
+                         "poses.")
         text = readme_findings.volume([claim("C02a", "not_testable", untested="too_few_units")])
         self.assertIn("C02a is not testable: no unit is on record.", text)
 
@@ -186,8 +188,8 @@ class Tables(ReadmeTest):
 
     def test_the_distance_from_flesh_is_that_of_pbs_within_the_middle_time(self):
         synthetic_records.write_work_precision(self.results)
-        self.assertEqual(readme_findings.distance(self.results), "**Distance from flesh: less than with LBS.** The skin of a body of 1.7 m is "
-                         "6.8 mm from it with PBS, 12 mm with LBS.")
+        self.assertEqual(readme_findings.distance(self.results), "**Distance from flesh: less than with LBS.** The skin of a body of "
+                         "1.7 m is 6.8 mm from it with PBS, 12 mm with LBS.")
         methods = self.results / "work_precision" / "methods.csv"
         write_table(methods, [row for row in records.read_rows(methods) if row["method"] != "pbs"])
         with self.refused("methods.csv: no row of PBS within 1 ms"):
