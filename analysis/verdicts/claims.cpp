@@ -1,6 +1,7 @@
 #include "analysis/verdicts/claims.hpp"
 
 #include "analysis/records/toml_keys.hpp"
+#include "analysis/verdicts/headline.hpp"
 
 #include <algorithm>
 #include <set>
@@ -13,13 +14,15 @@ using pbs::InputError;
 template <typename Enum>
 using Names = std::vector<std::pair<const char*, Enum>>;
 
-const Names<ClaimRule> rules = {{"units", ClaimRule::units},
+const Names<ClaimRule> rules = {{"cases", ClaimRule::cases},
                                 {"single", ClaimRule::single},
                                 {"printed", ClaimRule::printed},
                                 {"definition", ClaimRule::definition},
                                 {"untestable", ClaimRule::untestable}};
-const Names<Role> roles = {
-    {"claimed", Role::claimed}, {"must_fail", Role::must_fail}, {"must_hold", Role::must_hold}, {"comparison", Role::comparison}};
+const Names<Role> roles = {{"claimed", Role::claimed},
+                           {"negative_control", Role::negative_control},
+                           {"positive_control", Role::positive_control},
+                           {"comparison", Role::comparison}};
 const Names<Mean> means = {{"arithmetic", Mean::arithmetic}, {"geometric", Mean::geometric}};
 
 template <typename Enum>
@@ -73,21 +76,21 @@ void read_each(TomlKeys& keys, const char* name, const char* rule, Read&& read)
     }
 }
 
-std::vector<Bound> read_bounds(TomlKeys& claim, const std::string& file)
+std::vector<Threshold> read_thresholds(TomlKeys& claim, const std::string& file)
 {
-    std::vector<Bound> bounds;
-    read_each(claim, "bounds", "expected a list of { low, high, of }", [&](const toml::table& table) {
-        TomlKeys keys(table, file, "bound");
-        Bound& bound = bounds.emplace_back();
-        keys.optional("quantity", bound.quantity);
-        keys.optional("low", bound.low);
-        keys.optional("high", bound.high);
-        bound.of = read_key(keys, "of", file);
+    std::vector<Threshold> thresholds;
+    read_each(claim, "thresholds", "expected a list of { low, high, of }", [&](const toml::table& table) {
+        TomlKeys keys(table, file, "threshold");
+        Threshold& threshold = thresholds.emplace_back();
+        keys.optional("quantity", threshold.quantity);
+        keys.optional("low", threshold.low);
+        keys.optional("high", threshold.high);
+        threshold.of = read_key(keys, "of", file);
         keys.require_nothing_unknown();
-        if (!(bound.low <= bound.high)) keys.refuse("low", "expected low <= high");
+        if (!(threshold.low <= threshold.high)) keys.refuse("low", "expected low <= high");
         if (!keys.has("low") && !keys.has("high")) keys.refuse("low", "expected low, high or both");
     });
-    return bounds;
+    return thresholds;
 }
 
 // What an entry of `controls` or `compared` does not state is that of the claim.
@@ -98,41 +101,43 @@ void read_others(TomlKeys& claim, const char* list, const std::string& file, Cla
         Selection& other = to.others.emplace_back();
         other.role = Role::comparison;
         keys.required("name", other.name);
-        read_name(keys, "role", roles, "expected must_fail or must_hold", other.role);
+        read_name(keys, "role", roles, "expected negative_control or positive_control", other.role);
         keys.optional("quantities", other.quantities);
         if (!keys.has("quantities")) other.quantities = to.own.quantities;
         other.of = read_key(keys, "of", file);
         other.over = keys.has("over") ? read_key(keys, "over", file) : to.own.over;
-        other.bounds = read_bounds(keys, file);
-        if (other.bounds.empty()) other.bounds = to.own.bounds;
+        other.thresholds = read_thresholds(keys, file);
+        if (other.thresholds.empty()) other.thresholds = to.own.thresholds;
         keys.require_nothing_unknown();
-        const bool is_control = other.role == Role::must_fail || other.role == Role::must_hold;
+        const bool is_control = other.role == Role::negative_control || other.role == Role::positive_control;
         if (is_control != (std::string(list) == "controls"))
-            keys.refuse("role", "expected must_fail or must_hold in controls, and none in compared");
+            keys.refuse("role", "expected negative_control or positive_control in controls, and none in compared");
     });
 }
 
-bool is_field_of_a_unit(const std::string& name)
+bool is_field_of_a_case(const std::string& name)
 {
     return name == "quantity" || case_key_field(name);
 }
 
 void require_judgeable(const Claim& claim, const TomlKeys& reader)
 {
-    const bool by_units = claim.rule == ClaimRule::units, measured = by_units || claim.rule == ClaimRule::single;
+    const bool by_cases = claim.rule == ClaimRule::cases, measured = by_cases || claim.rule == ClaimRule::single;
     if (measured && claim.own.quantities.empty()) reader.refuse("quantities", "expected at least one");
-    if (measured && claim.own.bounds.empty()) reader.refuse("bounds", "missing in this claim");
-    if (measured && claim.source.empty()) reader.refuse("source", "expected where the bound comes from");
-    if (by_units && claim.unit.empty()) reader.refuse("unit", "expected the fields that make a unit");
-    for (const std::string& field : claim.unit)
-        if (!is_field_of_a_unit(field)) reader.refuse("unit", field + ": expected fields of a key, as body or joint, or quantity");
+    if (measured && claim.own.thresholds.empty()) reader.refuse("thresholds", "missing in this claim");
+    if (measured && claim.source.empty()) reader.refuse("source", "expected where the threshold comes from");
+    if (by_cases && claim.case_fields.empty()) reader.refuse("case_fields", "expected the fields that make a case");
+    for (const std::string& field : claim.case_fields)
+        if (!is_field_of_a_case(field)) reader.refuse("case_fields", field + ": expected fields of a key, as body or joint, or quantity");
     if (!(claim.no_effect >= 0.0 && claim.no_effect < 1.0)) reader.refuse("no_effect", "expected 0 <= no_effect < 1");
-    const auto is_positive = [](const Selection& one) { return one.role == Role::must_fail; };
-    if (by_units && claim.no_effect == 0.0 && std::ranges::none_of(claim.others, is_positive))
-        reader.refuse("controls", "expected one that must fail, or no_effect");
-    const auto is_unseen = [&](const Selection& one) { return one.name == claim.unseen_by && is_positive(one); };
-    if (!claim.unseen_by.empty() && std::ranges::none_of(claim.others, is_unseen))
-        reader.refuse("unseen_by", "expected the name of a control that must fail");
+    const auto is_negative = [](const Selection& one) { return one.role == Role::negative_control; };
+    if (by_cases && claim.no_effect == 0.0 && std::ranges::none_of(claim.others, is_negative))
+        reader.refuse("controls", "expected a negative control, or no_effect");
+    const auto is_selecting = [&](const Selection& one) { return one.name == claim.selected_by && is_negative(one); };
+    if (!claim.selected_by.empty() && std::ranges::none_of(claim.others, is_selecting))
+        reader.refuse("selected_by", "expected the name of a negative control");
+    if (const std::string fault = short_name_fault(claim); !fault.empty()) reader.refuse("short", fault);
+    if (const std::string fault = headline_fault(claim); !fault.empty()) reader.refuse("headline", fault);
     const bool untested = claim.rule == ClaimRule::untestable || claim.rule == ClaimRule::definition;
     if (untested && claim.reason.empty()) reader.refuse("reason", "missing in this claim");
 }
@@ -143,26 +148,29 @@ Claim read_claim(const toml::table& table, const std::string& file)
     Claim claim;
     reader.required("id", claim.id);
     reader.required("statement", claim.statement);
+    reader.required("short", claim.short_name);
+    reader.required("headline", claim.headline);
     reader.required("place", claim.place);
     reader.required("study", claim.study);
     reader.required("cost_minutes", claim.cost_minutes);
     if (!reader.has("rule")) reader.refuse("rule", "missing in this claim");
-    read_name(reader, "rule", rules, "expected units, single, printed, definition or untestable", claim.rule);
+    read_name(reader, "rule", rules, "expected cases, single, printed, definition or untestable", claim.rule);
     claim.own.name = claim.id;
     reader.optional("quantities", claim.own.quantities);
     claim.own.of = read_key(reader, "of", file);
     claim.own.over = read_key(reader, "over", file);
-    claim.own.bounds = read_bounds(reader, file);
-    reader.optional("unit", claim.unit);
+    claim.own.thresholds = read_thresholds(reader, file);
+    reader.optional("case_fields", claim.case_fields);
     read_name(reader, "mean", means, "expected arithmetic or geometric", claim.mean);
     reader.optional("source", claim.source);
     reader.optional("range", claim.range);
     read_others(reader, "controls", file, claim);
     read_others(reader, "compared", file, claim);
-    reader.optional("unseen_by", claim.unseen_by);
+    reader.optional("selected_by", claim.selected_by);
     reader.optional("no_effect", claim.no_effect);
-    read_each(reader, "confirmatory", "expected a list of { field = value }",
-              [&](const toml::table& key) { claim.confirmatory.push_back(read_key(key, file)); });
+    read_each(reader, "held_out", "expected a list of { field = value }",
+              [&](const toml::table& key) { claim.held_out.push_back(read_key(key, file)); });
+    reader.optional("thresholds_fixed_at", claim.thresholds_fixed_at);
     reader.optional("fixed_at", claim.fixed_at);
     reader.optional("reason", claim.reason);
     reader.optional("formulae", claim.formulae);

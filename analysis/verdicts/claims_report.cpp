@@ -1,6 +1,7 @@
 #include "analysis/verdicts/verdict.hpp"
 
 #include "analysis/records/report_table.hpp"
+#include "analysis/verdicts/headline.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,8 +9,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
+#include <ranges>
 #include <set>
 
 namespace analysis {
@@ -28,29 +31,29 @@ json to_json_of(const LeftOut& out)
     return {{"scene", out.scene}, {"reason", out.reason}};
 }
 
-json to_json_of(const Bound& bound)
+json to_json_of(const Threshold& threshold)
 {
-    json object = to_json_of(bound.of);
-    object.update({{"low", finite(bound.low)}, {"high", finite(bound.high)}});
-    if (!bound.quantity.empty()) object["quantity"] = bound.quantity;
+    json object = to_json_of(threshold.of);
+    object.update({{"low", finite(threshold.low)}, {"high", finite(threshold.high)}});
+    if (!threshold.quantity.empty()) object["quantity"] = threshold.quantity;
     return object;
 }
 
-json to_json_of(const Unit& unit)
+json to_json_of(const JudgedCase& tested)
 {
-    json object = to_json_of(unit.of);
-    object.update({{"unit", unit.unit},
-                   {"value", finite(unit.value)},
-                   {"low", finite(unit.low)},
-                   {"high", finite(unit.high)},
-                   {"bound_low", finite(unit.bound.low)},
-                   {"bound_high", finite(unit.bound.high)},
-                   {"n", unit.n},
-                   {"holds", unit.holds},
-                   {"left_out", unit.counts() ? json(nullptr) : json(name_of(unit.left_out))}});
-    if (!unit.quantity.empty()) object["quantity"] = unit.quantity;
-    for (const Unit& part : unit.parts) object["parts"].push_back(to_json_of(part));
-    if (unit.limit != Limit::none) object["limit"] = recorded_name(unit.limit);
+    json object = to_json_of(tested.of);
+    object.update({{"unit", tested.unit},
+                   {"value", finite(tested.value)},
+                   {"low", finite(tested.low)},
+                   {"high", finite(tested.high)},
+                   {"threshold_low", finite(tested.threshold.low)},
+                   {"threshold_high", finite(tested.threshold.high)},
+                   {"n", tested.n},
+                   {"holds", tested.holds},
+                   {"excluded", tested.counts() ? json(nullptr) : json(name_of(tested.excluded))}});
+    if (!tested.quantity.empty()) object["quantity"] = tested.quantity;
+    for (const JudgedCase& part : tested.parts) object["parts"].push_back(to_json_of(part));
+    if (tested.limit != Limit::none) object["limit"] = recorded_name(tested.limit);
     return object;
 }
 
@@ -59,10 +62,31 @@ json to_json_of(const PrintedValue& value)
     json object = to_json_of(value.of);
     object.update({{"quantity", value.quantity},
                    {"value", finite(value.printed)},
-                   {"bound_low", finite(value.least)},
-                   {"bound_high", finite(value.most)},
+                   {"threshold_low", finite(value.least)},
+                   {"threshold_high", finite(value.most)},
                    {"holds", value.is_consistent()}});
     return object;
+}
+
+json to_json_of(const BodyExcluded& excluded)
+{
+    return {{"body", excluded.body}, {"verdict", name_of(excluded.kind)}};
+}
+
+json to_json_of(const ThresholdRange& range)
+{
+    json object = to_json_of(range.threshold.of);
+    object.update({{"end", range.is_high ? "high" : "low"},
+                   {"threshold", range.is_high ? range.threshold.high : range.threshold.low},
+                   {"low", finite(range.low)},
+                   {"high", finite(range.high)}});
+    if (!range.threshold.quantity.empty()) object["quantity"] = range.threshold.quantity;
+    return object;
+}
+
+json text_or_null(const std::string& text)
+{
+    return text.empty() ? json(nullptr) : json(text);
 }
 
 json to_json_of(const Judged& judged);
@@ -75,21 +99,21 @@ json list_of(const List& all)
     return list;
 }
 
-// The numbers of the units that count: least, median, most.
+// The numbers of the cases that count: least, median, most.
 std::vector<double> numbers_of(const Judged& judged)
 {
     std::vector<double> numbers;
-    for (const Unit& unit : judged.units)
-        if (unit.counts() && std::isfinite(unit.value)) numbers.push_back(unit.value);
+    for (const JudgedCase& tested : judged.cases)
+        if (tested.counts() && std::isfinite(tested.value)) numbers.push_back(tested.value);
     std::ranges::sort(numbers);
     return numbers;
 }
 
-json left_out_of(const Judged& judged)
+json excluded_of(const Judged& judged)
 {
     json counts = json::object();
-    for (const Unit& unit : judged.units)
-        if (!unit.counts()) counts[name_of(unit.left_out)] = counts.value(name_of(unit.left_out), 0) + 1;
+    for (const JudgedCase& tested : judged.cases)
+        if (!tested.counts()) counts[name_of(tested.excluded)] = counts.value(name_of(tested.excluded), 0) + 1;
     return counts;
 }
 
@@ -103,7 +127,7 @@ json facts_of(const Judged& judged)
             {"least", none ? json(nullptr) : json(numbers.front())},
             {"median", none ? json(nullptr) : json(median(numbers))},
             {"most", none ? json(nullptr) : json(numbers.back())},
-            {"left_out_units", left_out_of(judged)}};
+            {"excluded_cases", excluded_of(judged)}};
 }
 
 json to_json_of(const Judged& judged)
@@ -114,9 +138,9 @@ json to_json_of(const Judged& judged)
                    {"quantities", judged.selection.quantities},
                    {"of", to_json_of(judged.selection.of)},
                    {"over", to_json_of(judged.selection.over)},
-                   {"bounds", list_of(judged.selection.bounds)},
+                   {"thresholds", list_of(judged.selection.thresholds)},
                    {"behaves", judged.behaves},
-                   {"cases", list_of(judged.units)}});
+                   {"cases", list_of(judged.cases)}});
     return object;
 }
 
@@ -135,39 +159,45 @@ json claim_object(const Verdict& verdict)
         (other.selection.role == Role::comparison ? compared : controls).push_back(to_json_of(other));
     json object = facts_of(verdict.own);
     object.update({{"id", claim.id},
+                   {"short", claim.short_name},
+                   {"measured", text_or_null(measured_text(verdict))},
+                   {"asked", text_or_null(asked_text(claim))},
                    {"statement", claim.statement},
                    {"place", claim.place},
                    {"study", claim.study},
                    {"rule", name_of(claim.rule)},
                    {"reason", claim.reason},
                    {"verdict", name_of(verdict.kind)},
-                   {"untested", name_of(verdict.untested)},
+                   {"why_inconclusive", name_of(verdict.inconclusive)},
                    {"quantities", claim.own.quantities},
                    {"of", to_json_of(claim.own.of)},
                    {"over", to_json_of(claim.own.over)},
-                   {"bounds", list_of(claim.own.bounds)},
+                   {"thresholds", list_of(claim.own.thresholds)},
                    {"source", claim.source},
                    {"range", claim.range},
-                   {"unit_fields", claim.unit},
+                   {"case_fields", claim.case_fields},
                    {"interval_low", finite(verdict.interval.low)},
                    {"interval_high", finite(verdict.interval.high)},
                    {"chance", finite(verdict.by_chance)},
                    {"q", finite(verdict.q)},
                    {"differs", difference_of(verdict)},
                    {"fixed_at", claim.fixed_at},
-                   {"confirmatory", verdict.confirmatory.empty() ? json(nullptr) : claim_object(verdict.confirmatory.front())},
-                   {"cases", verdict.printed.empty() ? list_of(verdict.own.units) : list_of(verdict.printed)},
+                   {"thresholds_fixed_at", claim.thresholds_fixed_at.empty() ? claim.fixed_at : claim.thresholds_fixed_at},
+                   {"without_body", list_of(verdict.sensitivity.without_body)},
+                   {"threshold_ranges", list_of(verdict.sensitivity.ranges)},
+                   {"held_out", verdict.held_out.empty() ? json(nullptr) : claim_object(verdict.held_out.front())},
+                   {"cases", verdict.printed.empty() ? list_of(verdict.own.cases) : list_of(verdict.printed)},
                    {"controls", controls},
                    {"compared", compared},
                    {"readings", list_of(verdict.readings)},
-                   {"left_out", list_of(verdict.left_out)},
+                   {"excluded_scenes", list_of(verdict.left_out)},
                    {"missing", verdict.missing},
                    {"runs", verdict.runs}});
     if (!verdict.printed.empty()) {
         object["n"] = verdict.printed.size();
         object["held"] = std::ranges::count_if(verdict.printed, &PrintedValue::is_consistent);
     }
-    if (claim.rule != ClaimRule::units) object["share"] = nullptr;
+    if (claim.rule != ClaimRule::cases) object["share"] = nullptr;
     return object;
 }
 
@@ -183,99 +213,112 @@ json quantities_of(const std::vector<Verdict>& verdicts)
 const char* colour_of(VerdictKind kind)
 {
     constexpr const char *green = "\033[32m", *yellow = "\033[33m", *red = "\033[31m", *purple = "\033[35m", *grey = "\033[90m";
-    constexpr const char* colours[] = {green, red, yellow, grey, grey, purple, red};  // in the order of the enum
+    constexpr const char* colours[] = {green, red, yellow, yellow, grey, grey, grey, purple, red};  // in the order of the enum
     return colours[static_cast<int>(kind)];
 }
 
-std::string spoken(std::string name)
+// As people read it: not shown, cannot be tested.
+std::string spoken(VerdictKind kind, bool of_many)
 {
+    if (kind == VerdictKind::untestable) return "cannot be tested";
+    if (of_many && kind == VerdictKind::holds) return "hold";
+    if (of_many && kind == VerdictKind::fails) return "fail";
+    std::string name = name_of(kind);
     std::ranges::replace(name, '_', ' ');
     return name;
 }
 
-// 28 of 29 hold, share 0.966 [0.822, 0.999]; empty without units.
-std::string share_text(const Verdict& verdict)
+// In a word or two: NOT SHOWN, INCONSISTENT, UNTESTABLE.
+std::string in_capitals(VerdictKind kind)
 {
-    if (!verdict.printed.empty())
-        return fmt::format("{} of {} printed values are consistent", std::ranges::count_if(verdict.printed, &PrintedValue::is_consistent),
-                           verdict.printed.size());
-    if (verdict.own.n == 0 || verdict.claim.rule != ClaimRule::units) return "";
-    return fmt::format("{} of {} hold, share {:.3g} [{:.3g}, {:.3g}]", verdict.own.held, verdict.own.n, verdict.own.share(),
-                       verdict.interval.low, verdict.interval.high);
+    std::string name = kind == VerdictKind::inconsistent_in_print ? "inconsistent" : name_of(kind);
+    std::ranges::transform(name, name.begin(), [](unsigned char letter) { return letter == '_' ? ' ' : std::toupper(letter); });
+    return name;
+}
+
+// At most `width` characters; a longer text ends with an ellipsis.
+std::string cut(const std::string& text, std::size_t width)
+{
+    if (characters(text) <= width) return text;
+    std::string begin;
+    std::size_t count = 0;
+    for (const char byte : text) {
+        const bool starts_a_character = (static_cast<unsigned char>(byte) & 0xC0) != 0x80;
+        if (starts_a_character && ++count == width) break;
+        begin += byte;
+    }
+    return begin + "\u2026";
 }
 
 // A censored number with its sign: > 1,000.
-std::string number_text(const Unit& unit)
+std::string number_text(const JudgedCase& tested)
 {
     static constexpr std::array signs = {"", ">= ", "<= ", "> "};
-    const bool is_long = unit.limit != Limit::none && unit.value >= 1e3;
-    return signs[static_cast<std::size_t>(unit.limit)] + fmt::format("{:.{}g}", unit.value, is_long ? 4 : 3);
+    const bool is_long = tested.limit != Limit::none && tested.value >= 1e3;
+    return signs[static_cast<std::size_t>(tested.limit)] + fmt::format("{:.{}g}", tested.value, is_long ? 4 : 3);
 }
 
-// The units that count, or their parts, that have a number of this quantity, the least first.
-std::vector<Unit> units_with(const Judged& judged, const std::string& quantity)
+// The cases that count, or their parts, that have a number of this quantity, the least first.
+std::vector<JudgedCase> cases_with(const Judged& judged, const std::string& quantity)
 {
-    std::vector<Unit> units;
-    for (const Unit& unit : judged.units) {
-        const std::vector<Unit> whole = {unit};
-        for (const Unit& part : unit.parts.empty() ? whole : unit.parts)
-            if (unit.counts() && std::isfinite(part.value) && (part.quantity.empty() || part.quantity == quantity)) units.push_back(part);
+    std::vector<JudgedCase> cases;
+    for (const JudgedCase& tested : judged.cases) {
+        const std::vector<JudgedCase> whole = {tested};
+        for (const JudgedCase& part : tested.parts.empty() ? whole : tested.parts)
+            if (tested.counts() && std::isfinite(part.value) && (part.quantity.empty() || part.quantity == quantity)) cases.push_back(part);
     }
-    std::ranges::stable_sort(units, {}, &Unit::value);
-    return units;
+    std::ranges::stable_sort(cases, {}, &JudgedCase::value);
+    return cases;
 }
 
-// The numbers of the units for each quantity, least to most, with their bounds.
+// The numbers of the cases for each quantity, least to most, with their thresholds.
 std::string numbers_text(const Verdict& verdict)
 {
     std::vector<std::string> texts;
     for (const std::string& quantity : verdict.claim.own.quantities) {
-        const std::vector<Unit> units = units_with(verdict.own, quantity);
-        if (units.empty()) continue;
-        const std::string unit = units.front().unit, shown = unit.empty() || unit == "1" ? "" : " " + unit;
-        const std::string least = number_text(units.front()), most = number_text(units.back());
-        std::vector<std::string> bounds;
-        for (const Bound& bound : verdict.claim.own.bounds)
-            if (bound.quantity.empty() || bound.quantity == quantity) bounds.push_back(bound_text(bound));
+        const std::vector<JudgedCase> cases = cases_with(verdict.own, quantity);
+        if (cases.empty()) continue;
+        const std::string unit = cases.front().unit, shown = unit.empty() || unit == "1" ? "" : " " + unit;
+        const std::string least = number_text(cases.front()), most = number_text(cases.back());
+        std::vector<std::string> thresholds;
+        for (const Threshold& threshold : verdict.claim.own.thresholds)
+            if (threshold.quantity.empty() || threshold.quantity == quantity) thresholds.push_back(threshold_text(threshold));
         texts.push_back(fmt::format("{}: {}{}{}{}", quantity, least == most ? least : least + " to " + most, shown,
-                                    bounds.empty() ? "" : "; bound ", fmt::join(bounds, ", ")));
+                                    thresholds.empty() ? "" : "; threshold ", fmt::join(thresholds, ", ")));
     }
     return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-// One line each: how many units hold; their numbers with the bound; why a claim is not testable.
-std::string facts_text(const Verdict& verdict)
+// Why a verdict is inconclusive or not shown, with the controls that misbehave.
+std::string reason_text(const Verdict& verdict)
 {
-    std::vector<std::string> lines;
-    for (const std::string& line : {share_text(verdict), numbers_text(verdict)})
-        if (!line.empty()) lines.push_back(line);
-    if (verdict.kind == VerdictKind::fails && verdict.own.share() > failing_share)
-        lines.push_back(fmt::format("chance reaches as many with a probability of {:.2g}", verdict.by_chance));
-    if (verdict.untested != Untested::none && verdict.untested != Untested::reason_of_the_claim) {
-        lines.push_back(spoken(name_of(verdict.untested)));
-        for (const Judged& other : verdict.others)
-            if (!other.behaves)
-                lines.push_back(fmt::format("{} ({}): {} of {} hold", other.selection.name, spoken(name_of(other.selection.role)),
-                                            other.held, other.n));
-    }
-    if (!verdict.claim.reason.empty()) lines.push_back("reason: " + verdict.claim.reason);
-    return fmt::format("{}", fmt::join(lines, "\n"));
+    if (verdict.kind == VerdictKind::not_shown || verdict.inconclusive == Inconclusive::chance)
+        return fmt::format("chance reaches as many with a probability of {:.2g}", verdict.by_chance);
+    std::vector<std::string> texts;
+    if (verdict.inconclusive == Inconclusive::too_few_cases) texts.push_back("too few cases");
+    for (const Judged& other : verdict.others)
+        if (!other.behaves)
+            texts.push_back(fmt::format("{} {}: {} of {} hold",
+                                        other.selection.role == Role::negative_control ? "negative control" : "positive control",
+                                        other.selection.name, other.held, other.n));
+    if (!verdict.claim.reason.empty()) texts.push_back(verdict.claim.reason);
+    return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-// Names once what the claims leave out, such as a body that is not installed, and the records that are missing. Then it counts the verdicts
+// Names once what the verdicts lack, such as a body that is not installed, and the records that are missing. Then it counts the verdicts
 // of each kind.
 std::vector<std::string> closing_texts(const std::vector<Verdict>& verdicts)
 {
     std::map<std::array<std::string, 2>, std::set<std::string>> absent;
     for (const Verdict& verdict : verdicts) {
-        for (const LeftOut& out : verdict.left_out) absent[{"left out of", out.reason}].insert(verdict.claim.id);
+        for (const LeftOut& out : verdict.left_out) absent[{"excluded from", out.reason}].insert(verdict.claim.id);
         for (const std::string& name : verdict.missing) absent[{"no record for", name}].insert(verdict.claim.id);
     }
     std::vector<std::string> texts, counts;
     for (const auto& [what, claims] : absent) texts.push_back(fmt::format("{} {}: {}", what[0], fmt::join(claims, ", "), what[1]));
     for (int k = 0; k <= static_cast<int>(VerdictKind::not_computable); ++k) {
         const auto count = std::ranges::count(verdicts, static_cast<VerdictKind>(k), &Verdict::kind);
-        if (count > 0) counts.push_back(fmt::format("{} {}", count, spoken(name_of(static_cast<VerdictKind>(k)))));
+        if (count > 0) counts.push_back(fmt::format("{} {}", count, spoken(static_cast<VerdictKind>(k), count > 1)));
     }
     texts.push_back(fmt::format("{} claim{}: {}", verdicts.size(), verdicts.size() == 1 ? "" : "s", fmt::join(counts, ", ")));
     return texts;
@@ -287,55 +330,62 @@ json claims_json(const std::vector<Verdict>& verdicts, const std::string& revisi
 {
     json claims = json::array();
     for (const Verdict& verdict : verdicts) claims.push_back(claim_object(verdict));
-    return {{"schema", 3}, {"revision", revision}, {"quantities", quantities_of(verdicts)}, {"claims", claims}};
+    return {{"schema", 4}, {"revision", revision}, {"quantities", quantities_of(verdicts)}, {"claims", claims}};
 }
 
 std::string claims_markdown(const std::vector<Verdict>& verdicts)
 {
     std::string text =
-        "| id | statement | verdict | held | units | share | interval | chance | numbers | study |\n"
-        "|---|---|---|---|---|---|---|---|---|---|\n";
+        "| id | statement | verdict | measured | asked | held | cases | share | interval | chance | numbers | reason | study |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const Verdict& verdict : verdicts) {
-        const bool none = verdict.own.n == 0 || verdict.claim.rule != ClaimRule::units;
+        const bool none = verdict.own.n == 0 || verdict.claim.rule != ClaimRule::cases;
         const auto known = [&](double value) { return none || !std::isfinite(value) ? std::string() : fmt::format("{:.3g}", value); };
         const std::string interval = none ? "" : fmt::format("[{:.3g}, {:.3g}]", verdict.interval.low, verdict.interval.high);
         const json object = claim_object(verdict);
-        const bool is_bounded = !verdict.claim.own.bounds.empty() || !verdict.printed.empty();
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(verdict.claim.id),
-                            markdown_cell(verdict.claim.statement), name_of(verdict.kind), is_bounded ? object["held"].dump() : "",
-                            object["n"].dump(), known(verdict.own.share()), interval, known(verdict.by_chance),
-                            markdown_cell(numbers_text(verdict)), verdict.claim.study);
+        const bool is_bounded = !verdict.claim.own.thresholds.empty() || !verdict.printed.empty();
+        const std::vector<std::string> cells = {
+            verdict.claim.id,         verdict.claim.statement,    name_of(verdict.kind),
+            measured_text(verdict),   asked_text(verdict.claim),  is_bounded ? object["held"].dump() : "",
+            object["n"].dump(),       known(verdict.own.share()), interval,
+            known(verdict.by_chance), numbers_text(verdict),      reason_text(verdict),
+            verdict.claim.study};
+        for (const std::string& cell : cells) text += fmt::format("| {} ", markdown_cell(cell));
+        text += "|\n";
     }
     return text;
 }
 
-std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width, bool colours)
+std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width, bool colours, const FurtherColumn& further)
 {
-    constexpr std::size_t verdict_width = 14, gaps = 6;
-    const std::size_t whole = std::max<std::size_t>(width, 60);
-    std::size_t id_width = 2;
-    for (const Verdict& verdict : verdicts) id_width = std::max(id_width, characters(verdict.claim.id));
-    const std::size_t rest = whole - id_width - verdict_width - gaps, statement_width = rest * 2 / 5;
-    const auto row = [&](const std::string& id, const TextColumn& kind, const std::string& statement, const std::string& facts) {
-        return side_by_side({{id, id_width}, kind, {statement, statement_width}, {facts, rest - statement_width}});
+    struct Row {
+        std::string id, claim, verdict, measured, further, colour;
     };
-    std::string table = row("", {"verdict", verdict_width}, "claim", "facts") + std::string(whole, '-') + "\n";
+    std::vector<Row> rows = {{"", "claim of the paper", "verdict", "measured", further.heading, ""}};
     for (const Verdict& verdict : verdicts) {
-        const TextColumn kind{spoken(name_of(verdict.kind)), verdict_width, colours ? colour_of(verdict.kind) : ""};
-        table +=
-            row(verdict.claim.id, kind, fmt::format("{} ({})", verdict.claim.statement, verdict.claim.place), facts_text(verdict)) + "\n";
+        const auto added = further.texts.find(verdict.claim.id);
+        rows.push_back({verdict.claim.id, verdict.claim.short_name, in_capitals(verdict.kind), measured_text(verdict),
+                        added == further.texts.end() ? "" : added->second, colours ? colour_of(verdict.kind) : ""});
+    }
+    const auto widest = [&](std::string Row::*text) {
+        return std::ranges::max(rows | std::views::transform([&](const Row& row) { return characters(row.*text); }));
+    };
+    const std::size_t whole = std::max<std::size_t>(width, 60), gap = 2, id_width = widest(&Row::id), verdict_width = widest(&Row::verdict);
+    const std::size_t further_width = std::min(widest(&Row::further), whole / 4), gaps = (further_width > 0 ? 4 : 3) * gap;
+    const std::size_t rest = whole - id_width - verdict_width - further_width - gaps;
+    const std::size_t claim_width = std::min(widest(&Row::claim), rest - std::min(widest(&Row::measured), rest / 2));
+    std::string table;
+    for (const Row& row : rows) {
+        std::vector<TextColumn> columns = {{row.id, id_width},
+                                           {cut(row.claim, claim_width), claim_width},
+                                           {row.verdict, verdict_width, row.colour},
+                                           {cut(row.measured, rest - claim_width), std::min(widest(&Row::measured), rest - claim_width)}};
+        if (further_width > 0) columns.push_back({cut(row.further, further_width), further_width});
+        table += side_by_side(columns);
     }
     for (const std::string& text : closing_texts(verdicts))
         for (const std::string& line : wrapped(text, whole)) table += line + "\n";
     return table;
-}
-
-std::string bound_text(const Bound& bound)
-{
-    if (bound.low == bound.high) return fmt::format("{:.4g}", bound.low);
-    if (std::isinf(bound.high)) return bound.low > 0.0 && bound.low <= 1e-9 ? "above 0" : fmt::format("{:.4g} or more", bound.low);
-    if (std::isinf(bound.low)) return std::nextafter(bound.high, 2.0) == 1.0 ? "below 1" : fmt::format("{:.4g} or less", bound.high);
-    return fmt::format("{:.4g} to {:.4g}", bound.low, bound.high);
 }
 
 }  // namespace analysis

@@ -1,6 +1,7 @@
 #include "experiments/studies/reproduce.hpp"
 
 #include "analysis/records/provenance.hpp"
+#include "analysis/verdicts/sensitivity.hpp"
 #include "analysis/verdicts/verdict.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
@@ -216,8 +217,11 @@ std::vector<analysis::Verdict> verdicts_of(const Study& study, const std::string
 {
     std::vector<analysis::Verdict> verdicts;
     const analysis::Records records = read_study_records(folder, root);
-    for (const auto& claim : claims())
-        if (claim.study == study.name) verdicts.push_back(analysis::judge(claim, records));
+    for (const auto& claim : claims()) {
+        if (claim.study != study.name) continue;
+        verdicts.push_back(analysis::judge(claim, records));
+        verdicts.back().sensitivity = analysis::sensitivity(claim, records);
+    }
     return verdicts;
 }
 

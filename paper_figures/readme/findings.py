@@ -57,7 +57,7 @@ def artefacts(claims):
 
 
 def convergence(claims):
-    verdict = {"holds": "enough", "fails": "too few"}.get(of(claims, "C12a")["verdict"], "open")
+    verdict = {"holds": "enough", "fails": "too few", "not_shown": "not shown to suffice"}.get(of(claims, "C12a")["verdict"], "open")
     count = stated(claims, "C12a", lambda claim, _: f"The paper's number suffices in {claim['held']} of {counted(claim['n'], 'pose')}.")
     return f"**Iterations: {verdict}.** {count}"
 

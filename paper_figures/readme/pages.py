@@ -72,21 +72,22 @@ def claim_lines(claim):
     """Verdict and primary number of a claim; its controls, comparisons and readings, which are no part of the verdict."""
     lines = [f"**{claim['id']}: {sentences.both_verdicts(claim)}.** {claim['statement']}", "", f"{sentences.in_line(claim)}."]
     basis = sentences.basis(claim)
-    told = [*([basis] if basis else []), *(f"{text}." for text in sentences.on_confirmatory_units(claim))]
+    depends = sentences.without_a_body(claim) + sentences.threshold_ranges(claim)
+    told = [*([basis] if basis else []), *(f"{text}." for text in depends + sentences.on_held_out_cases(claim))]
     lines = [tables.in_markdown(text) for text in lines + [line for text in told for line in ("", text)]]
     lines += markdown_table(sentences.control_head, sentences.control_rows(claim))
     lines += markdown_table(sentences.compared_head, sentences.compared_rows(claim))
     lines += markdown_table(sentences.reading_head, sentences.reading_rows(claim))
-    if sentences.confirmatory(claim):
-        lines += ["", "Controls on the confirmatory units:"]
-        lines += markdown_table(sentences.control_head, sentences.control_rows(sentences.confirmatory(claim)))
+    if sentences.held_out(claim):
+        lines += ["", "Controls on the held-out cases:"]
+        lines += markdown_table(sentences.control_head, sentences.control_rows(sentences.held_out(claim)))
     return lines + [line for text in sentences.disagreements(claim) for line in ("", text)]
 
 
 def claim_page_lines(claims):
     """A page serves a claim of the paper, which may be two here, such as C02a and C02b."""
     differing = [[f"**{claim['id']} has two verdicts: {sentences.both_verdicts(claim)}.**"] for claim in claims
-                 if sentences.confirmatory(claim) and sentences.confirmatory(claim)["verdict"] != claim["verdict"]]
+                 if sentences.held_out(claim) and sentences.held_out(claim)["verdict"] != claim["verdict"]]
     parts = [*differing, [f"Study: [{claims[0]['study']}](../../studies/{claims[0]['study']}/README.md)."], *map(claim_lines, claims)]
     return [line for part in parts for line in ["", *part]][1:]
 

@@ -47,28 +47,16 @@ def in_markdown(text):
 
 def claims_table(results):
     """The lines of the table, the header first. What is behind a verdict is on the claim's page."""
-    rows = [[page_link(claim), claim.get("short", claim["statement"].rstrip(".")), sentences.names[claim["verdict"]], measured(claim),
-             asked(claim)] for claim in claims_of(results)]
+    rows = [[page_link(claim), claim["short"], sentences.names[claim["verdict"]], claim["measured"] or "", claim["asked"] or ""]
+            for claim in claims_of(results)]
     return [claim_head, "|---" * 5 + "|", *(line(*map(in_markdown, row)) for row in rows)]
-
-
-def measured(claim):
-    """What was measured in a few words."""
-    if "measured" in claim:
-        return claim["measured"] or ""
-    return f"{claim['held']} of {claim['n']}" if claim["rule"] in ("units", "cases", "printed") and claim["n"] else ""
-
-
-def asked(claim):
-    """The claim's threshold in a few words."""
-    return claim["asked"] or "" if "asked" in claim else "; ".join(dict.fromkeys(sentences.expected(claim)))
 
 
 def held_out_sentences(claims):
     """The verdicts on cases that were recorded after the rule was fixed, by verdict; no sentence without such cases."""
     by_verdict = {}
     for claim in claims:
-        later = claim.get("held_out") or claim.get("confirmatory")
+        later = claim["held_out"]
         if later:
             by_verdict.setdefault(later["verdict"], []).append(claim["id"])
     parts = [f"{compared_methods.conjoined(ids, 'and')} {sentences.kinds[verdict][len(ids) != 1]}" for verdict, ids in by_verdict.items()]

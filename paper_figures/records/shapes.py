@@ -37,6 +37,7 @@ def with_member(member, having, other):
 
 anything = Rule("anything", lambda value: True)
 text = Rule("a text", lambda value: isinstance(value, str) and not any("\ud800" <= letter <= "\udfff" for letter in value))
+text_or_none = Rule("a text or null", lambda value: value is None or text.holds(value))
 truth = Rule("true or false", lambda value: isinstance(value, bool))
 number = Rule("a number", is_number)
 figure = Rule("a number or null", lambda value: value is None or is_number(value))  # null: not finite
@@ -88,6 +89,7 @@ def read(file, shape):
 
 
 third_schema = Rule("3", lambda value: value == 3)
+fourth_schema = Rule("4", lambda value: value == 4)  # of claims.json
 provenance = {"version?": text, "git_revision?": text, "git_dirty?": truth, "compiler?": text, "flags?": text, "build_type?": text,
               "cpu_model?": text, "logical_cpus?": whole, "threads?": whole, "libraries?": {"*": text}, "input_hashes?": {"*": text}}
 deformer = {"label": text, "name": text, "variant": text, "options?": {"k_stretch?": number, "jiggle?": {"k_stretch": number}}}
@@ -100,30 +102,35 @@ judged_run = {"outcome": {"frames": whole}}  # a run compared with a reference
 
 plan = {"extent?": text, "runs": [{"name": text}], "left_out?": [{"scene": text, "reason": text}]}
 
-verdict = one_of("holds", "fails", "mixed", "not_testable", "definition", "inconsistent_in_print", "not_computable")
+verdict = one_of("holds", "fails", "mixed", "not_shown", "inconclusive", "untestable", "definition", "inconsistent_in_print",
+                 "not_computable")
 key = {name + "?": text for name in ("body", "motion", "pose", "joint", "deformer", "variant", "reference", "order", "precision", "masses",
                                      "constraint", "initial_guess", "tolerance", "load", "ladder", "factor", "second_factor", "model",
                                      "equation", "gradient_of", "reading")}
 key |= {name + "?": number for name in ("angle_deg", "time_s", "vertices", "vertices_to", "k_stretch", "k_stretch_to", "k_bind", "young_pa",
                                         "iterations", "iterations_to", "time_step_s", "time_step_to_s")}
-judged = {"value": figure, "bound_low": figure, "bound_high": figure, "holds": truth}
-left_out = one_of(None, "nothing_to_see", "no_control", "nothing_to_compare_with", "censored")
-unit = key | judged | {"quantity?": text, "unit": text, "low": figure, "high": figure, "n": whole, "left_out": left_out,
+judged = {"value": figure, "threshold_low": figure, "threshold_high": figure, "holds": truth}
+excluded = one_of(None, "nothing_to_see", "no_control", "nothing_to_compare_with", "censored")
+tested = key | judged | {"quantity?": text, "unit": text, "low": figure, "high": figure, "n": whole, "excluded": excluded,
                        "limit?": one_of("at_least", "at_most", "more_than"),
                        "parts?": [judged | {"quantity": text, "unit?": text, "low": figure, "high": figure}]}
 printed = key | judged | {"quantity": text}
-facts = {"held": whole, "n": whole, "share": figure, "least": figure, "median": figure, "most": figure, "left_out_units": {"*": whole},
-         "quantities": [text], "of": key, "over": key, "bounds": [key | {"low": figure, "high": figure, "quantity?": text}]}
-selection = facts | {"name": text, "role": one_of("must_fail", "must_hold", "comparison"), "behaves": truth, "cases": [unit]}
+facts = {"held": whole, "n": whole, "share": figure, "least": figure, "median": figure, "most": figure, "excluded_cases": {"*": whole},
+         "quantities": [text], "of": key, "over": key, "thresholds": [key | {"low": figure, "high": figure, "quantity?": text}]}
+selection = facts | {"name": text, "role": one_of("negative_control", "positive_control", "comparison"), "behaves": truth,
+                     "cases": [tested]}
 difference = {"field": text, "least_at": text, "least": number, "most_at": text, "most": number}
 claim = facts | {"id": text, "statement": text, "place": text, "study": text, "reason": text, "verdict": verdict,
-                 "rule": one_of("units", "single", "printed", "definition", "untestable"), "unit_fields": [text], "source": text,
-                 "untested": one_of("none", "reason_of_the_claim", "too_few_units", "control_without_record", "control_misbehaves"),
+                 "rule": one_of("cases", "single", "printed", "definition", "untestable"), "case_fields": [text], "source": text,
+                 "why_inconclusive": one_of("none", "too_few_cases", "control_without_record", "control_misbehaves", "chance"),
                  "range": text, "interval_low": figure, "interval_high": figure, "chance": figure, "q": figure,
-                 "differs": lambda value: anything if value is None else difference, "fixed_at": text,
-                 "confirmatory": lambda value: claim if isinstance(value, dict) else anything,
-                 "cases": [with_member("unit", unit, printed)], "controls": [selection], "compared": [selection], "readings": [selection],
-                 "left_out": [{"scene": text, "reason": text}], "missing": [text], "runs": [text]}
-claims = {"schema": third_schema, "quantities": {"*": {"title": text, "unit": text}}, "claims": [claim]}
+                 "differs": lambda value: anything if value is None else difference, "fixed_at": text, "thresholds_fixed_at": text,
+                 "short": text, "measured": text_or_none, "asked": text_or_none, "without_body": [{"body": text, "verdict": verdict}],
+                 "threshold_ranges": [key | {"end": one_of("low", "high"), "threshold": number, "low": figure, "high": figure,
+                                             "quantity?": text}],
+                 "held_out": lambda value: claim if isinstance(value, dict) else anything,
+                 "cases": [with_member("unit", tested, printed)], "controls": [selection], "compared": [selection], "readings": [selection],
+                 "excluded_scenes": [{"scene": text, "reason": text}], "missing": [text], "runs": [text]}
+claims = {"schema": fourth_schema, "quantities": {"*": {"title": text, "unit": text}}, "claims": [claim]}
 
 reliability = {"name": text, "count": number, "of": number, "command": text, "revision": text, "note?": text}

@@ -1,12 +1,13 @@
 """The claims with their verdicts: the mark of each verdict with the class of its colour; a line for each claim with its numbers on an axis,
-which opens to the units, controls, comparisons and readings behind it. sentences.py composes the sentences."""
+which opens to the cases, controls, comparisons and readings behind it. sentences.py composes the sentences."""
 from report import axis
 from report.markup import Markup, beside_the_page, element, escaped, folder_link, items, joined, table
 from words import case_words, glossary, sentences
 from words.number_words import figure
 
 marks = {"holds": ("\u2714", "holds"), "fails": ("\u2718", "fails"), "mixed": ("\u25d0", "partly"),
-         "inconsistent_in_print": ("\u2260", "print"), "not_testable": ("\u25cb", "untested"), "definition": ("\u2261", "untested"),
+         "inconsistent_in_print": ("\u2260", "print"), "not_shown": ("\u25d4", "partly"),
+         "inconclusive": ("\u25cb", "untested"), "untestable": ("\u2013", "untested"), "definition": ("\u2261", "untested"),
          "not_computable": ("?", "fails")}
 most_rows = 400  # rows per table; claims.json has the rest
 
@@ -17,27 +18,28 @@ def mark_of(verdict):
 
 
 def outcome(case):
-    if case.get("left_out"):
-        return "left out: " + case_words.of_field("left_out", case["left_out"])
+    if case.get("excluded"):
+        return "excluded: " + case_words.of_field("excluded", case["excluded"])
     return "\u2714 yes" if case["holds"] else "\u2718 no"
 
 
-def unit_rows(claim, case):
-    """One row for each quantity of the unit."""
+def case_rows(claim, case):
+    """One row for each quantity of the case."""
     rows = []
     for part in sentences.parts(claim, case):
         has_quantity = "quantity" in case or "parts" in case
         of = ", ".join(filter(None, [case_words.of(part), sentences.title(claim, part["quantity"]) if has_quantity else ""]))
         ends = "" if part.get("low") == part.get("high") else f"{figure(part['low'])} to {figure(part['high'])}"
-        rows.append([of, sentences.shown(part), ends or "\u2013", sentences.bound(part["bound_low"], part["bound_high"]), outcome(part)])
+        threshold = sentences.threshold(part["threshold_low"], part["threshold_high"])
+        rows.append([of, sentences.shown(part), ends or "\u2013", threshold, outcome(part)])
     return rows
 
 
-def unit_table(claim, name, cases):
+def case_table(claim, name, cases):
     if not cases:
         return ""
-    header = ["printed value" if claim["rule"] == "printed" else "unit", "number", sentences.range_name(claim), "bound", "holds"]
-    rows = [row for case in cases[:most_rows] for row in unit_rows(claim, case)]
+    header = ["printed value" if claim["rule"] == "printed" else "case", "number", sentences.range_name(claim), "threshold", "holds"]
+    rows = [row for case in cases[:most_rows] for row in case_rows(claim, case)]
     left = len(cases) - most_rows
     shown = table(name, header, rows, "tall")
     return joined([shown, element("p", f"claims.json has {left} more.")]) if left > 0 else shown
@@ -48,20 +50,20 @@ def rows_table(claim, what, header, rows):
 
 
 def behind(claim, found):
-    """What the reader sees of an open line: the facts, the units, the controls, and what is compared."""
-    what = "printed value" if claim["rule"] == "printed" else "unit"
+    """What the reader sees of an open line: the facts, the cases, the controls, and what is compared."""
+    what = "printed value" if claim["rule"] == "printed" else "case"
     basis = sentences.basis(claim)
-    later = sentences.confirmatory(claim)
+    later = sentences.held_out(claim)
     controls_later = sentences.control_rows(later) if later else []
-    parts = [listed(sentences.facts(claim) + sentences.on_confirmatory_units(claim)), element("p", basis) if basis else "",
-             unit_table(claim, f"{claim['id']}: {what}s", claim["cases"]),
+    parts = [listed(sentences.facts(claim) + sentences.on_held_out_cases(claim)), element("p", basis) if basis else "",
+             case_table(claim, f"{claim['id']}: {what}s", claim["cases"]),
              rows_table(claim, "controls", sentences.control_head, sentences.control_rows(claim)),
              rows_table(claim, "for comparison, no part of the verdict", sentences.compared_head, sentences.compared_rows(claim)),
              rows_table(claim, "other readings, no part of the verdict", sentences.reading_head, sentences.reading_rows(claim)),
              *(element("p", text) for text in sentences.disagreements(claim)),
-             unit_table(claim, f"{claim['id']}: confirmatory units", (later or {}).get("cases")),
-             rows_table(claim, "controls of the confirmatory units", sentences.control_head, controls_later),
-             *(unit_table(claim, f"{claim['id']}: {of['name']}", of["cases"]) for of in claim["controls"])]
+             case_table(claim, f"{claim['id']}: held-out cases", (later or {}).get("cases")),
+             rows_table(claim, "controls of the held-out cases", sentences.control_head, controls_later),
+             *(case_table(claim, f"{claim['id']}: {of['name']}", of["cases"]) for of in claim["controls"])]
     runs = joined((folder_link(found.results, run) for run in claim["runs"] or [claim["study"]]), ", ")
     parts.append(element("p", joined(["Runs (", beside_the_page("folders"), "): ", runs])))
     return joined(parts, "\n")
@@ -73,9 +75,9 @@ def mark(verdict):
 
 
 def both_marks(claim):
-    """That on the confirmatory units stands next to the other one."""
-    later = sentences.confirmatory(claim)
-    return joined([mark(claim["verdict"]), *(["; on the confirmatory units: ", mark(later["verdict"])] if later else [])])
+    """That on the held-out cases stands next to the other one."""
+    later = sentences.held_out(claim)
+    return joined([mark(claim["verdict"]), *(["; on the held-out cases: ", mark(later["verdict"])] if later else [])])
 
 
 def chips(claims):
@@ -97,7 +99,7 @@ def line(claim, found, pose, drawn):
     """One line, which opens. pose: the link to it in the viewer, or None; drawn: the figures of the page."""
     statement = element("span", joined([element("b", claim["id"]), f" {claim['statement']} ",
                                         element("span", claim["place"], class_="place")]), class_="statement")
-    first = [*sentences.why_untested(claim)[:1], *(sentences.facts(claim) or [""])[:1], *sentences.by_chance(claim)]
+    first = [*sentences.why_inconclusive(claim)[:1], *(sentences.facts(claim) or [""])[:1], *sentences.by_chance(claim)]
     verdict = element("span", joined([both_marks(claim), element("span", "; ".join(dict.fromkeys(first)), class_="under")]),
                       class_="verdict")
     summary = element("summary", joined([statement, verdict, element("span", axis.drawn(claim), class_="numbers")]))
@@ -107,8 +109,8 @@ def line(claim, found, pose, drawn):
     return Markup(f'<details class="claim" id="{escaped(claim["id"])}">{summary}{joined([links, behind(claim, found)])}</details>')
 
 
-legend = ("A dot is a unit: a body with a clip, a joint or a mesh; green ones hold. The shaded band is the bound. A triangle is a "
-          "control: a method for which the claim must fail, or one for which it must hold. Click a line for its data.")
+legend = ("A dot is a case: a body with a clip, a joint or a mesh; green ones hold. The shaded band is the threshold. A triangle is a "
+          "negative control, which must fail, or a positive control, which must hold. Click a line for its data.")
 
 
 def section(found, poses, drawn):

@@ -3,7 +3,7 @@
     for claim in sentences.claims_of(results / "claims.json"):
         print(claim["id"], "; ".join(sentences.facts(claim)))
 
-A claim is judged by its units: 28 of 29 units hold, share 0.966 [0.822, 0.999]; 0.067 to 1.02, bound 0.95 or more. In brackets stands
+A claim is judged by its cases: 28 of 29 cases hold, share 0.966 [0.822, 0.999]; 0.067 to 1.02, threshold 0.95 or more. In brackets stands
 only the interval of the share; ranges over meshes, frames or orders of projection have these names.
 """
 import math
@@ -15,11 +15,12 @@ from words.number_words import counted, figure
 names = case_words.tables["verdict"]
 kinds = {"holds": ("holds", "hold"), "fails": ("fails", "fail"), "mixed": ("is mixed", "are mixed"),
          "inconsistent_in_print": ("is inconsistent in print", "are inconsistent in print"),
-         "not_testable": ("is not testable", "are not testable"), "definition": ("is a definition", "are definitions"),
+         "not_shown": ("is not shown", "are not shown"), "inconclusive": ("is inconclusive", "are inconclusive"),
+         "untestable": ("cannot be tested", "cannot be tested"), "definition": ("is a definition", "are definitions"),
          "not_computable": ("is not computable", "are not computable")}
 author = "the author's later code"
-holding_share, failing_share, least_units = 0.95, 0.5, 5  # as in analysis/verdicts/verdict.hpp
-most_ranges = 2  # that cross the bound, named one by one
+holding_share, failing_share, least_cases = 0.95, 0.5, 5  # as in analysis/verdicts/verdict.hpp
+most_ranges = 2  # that cross the threshold, named one by one
 most_values = 2  # that are printed, likewise
 
 
@@ -51,8 +52,8 @@ def with_unit(unit):
     return "" if unit in ("", "1") else f" {unit}"
 
 
-def bound(low, high):
-    """0.9 to 1.1; 1.05 or more; below 1; above 0; empty without bounds. A bound right beside a round number excludes this number."""
+def threshold(low, high):
+    """0.9 to 1.1; 1.05 or more; below 1; above 0; empty without one. A threshold right beside a round number excludes this number."""
     if low is not None and high is not None:
         text = f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
     elif low is not None:
@@ -65,16 +66,16 @@ def bound(low, high):
 
 
 def settings_of(of):
-    """The settings for which a bound is, where there are several."""
+    """The settings for which a threshold is, where there are several."""
     return [case_words.of_field(field, value) for field, value in of.items() if field not in ("low", "high", "quantity")]
 
 
 def expected(claim):
-    """The text of each bound."""
+    """The text of each threshold."""
     if claim["rule"] == "printed":
         return ["each value as the others require"]
-    named = [", ".join(settings_of(of) + ([title(claim, of["quantity"])] if "quantity" in of else [])) for of in claim["bounds"]]
-    return [": ".join(filter(None, [name, bound(of["low"], of["high"])])) for name, of in zip(named, claim["bounds"])]
+    named = [", ".join(settings_of(of) + ([title(claim, of["quantity"])] if "quantity" in of else [])) for of in claim["thresholds"]]
+    return [": ".join(filter(None, [name, threshold(of["low"], of["high"])])) for name, of in zip(named, claim["thresholds"])]
 
 
 def shown(case):
@@ -87,7 +88,7 @@ def shown(case):
 
 
 def counting(of):
-    return [case for case in of["cases"] if case.get("left_out") is None]
+    return [case for case in of["cases"] if case.get("excluded") is None]
 
 
 def span(cases):
@@ -101,15 +102,15 @@ def span(cases):
 
 
 def parts(of, case):
-    """The number of a unit for each of its quantities, with the key of the unit."""
+    """The number of a case for each of its quantities, with the key of the case."""
     if "parts" not in case:
         return [{"quantity": of["quantities"][0]} | case if of["quantities"] else case]
-    unit = {name: value for name, value in case.items() if name not in ("parts", "limit")}
-    return [unit | part | {"left_out": case["left_out"]} for part in case["parts"]]
+    key = {name: value for name, value in case.items() if name not in ("parts", "limit")}
+    return [key | part | {"excluded": case["excluded"]} for part in case["parts"]]
 
 
 def by_quantity(of):
-    """The numbers of the units that count: quantity -> its numbers."""
+    """The numbers of the cases that count: quantity -> its numbers."""
     groups = {}
     for part in (part for case in counting(of) for part in parts(of, case)):
         groups.setdefault(part.get("quantity"), []).append(part)
@@ -127,22 +128,22 @@ def number_of(claim, quantity):
 
 
 def numbers(claim):
-    """The range of the units' numbers for each quantity and each bound: section radius: 0.067 to 1.02, bound 0.95 or more."""
+    """The range of the cases' numbers for each quantity and each threshold: section radius: 0.067 to 1.02, threshold 0.95 or more."""
     texts = []
     for quantity, cases in by_quantity(claim).items():
-        for ends in dict.fromkeys((case["bound_low"], case["bound_high"]) for case in cases):
-            settings = [settings_of(of) for of in claim["bounds"]
+        for ends in dict.fromkeys((case["threshold_low"], case["threshold_high"]) for case in cases):
+            settings = [settings_of(of) for of in claim["thresholds"]
                         if (of["low"], of["high"]) == ends and of.get("quantity", quantity) == quantity]
-            text = span([case for case in cases if (case["bound_low"], case["bound_high"]) == ends])
+            text = span([case for case in cases if (case["threshold_low"], case["threshold_high"]) == ends])
             name = ", ".join([number_of(claim, quantity), *(settings[0] if settings else [])])
-            texts.append(f"{name}: {text}" + (f", bound {bound(*ends)}" if bound(*ends) else ""))
+            texts.append(f"{name}: {text}" + (f", threshold {threshold(*ends)}" if threshold(*ends) else ""))
     return texts
 
 
 def crosses(case):
-    """Whether a part of the range lies within the bound and a part outside."""
-    least = -math.inf if case["bound_low"] is None else case["bound_low"]
-    most = math.inf if case["bound_high"] is None else case["bound_high"]
+    """Whether a part of the range lies within the threshold and a part outside."""
+    least = -math.inf if case["threshold_low"] is None else case["threshold_low"]
+    most = math.inf if case["threshold_high"] is None else case["threshold_high"]
     low, high = range_of(case)
     return case["value"] is not None and low <= most and high >= least and not least <= low <= high <= most
 
@@ -158,10 +159,11 @@ def range_text(case):
 
 
 def ranges(claim):
-    """The units whose range crosses the bound: range over meshes of limb, twist 180 deg: 0.065 to 0.97."""
+    """The cases whose range crosses the threshold: range over meshes of limb, twist 180 deg: 0.065 to 0.97."""
     found = [case for case in counting(claim) if crosses(case)] if claim["range"] else []
     named = [f"{range_name(claim)} of {case_words.of(case)}: {range_text(case)}" for case in found[:most_ranges]]
-    return named + ([f"the ranges of {counted(len(found) - most_ranges, 'more unit')} cross the bound"] if len(found) > most_ranges else [])
+    others = len(found) - most_ranges
+    return named + ([f"the ranges of {counted(others, 'more case')} cross the threshold"] if others > 0 else [])
 
 
 def range_name(claim):
@@ -170,79 +172,80 @@ def range_name(claim):
     return over + claim["range"] if claim["range"] else "range"
 
 
-# How many units hold.
+# How many cases hold.
 
 def share(claim):
-    """28 of 29 units hold, share 0.966 [0.822, 0.999]"""
+    """28 of 29 cases hold, share 0.966 [0.822, 0.999]"""
     text = held(claim, " hold")
     return text if claim["interval_low"] is None or claim["interval_high"] is None else (
         f"{text} [{claim['interval_low']:.3g}, {claim['interval_high']:.3g}]")
 
 
 def held(of, verb=""):
-    """28 of 29 units, share 0.966; without a bound only their number; no record without units."""
+    """28 of 29 cases, share 0.966; without a threshold only their number; no record without cases."""
     if not of["n"]:
-        return "no record" if not of["cases"] else "no unit counts"
-    if not of["bounds"]:
-        return counted(of["n"], "unit")
+        return "no record" if not of["cases"] else "no case counts"
+    if not of["thresholds"]:
+        return counted(of["n"], "case")
     known = "" if of["share"] is None else f", share {of['share']:.3g}"
-    return f"{of['held']} of {counted(of['n'], 'unit')}{verb}{known}"
+    return f"{of['held']} of {counted(of['n'], 'case')}{verb}{known}"
 
 
-def left_out_units(of):
-    return [f"{counted(number, 'unit')} left out: {case_words.of_field('left_out', why)}" for why, number in of["left_out_units"].items()]
+def excluded_cases(of):
+    return [f"{counted(number, 'case')} excluded: {case_words.of_field('excluded', why)}" for why, number in of["excluded_cases"].items()]
 
 
 def by_chance(claim):
     """Where chance decides."""
-    decides = claim["verdict"] == "fails" and claim["chance"] is not None and (claim["share"] or 0) > failing_share
+    decides = claim["verdict"] == "not_shown" or claim["why_inconclusive"] == "chance"
     return [f"chance alone reaches as many with probability {figure(claim['chance'])}, where less than 0.01 is asked"] if decides else []
 
 
 def difference(claim):
-    """The property by which holding and failing units differ most."""
+    """The property by which holding and failing cases differ most."""
     of = claim["differs"]
     if of is None:
         return []
     least, most = (case_words.of_field(of["field"], of[end]) for end in ("least_at", "most_at"))
-    return [f"the share differs most by {case_words.of_field('unit_field', of['field'])}: {of['least']:.3g} for {least}, "
+    return [f"the share differs most by {case_words.of_field('case_field', of['field'])}: {of['least']:.3g} for {least}, "
             f"{of['most']:.3g} for {most}"]
 
 
-def why_untested(claim):
-    """Why the claim is not testable: its own reason, the controls without a record or that misbehave, or too few units."""
-    reason = claim["untested"]
-    if reason == "too_few_units" and claim["rule"] == "single" and claim["cases"]:
+def why_inconclusive(claim):
+    """Why the claim is inconclusive or cannot be tested: controls without a record or that misbehave, few cases, or its own reason."""
+    reason = claim["why_inconclusive"]
+    if reason == "too_few_cases" and claim["rule"] == "single" and claim["cases"]:
         return [f"{counted(len(claim['cases']), 'number')} are on record where one is expected"]
-    if reason == "too_few_units":
-        return ["no unit is on record" if not claim["cases"] else f"only {counted(claim['n'], 'unit')}, fewer than five"]
+    if reason == "too_few_cases":
+        return ["no case is on record" if not claim["cases"] else f"only {counted(claim['n'], 'case')}, fewer than five"]
     if reason not in ("control_without_record", "control_misbehaves"):
         return [claim["reason"]] if claim["reason"] else []
     none = [control["name"] for control in claim["controls"] if not control["n"]]
-    wrong = [f"the control {control['name']}, which {case_words.of_field('role', control['role'])}, holds in {control['held']} of "
-             f"{counted(control['n'], 'unit')}"
+    wrong = [f"the {case_words.of_field('role', control['role'])} {control['name']} holds in {control['held']} of "
+             f"{counted(control['n'], 'case')}"
              for control in claim["controls"] if control["n"] and not control["behaves"]]
     return [*([f"no record of the control{'s' if len(none) > 1 else ''} {', '.join(none)}"] if none else []), *wrong]
 
 
 def facts(claim):
-    """The statements behind a verdict, the primary number first; without units, why there are none."""
+    """The statements behind a verdict, the primary number first; without cases, why there are none."""
     if claim["missing"]:
         return [f"no record of {', '.join(claim['missing'])}"]
     if claim["rule"] == "printed":
         if not claim["n"]:
             return ["no record"]
         are_listed = claim["verdict"] == "holds" and claim["n"] <= most_values
-        values = [f"{title(claim, case['quantity'])}: {shown(case)}, by the others {figure(case['bound_low'])} to "
-                  f"{figure(case['bound_high'])}" for case in claim["cases"] if are_listed]
+        values = [f"{title(claim, case['quantity'])}: {shown(case)}, by the others {figure(case['threshold_low'])} to "
+                  f"{figure(case['threshold_high'])}" for case in claim["cases"] if are_listed]
         return [f"{claim['held']} of {counted(claim['n'], 'printed value')} consistent", *values]
     if claim["rule"] in ("definition", "untestable"):
-        return [*why_untested(claim), *numbers(claim)]
+        return [*why_inconclusive(claim), *numbers(claim)]
     if claim["rule"] == "single":
         told = [one_number(claim)] if len(claim["cases"]) == 1 else numbers(claim)
-        return [*told, *why_untested(claim), *left_out(claim)] or ["no record"]
+        return [*told, *why_inconclusive(claim), *excluded_scenes(claim)] or ["no record"]
     told = [share(claim), *numbers(claim), *ranges(claim)] if claim["n"] else []
-    return [*told, *left_out_units(claim), *by_chance(claim), *difference(claim), *why_untested(claim), *left_out(claim)] or ["no record"]
+    told += [*excluded_cases(claim), *by_chance(claim), *difference(claim), *why_inconclusive(claim), *excluded_scenes(claim)]
+    return told or ["no record"]
 
 
 def in_line(claim):
@@ -255,53 +258,94 @@ def one_number(claim):
     """The single number by which a claim is judged, with the range that decides."""
     case, = claim["cases"]
     return (f"{number_of(claim, claim['quantities'][0])}: {shown(case)} ({range_name(claim)}: {figure(case['low'])} to "
-            f"{figure(case['high'])}), bound {bound(case['bound_low'], case['bound_high'])}")
+            f"{figure(case['high'])}), threshold {threshold(case['threshold_low'], case['threshold_high'])}")
 
 
 def basis(claim):
-    """Sentences: what a unit is, its number and bound; chance; when the rule was fixed."""
-    if claim["rule"] not in ("units", "single") or not claim["quantities"]:
+    """Sentences: what a case is, its number and threshold; chance; when the rule was fixed."""
+    if claim["rule"] not in ("cases", "single") or not claim["quantities"]:
         return ""
-    unit = ", ".join(case_words.of_field("unit_field", field) for field in claim["unit_fields"])
-    between = " or " if "quantity" in claim["unit_fields"] else " and "
+    fields = ", ".join(case_words.of_field("case_field", field) for field in claim["case_fields"])
+    between = " or " if "quantity" in claim["case_fields"] else " and "
     number = between.join(number_of(claim, quantity) for quantity in claim["quantities"])
-    told = [f"The number of a unit ({unit}) is the {number}; bound: {', '.join(expected(claim))} ({claim['source']})"]
+    told = [f"The number of a case ({fields}) is the {number}; threshold: {', '.join(expected(claim))} ({claim['source']})"]
     if claim["chance"] is not None:
-        told += [f"If each unit held with probability q = {figure(claim['q'])}, at least as many would hold by chance with probability "
+        told += [f"If each case held with probability q = {figure(claim['q'])}, at least as many would hold by chance with probability "
                  f"{figure(claim['chance'])}",
-                 "This q is the share of the control that must fail, by the rule of succession, or one half"]
+                 "This q is the share of the negative control, by the rule of succession, or one half"]
     if claim["fixed_at"]:
-        told.append(f"Rule and bound are of revision {claim['fixed_at'][:12]}")
+        told.append(f"Rule and threshold are of revision {claim['fixed_at'][:12]}" if claim["fixed_at"] == claim["thresholds_fixed_at"] else
+                    f"The threshold is of revision {claim['thresholds_fixed_at'][:12]}, the rule of revision {claim['fixed_at'][:12]}")
     return ". ".join(told) + "."
 
 
-def confirmatory(claim):
-    """The verdict on the confirmatory units, as a claim; None without them, and in older records, which count them."""
-    return claim["confirmatory"] | {"titles": claim["titles"]} if isinstance(claim["confirmatory"], dict) else None
+def held_out(claim):
+    """The verdict on the held-out cases, as a claim; None without them."""
+    return claim["held_out"] | {"titles": claim["titles"]} if isinstance(claim["held_out"], dict) else None
 
 
 def both_verdicts(claim):
-    """The verdict, and the one on the confirmatory units where there are any: holds; on the confirmatory units: fails."""
-    later = confirmatory(claim)
-    return names[claim["verdict"]] + (f"; on the confirmatory units: {names[later['verdict']]}" if later else "")
+    """The verdict, and the one on the held-out cases where there are any: holds; on the held-out cases: fails."""
+    later = held_out(claim)
+    return names[claim["verdict"]] + (f"; on the held-out cases: {names[later['verdict']]}" if later else "")
 
 
-def on_confirmatory_units(claim):
-    """The verdict on the units that were recorded after the rule was fixed, with the facts behind it: one sentence, or none."""
-    later = confirmatory(claim)
-    return [f"On the confirmatory units, which were recorded after rule and bound were fixed, the verdict is {names[later['verdict']]!r}: "
-            f"{'; '.join(facts(later))}"] if later else []
+def on_held_out_cases(claim):
+    """The verdict on the cases that were recorded after the thresholds were fixed, with the facts behind it: one sentence, or none."""
+    later = held_out(claim)
+    mended = "" if claim["fixed_at"] == claim["thresholds_fixed_at"] else " and before the rule was mended"
+    return [f"On the held-out cases, which were recorded after the thresholds were fixed{mended}, the verdict is "
+            f"{names[later['verdict']]!r}: {'; '.join(facts(later))}"] if later else []
 
 
-def left_out(claim):
-    return [f"{of['scene']} is left out: {of['reason']}" for of in claim["left_out"]]
+def in_words(parts):
+    """the limb; the limb and the man; the limb, the man and the lady"""
+    return " and ".join(filter(None, [", ".join(parts[:-1]), *parts[-1:]]))
+
+
+def without_a_body(claim):
+    """The verdicts that differ if all cases of one body are excluded: one sentence, or none for a claim whose cases have no body."""
+    if not claim["without_body"]:
+        return []
+    others = {}
+    for of in claim["without_body"]:
+        if of["verdict"] != claim["verdict"]:
+            others.setdefault(of["verdict"], []).append(of["body"])
+    if not others:
+        return ["The verdict stays the same if any one body is excluded"]
+    changes = [f"{names[kind]!r} without {bodies[0] if len(bodies) == 1 else f'any one of {in_words(bodies)}'}"
+               for kind, bodies in others.items()]
+    return [f"If one body is excluded, the verdict changes: it is {in_words(changes)}"]
+
+
+def threshold_ranges(claim):
+    """For each end of a threshold, the range over which the verdict is the same: one sentence each."""
+    texts = []
+    for of in claim["threshold_ranges"]:
+        settings = settings_of({name: value for name, value in of.items() if name not in ("end", "threshold")})
+        what = ", ".join(settings + ([title(claim, of["quantity"])] if "quantity" in of else []))
+        low, high = (None if of[end] is None else figure_of_four(of[end]) for end in ("low", "high"))
+        others = f" from {low} to {high}" if low and high else f" from {low} on" if low else f" up to {high}" if high else ""
+        end = {"low": "lower", "high": "upper"}[of["end"]]
+        texts.append(f"With any {end} threshold{f' of the {what}' if what else ''}{others} in place of {figure_of_four(of['threshold'])}, "
+                     "the verdict is the same")
+    return texts
+
+
+def figure_of_four(value):
+    """Four digits, as the numbers at which a verdict turns are often close to each other."""
+    return f"{value:.4g}".replace("-", "\u2212")
+
+
+def excluded_scenes(claim):
+    return [f"{of['scene']} is excluded: {of['reason']}" for of in claim["excluded_scenes"]]
 
 
 # Controls, comparisons and readings: the rows of tables.
 
-control_head = ["control", "role", "units that hold", "numbers", "as it must"]
-compared_head = ["for comparison", "units within the bound", "numbers"]
-reading_head = ["order and precision of projection", "units within the bound", "least", "most"]
+control_head = ["control", "role", "cases that hold", "numbers", "as it must"]
+compared_head = ["for comparison", "cases within the threshold", "numbers"]
+reading_head = ["order and precision of projection", "cases within the threshold", "least", "most"]
 
 
 def named(claim, of):
@@ -330,27 +374,27 @@ def reading_rows(claim):
 
 
 def extent(holding):
-    """How far units hold, by the rule's own limits of a share."""
+    """How far cases hold, by the rule's own limits of a share."""
     share = sum(holding) / len(holding)
-    return ("throughout" if share >= holding_share else "in half of the units or fewer" if share <= failing_share else
-            "in more than half of the units")
+    return ("throughout" if share >= holding_share else "in half of the cases or fewer" if share <= failing_share else
+            "in more than half of the cases")
 
 
-def by_unit(claim, of):
-    """Whether each unit that counts holds, by its key."""
-    return {tuple(case.get(field) for field in claim["unit_fields"]): case["holds"] for case in counting(of)}
+def by_case(claim, of):
+    """Whether each case that counts holds, by its key."""
+    return {tuple(case.get(field) for field in claim["case_fields"]): case["holds"] for case in counting(of)}
 
 
 def disagreements(claim):
-    """One sentence for each order, and for the author's later code, that disagrees with the claim's own reading. Only units with a number
+    """One sentence for each order, and for the author's later code, that disagrees with the claim's own reading. Only cases with a number
     in both are compared, and only if there are at least five."""
-    sentences, own = [], by_unit(claim, claim) if claim["rule"] == "units" else {}
+    sentences, own = [], by_case(claim, claim) if claim["rule"] == "cases" else {}
     for other in claim["readings"] + [compared for compared in claim["compared"] if compared["name"] == author]:
-        pairs = [(own[unit], holds) for unit, holds in by_unit(claim, other).items() if unit in own]
-        if len(pairs) < least_units:
+        pairs = [(own[case], holds) for case, holds in by_case(claim, other).items() if case in own]
+        if len(pairs) < least_cases:
             continue
         extent_of_own, extent_of_other = (extent(holding) for holding in zip(*pairs))
         if extent_of_own != extent_of_other:
             sentences.append(f"{other['name'][:1].upper()}{other['name'][1:]} and the claim's own reading disagree: in the {len(pairs)} "
-                             f"units that both have, the bound holds {extent_of_other} in the one, {extent_of_own} in the other.")
+                             f"cases that both have, the threshold holds {extent_of_other} in the one, {extent_of_own} in the other.")
     return sentences

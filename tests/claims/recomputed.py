@@ -1,4 +1,4 @@
-"""Every verdict on the kept records, computed a second time from their tables and from claims.toml: the number of each unit, which units
+"""Every verdict on the kept records, computed a second time from their tables and from claims.toml: the number of each case, which cases
 count, the share that holds with its interval, q, chance and the verdict. Reference: the rule as the head of claims.toml and the headers in
 analysis/verdicts state it. Nothing is shared with the program or with paper_figures: the standard library reads the files."""
 import csv
@@ -19,7 +19,7 @@ SOURCE = pathlib.Path(program.SOURCE)
 RECORDS = SOURCE / "experiments" / "records" / "full"
 SETTING = ("run", "scene", "deformer", "variant", "order", "precision", "iterations", "threads")
 INFINITE = math.inf
-LEAST_UNITS, HOLDING, FAILING, LARGEST_CHANCE = 5, 0.95, 0.5, 0.01
+LEAST_CASES, HOLDING, FAILING, LARGEST_CHANCE = 5, 0.95, 0.5, 0.01
 DRAWS, DRAWS_OF_THE_PROGRAM, SEED = 10_000, 2_000, 38
 
 
@@ -73,6 +73,12 @@ def frame_values(study, plan):
     return values
 
 
+@functools.cache
+def values_of(study):
+    plan = json.loads((RECORDS / "plans.json").read_text())[study]
+    return rows_of(study, "measurements.csv") + frame_values(study, plan)
+
+
 def mean(how, values):
     if how == "arithmetic":
         return sum(values) / len(values)
@@ -81,55 +87,55 @@ def mean(how, values):
     return math.exp(sum(map(math.log, values)) / len(values)) if all(values) else 0.0
 
 
-def lies_within(bound, value):
-    return bound.get("low", -INFINITE) <= value <= bound.get("high", INFINITE)
+def lies_within(threshold, value):
+    return threshold.get("low", -INFINITE) <= value <= threshold.get("high", INFINITE)
 
 
-def is_undecided(bound, value, limit):
-    """A censored value stands for all values on its side, which may lie within the bound and outside of it."""
+def is_undecided(threshold, value, limit):
+    """A censored value stands for all values on its side, which may lie within the threshold and outside of it."""
     if limit is None:
         return False
-    low, high = bound.get("low", -INFINITE), bound.get("high", INFINITE)
+    low, high = threshold.get("low", -INFINITE), threshold.get("high", INFINITE)
     first, last = (value, INFINITE) if limit in ("at_least", "more_than") else (-INFINITE, value)
     return not (low <= first and last <= high) and not (last < low or first > high)
 
 
-class Units:
-    """The units of a selection of values: unit -> number, whether it holds and why it does not count."""
+class Cases:
+    """The cases of a selection of values: the fields that make a case -> its number, whether it holds and why it does not count."""
 
     def __init__(self, claim, values, selection):
         self.claim, self.values = claim, values
-        self.selection = {"quantities": claim.get("quantities", []), "bounds": claim.get("bounds", []), "over": claim.get("over", {}),
-                          "of": {}} | selection
-        self.units = {}
+        self.selection = {"quantities": claim.get("quantities", []), "thresholds": claim.get("thresholds", []),
+                          "over": claim.get("over", {}), "of": {}} | selection
+        self.cases = {}
         over = self.grouped(self.selection["over"]) if self.selection["over"] else None
-        for unit, own in self.grouped(self.selection["of"]).items():
-            self.units[unit] = self.judged(unit, own, None if over is None else over.get(unit, []))
+        for key, own in self.grouped(self.selection["of"]).items():
+            self.cases[key] = self.judged(key, own, None if over is None else over.get(key, []))
 
     def grouped(self, of):
-        """Runs beside the study's own count in a unit only where no other run has such values."""
+        """Runs beside the study's own count in a case only where no other run has such values."""
         groups = {}
         for value in self.values:
             if value["quantity"] in self.selection["quantities"] and agrees(value, of):
-                unit = tuple(text(value.get(field, "")) for field in self.claim["unit"])
-                groups.setdefault(unit, []).append(value)
-        return {unit: [value for value in group if not value.get("beside")] or group for unit, group in groups.items()}
+                key = tuple(text(value.get(field, "")) for field in self.claim["case_fields"])
+                groups.setdefault(key, []).append(value)
+        return {key: [value for value in group if not value.get("beside")] or group for key, group in groups.items()}
 
-    def judged(self, unit, own, over):
-        """The first quantity is the number of the unit; one without a value does not hold."""
-        if "quantity" in self.claim["unit"]:
-            return self.compared(own[0]["quantity"], unit, own, over)
+    def judged(self, key, own, over):
+        """The first quantity is the number of the case; one without a value does not hold."""
+        if "quantity" in self.claim["case_fields"]:
+            return self.compared(own[0]["quantity"], key, own, over)
         parts = []
         for quantity in self.selection["quantities"]:
             mine = [value for value in own if value["quantity"] == quantity]
             base = None if over is None else [value for value in over if value["quantity"] == quantity]
-            parts.append(self.compared(quantity, unit, mine, base) if mine else {"value": math.nan, "holds": False, "left_out": None})
-        left_out = [part["left_out"] for part in parts if part["left_out"]]
-        return parts[0] | {"holds": all(part["holds"] for part in parts), "left_out": left_out[0] if left_out else None, "parts": parts}
+            parts.append(self.compared(quantity, key, mine, base) if mine else {"value": math.nan, "holds": False, "excluded": None})
+        excluded = [part["excluded"] for part in parts if part["excluded"]]
+        return parts[0] | {"holds": all(part["holds"] for part in parts), "excluded": excluded[0] if excluded else None, "parts": parts}
 
-    def compared(self, quantity, unit, own, over):
-        key = dict(zip(self.claim["unit"], unit))
-        bound = next((one for one in self.selection["bounds"]
+    def compared(self, quantity, key, own, over):
+        key = dict(zip(self.claim["case_fields"], key))
+        threshold = next((one for one in self.selection["thresholds"]
                       if one.get("quantity", quantity) == quantity and agrees(key, one.get("of", {}))), {})
         values, how = [float(value["value"]) for value in own], self.claim.get("mean", "arithmetic")
         ends = {end: [*values, *(float(value.get(end, value["value"])) for value in own)] for end in ("low", "high")}
@@ -140,22 +146,22 @@ class Units:
         if over is not None:
             base = mean(how, [float(value["value"]) for value in over]) if over else math.nan
             if not math.isfinite(base) or base == 0:
-                return {"value": numbers[0], "holds": False, "left_out": "nothing_to_compare_with"}
+                return {"value": numbers[0], "holds": False, "excluded": "nothing_to_compare_with"}
             numbers = [number / base for number in numbers]
-        return {**dict(zip(("value", "low", "high"), numbers)), "bound": bound, "holds": lies_within(bound, numbers[0]),
-                "left_out": "censored" if is_unknown or is_undecided(bound, numbers[0], limit) else None}
+        return {**dict(zip(("value", "low", "high"), numbers)), "threshold": threshold, "holds": lies_within(threshold, numbers[0]),
+                "excluded": "censored" if is_unknown or is_undecided(threshold, numbers[0], limit) else None}
 
-    def leave_out_unseen(self, control):
-        for unit, one in self.units.items():
-            same = control.units.get(unit)
-            if same is None or same["left_out"]:
-                one["left_out"] = "no_control"
+    def exclude_unseen(self, control):
+        for key, one in self.cases.items():
+            same = control.cases.get(key)
+            if same is None or same["excluded"]:
+                one["excluded"] = "no_control"
             elif same["holds"]:
-                one["left_out"] = "nothing_to_see"
+                one["excluded"] = "nothing_to_see"
 
     @property
     def counted(self):
-        return [one for one in self.units.values() if not one["left_out"]]
+        return [one for one in self.cases.values() if not one["excluded"]]
 
     @property
     def n(self):
@@ -170,27 +176,28 @@ class Units:
         return sorted(one["value"] for one in self.counted if math.isfinite(one["value"]))
 
     def shares(self, field):
-        """value of a field -> the share of its units that hold, of at least two units."""
-        place, groups = self.claim["unit"].index(field), {}
-        for unit, one in self.units.items():
-            if not one["left_out"] and unit[place]:
-                groups.setdefault(unit[place], []).append(one["holds"])
+        """value of a field -> the share of its cases that hold, of at least two cases."""
+        place, groups = self.claim["case_fields"].index(field), {}
+        for key, one in self.cases.items():
+            if not one["excluded"] and key[place]:
+                groups.setdefault(key[place], []).append(one["holds"])
         return {value: sum(held) / len(held) for value, held in groups.items() if len(held) > 1}
 
     @property
     def by_body(self):
-        """Of each body, how many units count, and how many hold."""
-        place = self.claim["unit"].index("body") if "body" in self.claim["unit"] else None
+        """Of each body, how many cases count, and how many hold."""
+        place = self.claim["case_fields"].index("body") if "body" in self.claim["case_fields"] else None
         groups = {}
-        for unit, one in self.units.items():
-            if not one["left_out"]:
-                groups.setdefault("" if place is None else unit[place], []).append(one["holds"])
+        for key, one in self.cases.items():
+            if not one["excluded"]:
+                groups.setdefault("" if place is None else key[place], []).append(one["holds"])
         return [(len(held), sum(held)) for held in groups.values()]
 
     @property
     def behaves(self):
         role = self.selection.get("role")
-        return role is None or (self.n > 0 and (self.held <= FAILING * self.n if role == "must_fail" else self.held >= HOLDING * self.n))
+        is_right = self.held <= FAILING * self.n if role == "negative_control" else self.held >= HOLDING * self.n
+        return role is None or (self.n > 0 and is_right)
 
 
 def tail(held, n, q):
@@ -228,61 +235,71 @@ def bootstrap_ends(bodies):
 class Verdict:
     """The verdict on one claim from the kept records, with the facts that claims.json states."""
 
-    def __init__(self, claim, otherwise=None):
-        """otherwise: the verdict on all other values, for the one on the confirmatory values: it has the controls that these lack."""
-        self.claim, self.untested, self.is_later = claim, "none", otherwise is not None
+    def __init__(self, claim, otherwise=None, without_body=None):
+        """otherwise: the verdict on all other values, for the one on the held-out values or without a body: it has the controls that these
+        lack."""
+        self.claim, self.why, self.is_later = claim, "none", otherwise is not None and without_body is None
         self.q = self.chance = None
         plan = json.loads((RECORDS / "plans.json").read_text())[claim["study"]]
-        self.values = [value for value in rows_of(claim["study"], "measurements.csv") + frame_values(claim["study"], plan)
-                       if any(agrees(value, key) for key in claim.get("confirmatory", [])) == (otherwise is not None)]
-        self.own = self.units({"of": claim.get("of", {})})
-        self.controls = [self.units(control) for control in claim.get("controls", [])]
+        self.values = [value for value in values_of(claim["study"])
+                       if without_body is None or value.get("body") != without_body
+                       if any(agrees(value, key) for key in claim.get("held_out", [])) == self.is_later]
+        self.own = self.cases_of({"of": claim.get("of", {})})
+        self.controls = [self.cases_of(control) for control in claim.get("controls", [])]
         for i, control in enumerate(self.controls if otherwise else []):
-            if not control.units and control.selection["name"] != claim.get("unseen_by"):
+            if not control.cases and control.selection["name"] != claim.get("selected_by"):
                 self.controls[i] = otherwise.controls[i]
-        self.compared = [self.units(other) for other in claim.get("compared", [])]
+        self.compared = [self.cases_of(other) for other in claim.get("compared", [])]
         self.printed = [row for row in rows_of(claim["study"], "printed.csv") if row["claim"] == claim["id"]]
-        judged = {"units": self.by_units, "single": self.by_range, "printed": self.by_print, "definition": lambda: "definition"}
+        judged = {"cases": self.by_cases, "single": self.by_range, "printed": self.by_print}  # the other rules name their verdicts
         is_missing = claim["rule"] != "printed" and "quantities" in claim and self.lacks_a_run(plan)
-        self.kind = "not_computable" if is_missing else judged.get(claim["rule"], self.without_a_test)()
+        self.kind = "not_computable" if is_missing else judged.get(claim["rule"], lambda: claim["rule"])()
 
-    def units(self, selection):
-        return Units(self.claim | {"unit": self.claim.get("unit", [])}, self.values, selection)
+    def cases_of(self, selection):
+        return Cases(self.claim | {"case_fields": self.claim.get("case_fields", [])}, self.values, selection)
 
     def lacks_a_run(self, plan):
         origins = json.loads((RECORDS / "provenance.json").read_text())["origins"]
         finished = {run for origin in origins for run in origin["runs"]}
         return any(f"{self.claim['study']}/{run['name']}" not in finished for run in plan["runs"])
 
-    def without_a_test(self, why="reason_of_the_claim"):
-        self.untested = why
-        return "not_testable"
+    def inconclusive(self, why):
+        self.why = why
+        return "inconclusive"
 
-    def by_units(self):
-        unseen = [control for control in self.controls if control.selection["name"] == self.claim.get("unseen_by")]
+    def behaves(self, control):
+        """The control that selects the cases must fail in enough of them; every other one by its share."""
+        if control.selection["name"] == self.claim.get("selected_by"):
+            return control.n - control.held >= LEAST_CASES
+        return control.behaves
+
+    def by_cases(self):
+        unseen = [control for control in self.controls if control.selection["name"] == self.claim.get("selected_by")]
         for one in [self.own, *self.compared] if unseen else []:
-            one.leave_out_unseen(unseen[0])
+            one.exclude_unseen(unseen[0])
         n, held = self.own.n, self.own.held
         self.q = self.claim.get("no_effect") or max(
-            1 / (n + 2) if control in unseen else (control.held + 1) / (control.n + 2)  # of the units that count, the former holds in none
-            for control in self.controls if control.selection["role"] == "must_fail")
+            1 / (n + 2) if control in unseen else (control.held + 1) / (control.n + 2)  # of the cases that count, the former holds in none
+            for control in self.controls if control.selection["role"] == "negative_control")
         self.chance = tail(held, n, self.q) if n else None
         for control in self.controls:
-            if not control.behaves:
-                return self.without_a_test("control_misbehaves" if control.n else "control_without_record")
-        if n < LEAST_UNITS:
-            return self.without_a_test("too_few_units")
-        if held <= FAILING * n or self.chance >= LARGEST_CHANCE:
+            if not self.behaves(control):
+                return self.inconclusive("control_misbehaves" if control.n else "control_without_record")
+        if n < LEAST_CASES:
+            return self.inconclusive("too_few_cases")
+        if held <= FAILING * n:
             return "fails"
-        return "holds" if held >= HOLDING * n else "mixed"
+        if held >= HOLDING * n:
+            return "holds" if self.chance < LARGEST_CHANCE else self.inconclusive("chance")
+        return "mixed" if self.chance < LARGEST_CHANCE else "not_shown"
 
     def by_range(self):
-        if len(self.own.units) != 1:
-            return self.without_a_test("too_few_units")
-        only, = self.own.units.values()
-        if lies_within(only["bound"], only["low"]) and lies_within(only["bound"], only["high"]):
+        if len(self.own.cases) != 1:
+            return self.inconclusive("too_few_cases")
+        only, = self.own.cases.values()
+        if lies_within(only["threshold"], only["low"]) and lies_within(only["threshold"], only["high"]):
             return "holds"
-        low, high = only["bound"].get("low", -INFINITE), only["bound"].get("high", INFINITE)
+        low, high = only["threshold"].get("low", -INFINITE), only["threshold"].get("high", INFINITE)
         return "fails" if only["high"] < low or only["low"] > high or math.isnan(only["value"]) else "mixed"
 
     def is_consistent(self, row):
@@ -295,18 +312,18 @@ class Verdict:
 
 
 def of_each_claim(test):
-    """Calls test(self, own verdict, claim in claims.json) for each claim, and for each verdict on confirmatory values."""
+    """Calls test(self, own verdict, claim in claims.json) for each claim, and for each verdict on held-out values."""
     @functools.wraps(test)
     def run(self):
         self.assertEqual([judged["id"] for judged in self.judged], [verdict.claim["id"] for verdict in self.verdicts])
         for verdict, judged in zip(self.verdicts, self.judged):
             with self.subTest(judged["id"]):
                 test(self, verdict, judged)
-            later = Verdict(verdict.claim, verdict) if verdict.claim.get("confirmatory") else None
-            self.assertEqual(bool(later and later.own.units), judged["confirmatory"] is not None, judged["id"])
-            if judged["confirmatory"]:
-                with self.subTest(judged["id"] + ", confirmatory"):
-                    test(self, later, judged["confirmatory"])
+            later = Verdict(verdict.claim, verdict) if verdict.claim.get("held_out") else None
+            self.assertEqual(bool(later and later.own.cases), judged["held_out"] is not None, judged["id"])
+            if judged["held_out"]:
+                with self.subTest(judged["id"] + ", held-out"):
+                    test(self, later, judged["held_out"])
 
     return run
 
@@ -331,39 +348,39 @@ class Recomputed(unittest.TestCase):
         if stated is not None:
             self.assert_near(own, stated)
 
-    def assert_same_units(self, own, cases):
-        fields = own.claim["unit"]
-        self.assertEqual(sorted(own.units), sorted(tuple(text(case.get(field, "")) for field in fields) for case in cases))
+    def assert_same_cases(self, own, cases):
+        fields = own.claim["case_fields"]
+        self.assertEqual(sorted(own.cases), sorted(tuple(text(case.get(field, "")) for field in fields) for case in cases))
         for case in cases:
-            unit = own.units[tuple(text(case.get(field, "")) for field in fields)]
-            self.assertEqual((unit["left_out"], unit["holds"]), (case["left_out"], case["holds"]), case)
-            self.assert_same_number(unit["value"], case["value"], case)
-            self.assertEqual(len(case.get("parts", [])), len(unit.get("parts", [])) if len(unit.get("parts", [])) > 1 else 0, case)
-            for part, stated in zip(unit.get("parts", []), case.get("parts", [])):
+            own_case = own.cases[tuple(text(case.get(field, "")) for field in fields)]
+            self.assertEqual((own_case["excluded"], own_case["holds"]), (case["excluded"], case["holds"]), case)
+            self.assert_same_number(own_case["value"], case["value"], case)
+            self.assertEqual(len(case.get("parts", [])), len(own_case.get("parts", [])) if len(own_case.get("parts", [])) > 1 else 0, case)
+            for part, stated in zip(own_case.get("parts", []), case.get("parts", [])):
                 self.assertEqual(part["holds"], stated["holds"], case)
                 self.assert_same_number(part["value"], stated["value"], case)
 
     @of_each_claim
-    def test_every_claim_and_control_has_units_on_record(self, verdict, judged):
+    def test_every_claim_and_control_has_cases_on_record(self, verdict, judged):
         self.assertNotEqual(verdict.kind, "not_computable")
         has_own = verdict.printed if verdict.claim["rule"] == "printed" else verdict.own.n or "quantities" not in verdict.claim
-        own = [] if has_own else ["its own units"]
+        own = [] if has_own else ["its own cases"]
         compared = [] if verdict.is_later else verdict.compared
         missing = own + [one.selection["name"] for one in [*verdict.controls, *compared] if one.n == 0]
         self.assertEqual(missing, [])
 
     @of_each_claim
-    def test_each_verdict_and_why_a_claim_is_not_testable(self, verdict, judged):
-        self.assertEqual((verdict.kind, verdict.untested), (judged["verdict"], judged["untested"]))
+    def test_each_verdict_and_why_it_is_inconclusive(self, verdict, judged):
+        self.assertEqual((verdict.kind, verdict.why), (judged["verdict"], judged["why_inconclusive"]))
 
     @of_each_claim
-    def test_the_number_of_each_unit_and_whether_it_counts_and_holds(self, verdict, judged):
+    def test_the_number_of_each_case_and_whether_it_counts_and_holds(self, verdict, judged):
         if verdict.claim["rule"] == "printed":
             own = [(float(row["printed"]), verdict.is_consistent(row)) for row in verdict.printed]
             self.assertEqual(own, [(case["value"], case["holds"]) for case in judged["cases"]])
             self.assertEqual((sum(holds for _, holds in own), len(own)), (judged["held"], judged["n"]))
         else:
-            self.assert_same_units(verdict.own, judged["cases"])
+            self.assert_same_cases(verdict.own, judged["cases"])
             self.assertEqual((verdict.own.held, verdict.own.n), (judged["held"], judged["n"]))
 
     @of_each_claim
@@ -375,7 +392,7 @@ class Recomputed(unittest.TestCase):
 
     @of_each_claim
     def test_the_share_and_its_interval(self, verdict, judged):
-        if verdict.claim["rule"] != "units" or not judged["n"]:
+        if verdict.claim["rule"] != "cases" or not judged["n"]:
             return
         self.assert_near(verdict.own.held / verdict.own.n, judged["share"])
         exact, stated = exact_interval(verdict.own.held, verdict.own.n), (judged["interval_low"], judged["interval_high"])
@@ -390,11 +407,11 @@ class Recomputed(unittest.TestCase):
             self.assertTrue(is_exact, f"{stated} is not {exact}")
 
     @of_each_claim
-    def test_the_property_by_which_the_units_of_a_mixed_claim_differ(self, verdict, judged):
+    def test_the_property_by_which_the_cases_of_a_mixed_claim_differ(self, verdict, judged):
         if verdict.kind != "mixed":
             self.assertIsNone(judged["differs"])
             return
-        shares = {field: verdict.own.shares(field) for field in verdict.own.claim["unit"]}
+        shares = {field: verdict.own.shares(field) for field in verdict.own.claim["case_fields"]}
         spread = max(max(values.values()) - min(values.values()) for values in shares.values() if values)
         of = judged["differs"] or {"least": 0, "most": 0}
         self.assert_near(of["most"] - of["least"], spread)
@@ -409,11 +426,54 @@ class Recomputed(unittest.TestCase):
                 self.assert_near(own, stated)
 
     @of_each_claim
-    def test_how_many_units_of_each_control_and_comparison_hold_and_whether_it_behaves(self, verdict, judged):
-        own = [(one.selection["name"], one.selection.get("role", "comparison"), one.held, one.n, one.behaves)
+    def test_how_many_cases_of_each_control_and_comparison_hold_and_whether_it_behaves(self, verdict, judged):
+        own = [(one.selection["name"], one.selection.get("role", "comparison"), one.held, one.n, verdict.behaves(one))
                for one in [*verdict.controls, *verdict.compared]]
         self.assertEqual(own, [tuple(one[key] for key in ("name", "role", "held", "n", "behaves"))
                                for one in judged["controls"] + judged["compared"]])
+
+    def test_the_verdict_without_each_body(self):
+        for verdict, judged in zip(self.verdicts, self.judged):
+            with self.subTest(judged["id"]):
+                fields = verdict.claim.get("case_fields", [])
+                bodies = {case[fields.index("body")] for case in verdict.own.cases} if "body" in fields else set()
+                own = [(body, Verdict(verdict.claim, verdict, body).kind) for body in sorted(bodies)]
+                self.assertEqual(own if verdict.claim["rule"] == "cases" else [],
+                                 [(of["body"], of["verdict"]) for of in judged["without_body"]])
+
+    def test_the_verdict_is_the_same_within_the_range_of_each_threshold_and_another_one_beyond_it(self):
+        for verdict, judged in zip(self.verdicts, self.judged):
+            if verdict.claim["rule"] != "cases":
+                self.assertEqual(judged["threshold_ranges"], [])
+                continue
+            ends = [(i, end) for i, of in enumerate(verdict.claim["thresholds"]) for end in ("low", "high") if end in of]
+            self.assertEqual([of["end"] for of in judged["threshold_ranges"]], [end for _, end in ends])
+            for (i, end), of in zip(ends, judged["threshold_ranges"]):
+                with self.subTest(f"{judged['id']} {i} {end}"):
+                    self.assertEqual(verdict.claim["thresholds"][i][end], of["threshold"])
+                    inside, outside = ends_of(of, end)
+                    self.assertEqual([kind_with(verdict.claim, i, end, value) for value in inside], [verdict.kind] * len(inside))
+                    for value in outside:
+                        self.assertNotEqual(kind_with(verdict.claim, i, end, value), verdict.kind)
+
+
+def kind_with(claim, place, end, value):
+    """The verdict with another end of a threshold, which controls without thresholds of their own share."""
+    thresholds = [of | {end: value} if i == place else of for i, of in enumerate(claim["thresholds"])]
+    return Verdict(claim | {"thresholds": thresholds}).kind
+
+
+def ends_of(of, end):
+    """The last values within the range and the first ones beyond it. The numbers of cases hold at the threshold itself."""
+    below, above = (lambda value: math.nextafter(value, -INFINITE)), (lambda value: math.nextafter(value, INFINITE))
+    inside, outside = [], []
+    if of["low"] is not None:
+        inside.append(of["low"] if end == "high" else above(of["low"]))
+        outside.append(below(of["low"]) if end == "high" else of["low"])
+    if of["high"] is not None:
+        inside.append(below(of["high"]) if end == "high" else of["high"])
+        outside.append(of["high"] if end == "high" else above(of["high"]))
+    return inside, outside
 
 
 if __name__ == "__main__":

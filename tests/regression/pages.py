@@ -1,4 +1,4 @@
-"""The README and the pages state what the kept records have, and the verdicts of the kept records are those on record by the bounds of
+"""The README and the pages state what the kept records have, and the verdicts of the kept records are those on record by the thresholds of
 claims.toml: they change only with new records or another rule. Every study and every claim has its page, with the required sections, whose
 generated part is current. `pbskin explain` prints each page, and those of deformers. README, page, report, `pbskin explain` and the tables
 of the program have the verdicts and numbers of claims.json. The files and columns that the pages quote are those of the kept records.
@@ -58,23 +58,27 @@ def told(value):
 
 
 def counts_of(claim):
-    """Patterns of how many units hold, and their share with its interval."""
+    """Patterns of how many cases hold, and their share with its interval."""
     if claim["rule"] == "printed":
         return [rf"\b{claim['held']} of {claim['n']} printed values"]
-    if claim["rule"] != "units" or not claim["n"]:
+    if claim["rule"] != "cases" or not claim["n"]:
         return []
     share, low, high = (f"{claim[name]:.3g}" for name in ("share", "interval_low", "interval_high"))
-    return [rf"\b{claim['held']} of {claim['n']} (?:units? )?hold, share {share} \[{low}, {high}\]"]
+    return [rf"\b{claim['held']} of {claim['n']} (?:cases? )?hold, share {share} \[{low}, {high}\]"]
 
 
 def numbers_of(claim):
-    """Patterns of the least and the most of the units' numbers."""
+    """Patterns of the least and the most of the cases' numbers."""
     return [] if claim["least"] is None else [f": {told(claim['least'])}", f"(?:to|:) {told(claim['most'])}"]
 
 
 def range_of(claim):
     """A pattern of the range by which a single number is judged."""
     return [rf"\({claim['range']}: {told(case['low'])} to {told(case['high'])}\)" for case in claim["cases"] if claim["rule"] == "single"]
+
+
+def spoken(verdict):
+    return {"untestable": "cannot be tested"}.get(verdict, verdict.replace("_", " "))
 
 
 def own_part(text, name):
@@ -196,9 +200,9 @@ class KeptVerdicts(unittest.TestCase):
     def test_every_text_has_the_verdict_and_the_numbers_of_claims_json_in_its_place(self):
         readme, listed = (file.read_text(encoding="utf-8") for file in (SOURCE / "README.md", self.judged / "claims.md"))
         for claim in sentences.claims_of(self.judged / "claims.json"):
-            name, kind, word = claim["id"], claim["verdict"], claim["verdict"].replace("_", " ")
-            later = claim["confirmatory"] and claim["confirmatory"]["verdict"].replace("_", " ")
-            both = f"{word}; on the confirmatory units: {later}" if later else word
+            name, kind, word = claim["id"], claim["verdict"], spoken(claim["verdict"])
+            later = claim["held_out"] and spoken(claim["held_out"]["verdict"])
+            both = f"{word}; on the held-out cases: {later}" if later else word
             page = readme_part.cut(readme_pages.claim_pages / f"{sentences.page_of(name)}.md", "kept")[1]
             counts, numbers, span = counts_of(claim), numbers_of(claim), range_of(claim)
             line = report_verdicts.line(claim, types.SimpleNamespace(results=self.judged), None, [])
@@ -208,8 +212,9 @@ class KeptVerdicts(unittest.TestCase):
                     ("explain", own_part(program.run("explain", name).stdout, name), [rf"^{both}\. ", *counts, *numbers, *span]),
                     ("report", html.unescape(line), [f"</span> {word}</span>", *counts, *numbers, *span]),
                     ("claims.md", re.search(rf"^\| {name} \|.*$", listed, re.M)[0], [rf"\| {kind} \|", *numbers]),
-                    ("terminal", re.search(rf"^{name} .*?(?=^C\d|\Z)", self.printed, re.M | re.S)[0],
-                     [rf"^{name} +{word.split(' in ')[0]} ", *counts, *numbers])):  # "in print" is on the next line
+                    ("terminal", re.search(rf"^{name} .*$", self.printed, re.M)[0],
+                     [rf"^{name} +{re.escape(claim['short'])} +{kind.replace('_', ' ').upper().split(' IN ')[0]} +"
+                      rf"{re.escape(claim['measured'])}$"])):
                 for pattern in patterns:
                     with self.subTest(f"{name} {place}"):
                         self.assertRegex(text.replace("\u2212", "-"), pattern)

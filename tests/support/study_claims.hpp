@@ -42,8 +42,8 @@ inline std::vector<analysis::Measurement> joined(const std::vector<std::vector<a
     return all;
 }
 
-// The claim's own units, whatever its controls are.
-inline analysis::Judged own_units(const std::string& id, const std::vector<analysis::Measurement>& measured)
+// The claim's own cases, whatever its controls are.
+inline analysis::Judged own_cases(const std::string& id, const std::vector<analysis::Measurement>& measured)
 {
     const analysis::Claim of = claim(id);
     return judged(of, of.own, measured);
@@ -62,7 +62,7 @@ inline void expect_values_of(const std::string& id, const std::vector<analysis::
     const analysis::Claim of = claim(id);
     std::vector<analysis::Selection> selections = of.others;
     selections.push_back(of.own);
-    for (const analysis::Selection& one : selections) EXPECT_FALSE(judged(of, one, measured).units.empty()) << id << " " << one.name;
+    for (const analysis::Selection& one : selections) EXPECT_FALSE(judged(of, one, measured).cases.empty()) << id << " " << one.name;
 }
 
 // Carries out the first `runs` runs of the plan, like `pbskin reproduce`.

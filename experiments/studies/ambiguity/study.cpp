@@ -3,6 +3,7 @@
 // its claim's own study (Study::read), with two exceptions: C01 and C02 take steps of the scene without the study's further deformers, and
 // C10 takes a frame's processor time, where its study takes wall time.
 #include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/headline.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/ambiguity/readings.hpp"
@@ -289,8 +290,8 @@ std::string digest_of(const std::vector<analysis::Claim>& claims)
     nlohmann::json all = nlohmann::json::array();
     for (const analysis::Claim& claim : claims) {
         all.push_back({claim.id, static_cast<int>(claim.rule), claim.own.quantities, to_json_of(claim.own.of), to_json_of(claim.own.over),
-                       claim.unit, static_cast<int>(claim.mean)});
-        for (const analysis::Bound& bound : claim.own.bounds) all.push_back({bound.quantity, bound.low, bound.high, to_json_of(bound.of)});
+                       claim.case_fields, static_cast<int>(claim.mean)});
+        for (const analysis::Threshold& one : claim.own.thresholds) all.push_back({one.quantity, one.low, one.high, to_json_of(one.of)});
     }
     return pbs::content_hash(all.dump());
 }
@@ -305,8 +306,8 @@ std::vector<JudgedValue> judged(const std::vector<analysis::Measurement>& measur
             own.of.order = own.of.precision = own.of.variant = own.of.masses = "";  // a reading sets what it is
             own.of.iterations.reset();
             if (own.of.deformer.starts_with("pbs")) own.of.deformer = "pbs";
-            for (const analysis::Unit& unit : analysis::judged(claim, own, measured).units)
-                values.push_back({claim.id, quantity, unit.of, unit.unit, bound_text(unit.bound), unit.value, unit.holds, unit.limit});
+            for (const analysis::JudgedCase& of : analysis::judged(claim, own, measured).cases)
+                values.push_back({claim.id, quantity, of.of, of.unit, threshold_text(of.threshold), of.value, of.holds, of.limit});
         }
     return values;
 }

@@ -16,7 +16,7 @@ using namespace test_support;
 using analysis::Measurement;
 using analysis::VerdictKind;
 
-// Five poses, the fewest units of a verdict. PBS has the given sections; in each pose LBS is too thin, DQS too wide, and flesh as at rest.
+// Five poses, the fewest cases of a verdict. PBS has the given sections; in each pose LBS is too thin, DQS too wide, and flesh as at rest.
 class ArtefactsVerdict : public testing::Test {
 protected:
     std::vector<ArtefactSample> samples_of(const std::vector<double>& pbs) const
@@ -46,22 +46,22 @@ TEST_F(ArtefactsVerdict, ThinSectionsAreACandyWrapper)
     samples.push_back(sample("pbs", 1, 0.5, 0, "ordered"));
     samples.push_back(sample("pbs", 1, 0.4));
     EXPECT_EQ(verdict_on("C04", thin(samples)), VerdictKind::holds);
-    EXPECT_EQ(own_units("C04", thin(samples)).units.at(1).low, 0.4);
+    EXPECT_EQ(own_cases("C04", thin(samples)).cases.at(1).low, 0.4);
     EXPECT_EQ(verdict_on("C04", thin(samples_of({0.97, 0.97, 0.97, 0.97, 0.3}))), VerdictKind::mixed);
     EXPECT_EQ(verdict_on("C04", thin(samples_of({0.97, 0.97, 0.3, 0.3, 0.3}))), VerdictKind::fails);
-    EXPECT_EQ(verdict_on("C04", thin(samples_of({}))), VerdictKind::not_testable) << "there is no value of PBS";
+    EXPECT_EQ(verdict_on("C04", thin(samples_of({}))), VerdictKind::inconclusive) << "there is no value of PBS";
 }
 
 TEST_F(ArtefactsVerdict, SectionsThinnerThanThoseOfFleshAreACandyWrapper)
 {
     const std::vector<double> half(5, 0.5);
     std::vector<ArtefactSample> samples = samples_of(half);
-    EXPECT_EQ(own_units("C04", thin(samples)).held, 0);
+    EXPECT_EQ(own_cases("C04", thin(samples)).held, 0);
     for (ArtefactSample& one : samples)
         if (one.group == "reference") one.extremes.smallest_radius = 0.5;
-    EXPECT_EQ(own_units("C04", thin(samples)).held, 5);
+    EXPECT_EQ(own_cases("C04", thin(samples)).held, 5);
     std::erase_if(samples, [](const ArtefactSample& one) { return one.group == "reference"; });
-    EXPECT_EQ(own_units("C04", thin(samples)).n, 0) << "there is no reference";
+    EXPECT_EQ(own_cases("C04", thin(samples)).n, 0) << "there is no reference";
 }
 
 TEST_F(ArtefactsVerdict, WideSectionsAreABulge)
@@ -74,16 +74,16 @@ TEST_F(ArtefactsVerdict, WideSectionsAreABulge)
         EXPECT_EQ(verdict_on("C05", wide(samples_of(std::vector(5, wide_over_rest)))), VerdictKind::fails) << wide_over_rest;
     }
     std::erase_if(samples, [](const ArtefactSample& one) { return one.group == "reference"; });
-    EXPECT_EQ(verdict_on("C05", wide(samples)), VerdictKind::not_testable) << "there is no reference";
+    EXPECT_EQ(verdict_on("C05", wide(samples)), VerdictKind::inconclusive) << "there is no reference";
 }
 
 // The value of the body exceeds it, and its range also covers linear elements.
 TEST_F(ArtefactsVerdict, QuadraticElementsAreTheReference)
 {
     std::vector<ArtefactSample> samples = {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1)};
-    EXPECT_EQ(own_units("C05", wide(samples)).held, 1);
+    EXPECT_EQ(own_cases("C05", wide(samples)).held, 1);
     samples.push_back(sample("reference", 0, 0.8, 2));
-    EXPECT_EQ(own_units("C05", wide(samples)).held, 0);
+    EXPECT_EQ(own_cases("C05", wide(samples)).held, 0);
     EXPECT_DOUBLE_EQ(wide(samples)[0].value, 1.25);
 }
 
@@ -118,7 +118,7 @@ TEST_F(ArtefactsVerdict, RatiosAboveOneAreNotSmoother)
     EXPECT_EQ(verdict_on("C06", measured), VerdictKind::fails);
     put(jump, own, 0.5);
     put(jump, {.variant = "exchanged_weights"}, 0.5);
-    EXPECT_EQ(verdict_on("C06", measured), VerdictKind::not_testable) << "the bound cannot be missed";
+    EXPECT_EQ(verdict_on("C06", measured), VerdictKind::inconclusive) << "the bound cannot be missed";
 }
 
 // C04 from a twisted limb, with the correct solver and with broken ones. Reference:
@@ -152,7 +152,7 @@ double smallest(const std::vector<Measurement>& measured, const std::string& def
 
 bool lies_within_bound(const std::vector<Measurement>& measured)
 {
-    return own_units("C04", measured).units.at(0).holds;
+    return own_cases("C04", measured).cases.at(0).holds;
 }
 
 TEST(BrokenArtefacts, AsItIsThereIsNoCandyWrapper)

@@ -84,9 +84,9 @@ std::vector<Measurement> measure(const Shapes& shapes)
 // In how many of the two poses there is no bulge.
 int without_bulge(const std::vector<Measurement>& measured)
 {
-    const Judged units = own_units("C05", measured);
-    EXPECT_EQ(units.n, 2);
-    return units.held;
+    const Judged own = own_cases("C05", measured);
+    EXPECT_EQ(own.n, 2);
+    return own.held;
 }
 
 // Every vertex around the joint is farther from its bone.

@@ -82,7 +82,7 @@ Measurement measurement(const WeightsComparison& comparison, const analysis::Cas
 // Whether the value lies within the bound of C06.
 bool is_smoother(const WeightsComparison& comparison, const analysis::CaseKey& of)
 {
-    return claim("C06").own.bounds.at(0).contains(measurement(comparison, of).value);
+    return claim("C06").own.thresholds.at(0).contains(measurement(comparison, of).value);
 }
 
 // Eq. 1 by hand with these weights of the forearm, which is rotated about the limb's axis, while the upper arm stays.

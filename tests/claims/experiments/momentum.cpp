@@ -45,7 +45,7 @@ TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndTurnsWithItsValues)
                   if (masses == "equal") one.of.masses = "unequal_by_eq_8_9";
                   if (masses == "unequal_by_eq_8_9") one.of.masses = "equal";
               }),
-              VerdictKind::not_testable);
+              VerdictKind::inconclusive);
 }
 
 // C07 from correct and broken projections. Reference:
@@ -53,7 +53,7 @@ TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndTurnsWithItsValues)
 // - printed labels: gradients at the wrong particles still add up to zero (Eq. 15), but their moments do not: angular momentum is lost,
 //   linear momentum is not.
 // - a class dropped: a class that is not projected has no drift, so it is not counted as conserved.
-// A unit is a class and linear or angular momentum.
+// A case is a class and linear or angular momentum.
 
 using analysis::Measurement;
 using pbs::Masses;
@@ -95,18 +95,18 @@ std::vector<Measurement> drifts(const pbs::PbsOptions& options)
     return measured;
 }
 
-// The units that hold, by class and quantity, from single projections: a pass conserves angular momentum only to first order.
+// The cases that hold, by class and quantity, from single projections: a pass conserves angular momentum only to first order.
 std::vector<std::string> conserved(const std::vector<Measurement>& measured)
 {
     std::vector<std::string> held;
-    for (const analysis::Unit& unit : judged(claim("C07"), claim("C07").own, measured).units)
-        if (unit.holds) held.push_back(unit.of.constraint + " " + unit.quantity);
+    for (const analysis::JudgedCase& of : judged(claim("C07"), claim("C07").own, measured).cases)
+        if (of.holds) held.push_back(of.of.constraint + " " + of.quantity);
     return held;
 }
 
-using Units = std::vector<std::string>;
-const Units of_stretch = {"stretch linear_drift", "stretch angular_drift"};
-const Units of_both = {"stretch linear_drift", "stretch angular_drift", "volume linear_drift", "volume angular_drift"};
+using Cases = std::vector<std::string>;
+const Cases of_stretch = {"stretch linear_drift", "stretch angular_drift"};
+const Cases of_both = {"stretch linear_drift", "stretch angular_drift", "volume linear_drift", "volume angular_drift"};
 
 double drift(const std::vector<Measurement>& measured, const std::string& quantity, const std::string& of)
 {
@@ -139,13 +139,13 @@ TEST(BrokenMomentum, GradientsUnderTheWrongParticlesLoseAngularMomentum)
     }
     for (const char* quantity : {"angular_drift", "angular_drift_of_a_pass"})
         EXPECT_GT(drift(wrong, quantity, "volume"), 0.01) << quantity;  // no rounding
-    EXPECT_EQ(conserved(wrong), (Units{"stretch linear_drift", "stretch angular_drift", "volume linear_drift"}));
+    EXPECT_EQ(conserved(wrong), (Cases{"stretch linear_drift", "stretch angular_drift", "volume linear_drift"}));
 }
 
 TEST(BrokenMomentum, AClassThatIsNotProjectedIsNotConserved)
 {
     EXPECT_EQ(conserved(drifts(broken(in_double(), Broken::volume_dropped))), of_stretch);
-    EXPECT_EQ(conserved(drifts(broken(in_double(), Broken::nothing_projected))), Units{});
+    EXPECT_EQ(conserved(drifts(broken(in_double(), Broken::nothing_projected))), Cases{});
 }
 
 }  // namespace

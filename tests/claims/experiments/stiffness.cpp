@@ -36,8 +36,8 @@ std::vector<Measurement> measured(Method method, double p, double q, const std::
 
 void expect_numbers(const Judged& judged, const std::vector<double>& numbers)
 {
-    ASSERT_EQ(judged.units.size(), numbers.size());
-    for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_DOUBLE_EQ(judged.units[i].value, numbers[i]) << i;
+    ASSERT_EQ(judged.cases.size(), numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_DOUBLE_EQ(judged.cases[i].value, numbers[i]) << i;
 }
 
 // The sentence is a definition, whatever the values. They are the paper's solver's alone; XPBD in small steps is compared under the same
@@ -54,7 +54,7 @@ TEST(StiffnessVerdict, IsADefinitionWithTheValuesOfThePaperAlone)
     ASSERT_EQ(verdict.others.size(), 2u);
     expect_numbers(verdict.others[0], {4.0, 4.0, 4.0, 4.0});
     expect_numbers(verdict.others[1], {1.0});
-    EXPECT_TRUE(test_support::verdict_from("C11", measured(Method::xpbd, 1.0, 2.0)).own.units.empty()) << "the claim is on PBS";
+    EXPECT_TRUE(test_support::verdict_from("C11", measured(Method::xpbd, 1.0, 2.0)).own.cases.empty()) << "the claim is on PBS";
 }
 
 // C11 from a small limb's held flesh, with XPBD's multipliers kept and forgotten. Reference: with its multipliers the stiffness is the

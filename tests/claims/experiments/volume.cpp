@@ -64,7 +64,7 @@ VerdictKind verdict(const SixBodies& of, int wrong)
     return judge(claim(of.claim), records).kind;
 }
 
-// Theory: a control that fails in 6 of 6 units gives q = 1/8, by which chance reaches 4 of 6 with a probability of 0.003.
+// Theory: a control that fails in 6 of 6 cases gives q = 1/8, by which chance reaches 4 of 6 with a probability of 0.003.
 TEST(VolumeVerdict, TurnsWithTheBodiesAndTheControls)
 {
     using enum VerdictKind;
@@ -76,8 +76,8 @@ TEST(VolumeVerdict, TurnsWithTheBodiesAndTheControls)
         SixBodies all_lose = of, none_holds = of;
         all_lose.must_fail_pct = of.change_pct;
         none_holds.must_hold_pct = -50.0;
-        EXPECT_EQ(verdict(all_lose, 0), not_testable) << of.claim << ": what must fail holds";
-        EXPECT_EQ(verdict(none_holds, 0), not_testable) << of.claim << ": what must hold fails";
+        EXPECT_EQ(verdict(all_lose, 0), inconclusive) << of.claim << ": what must fail holds";
+        EXPECT_EQ(verdict(none_holds, 0), inconclusive) << of.claim << ": what must hold fails";
     }
 }
 
@@ -133,7 +133,7 @@ TEST(BrokenVolume, WhatIsSaidOfBlendingStaysAndABlendByOneBoneLosesLess)
         std::vector<analysis::Measurement> measured;
         for (const analysis::CaseRecord& record : records.cases)
             std::ranges::move(frame_measurements(record), std::back_inserter(measured));
-        return judged(c01, *control, measured).units.at(0).value;
+        return judged(c01, *control, measured).cases.at(0).value;
     };
     EXPECT_GT(loss_at_150_deg(sound), 0.0);
     for (const Broken how : every_broken) {

@@ -21,7 +21,7 @@ from pages import ambiguity, ensemble, short, work_precision
 from readme import findings as readme_findings, pages as readme_pages, part as readme_part, tables as readme_tables
 from readme import same_pose
 from records import kept
-from synthetic_records import claim, selection, unit, write_origin, write_table
+from synthetic_records import case, claim, selection, write_origin, write_table
 
 begin, end = readme_part.markers("claims")
 
@@ -41,38 +41,38 @@ class ReadmeTest(ResultsTest):
 
 class ClaimPage(unittest.TestCase):
     def test_a_claim_has_its_verdict_then_its_basis_then_a_table_for_each_kind_of_comparison(self):
-        shown = claim("C04", "holds", [unit(1.0)] * 5, titles={"ratio": "radius"}, interval_low=0.48, interval_high=1.0, chance=0.001,
-                      q=0.2, controls=[selection("LBS", [unit(0.5, False)], "must_fail")],
-                      compared=[selection("DQS|2", [unit(-0.4, False)])])
+        shown = claim("C04", "holds", [case(1.0)] * 5, titles={"ratio": "radius"}, interval_low=0.48, interval_high=1.0, chance=0.001,
+                      q=0.2, controls=[selection("LBS", [case(0.5, False)], "negative_control")],
+                      compared=[selection("DQS|2", [case(-0.4, False)])])
         self.assertEqual(readme_pages.claim_lines(shown), [
-            "**C04: holds.** Volume is kept.", "", "5 of 5 units hold, share 1 [0.48, 1]; radius: 1, bound 0.95 or more.", "",
-            "The number of a unit (body) is the radius; bound: 0.95 or more (Sec. 4). If each unit held with probability q = 0.2, at "
+            "**C04: holds.** Volume is kept.", "", "5 of 5 cases hold, share 1 [0.48, 1]; radius: 1, threshold 0.95 or more.", "",
+            "The number of a case (body) is the radius; threshold: 0.95 or more (Sec. 4). If each case held with probability q = 0.2, at "
             "least as many would hold by chance with probability 0.001. This q is the share of the control that must fail, by the rule of "
             "succession, or one half.", "",
-            "| control | role | units that hold | numbers | as it must |", "|---|---|---|---|---|",
-            "| LBS | must fail | 0 of 1 unit, share 0 | 0.5 | yes |", "",
-            "| for comparison | units within the bound | numbers |", "|---|---|---|", "| DQS\\|2 | 0 of 1 unit, share 0 | -0.4 |"])
+            "| control | role | cases that hold | numbers | as it must |", "|---|---|---|---|---|",
+            "| LBS | negative control | 0 of 1 case, share 0 | 0.5 | yes |", "",
+            "| for comparison | cases within the threshold | numbers |", "|---|---|---|", "| DQS\\|2 | 0 of 1 case, share 0 | -0.4 |"])
 
     def test_what_disagrees_in_the_same_units_follows_the_tables(self):
         def last_line(bodies):
-            wrong = [unit(0.1, False, body=body) for body in bodies]
-            return readme_pages.claim_lines(claim("C04", "holds", [unit(1.0, body=body) for body in "abcdef"], titles={},
+            wrong = [case(0.1, False, body=body) for body in bodies]
+            return readme_pages.claim_lines(claim("C04", "holds", [case(1.0, body=body) for body in "abcdef"], titles={},
                                                   readings=[selection("plain f32", wrong)]))[-1]
 
-        self.assertRegex(last_line("abcde"), "^Plain f32 and the claim's own reading disagree: in the 5 units that both have, ")
+        self.assertRegex(last_line("abcde"), "^Plain f32 and the claim's own reading disagree: in the 5 cases that both have, ")
         for bodies in ("abcd", "abcdx"):  # fewer than five are no sample
             self.assertNotIn("disagree", last_line(bodies))
 
     def test_a_page_begins_with_verdicts_that_differ(self):
-        later = claim("C04", "fails", [unit(0.5, False)], controls=[selection("LBS", [unit(0.5, False)], "must_fail")])
-        first, *others = readme_pages.claim_page_lines([claim("C04", "holds", [unit(1.0)] * 5, confirmatory=later)])
-        self.assertEqual(first, "**C04 has two verdicts: holds; on the confirmatory units: fails.**")
-        self.assertIn("Controls on the confirmatory units:", others)
-        same = claim("C04", "holds", confirmatory=claim("C04", "holds"))
+        later = claim("C04", "fails", [case(0.5, False)], controls=[selection("LBS", [case(0.5, False)], "negative_control")])
+        first, *others = readme_pages.claim_page_lines([claim("C04", "holds", [case(1.0)] * 5, held_out=later)])
+        self.assertEqual(first, "**C04 has two verdicts: holds; on the held-out cases: fails.**")
+        self.assertIn("Controls on the held-out cases:", others)
+        same = claim("C04", "holds", held_out=claim("C04", "holds"))
         self.assertNotIn("two verdicts", "".join(readme_pages.claim_page_lines([same])))
 
     def test_a_page_serves_both_halves_of_a_sentence(self):
-        lines = readme_pages.claim_page_lines([claim("C02a", "fails", titles={}), claim("C02b", "not_testable", titles={})])
+        lines = readme_pages.claim_page_lines([claim("C02a", "fails", titles={}), claim("C02b", "inconclusive", titles={})])
         self.assertEqual([line.split(":")[0] for line in lines if line.startswith(("Study", "**"))], ["Study", "**C02a", "**C02b"])
 
 
@@ -132,15 +132,13 @@ class Tables(ReadmeTest):
         synthetic_records.write_claims(self.results)
         page = "experiments/verdicts/claims"
         self.assert_written("claims", readme_tables.claims_lines,
-                            f"| [C02a]({page}/C02.md) | Volume is kept | fails | 1 of 3 | 0.95 or more |",
-                            f"| [C10a]({page}/C10.md) | Volume is kept | holds | 2 of 2 | 30 or more |",
-                            f"| [C13]({page}/C13.md) | Volume is kept | inconsistent in print | 1 of 2 | each value as the others "
-                            "require |",
-                            f"| [C14]({page}/C14.md) | Volume is kept | not testable |  | 0.95 or more |",
+                            f"| [C02a]({page}/C02.md) | volume is kept | fails |  |  |",
+                            f"| [C13]({page}/C13.md) | volume is kept | inconsistent in print |  |  |",
+                            f"| [C14]({page}/C14.md) | volume is kept | inconclusive |  |  |",
                             f"\nMeasured at revision {synthetic_records.revision[:12]}.")
 
     def test_a_claim_has_its_short_texts_and_the_verdicts_on_held_out_cases_follow_in_one_sentence(self):
-        claims = [claim(name, "holds", short="Volume", measured="in 8 clips", asked="all", confirmatory=later and claim(name, later))
+        claims = [claim(name, "holds", short="Volume", measured="in 8 clips", asked="all", held_out=later and claim(name, later))
                   for name, later in (("C01", "fails"), ("C02a", "fails"), ("C03", "holds"), ("C04", None))]
         with unittest.mock.patch.object(readme_tables.sentences, "claims_of", lambda file: claims):
             (self.results / "claims.json").write_text("{}")
@@ -158,23 +156,23 @@ class Tables(ReadmeTest):
         self.assertIn("claims.json: claims: 0 with the id C04: expected one", said)
 
     def test_the_volume_and_the_speed_are_ranges_over_the_cases(self):
-        clips = [unit(share, False, body="human", motion=clip) for clip, share in (("01_01", 0.36), ("01_03", 0.0))]
+        clips = [case(share, False, body="human", motion=clip) for clip, share in (("01_01", 0.36), ("01_03", 0.0))]
         self.assertEqual(readme_findings.volume([claim("C02a", "fails", clips)]),
                          "**Volume: not kept as claimed.** PBS is within the paper's limit in 0 to 36 % of the frames of a clip.")
-        self.assertEqual(readme_findings.speed([claim("C10a", "holds", [unit(83.4), unit(176.2)])]),
+        self.assertEqual(readme_findings.speed([claim("C10a", "holds", [case(83.4), case(176.2)])]),
                          "**Speed: real time.** At the paper's sizes, one core computes 83 to 176 frames per second.")
-        self.assertIn("stiffer", readme_findings.stiffness([claim("C11", "definition", [unit(1.84), unit(5.98)])]))
+        self.assertIn("stiffer", readme_findings.stiffness([claim("C11", "definition", [case(1.84), case(5.98)])]))
 
     def test_artefacts_are_counted_and_a_claim_without_cases_states_why(self):
-        twist = unit(0.067, False, body="limb", angle_deg=180.0)
-        text = readme_findings.artefacts([claim("C04", "holds", [unit(1.0)] * 28 + [twist]), claim("C05", "holds", [unit(1.0)] * 5)])
+        twist = case(0.067, False, body="limb", angle_deg=180.0)
+        text = readme_findings.artefacts([claim("C04", "holds", [case(1.0)] * 28 + [twist]), claim("C05", "holds", [case(1.0)] * 5)])
         self.assertEqual(text, "**Artefacts: gone.** No candy wrapper of LBS is left in 28 of 29 poses, and no bulge of DQS in 5 of 5 "
                          "poses.")
-        text = readme_findings.volume([claim("C02a", "not_testable", untested="too_few_units")])
-        self.assertIn("C02a is not testable: no unit is on record.", text)
+        text = readme_findings.volume([claim("C02a", "inconclusive", why_inconclusive="too_few_cases")])
+        self.assertIn("C02a is inconclusive: no case is on record.", text)
 
     def test_convergence_counts_the_cases(self):
-        text = readme_findings.convergence([claim("C12a", "fails", [unit(11.0)] * 2 + [unit(61.0, False)])])
+        text = readme_findings.convergence([claim("C12a", "fails", [case(11.0)] * 2 + [case(61.0, False)])])
         self.assertEqual(text, "**Iterations: too few.** The paper's number suffices in 2 of 3 poses.")
 
     def test_bounded_is_not_at_rest(self):
@@ -269,7 +267,7 @@ class Pages(ResultsTest):
                      "| vertex block descent |  | `vbd.iterations=1` | `vbd.iterations=10` |",
                      "- `mine`: the times that the program states"):
             self.assertIn(line, text)
-        for study_word in ("undecided", "not testable"):
+        for study_word in ("undecided", "inconclusive"):
             self.assertNotIn(study_word, text)
 
     def test_the_quick_form_has_neither_clips_nor_other_starts(self):

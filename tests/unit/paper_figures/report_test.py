@@ -100,17 +100,20 @@ class Report(ReportTest):
     def test_verdicts_are_counted_and_open_to_their_runs(self):
         synthetic_records.write_claims(self.results)
         text = self.page()
-        self.assertIn("There are 5 claims: 1 holds, 1 fails, 1 is inconsistent in print, 2 are not testable.", words_of(text))
-        judged = [("C02a", "fails"), ("C10a", "holds"), ("C13", "inconsistent in print"), ("C14", "not testable"), ("C16", "not testable")]
+        self.assertIn("There are 5 claims: 1 holds, 1 fails, 1 is inconclusive, 1 cannot be tested, 1 is inconsistent in print.",
+                      words_of(text))
+        judged = [("C02a", "fails"), ("C10a", "holds"), ("C13", "inconsistent in print"), ("C14", "inconclusive"),
+                  ("C16", "cannot be tested")]
         self.assertEqual(re.findall(r'<a class="chip \w+" href="#(\w+)".*?: ([\w ]+)</span></a>', text), judged)
         lines = re.findall(r'<details class="claim" id="(\w+)"><summary>.*?<span class="mark \w+">.*?</span> ([\w ]+)</span>', text)
         self.assertEqual(lines, judged)
         self.assertIn('<a href="volume/limb_twist/">volume/limb_twist</a>', text)
-        self.assertIn("<li>1 of 3 units hold, share 0.333 [0.01, 0.91]</li>", text)
-        self.assertIn("<li>frames per second: 107 to 233 1/s, bound 30 or more</li>", text)
+        self.assertIn("<li>1 of 3 cases hold, share 0.333 [0.01, 0.91]</li>", text)
+        self.assertIn("<li>frames per second: 107 to 233 1/s, threshold 30 or more</li>", text)
         self.assertNotIn("<p></p>", text)
         self.assertIn('<th scope="row">human, clip 01_03</th><td>0.4</td><td>0.1 to 0.4</td><td>0.95 or more</td><td>\u2718 no</td>', text)
-        self.assertIn('<th scope="row">LBS (ratio)</th><td>must fail</td><td>0 of 1 unit, share 0</td><td>0.01</td><td>yes</td>', text)
+        row = '<th scope="row">LBS (ratio)</th><td>negative control</td><td>0 of 1 case, share 0</td><td>0.01</td><td>yes</td>'
+        self.assertIn(row, text)
         self.assertIn("no record of the control DQS", text)
         self.assertIn("<code>", markup.inline("`x`"))
 
@@ -142,11 +145,11 @@ class Report(ReportTest):
     def test_the_axis_has_the_units_the_bound_and_the_controls(self):
         synthetic_records.write_claims(self.results)
         claims = {claim["id"]: claim for claim in self.found().claims}
-        drawn = axis.drawn(claims["C02a"] | {"controls": [claims["C02a"] | {"name": "LBS", "role": "must_fail"}]})
+        drawn = axis.drawn(claims["C02a"] | {"controls": [claims["C02a"] | {"name": "LBS", "role": "negative_control"}]})
         parts = '<circle class="holds"', '<circle class="fails"', '<rect class="bound"', '<path class="control"'
         self.assertEqual([drawn.count(part) for part in parts], [1, 2, 1, 1])
-        self.assertRegex(drawn, 'aria-label="[^"]*; bound: 0.95 or more; control LBS, which must fail: 0.4"')
-        self.assertEqual(axis.drawn(claims["C13"]), "")  # each printed value has a bound of its own
+        self.assertRegex(drawn, 'aria-label="[^"]*; threshold: 0.95 or more; control LBS, negative control: 0.4"')
+        self.assertEqual(axis.drawn(claims["C13"]), "")  # each printed value has a threshold of its own
         self.assertEqual([axis.Scale([1, 1000]).is_log, axis.Scale([0, 1000]).is_log], [True, False])
         places = [axis.Scale([1, 10, 100]).place(number) for number in (1, 10, 100, 1e9, -1)]
         self.assertAlmostEqual(places[1], axis.width / 2)
@@ -169,7 +172,7 @@ class Report(ReportTest):
         text = self.page()
         body = re.sub(r"<style>.*?</style>|<script.*?</script>", "", text, flags=re.S)
         self.assertEqual(len(re.findall("(?i)inconsistent in print", body)), 3)  # count, chip, line
-        for other in ("inconsistent_in_print", "not_testable", "must_fail", "control_without_record"):
+        for other in ("inconsistent_in_print", "inconclusive", "negative_control", "control_without_record"):
             self.assertNotIn(other, body)
 
     def test_a_page_beyond_its_size_is_written_and_refused(self):
@@ -198,7 +201,7 @@ class Report(ReportTest):
         # an earlier version recorded no wall time
         self.assertIn("<td>30</td><td>180</td><td>\u2013</td>", origin.costs_section(self.found()))
         (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s,wall_s\na,10,60,70\nb,20,120,125\n")
-        (self.results / "volume" / "plan.json").write_text(json.dumps({"extent": "quick", "runs": [], "left_out": []}))
+        (self.results / "volume" / "plan.json").write_text(json.dumps({"extent": "quick", "runs": [], "excluded": []}))
         self.assertIn("<td>quick</td><td>2</td><td>30</td><td>180</td><td>195</td>", origin.costs_section(self.found()))
 
     def test_errors_over_whole_runs_are_the_recorded_order_statistics(self):
@@ -316,7 +319,7 @@ class Contrast(unittest.TestCase):
         style = (root / "paper_figures" / "report" / "page.css").read_text()
         for theme in re.findall(r":root \{(.*?)\}", style, re.DOTALL):  # light, dark
             colors = dict(re.findall(r"--(\w+): (#[0-9a-f]{3,6})", theme))
-            for name in ("ink", "soft", "link", "holds", "partly", "fails", "print", "untested"):
+            for name in ("ink", "soft", "link", "holds", "partly", "fails", "print", "why_inconclusive"):
                 for ground in ("ground", "shade"):
                     dark, light = sorted((self.luminance(colors[ground]), self.luminance(colors[name])))
                     self.assertGreaterEqual((light + 0.05) / (dark + 0.05), 4.5, (name, ground))
@@ -360,7 +363,7 @@ class ReportRecords(ReportTest):
                "work": {"settings": {}}}
         run["provenance"] |= {"libraries": {"Eigen": "3.4.0"}, "input_hashes": {"limb": "0123"}, "threads": 1}
         self.put(RUN, run)
-        self.put(PLAN, {"extent": "quick", "runs": [{"name": "limb_twist"}], "left_out": [{"scene": "walk", "reason": "no clip"}]})
+        self.put(PLAN, {"extent": "quick", "runs": [{"name": "limb_twist"}], "excluded": [{"scene": "walk", "reason": "no clip"}]})
 
     def put(self, name, record):
         (self.results / name).write_text(json.dumps(record))

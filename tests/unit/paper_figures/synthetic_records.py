@@ -207,56 +207,61 @@ def write_bench(results):
          "scaling": [{"variant": "ordered", "precision": "f32", "threads": 1, "exponent": 1.0, "interval": [None, None]}]}))
 
 
-def unit(number, holds=True, low=None, high=None, bound_low=0.95, bound_high=None, unit="1", left_out=None, **key):
-    """A unit of a claim as in claims.json; `limit` is a member like the fields of its key."""
+def case(number, holds=True, low=None, high=None, threshold_low=0.95, threshold_high=None, unit="1", excluded=None, **key):
+    """A case of a claim as in claims.json; `limit` is a member like the fields of its key."""
     return {**key, "unit": unit, "value": number, "low": number if low is None else low, "high": number if high is None else high,
-            "bound_low": bound_low, "bound_high": bound_high, "n": 1, "holds": holds, "left_out": left_out}
+            "threshold_low": threshold_low, "threshold_high": threshold_high, "n": 1, "holds": holds, "excluded": excluded}
 
 
 def facts(cases):
     """The counts and numbers that claims.json states of a claim or of a selection of its values."""
-    counted = [case for case in cases if case.get("left_out") is None]
+    counted = [case for case in cases if case.get("excluded") is None]
     known, held = sorted(case["value"] for case in counted if case["value"] is not None), sum(case["holds"] for case in counted)
-    reasons = [case["left_out"] for case in cases if case.get("left_out")]
+    reasons = [case["excluded"] for case in cases if case.get("excluded")]
     return {"held": held, "n": len(counted), "share": held / len(counted) if counted else None, "least": known[0] if known else None,
             "median": known[len(known) // 2] if known else None, "most": known[-1] if known else None, "cases": cases, "of": {}, "over": {},
-            "left_out_units": {reason: reasons.count(reason) for reason in reasons}}
+            "excluded_cases": {reason: reasons.count(reason) for reason in reasons}}
 
 
 def selection(name, cases=(), role="comparison", behaves=True, **others):
-    bounds = [{"low": 0.95, "high": None}]
-    return {**facts(list(cases)), "name": name, "role": role, "quantities": ["ratio"], "bounds": bounds, "behaves": behaves, **others}
+    thresholds = [{"low": 0.95, "high": None}]
+    return {**facts(list(cases)), "name": name, "role": role, "quantities": ["ratio"], "thresholds": thresholds, "behaves": behaves,
+            **others}
 
 
 def claim(name, verdict, cases=(), **others):
-    empty = {"statement": "Volume is kept.", "place": "Sec. 4", "study": "volume", "rule": "units", "reason": "", "untested": "none",
-             "quantities": ["ratio"], "bounds": [{"low": 0.95, "high": None}], "source": "Sec. 4", "range": "meshes",
-             "unit_fields": ["body"], "interval_low": None, "interval_high": None, "chance": None, "q": None, "differs": None,
-             "fixed_at": "", "confirmatory": None, "controls": [], "compared": [], "readings": [], "left_out": [],
+    empty = {"statement": "Volume is kept.", "place": "Sec. 4", "study": "volume", "rule": "cases", "reason": "",
+             "why_inconclusive": "none",
+             "quantities": ["ratio"], "thresholds": [{"low": 0.95, "high": None}], "source": "Sec. 4", "range": "meshes",
+             "case_fields": ["body"], "interval_low": None, "interval_high": None, "chance": None, "q": None, "differs": None,
+             "fixed_at": "", "held_out": None, "controls": [], "compared": [], "readings": [], "excluded_scenes": [],
+             "thresholds_fixed_at": others.get("fixed_at", ""), "short": "volume is kept", "measured": None, "asked": None,
+             "without_body": [], "threshold_ranges": [],
              "missing": [], "runs": [], "titles": {}}
     return {**empty, **facts(list(cases)), "id": name, "verdict": verdict, **others}
 
 
 def write_claims(results, statement="Volume is kept."):
     """One claim of each kind: that fails on two of three clips, that holds, about printed values, without a control, untestable."""
-    clips = [unit(share, share > 0.95, 0.1, body="human", motion=clip)
+    clips = [case(share, share > 0.95, 0.1, body="human", motion=clip)
              for clip, share in (("01_01", 0.975), ("01_03", 0.4), ("01_05", 0.2))]
-    rates = [unit(rate, True, rate - 3.0, rate + 7.0, 30.0, None, "1/s", body=body) for body, rate in (("man", 233.0), ("frankie", 107.0))]
-    printed = [{"quantity": "tets", "model": "Man", "value": 5000.0, "bound_low": 1.0, "bound_high": bound, "holds": holds}
+    rates = [case(rate, True, rate - 3.0, rate + 7.0, 30.0, None, "1/s", body=body) for body, rate in (("man", 233.0), ("frankie", 107.0))]
+    printed = [{"quantity": "tets", "model": "Man", "value": 5000.0, "threshold_low": 1.0, "threshold_high": bound, "holds": holds}
                for bound, holds in ((None, True), (9.0, False))]
-    lbs = selection("LBS", [unit(0.01, False, body="human", motion="01_01")], "must_fail")
-    author = selection("the author's later code", [unit(0.99, body="human", motion="01_01")])
-    judged = [claim("C02a", "fails", clips, runs=["volume/limb_twist"], quantities=["share_kept"], unit_fields=["body", "motion"],
+    lbs = selection("LBS", [case(0.01, False, body="human", motion="01_01")], "negative_control")
+    author = selection("the author's later code", [case(0.99, body="human", motion="01_01")])
+    judged = [claim("C02a", "fails", clips, runs=["volume/limb_twist"], quantities=["share_kept"], case_fields=["body", "motion"],
                     interval_low=0.01, interval_high=0.91, chance=0.7, q=1 / 3, fixed_at=revision, controls=[lbs], compared=[author],
                     readings=[selection("ordered f32", clips)]),
-              claim("C10a", "holds", rates, quantities=["frames_per_s"], bounds=[{"low": 30.0, "high": None}], interval_low=0.16,
+              claim("C10a", "holds", rates, quantities=["frames_per_s"], thresholds=[{"low": 30.0, "high": None}], interval_low=0.16,
                     interval_high=1.0, chance=0.001, q=0.03, differs={"field": "body", "least_at": "man", "least": 1, "most_at": "lady",
                                                                       "most": 1}),
               claim("C13", "inconsistent_in_print", printed, rule="printed"),
-              claim("C14", "not_testable", untested="control_without_record", controls=[selection("DQS", (), "must_fail", False)]),
-              claim("C16", "not_testable", rule="untestable", untested="reason_of_the_claim", reason="no value is in print")]
+              claim("C14", "inconclusive", why_inconclusive="control_without_record", 
+                    controls=[selection("DQS", (), "negative_control", False)]),
+              claim("C16", "untestable", rule="untestable", reason="no value is in print")]
     titles = {"share_kept": {"title": "share of frames", "unit": "1"}, "frames_per_s": {"title": "frames per second", "unit": "1/s"}}
-    document = {"schema": 3, "revision": revision, "quantities": titles, "claims": [{**one, "statement": statement} for one in judged]}
+    document = {"schema": 4, "revision": revision, "quantities": titles, "claims": [{**one, "statement": statement} for one in judged]}
     (results / "claims.json").write_text(json.dumps(document))
 
 

@@ -14,7 +14,7 @@ import records
 import synthetic_records
 from drawing import style
 from records import entries
-from synthetic_records import claim, selection, unit, write_table
+from synthetic_records import case, claim, selection, write_table
 from words import captions, case_words, compared_methods, looks, sentences
 
 
@@ -41,12 +41,12 @@ class CaseWords(unittest.TestCase):
 class Bounds(unittest.TestCase):
     def test_a_bound_of_two_ends_one_or_none(self):
         ends = ((0.9, 1.1), (30.0, None), (None, 1.05), (0.0, 0.0), (None, 0.9999999999999999), (1e-9, None), (None, 1e-12), (None, None))
-        self.assertEqual([sentences.bound(*of) for of in ends],
+        self.assertEqual([sentences.threshold(*of) for of in ends],
                          ["0.9 to 1.1", "30 or more", "1.05 or less", "0", "below 1", "above 0", "1e\u221212 or less", ""])
 
     def test_several_bounds_state_for_what_they_are(self):
         judged = claim("C07", "holds", titles={"left": "what is left"},
-                       bounds=[{"low": None, "high": 1e-5, "precision": "f32"}, {"low": None, "high": 0.05, "quantity": "left"}])
+                       thresholds=[{"low": None, "high": 1e-5, "precision": "f32"}, {"low": None, "high": 0.05, "quantity": "left"}])
         self.assertEqual(sentences.expected(judged), ["single precision: 1e\u221205 or less", "what is left: 0.05 or less"])
         self.assertEqual(sentences.expected(claim("C14", "inconsistent_in_print", rule="printed")), ["each value as the others require"])
 
@@ -54,148 +54,185 @@ class Bounds(unittest.TestCase):
 class Numbers(unittest.TestCase):
     def test_a_censored_value_is_never_a_number(self):
         for limit, words in (("more_than", "> 1,000"), ("at_least", "\u2265 1,000"), ("at_most", "\u2264 1,000")):
-            self.assertEqual(sentences.shown(unit(1000.0, limit=limit)), words)
-        self.assertEqual(sentences.shown(unit(1000.0)), "1000")
-        self.assertEqual(sentences.shown(unit(90.93, limit="at_least", unit="%")), "\u2265 90.9 %")
+            self.assertEqual(sentences.shown(case(1000.0, limit=limit)), words)
+        self.assertEqual(sentences.shown(case(1000.0)), "1000")
+        self.assertEqual(sentences.shown(case(90.93, limit="at_least", unit="%")), "\u2265 90.9 %")
 
     def test_they_span_the_units_that_count(self):
-        cases = [unit(1000.0, limit="more_than"), unit(13.0), unit(2.0, left_out="nothing_to_see"), unit(None)]
+        cases = [case(1000.0, limit="more_than"), case(13.0), case(2.0, excluded="nothing_to_see"), case(None)]
         self.assertEqual(sentences.span(sentences.counting({"cases": cases})), "13 to > 1,000; 1 value not a number")
-        self.assertEqual([sentences.span(list(of)) for of in ((), [unit(7.0, unit="%")], [unit(1.0, unit="%"), unit(2.0, unit="%")])],
+        self.assertEqual([sentences.span(list(of)) for of in ((), [case(7.0, unit="%")], [case(1.0, unit="%"), case(2.0, unit="%")])],
                          ["", "7 %", "1 to 2 %"])
 
     def test_each_bound_has_the_numbers_to_which_it_applies(self):
         bounds = [{"low": None, "high": high, "precision": name} for name, high in (("f64", 1e-12), ("f32", 1e-5))]
-        cases = [unit(number, bound_low=None, bound_high=high) for number, high in ((2e-15, 1e-12), (1e-6, 1e-5), (4e-15, 1e-12))]
-        self.assertEqual(sentences.numbers(claim("C07", "holds", cases, bounds=bounds)),
-                         ["ratio, double precision: 2e-15 to 4e-15, bound 1e-12 or less".replace("-", "\u2212"),
-                          "ratio, single precision: 1e-06, bound 1e-05 or less".replace("-", "\u2212")])
+        cases = [case(number, threshold_low=None, threshold_high=high) for number, high in ((2e-15, 1e-12), (1e-6, 1e-5), (4e-15, 1e-12))]
+        self.assertEqual(sentences.numbers(claim("C07", "holds", cases, thresholds=bounds)),
+                         ["ratio, double precision: 2e-15 to 4e-15, threshold 1e-12 or less".replace("-", "\u2212"),
+                          "ratio, single precision: 1e-06, threshold 1e-05 or less".replace("-", "\u2212")])
 
     def test_each_quantity_of_a_unit_has_its_numbers(self):
         bounds = [{"low": 0.1, "high": None, "quantity": "damping"}, {"low": None, "high": 0.05, "quantity": "left"}]
-        cases = [unit(d, parts=[unit(d, bound_low=0.1, quantity="damping"), unit(r, bound_low=None, bound_high=0.05, quantity="left")])
+        cases = [case(d, parts=[case(d, threshold_low=0.1, quantity="damping"),
+                                case(r, threshold_low=None, threshold_high=0.05, quantity="left")])
                  for d, r in ((0.2, 0.01), (0.4, 0.07))]
-        judged = claim("C09a", "mixed", cases, bounds=bounds, quantities=["damping", "left"], titles={"left": "what is left"})
+        judged = claim("C09a", "mixed", cases, thresholds=bounds, quantities=["damping", "left"], titles={"left": "what is left"})
         self.assertEqual(sentences.numbers(judged),
-                         ["damping: 0.2 to 0.4, bound 0.1 or more", "what is left: 0.01 to 0.07, bound 0.05 or less"])
+                         ["damping: 0.2 to 0.4, threshold 0.1 or more", "what is left: 0.01 to 0.07, threshold 0.05 or less"])
         self.assertEqual(sentences.spans(judged, judged), "damping: 0.2 to 0.4; what is left: 0.01 to 0.07")
-        self.assertIn("is the damping and what is left; bound: ", sentences.basis(judged))
+        self.assertIn("is the damping and what is left; threshold: ", sentences.basis(judged))
 
     def test_ranges_that_cross_the_bound_are_named(self):
-        cases = [unit(1.0, low=0.9, high=1.1, body=body) for body in ("limb", "man", "lady")] + [unit(1.0), unit(0.5, low=0.4, high=0.6)]
+        cases = [case(1.0, low=0.9, high=1.1, body=body) for body in ("limb", "man", "lady")] + [case(1.0), case(0.5, low=0.4, high=0.6)]
         self.assertEqual(sentences.ranges(claim("C04", "mixed", cases)), [
-            "range over meshes of limb: 0.9 to 1.1", "range over meshes of man: 0.9 to 1.1", "the ranges of 1 more unit cross the bound"])
+            "range over meshes of limb: 0.9 to 1.1", "range over meshes of man: 0.9 to 1.1",
+            "the ranges of 1 more case cross the threshold"])
         self.assertEqual(sentences.ranges(claim("C04", "mixed", cases, range="")), [])
 
 
 class Facts(unittest.TestCase):
-    joints = [unit(0.067, False)] + [unit(1.0)] * 27 + [unit(1.02), unit(1.0, left_out="nothing_to_see")]
+    joints = [case(0.067, False)] + [case(1.0)] * 27 + [case(1.02), case(1.0, excluded="nothing_to_see")]
 
     def test_the_share_with_its_interval_then_the_numbers_then_what_is_left_out(self):
         judged = claim("C04", "holds", self.joints, interval_low=0.822, interval_high=0.999, chance=1e-30, q=0.06)
         self.assertEqual(sentences.facts(judged),
-                         ["28 of 29 units hold, share 0.966 [0.822, 0.999]", "ratio: 0.067 to 1.02, bound 0.95 or more",
-                          "1 unit left out: the control that must fail does not fail there"])
+                         ["28 of 29 cases hold, share 0.966 [0.822, 0.999]", "ratio: 0.067 to 1.02, threshold 0.95 or more",
+                          "1 case excluded: the negative control does not fail there"])
 
     def test_chance_is_stated_where_it_decides(self):
-        cases = [unit(1.0)] * 14 + [unit(0.9, False)] * 4
+        cases = [case(1.0)] * 14 + [case(0.9, False)] * 4
         words = "chance alone reaches as many with probability 0.0154, where less than 0.01 is asked"
-        for verdict, chance, share, stated in (("fails", 0.0154, 14 / 18, True), ("mixed", 0.001, 14 / 18, False),
-                                               ("fails", 0.9, 0.4, False)):
-            judged = claim("C06", verdict, cases, chance=chance, q=0.5) | {"share": share}
+        for verdict, why, chance, stated in (("not_shown", "none", 0.0154, True), ("inconclusive", "chance", 0.0154, True),
+                                             ("inconclusive", "too_few_cases", 0.0154, False), ("mixed", "none", 0.001, False),
+                                             ("fails", "none", 0.9, False)):
+            judged = claim("C06", verdict, cases, chance=chance, q=0.5, why_inconclusive=why)
             self.assertEqual(words in sentences.facts(judged), stated, verdict)
 
-    def test_a_mixed_claim_names_the_property_by_which_its_units_differ(self):
-        judged = claim("C03", "mixed", [unit(1.2), unit(0.8, False)], differs={
+    def test_a_mixed_claim_names_the_property_by_which_its_cases_differ(self):
+        judged = claim("C03", "mixed", [case(1.2), case(0.8, False)], differs={
             "field": "body", "least_at": "frankie", "least": 0.0, "most_at": "human", "most": 1.0})
         self.assertIn("the share differs most by body: 0 for frankie, 1 for human", sentences.facts(judged))
 
     def test_without_a_verdict_it_says_why(self):
-        cases, silent = [unit(1.0)] * 4, selection("DQS", (), "must_fail", False)
-        wrong = selection("LBS", [unit(1.0), unit(0.0, False), unit(1.0)], "must_fail", False)
-        for facts, words in (({"untested": "too_few_units", "cases": cases, "n": 4}, "only 4 units, fewer than five"),
-                             ({"untested": "too_few_units"}, "no unit is on record"),
-                             ({"untested": "control_without_record", "controls": [silent, silent]}, "no record of the controls DQS, DQS"),
-                             ({"untested": "control_misbehaves", "controls": [wrong]},
-                              "the control LBS, which must fail, holds in 2 of 3 units"),
-                             ({"untested": "reason_of_the_claim", "rule": "untestable", "reason": "no program"}, "no program"),
+        cases, silent = [case(1.0)] * 4, selection("DQS", (), "negative_control", False)
+        wrong = selection("LBS", [case(1.0), case(0.0, False), case(1.0)], "negative_control", False)
+        for facts, words in (({"why_inconclusive": "too_few_cases", "cases": cases, "n": 4}, "only 4 cases, fewer than five"),
+                             ({"why_inconclusive": "too_few_cases"}, "no case is on record"),
+                             ({"why_inconclusive": "control_without_record", "controls": [silent, silent]},
+                              "no record of the controls DQS, DQS"),
+                             ({"why_inconclusive": "control_misbehaves", "controls": [wrong]},
+                              "the negative control LBS holds in 2 of 3 cases"),
+                             ({"rule": "untestable", "reason": "no program"}, "no program"),
                              ({"missing": ["volume/walk"]}, "no record of volume/walk"),
-                             ({"left_out": [{"scene": "man", "reason": "not installed"}]}, "man is left out: not installed"),
+                             ({"excluded_scenes": [{"scene": "man", "reason": "not installed"}]}, "man is excluded: not installed"),
                              ({}, "no record")):
-            self.assertEqual(sentences.facts(claim("C05", "not_testable", **facts))[-1], words)
+            self.assertEqual(sentences.facts(claim("C05", "inconclusive", **facts))[-1], words)
 
     def test_printed_values_are_counted_and_a_single_number_has_the_range_that_decides(self):
-        printed = [{"value": 1.0, "holds": holds, "bound_low": None, "bound_high": None} for holds in (True, False, True)]
+        printed = [{"value": 1.0, "holds": holds, "threshold_low": None, "threshold_high": None} for holds in (True, False, True)]
         self.assertEqual(sentences.facts(claim("C14", "inconsistent_in_print", printed, rule="printed")),
                          ["2 of 3 printed values consistent"])
-        exponent = unit(0.42, low=0.21, high=0.63, bound_low=1e-9)
+        exponent = case(0.42, low=0.21, high=0.63, threshold_low=1e-9)
         self.assertEqual(sentences.facts(claim("C12b", "holds", [exponent], rule="single", range="95 % range of the fit")),
-                         ["ratio: 0.42 (95 % range of the fit: 0.21 to 0.63), bound above 0"])
-        self.assertEqual(sentences.facts(claim("C12b", "not_testable", [exponent] * 2, rule="single", untested="too_few_units"))[-1],
+                         ["ratio: 0.42 (95 % range of the fit: 0.21 to 0.63), threshold above 0"])
+        self.assertEqual(sentences.facts(claim("C12b", "inconclusive", [exponent] * 2, rule="single",
+                                               why_inconclusive="too_few_cases"))[-1],
                          "2 numbers are on record where one is expected")
 
     def test_a_definition_has_its_reason_and_its_numbers(self):
-        cases = [unit(factor, bound_low=None) for factor in (1.85, 5.98)]
-        judged = claim("C11", "definition", cases, rule="definition", reason="it defines k", titles={"ratio": "factor"}, bounds=[])
+        cases = [case(factor, threshold_low=None) for factor in (1.85, 5.98)]
+        judged = claim("C11", "definition", cases, rule="definition", reason="it defines k", titles={"ratio": "factor"}, thresholds=[])
         self.assertEqual(sentences.in_line(judged), "It defines k; factor: 1.85 to 5.98")
 
     def test_verdicts_are_counted_in_one_sentence(self):
-        kinds = ["holds", "holds", "fails", "definition", "not_testable", "not_testable"]
+        kinds = ["holds", "holds", "fails", "definition", "inconclusive", "untestable"]
         self.assertEqual(sentences.counts([claim("C01", kind) for kind in kinds]),
-                         "There are 6 claims: 2 hold, 1 fails, 2 are not testable, 1 is a definition.")
+                         "There are 6 claims: 2 hold, 1 fails, 1 is inconclusive, 1 cannot be tested, 1 is a definition.")
         self.assertEqual(set(sentences.kinds), set(sentences.names))
 
 
 class Basis(unittest.TestCase):
     def test_it_states_the_unit_its_number_the_bound_with_its_source_chance_and_the_revision(self):
-        judged = claim("C04", "holds", [unit(1.0)] * 5, chance=0.001, q=0.0625, fixed_at="0123456789abcdef",
-                       unit_fields=["body", "angle_deg"], titles={"ratio": "radius"}, over={"deformer": "reference"},
+        judged = claim("C04", "holds", [case(1.0)] * 5, chance=0.001, q=0.0625, fixed_at="0123456789abcdef",
+                       case_fields=["body", "angle_deg"], titles={"ratio": "radius"}, over={"deformer": "reference"},
                        source="Fig. 8")
         self.assertEqual(
             sentences.basis(judged),
-            "The number of a unit (body, angle) is the radius, over that of the reference; bound: 0.95 or more (Fig. 8). If each unit "
+            "The number of a case (body, angle) is the radius, over that of the reference; threshold: 0.95 or more (Fig. 8). If each case "
             "held with probability q = 0.0625, at least as many would hold by chance with probability 0.001. This q is the share of the "
-            "control that must fail, by the rule of succession, or one half. Rule and bound are of revision 0123456789ab.")
+            "negative control, by the rule of succession, or one half. Rule and threshold are of revision 0123456789ab.")
         self.assertEqual(sentences.basis(claim("C13", "holds", rule="printed")), "")
 
-    def test_the_verdict_on_confirmatory_units_stands_next_to_the_other(self):
-        later = claim("C04", "fails", [unit(0.5, False), unit(1.0)], interval_low=0.01, interval_high=0.99)
+    def test_when_threshold_and_rule_were_fixed_is_stated(self):
+        judged = claim("C04", "holds", [case(1.0)] * 5, fixed_at="b" * 40, thresholds_fixed_at="a" * 40)
+        self.assertIn("The threshold is of revision aaaaaaaaaaaa, the rule of revision bbbbbbbbbbbb.", sentences.basis(judged))
+        later = claim("C04", "fails", [case(0.5, False)], fixed_at="b" * 40, thresholds_fixed_at="a" * 40)
+        told, = sentences.on_held_out_cases(judged | {"held_out": later})
+        self.assertIn("recorded after the thresholds were fixed and before the rule was mended, the verdict is 'fails'", told)
+
+    def test_the_verdict_without_each_body(self):
+        def told(**kinds):
+            without = [{"body": body, "verdict": kind} for body, kind in kinds.items()]
+            return sentences.without_a_body(claim("C04", "holds", without_body=without))
+
+        self.assertEqual(told(), [])
+        self.assertEqual(told(limb="holds", man="holds"), ["The verdict stays the same if any one body is excluded"])
+        self.assertEqual(told(limb="holds", man="mixed"), ["If one body is excluded, the verdict changes: it is 'mixed' without man"])
+        self.assertEqual(told(limb="inconclusive", lady="mixed", man="inconclusive", ring="inconclusive"),
+                         ["If one body is excluded, the verdict changes: it is 'inconclusive' without any one of limb, man and ring and "
+                          "'mixed' without lady"])
+
+    def test_the_range_of_each_threshold(self):
+        def told(low, high, **others):
+            range_of = {"end": "high", "threshold": 1.05, "low": low, "high": high} | others
+            return sentences.threshold_ranges(claim("C05", "holds", titles={"ratio": "radius"}, threshold_ranges=[range_of]))
+
+        self.assertEqual(told(1.0468, 1.0642), ["With any upper threshold from 1.047 to 1.064 in place of 1.05, the verdict is the same"])
+        self.assertEqual(told(None, 2.0, end="low"), ["With any lower threshold up to 2 in place of 1.05, the verdict is the same"])
+        self.assertEqual(told(-1.0, None), ["With any upper threshold from \u22121 on in place of 1.05, the verdict is the same"])
+        self.assertEqual(told(None, None, quantity="ratio", precision="f64"),
+                         ["With any upper threshold of the double precision, radius in place of 1.05, the verdict is the same"])
+        self.assertEqual(sentences.threshold_ranges(claim("C13", "holds")), [])
+
+    def test_the_verdict_on_held_out_cases_stands_next_to_the_other(self):
+        later = claim("C04", "fails", [case(0.5, False), case(1.0)], interval_low=0.01, interval_high=0.99)
         del later["titles"]  # claims.json has them once
-        judged = claim("C04", "holds", [unit(1.0)] * 5, confirmatory=later, titles={"ratio": "section radius"})
-        self.assertEqual(sentences.both_verdicts(judged), "holds; on the confirmatory units: fails")
-        told, = sentences.on_confirmatory_units(judged)
-        self.assertIn("the verdict is 'fails': 1 of 2 units hold, share 0.5 [0.01, 0.99]; section radius", told)
-        self.assertEqual((sentences.both_verdicts(later), sentences.on_confirmatory_units(later)), ("fails", []))
-        self.assertEqual(sentences.both_verdicts(claim("C04", "holds", confirmatory=2)), "holds", "older records count these units")
+        judged = claim("C04", "holds", [case(1.0)] * 5, held_out=later, titles={"ratio": "section radius"})
+        self.assertEqual(sentences.both_verdicts(judged), "holds; on the held-out cases: fails")
+        told, = sentences.on_held_out_cases(judged)
+        self.assertIn("the verdict is 'fails': 1 of 2 cases hold, share 0.5 [0.01, 0.99]; section radius", told)
+        self.assertEqual((sentences.both_verdicts(later), sentences.on_held_out_cases(later)), ("fails", []))
+        self.assertEqual(sentences.both_verdicts(claim("C04", "holds", held_out=2)), "holds", "older records count these cases")
         self.assertEqual(case_words.of({"body": "human", "motion": "range_of_motion", "pose": "elbow_flexion+supination"}),
                          "human, elbow flexion and supination")
 
 
 class Compared(unittest.TestCase):
     def test_a_control_has_its_role_and_whether_it_behaves(self):
-        controls = [selection("LBS", [unit(0.5, False), unit(1.0)], "must_fail"),
-                    selection("LBS", (), "must_hold", False, quantities=["ms"])]
+        controls = [selection("LBS", [case(0.5, False), case(1.0)], "negative_control"),
+                    selection("LBS", (), "positive_control", False, quantities=["ms"])]
         self.assertEqual(sentences.control_rows(claim("C04", "holds", controls=controls)), [
-            ["LBS", "must fail", "1 of 2 units, share 0.5", "0.5 to 1", "yes"], ["LBS (ms)", "must hold", "no record", "", "no"]])
+            ["LBS", "negative control", "1 of 2 cases, share 0.5", "0.5 to 1", "yes"],
+            ["LBS (ms)", "positive control", "no record", "", "no"]])
 
     def test_a_comparison_without_a_bound_counts_its_units_alone(self):
-        compared = [selection("flesh, nu 0.45", [unit(0.5, False)]), selection("XPBD", [unit(1.0)], bounds=[]), selection("MLS")]
+        compared = [selection("flesh, nu 0.45", [case(0.5, False)]), selection("XPBD", [case(1.0)], thresholds=[]), selection("MLS")]
         self.assertEqual(sentences.compared_rows(claim("C04", "holds", compared=compared)), [
-            ["flesh, nu 0.45", "0 of 1 unit, share 0", "0.5"], ["XPBD", "1 unit", "1"], ["MLS", "no record", ""]])
+            ["flesh, nu 0.45", "0 of 1 case, share 0", "0.5"], ["XPBD", "1 case", "1"], ["MLS", "no record", ""]])
 
     def test_a_reading_has_its_least_and_most(self):
-        readings = [selection("plain f32", [unit(0.5, False), unit(1.0)]), selection("")]
+        readings = [selection("plain f32", [case(0.5, False), case(1.0)]), selection("")]
         self.assertEqual(sentences.reading_rows(claim("C04", "holds", readings=readings)), [
-            ["plain f32", "1 of 2 units, share 0.5", "0.5", "1"], ["not recorded", "no record", "", ""]])
+            ["plain f32", "1 of 2 cases, share 0.5", "0.5", "1"], ["not recorded", "no record", "", ""]])
 
     def test_a_reading_or_the_author_s_code_that_disagrees_is_named(self):
-        holding, failing = ([unit(value, holds, body=body) for body in "abcde"] for value, holds in ((1.0, True), (0.5, False)))
+        holding, failing = ([case(value, holds, body=body) for body in "abcde"] for value, holds in ((1.0, True), (0.5, False)))
         judged = claim("C04", "holds", holding, readings=[selection("plain f32", holding), selection("grouped f32", failing)],
                        compared=[selection("DQS", failing), selection("the author's later code", failing[:2] + holding[2:])])
         told = sentences.disagreements(judged)
         self.assertEqual([text.split(" and ")[0] for text in told], ["Grouped f32", "The author's later code"])
-        self.assertIn("the bound holds in half of the units or fewer in the one, throughout in the other", told[0])
-        self.assertEqual(sentences.disagreements(claim("C04", "not_testable", readings=[selection("plain f32", holding)])), [])
+        self.assertIn("the threshold holds in half of the cases or fewer in the one, throughout in the other", told[0])
+        self.assertEqual(sentences.disagreements(claim("C04", "inconclusive", readings=[selection("plain f32", holding)])), [])
 
 
 class File(ResultsTest):
@@ -203,8 +240,8 @@ class File(ResultsTest):
         synthetic_records.write_claims(self.results)
         file = self.results / "claims.json"
         self.assertEqual(sentences.title(sentences.claims_of(file)[0], "share_kept"), "share of frames")
-        file.write_text(file.read_text().replace('"schema": 3', '"schema": 2'))
-        with self.refused("schema = 2: expected 3"):
+        file.write_text(file.read_text().replace('"schema": 4', '"schema": 3'))
+        with self.refused("schema = 3: expected 4"):
             sentences.claims_of(file)
 
     def test_every_quantity_of_the_projects_claims_has_a_title(self):

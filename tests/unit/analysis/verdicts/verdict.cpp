@@ -2,6 +2,7 @@
 #include "analysis/verdicts/verdict.hpp"
 
 #include "analysis/records/record_files.hpp"
+#include "analysis/records/report_table.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -17,12 +18,14 @@ using enum VerdictKind;
 Claim radius_claim()
 {
     Claim claim{.id = "X01", .statement = "It | holds", .place = "Sec. 1", .study = "artefacts"};
-    claim.unit = {"body", "joint"};
+    claim.short_name = "it holds";
+    claim.headline = "in {held} of {n} joints";
+    claim.case_fields = {"body", "joint"};
     claim.source = "Sec. 1";
-    claim.own = {.name = "X01", .quantities = {"radius"}, .of = {.deformer = "pbs"}, .bounds = {{.low = 0.9}}};
+    claim.own = {.name = "X01", .quantities = {"radius"}, .of = {.deformer = "pbs"}, .thresholds = {{.low = 0.9}}};
     claim.others = {claim.own, claim.own, claim.own};
     const std::array<std::tuple<const char*, Role, const char*>, 3> others = {
-        {{"LBS", Role::must_fail, "lbs"}, {"flesh", Role::must_hold, "flesh"}, {"DQS", Role::comparison, "dqs"}}};
+        {{"LBS", Role::negative_control, "lbs"}, {"flesh", Role::positive_control, "flesh"}, {"DQS", Role::comparison, "dqs"}}};
     for (std::size_t i = 0; i < others.size(); ++i) {
         std::tie(claim.others[i].name, claim.others[i].role, claim.others[i].of.deformer) = others[i];
         claim.others[i].of.order = "";
@@ -37,57 +40,62 @@ Measurement radius(const std::string& deformer, int joint, double value)
     return {.claim = "X01", .quantity = "radius", .of = key, .value = value, .low = value, .high = value, .unit = "1", .run = "a/run"};
 }
 
-// `held` of `units` joints hold for PBS, none for LBS, all for flesh.
-Records records_of(int held, int units)
+// `held` of `cases` joints hold for PBS, none for LBS, all for flesh.
+Records records_of(int held, int cases)
 {
     Records records;
-    for (int joint = 0; joint < units; ++joint)
+    for (int joint = 0; joint < cases; ++joint)
         for (const auto& [deformer, value] : {std::pair{"pbs", joint < held ? 0.95 : 0.5}, {"lbs", 0.2}, {"flesh", 1.0}, {"dqs", 0.7}})
             records.measurements.push_back(radius(deformer, joint, value));
     return records;
 }
 
-Verdict verdict_on(int held, int units)
+Verdict verdict_on(int held, int cases)
 {
-    return judge(radius_claim(), records_of(held, units));
+    return judge(radius_claim(), records_of(held, cases));
 }
 
-TEST(Verdict, FollowsFromTheShareOfTheUnits)
+TEST(Verdict, FollowsFromTheShareOfTheCases)
 {
     struct Case {
-        int held, units;
+        int held, cases;
         VerdictKind kind;
     };
-    for (const auto& [held, units, kind] : {Case{20, 20, holds},
+    for (const auto& [held, cases, kind] : {Case{20, 20, holds},
                                             {19, 20, holds},
                                             {18, 20, mixed},
                                             {11, 20, mixed},
                                             {10, 20, fails},
                                             {0, 20, fails},
                                             {5, 5, holds},
-                                            {4, 4, not_testable},
-                                            {0, 0, not_testable}})
-        EXPECT_EQ(verdict_on(held, units).kind, kind) << held << " of " << units;
-    EXPECT_EQ(verdict_on(4, 4).untested, Untested::too_few_units);
+                                            {4, 4, inconclusive},
+                                            {0, 0, inconclusive}})
+        EXPECT_EQ(verdict_on(held, cases).kind, kind) << held << " of " << cases;
+    EXPECT_EQ(verdict_on(4, 4).inconclusive, Inconclusive::too_few_cases);
     const Verdict verdict = verdict_on(18, 20);
     EXPECT_EQ(verdict.own.held, 18);
     EXPECT_EQ(verdict.own.n, 20);
     EXPECT_EQ(verdict.runs, std::vector<std::string>{"a/run"});
 }
 
-TEST(Verdict, FailsWhereChanceReachesAsManyUnits)
+TEST(Verdict, ThatChanceReachesIsInconclusiveOrNotShownAndNeverFails)
 {
     Claim claim = radius_claim();
     claim.no_effect = 0.5;  // sum over 14 or more of 18 heads: 4048 / 2^18
     const Verdict verdict = judge(claim, records_of(14, 18));
     EXPECT_NEAR(verdict.by_chance, 4048.0 / 262144.0, 1e-15);
-    EXPECT_EQ(verdict.kind, fails);
+    EXPECT_EQ(verdict.kind, not_shown);
+    EXPECT_EQ(verdict.inconclusive, Inconclusive::no);
     EXPECT_EQ(judge(claim, records_of(15, 18)).kind, mixed);
+    EXPECT_EQ(judge(claim, records_of(10, 18)).kind, not_shown);
+    EXPECT_EQ(judge(claim, records_of(9, 18)).kind, fails) << "half of the cases";
     EXPECT_EQ(judge(claim, records_of(7, 7)).kind, holds) << "1 / 128";
-    EXPECT_EQ(judge(claim, records_of(6, 6)).kind, fails) << "1 / 64";
+    const Verdict six = judge(claim, records_of(6, 6));  // 1 / 64
+    EXPECT_EQ(six.kind, inconclusive);
+    EXPECT_EQ(six.inconclusive, Inconclusive::chance);
 }
 
-TEST(Verdict, TakesQFromTheControlThatMustFailByTheRuleOfSuccession)
+TEST(Verdict, TakesQFromTheNegativeControlByTheRuleOfSuccession)
 {
     Records records = records_of(20, 20);
     EXPECT_DOUBLE_EQ(judge(radius_claim(), records).q, 1.0 / 22.0);
@@ -97,39 +105,62 @@ TEST(Verdict, TakesQFromTheControlThatMustFailByTheRuleOfSuccession)
     EXPECT_EQ(verdict.kind, holds);
 }
 
-TEST(Verdict, IsNotTestableIfAControlMisbehavesOrHasNoRecord)
+TEST(Verdict, IsInconclusiveIfAControlMisbehavesOrHasNoRecord)
 {
-    const auto with = [](std::size_t control, double value, int units) {  // 1: LBS, 2: flesh
+    const auto with = [](std::size_t control, double value, int cases) {  // 1: LBS, 2: flesh
         Records records = records_of(20, 20);
-        for (int i = 0; i < units; ++i) records.measurements[static_cast<std::size_t>(4 * i) + control].value = value;
+        for (int i = 0; i < cases; ++i) records.measurements[static_cast<std::size_t>(4 * i) + control].value = value;
         return judge(radius_claim(), records);
     };
-    EXPECT_EQ(with(1, 1.0, 10).kind, holds) << "LBS fails in half of its units";
-    EXPECT_EQ(with(1, 1.0, 11).untested, Untested::control_misbehaves);
+    EXPECT_EQ(with(1, 1.0, 10).kind, holds) << "LBS fails in half of its cases";
+    EXPECT_EQ(with(1, 1.0, 11).inconclusive, Inconclusive::control_misbehaves);
     EXPECT_EQ(with(2, 0.1, 1).kind, holds) << "flesh holds in 95 %";
-    EXPECT_EQ(with(2, 0.1, 2).kind, not_testable);
+    EXPECT_EQ(with(2, 0.1, 2).kind, inconclusive);
     Records records = records_of(20, 20);
     std::erase_if(records.measurements, [](const Measurement& one) { return one.of.deformer == "flesh"; });
-    EXPECT_EQ(judge(radius_claim(), records).untested, Untested::control_without_record);
+    EXPECT_EQ(judge(radius_claim(), records).inconclusive, Inconclusive::control_without_record);
     std::erase_if(records.measurements, [](const Measurement& one) { return one.of.deformer == "dqs"; });
     EXPECT_FALSE(judge(radius_claim(), records).others[2].n) << "a comparison without a record changes nothing";
 }
 
-TEST(Verdict, LeavesOutUnitsInWhichThereIsNothingToSee)
+TEST(Verdict, ExcludesCasesInWhichThereIsNothingToSee)
 {
     Claim claim = radius_claim();
-    claim.unseen_by = "LBS";
+    claim.selected_by = "LBS";
     Records records = records_of(20, 20);
     for (int i = 0; i < 8; ++i) records.measurements[static_cast<std::size_t>(4 * i + 1)].value = 1.0;
     std::erase_if(records.measurements, [](const Measurement& one) { return one.of.deformer == "lbs" && one.of.joint == "19"; });
     const Verdict verdict = judge(claim, records);
     EXPECT_EQ(verdict.own.n, 11);
-    EXPECT_EQ(verdict.own.units[0].left_out, LeftOutUnit::nothing_to_see);
-    EXPECT_EQ(verdict.own.units[19].left_out, LeftOutUnit::no_control);
-    EXPECT_EQ(verdict.others[0].n, 19) << "q counts all units of the control";
+    EXPECT_EQ(verdict.own.cases[0].excluded, Excluded::nothing_to_see);
+    EXPECT_EQ(verdict.own.cases[19].excluded, Excluded::no_control);
+    EXPECT_EQ(verdict.others[0].n, 19) << "q counts all cases of the control";
 }
 
-TEST(Verdict, AveragesTheDependentValuesOfAUnitAndDividesThemByThoseOfAnother)
+TEST(Verdict, TheControlThatSelectsTheCasesMustFailInFiveOfThem)
+{
+    Claim claim = radius_claim();
+    claim.selected_by = "LBS";
+    const auto with_lbs_failing_in = [&](int cases) {
+        Records records = records_of(20, 20);
+        for (int i = cases; i < 20; ++i) records.measurements[static_cast<std::size_t>(4 * i + 1)].value = 1.0;
+        return judge(claim, records);
+    };
+    EXPECT_EQ(with_lbs_failing_in(5).kind, holds) << "it holds in 15 of 20";
+    const Verdict four = with_lbs_failing_in(4);
+    EXPECT_EQ(four.kind, inconclusive);
+    EXPECT_EQ(four.inconclusive, Inconclusive::control_misbehaves);
+    Records records = records_of(20, 20);
+    std::erase_if(records.measurements, [](const Measurement& one) { return one.of.deformer == "lbs"; });
+    EXPECT_EQ(judge(claim, records).inconclusive, Inconclusive::control_without_record);
+    records = records_of(20, 20);
+    for (int i = 0; i < 16; ++i)
+        std::erase_if(records.measurements,
+                      [&](const Measurement& one) { return one.of.deformer == "pbs" && one.of.joint == std::to_string(i); });
+    EXPECT_EQ(judge(claim, records).inconclusive, Inconclusive::too_few_cases) << "it fails in cases that PBS lacks";
+}
+
+TEST(Verdict, AveragesTheDependentValuesOfACaseAndDividesThemByThoseOfAnother)
 {
     Claim claim = radius_claim();
     claim.mean = Mean::geometric;
@@ -138,14 +169,14 @@ TEST(Verdict, AveragesTheDependentValuesOfAUnitAndDividesThemByThoseOfAnother)
     measured[0].of.order = "plain";
     measured[0].low = 0.1;
     const Judged of = judged(claim, claim.own, measured);
-    ASSERT_EQ(of.units.size(), 2u);
-    EXPECT_DOUBLE_EQ(of.units[0].value, 0.6 / 0.5);
-    EXPECT_DOUBLE_EQ(of.units[0].low, 0.1 / 0.5);
-    EXPECT_DOUBLE_EQ(of.units[0].high, 0.9 / 0.5);
-    EXPECT_EQ(of.units[0].n, 2);
-    EXPECT_EQ(of.units[1].left_out, LeftOutUnit::nothing_to_compare_with);
+    ASSERT_EQ(of.cases.size(), 2u);
+    EXPECT_DOUBLE_EQ(of.cases[0].value, 0.6 / 0.5);
+    EXPECT_DOUBLE_EQ(of.cases[0].low, 0.1 / 0.5);
+    EXPECT_DOUBLE_EQ(of.cases[0].high, 0.9 / 0.5);
+    EXPECT_EQ(of.cases[0].n, 2);
+    EXPECT_EQ(of.cases[1].excluded, Excluded::nothing_to_compare_with);
     claim.mean = Mean::arithmetic;
-    EXPECT_DOUBLE_EQ(judged(claim, claim.own, measured).units[0].value, 0.65 / 0.5);
+    EXPECT_DOUBLE_EQ(judged(claim, claim.own, measured).cases[0].value, 0.65 / 0.5);
 }
 
 TEST(Verdict, CensoredValuesDecideOnlyWhatTheyBound)
@@ -153,22 +184,22 @@ TEST(Verdict, CensoredValuesDecideOnlyWhatTheyBound)
     struct Case {
         double value;
         Limit limit;
-        Bound bound;
+        Threshold threshold;
         bool counts, holds;
     };
-    const Bound least = {.low = 1.05}, most = {.high = 24.0};
-    for (const auto& [value, limit, bound, counts, holds] :
+    const Threshold least = {.low = 1.05}, most = {.high = 24.0};
+    for (const auto& [value, limit, threshold, counts, holds] :
          {Case{1.3, Limit::at_least, least, true, true}, Case{0.9, Limit::at_least, least, false, false},
           Case{0.9, Limit::at_most, least, true, false}, Case{1.3, Limit::at_most, least, false, true},
           Case{1000, Limit::more_than, most, true, false}, Case{10, Limit::more_than, most, false, true}}) {
         Claim claim = radius_claim();
-        claim.own.bounds = {bound};
+        claim.own.thresholds = {threshold};
         Measurement censored = radius("pbs", 0, value);
         censored.limit = limit;
         const Judged of = judged(claim, claim.own, {censored});
-        EXPECT_EQ(of.units[0].counts(), counts) << value;
-        EXPECT_EQ(of.units[0].holds, holds) << value;
-        EXPECT_EQ(of.units[0].limit, limit);
+        EXPECT_EQ(of.cases[0].counts(), counts) << value;
+        EXPECT_EQ(of.cases[0].holds, holds) << value;
+        EXPECT_EQ(of.cases[0].limit, limit);
     }
 }
 
@@ -177,34 +208,34 @@ TEST(Verdict, OfAMeanWithALeastAndAMostNumberNothingIsKnown)
     const Claim claim = radius_claim();
     std::vector<Measurement> measured = {radius("pbs", 0, 0.8), radius("pbs", 0, 2.0)};
     std::tie(measured[0].limit, measured[1].limit) = std::pair(Limit::at_most, Limit::at_least);
-    EXPECT_FALSE(judged(claim, claim.own, measured).units[0].counts());
+    EXPECT_FALSE(judged(claim, claim.own, measured).cases[0].counts());
     std::ranges::reverse(measured);
-    EXPECT_FALSE(judged(claim, claim.own, measured).units[0].counts());
+    EXPECT_FALSE(judged(claim, claim.own, measured).cases[0].counts());
 }
 
-TEST(Verdict, AFieldThatAUnitLacksIsNoPropertyByWhichUnitsDiffer)
+TEST(Verdict, AFieldThatACaseLacksIsNoPropertyByWhichCasesDiffer)
 {
     Claim claim = radius_claim();
-    claim.unit = {"joint", "pose"};
+    claim.case_fields = {"joint", "pose"};
     Records records = records_of(8, 12);
     for (Measurement& one : records.measurements)
         if (const int joint = std::stoi(one.of.joint); joint >= 6) one.of.pose = joint % 2 ? "crouch" : "landing";
     EXPECT_FALSE(judge(claim, records).differs) << "with a pose the share is a third for both; without one there is no pose to name";
 }
 
-TEST(Verdict, AUnitOfSeveralQuantitiesHoldsIfAllDo)
+TEST(Verdict, ACaseOfSeveralQuantitiesHoldsIfAllDo)
 {
     Claim claim = radius_claim();
     claim.own.quantities = {"radius", "area"};
-    claim.own.bounds = {{.low = 0.9, .quantity = "radius"}, {.high = 2.0, .quantity = "area"}};
+    claim.own.thresholds = {{.low = 0.9, .quantity = "radius"}, {.high = 2.0, .quantity = "area"}};
     std::vector<Measurement> measured = {radius("pbs", 0, 1.0), radius("pbs", 2, 1.0), radius("pbs", 4, 1.0), radius("pbs", 0, 1.5),
                                          radius("pbs", 2, 2.5)};
     measured[3].quantity = measured[4].quantity = "area";
     const Judged of = judged(claim, claim.own, measured);
     EXPECT_EQ(of.n, 3);
     EXPECT_EQ(of.held, 1) << "the third has no area";
-    EXPECT_EQ(of.units[0].value, 1.0);
-    claim.unit.push_back("quantity");
+    EXPECT_EQ(of.cases[0].value, 1.0);
+    claim.case_fields.push_back("quantity");
     EXPECT_EQ(judged(claim, claim.own, measured).n, 5);
     EXPECT_EQ(judged(claim, claim.own, measured).held, 4);
 }
@@ -214,11 +245,11 @@ TEST(Verdict, UsesRunsBesideTheOthersOnlyWhereThereAreNoOthers)
     Claim claim = radius_claim();
     std::vector<Measurement> measured = {radius("pbs", 0, 1.0), radius("pbs", 0, 0.1), radius("flesh", 0, 1.0)};
     measured[1].beside = measured[2].beside = true;
-    EXPECT_EQ(judged(claim, claim.own, measured).units[0].value, 1.0);
+    EXPECT_EQ(judged(claim, claim.own, measured).cases[0].value, 1.0);
     EXPECT_EQ(judged(claim, claim.others[1], measured).n, 1);
 }
 
-TEST(Verdict, NamesThePropertyByWhichUnitsDiffer)
+TEST(Verdict, NamesThePropertyByWhichCasesDiffer)
 {
     Records records = records_of(20, 20);
     for (int joint = 0; joint < 14; joint += 2) records.measurements[static_cast<std::size_t>(4 * joint)].value = 0.1;  // bodies "even"
@@ -243,12 +274,12 @@ TEST(Verdict, HasTheWiderOfTwoIntervals)
 }
 
 // Twenty joints of a clip hold, and ten joints in another motion do not. Flesh was not measured in the other motion.
-TEST(Verdict, JudgesConfirmatoryUnitsApartWithTheControlsThatTheyLack)
+TEST(Verdict, JudgesHeldOutCasesApartWithTheControlsThatTheyLack)
 {
     Claim claim = radius_claim();
-    claim.confirmatory = {{.motion = "range_of_motion"}};
+    claim.held_out = {{.motion = "range_of_motion"}};
     Records records = records_of(20, 20);
-    EXPECT_TRUE(judge(claim, records).confirmatory.empty());
+    EXPECT_TRUE(judge(claim, records).held_out.empty());
     for (const Measurement& one : records_of(0, 10).measurements) {
         if (one.of.deformer == "flesh") continue;
         records.measurements.push_back(one);
@@ -257,17 +288,17 @@ TEST(Verdict, JudgesConfirmatoryUnitsApartWithTheControlsThatTheyLack)
     const Verdict verdict = judge(claim, records);
     EXPECT_EQ(verdict.kind, holds);
     EXPECT_EQ(verdict.own.n, 20);
-    ASSERT_EQ(verdict.confirmatory.size(), 1u);
-    const Verdict& later = verdict.confirmatory.front();
+    ASSERT_EQ(verdict.held_out.size(), 1u);
+    const Verdict& later = verdict.held_out.front();
     EXPECT_EQ(later.kind, fails);
     EXPECT_EQ(later.own.n, 10);
     EXPECT_EQ(later.others[0].n, 10) << "LBS in the other motion";
     EXPECT_EQ(later.others[1].n, 20) << "flesh in the clip";
-    EXPECT_EQ(claims_json({verdict}, "r").at("claims").at(0).at("confirmatory").at("verdict"), "fails");
-    claim.unseen_by = "LBS";
+    EXPECT_EQ(claims_json({verdict}, "r").at("claims").at(0).at("held_out").at("verdict"), "fails");
+    claim.selected_by = "LBS";
     for (Measurement& one : records.measurements)
         if (one.of.deformer == "lbs" && !one.of.motion.empty()) one.of.deformer = "another";
-    EXPECT_EQ(judge(claim, records).confirmatory.front().own.n, 0) << "whether LBS fails in a unit shows nothing about another one";
+    EXPECT_EQ(judge(claim, records).held_out.front().own.n, 0) << "whether LBS fails in a case shows nothing about another one";
 }
 
 TEST(Verdict, OneNumberIsJudgedByItsRange)
@@ -284,7 +315,7 @@ TEST(Verdict, OneNumberIsJudgedByItsRange)
     EXPECT_EQ(kind(0.8, 1.0), mixed);
     EXPECT_EQ(kind(0.7, 0.8), fails);
     EXPECT_EQ(kind(0.7, NAN), fails);
-    EXPECT_EQ(judge(claim, records_of(2, 2)).kind, not_testable) << "two numbers";
+    EXPECT_EQ(judge(claim, records_of(2, 2)).kind, inconclusive) << "two numbers";
 }
 
 TEST(Verdict, ShowsTheClaimInEachOrderAndPrecision)
@@ -343,8 +374,8 @@ TEST(Verdict, DefinitionsAndUntestableClaimsSayWhy)
     EXPECT_EQ(judge(claim, records_of(3, 20)).kind, definition);
     EXPECT_EQ(judge(claim, records_of(3, 20)).own.held, 3) << "its values are reported";
     claim.rule = ClaimRule::untestable;
-    EXPECT_EQ(judge(claim, {}).kind, not_testable);
-    EXPECT_EQ(judge(claim, {}).untested, Untested::reason_of_the_claim);
+    EXPECT_EQ(judge(claim, {}).kind, untestable);
+    EXPECT_EQ(judge(claim, {}).inconclusive, Inconclusive::no);
 }
 
 // Reference: the contract of claims.json, claims.md and the terminal's table.
@@ -355,7 +386,7 @@ TEST(ClaimsReport, HoldsTheFactsOfTheVerdict)
     claim.quantities = {{"radius", "smallest radius", "1"}};
     const Verdict verdict = judge(claim, records_of(18, 20));
     const nlohmann::json document = claims_json({verdict}, "abc"), of = document.at("claims").at(0);
-    EXPECT_EQ(document.at("schema"), 3);
+    EXPECT_EQ(document.at("schema"), 4);
     EXPECT_EQ(document.at("revision"), "abc");
     EXPECT_EQ(document.at("quantities").at("radius").at("title"), "smallest radius");
     EXPECT_EQ(of.at("verdict"), "mixed");
@@ -367,32 +398,65 @@ TEST(ClaimsReport, HoldsTheFactsOfTheVerdict)
     EXPECT_EQ(of.at("cases").size(), 20u);
     EXPECT_EQ(of.at("cases").at(0).at("joint"), "0");
     EXPECT_EQ(of.at("cases").at(0).at("holds"), true);
-    EXPECT_EQ(of.at("cases").at(0).at("bound_high"), nullptr) << "infinite";
+    EXPECT_EQ(of.at("cases").at(0).at("threshold_high"), nullptr) << "infinite";
     EXPECT_EQ(of.at("controls").size(), 2u);
-    EXPECT_EQ(of.at("controls").at(0).at("role"), "must_fail");
+    EXPECT_EQ(of.at("controls").at(0).at("role"), "negative_control");
     EXPECT_EQ(of.at("compared").at(0).at("name"), "DQS");
-    EXPECT_EQ(of.at("differs"), nullptr) << "each joint has one unit";
+    EXPECT_EQ(of.at("differs"), nullptr) << "each joint has one case";
     EXPECT_EQ(claims_json({judge(claim, {})}, "").at("claims").at(0).at("share"), nullptr);
 }
 
 TEST(ClaimsReport, OneRowPerClaim)
 {
     const std::string table = claims_markdown({verdict_on(20, 20)});
-    EXPECT_NE(table.find("| X01 | It \\| holds | holds | 20 | 20 | 1 | [0.832, 1] | "), std::string::npos) << table;
+    EXPECT_NE(table.find("| X01 | It \\| holds | holds | in 20 of 20 joints | 95 % | 20 | 20 | 1 | [0.832, 1] | "), std::string::npos)
+        << table;
     EXPECT_EQ(std::ranges::count(table, '\n'), 3);
     Verdict free = verdict_on(20, 20);
-    free.claim.own.bounds.clear();
-    EXPECT_NE(claims_markdown({free}).find("| holds |  | 20 |"), std::string::npos) << "without a bound none holds";
+    free.claim.own.thresholds.clear();
+    EXPECT_NE(claims_markdown({free}).find("| 95 % |  | 20 |"), std::string::npos) << "without a threshold none holds";
 }
 
-TEST(ClaimsReport, TheTerminalsTableKeepsItsWidthAndCountsTheVerdicts)
+TEST(ClaimsReport, StatesWhyAVerdictIsInconclusiveOrNotShown)
 {
-    const std::string table = claims_table({verdict_on(18, 20), verdict_on(4, 4)}, 60, false);
-    std::istringstream lines(table);
-    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 60u) << line;
-    EXPECT_NE(table.find("18 of 20 hold"), std::string::npos) << table;
-    EXPECT_NE(table.find("2 claims: 1 mixed, 1 not testable"), std::string::npos) << table;
+    Claim claim = radius_claim();
+    claim.no_effect = 0.5;
+    EXPECT_NE(claims_markdown({judge(claim, records_of(14, 18))}).find("| chance reaches as many with a probability of 0.015 |"),
+              std::string::npos);
+    EXPECT_NE(claims_markdown({verdict_on(4, 4)}).find("| too few cases |"), std::string::npos);
+    Records records = records_of(20, 20);
+    for (int i = 0; i < 11; ++i) records.measurements[static_cast<std::size_t>(4 * i + 1)].value = 1.0;
+    EXPECT_NE(claims_markdown({judge(radius_claim(), records)}).find("| negative control LBS: 11 of 20 hold |"), std::string::npos);
+}
+
+TEST(ClaimsReport, TheTerminalsTableHasOneLinePerClaimWithinItsWidthAndCountsTheVerdicts)
+{
+    const FurtherColumn here = {.heading = "here", .texts = {{"X01", "94 numbers agree"}}};
+    for (const std::size_t width : {60u, 100u}) {
+        for (const FurtherColumn& further : {FurtherColumn{}, here}) {
+            const std::string table = claims_table({verdict_on(18, 20), verdict_on(4, 4)}, width, false, further);
+            std::istringstream lines(table);
+            for (std::string line; std::getline(lines, line);) EXPECT_LE(characters(line), width) << line;
+            EXPECT_EQ(std::ranges::count(table, '\n'), 4) << table;
+            EXPECT_NE(table.find("2 claims: 1 mixed, 1 inconclusive"), std::string::npos) << table;
+        }
+    }
+    EXPECT_EQ(claims_table({verdict_on(18, 20)}, 100, false, here),
+              "     claim of the paper  verdict  measured            here\n"
+              "X01  it holds            MIXED    in 18 of 20 joints  94 numbers agree\n"
+              "1 claim: 1 mixed\n");
     EXPECT_NE(claims_table({verdict_on(20, 20)}, 100, true).find("\033[32m"), std::string::npos) << "green";
+}
+
+TEST(ClaimsReport, ALongTextInTheTerminalsTableEndsWithAnEllipsis)
+{
+    Verdict verdict = verdict_on(20, 20);
+    verdict.claim.headline = "thirty letters of some text abc {held}";
+    const std::string table = claims_table({verdict}, 60, false, {.heading = "here", .texts = {{"X01", "94 numbers agree with it"}}});
+    EXPECT_NE(table.find("94 numbers agr\u2026"), std::string::npos) << table;
+    EXPECT_NE(table.find("thirty letters"), std::string::npos) << table;
+    verdict.claim.headline = "of {held of nothing}";
+    EXPECT_NE(claims_table({verdict}, 60, false).find("X01  it holds            HOLDS\n"), std::string::npos) << "nothing was measured";
 }
 
 TEST(ClaimsReport, TheTerminalsTableNamesWhatIsMissingOnceBelowTheClaims)
@@ -401,7 +465,7 @@ TEST(ClaimsReport, TheTerminalsTableNamesWhatIsMissingOnceBelowTheClaims)
     one.claim.id = "X00";
     for (Verdict* verdict : {&one, &other}) verdict->left_out = {{"lady", "lady is not installed"}}, verdict->missing = {"walk"};
     const std::string table = claims_table({one, other}, 100, false);
-    EXPECT_NE(table.find("left out of X00, X01: lady is not installed\nno record for X00, X01: walk\n2 claims"), std::string::npos)
+    EXPECT_NE(table.find("excluded from X00, X01: lady is not installed\nno record for X00, X01: walk\n2 claims"), std::string::npos)
         << table;
     EXPECT_EQ(table.find("walk"), table.rfind("walk"));
 }

@@ -63,7 +63,7 @@ TEST(ReadingValues, OfProjectionsAreTheMomentumStudysDrifts)
     EXPECT_EQ(value(all[0], "angular_drift").value, drift.angular);
     EXPECT_NE(value(all[1], "linear_drift_of_a_pass").value, value(all[0], "linear_drift_of_a_pass").value);
     // The projection takes these masses into account.
-    EXPECT_LE(value(all[1], "linear_drift").value, claim_named("C07").own.bounds.at(1).high);
+    EXPECT_LE(value(all[1], "linear_drift").value, claim_named("C07").own.thresholds.at(1).high);
 }
 
 // In Algorithm 1 the next position depends on the last two alone, whatever the step, so half the step swings twice as fast, exactly. In the

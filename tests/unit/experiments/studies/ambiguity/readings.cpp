@@ -132,11 +132,11 @@ TEST(DigestOfClaims, IsAnotherWithAnotherBoundAndTheSameWithOtherWords)
         change(other);
         return digest_of({other});
     };
-    EXPECT_NE(changed([](auto& c) { c.own.bounds.at(0).low -= 1e-3; }), digest);
-    EXPECT_NE(changed([](auto& c) { c.own.bounds.pop_back(); }), digest);
+    EXPECT_NE(changed([](auto& c) { c.own.thresholds.at(0).low -= 1e-3; }), digest);
+    EXPECT_NE(changed([](auto& c) { c.own.thresholds.pop_back(); }), digest);
     EXPECT_NE(changed([](auto& c) { c.own.of.masses = "lumped"; }), digest);
     EXPECT_NE(changed([](auto& c) { c.own.quantities.pop_back(); }), digest);
-    EXPECT_NE(changed([](auto& c) { c.unit.pop_back(); }), digest);
+    EXPECT_NE(changed([](auto& c) { c.case_fields.pop_back(); }), digest);
     EXPECT_EQ(changed([](auto& c) { c.statement += "!"; }), digest);
     EXPECT_NE(digest_of({claim, claim_named("C10a")}), digest);
 }
