@@ -1,9 +1,11 @@
 #include "analysis/records/report_table.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
 #include <regex>
 #include <sstream>
+#include <string_view>
 
 namespace analysis {
 namespace {
@@ -57,8 +59,15 @@ std::string trimmed(const std::string& text)
 Row cells_of(const std::string& line)
 {
     Row cells;
-    std::istringstream text(line.substr(1));
-    for (std::string cell; std::getline(text, cell, '|');) cells.push_back(trimmed(cell));
+    std::string cell;
+    for (std::size_t at = 1; at < line.size(); ++at)
+        if (line[at] == '|') {
+            cells.push_back(trimmed(cell));
+            cell.clear();
+        } else {
+            if (line.compare(at, 2, "\\|") == 0) ++at;
+            cell += line[at];
+        }
     return cells;
 }
 
@@ -83,7 +92,7 @@ public:
 
     void add(const std::string& line)
     {
-        static const std::regex separator(R"(\|[-|]+)"), item(R"(\s*(-|\d+\.) .*)");
+        static const std::regex separator(R"(\|[-|]+)"), item(R"(\s*(-|\d+\.) .*)"), bar(R"(\\\|)");
         if (line.starts_with("<!--") || std::regex_match(line, separator)) return;
         if (line.starts_with("|")) return rows_.push_back(cells_of(line));
         const bool is_code = line.starts_with("    "), is_heading = line.starts_with("#");
@@ -93,7 +102,8 @@ public:
         else if (line.empty())
             text_ += text_.ends_with("\n\n") ? "" : "\n";
         else
-            paragraph_ += (paragraph_.empty() ? "" : " ") + trimmed(is_heading ? line.substr(line.find_first_not_of('#')) : line);
+            paragraph_ += (paragraph_.empty() ? "" : " ") +
+                          std::regex_replace(trimmed(line.substr(is_heading ? line.find_first_not_of('#') : 0)), bar, "|");
         if (is_code || is_heading) end_block();
     }
 
@@ -130,6 +140,25 @@ private:
     std::vector<Row> rows_;
     std::string paragraph_, text_;
 };
+
+// Whether the asterisk there begins or ends an emphasised word; it is a sign of multiplication in a*b and a * b.
+bool is_emphasis(const std::string& text, std::size_t at)
+{
+    const unsigned char before = at == 0 ? ' ' : text[at - 1], after = at + 1 == text.size() ? ' ' : text[at + 1];
+    const bool begins = (std::isspace(before) || before == '(') && std::isalnum(after);
+    return begins || (std::isalnum(before) && (std::isspace(after) || std::string_view(".,;:)").find(after) != std::string_view::npos));
+}
+
+// Without the marks of Markdown: the text of links, of code and of emphasised words. Pictures are left out.
+std::string without_marks(const std::string& markdown)
+{
+    static const std::regex picture(R"(!\[[^\]]*\]\([^)]+\)\n?)"), link(R"(\[([^\]]+)\]\([^)]+\))"), mark(R"(`|\*\*)");
+    const std::string text = std::regex_replace(std::regex_replace(std::regex_replace(markdown, picture, ""), link, "$1"), mark, "");
+    std::string plain;
+    for (std::size_t at = 0; at < text.size(); ++at)
+        if (text[at] != '*' || !is_emphasis(text, at)) plain += text[at];
+    return plain;
+}
 
 }  // namespace
 
@@ -170,9 +199,8 @@ std::string side_by_side(const std::vector<TextColumn>& columns)
 
 std::string plain_text(const std::string& markdown, std::size_t width)
 {
-    static const std::regex link(R"(\[([^\]]+)\]\([^)]+\))"), code("`");
     PlainText plain(width);
-    std::istringstream lines(std::regex_replace(std::regex_replace(markdown, link, "$1"), code, ""));
+    std::istringstream lines(without_marks(markdown));
     for (std::string line; std::getline(lines, line);) plain.add(line);
     return plain.end();
 }
@@ -189,7 +217,7 @@ std::string first_paragraph(const std::string& markdown)
     const std::size_t begin = markdown.find("\n\n") + 2;
     std::string paragraph = markdown.substr(begin, markdown.find("\n\n", begin) - begin);
     std::replace(paragraph.begin(), paragraph.end(), '\n', ' ');
-    return paragraph;
+    return without_marks(paragraph);
 }
 
 }  // namespace analysis

@@ -25,13 +25,13 @@ std::string side_by_side(const std::vector<TextColumn>& columns);
 
 // Markdown as plain text for a terminal.
 //   fmt::print("{}", plain_text(page, terminal_width()));
-// Headings, paragraphs, lists and tables within `width` characters. Only the text of a link is kept, and comments are left out. Lines of
-// code keep their blanks unless they are too long.
+// Headings, paragraphs, lists and tables within `width` characters. Only the text of a link is kept; comments, pictures and the marks of
+// code and emphasis are left out. Lines of code keep their blanks unless they are too long.
 std::string plain_text(const std::string& markdown, std::size_t width);
 
 // A cell of a Markdown table: one line, with vertical bars escaped.
 std::string markdown_cell(std::string text);
 
-std::string first_paragraph(const std::string& markdown);  // the one below the title, on one line
+std::string first_paragraph(const std::string& markdown);  // the one below the title, on one line, without marks
 
 }  // namespace analysis

@@ -1,4 +1,5 @@
 #include "analysis/records/report_table.hpp"
+#include "analysis/records/toml_keys.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/terminal.hpp"
@@ -6,6 +7,7 @@
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/study.hpp"
 #include "generated/pages_texts.hpp"
+#include "generated/words_texts.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <CLI/CLI.hpp>
@@ -14,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <functional>
 #include <map>
 #include <set>
@@ -86,6 +89,41 @@ Lines lines_of(const std::vector<Entry>& entries, Name name, Meaning meaning)
     return lines;
 }
 
+// A term of the glossary, and under which other words texts use it.
+struct Term {
+    std::string name, sentence;
+    std::vector<std::string> also = {};
+};
+
+const std::vector<Term>& terms()
+{
+    static const std::vector<Term> read = [] {
+        const std::string file = "glossary.toml";
+        const toml::table table = analysis::parse_toml(*words::by_name.at("glossary"), file);
+        std::vector<Term> list;
+        for (const auto& [name, value] : table) {
+            list.push_back({std::string(name.str()), ""});
+            analysis::TomlKeys keys(*value.as_table(), file, "term");
+            keys.required("sentence", list.back().sentence);
+            keys.optional("also", list.back().also);
+        }
+        return list;
+    }();
+    return read;
+}
+
+// The name as one word, as in the links to the glossary: "Poisson's ratio" is poissons-ratio.
+std::string slug(const std::string& name)
+{
+    std::string text;
+    for (const unsigned char letter : name)
+        if (std::isalnum(letter) || letter == '_')
+            text += static_cast<char>(std::tolower(letter));
+        else if (letter == ' ' || letter == '-')
+            text += '-';
+    return text;
+}
+
 const std::map<std::string, std::function<Lines()>> kinds = {
     {"cases",
      [] {
@@ -102,7 +140,11 @@ const std::map<std::string, std::function<Lines()>> kinds = {
                          [](const Study& study) { return analysis::first_paragraph(*pages::by_name.at(study.name)); });
      }},
     {"claims", [] { return lines_of(claims(), &analysis::Claim::id, &analysis::Claim::statement); }},
-    {"metrics", [] { return lines_of(metric_texts(), &MetricText::name, &MetricText::meaning); }}};
+    {"metrics", [] { return lines_of(metric_texts(), &MetricText::name, &MetricText::meaning); }},
+    {"terms", [] {
+         return lines_of(
+             terms(), [](const Term& term) { return slug(term.name); }, &Term::sentence);
+     }}};
 
 int list(const std::vector<std::string>& asked)
 {
@@ -140,6 +182,20 @@ bool explain_key(const std::string& name)
         line("unit", key.unit);
         line("rule", key.rule());
         line("default", key.default_json.empty() ? "none: every scene must state it" : key.default_json);
+    }
+    return found;
+}
+
+// Capital letters do not matter, and a plural in -s is found, too.
+bool explain_term(const std::string& name)
+{
+    const auto is_meant = [asked = slug(name)](const std::string& word) { return asked == slug(word) || asked == slug(word) + "s"; };
+    bool found = false;
+    for (const Term& term : terms()) {
+        if (!is_meant(term.name) && std::ranges::none_of(term.also, is_meant)) continue;
+        found = true;
+        fmt::print("{} (term)\n", term.name);
+        line("meaning", term.sentence);
     }
     return found;
 }
@@ -233,13 +289,14 @@ std::vector<std::string> known_names(const CLI::App& app)
     for (const auto& study : studies()) names.push_back(study.name);
     for (const auto& kind : deformer_kinds()) names.push_back(kind.name);
     for (const auto& scene : built_in_scenes()) names.push_back(scene.name);
+    for (const Term& term : terms()) names.insert(names.end(), {term.name, slug(term.name)});
     return names;
 }
 
 int explain(const CLI::App& app, const std::string& name)
 {
     bool found = explain_verb(app, name);
-    for (const auto explain_one : {explain_metric, explain_claim, explain_study, explain_deformer_or_scene, explain_key})
+    for (const auto explain_one : {explain_term, explain_metric, explain_claim, explain_study, explain_deformer_or_scene, explain_key})
         found |= explain_one(name);
     if (!found)
         throw pbs::InputError("", 0, "explain", name,
@@ -262,25 +319,25 @@ std::string describe(const CLI::App& app)
     return all.dump(1);
 }
 
-// pbskin list [cases, scenes, movements, deformers, studies, claims, metrics]: lists what the program knows.
+// pbskin list [cases, scenes, movements, deformers, studies, claims, metrics, terms]: lists what the program knows.
 
 void add_list_verb(CommandLine& line)
 {
     auto asked = std::make_shared<std::vector<std::string>>();
-    CLI::App* verb = line.add("list", "lists cases, scenes, movements, deformers, studies, claims, metrics", "pbskin list scenes claims",
-                              [asked] { return list(*asked); });
+    CLI::App* verb = line.add("list", "lists cases, scenes, movements, deformers, studies, claims, metrics, terms",
+                              "pbskin list scenes claims", [asked] { return list(*asked); });
     verb->add_option("kind", *asked, "which of them; by default all")
-        ->check(CLI::IsMember({"cases", "scenes", "movements", "deformers", "studies", "claims", "metrics"}));
+        ->check(CLI::IsMember({"cases", "scenes", "movements", "deformers", "studies", "claims", "metrics", "terms"}));
 }
 
-// pbskin explain NAME: prints what a metric, claim, scene key, study, deformer, scene or verb means.
+// pbskin explain NAME: prints what a term, metric, claim, scene key, study, deformer, scene or verb means.
 
 void add_explain_verb(CommandLine& line)
 {
     auto name = std::make_shared<std::string>();
-    CLI::App* verb = line.add("explain", "explains a metric, claim, scene key, study, deformer, scene or verb", "pbskin explain C02",
+    CLI::App* verb = line.add("explain", "explains a term, metric, claim, key, study, deformer, scene or verb", "pbskin explain C02",
                               [&app = line.app, name] { return explain(app, *name); });
-    verb->add_option("name", *name, "its name, e.g. volume_change_pct, C02, pbs.k_volume, measure")->required();
+    verb->add_option("name", *name, "its name, e.g. PBS, volume_change_pct, C02, pbs.k_volume, measure")->required();
 }
 
 }  // namespace experiments

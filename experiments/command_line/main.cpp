@@ -6,6 +6,7 @@
 #include "analysis/records/report_table.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/terminal.hpp"
+#include "pbs/geometry/input_error.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -74,6 +75,18 @@ void start_log(const CommonOptions& common)
     spdlog::set_default_logger(log);
 }
 
+// The first word, where it is no verb and no option: CLI11 states only that a verb is missing. Empty in all other cases.
+std::string unknown_word(const CLI::App& app)
+{
+    const std::vector<std::string> left = app.remaining();
+    if (left.empty() || !app.get_subcommands().empty() || app.get_parent()) return "";
+    if (left.front().starts_with("-")) return left.front() + ": unknown option";
+    std::vector<std::string> verbs;
+    for (const CLI::App* verb : app.get_subcommands([](const CLI::App* known) { return !known->get_group().empty(); }))
+        verbs.push_back(verb->get_name());
+    return left.front() + ": unknown verb; the nearest known one is " + pbs::nearest_name(left.front(), verbs);
+}
+
 int parse_and_act(int argc, char** argv)
 {
     CLI::App app("pbskin: a verification suite for position based skinning", "pbskin");
@@ -89,8 +102,9 @@ int parse_and_act(int argc, char** argv)
          {add_list_verb, add_explain_verb, add_try_verb, add_run_verb, add_reproduce_verb, add_check_verb, add_measure_verb,
           add_references_verb, add_compare_verb, add_mesh_verb, add_bench_verb, add_fetch_verb, add_report_verb})
         add(line);
-    app.failure_message([](const CLI::App*, const CLI::Error& error) {
-        return std::string("pbskin: ") + error.what() + "; `pbskin --help` lists the verbs, `pbskin VERB --help` their options\n";
+    app.failure_message([](const CLI::App* failed, const CLI::Error& error) {
+        return "pbskin: " + (unknown_word(*failed).empty() ? std::string(error.what()) : unknown_word(*failed)) +
+               "; `pbskin --help` lists the verbs, `pbskin VERB --help` their options\n";
     });
     try {
         app.parse(argc, argv);

@@ -36,7 +36,7 @@ NAMED_OPTIONS(pbs::VolumeForm, derived, labels_relative, labels_absolute, sign, 
 
 inline constexpr const char* start_meaning =
     "the shape at which a frame begins: lbs: linear blend skinning, as in the paper; smooth_dqs: dual quaternion skinning with weights "
-    "that springs around the bones determine, as the minimisers begin by default";
+    "that springs around the bones determine, as energy minimisation begins by default";
 
 // Options of LBS and DQS.
 //   options_of<BlendOptions>(spec).precision = pbs::Precision::f32;

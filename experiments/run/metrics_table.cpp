@@ -30,7 +30,7 @@ const Columns<ErrorNorms> whole_error_columns = {
     {"error_whole_joint_pct", &ErrorNorms::joint_pct, "%", "error_joint_pct with these tips"}};
 
 const Columns<FrameMeasurement> masked_columns = {{"masked_share_pct", &FrameMeasurement::masked_share_pct, "%",
-                                                   "share of the volume that the errors leave out: the tips of creases of a reference with "
+                                                   "share of the volume that the errors exclude: the tips of creases of a reference with "
                                                    "contact, whose sharpness belongs to its tets"}};
 
 const Columns<ErrorNorms> error_bar_columns = {
@@ -73,7 +73,7 @@ const Rows all_columns =
         .in_group(with_reference) +
     within(&MetricRow::measured, pose_columns) +
     Rows{{"fictitious_strain", &MetricRow::fictitious_strain, "",
-          "the strain that linear elasticity computes for that rotation; in the rows of linear FEM"}} +
+          "the strain that linear elasticity computes for that rotation; in the rows of small-strain FEM"}} +
     within(&MetricRow::measured, shape_columns) +
     Rows{{"outcome", &MetricRow::outcome, "",
           "how the step ended; not_converged: PBS above its stop_residual, or a reference that did not reach its pose and has no error "
@@ -82,7 +82,7 @@ const Rows all_columns =
      Rows{{"error_below_reference_error", &MetricRow::error_below_reference_error, "",
            "the error may be the reference's own, so that it does not distinguish deformers; empty in the reference's rows"}})
         .in_group(with_error_bar) +
-    Rows{{"sleeping_share", &MetricRow::sleeping_share, "", "share of the stretch and volume constraints that were left out"},
+    Rows{{"sleeping_share", &MetricRow::sleeping_share, "", "share of the stretch and volume constraints that were skipped"},
          {"wakings", &MetricRow::wakings, "", "how often the step was repeated because some of them were needed"}}
         .in_group(with_sleep);
 

@@ -22,7 +22,7 @@ def attachments(folder):
     rows = [row for row in pages.of_runs(folder, "attachments.csv", {"attachment", "difference_pct", "model_pct", "k_stretch"})
             if row["k_stretch"] == paper_s]
     return ("\n## Flesh that is held in other ways [% of the bone distance]\n\nThe first row of a pose is the reference. The distance from "
-            "it includes the discretisation error of the other flesh, which is solved on the body's own tets alone.\n\n"
+            "it includes the discretisation error of the flesh in its row, which is solved on the body's own tets alone.\n\n"
             + pages.table(rows, "attachments", pose=pose, held=held))
 
 

@@ -8,7 +8,7 @@ from words import case_words
 
 
 def of_sections(rows):
-    """Which sections C04 and C05 are judged by, and which are left out and why."""
+    """Which sections C04 and C05 are judged by, and which are excluded and why."""
     sections, remarks = {}, ""
     for row in rows:
         of = f"{row['body']} {row['pose']} {row['joint']}"

@@ -1,5 +1,5 @@
 """Error against run time: the answer, the methods with known and with guessed flesh, their times, what is decided and how firmly, what
-other starts and wrong materials are worth, and the same along a clip."""
+other initial guesses and wrong materials are worth, and the same along a clip."""
 import pages
 import records
 from words import case_words, compared_methods

@@ -1,15 +1,22 @@
-"""Draws a picture of the README: the limb twisted and bent under LBS, DQS, PBS and the finite element reference, from two runs.
+"""Draws the first picture of the README: the jumping human in its crouch under LBS and DQS, each with the weights of Eq. 2 and with smooth
+weights, under PBS and under the finite element reference, coloured by the distance of the skin from the reference. From two runs:
 
-    pbskin run limb_twist -o TWIST --set 'deformers.use=["lbs","dqs","pbs","nh_p2"]' --set output.frames_every=6
-    pbskin run limb_bend -o BEND --set 'deformers.use=["lbs","dqs","pbs","nh_p1"]' --set output.frames_every=4
-    xvfb-run -a python3 paper_figures/readme/same_pose.py TWIST BEND     # writes same_pose.png and same_pose.csv, the numbers in it
+    pbskin run human_01_01 -o PAPER --set motion.rate_hz=25 --set motion.duration_s=1.68 --set 'output.frames=[41]' \\
+        --set 'output.frame_names=["crouch"]' --set 'deformers.use=["lbs","dqs","pbs","nh_p1"]'
+    pbskin run human_01_01 -o SMOOTH (the same) --set skinning.weights=diffused --set 'deformers.use=["lbs","dqs","nh_p1"]'
+    xvfb-run -a python3 paper_figures/readme/same_pose.py PAPER SMOOTH     # writes same_pose.png and same_pose.csv, the numbers in it
 
-The kept records have no frames. The runs' rows must agree with the records.
+The kept records have no frames. The rows of the first run must agree with the records.
 """
 import math
 import pathlib
 import sys
-from dataclasses import dataclass
+
+import numpy
+from matplotlib import colors
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
+from vtkmodules.vtkRenderingCore import vtkDataSetMapper
 
 own = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(own.parent))
@@ -17,74 +24,89 @@ sys.path.insert(0, str(own.parent))
 import records  # noqa: E402
 from drawing import rendering, style  # noqa: E402
 from records import kept, whole_file  # noqa: E402
-from words import looks  # noqa: E402
 
-kept_volume = kept.opened(own.parents[1] / "experiments" / "records" / "full") / "volume"
+kept_rows = kept.opened(own.parents[1] / "experiments" / "records" / "full") / "volume" / "human_01_01"
 picture = own / "same_pose.png"
-compared = ("volume_change_pct", "volume_abs_change_pct", "inverted_tets")
-titles = {name: looks.of(name).name for name in ("lbs", "dqs", "pbs")}
-titles |= {"pbs": f"{titles['pbs']}, 24 iterations", "reference": "FEM (the reference)"}
-width_px = 1500
+compared = ("volume_change_pct", "inverted_tets", "error_joint_pct")
+stated = (*compared, "skin_rms_mm")
+time_s, frame, reference = 1.64, 41, "nh_p1"
+# Weights, deformer and title of each panel.
+panels = (("Eq. 2", "lbs", "LBS\nweights of Eq. 2"), ("smooth", "lbs", "LBS\nsmooth weights"), ("Eq. 2", "dqs", "DQS\nweights of Eq. 2"),
+          ("smooth", "dqs", "DQS\nsmooth weights"), ("Eq. 2", "pbs", "PBS\n24 iterations"), ("Eq. 2", reference, "FEM\nthe reference"))
+size_m, width_px = 1.7, 1260  # the body's largest extent at rest, to which distances refer, as in skin_rms_mm
+scale = colors.Normalize(0.0, 50.0)  # [mm]
+shades = colors.LinearSegmentedColormap.from_list("distance", ["#D9D9D9", "#F5C04A", "#D55E00", "#7A0018"])
+view_direction = (0.75, 0.12, 1.0)  # from the body to the camera
 
 
-@dataclass(frozen=True)
-class Pose:
-    scene: str
-    angle_deg: float
-    reference: str  # the deformer that serves as the reference
-    title: str
-    camera: rendering.Camera
-    height: float  # height of a panel, relative to its width
+def row_of(folder, deformer):
+    """The row of this frame in the metrics.csv of a run or a kept record; the default form of PBS, which is not the only one there."""
+    rows = [row for row in records.table(folder / "metrics.csv", {"deformer", "variant", "order", "iterations", "time_s", *compared})
+            if (row["deformer"], row["variant"]) == (deformer, "default") and row["iterations"] in ("", "24")
+            and row["order"] in ("", "ordered") and math.isclose(row.number("time_s"), time_s, abs_tol=1e-6)]
+    records.need(rows, f"{folder / 'metrics.csv'}: no row of {deformer} at {time_s} s")
+    return rows[0]
 
 
-poses = (Pose("limb_twist", 150.0, "nh_p2", "twisted by 150\u00b0", rendering.Camera((0, 0, 0), 0.19, (0.0, 0.35, 1.0)), 0.5),
-         Pose("limb_bend", 100.0, "nh_p1", "bent by 100\u00b0", rendering.Camera((-0.02, 0.11, 0), 0.33, (0.0, 0.1, 1.0)), 0.8))
-
-
-def row_of(folder, pose, deformer):
-    """The row of this pose in the metrics.csv of a run or a kept record."""
-    rows = [row for row in records.table(folder / "metrics.csv", {"deformer", "variant", "iterations", "angle_deg", *compared})
-            if row["deformer"] == deformer and row["variant"] == "default" and row["iterations"] in ("", "24")]
-    records.need(rows, f"{folder / 'metrics.csv'}: no rows of {deformer}")
-    return records.at_angle(rows, pose.angle_deg)
-
-
-def checked_row(folder, pose, deformer):
+def checked_row(folder, deformer):
     """The row of the run, after a check that it agrees with the kept record to the six digits that are kept."""
-    run = row_of(folder, pose, deformer)
-    record = row_of(kept_volume / pose.scene, pose, deformer)
+    run, record = row_of(folder, deformer), row_of(kept_rows, deformer)
     for column in compared:
         if not math.isclose(record.number(column), run.number(column), rel_tol=1e-5, abs_tol=1e-9):
             raise records.RecordsMissing(f"{folder / 'metrics.csv'}: {column} of {deformer} = {run[column]}: expected {record[column]}, "
-                                         f"as in {kept_volume / pose.scene / 'metrics.csv'}")
+                                         f"as in {kept_rows / 'metrics.csv'}")
     return run
 
 
-def draw_panel(panel, pose, folder, row):
-    frame = folder / "frames" / f"{row['deformer']}_{int(row['frame']):06}.vtu"
-    stage = rendering.Stage(900, int(900 * pose.height))
+def surface(folder, deformer):
+    return rendering.read(folder / "frames" / f"{deformer}_surface_{frame:06}.vtp")
+
+
+def points_of(data):
+    return vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+
+
+def skin(folder, deformer, unit_m):
+    """The skin, with the colour of its distance from the reference. unit_m: metres of the body per metre of one of 1.7 m."""
+    data = surface(folder, deformer)
+    distances = numpy.linalg.norm(points_of(data) - points_of(surface(folder, reference)), axis=1)
+    values = numpy_to_vtk(1000.0 / unit_m * distances, deep=True)
+    values.SetName("distance_mm")
+    data.GetPointData().SetScalars(values)
+    smooth = rendering.made(vtkPolyDataNormals, InputData=data, Splitting=0)
+    table = rendering.table_of(scale.vmin, scale.vmax, [shades(step / 255) for step in range(256)])
+    mapper = rendering.made(vtkDataSetMapper, InputData=rendering.output_of(smooth), LookupTable=table)
+    mapper.UseLookupTableScalarRangeOn()
+    return rendering.actor_of(mapper, ambient=0.35, Specular=0.0)
+
+
+def below(row):
     inverted = int(row["inverted_tets"])
-    below = f"volume {row.number('volume_change_pct'):+.1f} %, {inverted} inverted tet{'' if inverted == 1 else 's'}"
-    style.show(panel, stage.shot([rendering.tets(frame)], pose.camera), below=style.signed(below))
-    panel.xaxis.label.set_size(9)
+    if row["deformer"] == reference:
+        return style.signed(f"volume {row.number('volume_change_pct'):+.1f} %")
+    return style.signed(f"volume {row.number('volume_change_pct'):+.1f} %\n{row.number('skin_rms_mm'):.0f} mm from FEM\n"
+                        f"{inverted} inverted tet{'' if inverted == 1 else 's'}")
 
 
 def draw(folders):
     """The figure and the rows whose numbers it shows."""
-    figure, axes = style.panels(len(poses), len(titles), width_in=9.0, height_in=1.9, height_ratios=[pose.height for pose in poses])
+    low, high = rendering.bounds_of(folders["Eq. 2"] / "surface_rest.vtp")
+    unit_m = max(high - low) / size_m
+    low, high = rendering.bounds_of(folders["Eq. 2"] / "frames" / f"{reference}_surface_{frame:06}.vtp")
+    view = rendering.Camera(tuple((low + high) / 2), 0.53 * (high - low)[1], view_direction)
+    figure, axes = style.panels(1, len(panels), width_in=9.0, height_in=4.0)
     shown = []
-    for panels, pose, folder in zip(axes, poses, folders):
-        for panel, deformer in zip(panels, titles):
-            shown.append(checked_row(folder, pose, pose.reference if deformer == "reference" else deformer))
-            draw_panel(panel, pose, folder, shown[-1])
-        panels[0].set_ylabel(pose.title, fontsize=10)
-    for panel, title in zip(axes[0], titles.values()):
-        panel.set_title(title, fontsize=11)
-    label = "volume of a tet over its volume at rest (blue: squeezed, yellow: swollen, dark red: inverted)"
-    style.bar(figure, axes, rendering.ratio_scale, rendering.ratio_colors, label, "both")
+    for panel, (weights, deformer, title) in zip(axes[0], panels):
+        row = (checked_row if weights == "Eq. 2" else row_of)(folders[weights], deformer)
+        stage = rendering.Stage(540, 960)
+        style.show(panel, stage.shot([skin(folders[weights], deformer, unit_m)], view), title, below(row))
+        panel.title.set_size(10)
+        panel.xaxis.label.set_size(9)
+        shown.append({"weights": weights, "deformer": deformer, "time_s": f"{time_s:g}",
+                      **{column: f"{row.number(column):.6g}" for column in stated}})
+    style.bar(figure, axes, scale, shades, f"distance of the skin from FEM [mm], on a body of {size_m} m", "max")
     figure.axes[-1].xaxis.label.set_size(9)
-    return figure, [{"scene": row["scene"], "deformer": row["deformer"], "angle_deg": row["angle_deg"],
-                     **{column: f"{row.number(column):.6g}" for column in compared}} for row in shown]
+    return figure, shown
 
 
 def save(figure, rows):
@@ -98,7 +120,7 @@ def main(arguments):
         print(__doc__, file=sys.stderr)
         return 2
     try:
-        save(*draw([pathlib.Path(folder) for folder in arguments[1:]]))
+        save(*draw(dict(zip(("Eq. 2", "smooth"), map(pathlib.Path, arguments[1:])))))
     except (records.RecordsMissing, whole_file.CannotBeWritten) as error:
         print(f"same_pose: {error}", file=sys.stderr)
         return 2

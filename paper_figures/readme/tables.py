@@ -1,17 +1,25 @@
-"""The tables of the README and of other pages: one line per claim of DIR/claims.json with its verdict, numbers and page; the human's
+"""The tables of the README and of other pages: one line per claim of DIR/claims.json with its page, verdict and numbers; the human's
 rows of DIR/timing/features_human/features.csv; the glossary; and the counts of the reliability tests, DIR/*.json."""
+import textwrap
+
 import records
 from readme import part
 from records import shapes
-from words import case_words, glossary, sentences
+from words import case_words, compared_methods, glossary, sentences
 
-claim_head = "| claim | verdict | units that hold, their share [95 % interval]; least to most of their numbers, bound | page |"
+claim_head = "| | claim of the paper | verdict | measured | asked |"
 claim_pages = "experiments/verdicts/claims"
 features_page = part.source / "experiments" / "studies" / "timing" / "README.md"
 features_head = ["| feature | processor ms per frame without | with | ratio [quartiles] | start [s] without | with "
                  "| peak [MB] without | with | the result moves |", "|---" * 9 + "|"]
 glossary_page = part.source / "experiments" / "GLOSSARY.md"
 reliability_page = part.source / "tests" / "README.md"
+width = 138  # of a line of text
+
+
+def filled(text, indent=""):
+    """The lines of a paragraph; those after the first one begin with `indent`."""
+    return textwrap.wrap(text.replace("\u2212", "-"), width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
 
 
 def line(*cells):
@@ -38,10 +46,21 @@ def in_markdown(text):
 
 
 def claims_table(results):
-    """The lines of the table, the header first."""
-    rows = [[f"{claim['statement']} ({claim['place']})", sentences.both_verdicts(claim), sentences.in_line(claim),
-             page_link(claim)] for claim in claims_of(results)]
-    return [claim_head, "|---" * 4 + "|", *(line(*map(in_markdown, row)) for row in rows)]
+    """The lines of the table, the header first. What is behind a verdict is on the claim's page."""
+    rows = [[page_link(claim), claim["short"], sentences.names[claim["verdict"]], claim["measured"] or "", claim["asked"] or ""]
+            for claim in claims_of(results)]
+    return [claim_head, "|---" * 5 + "|", *(line(*map(in_markdown, row)) for row in rows)]
+
+
+def held_out_sentences(claims):
+    """The verdicts on cases that were recorded after the rule was fixed, by verdict; no sentence without such cases."""
+    by_verdict = {}
+    for claim in claims:
+        later = claim["held_out"]
+        if later:
+            by_verdict.setdefault(later["verdict"], []).append(claim["id"])
+    parts = [f"{compared_methods.conjoined(ids, 'and')} {sentences.kinds[verdict][len(ids) != 1]}" for verdict, ids in by_verdict.items()]
+    return [f"On held-out cases, which were recorded after the rule was fixed, {'; '.join(parts)}."] if parts else []
 
 
 def claims_lines(results):
@@ -52,8 +71,9 @@ def claims_lines(results):
         studies.setdefault(revision, {})[file.parent.parent.name] = True
     records.need(studies, f"{results}: no run.json of a study's run in it")
     most, *others = sorted(studies, key=lambda revision: -len(studies[revision]))
-    measured = ", ".join([most, *(f"{revision} ({', '.join(sorted(studies[revision]))})" for revision in others)])
-    return [sentences.counts(claims_of(results)), "", *table, "", f"Measured at revision {measured}."]
+    measured_at = ", ".join([most, *(f"{revision} ({', '.join(sorted(studies[revision]))})" for revision in others)])
+    told = " ".join([*held_out_sentences(claims_of(results)), f"Measured at revision {measured_at}."])
+    return [*table, "", *filled(told)]
 
 
 def features_line(row):

@@ -1,11 +1,11 @@
-"""The README's own mesh: its commands end as it states, and its scene is as short as it states. Reference: the README's text."""
+"""The own mesh of the scenes' README: its commands end as it states, and its scene is as short as it states. Reference: its text."""
 import os
 import re
 import unittest
 
 from installation import BUILD, SOURCE, folder, run
 
-section = (SOURCE / "README.md").read_text(encoding="utf-8").split("\n## Use your own mesh\n")[1].split("\n## ")[0]
+section = (SOURCE / "experiments/scenes/README.md").read_text(encoding="utf-8").split("\n## Use your own mesh\n")[1].split("\n## ")[0]
 environment = {**os.environ, "PATH": f"{BUILD / 'bin'}:{os.environ['PATH']}"}
 
 

@@ -83,7 +83,8 @@ def spoken(verdict):
 
 def own_part(text, name):
     """What a page states of one claim, which may be one of two on it, in one line."""
-    return " ".join(re.split(r"\*\*C\d", text.split(f"**{name}:", 1)[1])[0].split())
+    own = re.split(rf"^(?:\*\*)?{name}: ", text, flags=re.MULTILINE)[-1]
+    return " ".join(re.split(r"^(?:\*\*)?C\d", own, flags=re.MULTILINE)[0].split())
 
 
 def header(table):
@@ -150,7 +151,8 @@ class Pages(program.ProgramTest):
     def test_each_column_on_record_is_explained(self):
         """By columns.md under the name of the study or for all of them; `pbskin explain` has those of metrics.csv."""
         page = (SOURCE / "experiments" / "records" / "columns.md").read_text(encoding="utf-8")
-        explained = {title: re.findall(r"^\| `(\w+)` \|", text, re.M) for title, text in re.findall(r"^## (.+)$([^#]+)", page, re.M)}
+        explained = {title: re.findall(r"`(\w+)`", " ".join(re.findall(r"^\| (`[^|]+) \|", text, re.M)))
+                     for title, text in re.findall(r"^## (.+)$([^#]+)", page, re.M)}
         for study in self.studies():
             names = [re.sub("[A-Z]+", r"[\\w.]+", name) for name in explained["All studies"] + explained.get(study, [])]
             pattern = re.compile(rf"({'|'.join(names)})(_low|_high|_lower|_upper)?")
@@ -205,9 +207,9 @@ class KeptVerdicts(unittest.TestCase):
             counts, numbers, span = counts_of(claim), numbers_of(claim), range_of(claim)
             line = report_verdicts.line(claim, types.SimpleNamespace(results=self.judged), None, [])
             for place, text, patterns in (
-                    ("README", re.search(rf"^.*\| \[{name}\]\(.*$", readme, re.M)[0], [rf"\| {both} \|", *counts, *numbers, *span]),
+                    ("README", re.search(rf"^\| \[{name}\]\(.*$", readme, re.M)[0], [rf"\| {word} \|"]),
                     ("page", own_part(page, name), [rf"^{both}\.\*\*", *counts, *numbers, *span]),
-                    ("explain", own_part(program.run("explain", name).stdout, name), [rf"^{both}\.\*\*", *counts, *numbers, *span]),
+                    ("explain", own_part(program.run("explain", name).stdout, name), [rf"^{both}\. ", *counts, *numbers, *span]),
                     ("report", html.unescape(line), [f"</span> {word}</span>", *counts, *numbers, *span]),
                     ("claims.md", re.search(rf"^\| {name} \|.*$", listed, re.M)[0], [rf"\| {kind} \|", *numbers]),
                     ("terminal", re.search(rf"^{name} .*$", self.printed, re.M)[0],
@@ -228,9 +230,10 @@ class KeptVerdicts(unittest.TestCase):
         for page, lines in readme_pages.pages(judged).items():
             with self.subTest(page.relative_to(SOURCE)):
                 self.assertEqual(readme_part.cut(page, "kept")[1].splitlines()[1:], lines, "python3 paper_figures/make_readme.py writes it")
-        for name, lines_of in (("claims", readme_tables.claims_lines), ("findings", readme_findings.lines_of)):
+        for name, lines_of in (("claims", readme_tables.claims_lines), ("findings", readme_findings.lines_of),
+                               ("methods", readme_findings.methods_lines)):
             _, stated, _ = readme_part.cut(SOURCE / "README.md", name)
-            self.assertEqual(stated.strip().splitlines()[:len(lines := lines_of(judged))], lines)
+            self.assertEqual(stated.strip().splitlines()[-len(lines := lines_of(judged)):], lines)
 
 
 if __name__ == "__main__":

@@ -13,7 +13,8 @@ import scene_manual
 import zsh_completion
 
 # What `pbskin list KIND` names, for words that may be such a name as well as a file.
-listed = {("run", "scene"): "scenes", ("reproduce", "names"): "claims studies", ("explain", "name"): "claims studies metrics deformers"}
+listed = {("run", "scene"): "scenes", ("reproduce", "names"): "claims studies",
+          ("explain", "name"): "claims studies metrics deformers terms"}
 
 
 def main(description, folder, version):

@@ -189,12 +189,12 @@ const OptionFields<FemOptions>& fem_fields()
 
 DeformerKind fem_kind()
 {
-    DeformerKind kind =
-        kind_of<void>("fem",
-                      "finite elements on the same tets (deal.II, CHOLMOD): linear (fictitious strain 1 - cos(rotation)), corotational, "
-                      "neo-Hookean (also "
-                      "stable), St Venant-Kirchhoff; in equilibrium or in time; a frame that is not reached is marked not_converged",
-                      fem_fields(), check);
+    DeformerKind kind = kind_of<void>(
+        "fem",
+        "finite elements on the same tets (deal.II, CHOLMOD): small-strain (fictitious strain 1 - cos(rotation)), corotational, "
+        "neo-Hookean (also "
+        "stable), St Venant-Kirchhoff; in equilibrium or in time; a frame that is not reached is marked not_converged",
+        fem_fields(), check);
     kind.needs_list = true;
     // Loads deal.II and some 200 shared objects, when a scene first uses a reference.
     kind.make = [](const DeformerSpec& spec) {

@@ -17,7 +17,10 @@ import run_records
 REFUSED = {
     "explain C2": "explain = C2: unknown name; the nearest known one is C02",
     "run": "scene is required",
-    "list dragons": "kind: dragons not in {cases,scenes,movements,deformers,studies,claims,metrics}",
+    "list dragons": "kind: dragons not in {cases,scenes,movements,deformers,studies,claims,metrics,terms}",
+    "foo": "pbskin: foo: unknown verb; the nearest known one is ",
+    "mesure": "pbskin: mesure: unknown verb; the nearest known one is measure",
+    "--foo": "pbskin: --foo: unknown option",
     "reproduce C99": "reproduce = C99: unknown claim or study",
     "run nowhere.toml": "nowhere.toml: cannot be read",
     "run {scene} -o {out} --set motion.joint=knee": "motion.joint = knee: expected one of shoulder, elbow",
@@ -50,14 +53,21 @@ class CommandLine(foreign_arm.ArmTest):
     def test_lists_every_kind(self):
         for kind, name in (("cases", "sweep"), ("scenes", "limb_twist"), ("movements", "knee_flexion"),
                            ("deformers", "dqs"), ("studies", "volume"), ("claims", "C02a"),
-                           ("metrics", "j_min")):
+                           ("metrics", "j_min"), ("terms", "candy-wrapper")):
             self.assertIn(name, self.succeeds("list", kind).stdout)
+        self.assertNotRegex(self.succeeds("list").stdout, r"\]\(|\*\*|`[a-z_]+`\]")
 
     def test_explains_every_name_it_lists_and_scene_keys(self):
-        for kind in ("scenes", "deformers", "studies", "claims", "metrics"):
+        for kind in ("scenes", "deformers", "studies", "claims", "metrics", "terms"):
             for line in self.succeeds("list", kind).stdout.splitlines()[1:]:
                 self.succeeds("explain", line.split()[0])
         self.assertIn("0 leaves the class out", self.succeeds("explain", "k_volume").stdout)
+
+    def test_explains_a_term_by_its_name_or_another_word_for_it(self):
+        for name, other in (("PBS", "pbs"), ("candy-wrapper", "Candy wrappers"), ("finite-elements", "FEM")):
+            first, *_ = told = self.succeeds("explain", name).stdout.splitlines()
+            self.assertRegex(first, r"\(term\)$")
+            self.assertEqual(self.succeeds("explain", other).stdout.splitlines()[:2], told[:2])
 
     def test_explains_a_verb_as_its_help_does(self):
         for verb in ("measure", "explain"):
@@ -75,7 +85,7 @@ class CommandLine(foreign_arm.ArmTest):
         self.assertEqual(claims, list(self.listed_claims()))
         for claim, text in texts.items():
             self.assertTrue(text.startswith(f"{claim[:3]}: "), text)  # C02a and C02b share a page
-            self.assertNotRegex(text, r"<!--|\]\(|`")
+            self.assertNotRegex(text, r"<!--|\]\(|`|\*\*|\\\\\|")
         for name in ("C05", "C09a"):
             for quantity in self.listed_claims()[name]["quantities"]:
                 self.assertEqual(self.succeeds("explain", quantity).stdout, texts[name])

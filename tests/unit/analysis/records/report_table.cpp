@@ -50,12 +50,16 @@ TEST(PlainMarkdown, IsSetForATerminal)
         {"paragraphs are filled, comments and links left out",
          "# A title\n\nOne [page](../page.md) has\n`code` in it.\n\n<!-- kept:begin -->\n\n## Next\n", 20,
          "A title\n\nOne page has code in\nit.\n\nNext\n"},
+        {"pictures and marks of emphasis are left out, signs of multiplication are not",
+         "![A picture](a.png)\n\n**C01: holds.** *Known*: the (*least*) 2 * 3, a*b, `limb_*`; upper\\|forearm\n", 80,
+         "\nC01: holds. Known: the (least) 2 * 3, a*b, limb_*; upper|forearm\n"},
         {"items", "- one two three four\n  five\n- six\n1. seven\n", 16, "-  one two three\n   four five\n-  six\n1.  seven\n"},
         {"code is kept unless it is too long", "    a  =  b\n    c = d (and more)\n", 14, "    a  =  b\nc = d (and\nmore)\n"},
         {"a table", "| a | b |\n|---|---|\n| 1 | two words |\n\nend\n", 30, "a  b\n1  two words\n\nend\n"},
+        {"a bar in a cell", "| x\\|y | z |\n|---|---|\n", 30, "x|y  z\n"},
         {"a narrow table", "| a | b |\n|---|---|\n| 1 | two words |\n", 9, "a  b\n1  two\n   words\n"}};
     for (const Case& of : all) EXPECT_EQ(plain_text(of.markdown, of.width), of.text) << of.name;
-    EXPECT_EQ(first_paragraph("# volume\n\nHow much\nis lost?\n\nMore.\n"), "How much is lost?");
+    EXPECT_EQ(first_paragraph("# volume\n\nHow [much](a.md)\nis *lost*?\n\nMore.\n"), "How much is lost?");
 }
 
 }  // namespace
