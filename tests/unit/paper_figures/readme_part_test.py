@@ -47,7 +47,7 @@ class ClaimPage(unittest.TestCase):
         self.assertEqual(readme_pages.claim_lines(shown), [
             "**C04: holds.** Volume is kept.", "", "5 of 5 cases hold, share 1 [0.48, 1]; radius: 1, threshold 0.95 or more.", "",
             "The number of a case (body) is the radius; threshold: 0.95 or more (Sec. 4). If each case held with probability q = 0.2, at "
-            "least as many would hold by chance with probability 0.001. This q is the share of the control that must fail, by the rule of "
+            "least as many would hold by chance with probability 0.001. This q is the share of the negative control, by the rule of "
             "succession, or one half.", "",
             "| control | role | cases that hold | numbers | as it must |", "|---|---|---|---|---|",
             "| LBS | negative control | 0 of 1 case, share 0 | 0.5 | yes |", "",
@@ -145,7 +145,7 @@ class Tables(ReadmeTest):
             self.assertEqual(readme_tables.claims_table(self.results)[2],
                              "| [C01](experiments/verdicts/claims/C01.md) | Volume | holds | in 8 clips | all |")
         self.assertEqual(readme_tables.held_out_sentences(claims),
-                         ["On held-out cases, which were recorded after the rule was fixed, C01 and C02a fail; C03 holds."])
+                         ["On held-out cases, which were recorded after the thresholds were fixed, C01 and C02a fail; C03 holds."])
         self.assertEqual(readme_tables.held_out_sentences(claims[3:]), [])
 
     def test_findings_without_the_values_that_they_state_are_refused(self):
