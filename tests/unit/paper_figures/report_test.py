@@ -100,7 +100,7 @@ class Report(ReportTest):
     def test_verdicts_are_counted_and_open_to_their_runs(self):
         synthetic_records.write_claims(self.results)
         text = self.page()
-        self.assertIn("There are 5 claims: 1 holds, 1 fails, 1 is inconclusive, 1 cannot be tested, 1 is inconsistent in print.",
+        self.assertIn("There are 5 claims: 1 holds, 1 fails, 1 is inconsistent in print, 1 is inconclusive, 1 cannot be tested.",
                       words_of(text))
         judged = [("C02a", "fails"), ("C10a", "holds"), ("C13", "inconsistent in print"), ("C14", "inconclusive"),
                   ("C16", "cannot be tested")]
@@ -172,7 +172,7 @@ class Report(ReportTest):
         text = self.page()
         body = re.sub(r"<style>.*?</style>|<script.*?</script>", "", text, flags=re.S)
         self.assertEqual(len(re.findall("(?i)inconsistent in print", body)), 3)  # count, chip, line
-        for other in ("inconsistent_in_print", "inconclusive", "negative_control", "control_without_record"):
+        for other in ("inconsistent_in_print", "not_testable", "negative_control", "control_without_record"):
             self.assertNotIn(other, body)
 
     def test_a_page_beyond_its_size_is_written_and_refused(self):
@@ -201,7 +201,7 @@ class Report(ReportTest):
         # an earlier version recorded no wall time
         self.assertIn("<td>30</td><td>180</td><td>\u2013</td>", origin.costs_section(self.found()))
         (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s,wall_s\na,10,60,70\nb,20,120,125\n")
-        (self.results / "volume" / "plan.json").write_text(json.dumps({"extent": "quick", "runs": [], "excluded": []}))
+        (self.results / "volume" / "plan.json").write_text(json.dumps({"extent": "quick", "runs": [], "left_out": []}))
         self.assertIn("<td>quick</td><td>2</td><td>30</td><td>180</td><td>195</td>", origin.costs_section(self.found()))
 
     def test_errors_over_whole_runs_are_the_recorded_order_statistics(self):
@@ -319,7 +319,7 @@ class Contrast(unittest.TestCase):
         style = (root / "paper_figures" / "report" / "page.css").read_text()
         for theme in re.findall(r":root \{(.*?)\}", style, re.DOTALL):  # light, dark
             colors = dict(re.findall(r"--(\w+): (#[0-9a-f]{3,6})", theme))
-            for name in ("ink", "soft", "link", "holds", "partly", "fails", "print", "why_inconclusive"):
+            for name in ("ink", "soft", "link", "holds", "partly", "fails", "print", "untested"):
                 for ground in ("ground", "shade"):
                     dark, light = sorted((self.luminance(colors[ground]), self.luminance(colors[name])))
                     self.assertGreaterEqual((light + 0.05) / (dark + 0.05), 4.5, (name, ground))
@@ -363,7 +363,7 @@ class ReportRecords(ReportTest):
                "work": {"settings": {}}}
         run["provenance"] |= {"libraries": {"Eigen": "3.4.0"}, "input_hashes": {"limb": "0123"}, "threads": 1}
         self.put(RUN, run)
-        self.put(PLAN, {"extent": "quick", "runs": [{"name": "limb_twist"}], "excluded": [{"scene": "walk", "reason": "no clip"}]})
+        self.put(PLAN, {"extent": "quick", "runs": [{"name": "limb_twist"}], "left_out": [{"scene": "walk", "reason": "no clip"}]})
 
     def put(self, name, record):
         (self.results / name).write_text(json.dumps(record))

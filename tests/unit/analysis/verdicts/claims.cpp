@@ -76,7 +76,7 @@ TEST(Claims, BrokenFilesAreNamedWithTheirLine)
              {"schema = 1\n", "claims.toml: claim: expected [[claim]] tables"},
              {"schema = 1\nverdict = \"holds\"\n", "claims.toml:2: verdict: unknown key: expected schema or check or claim or quantity"},
              {replaced(whole, "short = \"it holds\"\n", ""), "claims.toml:2: short: missing in this claim"},
-             {replaced(whole, "it holds", ""), "claims.toml:5: short = \"\": expected 1 to 8 words of at most 32 characters in all"},
+             {replaced(whole, "it holds", ""), "claims.toml:5: short: expected 1 to 8 words of at most 32 characters in all"},
              {replaced(whole, "it holds", "1 2 3 4 5 6 7 8 9"),
               "claims.toml:5: short = 1 2 3 4 5 6 7 8 9: expected 1 to 8 words of at most 32 characters in all"},
              {replaced(whole, "headline = \"in {held} of {n}\"\n", ""), "claims.toml:2: headline: missing in this claim"},

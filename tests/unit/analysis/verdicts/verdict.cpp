@@ -454,7 +454,7 @@ TEST(ClaimsReport, ALongTextInTheTerminalsTableEndsWithAnEllipsis)
     verdict.claim.headline = "thirty letters of some text abc {held}";
     const std::string table = claims_table({verdict}, 60, false, {.heading = "here", .texts = {{"X01", "94 numbers agree with it"}}});
     EXPECT_NE(table.find("94 numbers agr\u2026"), std::string::npos) << table;
-    EXPECT_NE(table.find("thirty letters"), std::string::npos) << table;
+    EXPECT_NE(table.find("thirty lette\u2026"), std::string::npos) << table;
     verdict.claim.headline = "of {held of nothing}";
     EXPECT_NE(claims_table({verdict}, 60, false).find("X01  it holds            HOLDS\n"), std::string::npos) << "nothing was measured";
 }
