@@ -6,7 +6,8 @@
 
 claims: one line per claim in the README; findings: its findings; methods: which method in which time, with its figure; features: the table
 of the study that switches features off; kept: the generated parts of the studies' READMEs and of the claims' pages; glossary: the terms of
-experiments/GLOSSARY.md with their picture; reliability: the table of tests/README.md. Exit status 2 if the records or a page are not as expected.
+experiments/GLOSSARY.md with their picture; reliability: the table of tests/README.md. Exit status 2 if the records or a page are not as
+expected.
 """
 import pathlib
 import sys

@@ -104,9 +104,10 @@ def lines_of(results):
     claims = sentences.claims_of(results / "claims.json")
     findings = [volume(claims), artefacts(claims), convergence(claims), stability(results), stiffness(claims), speed(claims),
                 distance(results)]
-    counts = sentences.counts(claims).partition(": ")[2]
+    hold, fail = (sum(claim["verdict"] == verdict for claim in claims) for verdict in ("holds", "fails"))
     return [*(line for finding in findings for line in tables.filled(f"- {finding}", "  ")), "",
-            f"[All {len(claims)} claims](#claims): {counts}"]
+            f"[All {len(claims)} claims](#claims): {hold} hold, {fail} fail, and {len(claims) - hold - fail} do neither, for the reasons "
+            "that the table states."]
 
 
 def origin_of_picture(results):

@@ -60,7 +60,7 @@ def held_out_sentences(claims):
         if later:
             by_verdict.setdefault(later["verdict"], []).append(claim["id"])
     parts = [f"{compared_methods.conjoined(ids, 'and')} {sentences.kinds[verdict][len(ids) != 1]}" for verdict, ids in by_verdict.items()]
-    return [f"On held-out cases, which were recorded after the rule was fixed, {'; '.join(parts)}."] if parts else []
+    return [f"On held-out cases, which were recorded after the thresholds were fixed, {'; '.join(parts)}."] if parts else []
 
 
 def claims_lines(results):

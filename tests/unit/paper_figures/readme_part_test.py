@@ -145,7 +145,7 @@ class Tables(ReadmeTest):
             self.assertEqual(readme_tables.claims_table(self.results)[2],
                              "| [C01](experiments/verdicts/claims/C01.md) | Volume | holds | in 8 clips | all |")
         self.assertEqual(readme_tables.held_out_sentences(claims),
-                         ["On held-out cases, which were recorded after the rule was fixed, C01 and C02a fail; C03 holds."])
+                         ["On held-out cases, which were recorded after the thresholds were fixed, C01 and C02a fail; C03 holds."])
         self.assertEqual(readme_tables.held_out_sentences(claims[3:]), [])
 
     def test_findings_without_the_values_that_they_state_are_refused(self):

@@ -257,7 +257,7 @@ def write_claims(results, statement="Volume is kept."):
                     interval_high=1.0, chance=0.001, q=0.03, differs={"field": "body", "least_at": "man", "least": 1, "most_at": "lady",
                                                                       "most": 1}),
               claim("C13", "inconsistent_in_print", printed, rule="printed"),
-              claim("C14", "inconclusive", why_inconclusive="control_without_record", 
+              claim("C14", "inconclusive", why_inconclusive="control_without_record",
                     controls=[selection("DQS", (), "negative_control", False)]),
               claim("C16", "untestable", rule="untestable", reason="no value is in print")]
     titles = {"share_kept": {"title": "share of frames", "unit": "1"}, "frames_per_s": {"title": "frames per second", "unit": "1/s"}}
