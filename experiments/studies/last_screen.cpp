@@ -2,9 +2,9 @@
 
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
+#include "analysis/records/tables.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/studies/reproduce.hpp"
-#include "experiments/studies/work_precision/conclusions.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -87,22 +87,37 @@ std::vector<analysis::Verdict> on_record(const LastScreen& screen, const std::st
     return verdicts;
 }
 
+// A row of the methods that are compared within 1 ms per frame on reference variants whose material and springs are told.
+struct Method {
+    std::string name;
+    double share_pct = 0.0, skin_mm = 0.0;
+    long long poses = 0;
+};
+
+std::vector<Method> methods_within_1_ms(const std::string& records)
+{
+    std::vector<Method> methods;
+    const std::string file = (fs::path(records) / "work_precision" / "methods.csv").string();
+    if (!fs::exists(file)) return methods;
+    const analysis::CsvTable table = analysis::read_csv(file);
+    for (int row = 0; row < table.rows(); ++row)
+        if (table.text_at(row, "table") == "known" && table.number(row, "budget_ms") == 1.0 && table.text_at(row, "within") != "no")
+            methods.push_back({table.text_at(row, "method"), 100.0 * table.number(row, "share"),
+                               table.number_or_nothing(row, "skin_mm").value_or(0.0), table.integer(row, "poses")});
+    return methods;
+}
+
 // How far LBS and PBS are from flesh, and which method is nearest within 1 ms, by the record of work_precision. Empty without one.
 std::string answers_text(const std::string& records)
 {
-    const std::string file = (fs::path(records) / "work_precision" / "methods.csv").string();
-    if (!fs::exists(file)) return "";
-    std::vector<MethodRow> within = rows_of(method_columns, analysis::read_csv(file));
-    std::erase_if(within,
-                  [](const MethodRow& of) { return of.table != ComparisonTable::known || of.budget_ms != 1.0 || of.within == "no"; });
-    const auto row = [&](const std::string& method) { return std::ranges::find(within, method, &MethodRow::method); };
-    const auto best = std::ranges::min_element(within, {}, &MethodRow::share), lbs = row("lbs"), pbs = row("pbs"), mush = row("delta_mush");
-    if (lbs == within.end() || pbs == within.end() || mush == within.end()) return "";
-    return fmt::format(
-        "Far from flesh: the skin of a body of 1.7 m is {:.2g} mm off with LBS, {:.2g} mm with PBS ({} poses).\n"
-        "1 ms per frame: {} leaves {:.0f} % of LBS's error if the material is known, PBS {:.0f} %, delta mush {:.0f} %.\n",
-        lbs->skin_mm.value_or(0.0), pbs->skin_mm.value_or(0.0), pbs->poses, best->method, 100.0 * best->share, 100.0 * pbs->share,
-        100.0 * mush->share);
+    const std::vector<Method> methods = methods_within_1_ms(records);
+    const auto find_method = [&](const std::string& name) { return std::ranges::find(methods, name, &Method::name); };
+    const auto best = std::ranges::min_element(methods, {}, &Method::share_pct), lbs = find_method("lbs"), pbs = find_method("pbs"),
+               mush = find_method("delta_mush");
+    if (lbs == methods.end() || pbs == methods.end() || mush == methods.end()) return "";
+    return fmt::format("Far from flesh: the skin of a body of 1.7 m is {:.2g} mm off with LBS, {:.2g} mm with PBS ({} poses).\n"
+                       "1 ms per frame: {} leaves {:.0f} % of LBS's error if the material is known, PBS {:.0f} %, delta mush {:.0f} %.\n",
+                       lbs->skin_mm, pbs->skin_mm, pbs->poses, best->name, best->share_pct, pbs->share_pct, mush->share_pct);
 }
 
 }  // namespace

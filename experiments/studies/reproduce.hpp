@@ -20,8 +20,8 @@ struct ReproduceArguments {
     std::vector<std::string> only = {};        // names of runs; the others are kept if they are finished. Empty: all runs of the studies
 };
 
-// Writes DIR/STUDY/RUN/... and what last_screen.hpp states, and prints the last screen. Returns the exit status: 1 if results differ from the
-// kept record, a verdict could not be computed or a study's own bounds do not hold.
+// Writes DIR/STUDY/RUN/... and what last_screen.hpp states, and prints the last screen. Returns the exit status: 1 if results differ from
+// the kept record, a verdict could not be computed or a study's own bounds do not hold.
 int reproduce(const ReproduceArguments& arguments);
 
 // Runs nothing: computes the verdicts from the records that are in the folder, and writes claims.json and claims.md again.

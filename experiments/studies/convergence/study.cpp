@@ -3,8 +3,8 @@
 // Two controls and the author's later code are iterated in the paper's order and precision.
 // README.md describes the runs and records.
 //
-// The reference of a pose takes minutes, so that only the poses that `ensemble` has too are compared with it, and the ladder without solutions
-// on finer tets, and therefore without a bound.
+// The reference of a pose takes minutes, so that only the poses that `ensemble` has too are compared with it, and the ladder without
+// solutions on finer tets, and therefore without a bound.
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/deformers/deformer_options.hpp"

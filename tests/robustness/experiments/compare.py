@@ -68,7 +68,8 @@ class Compare(program.ProgramTest):
 
     def test_settings_that_differ_are_named_as_the_cause(self):
         one, other = (self.path(name) for name in ("one", "other"))
-        run = ("run", "limb_twist", "--quiet", "--set", "motion.frames=3", "--set", 'deformers.use=["lbs","pbs"]', "--set", 'reference.name=""')
+        run = ("run", "limb_twist", "--quiet", "--set", "motion.frames=3", "--set", 'deformers.use=["lbs","pbs"]', "--set",
+               'reference.name=""')
         self.succeeds(*run, "-o", one)
         self.succeeds(*run, "-o", other, "--set", "pbs.k_stretch=0.5")
         said = self.ends(1, "compare", one, other).stdout
@@ -104,7 +105,8 @@ class KeptRecord(program.ProgramTest):
         self.results = pathlib.Path(self.path("results"))
 
     def reproduces(self, status=0):
-        return self.ends(status, "reproduce", "audit", "momentum", "-o", self.results, env=os.environ | {"PBSKIN_RECORDS": str(self.records)}).stdout
+        records = os.environ | {"PBSKIN_RECORDS": str(self.records)}
+        return self.ends(status, "reproduce", "audit", "momentum", "-o", self.results, env=records).stdout
 
     def changed(self, table, old, new):
         file = self.records / table

@@ -174,28 +174,36 @@ TEST(StudyCosts, AreCompletedFromTheRunsThatEndedAndTellTheirCostInTheOrderOfThe
               "run,expected_cpu_s,cpu_s,wall_s\nseen,2,8.5,9\ntold,2,3,\n");
 }
 
-// Reference: cases.toml of the study setup, whose ring is built in.
+// Reference: cases.toml of the study setup, whose ring is built in, and of volume, which has fewer deformers of the limb in the default form.
 TEST(StudyCases, HaveTheKeysAndTheCostOfTheirForm)
 {
     for (const bool full : {false, true}) {
         std::vector<std::string> rings;
         plan_of_cases("setup", full, [&](const StudyCase& of, StudyPlan&) {
-            EXPECT_EQ(of.full, full);
+            EXPECT_TRUE(of.full) << "each of its cases is measured in the default form as in the full one";
+            EXPECT_EQ(of.value<double>("rate_hz"), 100.0);
             EXPECT_EQ(of.value<std::string>("deformer", "pbs_author"), "pbs_author");
-            EXPECT_EQ(of.value<double>("rate_hz"), full ? 100.0 : 5.0);
             if (of.name == "ring") {
-                EXPECT_EQ(of.cost_s, full ? 9.0 : 5.5);
+                EXPECT_EQ(of.cost_s, 9.0);
             }
             if (!of.has("vertices")) rings.push_back(of.name + " " + of.value<std::string>("body"));
         });
         EXPECT_EQ(std::ranges::count(rings, "ring ring"), 1);
+        EXPECT_EQ(std::ranges::count(rings, "ring_by_the_author ring"), full ? 1 : 0) << "it has no quick_s";
+        plan_of_cases("volume", full, [&](const StudyCase& of, StudyPlan&) {
+            if (of.name == "limb_twist") {
+                EXPECT_EQ(of.full, full);
+                EXPECT_EQ(of.cost_s, full ? 72.0 : 9.0);
+            }
+            for (const char* key : {"scene", "overrides", "add", "goes_on", "beside", "k_in_zone", "through_movements"}) of.has(key);
+        });
     }
 }
 
 TEST(StudyCases, LeaveOutABodyWithAllOfItsCases)
 {
     int asked = 0;
-    const StudyPlan plan = plan_of_cases("setup", false, [&](const StudyCase&, StudyPlan&) {
+    const StudyPlan plan = plan_of_cases("setup", true, [&](const StudyCase&, StudyPlan&) {
         ++asked;
         throw pbs::InputError("scene.toml", 1, "motion.clip", "", "missing");
     });

@@ -138,7 +138,7 @@ TEST(ConvergenceFigures, TwistsAndTheLimbAreReportedAndNotJudged)
 TEST(ConvergenceFigures, ExponentOfALadderIsThatOfTheFormula)
 {
     ConvergenceResult ladder;
-    ladder.ladder = true;
+    ladder.ladder = ladder.exponents = true;
     for (const int vertices : {500, 2000, 8000, 32000})
         for (const auto order : {pbs::Order::ordered, pbs::Order::plain}) {
             const double rate = order == pbs::Order::plain ? 0.5 : std::exp(-1.0 / std::sqrt(vertices));
