@@ -42,7 +42,7 @@ def page_of(name):
     return name.rstrip("abcdefghijklmnopqrstuvwxyz")
 
 
-# Bounds and numbers.
+# Thresholds and numbers.
 
 def title(claim, quantity):
     return claim["titles"].get(quantity) or case_words.in_plain(quantity or "number")

@@ -257,12 +257,24 @@ def write_claims(results, statement="Volume is kept."):
                     interval_high=1.0, chance=0.001, q=0.03, differs={"field": "body", "least_at": "man", "least": 1, "most_at": "lady",
                                                                       "most": 1}),
               claim("C13", "inconsistent_in_print", printed, rule="printed"),
-              claim("C14", "inconclusive", why_inconclusive="control_without_record", 
+              claim("C14", "inconclusive", why_inconclusive="control_without_record",
                     controls=[selection("DQS", (), "negative_control", False)]),
               claim("C16", "untestable", rule="untestable", reason="no value is in print")]
     titles = {"share_kept": {"title": "share of frames", "unit": "1"}, "frames_per_s": {"title": "frames per second", "unit": "1/s"}}
     document = {"schema": 4, "revision": revision, "quantities": titles, "claims": [{**one, "statement": statement} for one in judged]}
     (results / "claims.json").write_text(json.dumps(document))
+
+
+def write_repeated(results):
+    """repeated.json as `pbskin reproduce` writes it: one of three numbers of C02a differs, and times are not compared."""
+    table = {"table": "volume/limb_twist/measurements.csv", "rows": 5, "numbers": 5, "equal": 3,
+             "differing": [{"row": "share_kept: human", "column": "value", "first": 0.4, "second": 0.5}]}
+    claims = {"C02a": {"compared": 3, "agree": 2, "text": "1 of 3 numbers differ"},
+              "C10a": {"compared": 0, "agree": 0, "text": "83.5 to 176 1/s"}}
+    (results / "repeated.json").write_text(json.dumps({
+        "schema": 1, "first": "records", "second": "results", "agrees": False, "numbers": 5, "equal": 3, "tables": [table], "claims": claims,
+        "only_first": [], "only_second": [], "other_settings": [], "other_verdicts": [],
+        "text": "This machine does NOT repeat the record: 1 of 5 numbers differ."}))
 
 
 def write_timing(results):
