@@ -88,6 +88,7 @@ def read(file, shape):
     return record
 
 
+first_schema = Rule("1", lambda value: value == 1)  # of repeated.json
 third_schema = Rule("3", lambda value: value == 3)
 fourth_schema = Rule("4", lambda value: value == 4)  # of claims.json
 provenance = {"version?": text, "git_revision?": text, "git_dirty?": truth, "compiler?": text, "flags?": text, "build_type?": text,
@@ -133,7 +134,7 @@ claim = facts | {"id": text, "statement": text, "place": text, "study": text, "r
                  "excluded_scenes": [{"scene": text, "reason": text}], "missing": [text], "runs": [text]}
 claims = {"schema": fourth_schema, "quantities": {"*": {"title": text, "unit": text}}, "claims": [claim]}
 
-# What this machine measured again of the record; the verdict, if there is one, is that on the record.
-repeated = {"text?": text, "claims?": {"*": {"text?": text, "verdict?": verdict, "measured?": text}}}
+# What this machine measured again of the record: how many numbers or frames agree. The verdicts beside it, in claims.json, are the record's.
+repeated = {"schema": first_schema, "text": text, "claims": {"*": {"compared": whole, "agree": whole, "text": text}}}
 
 reliability = {"name": text, "count": number, "of": number, "command": text, "revision": text, "note?": text}

@@ -1,5 +1,5 @@
-"""The first screen: the short table of the claims, the moving character, what PBS is, and two answers. Every sentence is composed from claims.json, the
-tables of work_precision, and timing/timing.csv."""
+"""The first screen: the short table of the claims, the moving character, what PBS is, and two answers. Every sentence is
+composed from claims.json, the tables of work_precision, and timing/timing.csv."""
 from report import verdicts
 from report.markup import Markup, element, joined, table
 from report.record_set import not_run, number
@@ -20,11 +20,12 @@ def answer(question, sentence, *more):
 
 def do_they_hold(found):
     """The first card: how many claims hold, whether this machine repeats the record, and the short table."""
+    repeats = found.repeated["text"]
     if not found.claims:
         sentence = "No verdict is on record: run `pbskin reproduce`, or `pbskin reproduce --judge` on these records."
-        shown = [element("p", sentence, class_="missing")]
+        shown = [*([element("p", repeats)] if repeats else []), element("p", sentence, class_="missing")]
     else:
-        shown = [element("p", " ".join(filter(None, [sentences.counts(found.claims), found.repeated["text"]]))), verdicts.short_table(found)]
+        shown = [element("p", " ".join(filter(None, [sentences.counts(found.claims), repeats]))), verdicts.short_table(found)]
     return card("claims", "Do the paper\u2019s claims hold?", shown)
 
 

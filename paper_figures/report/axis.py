@@ -51,7 +51,7 @@ def drawn(claim):
     parts = []
     if ends:
         left, right = (edge if end is None else scale.place(end) for end, edge in ((low, 0), (high, width)))
-        parts.append(f'<rect class="bound" x="{left:.1f}" y="2" width="{max(right - left, 1):.1f}" height="18"/>')
+        parts.append(f'<rect class="threshold" x="{left:.1f}" y="2" width="{max(right - left, 1):.1f}" height="18"/>')
     parts.append(f'<line class="line" x1="0" x2="{width}" y1="20" y2="20"/>')
     colours = [("holds" if case["holds"] else "fails") if ends else "control" for case in tested]
     parts += [f'<circle class="{colour}" cx="{scale.place(case["value"]):.1f}" cy="11" r="3"/>' for case, colour in zip(tested, colours)]

@@ -1,5 +1,5 @@
 """The distance of the deformers from nonlinear finite elements over whole sweeps and clips, from frame_statistics.csv; and the verification
-of the finite element reference itself: its values, their sources and the origins of bounds."""
+of the finite element reference itself: its values, their sources and the origins of thresholds."""
 import records
 from records import shapes
 from report.markup import beside_the_page, element, escaped, folder_link, inline, items, joined, table
@@ -83,7 +83,7 @@ def reference_section(found):
     rows = found.rows("verification/verification.csv")
     if not rows:
         return element("p", f"The reference against theory and benchmarks is {not_run(found, 'verification')}.", class_="missing")
-    # Sources and origins of bounds, each once, in the order of the rows.
+    # Sources and origins of thresholds, each once, in the order of the rows.
     notes = list(dict.fromkeys(row[column] for row in rows for column in ("source", "bound_from") if row[column]))
     shown = table("The reference against theory and published benchmarks", reference_header, [cells(row, notes) for row in rows], "tall")
     answer = element("p", verdict(rows), class_="answer")

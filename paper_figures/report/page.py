@@ -17,7 +17,7 @@ def lead(found):
     runs = sum(name.count("/") == 1 for name in found.runs)  # the parts of a run are in folders below it
     text = (f"The claims of the paper of 2014 against {runs} recorded runs of pbskin {', '.join(origin.values_of(found, 'version'))}, "
             f"revision {', '.join(dict.fromkeys(revision[:10] for revision in revisions))}.")
-    if not found.repeated["claims"] and any(plan.get("extent") == "quick" for plan in found.plans.values()):
+    if not found.repeated["text"] and any(plan.get("extent") == "quick" for plan in found.plans.values()):
         text += " They are those of a quick run: claims have fewer cases or lack a control, so that full records may give other verdicts."
     return element("p", text, class_="lead")
 
@@ -42,7 +42,7 @@ def page(found):
     shown, not_shown, moving = viewer_section(found)
     pictures, drawn, not_drawn = figures.section(found)
     distances, not_told = errors.section(found)
-    no_verdicts = [] if found.claims else ["verdicts: claims.json does not exist (pbskin reproduce --judge)"]
+    no_verdicts = [] if found.claims is not None else ["verdicts: claims.json does not exist (pbskin reproduce --judge)"]
     missing = not_shown + not_drawn + not_told + no_verdicts
     missing += [f"{study}: {scene} left out: {reason}" for study, scene, reason in found.left_out()]
     costs = items([told for told in (answers.frame_sentence(found), origin.costs_sentence(found)) if told])

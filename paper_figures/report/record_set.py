@@ -20,9 +20,7 @@ class RecordSet:
         judged = results / "claims.json"
         self.claims = sentences.claims_of(judged) if judged.is_file() else None  # None if no claim was judged
         file = results / "repeated.json"
-        self.repeated = {"text": "", "claims": {}} | (shapes.read(file, shapes.repeated) if file.is_file() else {})
-        for claim in self.claims or []:  # the record judges; this machine repeats it
-            claim |= {name: text for name, text in self.repeated["claims"].get(claim["id"], {}).items() if name in ("verdict", "measured")}
+        self.repeated = shapes.read(file, shapes.repeated) if file.is_file() else {"text": "", "claims": {}}
 
     def run(self, name, shape):
         """The record of a run of which further members are read."""

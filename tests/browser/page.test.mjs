@@ -56,7 +56,7 @@ test("each claim is a line that opens, with its units, bound and controls on an 
     const lines = page.locator("details.claim"), judged = await page.locator(".claims .chip").count();
     assert.equal(await lines.count(), judged);
     const line = page.locator("#C01"), axis = line.locator("svg.axis");
-    for (const part of ["circle", "rect.bound", "path.control"]) assert.ok(await axis.locator(part).count() > 0, part);
+    for (const part of ["circle", "rect.threshold", "path.control"]) assert.ok(await axis.locator(part).count() > 0, part);
     assert.match(await axis.getAttribute("aria-label"), /^mean volume loss: .*threshold: 12 to 16/);
     assert.ok(await line.locator("table").first().isHidden());
     await page.locator('.claims a[href="#C01"]').click();

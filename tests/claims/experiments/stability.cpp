@@ -84,8 +84,8 @@ VerdictKind verdict_on_trials(const std::string& id, const std::vector<MeasuredC
     return test_support::verdict_on(id, values_from(cells));
 }
 
-// Theory: the control fails in its one case, so that chance has q = 1/3. It reaches 16 of 20 cases with a probability of 2e-5, 5 of 5 bodies
-// with 0.004 and 4 of 5 with 0.045.
+// Theory: the control fails in its one case, so that chance has q = 1/3. It reaches 16 of 20 cases with a probability of 2e-5, 5 of 5
+// bodies with 0.004 and 4 of 5 with 0.045.
 TEST(StabilityVerdict, TurnsWithTheBodiesThatDoNotComeToRestAndWithTheControls)
 {
     using enum VerdictKind;

@@ -53,7 +53,7 @@ class ClaimPage(unittest.TestCase):
             "| LBS | negative control | 0 of 1 case, share 0 | 0.5 | yes |", "",
             "| for comparison | cases within the threshold | numbers |", "|---|---|---|", "| DQS\\|2 | 0 of 1 case, share 0 | -0.4 |"])
 
-    def test_what_disagrees_in_the_same_units_follows_the_tables(self):
+    def test_what_disagrees_in_the_same_cases_follows_the_tables(self):
         def last_line(bodies):
             wrong = [case(0.1, False, body=body) for body in bodies]
             return readme_pages.claim_lines(claim("C04", "holds", [case(1.0, body=body) for body in "abcdef"], titles={},

@@ -144,11 +144,11 @@ class Report(ReportTest):
         self.assertIn("<p>With 1 ms per frame, quasi-Newton has the least error", lines[0])
         self.assertTrue(lines[2].startswith("Within 1 ms, quasi-Newton leaves 32 % with the flesh known"), lines[2])
 
-    def test_the_axis_has_the_units_the_bound_and_the_controls(self):
+    def test_the_axis_has_the_cases_the_threshold_and_the_controls(self):
         synthetic_records.write_claims(self.results)
         claims = {claim["id"]: claim for claim in self.found().claims}
         drawn = axis.drawn(claims["C02a"] | {"controls": [claims["C02a"] | {"name": "LBS", "role": "negative_control"}]})
-        parts = '<circle class="holds"', '<circle class="fails"', '<rect class="bound"', '<path class="control"'
+        parts = '<circle class="holds"', '<circle class="fails"', '<rect class="threshold"', '<path class="control"'
         self.assertEqual([drawn.count(part) for part in parts], [1, 2, 1, 1])
         self.assertRegex(drawn, 'aria-label="[^"]*; threshold: 0.95 or more; control LBS, negative control: 0.4"')
         self.assertEqual(axis.drawn(claims["C13"]), "")  # each printed value has a threshold of its own
@@ -174,7 +174,7 @@ class Report(ReportTest):
         text = self.page()
         body = re.sub(r"<style>.*?</style>|<script.*?</script>", "", text, flags=re.S)
         self.assertEqual(len(re.findall("(?i)inconsistent in print", body)), 3)  # count, chip, line
-        for other in ("inconsistent_in_print", "not_testable", "negative_control", "control_without_record"):
+        for other in ("inconsistent_in_print", "untestable", "negative_control", "control_without_record"):
             self.assertNotIn(other, body)
 
     def test_a_page_beyond_its_size_is_written_and_refused(self):
@@ -235,15 +235,22 @@ class Report(ReportTest):
     def test_this_machine_s_repetition_stands_beside_the_verdict_on_the_record(self):
         synthetic_records.write_claims(self.results)
         self.assertNotIn("on this machine", self.page())
-        repeated = {"text": "This machine repeats the record: 3 of 3 numbers agree.",
-                    "claims": {"C02a": {"compared": 3, "agree": 3, "text": "3 numbers agree", "verdict": "holds"}}}
-        (self.results / "repeated.json").write_text(json.dumps(repeated))
+        synthetic_records.write_repeated(self.results)
         text = self.page()
-        for words in (repeated["text"], '<th scope="col">on this machine</th>', '<td class="here">3 numbers agree</td>'):
-            self.assertIn(words, text)
-        self.assertRegex(text, r'href="#C02a">C02a</a></td>.*<span class="chip holds">')
-        (self.results / "repeated.json").write_text('{"claims": {"C02a": {"text": 3}}}')
-        self.assertIn("repeated.json: claims.C02a.text = 3: expected a text", self.report()[3])
+        self.assertIn("1 cannot be tested. This machine does NOT repeat the record: 1 of 5 numbers differ.", words_of(text))
+        self.assertIn('<th scope="col">on this machine</th>', text)
+        rows = dict(re.findall(r'<td class="name"><a href="#(\w+)">.*?<span class="chip \w+">.*?</span> ([\w ]+</span>.*?)</tr>', text))
+        for name, verdict, here in (("C02a", "fails", "1 of 3 numbers differ"), ("C10a", "holds", "83.5 to 176 1/s"),
+                                    ("C14", "inconclusive", "")):
+            self.assertTrue(rows[name].startswith(f"{verdict}</span>"), rows[name])
+            self.assertTrue(rows[name].endswith(f'<td class="here">{here}</td>'), rows[name])
+
+    def test_what_this_machine_repeats_is_told_of_records_that_serve_no_claim(self):
+        (self.results / "claims.json").write_text('{"schema": 4, "quantities": {}, "claims": []}')
+        synthetic_records.write_repeated(self.results)
+        _, text, said, _ = self.report()
+        self.assertIn("This machine does NOT repeat the record: 1 of 5 numbers differ.", words_of(text))
+        self.assertNotIn("claims.json does not exist", said)
 
     def test_provenance_and_records_of_two_revisions(self):
         self.assertIn(synthetic_records.revision, self.page())
@@ -340,7 +347,7 @@ class Contrast(unittest.TestCase):
                     self.assertGreaterEqual((light + 0.05) / (dark + 0.05), 4.5, (name, ground))
 
 
-RUN, PLAN, CLAIMS = "volume/limb_twist/run.json", "volume/plan.json", "claims.json"
+RUN, PLAN, CLAIMS, REPEATED = "volume/limb_twist/run.json", "volume/plan.json", "claims.json", "repeated.json"
 ANYTHING = (None, True, 3, -1e300, "x", "", [], [3], ["x"], {}, {"x": 3})
 
 REFUSED = tomllib.loads(pathlib.Path(__file__).with_name("refused_records.toml").read_text())["rows"]
@@ -373,6 +380,7 @@ class ReportRecords(ReportTest):
         super().setUp()
         synthetic_records.write_study(self.results)
         synthetic_records.write_claims(self.results)
+        synthetic_records.write_repeated(self.results)
         run = {**json.loads((self.results / RUN).read_text()), "outcome": {"frames": 37, "frames_with_overlap": 0},
                "scene": {"reference": {"name": "snh"}, "fem": [{"name": "snh", "model": "stable_neo_hookean", "element_order": 1}]},
                "work": {"settings": {}}}
@@ -395,7 +403,7 @@ class ReportRecords(ReportTest):
         self.assertEqual(self.made(), (0, "", True))
 
     def test_a_value_of_another_kind_is_refused_by_file_field_value_and_rule(self):
-        self.assertEqual(len(REFUSED), 37)
+        self.assertEqual(len(REFUSED), 44)
         for name, place, value, words in REFUSED:
             with self.subTest(f"{name} {place} {value[:40]}"):
                 whole, keys = self.record(name), [int(key) if key.isdigit() else key for key in place.split(".") if key]
@@ -406,7 +414,7 @@ class ReportRecords(ReportTest):
                 self.assertIn(f"pbskin: {self.results / name}: {words}", said)
 
     def test_no_value_of_any_kind_ends_in_a_traceback(self):
-        for name in (RUN, PLAN, CLAIMS):
+        for name in (RUN, PLAN, CLAIMS, REPEATED):
             whole = self.record(name)
             for place in parts(whole):
                 for value in ANYTHING:
