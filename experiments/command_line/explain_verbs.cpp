@@ -324,8 +324,8 @@ std::string describe(const CLI::App& app)
 void add_list_verb(CommandLine& line)
 {
     auto asked = std::make_shared<std::vector<std::string>>();
-    CLI::App* verb = line.add("list", "lists scenes, movements, deformers, studies, claims, metrics, terms ...",
-                              "pbskin list scenes claims", [asked] { return list(*asked); });
+    CLI::App* verb = line.add("list", "lists scenes, movements, deformers, studies, claims, metrics, terms", "pbskin list scenes claims",
+                              [asked] { return list(*asked); });
     verb->add_option("kind", *asked, "which of them; by default all")
         ->check(CLI::IsMember({"cases", "scenes", "movements", "deformers", "studies", "claims", "metrics", "terms"}));
 }
