@@ -125,7 +125,8 @@ build_viewer() {
 # Prints the minutes in all and those of the stages that a user waits for.
 print_stages() {
     printf '%s\n' "${timeline[@]}" | awk -v name="${0##*/}" '
-        BEGIN { split("install npm|configure build|first fetch run|viewer figures", steps, "|"); split("packages build runs figures", stage, " ")
+        BEGIN { split("install npm|configure build|first fetch run|viewer figures", steps, "|")
+            split("packages build runs figures", stage, " ")
             for (i in steps) { n = split(steps[i], names, " "); for (k = 1; k <= n; ++k) of[names[k]] = i } }
         { total += $2; if ($1 in of) seconds[of[$1]] += $2 }
         END { for (i = 1; i <= 4; ++i) line = line (i > 1 ? ", " : "") stage[i] sprintf(" %.1f", seconds[i] / 60)

@@ -147,7 +147,8 @@ bool show_last_screen(LastScreen screen)
     write_repeated(compared, here, screen.folder);
     fmt::print("{}\n", repeated_text(compared));
     if (!compared.agrees()) fmt::print("{}", comparison_text(compared));
-    if (!verdicts.empty()) fmt::print("\n{}", analysis::claims_table(verdicts, width, terminal_has_colours(), {.heading = "here", .texts = here}));
+    const analysis::FurtherColumn repeated{.heading = "here", .texts = here};
+    if (!verdicts.empty()) fmt::print("\n{}", analysis::claims_table(verdicts, width, terminal_has_colours(), repeated));
     fmt::print("{}", answers_text(records));
     return compared.agrees();
 }

@@ -84,15 +84,17 @@ export function test_in_windows(what, file, hash, check) {
                                                         (other) => check(other, name, width, height)));
 }
 
-// On a phone, in the light and in the dark form: no page scrolls sideways, every figure with all its labels is within its box and the window,
-// its letters are large enough to be read, and the bar of the viewer's reference is visible.
+// On a phone, in the light and in the dark form: no page scrolls sideways, every figure with all its labels is within its box and the
+// window, its letters are large enough to be read, and the bar of the viewer's reference is visible.
 const least_letter_px = 8;
 
 export function test_figures_on_a_phone(file) {
     for (const scheme of ["light", "dark"])
         test(`every figure's labels are inside its box at 390 px, ${scheme}`, () =>
             in_window(file, "", { width: 390, height: 844, touch: true, scheme }, async (phone) => {
-                await phone.evaluate(() => document.querySelectorAll("section > details:not(.claim)").forEach((part) => { part.open = true; }));
+                await phone.evaluate(() => {
+                    for (const part of document.querySelectorAll("section > details:not(.claim)")) part.open = true;
+                });
                 assert.ok(await phone.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "it scrolls sideways");
                 const { figures, faults } = await phone.evaluate(faults_of_figures, least_letter_px);
                 assert.ok(figures > 0, "no figure");
@@ -110,7 +112,8 @@ function faults_of_figures(least_px) {
         for (const label of plot.querySelectorAll("text")) {
             const { left, right, top, bottom } = label.getBoundingClientRect(), what = `${name}: ${label.textContent.trim().slice(0, 30)}`;
             if (left < box.left - 1 || right > box.right + 1 || top < box.top - 1 || bottom > box.bottom + 1)
-                faults.push(`${what}: ${[left - box.left, box.right - right, top - box.top, box.bottom - bottom].map(Math.round)} px inside`);
+                faults.push(
+                    `${what}: ${[left - box.left, box.right - right, top - box.top, box.bottom - bottom].map(Math.round)} px inside`);
             const { a, b } = label.getScreenCTM(), letter_px = parseFloat(getComputedStyle(label).fontSize) * Math.hypot(a, b);
             if (letter_px < least_px) faults.push(`${what}: letters of ${letter_px.toFixed(1)} px`);
         }

@@ -272,7 +272,8 @@ def write_repeated(results):
     claims = {"C02a": {"compared": 3, "agree": 2, "text": "1 of 3 numbers differ"},
               "C10a": {"compared": 0, "agree": 0, "text": "83.5 to 176 1/s"}}
     (results / "repeated.json").write_text(json.dumps({
-        "schema": 1, "first": "records", "second": "results", "agrees": False, "numbers": 5, "equal": 3, "tables": [table], "claims": claims,
+        "schema": 1, "first": "records", "second": "results", "agrees": False, "numbers": 5, "equal": 3, "tables": [table],
+        "claims": claims,
         "only_first": [], "only_second": [], "other_settings": [], "other_verdicts": [],
         "text": "This machine does NOT repeat the record: 1 of 5 numbers differ."}))
 

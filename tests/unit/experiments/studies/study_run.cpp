@@ -174,7 +174,8 @@ TEST(StudyCosts, AreCompletedFromTheRunsThatEndedAndTellTheirCostInTheOrderOfThe
               "run,expected_cpu_s,cpu_s,wall_s\nseen,2,8.5,9\ntold,2,3,\n");
 }
 
-// Reference: cases.toml of the study setup, whose ring is built in, and of volume, which has fewer deformers of the limb in the default form.
+// Reference: cases.toml of the study setup, whose ring is built in, and of volume, which has fewer deformers of the limb by
+// default.
 TEST(StudyCases, HaveTheKeysAndTheCostOfTheirForm)
 {
     for (const bool full : {false, true}) {
