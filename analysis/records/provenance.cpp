@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 #include <gsl/gsl_version.h>
 #include <nlohmann/json.hpp>
-#include <toml++/impl/version.h>
 #include <xxhash.h>
 
 #include <fstream>
@@ -31,7 +30,7 @@ std::map<std::string, std::string> own_libraries()
         {"GSL", gsl_version},
         {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
         {"nlohmann_json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
-        {"toml++", fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
+        {"toml++", PBS_TOMLPLUSPLUS_VERSION},
         {"xxHash", fmt::format("{}.{}.{}", xxhash / 10000, xxhash / 100 % 100, xxhash % 100)}};
 }
 

@@ -3,11 +3,11 @@
     picture = stage.shot([bodies.skin(frames.skin("pbs", 12)), *bodies.bones(frames.bones(12))], camera)
 """
 import numpy
+from vtkmodules.all import vtkExtractCells  # its module differs between VTK 9.1 and 9.3
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkCutter, vtkPolyDataNormals, vtkTubeFilter
-from vtkmodules.vtkFiltersExtraction import vtkExtractCells
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkFiltersSources import vtkLineSource, vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkPolyDataMapper

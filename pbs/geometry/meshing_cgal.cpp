@@ -1,6 +1,7 @@
 // CGAL's mesher, and the built-in bodies: a capsule from its distance function, a bar from its eight corners.
 #include "pbs/geometry/meshing_cgal.hpp"
 
+#include "pbs/geometry/cgal_alternative.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/meshing_attempts.hpp"
@@ -13,8 +14,6 @@
 #include <CGAL/Mesh_triangulation_3.h>
 #include <CGAL/Random.h>
 #include <CGAL/make_mesh_3.h>
-
-#include <boost/optional.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +37,7 @@ struct AskedBody {
     using Point_3 = Point;
     using Index = int;
     using Subdomain_index = int;
-    using Subdomain = boost::optional<int>;
+    using Subdomain = std::optional<int>;
     using Surface_patch_index = int;
     using Intersection = std::tuple<Point, Index, int>;  // and its dimension, 0 where there is none
     using Construct_intersection = AskedBody;
@@ -158,7 +157,7 @@ public:
         if (const auto* segment = std::get_if<Kernel::Segment_3>(&line)) return crossing(*segment);
         const auto clipped = [this](const auto& whole) -> std::optional<SkinPoint> {
             const auto part = CGAL::intersection(whole, box_);
-            const auto* segment = part ? boost::get<Kernel::Segment_3>(&*part) : nullptr;
+            const auto* segment = part ? alternative<Kernel::Segment_3>(*part) : nullptr;
             return segment ? crossing(*segment) : std::nullopt;
         };
         return std::visit(clipped, line);

@@ -2,6 +2,7 @@
 // Alpha wrap: Portaneri et al., ACM TOG 41(4), 2022. Delaunay refinement, perturbation, exudation: Jamin et al., ACM TOMS 41(4), 2015.
 #include "pbs/geometry/meshing.hpp"
 
+#include "pbs/geometry/cgal_alternative.hpp"
 #include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing_attempts.hpp"
@@ -183,7 +184,7 @@ std::vector<double> local_thickness(const Surface& surface, const Tree& tree, do
         const Kernel::Vector_3 normal = pmp::compute_face_normal(face, surface);
         const auto hit = tree.first_intersection(Kernel::Ray_3(middle, -normal), [face](auto other) { return other == face; });
         if (!hit) continue;
-        if (const Point* point = boost::get<Point>(&hit->first)) thickness[face.idx()] = std::sqrt(CGAL::squared_distance(*point, middle));
+        if (const Point* point = alternative<Point>(hit->first)) thickness[face.idx()] = std::sqrt(CGAL::squared_distance(*point, middle));
     }
     for (int pass = 0; pass < 3; ++pass) {
         const std::vector<double> before = thickness;

@@ -194,7 +194,12 @@ void read_gltf_model(const std::string& bytes, const std::string& path, tinygltf
     std::string own_path = path, error, warning;
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(keep_image_of_a_data_uri, nullptr);
-    loader.SetFsCallbacks({file_exists, [](const std::string& file, void*) { return file; }, read_own_file, nullptr, &own_path});
+    tinygltf::FsCallbacks files{};  // by name: versions have further members
+    files.FileExists = file_exists;
+    files.ExpandFilePath = [](const std::string& file, void*) { return file; };
+    files.ReadWholeFile = read_own_file;
+    files.user_data = &own_path;
+    loader.SetFsCallbacks(files);
     const auto length = static_cast<unsigned>(bytes.size());
     const bool read =
         bytes.rfind("glTF", 0) == 0
