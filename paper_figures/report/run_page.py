@@ -130,7 +130,8 @@ def summary(found):
     def row(of):
         error = "the reference" if of["is_reference"] else (
             "\u2013" if of["error_pct"] is None else f"{figure(of['error_pct'])} ({figure(of['largest_pct'])})")
-        return [("FEM" if of["is_reference"] else of["name"]), *([error] if errors else []), of["change"], figure(of["step_ms"]), f"{of['inverted']:.0f}"]
+        name = "FEM" if of["is_reference"] else of["name"]
+        return [name, *([error] if errors else []), of["change"], figure(of["step_ms"]), f"{of['inverted']:.0f}"]
 
     sentence = sentences.nearest_method(methods)
     shown = [element("p", f"{sentence[:1].upper()}{sentence[1:]}")] if sentence else []
@@ -269,13 +270,14 @@ def drawn(found, name, figure, title, caption):
 
 def figures_section(found):
     methods = [of for of in methods_of(found) if not of["is_reference"]]
-    parts = [drawn(found, "over-frames", over_frames(found), sentences.largest_change(methods), "The numbers of metrics.csv over the frames.")]
+    caption = "The numbers of metrics.csv over the frames."
+    parts = [drawn(found, "over-frames", over_frames(found), sentences.largest_change(methods), caption)]
     against_time = error_against_time(found)
     if against_time:
         caption = "The median over the frames of the error at the joints and of the time of a step."
         parts.append(drawn(found, "error-against-time", against_time, sentences.error_and_time(methods), caption))
-    return joined([element("p", "Values are shown next to the pointer or the finger."), element("div", joined(parts, "\n"), class_="figures")],
-                  "\n")
+    told = element("p", "Values are shown next to the pointer or the finger.")
+    return joined([told, element("div", joined(parts, "\n"), class_="figures")], "\n")
 
 
 def viewer_of(found):

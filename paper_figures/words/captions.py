@@ -1,6 +1,7 @@
 """The title of a figure, which is its message, and its caption. A name in braces in figures.toml is a number of the figure:
-NAME_facts(rows) of the figure's script computes it from the rows of NAME.csv, and {cpu} is the processor of the runs behind the figure. Both
-are written to NAME.title.txt and NAME.caption.txt when the figure is drawn. The caption's end names the planned runs that have no record.
+NAME_facts(rows) of the figure's script computes it from the rows of NAME.csv, and {cpu} is the processor of the runs behind the figure.
+Both are written to NAME.title.txt and NAME.caption.txt when the figure is drawn. The caption's end names the planned runs that have no
+record.
 
     captions.write(entry, results, figures)
     captions.read(entry, figures, "title")

@@ -463,7 +463,8 @@ class Recomputed(unittest.TestCase):
 
 def number_of_a_case(verdict, stated):
     """The number computed here that a range of a threshold ends with. The program's mean of the same values may have another last digit."""
-    numbers = [part["value"] for of in [verdict.own, *verdict.controls] for case in of.cases.values() for part in [case, *case.get("parts", [])]]
+    cases = [case for of in [verdict.own, *verdict.controls] for case in of.cases.values()]
+    numbers = [part["value"] for case in cases for part in [case, *case.get("parts", [])]]
     return min(filter(math.isfinite, numbers), key=lambda number: abs(number - stated))
 
 

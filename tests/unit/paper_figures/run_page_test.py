@@ -59,8 +59,8 @@ class RunPage(ResultsTest):
 
     def test_the_nearest_method_is_named_first(self):
         self.write()
-        self.assertIn("<p>PBS is nearest to FEM in 3 of 5 frames, 2 %, before mine, 2.5 %; it loses 1 % of the volume, mine gains 2 % of the "
-                      "volume.</p>", self.page())
+        self.assertIn("<p>PBS is nearest to FEM in 3 of 5 frames, 2 %, before mine, 2.5 %; it loses 1 % of the volume, mine gains 2 % of "
+                      "the volume.</p>", self.page())
 
     def test_joints_are_sorted_by_the_loss_of_the_first_deformer(self):
         self.write()
