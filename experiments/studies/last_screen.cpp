@@ -3,6 +3,7 @@
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/tables.hpp"
+#include "analysis/verdicts/sensitivity.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/studies/reproduce.hpp"
 
@@ -79,10 +80,14 @@ void write_repeated(const ResultComparison& compared, const std::map<std::string
 std::vector<analysis::Verdict> on_record(const LastScreen& screen, const std::string& records)
 {
     const OpenedRecords opened(records);
-    std::vector<analysis::Verdict> verdicts;
-    for (const analysis::Verdict& here : screen.here) {
-        const std::string folder = (fs::path(opened.folder()) / here.claim.study).string();
-        verdicts.push_back(has_study_plan(folder) ? analysis::judge(here.claim, read_study_records(folder, opened.folder())) : here);
+    std::map<std::string, analysis::Records> of_studies;
+    std::vector<analysis::Verdict> verdicts = screen.here;
+    for (analysis::Verdict& verdict : verdicts) {
+        const std::string &study = verdict.claim.study, folder = (fs::path(opened.folder()) / study).string();
+        if (!has_study_plan(folder)) continue;
+        if (!of_studies.contains(study)) of_studies[study] = read_study_records(folder, opened.folder());
+        verdict = analysis::judge(verdict.claim, of_studies[study]);
+        verdict.sensitivity = analysis::sensitivity(verdict.claim, of_studies[study]);
     }
     return verdicts;
 }
@@ -115,9 +120,10 @@ std::string answers_text(const std::string& records)
     const auto best = std::ranges::min_element(methods, {}, &Method::share_pct), lbs = find_method("lbs"), pbs = find_method("pbs"),
                mush = find_method("delta_mush");
     if (lbs == methods.end() || pbs == methods.end() || mush == methods.end()) return "";
-    return fmt::format("Far from flesh: the skin of a body of 1.7 m is {:.2g} mm off with LBS, {:.2g} mm with PBS ({} poses).\n"
-                       "1 ms per frame: {} leaves {:.0f} % of LBS's error if the material is known, PBS {:.0f} %, delta mush {:.0f} %.\n",
-                       lbs->skin_mm, pbs->skin_mm, pbs->poses, best->name, best->share_pct, pbs->share_pct, mush->share_pct);
+    return fmt::format(
+        "Far from flesh: the skin of a body of 1.7 m is {:.2g} mm off with LBS, {:.2g} mm with PBS ({} poses).\n"
+        "1 ms per frame: {} leaves {:.0f} % of LBS's error if the material is known, PBS {:.0f} %, delta mush {:.0f} %.\n",
+        lbs->skin_mm, pbs->skin_mm, pbs->poses, best->name, best->share_pct, pbs->share_pct, mush->share_pct);
 }
 
 }  // namespace

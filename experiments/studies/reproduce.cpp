@@ -298,6 +298,7 @@ int judge_again(const ReproduceArguments& arguments)
                               "no records of a study in this folder: expected one that reproduce wrote");
     std::ranges::stable_sort(verdicts, {}, [](const analysis::Verdict& of) { return of.claim.id; });
     write_verdicts(verdicts, arguments.folder);
+    analysis::remove_record(fs::path(arguments.folder) / "repeated.json");  // of a run, beside which other verdicts stood
     fmt::print("{}", analysis::claims_table(verdicts, terminal_width(), terminal_has_colours()));
     return all_computable(verdicts) ? exit_finished : exit_bound;
 }

@@ -45,6 +45,9 @@ private:
     std::optional<analysis::ScratchFolder> scratch_;
 };
 
+// A table of kept records, of which long ones are compressed: NAME.csv or NAME.csv.gz. InputError if it cannot be read or is damaged.
+std::string kept_text(const std::string& file);
+
 bool has_study_plan(const std::string& folder);
 
 // The folders of the finished runs, in the order of the plan.

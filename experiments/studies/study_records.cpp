@@ -86,23 +86,10 @@ void add_run(analysis::Records& records, const fs::path& folder, const std::stri
         }
 }
 
-// Also of NAME.csv.gz, as long tables are kept.
-std::string table_text(const fs::path& file)
-{
-    const std::unique_ptr<gzFile_s, int (*)(gzFile)> opened(gzopen(file.c_str(), "rb"), gzclose);
-    if (!opened) throw pbs::InputError(file.string(), 0, "", "", "cannot be read");
-    std::string text;
-    std::array<char, 1 << 16> block;
-    int count = 0;
-    while ((count = gzread(opened.get(), block.data(), block.size())) > 0) text.append(block.data(), static_cast<std::size_t>(count));
-    if (count < 0) throw pbs::InputError(file.string(), 0, "", "", "expected a whole gzip file");
-    return text;
-}
-
 // The first column of a table names the run of each row. A row without further cells states that the run's table has no rows.
 void write_tables_of_runs(const fs::path& merged, const fs::path& study)
 {
-    std::istringstream text(table_text(merged));
+    std::istringstream text(kept_text(merged.string()));
     std::string head, line;
     std::getline(text, head);
     std::map<std::string, std::string> tables;
@@ -157,6 +144,18 @@ std::string marks_of(const json& outcome, const std::string& run)
 }
 
 }  // namespace
+
+std::string kept_text(const std::string& file)
+{
+    const std::unique_ptr<gzFile_s, int (*)(gzFile)> opened(gzopen(file.c_str(), "rb"), gzclose);
+    if (!opened) throw pbs::InputError(file, 0, "", "", "cannot be read");
+    std::string text;
+    std::array<char, 1 << 16> block;
+    int count = 0;
+    while ((count = gzread(opened.get(), block.data(), block.size())) > 0) text.append(block.data(), static_cast<std::size_t>(count));
+    if (count < 0) throw pbs::InputError(file, 0, "", "", "expected a whole gzip file");
+    return text;
+}
 
 OpenedRecords::OpenedRecords(const std::string& folder) : folder_(folder)
 {

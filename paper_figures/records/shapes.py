@@ -134,7 +134,7 @@ claim = facts | {"id": text, "statement": text, "place": text, "study": text, "r
                  "excluded_scenes": [{"scene": text, "reason": text}], "missing": [text], "runs": [text]}
 claims = {"schema": fourth_schema, "quantities": {"*": {"title": text, "unit": text}}, "claims": [claim]}
 
-# What this machine measured again of the record: how many numbers or frames agree. The verdicts in claims.json are the record's.
+# What this machine measured again of the record: how many numbers or frames agree. The record's verdicts stand beside it, in claims.json.
 repeated = {"schema": first_schema, "text": text, "claims": {"*": {"compared": whole, "agree": whole, "text": text}}}
 
 reliability = {"name": text, "count": number, "of": number, "command": text, "revision": text, "note?": text}

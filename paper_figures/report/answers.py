@@ -1,5 +1,5 @@
-"""The first screen: the short table of the claims, the moving character, what PBS is, and two answers. Every sentence is
-composed from claims.json, the tables of work_precision, and timing/timing.csv."""
+"""The first screen: the short table of the claims, the moving character, what PBS is, and two answers. Every sentence is composed from
+claims.json, the tables of work_precision, and timing/timing.csv."""
 from report import verdicts
 from report.markup import Markup, element, joined, table
 from report.record_set import not_run, number

@@ -94,5 +94,5 @@ def section(found):
     intro = ("R: redrawn in minutes on any machine; CR: in hours; NR: not from this repository\u2019s records. "
              "With JavaScript, values are shown next to the pointer or the finger; with the keyboard: tab to a plot, then the arrow keys.")
     listed = element("ul", joined(element("li", line) for line in missing), class_="not-drawn") if missing else ""
-    drawn_ones = element("div", joined(parts, "\n"), class_="figures")
-    return joined([element("p", intro), drawn_ones, element("h3", "Not drawn") if missing else "", listed], "\n"), shown, missing
+    title = element("h3", "Not drawn") if missing else ""
+    return joined([element("p", intro), element("div", joined(parts, "\n"), class_="figures"), title, listed], "\n"), shown, missing

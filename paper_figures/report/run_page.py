@@ -270,15 +270,14 @@ def drawn(found, name, figure, title, caption):
 
 def figures_section(found):
     methods = [of for of in methods_of(found) if not of["is_reference"]]
-    parts = [drawn(found, "over-frames", over_frames(found), sentences.largest_change(methods),
-                   "The numbers of metrics.csv over the frames.")]
+    caption = "The numbers of metrics.csv over the frames."
+    parts = [drawn(found, "over-frames", over_frames(found), sentences.largest_change(methods), caption)]
     against_time = error_against_time(found)
     if against_time:
         caption = "The median over the frames of the error at the joints and of the time of a step."
         parts.append(drawn(found, "error-against-time", against_time, sentences.error_and_time(methods), caption))
-    return joined([element("p", "Values are shown next to the pointer or the finger."),
-                   element("div", joined(parts, "\n"), class_="figures")],
-                  "\n")
+    told = element("p", "Values are shown next to the pointer or the finger.")
+    return joined([told, element("div", joined(parts, "\n"), class_="figures")], "\n")
 
 
 def viewer_of(found):

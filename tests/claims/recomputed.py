@@ -3,6 +3,7 @@ count, the share that holds with its interval, q, chance and the verdict. Refere
 analysis/verdicts state it. Nothing is shared with the program or with paper_figures: the standard library reads the files."""
 import csv
 import functools
+import gzip
 import json
 import math
 import pathlib
@@ -41,10 +42,10 @@ def agrees(row, wanted):
 
 
 def rows_of(study, table):
-    file = RECORDS / study / "runs" / table
-    if not file.exists():
+    file, packed = (RECORDS / study / "runs" / name for name in (table, f"{table}.gz"))
+    if not file.exists() and not packed.exists():
         return []
-    with file.open(newline="", encoding="utf-8") as stream:
+    with file.open(newline="", encoding="utf-8") if file.exists() else gzip.open(packed, "rt", newline="", encoding="utf-8") as stream:
         rows = [{name: cell for name, cell in row.items() if cell} for row in csv.DictReader(stream)]
     return [row for row in rows if len(row) > 1]  # a run without rows has its name alone
 
@@ -455,6 +456,13 @@ class Recomputed(unittest.TestCase):
                     self.assertEqual([kind_with(verdict.claim, i, end, value) for value in inside], [verdict.kind] * len(inside))
                     for value in outside:
                         self.assertNotEqual(kind_with(verdict.claim, i, end, value), verdict.kind)
+
+
+def number_of_a_case(verdict, stated):
+    """The number computed here that a range of a threshold ends with. The program's mean of the same values may have another last digit."""
+    cases = [case for of in [verdict.own, *verdict.controls] for case in of.cases.values()]
+    numbers = [part["value"] for case in cases for part in [case, *case.get("parts", [])]]
+    return min(filter(math.isfinite, numbers), key=lambda number: abs(number - stated))
 
 
 def kind_with(claim, place, end, value):

@@ -8,6 +8,7 @@
 #include "experiments/studies/ensemble/ensemble.hpp"
 #include "experiments/studies/fit/fit.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
+#include "experiments/studies/reproduce.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
@@ -63,20 +64,35 @@ void expect_same_cells(const analysis::CsvTable& written, const analysis::CsvTab
 // The rows of all runs, without the first column, which names the run. A row without further cells states that a run has none.
 std::string without_runs(const fs::path& merged)
 {
-    std::istringstream lines(analysis::read_text(merged.string()));
+    std::istringstream lines(experiments::kept_text(merged.string()));
     std::string text, line;
     while (std::getline(lines, line))
         if (line.find_first_not_of(',', line.find(',')) != std::string::npos) text += line.substr(line.find(',') + 1) + '\n';
     return text;
 }
 
+// measurements.csv of measurements.csv.gz.
+std::string name_of_table(const fs::path& file)
+{
+    return file.extension() == ".gz" ? file.stem().string() : file.filename().string();
+}
+
+// A table that is kept as NAME.csv or NAME.csv.gz.
+analysis::CsvTable whole_table(fs::path file)
+{
+    if (!fs::exists(file)) file += ".gz";
+    return analysis::parse_csv(experiments::kept_text(file.string()), file.string());
+}
+
 // A kept table. A table of all runs of a study, in the folder runs, is returned without its first column.
 analysis::CsvTable kept_table(const std::string& name)
 {
     const fs::path file = fs::path(PBS_KEPT_RECORDS) / name;
-    const analysis::CsvTable table = analysis::read_csv(file.string());
+    const analysis::CsvTable table = whole_table(file);
     EXPECT_GT(table.rows(), 0) << file;
-    return file.parent_path().filename() == "runs" ? analysis::parse_csv(without_runs(file), file.string()) : table;
+    return file.parent_path().filename() == "runs"
+               ? analysis::parse_csv(without_runs(fs::exists(file) ? file : file.string() + ".gz"), file.string())
+               : table;
 }
 
 constexpr bool some = false;  // of the columns may be missing
@@ -159,10 +175,11 @@ TEST(KeptTables, HaveIdentifiersInTheirKeys)
     const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.+-";
     int cells = 0;
     for (const auto& entry : fs::recursive_directory_iterator(PBS_KEPT_RECORDS)) {
-        if (entry.path().extension() != ".csv") continue;
-        const analysis::CsvTable table = analysis::read_csv(entry.path().string());
+        const std::string file = entry.path().string(), name = name_of_table(entry.path());
+        if (!name.ends_with(".csv")) continue;
+        const analysis::CsvTable table = analysis::parse_csv(experiments::kept_text(file), file);
         for (const std::string& column : table.columns()) {
-            if (has_words(entry.path().filename().string(), column)) continue;
+            if (has_words(name, column)) continue;
             const std::string allowed = letters + (column == "joint"                            ? "|"
                                                    : column == "setting"                        ? "= "
                                                    : column == "either_of" || column == "takes" ? " "
@@ -182,7 +199,7 @@ TEST(KeptTables, OfMeasuredAndPrintedValues)
     const std::string table = scratch / "table.csv";
     int measured = 0, printed = 0;
     for (const auto& entry : fs::recursive_directory_iterator(PBS_KEPT_RECORDS)) {
-        const std::string file = entry.path().string(), name = entry.path().filename().string();
+        const std::string file = entry.path().string(), name = name_of_table(entry.path());
         if (name == "measurements.csv" || name == "printed.csv") analysis::write_text_atomically(table, without_runs(file));
         if (name == "measurements.csv") {
             expect_same_cells(analysis::measurement_table(analysis::measurements(table)), analysis::read_csv(table), file);
@@ -218,7 +235,7 @@ bool is_wanted(const analysis::CsvTable& table, int row, const Wanted& wanted)
 std::optional<double> only_value(const KeptValue& of)
 {
     const fs::path file = of.file, run = file.parent_path();
-    const analysis::CsvTable table = analysis::read_csv((PBS_KEPT_RECORDS / run.parent_path() / "runs" / file.filename()).string());
+    const analysis::CsvTable table = whole_table(PBS_KEPT_RECORDS / run.parent_path() / "runs" / file.filename());
     Wanted wanted = of.wanted;
     wanted["run"] = run.filename().string();
     std::vector<double> found;

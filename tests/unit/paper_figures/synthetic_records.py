@@ -268,13 +268,12 @@ def write_claims(results, statement="Volume is kept."):
 def write_repeated(results):
     """repeated.json as `pbskin reproduce` writes it: one of three numbers of C02a differs, and times are not compared."""
     table = {"table": "volume/limb_twist/measurements.csv", "rows": 5, "numbers": 5, "equal": 3,
-             "differing": [{"row": "share_kept: human", "column": "value", "first": 0.4, "second": 0.5}]}
+             "differing": [{"row": "share_kept: human", "column": "value", "first": "0.4", "second": "0.5"}]}
     claims = {"C02a": {"compared": 3, "agree": 2, "text": "1 of 3 numbers differ"},
               "C10a": {"compared": 0, "agree": 0, "text": "83.5 to 176 1/s"}}
     (results / "repeated.json").write_text(json.dumps({
         "schema": 1, "first": "records", "second": "results", "agrees": False, "numbers": 5, "equal": 3, "tables": [table],
-        "claims": claims,
-        "only_first": [], "only_second": [], "other_settings": [], "other_verdicts": [],
+        "claims": claims, "only_first": [], "only_second": [], "other_settings": [], "other_verdicts": [],
         "text": "This machine does NOT repeat the record: 1 of 5 numbers differ."}))
 
 
