@@ -78,9 +78,9 @@ def claim_lines(claim):
     lines += markdown_table(sentences.control_head, sentences.control_rows(claim))
     lines += markdown_table(sentences.compared_head, sentences.compared_rows(claim))
     lines += markdown_table(sentences.reading_head, sentences.reading_rows(claim))
-    if sentences.held_out(claim):
-        lines += ["", "Controls on the held-out cases:"]
-        lines += markdown_table(sentences.control_head, sentences.control_rows(sentences.held_out(claim)))
+    rows = sentences.control_rows(sentences.held_out(claim)) if sentences.held_out(claim) else []
+    if rows:
+        lines += ["", "Controls on the held-out cases:", *markdown_table(sentences.control_head, rows)]
     return lines + [line for text in sentences.disagreements(claim) for line in ("", text)]
 
 

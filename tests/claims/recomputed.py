@@ -458,13 +458,6 @@ class Recomputed(unittest.TestCase):
                         self.assertNotEqual(kind_with(verdict.claim, i, end, value), verdict.kind)
 
 
-def number_of_a_case(verdict, stated):
-    """The number computed here that a range of a threshold ends with. The program's mean of the same values may have another last digit."""
-    cases = [case for of in [verdict.own, *verdict.controls] for case in of.cases.values()]
-    numbers = [part["value"] for case in cases for part in [case, *case.get("parts", [])]]
-    return min(filter(math.isfinite, numbers), key=lambda number: abs(number - stated))
-
-
 def kind_with(claim, place, end, value):
     """The verdict with another end of a threshold, which controls without thresholds of their own share."""
     thresholds = [of | {end: value} if i == place else of for i, of in enumerate(claim["thresholds"])]
