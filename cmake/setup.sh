@@ -74,8 +74,9 @@ install_packages() {
         [[ -t 0 ]] || sudo -n true 2>/dev/null || refuse "sudo wants a password and there is no terminal; as root: $by_hand"
         apt=(sudo apt-get)
     fi
-    "${apt[@]}" update -qq || refuse "apt-get update failed"
-    "${apt[@]}" install -y -qq --no-install-recommends "$@" || refuse "apt-get install failed; by hand: $by_hand"
+    logged "$output/packages.txt" "${apt[@]}" update -qq || refuse "apt-get update failed"
+    logged "$output/packages.txt" "${apt[@]}" install -y -qq --no-install-recommends "$@" ||
+        refuse "apt-get install failed; by hand: $by_hand"
 }
 
 # One compiler process needs up to 3 GiB (CGAL, deal.II).

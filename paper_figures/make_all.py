@@ -46,9 +46,10 @@ def draw(entry, results, folder):
             with whole_file.beside(folder / f"{entry.name}.{ending}") as path:
                 write(path, origin)
         captions.write(entry, results, folder)
-    except records.RecordsMissing as error:
+    except Exception as error:  # one figure must not keep the others from being drawn
+        cause = error if isinstance(error, records.RecordsMissing) else f"internal error, please report it: {type(error).__name__}: {error}"
         delete(entry.name, folder)
-        print(f"figures: {entry.name} not drawn: {error}", file=sys.stderr)
+        print(f"figures: {entry.name} not drawn: {cause}", file=sys.stderr)
         return False
     print(f"figures: {folder / entry.name}")
     return True

@@ -18,7 +18,7 @@ bool is_among(const ColumnNames& names, std::string_view name)
     return std::ranges::find(names, name) != names.end();
 }
 
-// Numbers that are settings, in every table but those of `results_in`.
+// Numbers that are settings, in every table except where `exceptions` has another kind.
 const ColumnNames settings = {"motion",          "pose",           "clip",          "time_s",
                               "angle_deg",       "frame",          "vertices",      "vertices_to",
                               "k_stretch",       "k_stretch_to",   "k_volume",      "k_bind",
@@ -47,6 +47,8 @@ const std::vector<Exception> exceptions = {
     {"cells.csv", {"value", "unit"}, {}, {}},    {"targets.csv", {}, {"iterations"}, {"limit"}}, {"rates.csv", {}, {}, {"reference"}},
     {"references.csv", {}, {}, {"from_kept_m"}}, {"verification.csv", {}, {"reference"}, {}},    {"sag.csv", {}, {"young_pa"}, {}},
 };
+
+constexpr const char* printed_values = "printed.csv";
 
 const Exception& exception_of(const std::string& file)
 {
@@ -79,10 +81,16 @@ bool has_text(const CsvTable& table, const std::string& column)
 // The columns of both tables: by which rows are found, and which are compared.
 struct Shared {
     std::vector<std::string> settings, results;
-    bool second_is_part = false;
 };
 
-Shared shared_columns(const std::string& file, const CsvTable& first, const CsvTable& second)
+bool is_empty(const CsvTable& table, const std::string& column)
+{
+    for (int row = 0; row < table.rows(); ++row)
+        if (!table.text_at(row, column).empty()) return false;
+    return true;
+}
+
+Shared shared_columns(const std::string& file, const CsvTable& first, const CsvTable& second, const ComparedAs& as)
 {
     const Exception& own = exception_of(file);
     Shared shared;
@@ -93,10 +101,18 @@ Shared shared_columns(const std::string& file, const CsvTable& first, const CsvT
                                 (!is_among(own.results, column) && (is_among(settings, column) || (is_text && !is_among(results, column))));
         if (is_setting)
             shared.settings.push_back(column);
-        else if (!is_a_time(column))
+        else if (!is_a_time(column) && !(as.second_is_part && is_empty(second, column)))
             shared.results.push_back(column);
     }
     return shared;
+}
+
+std::vector<std::string> columns_without(const CsvTable& table, const CsvTable& other)
+{
+    std::vector<std::string> columns;
+    std::ranges::copy_if(table.columns(), std::back_inserter(columns),
+                         [&](const std::string& column) { return !other.has_column(column); });
+    return columns;
 }
 
 // Six digits, as in records that are rounded.
@@ -136,8 +152,9 @@ std::string cell_or_nothing(const CsvTable& table, int row, const std::string& c
     return table.has_column(column) ? table.text_at(row, column) : "";
 }
 
-bool is_by_finite_elements(const CsvTable& table, int row, const std::string& column)
+bool is_by_finite_elements(const std::string& file, const CsvTable& table, int row, const std::string& column)
 {
+    if (file == printed_values) return false;
     for (const char* part : {"error", "reference", "difference", "distance", "energy", "det_f", "share_low", "skin_mm"})
         if (column.find(part) != std::string::npos) return true;
     for (const char* named : {"reference", "member", "problem", "attachment"})
@@ -154,11 +171,11 @@ double tolerance_of(const std::string& file, const CsvTable& table, int row, con
 {
     if (file == "metrics.csv" && column.ends_with("_pct")) return same_frame_points;
     const bool is_single = cell_or_nothing(table, row, "precision") == "f32";
-    const double relative = is_single                                   ? same_in_single
-                            : is_by_finite_elements(table, row, column) ? same_by_finite_elements
-                                                                        : same_in_double;
-    // The drift of a conserved quantity is a rounding error itself, relative to 1.
-    const bool is_rounding = cell_or_nothing(table, row, "quantity").find("drift") != std::string::npos;
+    const double relative = is_single                                         ? same_in_single
+                            : is_by_finite_elements(file, table, row, column) ? same_by_finite_elements
+                                                                              : same_in_double;
+    // The drift of a conserved quantity and the error of a formula are rounding errors themselves, relative to 1.
+    const bool is_rounding = file == printed_values || cell_or_nothing(table, row, "quantity").find("drift") != std::string::npos;
     return relative * (is_rounding ? std::max(1.0, std::abs(value)) : std::abs(value));
 }
 
@@ -172,7 +189,7 @@ int significant_digits(const std::string& cell)
     return digits;
 }
 
-// Half a unit of the last digit, where one of the files has six digits and the other has more.
+// Half a unit of the last digit, where one of the cells has six digits and the other has more.
 double rounding_of(const std::string& one, const std::string& other, double value)
 {
     const auto [fewer, more] = std::minmax({significant_digits(one), significant_digits(other)});
@@ -182,26 +199,26 @@ double rounding_of(const std::string& one, const std::string& other, double valu
 
 enum class Agreement { equal, within, differing };
 
-Agreement agreement(const std::string& first, const std::string& second, double tolerance)
+Agreement agreement(const std::string& first, const std::string& second, double tolerance, bool is_rounded)
 {
     if (first == second) return Agreement::equal;
     const std::optional<double> one = number_in(first), other = number_in(second);
     if (!one || !other || !std::isfinite(*one) || !std::isfinite(*other)) return Agreement::differing;
-    const double apart = std::abs(*one - *other), rounding = rounding_of(first, second, *one);
+    const double apart = std::abs(*one - *other), rounding = is_rounded ? rounding_of(first, second, *one) : 0.0;
     if (apart <= rounding) return Agreement::equal;
     return apart <= tolerance + rounding ? Agreement::within : Agreement::differing;
 }
 
 void compare_row(const std::string& file, const CsvTable& first, const CsvTable& second, const Shared& columns, ComparedRow row,
-                 TableComparison& to)
+                 bool is_rounded, TableComparison& to)
 {
     const bool times = is_a_time(cell_or_nothing(first, row.first, "quantity"));
     for (const std::string& column : columns.results) {
         const std::string &one = first.text_at(row.first, column), &other = second.text_at(row.second, column);
-        if (times || other.empty() && (one.empty() || columns.second_is_part)) continue;
+        if (times || (one.empty() && other.empty())) continue;
         ++row.numbers;
         const double value = number_in(one).value_or(0.0);
-        const Agreement found = agreement(one, other, tolerance_of(file, first, row.first, column, value));
+        const Agreement found = agreement(one, other, tolerance_of(file, first, row.first, column, value), is_rounded);
         row.equal += found == Agreement::equal;
         if (found != Agreement::differing) continue;
         ++row.differing;
@@ -212,15 +229,15 @@ void compare_row(const std::string& file, const CsvTable& first, const CsvTable&
 
 }  // namespace
 
-TableComparison compare_tables(const std::string& file, const CsvTable& first, const CsvTable& second, bool second_is_part)
+TableComparison compare_tables(const std::string& file, const CsvTable& first, const CsvTable& second, const ComparedAs& as)
 {
-    TableComparison compared;
-    Shared columns = shared_columns(file, first, second);
-    columns.second_is_part = second_is_part;
+    TableComparison compared{.columns_only_first = columns_without(first, second), .columns_only_second = columns_without(second, first)};
+    const Shared columns = shared_columns(file, first, second, as);
     const auto in_first = rows_by_settings(first, columns.settings), in_second = rows_by_settings(second, columns.settings);
     for (const auto& [settings, row] : in_first) {
         if (const auto same = in_second.find(settings); same != in_second.end())
-            compare_row(file, first, second, columns, {.settings = settings.first, .first = row, .second = same->second}, compared);
+            compare_row(file, first, second, columns, {.settings = settings.first, .first = row, .second = same->second}, as.is_rounded,
+                        compared);
         else
             compared.only_first.push_back(settings.first);
     }

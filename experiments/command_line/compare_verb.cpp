@@ -23,7 +23,7 @@ int compare(const CompareArguments& arguments, const CommonOptions& common)
         if (!file.empty()) analysis::require_writable(file);
     const ResultComparison compared = compare_results(arguments.folders);
     if (!common.quiet) fmt::print("{}", comparison_text(compared, common.verbose ? 1000 : 12));
-    if (!arguments.json.empty()) analysis::write_text_atomically(arguments.json, to_json(compared).dump(2) + "\n");
+    if (!arguments.json.empty()) analysis::write_text_atomically(arguments.json, analysis::record_text(to_json(compared)));
     if (!arguments.junit.empty()) analysis::write_text_atomically(arguments.junit, analysis::junit_report(suites_of(compared)));
     return compared.agrees() ? exit_finished : exit_bound;
 }

@@ -124,7 +124,7 @@ void add_reproduce_verb(CommandLine& line)
         if (study.sets.full == Extent::quick) in_part.push_back(study.name);
     auto* full = verb->add_flag("--full", arguments->full,
                                 fmt::format("the whole studies; without names, only a part of {}", fmt::join(in_part, ", ")));
-    verb->add_flag("--quick", *quick, "a part of each study, in minutes (default); --cost prints the time")->excludes(full);
+    verb->add_flag("--quick", *quick, "a part of most studies, in minutes (default); --cost prints the time")->excludes(full);
     verb->add_option("-j,--jobs", arguments->jobs, "number of runs in parallel")->check(CLI::Range(1, 256))->capture_default_str();
     auto* resume = verb->add_flag("--resume", arguments->resume, "keep the runs that are finished already");
     verb->add_flag("--cost", arguments->cost_only, "run nothing and print the expected time");

@@ -14,7 +14,7 @@ namespace experiments {
 //   try { ... } catch (...) { const Failure failure = caught_failure(); }
 enum ExitStatus {
     exit_finished = 0,
-    exit_bound = 1,         // a bound does not hold, or a verdict could not be computed
+    exit_bound = 1,         // a bound does not hold, results differ, or a verdict could not be computed
     exit_internal = 1,      // an error of the program itself
     exit_input = 2,         // bad input or usage
     exit_breakdown = 3,     // numerical breakdown in a run that was expected to finish

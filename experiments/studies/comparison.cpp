@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <set>
 
 namespace experiments {
@@ -31,36 +32,46 @@ std::string study_of(const std::string& name)
     return name.substr(0, name.find('/'));
 }
 
-// A folder of results with the tables of all its runs.
+// A folder of results with the tables of its finished runs: of one run, of the studies with their plans, or of other runs in its folders.
 struct Results {
-    Results(const std::string& folder, const std::vector<std::string>& studies) : stated(folder), opened(folder)
+    Results(const std::string& folder, const std::optional<std::vector<std::string>>& studies)
+        : stated(folder), opened(folder), root(opened.folder())
     {
-        const fs::path root = opened.folder();
         if (!fs::is_directory(root)) throw pbs::InputError(folder, 0, "", "", "expected a folder of results");
-        for (auto entry = fs::recursive_directory_iterator(root); entry != fs::recursive_directory_iterator(); ++entry)
-            if (entry->path().filename() == "run.json") add_run(entry->path().parent_path(), root);
-        for (const fs::path& study : fs::directory_iterator(folder))
-            for (const char* table : tables_by_case)
-                if (fs::exists(study / table)) tables[(study.filename() / table).string()] = study / table;
-        if (!studies.empty()) {
-            const auto is_other = [&](const std::string& name) { return std::ranges::count(studies, study_of(name)) == 0; };
-            std::erase_if(runs, is_other);
-            std::erase_if(tables, [&](const auto& table) { return is_other(table.first); });
-        }
-        if (runs.empty())
+        add_runs_of(root);
+        for (const fs::path& study : fs::directory_iterator(root))
+            if (fs::is_directory(study) && (!studies || std::ranges::count(*studies, study.filename().string()) > 0)) add_runs_of(study);
+        if (runs.empty() && !studies)
             throw pbs::InputError(folder, 0, "", "", "no results in this folder: expected what `pbskin run` or `pbskin reproduce` writes");
     }
 
-    void add_run(const fs::path& run, const fs::path& root)
+    bool is_kept() const { return root != stated; }
+
+    void add_runs_of(const fs::path& study)
     {
-        const std::string name = run == root ? "" : run.lexically_relative(root).string();
-        runs.insert(name);
-        for (const fs::path& file : fs::directory_iterator(run))
-            if (file.extension() == ".csv") tables[(name.empty() ? fs::path() : fs::path(name)) / file.filename()] = file;
+        if (fs::exists(study / "run.json")) return add_run(study);
+        if (!has_study_plan(study.string())) {
+            for (const fs::path& run : fs::directory_iterator(study))
+                if (study != root && fs::exists(run / "run.json")) add_run(run);
+            return;
+        }
+        for (const std::string& run : finished_runs(study.string()).folders) add_run(run);
+        const fs::path in_stated = fs::path(stated) / study.filename();  // kept records have the tables of studies themselves
+        for (const char* table : tables_by_case)
+            if (fs::exists(in_stated / table)) tables[(study.filename() / table).string()] = in_stated / table;
     }
 
-    std::string stated;
+    void add_run(const fs::path& run)
+    {
+        const fs::path name = run == root ? fs::path() : run.lexically_relative(root);
+        runs.insert(name.string());
+        for (const fs::path& file : fs::directory_iterator(run))
+            if (file.extension() == ".csv") tables[(name / file.filename()).string()] = file;
+    }
+
+    fs::path stated;
     OpenedRecords opened;
+    fs::path root;
     std::set<std::string> runs;
     std::map<std::string, fs::path> tables;
 };
@@ -71,7 +82,7 @@ std::vector<std::string> runs_without(const std::set<std::string>& runs, const s
     std::set<std::string> missing, studies;
     for (const std::string& run : other) studies.insert(study_of(run));
     for (const std::string& run : runs)
-        if (!other.contains(run)) missing.insert(studies.contains(study_of(run)) ? run : study_of(run));
+        if (!other.contains(run)) missing.insert(run.empty() ? "." : studies.contains(study_of(run)) ? run : study_of(run));
     return {missing.begin(), missing.end()};
 }
 
@@ -122,6 +133,11 @@ void name_rows(const std::string& table, const std::vector<std::string>& rows, s
     for (const std::string& row : rows) to.push_back(fmt::format("{}: row {}", table, row));
 }
 
+void name_columns(const std::string& table, const std::vector<std::string>& columns, std::vector<std::string>& to)
+{
+    for (const std::string& column : columns) to.push_back(fmt::format("{}: column {}", table, column));
+}
+
 // The rows of series that the other table has rows of: a run may have more deformers than its record keeps.
 std::vector<std::string> of_known_series(const analysis::TableComparison& compared, const std::vector<std::string>& rows)
 {
@@ -146,10 +162,16 @@ void compare_tables_of(const Results& first, const Results& second, ResultCompar
         const std::string table = file.filename().string();
         if (is_part && table == summary_of_frames) continue;
         const analysis::CsvTable one = analysis::read_csv(file.string()), other = analysis::read_csv(same->second.string());
-        ComparedTable compared{name, analysis::compare_tables(table, one, other, is_part)};
+        // Only values that decide claims are kept with all digits.
+        const bool is_exact = table == "measurements.csv" || table == "printed.csv" || name.find('/') == name.rfind('/');
+        const bool is_rounded = !is_exact && (first.is_kept() || second.is_kept());
+        ComparedTable compared{name, analysis::compare_tables(table, one, other, {is_part, is_rounded})};
         count_claims(file, one, compared.rows, to.claims);
         if (!is_part) name_rows(name, compared.rows.only_first, to.only_first);
-        if (is_part && table == frames_table) compared.rows.only_second = of_known_series(compared.rows, compared.rows.only_second);
+        const bool has_kept_columns = table == frames_table && (first.is_kept() || second.is_kept());
+        if (!is_part) name_columns(name, compared.rows.columns_only_first, to.only_first);
+        if (!has_kept_columns) name_columns(name, compared.rows.columns_only_second, to.only_second);
+        if (is_part && has_kept_columns) compared.rows.only_second = of_known_series(compared.rows, compared.rows.only_second);
         name_rows(name, compared.rows.only_second, to.only_second);
         if (compared.rows.numbers() > 0) to.tables.push_back(std::move(compared));
     }
@@ -178,7 +200,9 @@ void compare_settings(const Results& first, const Results& second, ResultCompari
     for (const std::string& run : first.runs) {
         if (!second.runs.contains(run)) continue;
         const auto settings_in = [&](const Results& of) {
-            const nlohmann::json record = analysis::read_record((fs::path(of.opened.folder()) / run / "run.json").string());
+            const std::string file = (of.root / run / "run.json").string();
+            const nlohmann::json record = analysis::read_record(file);
+            if (!record.is_object()) analysis::refuse_record(file);
             return record.value("scene", record.value("work", nlohmann::json()));
         };
         const nlohmann::json one = settings_in(first), other = settings_in(second);
@@ -193,9 +217,9 @@ std::map<std::string, analysis::Verdict> verdicts_in(const Results& results)
 {
     std::map<std::string, analysis::Verdict> verdicts;
     for (const Study& study : studies()) {
-        const std::string folder = (fs::path(results.opened.folder()) / study.name).string();
+        const std::string folder = (results.root / study.name).string();
         if (!has_study_plan(folder)) continue;
-        const analysis::Records records = read_study_records(folder, results.opened.folder());
+        const analysis::Records records = read_study_records(folder, results.root.string());
         for (const analysis::Claim& claim : claims())
             if (claim.study == study.name) verdicts.emplace(claim.id, analysis::judge(claim, records));
     }
@@ -216,8 +240,8 @@ bool has_the_same_cases(const analysis::Verdict& one, const analysis::Verdict& o
 // The verdicts that kept records state, which have to be those of their tables.
 void compare_stated(const Results& results, const std::map<std::string, analysis::Verdict>& verdicts, ResultComparison& to)
 {
-    const fs::path table = fs::path(results.stated) / "claims.md";
-    if (results.opened.folder() == results.stated || !fs::exists(table)) return;
+    const fs::path table = results.stated / "claims.md";
+    if (!results.is_kept() || !fs::exists(table)) return;
     const std::string text = analysis::read_text(table.string());
     for (const auto& [id, verdict] : verdicts) {
         const std::size_t line = text.find("\n| " + id + " |");
@@ -299,16 +323,15 @@ ResultComparison compare_results(const ComparedFolders& folders)
     ResultComparison compared{.folders = folders};
     if (!folders.second_is_part) compared.only_first = runs_without(first.runs, second.runs);
     compared.only_second = runs_without(second.runs, first.runs);
-    if (folders.second_is_part) {  // no record is kept of some studies, nor of the scenes that a run of a study runs
-        const auto is_kept = [&](const std::string& name) {
-            const bool knows_study = std::ranges::any_of(first.runs, [&](const auto& run) { return study_of(run) == study_of(name); });
-            return knows_study && !first.runs.contains(fs::path(name).parent_path().string());
-        };
-        std::erase_if(compared.only_second, [&](const std::string& name) { return !is_kept(name); });
-    }
+    if (folders.second_is_part)  // no record is kept of some studies
+        std::erase_if(compared.only_second, [&](const std::string& name) {
+            return std::ranges::none_of(first.runs, [&](const std::string& run) { return study_of(run) == study_of(name); });
+        });
     compare_tables_of(first, second, compared);
     compare_settings(first, second, compared);
     compare_verdicts(first, second, compared);
+    if (!folders.studies && compared.tables.empty() && compared.only_first.empty() && compared.only_second.empty())
+        throw pbs::InputError(folders.second, 0, "", "", "no number in common with " + folders.first);
     return compared;
 }
 
@@ -338,6 +361,7 @@ std::string claim_text(const ComparedClaim& compared)
 std::string repeated_text(const ResultComparison& compared)
 {
     const int numbers = compared.numbers();
+    if (numbers == 0 && compared.agrees()) return "The record has none of these studies: nothing was compared.";
     if (compared.agrees())
         return fmt::format("This machine repeats the record: {0} of {0} numbers agree ({1} in every digit).", count_text(numbers),
                            count_text(compared.equal()));

@@ -1,8 +1,8 @@
 // Compares two folders of results: a run of mine with the record, before and after a change, or two machines.
 //   const ResultComparison compared = compare_results({.first = record, .second = here});
 //   if (!compared.agrees()) fmt::print("{}", comparison_text(compared));
-// Tables with the same name in runs with the same name are compared row by row (analysis/records/table_comparison.hpp). Of the tables of a
-// study, which sum up its runs, those are compared that have a row per case.
+// Tables with the same name in runs with the same name are compared row by row (analysis/records/table_comparison.hpp). Tables of a study,
+// which sum up its runs, are compared if they have a row per case.
 #pragma once
 
 #include "analysis/check/check.hpp"
@@ -11,6 +11,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct ComparedTable {
     analysis::TableComparison rows;
 };
 
-// What the comparison says of a claim: its values in the tables of measurements, or the frames that it is judged by.
+// What the comparison states about a claim: its values in the tables of measurements, or the frames that it is judged by.
 struct ComparedClaim {
     int numbers = 0, differing = 0;
     int frames = 0, frames_differing = 0;
@@ -29,9 +30,9 @@ struct ComparedClaim {
 };
 
 struct ComparedFolders {
-    std::string first, second;              // folders of results: of `reproduce`, of one run, or kept records
-    bool second_is_part = false;            // what only the first folder has is no difference
-    std::vector<std::string> studies = {};  // that are compared; empty: all
+    std::string first, second;                             // folders of results: of `reproduce`, of one run, or kept records
+    bool second_is_part = false;                           // what only the first folder has is no difference
+    std::optional<std::vector<std::string>> studies = {};  // that are compared; nothing: all
 };
 
 struct ResultComparison {
@@ -48,7 +49,7 @@ struct ResultComparison {
     bool agrees() const;
 };
 
-// InputError if a folder has no results.
+// InputError if a folder has no results, or if the two have no number in common although all studies are compared.
 ResultComparison compare_results(const ComparedFolders& folders);
 
 // For the terminal: the answer first, then what differs, at most `lines` of each kind.

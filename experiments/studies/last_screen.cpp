@@ -6,12 +6,15 @@
 #include "analysis/verdicts/sensitivity.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/studies/reproduce.hpp"
+#include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 namespace experiments {
@@ -92,7 +95,7 @@ std::vector<analysis::Verdict> on_record(const LastScreen& screen, const std::st
     return verdicts;
 }
 
-// A row of the methods that are compared within 1 ms per frame on reference variants whose material and springs are told.
+// A method within 1 ms per frame, where material and springs of each reference variant are known.
 struct Method {
     std::string name;
     double share_pct = 0.0, skin_mm = 0.0;
@@ -112,6 +115,14 @@ std::vector<Method> methods_within_1_ms(const std::string& records)
     return methods;
 }
 
+std::string title_of(const std::string& method)
+{
+    static const std::map<std::string, std::string> titles = {
+        {"quasi_newton", "quasi-Newton"}, {"vbd", "vertex block descent"}, {"xpbd_neo_hookean", "neo-Hookean XPBD"}, {"xpbd", "XPBD"}};
+    const auto found = titles.find(method);
+    return found == titles.end() ? method : found->second;
+}
+
 // How far LBS and PBS are from flesh, and which method is nearest within 1 ms, by the record of work_precision. Empty without one.
 std::string answers_text(const std::string& records)
 {
@@ -123,7 +134,7 @@ std::string answers_text(const std::string& records)
     return fmt::format(
         "Far from flesh: the skin of a body of 1.7 m is {:.2g} mm off with LBS, {:.2g} mm with PBS ({} poses).\n"
         "1 ms per frame: {} leaves {:.0f} % of LBS's error if the material is known, PBS {:.0f} %, delta mush {:.0f} %.\n",
-        lbs->skin_mm, pbs->skin_mm, pbs->poses, best->name, best->share_pct, pbs->share_pct, mush->share_pct);
+        lbs->skin_mm, pbs->skin_mm, pbs->poses, title_of(best->name), best->share_pct, pbs->share_pct, mush->share_pct);
 }
 
 }  // namespace
@@ -140,7 +151,11 @@ bool show_last_screen(LastScreen screen)
     std::ranges::stable_sort(screen.here, {}, [](const analysis::Verdict& of) { return of.claim.id; });
     const std::string records = records_folder();
     const std::size_t width = std::min<std::size_t>(terminal_width(), 100);
-    if (!fs::exists(fs::path(records) / "provenance.json")) {
+    const bool has_record = fs::exists(fs::path(records) / "provenance.json");
+    if (const char* folder = std::getenv("PBSKIN_RECORDS"); folder && *folder && !has_record)
+        throw pbs::InputError("", 0, "PBSKIN_RECORDS", folder, "expected a folder of kept records");
+    if (!has_record) {
+        fmt::print("There is no kept record at {}: nothing was compared.\n", records);
         write_verdicts(screen.here, screen.folder);
         fmt::print("{}", analysis::claims_table(screen.here, width, terminal_has_colours()));
         return true;
@@ -154,6 +169,9 @@ bool show_last_screen(LastScreen screen)
     fmt::print("{}\n", repeated_text(compared));
     if (!compared.agrees()) fmt::print("{}", comparison_text(compared));
     const analysis::FurtherColumn repeated{.heading = "here", .texts = here};
+    for (const analysis::Verdict& verdict : screen.here)
+        if (verdict.kind == analysis::VerdictKind::not_computable)
+            fmt::print("{} cannot be computed here: no record of {}\n", verdict.claim.id, fmt::join(verdict.missing, ", "));
     if (!verdicts.empty()) fmt::print("\n{}", analysis::claims_table(verdicts, width, terminal_has_colours(), repeated));
     fmt::print("{}", answers_text(records));
     return compared.agrees();

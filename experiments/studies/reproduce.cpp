@@ -155,7 +155,7 @@ void begin(const PlannedStudy& planned)
     std::vector<std::string> names;
     for (const StudyRun& run : planned.absent) names.push_back(run.name);
     if (names.empty()) return;
-    spdlog::warn("left out by --only: {}; the tables do not contain these runs, and verdicts that need them cannot be computed",
+    spdlog::info("excluded by --only: {}; the tables do not contain these runs, and verdicts that need them cannot be computed",
                  fmt::join(names, ", "));
 }
 

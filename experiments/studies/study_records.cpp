@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -86,6 +87,14 @@ void add_run(analysis::Records& records, const fs::path& folder, const std::stri
         }
 }
 
+// Of the temporary folder, which need not survive a crash.
+void write_scratch(const fs::path& file, const std::string& text)
+{
+    std::ofstream stream(file, std::ios::binary);
+    stream << text;
+    if (!stream.flush()) throw pbs::InputError(file.string(), 0, "", "", "cannot be written");
+}
+
 // The first column of a table names the run of each row. A row without further cells states that the run's table has no rows.
 void write_tables_of_runs(const fs::path& merged, const fs::path& study)
 {
@@ -103,7 +112,7 @@ void write_tables_of_runs(const fs::path& merged, const fs::path& study)
     for (const auto& [run, table] : tables) {
         require_below(run, merged.string());
         fs::create_directories(study / run);
-        analysis::write_text_atomically((study / run / name).string(), table);
+        write_scratch(study / run / name, table);
     }
 }
 
@@ -166,7 +175,7 @@ OpenedRecords::OpenedRecords(const std::string& folder) : folder_(folder)
         for (const auto& [study, plan] : plans.items()) {
             require_below(study, all_plans);
             fs::create_directories(opened / study);
-            analysis::write_text_atomically(plan_file((opened / study).string()), plan.dump());
+            write_scratch(plan_file((opened / study).string()), plan.dump());
             if (const fs::path merged = fs::path(folder) / study / "runs"; fs::is_directory(merged))
                 for (const fs::path& table : fs::directory_iterator(merged)) write_tables_of_runs(table, opened / study);
         }
@@ -176,8 +185,7 @@ OpenedRecords::OpenedRecords(const std::string& folder) : folder_(folder)
             for (const std::string run : origin.at("runs")) {
                 require_below(run, provenance);
                 fs::create_directories(opened / run);
-                analysis::write_text_atomically((opened / run / "run.json").string(),
-                                                nlohmann::json{{"schema", origin.at("schema")}}.dump());
+                write_scratch(opened / run / "run.json", nlohmann::json{{"schema", origin.at("schema")}}.dump());
             }
     });
     folder_ = opened.string();

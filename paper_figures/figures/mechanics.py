@@ -165,7 +165,7 @@ def draw_panel(axes, rows, factor):
     values = sorted({float(row[factor]) for row in behind})
     axes.set_yscale("log")
     if left_out:
-        axes.annotate(f"{left_out} stiffer, left out", (0.03, 0.9), xycoords="axes fraction", fontsize=style.tick_size)
+        axes.annotate(f"{left_out} stiffer, not shown", (0.03, 0.9), xycoords="axes fraction", fontsize=style.tick_size)
     if values and factor != "vertices":
         style.log_scale(axes.xaxis, values[::max(1, len(values) // 2)])
     elif values:  # mesh sizes come in pairs that are nearly equal, whose labels would overlap

@@ -8,10 +8,16 @@ from words.number_words import figure
 measures = {"volume_change_pct": "signed volume\nchange [%]", "volume_abs_change_pct": "absolute volume\nchange [%]"}
 
 
+def flesh_of(run):
+    """The run's reference, or neo-Hookean finite elements that the run has without one; neither in a run of skinning alone."""
+    deformers = {row["deformer"] for row in run.rows}
+    return [run.reference(needed=False) or "nh_p1"] if run.reference(needed=False) or "nh_p1" in deformers else []
+
+
 def draw_deformers(panels, run, x, **options):
     """Each deformer, compared with neo-Hookean finite elements, in one panel per measure. Returns the rows."""
     behind = []
-    for deformer, iterations in {"lbs": None, "dqs": None, "pbs": 24, run.reference(): None}.items():
+    for deformer, iterations in {"lbs": None, "dqs": None, "pbs": 24, **dict.fromkeys(flesh_of(run))}.items():
         rows = run.select(deformer, iterations)
         for panel, measure in zip(panels, measures):
             style.draw(panel, deformer, rows, x, measure, **options)
@@ -145,8 +151,9 @@ def draw_kind(axes, rows):
     for deformer in of_regions:
         shown = sorted((row for row in rows if row["deformer"] == deformer and bones_of(row) in regions),
                        key=lambda row: regions.index(bones_of(row)))
-        axes.plot(records.numbers(shown, "change_pct"), [regions.index(bones_of(row)) for row in shown],
-                  **style.as_of(deformer, linestyle="none", markersize=4))
+        if shown:  # not each run has each deformer
+            axes.plot(records.numbers(shown, "change_pct"), [regions.index(bones_of(row)) for row in shown],
+                      **style.as_of(deformer, linestyle="none", markersize=4))
         behind += [{name: row[name] for name in row if name in region_columns} for row in shown]
     axes.axvline(0, color=style.ink, linewidth=0.6)
     style.name_rows(axes, list(map(in_words, regions)))

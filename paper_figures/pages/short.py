@@ -42,9 +42,12 @@ def audit(folder):
 
 def convergence(folder):
     """One row per pose and initial guess, in the default order; of a ladder the LBS guess on each mesh."""
-    rows = [row for file in pages.files(folder, "rates.csv") for row in records.table(file, {"start", "order", "precision", "own_mesh"})
-            if (row["order"], row["precision"]) == ("ordered", "f32")
-            and (row["start"] == "lbs" if file.parent.name.startswith("ladder") else row["own_mesh"] == "1")]
+    found = [(file.parent.name, row) for file in pages.files(folder, "rates.csv")
+             for row in records.table(file, {"start", "order", "precision", "own_mesh"})]
+    kernels = {(row["order"], row["precision"]) for _, row in found}
+    shown = ("ordered", "f32") if ("ordered", "f32") in kernels else ("plain", "f64")
+    rows = [row for run, row in found if (row["order"], row["precision"]) == shown
+            and (row["start"] == "lbs" if run.startswith("ladder") else row["own_mesh"] == "1")]
     return [("", pages.table(rows, "rates"))]
 
 

@@ -106,8 +106,8 @@ def lines_of(results):
                 distance(results)]
     hold, fail = (sum(claim["verdict"] == verdict for claim in claims) for verdict in ("holds", "fails"))
     return [*(line for finding in findings for line in tables.filled(f"- {finding}", "  ")), "",
-            f"[All {len(claims)} claims](#claims): {hold} hold, {fail} fail, and {len(claims) - hold - fail} do neither, for the reasons "
-            "that the table states."]
+            f"[All {len(claims)} claims](#claims): {hold} hold, {fail} fail, and {len(claims) - hold - fail} do neither "
+            "([the verdicts](experiments/verdicts/README.md#the-rule))."]
 
 
 def origin_of_picture(results):

@@ -36,7 +36,8 @@ def card(anchor, heading, parts):
 
 def compared(found):
     """The methods of the study work_precision, or None without their tables."""
-    return compared_methods.Compared(found.results / "work_precision") if found.rows("work_precision/methods.csv") else None
+    folder = found.judging / "work_precision"
+    return compared_methods.Compared(folder) if (folder / "methods.csv").is_file() else None
 
 
 def how_far(found):

@@ -17,6 +17,8 @@ def lead(found):
     runs = sum(name.count("/") == 1 for name in found.runs)  # the parts of a run are in folders below it
     text = (f"The claims of the paper of 2014 against {runs} recorded runs of pbskin {', '.join(origin.values_of(found, 'version'))}, "
             f"revision {', '.join(dict.fromkeys(revision[:10] for revision in revisions))}.")
+    if found.judging != found.results:
+        text += " The verdicts and the comparison of methods are those of the kept record."
     if not found.repeated["text"] and any(plan.get("extent") == "quick" for plan in found.plans.values()):
         text += " They are those of a quick run: claims have fewer cases or lack a control, so that full records may give other verdicts."
     return element("p", text, class_="lead")
@@ -44,7 +46,7 @@ def page(found):
     distances, not_told = errors.section(found)
     no_verdicts = [] if found.claims is not None else ["verdicts: claims.json does not exist (pbskin reproduce --judge)"]
     missing = not_shown + not_drawn + not_told + no_verdicts
-    missing += [f"{study}: {scene} left out: {reason}" for study, scene, reason in found.left_out()]
+    missing += [f"{study}: {scene} is excluded: {reason}" for study, scene, reason in found.left_out()]
     costs = items([told for told in (answers.frame_sentence(found), origin.costs_sentence(found)) if told])
     folded = [("errors", "Distance from the finite elements", joined([answers.distances(found), distances], "\n")),
               ("figures", "Figures", pictures), ("reference", "Is the reference right?", errors.reference_section(found)),

@@ -37,7 +37,7 @@ struct AskedBody {
     using Point_3 = Point;
     using Index = int;
     using Subdomain_index = int;
-    using Subdomain = std::optional<int>;
+    using Subdomain = CgalOptional<int>;
     using Surface_patch_index = int;
     using Intersection = std::tuple<Point, Index, int>;  // and its dimension, 0 where there is none
     using Construct_intersection = AskedBody;

@@ -3,7 +3,7 @@
 //   limb_twist   0 - 180 deg    o=======o~~~~~~~o)  the forearm turns about its own axis
 //   limb_bend    0 - 150 deg    o=======o           the forearm turns about z, also with Eq. 12-20 as printed
 //   BODY_CLIP                                       CMU's clips on the installed bodies
-//   BODY_range_MOVEMENT                             joints through their range of motion, for the confirmatory units
+//   BODY_range_MOVEMENT                             joints through their range of motion, for the held-out cases
 //
 // README.md describes the runs, deformers and records. Besides the scene's own order of projection PBS has each other order and precision,
 // so that the report can say whether the verdict depends on it.
