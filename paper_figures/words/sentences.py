@@ -408,7 +408,7 @@ def two_digits(value):
 
 def nearest_method(methods):
     """delta mush is nearest to FEM in all 19 frames, 15 %, before PBS, 28 %; it loses 3.7 % of the volume, PBS 1.1 %. methods: dicts of
-    name, error_pct (median over the frames; None without one), volume_pct (of the frame in which it changes most) and nearest_in (frames)."""
+    name, error_pct (median over the frames; None without one), volume_pct (of the frame in which it changes most); nearest_in."""
     ranked = sorted((of for of in methods if of["error_pct"] is not None), key=lambda of: of["error_pct"])
     if not ranked:
         return ""

@@ -91,7 +91,7 @@ analysis::CsvTable kept_table(const std::string& name)
     const analysis::CsvTable table = whole_table(file);
     EXPECT_GT(table.rows(), 0) << file;
     return file.parent_path().filename() == "runs"
-               ? analysis::parse_csv(without_runs(fs::exists(file) ? file : file.string() + ".gz"), file.string())
+               ? analysis::parse_csv(without_runs(fs::exists(file) ? file : fs::path(file.string() + ".gz")), file.string())
                : table;
 }
 
