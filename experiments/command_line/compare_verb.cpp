@@ -34,7 +34,7 @@ void add_compare_verb(CommandLine& line)
 {
     auto arguments = std::make_shared<CompareArguments>();
     CLI::App* verb =
-        line.add("compare", "compares two folders of results, number by number; exit 1 if they differ",
+        line.add("compare", "compares two folders of results; exit 1 if a number differs",
                  "pbskin compare results/before results/after", [&common = line.common, arguments] { return compare(*arguments, common); });
     verb->add_option("A", arguments->folders.first, "what `run` or `reproduce` wrote, or kept records")->required();
     verb->add_option("B", arguments->folders.second, "the other one")->required();

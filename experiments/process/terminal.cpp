@@ -28,6 +28,7 @@
 #include <new>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace experiments {
 namespace {
@@ -220,22 +221,21 @@ void warn(const std::vector<std::string>& remarks)
     for (const std::string& remark : remarks) spdlog::warn("pbskin: warning: {}", remark);
 }
 
-// Passes on everything except warnings, each of which becomes one line of the file. The processes append to it in turn.
+// Passes on everything except warnings, each of which becomes one line of the file. The processes append to it in turn. A run without
+// warnings has no file, also if it is killed.
 class CollectedWarnings::Sink : public spdlog::sinks::base_sink<std::mutex> {
 public:
-    Sink(const std::string& file, std::vector<spdlog::sink_ptr> others)
-        : others(std::move(others)), file_(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666))
-    {
-        if (file_ < 0) throw pbs::InputError(file, 0, "", "", fmt::format("cannot be written: {}", std::strerror(errno)));
-    }
-    ~Sink() override { ::close(file_); }
+    Sink(std::string file, std::vector<spdlog::sink_ptr> others) : others(std::move(others)), file_(std::move(file)) {}
 
     void add(const std::string& text)
     {
         std::string line = text;
         std::ranges::replace(line, '\n', ' ');
         line += '\n';
-        if (::write(file_, line.data(), line.size()) != static_cast<ssize_t>(line.size())) throw std::runtime_error("a warning is lost");
+        const int opened = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+        const bool is_written = opened >= 0 && ::write(opened, line.data(), line.size()) == static_cast<ssize_t>(line.size());
+        if (opened >= 0) ::close(opened);
+        if (!is_written) throw pbs::InputError(file_, 0, "", "", fmt::format("cannot be written: {}", std::strerror(errno)));
     }
 
     std::vector<spdlog::sink_ptr> others;
@@ -252,19 +252,28 @@ protected:
     }
 
 private:
-    int file_;
+    std::string file_;
 };
 
 CollectedWarnings::CollectedWarnings(const std::string& file) : file_(file)
 {
+    analysis::require_writable(file);
+    analysis::remove_record(file);
     std::vector<spdlog::sink_ptr>& sinks = spdlog::default_logger()->sinks();
     sink_ = std::make_shared<Sink>(file, sinks);
     sinks = {sink_};
 }
 
+// Work that ends before its summary leaves the warnings of until then.
 CollectedWarnings::~CollectedWarnings()
 {
     spdlog::default_logger()->sinks() = sink_->others;
+    try {
+        summary();
+    } catch (const std::exception&) {  // such as a full disk, which has been reported
+        std::error_code ignored;
+        std::filesystem::remove(file_, ignored);
+    }
 }
 
 void CollectedWarnings::add(const std::string& text)
@@ -274,10 +283,10 @@ void CollectedWarnings::add(const std::string& text)
 
 std::string CollectedWarnings::summary()
 {
+    if (std::exchange(is_summed_up_, true) || !std::filesystem::exists(file_)) return "";
     std::istringstream lines(analysis::read_text(file_));
     std::map<std::string, int> counts;
     for (std::string line; std::getline(lines, line);) ++counts[line];
-    if (counts.empty()) return std::filesystem::remove(file_), "";
     std::string text;
     for (const auto& [line, count] : counts) text += count > 1 ? fmt::format("{} ({} times)\n", line, count) : line + "\n";
     analysis::write_text_atomically(file_, text);

@@ -87,6 +87,7 @@ private:
     class Sink;
     std::string file_;
     std::shared_ptr<Sink> sink_;
+    bool is_summed_up_ = false;
 };
 
 }  // namespace experiments

@@ -115,9 +115,10 @@ void count_claims(const fs::path& file, const analysis::CsvTable& table, const a
     if (!has_frames && !is_printed && !is_measured) return;
     const auto values = is_measured ? analysis::measurements(file.string()) : std::vector<analysis::Measurement>{};
     for (const analysis::ComparedRow& row : compared.rows) {
-        const std::vector<std::string> ids = has_frames   ? claims_of_frames(table, row.first)
-                                             : is_printed ? std::vector{table.text_at(row.first, "claim")}
-                                                          : claims_of_value(values[row.first]);
+        std::vector<std::string> ids = has_frames   ? claims_of_frames(table, row.first)
+                                       : is_printed ? std::vector{table.text_at(row.first, "claim")}
+                                                    : claims_of_value(values[row.first]);
+        if (ids.empty() && is_measured) ids = {values[row.first].claim};  // a control, or another number on the page of a claim
         for (const std::string& id : ids) {
             ComparedClaim& claim = claims[id];
             if (has_frames)

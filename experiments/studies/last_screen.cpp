@@ -76,6 +76,7 @@ void write_repeated(const ResultComparison& compared, const std::map<std::string
     nlohmann::json repeated = to_json(compared);
     repeated["claims"] = claims;
     repeated["text"] = repeated_text(compared);
+    repeated.erase("second");  // the folder of this file, which may be moved
     analysis::write_text_atomically(analysis::path_in(folder, "repeated.json"), repeated.dump(1) + "\n");
 }
 
@@ -132,7 +133,7 @@ std::string answers_text(const std::string& records)
                mush = find_method("delta_mush");
     if (lbs == methods.end() || pbs == methods.end() || mush == methods.end()) return "";
     return fmt::format(
-        "Far from flesh: the skin of a body of 1.7 m is {:.2g} mm off with LBS, {:.2g} mm with PBS ({} poses).\n"
+        "Distance from flesh: the skin of a body of 1.7 m is {:.2g} mm away with LBS, {:.2g} mm with PBS ({} poses).\n"
         "1 ms per frame: {} leaves {:.0f} % of LBS's error if the material is known, PBS {:.0f} %, delta mush {:.0f} %.\n",
         lbs->skin_mm, pbs->skin_mm, pbs->poses, title_of(best->name), best->share_pct, pbs->share_pct, mush->share_pct);
 }

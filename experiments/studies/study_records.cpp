@@ -162,7 +162,9 @@ std::string kept_text(const std::string& file)
     std::array<char, 1 << 16> block;
     int count = 0;
     while ((count = gzread(opened.get(), block.data(), block.size())) > 0) text.append(block.data(), static_cast<std::size_t>(count));
-    if (count < 0) throw pbs::InputError(file, 0, "", "", "expected a whole gzip file");
+    int code = Z_OK;
+    gzerror(opened.get(), &code);
+    if (count < 0 || code != Z_OK) throw pbs::InputError(file, 0, "", "", "expected a whole gzip file");
     return text;
 }
 

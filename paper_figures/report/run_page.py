@@ -272,10 +272,10 @@ def figures_section(found):
     methods = [of for of in methods_of(found) if not of["is_reference"]]
     caption = "The numbers of metrics.csv over the frames."
     parts = [drawn(found, "over-frames", over_frames(found), sentences.largest_change(methods), caption)]
-    against_time = error_against_time(found)
-    if against_time:
+    against_time, message = error_against_time(found), sentences.error_and_time(methods)
+    if against_time and message:
         caption = "The median over the frames of the error at the joints and of the time of a step."
-        parts.append(drawn(found, "error-against-time", against_time, sentences.error_and_time(methods), caption))
+        parts.append(drawn(found, "error-against-time", against_time, message, caption))
     told = element("p", "Values are shown next to the pointer or the finger.")
     return joined([told, element("div", joined(parts, "\n"), class_="figures")], "\n")
 

@@ -436,8 +436,11 @@ def largest_change(methods):
 
 
 def error_and_time(methods):
-    """delta mush has the least error, 10.8 %, and takes 0.37 ms per frame; LBS is the fastest, with 31.2 % and 0.009 ms."""
+    """delta mush has the least error, 10.8 %, and takes 0.37 ms per frame; LBS is the fastest, with 31.2 % and 0.009 ms.
+    Empty if no method has an error, since the reference reached no pose."""
     known = [of for of in methods if of["error_pct"] is not None and of["step_ms"] is not None]
+    if not known:
+        return ""
     best, fastest = (min(known, key=lambda of: of[name]) for name in ("error_pct", "step_ms"))
     text = f"{best['name']} has the least error, {figure(best['error_pct'])} %, and takes {figure(best['step_ms'])} ms per frame"
     return text if fastest is best else (
