@@ -146,7 +146,7 @@ bool is_emphasis(const std::string& text, std::size_t at)
 {
     const unsigned char before = at == 0 ? ' ' : text[at - 1], after = at + 1 == text.size() ? ' ' : text[at + 1];
     const bool begins = (std::isspace(before) || before == '(') && std::isalnum(after);
-    return begins || (std::isalnum(before) && (std::isspace(after) || std::string_view(".,;:)").find(after) != std::string_view::npos));
+    return begins || (std::isalnum(before) && (std::isspace(after) || std::string_view(".,;:?!)").find(after) != std::string_view::npos));
 }
 
 // Without the marks of Markdown: the text of links, of code and of emphasised words. Pictures are left out.

@@ -135,6 +135,6 @@ claim = facts | {"id": text, "statement": text, "place": text, "study": text, "r
 claims = {"schema": fourth_schema, "quantities": {"*": {"title": text, "unit": text}}, "claims": [claim]}
 
 # What this machine measured again of the record: how many numbers or frames agree. The record's verdicts stand beside it, in claims.json.
-repeated = {"schema": first_schema, "text": text, "claims": {"*": {"compared": whole, "agree": whole, "text": text}}}
+repeated = {"schema": first_schema, "text": text, "first": text, "claims": {"*": {"compared": whole, "agree": whole, "text": text}}}
 
 reliability = {"name": text, "count": number, "of": number, "command": text, "revision": text, "note?": text}

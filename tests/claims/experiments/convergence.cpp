@@ -99,7 +99,7 @@ TEST(ConvergenceVerdict, ComparesTheAuthorsLaterCode)
 VerdictKind of_ladder(const std::array<int, 4>& iterations)
 {
     ConvergenceResult ladder;
-    ladder.ladder = true;
+    ladder.ladder = ladder.exponents = true;
     for (std::size_t i = 0; i < iterations.size(); ++i) {
         ConvergencePaths& one = ladder.all.emplace_back(papers_paths({0.5}));
         one.of.vertices = 500 << i;

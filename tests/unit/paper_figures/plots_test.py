@@ -119,11 +119,11 @@ class Plots(ResultsTest):
         rows = [row for row in drawn if row["method"] == "xpbd"]
         self.assertEqual({float(row["young_pa"]) for row in rows}, {30e3})
         self.assertEqual({float(row["stiffness_n_m"]) for row in rows}, {50.0})
-        with unittest.mock.patch.object(mechanics, "stiffest_n_m", 500.0):  # beyond rounding: left out and counted
+        with unittest.mock.patch.object(mechanics, "stiffest_n_m", 500.0):  # beyond rounding: not shown, and counted
             rows = self.drawn("stiffness")
         rows = [row for row in rows if (row["body"], row["varied"], row["method"]) == ("limb", "time_step_ms", "pbs")]
         self.assertEqual([row["time_step_ms"] for row in rows], ["10"])
-        self.assertEqual(self.stem.with_suffix(".svg").read_text().count("1 stiffer, left out"), 3)  # once per body
+        self.assertEqual(self.stem.with_suffix(".svg").read_text().count("1 stiffer, not shown"), 3)  # once per body
 
     def test_momentum(self):
         synthetic_records.write_momentum(self.results / "momentum")

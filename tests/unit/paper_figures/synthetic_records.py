@@ -351,6 +351,7 @@ def write_stability(study):
     outcomes = ["converged", "bounded", "inverted", "diverged", "not_finite", "converged"]
     maps = {"map_time_step_k_stretch": ("time_step", "s", "k_stretch", "1"), "map_iterations_twist": ("iterations", "1", "twist", "deg")}
     write_origin(study / "pbs_maps")
+    write_table(study / "pbs_maps" / "cells.csv", [{"factor": "time_step", "second_factor": "k_stretch", "outcome": "converged"}])
     for name, (factor, unit, second, second_unit) in maps.items():
         write_table(study / f"{name}.csv",
               [{"factor": factor, "value": value, "unit": unit, "second_factor": second, "second_value": other, "second_unit": second_unit,

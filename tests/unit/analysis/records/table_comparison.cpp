@@ -11,9 +11,10 @@ using analysis::compare_tables;
 using analysis::CsvTable;
 using analysis::TableComparison;
 
-TableComparison compared(const std::string& first, const std::string& second, const std::string& file = "measurements.csv")
+TableComparison compared(const std::string& first, const std::string& second, const std::string& file = "measurements.csv",
+                         const analysis::ComparedAs& as = {})
 {
-    return compare_tables(file, analysis::parse_csv(first, file), analysis::parse_csv(second, file));
+    return compare_tables(file, analysis::parse_csv(first, file), analysis::parse_csv(second, file), as);
 }
 
 const std::string head = "quantity,body,k_stretch,precision,value\n";
@@ -81,15 +82,31 @@ TEST(TableComparison, ComparesDriftsRelativeToOne)
     EXPECT_EQ(compared(head + "linear_drift,limb,,f64,1.5e-15\n", head + "linear_drift,limb,,f64,4.5e-5\n").differing.size(), 1U);
 }
 
-// Records are rounded to six digits.
+// Six digits, where a record is rounded; a short number is exact anywhere else.
 TEST(TableComparison, AllowsHalfADigitOfARoundedRecord)
 {
-    const auto differing = [&](const std::string& first, const std::string& second) {
-        return compared(head + "radius,limb,0.2,f64," + first + "\n", head + "radius,limb,0.2,f64," + second + "\n").differing.size();
+    const auto differing = [&](const std::string& first, const std::string& second, bool is_rounded) {
+        const std::string row = "radius,limb,0.2,f64,";
+        const TableComparison found =
+            compared(head + row + first + "\n", head + row + second + "\n", "measurements.csv", {.is_rounded = is_rounded});
+        return found.differing.size();
     };
-    EXPECT_EQ(differing("1.23457", "1.23456789012345"), 0U);
-    EXPECT_EQ(differing("1.23457", "1.23458123456789"), 1U);
-    EXPECT_EQ(differing("1.23457", "1.23458"), 1U) << "both are rounded";
+    EXPECT_EQ(differing("1.23457", "1.23456789012345", true), 0U);
+    EXPECT_EQ(differing("1.23457", "1.23458123456789", true), 1U);
+    EXPECT_EQ(differing("1.23457", "1.23458", true), 1U) << "both have six digits";
+    EXPECT_EQ(differing("1.23457", "1.23456789012345", false), 1U);
+    EXPECT_EQ(differing("0.5", "0.50000049", false), 1U);
+}
+
+TEST(TableComparison, NamesColumnsThatOneTableLacksAndSkipsThoseThatAPartDidNotMeasure)
+{
+    const TableComparison other = compared("body,radius_m\nlimb,1\n", "body,area_m2\nlimb,1\n");
+    EXPECT_EQ(other.columns_only_first, std::vector<std::string>{"radius_m"});
+    EXPECT_EQ(other.columns_only_second, std::vector<std::string>{"area_m2"});
+    const std::string columns = "body,radius_m,area_m2\n", first = columns + "limb,1,2\nhuman,3,4\n";
+    EXPECT_TRUE(compared(first, columns + "limb,1,\nhuman,3,\n", "a.csv", {.second_is_part = true}).differing.empty());
+    EXPECT_EQ(compared(first, columns + "limb,1,2\nhuman,3,\n", "a.csv", {.second_is_part = true}).differing.size(), 1U);
+    EXPECT_EQ(compared(first, columns + "limb,1,\nhuman,3,\n", "a.csv").differing.size(), 2U);
 }
 
 TEST(TableComparison, ComparesCountsAndOutcomesExactlyAndNumbersThatAreNotFiniteByName)
