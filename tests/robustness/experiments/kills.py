@@ -216,7 +216,7 @@ class ResumedStudy(program.ProgramTest):
 
         part = only(RUNS[0])
         self.assertEqual(part.returncode, 1, part.stderr)
-        self.assertIn(f"left out by --only: {RUNS[1]}; ", part.stderr)
+        self.assertIn(f"excluded by --only: {RUNS[1]}; ", part.stderr)
         self.assertEqual(self.verdict(results), "not_computable")
         record = results / "momentum" / RUNS[0] / "run.json"
         ended = identity(record)

@@ -160,4 +160,32 @@ TEST_F(Terminal, AFileHasNoColoursUnlessTheyAreAskedForAndItsWidthIsThatOfColumn
     EXPECT_EQ(terminal_width(), 72u);
 }
 
+// Reference: the warnings that the test gives.
+TEST(CollectedWarnings, OfAllProcessesAreInTheFileOnceWithTheirCounts)
+{
+    const test_support::ScratchFolder folder;
+    const std::string file = folder.file("warnings.txt", "of an earlier run\n");
+    CollectedWarnings warnings(file);
+    EXPECT_FALSE(std::filesystem::exists(file)) << "there is none yet";
+    warn({"a.toml: one", "b.toml: two\nlines"});
+    const auto warn_again = [] { return warn({"a.toml: one"}), std::string(); };
+    run_in_pool({{"one", 1.0, warn_again}, {"other", 1.0, warn_again}}, 2);
+    warnings.add("limb: 3 frames");
+    EXPECT_EQ(warnings.summary(), "Warnings: 3, in " + file + "\n");
+    EXPECT_EQ(analysis::read_text(file), "limb: 3 frames\npbskin: warning: a.toml: one (3 times)\npbskin: warning: b.toml: two lines\n");
+}
+
+TEST(CollectedWarnings, HaveNoFileWithoutWarningsAndAreSummedUpWhereTheWorkEndsEarly)
+{
+    const test_support::ScratchFolder folder;
+    EXPECT_EQ(CollectedWarnings(folder / "none.txt").summary(), "");
+    EXPECT_FALSE(std::filesystem::exists(folder / "none.txt"));
+    {
+        CollectedWarnings warnings(folder / "early.txt");
+        warn({"twice", "twice"});
+    }
+    EXPECT_EQ(analysis::read_text(folder / "early.txt"), "pbskin: warning: twice (2 times)\n");
+    EXPECT_THROW(CollectedWarnings(folder / "no/folder.txt"), pbs::InputError);
+}
+
 }  // namespace
