@@ -1,6 +1,6 @@
 """Deletes the figures of DIR and draws those of figures.toml anew from its records. A figure whose records are missing or stale is not
 drawn; its reason is printed and the exit status is 1. A figure whose study has no folder in DIR, or whose run the quick form of its study
-does not have, was not requested: it is named and left out, and the status stays 0. Status 0 therefore means that every figure of the
+does not have, was not requested: it is drawn from the kept record that judges DIR, or else named and left out, and the status stays 0. Status 0 therefore means that every figure of the
 studies in DIR was drawn. If DIR holds no study at all, the status is 1. If only some of the planned runs have records, the figure is drawn
 and its caption names the others. If a file cannot be written, it is named and the exit status is 2.
 
@@ -25,16 +25,6 @@ def delete(name, folder):
         (folder / f"{name}.{ending}").unlink(missing_ok=True)
 
 
-def not_asked_for(entry, results):
-    """Why the figure was not requested: its study was not run, or the quick form of the study does not plan its run."""
-    for study, *below in (pattern.split("/") for pattern in entry.records):
-        if not (results / study).is_dir():
-            return f"the study {study} was not run"
-        if len(below) == 2 and "*" not in below[0] and not entries.is_in_form(results / study, below[0]):
-            return f"the quick form of the study {study} has no run {below[0]}"
-    return None
-
-
 def draw(entry, results, folder):
     """Draws a figure; returns whether it succeeded."""
     try:
@@ -55,6 +45,14 @@ def draw(entry, results, folder):
     return True
 
 
+def is_kept(entry, record):
+    """Whether the kept record has all that the figure needs."""
+    try:
+        return not entries.not_asked_for(entry, record) and bool(entry.files(record))
+    except records.RecordsMissing:
+        return False
+
+
 def main(results, only=None, folder=None):
     if not results.is_dir():
         sys.exit(f"{results}: no such folder; run ./reproduce first")
@@ -68,15 +66,17 @@ def main(results, only=None, folder=None):
     if not only and not folder:
         shutil.rmtree(results / "figures", ignore_errors=True)
     folder = folder or results / "figures"
-    results = kept.opened(results)
+    record = kept.record_behind(results)
+    results, record = kept.opened(results), record and kept.opened(record)
     drawn = []
     for entry in listed:
         if only not in (None, entry.name):
             continue
         delete(entry.name, folder)
-        reason = not_asked_for(entry, results)
+        reason = entries.not_asked_for(entry, results)
         if reason and not only:
-            print(f"figures: {entry.name} left out: {reason}")
+            if not (record and is_kept(entry, record) and draw(entry, record, folder)):
+                print(f"figures: {entry.name} left out: {reason}")
         else:
             drawn.append(draw(entry, results, folder))
     return 0 if all(drawn) else 1

@@ -134,6 +134,16 @@ def planned_runs(study):
         raise records.RecordsMissing(f"{plan}: runs: expected a list of runs with their names") from None
 
 
+def not_asked_for(entry, results):
+    """Why the figure was not requested: its study was not run, or the quick form of the study does not plan its run."""
+    for study, *below in (pattern.split("/") for pattern in entry.records):
+        if not (results / study).is_dir():
+            return f"the study {study} was not run"
+        if len(below) == 2 and "*" not in below[0] and not is_in_form(results / study, below[0]):
+            return f"the quick form of the study {study} has no run {below[0]}"
+    return None
+
+
 def is_in_form(study, run):
     """False for a run that the quick form of the study does not have."""
     plan = records.read_json(study / "plan.json") if (study / "plan.json").is_file() else {}

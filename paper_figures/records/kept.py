@@ -27,6 +27,14 @@ def opened(folder):
     return scratch
 
 
+def record_behind(results):
+    """The folder of the kept record that judges these results, if they are a part of it: `pbskin reproduce` names it in repeated.json."""
+    file = results / "repeated.json"
+    first = records.read_json(file).get("first") if file.is_file() else None
+    is_part = any(records.read_json(plan).get("extent") == "quick" for plan in results.glob("*/plan.json"))
+    return pathlib.Path(first) if is_part and isinstance(first, str) and (pathlib.Path(first) / "provenance.json").is_file() else None
+
+
 def expand(kept, into):
     """Writes each run's own files below `into`."""
     def write(text, source, *names):

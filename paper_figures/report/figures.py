@@ -44,11 +44,13 @@ def as_uri(content, kind):
 
 def drawn(found, entry):
     """The figure's file, which is refused if its records are gone or have changed since."""
+    file = found.results / "figures" / f"{entry.name}.svg"
+    if found.judging != found.results and entries.not_asked_for(entry, found.results) and file.is_file():
+        return file  # of the kept record
     absent = next((study for study in entry.studies() if study not in found.studies), None)
     if absent:
         raise records.RecordsMissing(record_set.why_absent(found, absent))
     entry.check(found.results)
-    file = found.results / "figures" / f"{entry.name}.svg"
     records.need(file.is_file(), "does not exist yet: paper_figures/make_all.py draws it")
     newest_s = max(behind.stat().st_mtime for behind in entry.files(found.results))
     if file.stat().st_mtime < newest_s - entries.slack_s:
@@ -69,7 +71,8 @@ def numbers_link(found, entry):
 def drawn_figure(found, entry, number, file):
     known = {claim["id"] for claim in found.claims or []}
     title = entry.title if papers_own.match(entry.title) else f"Figure {number}: {entry.title}"
-    about = [element("b", f"{title}. "), entry.caption, " "]
+    from_record = found.judging != found.results and entries.not_asked_for(entry, found.results)
+    about = [element("b", f"{title}. "), entry.caption, " Drawn from the kept record. " if from_record else " "]
     claims = joined((element("a", claim, href=f"#{claim}") if claim in known else claim for claim in entry.claims), ", ")
     about += ["Claims: ", claims, ". "] if entry.claims else []
     about += [Markup(f'<abbr title="{html.escape(entries.marks[entry.mark])}">{entry.mark}</abbr>'), numbers_link(found, entry)]

@@ -3,10 +3,8 @@
     found = record_set.RecordSet(results)
     for claim in found.claims: ...
 """
-import pathlib
-
 import records
-from records import shapes
+from records import kept, shapes
 from words import sentences
 
 
@@ -23,13 +21,7 @@ class RecordSet:
         self.claims = sentences.claims_of(judged) if judged.is_file() else None  # None if no claim was judged
         file = results / "repeated.json"
         self.repeated = shapes.read(file, shapes.repeated) if file.is_file() else {"text": "", "claims": {}}
-        self.judging = self.kept_record() or results  # the records that verdicts and answers rest on
-
-    def kept_record(self):
-        """The record that judges, if these results are a part of it."""
-        record = pathlib.Path(self.repeated.get("first", ""))
-        is_part = any(plan.get("extent") == "quick" for plan in self.plans.values())
-        return record if is_part and (record / "provenance.json").is_file() else None
+        self.judging = kept.record_behind(results) or results  # the records that verdicts and answers rest on
 
     def run(self, name, shape):
         """The record of a run of which further members are read."""

@@ -12,7 +12,7 @@ import synthetic_frames
 import synthetic_records
 from drawing import bodies
 from figures import timing, work_precision
-from records import entries, recorded_frames
+from records import entries, kept, recorded_frames
 
 
 class Figures(ResultsTest):
@@ -90,6 +90,16 @@ class OtherStudies(ResultsTest):
         with self.assertRaisesRegex(SystemExit, "no study in it"):
             make_all.main(self.results)
         self.assertEqual([path.name for path in figures.iterdir()], ["somebody's.svg"])
+
+    def test_the_record_that_judges_a_part_is_named_by_it(self):
+        record = self.results / "record"
+        for extent, first, is_behind in (("quick", record, True), ("full", record, False), ("quick", self.results, False), ("quick", 3, False)):
+            for file, content in ((record / "provenance.json", {"origins": []}), (self.results / "volume" / "plan.json", {"extent": extent}),
+                                  (self.results / "repeated.json", {"first": first if first == 3 else str(first)})):
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_text(json.dumps(content))
+            with self.subTest(f"{extent} {first}"):
+                self.assertEqual(kept.record_behind(self.results), record if is_behind else None)
 
     def test_verification_shows_the_finest_mesh_of_each_benchmark(self):
         synthetic_records.write_verification(self.results)
