@@ -1,8 +1,9 @@
 """Deletes the figures of DIR and draws those of figures.toml anew from its records. A figure whose records are missing or stale is not
-drawn; its reason is printed and the exit status is 1. A figure whose study has no folder in DIR, or whose run the quick form of its study
-does not have, was not requested: it is drawn from the kept record that judges DIR, or else named and left out, and the status stays 0. Status 0 therefore means that every figure of the
-studies in DIR was drawn. If DIR holds no study at all, the status is 1. If only some of the planned runs have records, the figure is drawn
-and its caption names the others. If a file cannot be written, it is named and the exit status is 2.
+drawn; its reason is printed and the exit status is 1. A figure whose study has no folder in DIR, or whose run the default form of its study
+does not have, was not requested: it is drawn from the kept record that judges DIR, or else named and left out, and the status stays 0.
+Status 0 therefore means that every figure of the studies in DIR was drawn. If DIR holds no study at all, the status is 1. If only some of
+the planned runs have records, the figure is drawn and its caption names the others. If a file cannot be written, it is named and the exit
+status is 2.
 
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce --only error_against_time --into elsewhere

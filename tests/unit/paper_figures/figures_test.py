@@ -93,9 +93,10 @@ class OtherStudies(ResultsTest):
 
     def test_the_record_that_judges_a_part_is_named_by_it(self):
         record = self.results / "record"
-        for extent, first, is_behind in (("quick", record, True), ("full", record, False), ("quick", self.results, False), ("quick", 3, False)):
-            for file, content in ((record / "provenance.json", {"origins": []}), (self.results / "volume" / "plan.json", {"extent": extent}),
-                                  (self.results / "repeated.json", {"first": first if first == 3 else str(first)})):
+        plan, repeated = self.results / "volume" / "plan.json", self.results / "repeated.json"
+        for extent, first, is_behind in (("quick", str(record), True), ("full", str(record), False), ("quick", str(self.results), False),
+                                         ("quick", 3, False)):
+            for file, content in ((record / "provenance.json", {"origins": []}), (plan, {"extent": extent}), (repeated, {"first": first})):
                 file.parent.mkdir(parents=True, exist_ok=True)
                 file.write_text(json.dumps(content))
             with self.subTest(f"{extent} {first}"):
