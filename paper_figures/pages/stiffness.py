@@ -15,15 +15,22 @@ def words_of(row):
                          | {name: float(row[name]) for name in numbers if row.get(name)})
 
 
+def is_claimed(row):
+    """Whether C11 is about this row: PBS under the weight of its jiggling zone alone."""
+    return row["deformer"] == "pbs" and row["load"] == "zone"
+
+
 def leaves(row):
     return row["deformer"] in ("xpbd", "xpbd_small_steps") and not unchanged[0] <= float(row["low"]) <= float(row["high"]) <= unchanged[1]
 
 
 def page(folder):
-    measured = pages.of_runs(folder, "measurements.csv", {"quantity", "deformer", "value", "low", "high"})
+    measured = pages.of_runs(folder, "measurements.csv", {"quantity", "deformer", "load", "value", "low", "high"})
+    measured.sort(key=lambda row: not is_claimed(row))
     exponents = records.table(folder / "exponents.csv",
                               {"varied", "first", "last", "exponent", "exponent_low", "exponent_high", "left_out"})
-    text = "# Effective stiffness\n\nWeight of the jiggling zone, or of a bar's free length, over its mean displacement.\n"
+    text = ("# Effective stiffness\n\nWeight of the jiggling zone, or of a bar's free length, over its mean displacement. C11 is about PBS "
+            "with the load `zone`, whose rows come first; with `zone on held`, the body outside the zone is held.\n")
     columns = {"case": words_of, "ratio": "value:g4", "least": "low:g4", "largest": "high:g4"}
     for varied, words in doubled.items():
         quantity = "stiffness_ratio_at_" + words.replace("the ", "").replace("vertices", "resolution").replace(" ", "_")
