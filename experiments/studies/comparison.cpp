@@ -354,9 +354,9 @@ std::string claim_text(const ComparedClaim& compared)
     const bool has_frames = compared.frames > 0;
     const int all = has_frames ? compared.frames : compared.numbers;
     const int differing = has_frames ? compared.frames_differing : compared.differing;
-    const char* what = has_frames ? "frames" : "numbers";
-    if (differing > 0) return fmt::format("{} of {} {} differ", count_text(differing), count_text(all), what);
-    return all > 0 ? fmt::format("{} {} agree", count_text(all), what) : "";
+    const char* what = has_frames ? " frames" : "";  // short, for a column of the last screen
+    if (differing > 0) return fmt::format("{} of {}{} differ", count_text(differing), count_text(all), what);
+    return all > 0 ? fmt::format("{}{} agree", count_text(all), what) : "";
 }
 
 std::string repeated_text(const ResultComparison& compared)

@@ -55,7 +55,7 @@ ResultComparison compare_results(const ComparedFolders& folders);
 // For the terminal: the answer first, then what differs, at most `lines` of each kind.
 std::string comparison_text(const ResultComparison& compared, int lines = 12);
 
-// "94 numbers agree", "115 frames agree", "2 of 94 numbers differ".
+// Numbers: "94 agree", "2 of 94 differ"; frames: "115 frames agree".
 std::string claim_text(const ComparedClaim& compared);
 
 // "This machine repeats the record: 1,293 of 1,293 numbers agree (1,269 in every digit)."
