@@ -33,7 +33,7 @@ const ColumnNames settings = {"motion",          "pose",           "clip",      
 const ColumnNames results = {"outcome", "remark", "reason", "failure", "note",       "verdict_flips",       "holds_a",
                              "holds_b", "holds",  "limit",  "key",     "bound_from", "undisturbed_at_rest", "further_keys"};
 
-// What belongs to the machine and to the moment.
+// Results that differ from machine to machine and from run to run, and are not compared.
 const ColumnNames of_the_machine = {"ms",      "ms_median", "ms_p95",    "cpu_s",    "wall_s", "solve_s",
                                     "seconds", "threads",   "cpu_model", "set_up_s", "rounds"};
 const ColumnNames parts_of_times = {"_ms", "frames_per_s", "start_s_", "peak_mb", "shared_objects", "speedup"};

@@ -1,4 +1,4 @@
-// What was measured for a claim, in few words, for a table: the template `headline` of claims.toml, filled from the facts of a verdict.
+// The headline of a claim states in few words, for a table, what was measured: the template `headline` of claims.toml is filled from facts.
 //   headline = "in {held} of {n} poses"                      // in 29 of 29 poses
 //   headline = "{least} to {most} {unit} in {n} clips"       // 6.4 to 17 % in 8 clips
 //   headline = "{most at precision=f64} in double"           // 4.6e-15 in double: of the cases with this field
@@ -24,7 +24,7 @@ std::string headline_fault(const Claim& claim);
 // The headline with its numbers; empty if a number is not known, as without a record.
 std::string measured_text(const Verdict& verdict);
 
-// What the claim asks of the numbers in its headline: 95 % of the cases, all printed values, or the threshold: 12 to 16 %; 30 or more.
+// The requirement for the numbers in the headline: 95 % of the cases, all printed values, or the threshold: 12 to 16 %; 30 or more.
 // Empty for a claim that asks nothing.
 std::string asked_text(const Claim& claim);
 

@@ -143,7 +143,7 @@ nlohmann::json claims_json(const std::vector<Verdict>& verdicts, const std::stri
 // A table with one row per claim: id, verdict, how many of its cases hold, share, interval and chance, and the range of its numbers.
 std::string claims_markdown(const std::vector<Verdict>& verdicts);
 
-// What a caller adds to each claim of a table: the heading of the column, and its texts by the claims' names.
+// A further column of the table of claims: its heading, and its texts by the claims' names.
 struct FurtherColumn {
     std::string heading = {};
     std::map<std::string, std::string> texts = {};

@@ -22,7 +22,7 @@ struct ComparedTable {
     analysis::TableComparison rows;
 };
 
-// What the comparison states about a claim: its values in the tables of measurements, or the frames that it is judged by.
+// The compared numbers of a claim: its values in the tables of measurements, or the frames by which it is judged.
 struct ComparedClaim {
     int numbers = 0, differing = 0;
     int frames = 0, frames_differing = 0;

@@ -48,7 +48,7 @@ ComparedClaim compared_claim(const ResultComparison& compared, const analysis::C
     return {};
 }
 
-// The record's times belong to another machine, so that those of this one stand beside them.
+// Numbers that agree with the record; for times, which are not compared, the range on this machine.
 std::string here_text(const analysis::Verdict& here, const ComparedClaim& compared)
 {
     const std::string numbers = claim_text(compared);

@@ -87,7 +87,7 @@ void add_run(analysis::Records& records, const fs::path& folder, const std::stri
         }
 }
 
-// Of the temporary folder, which need not survive a crash.
+// Writes a file of the temporary folder, which need not survive a crash.
 void write_scratch(const fs::path& file, const std::string& text)
 {
     std::ofstream stream(file, std::ios::binary);
