@@ -1,5 +1,5 @@
-// The last screen of `pbskin reproduce`: whether this machine repeats the record, the verdict on each claim, and how far the methods are from
-// flesh. The kept record judges, for the default run measures a part of its cases; a full run judges by itself.
+// The last screen of `pbskin reproduce`: whether this machine repeats the record, the verdict on each claim, and how far the methods are
+// from flesh. The kept record judges, for the default run measures a part of its cases; a full run judges by itself.
 #pragma once
 
 #include "analysis/verdicts/verdict.hpp"
