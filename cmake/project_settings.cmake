@@ -18,7 +18,10 @@ if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
 endif()
 
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    require_known_version(GNU TRUE ${CMAKE_CXX_COMPILER_VERSION})
+endif()
+find_known(Eigen3 NO_MODULE)
 
 # Only the include root and the warnings; an installation leaves the warnings to its user.
 add_library(pbs_settings INTERFACE)
@@ -27,6 +30,10 @@ target_compile_options(pbs_settings INTERFACE
     "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic>" $<BUILD_INTERFACE:$<$<BOOL:${PBS_WERROR}>:-Werror>>)
 # GCC 12 wrongly reports copies of short strings (its bug 105651).
 target_compile_options(pbs_settings INTERFACE $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>>)
+# GCC 13 and later suspect every function that takes a name by reference and returns a reference into another argument.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+    target_compile_options(pbs_settings INTERFACE $<BUILD_INTERFACE:-Wno-dangling-reference>)
+endif()
 target_compile_features(pbs_settings INTERFACE cxx_std_20)
 target_compile_options(pbs_settings INTERFACE "$<INSTALL_INTERFACE:SHELL:-include pbs/geometry/installed_eigen.hpp>")
 target_link_libraries(pbs_settings INTERFACE Eigen3::Eigen)

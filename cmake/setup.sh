@@ -40,7 +40,7 @@ parse_options() {
 
 # Prints lines `package group purpose` for the given groups.
 packages_of() {
-    awk -v wanted=" $* " '!/^#/ && NF { group = $3; name = $1; $1 = $2 = $3 = ""; sub(/^ +(\[[^]]*\] )?/, "")
+    awk -v wanted=" $* " '!/^#/ && NF { group = $4; name = $1; $1 = $2 = $3 = $4 = ""; sub(/^ +(\[[^]]*\] )?/, "")
         if (index(wanted, " " group " ")) print name, group, $0 }' "$packages_file"
 }
 
@@ -74,9 +74,13 @@ install_packages() {
         [[ -t 0 ]] || sudo -n true 2>/dev/null || refuse "sudo wants a password and there is no terminal; as root: $by_hand"
         apt=(sudo apt-get)
     fi
-    logged "$output/packages.txt" "${apt[@]}" update -qq || refuse "apt-get update failed"
-    logged "$output/packages.txt" "${apt[@]}" install -y -qq --no-install-recommends "$@" ||
-        refuse "apt-get install failed; by hand: $by_hand"
+    logged "$output/packages.txt" "${apt[@]}" update -qq || refuse "apt-get update failed: $cause"
+    local package available=()
+    for package; do
+        if apt-cache show "$package" &>/dev/null; then available+=("$package"); else say "$package: $(this_system) does not have it"; fi
+    done
+    logged "$output/packages.txt" "${apt[@]}" install -y -qq --no-install-recommends "${available[@]}" ||
+        refuse "apt-get install failed: $cause; by hand: $by_hand"
 }
 
 # One compiler process needs up to 3 GiB (CGAL, deal.II).
@@ -98,27 +102,40 @@ timed() {
     return "$status"
 }
 
-# logged FILE COMMAND...: what the command prints goes to the file. Its end is printed if the command fails.
+# logged FILE COMMAND...: what the command prints goes to the file. If it fails, `cause` is its first error and the name of the file.
 logged() {
     local file=$1 status=0
     shift
     mkdir -p "$(dirname "$file")"
     "$@" >"$file" 2>&1 || status=$?
-    ((status == 0)) || { tail -n 30 "$file" && say "all of it: $file"; }
+    ((status == 0)) || cause="$(first_error "$file") (all of it: $file)"
     return "$status"
 }
 
-# Builds the report's viewer, bundled with three.js, if npm is installed; npm fetches 50 MB once. Without the viewer, the report states how
-# to get it.
+# The first error in what CMake, a compiler, apt or npm printed, on one line; without any, the last line. CMake breaks its sentences.
+first_error() {
+    awk '/^CMake Error/ { of_cmake = 1; next }
+        of_cmake && /^  / { sub(/^ +/, ""); error = error (error ? " " : "") $0; next }
+        of_cmake && error { exit }
+        /^npm (ERR!|error) (code|errno|syscall)/ { next }
+        /(^|[ :])error( |:)|^E: |undefined reference|npm ERR!/ && !of_cmake { error = $0; exit }
+        NF { last = $0 }
+        END { print error ? error : last }' "$1"
+}
+
+this_system() { (. /etc/os-release 2>/dev/null && echo "${PRETTY_NAME:-this system}"); }
+
+# Builds the report's viewer, bundled with three.js; npm fetches 50 MB once. Without the viewer, the report states how to get it.
 build_viewer() {
-    local folder=paper_figures/viewer
+    local folder=paper_figures/viewer fetched=paper_figures/viewer/node_modules/.package-lock.json  # which npm writes last
     if ! command -v npm >/dev/null; then
-        say "no npm: the report has no viewer; any version of npm is sufficient (package npm)"
+        echo "error: npm is not installed (any version is sufficient)"
         return 1
     fi
-    if [[ ! $folder/node_modules -nt $folder/package-lock.json ]]; then
-        [[ $install == yes ]] || { say "--no-install was given; for the viewer: npm ci in $folder"; return 1; }
-        (cd "$folder" && npm ci --silent && touch node_modules) || return 1
+    if [[ ! $fetched -nt $folder/package-lock.json ]]; then
+        [[ $install == yes ]] || { echo "error: --no-install was given; by hand: npm ci in $folder"; return 1; }
+        (cd "$folder" && npm ci --no-audit --no-fund --loglevel=error --fetch-retries=1 --fetch-timeout=30000) || return 1
+        touch "$fetched"
     fi
     (cd "$folder" && npm run build --silent)
 }

@@ -1,9 +1,9 @@
-"""Deletes the figures of DIR and draws those of figures.toml anew from its records. A figure whose records are missing or stale is not
-drawn; its reason is printed and the exit status is 1. A figure whose study has no folder in DIR, or whose run the default form of its study
-does not have, was not requested: it is drawn from the kept record that judges DIR, or else named and left out, and the status stays 0.
-Status 0 therefore means that every figure of the studies in DIR was drawn. If DIR holds no study at all, the status is 1. If only some of
-the planned runs have records, the figure is drawn and its caption names the others. If a file cannot be written, it is named and the exit
-status is 2.
+"""Deletes the figures of DIR and draws those of figures.toml anew from its records. A figure that cannot be drawn, for example because its
+records are missing or stale, is named with the cause, which NAME.cause.txt keeps for the report, and the exit status is 1. A figure whose
+study has no folder in DIR, or whose run the default form of its study does not have, was not requested: it is drawn from the kept record
+that judges DIR, or else named and left out, and the status stays 0. Status 0 therefore means that every figure of the studies in DIR was
+drawn. If DIR holds no study at all, the status is 1. If only some of the planned runs have records, the figure is drawn and its caption
+names the others. If a file cannot be written, it is named and the exit status is 2.
 
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce --only error_against_time --into elsewhere
@@ -18,7 +18,7 @@ from drawing import style
 from records import entries, kept, whole_file
 from words import captions
 
-endings = ("pdf", "png", "svg", "csv", "tex", "webp", "mp4", "title.txt", "caption.txt")
+endings = ("pdf", "png", "svg", "csv", "tex", "webp", "mp4", "title.txt", "caption.txt", "cause.txt")
 
 
 def delete(name, folder):
@@ -27,8 +27,9 @@ def delete(name, folder):
 
 
 def draw(entry, results, folder):
-    """Draws a figure; returns whether it succeeded."""
+    """Draws a figure; returns the cause if it cannot be drawn, which NAME.cause.txt states as well."""
     try:
+        style.need_font()
         entry.check(results)
         figure, rows, further = entry.draw(results)
         origin = entry.origin(results)
@@ -40,10 +41,11 @@ def draw(entry, results, folder):
     except Exception as error:  # one figure must not keep the others from being drawn
         cause = error if isinstance(error, records.RecordsMissing) else f"internal error, please report it: {type(error).__name__}: {error}"
         delete(entry.name, folder)
-        print(f"figures: {entry.name} not drawn: {cause}", file=sys.stderr)
-        return False
+        with whole_file.beside(folder / f"{entry.name}.cause.txt") as path:
+            path.write_text(f"{cause}\n", encoding="utf-8")
+        return str(cause)
     print(f"figures: {folder / entry.name}")
-    return True
+    return None
 
 
 def is_kept(entry, record):
@@ -69,18 +71,21 @@ def main(results, only=None, folder=None):
     folder = folder or results / "figures"
     record = kept.record_behind(results)
     results, record = kept.opened(results), record and kept.opened(record)
-    drawn = []
+    causes = {}
     for entry in listed:
         if only not in (None, entry.name):
             continue
         delete(entry.name, folder)
         reason = entries.not_asked_for(entry, results)
         if reason and not only:
-            if not (record and is_kept(entry, record) and draw(entry, record, folder)):
+            if not (record and is_kept(entry, record) and not draw(entry, record, folder)):
+                delete(entry.name, folder)
                 print(f"figures: {entry.name} left out: {reason}")
-        else:
-            drawn.append(draw(entry, results, folder))
-    return 0 if all(drawn) else 1
+        elif cause := draw(entry, results, folder):
+            causes.setdefault(cause, []).append(entry.name)
+    for cause, names in causes.items():
+        print(f"figures: {', '.join(names)} not drawn: {cause}", file=sys.stderr)
+    return 1 if causes else 0
 
 
 if __name__ == "__main__":

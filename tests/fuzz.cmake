@@ -4,13 +4,13 @@
 if(NOT PBS_WITH_RIG_IMPORT OR NOT PBS_WITH_EXPERIMENTS)
     return()
 endif()
-find_package(fmt REQUIRED)
-find_package(tomlplusplus REQUIRED)
-find_package(nlohmann_json REQUIRED)
-find_package(assimp REQUIRED)
-find_package(pugixml REQUIRED)
-find_package(ZLIB REQUIRED)
-find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel CommonMisc IOLegacy IOXML)
+find_known(fmt)
+find_known(tomlplusplus)
+find_known(nlohmann_json)
+find_known(assimp)
+find_known(pugixml)
+find_known(ZLIB)
+find_known(VTK COMPONENTS CommonCore CommonDataModel CommonMisc IOLegacy IOXML)
 
 # fuzz_target(fuzz/NAME.cpp LIBRARY SOURCE...): a target and the sources that it tests. The replay links the library. libFuzzer's program
 # compiles the sources itself, instrumented and without CGAL, and takes from the library what else they call, so that the preset compiles

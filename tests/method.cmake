@@ -1,7 +1,7 @@
 # Tests of the method and of the metrics. They need neither mesh files nor characters, and build even if every option is off.
 set(threads)
 if(PBS_WITH_THREADS)
-    find_package(TBB REQUIRED)
+    find_known(TBB)
     set(threads TBB::tbb)
 endif()
 

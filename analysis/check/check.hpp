@@ -19,20 +19,20 @@ struct CheckCase {
     std::string suite;                    // name of the scene, or of the rest mesh
     std::string name;                     // name of the bound
     CheckState state = CheckState::held;  // the result
-    std::string message;                  // one line; for a failure: the frame, the metric, its value and the bound
-    std::optional<int> frame;             // the worst frame
+    std::string message = {};             // one line; for a failure: the frame, the metric, its value and the bound
+    std::optional<int> frame = {};        // the worst frame
     std::optional<double> value = {};     // value in that frame
-    std::string file;                     // file that declares the bound; empty: the command line
+    std::string file = {};                // file that declares the bound; empty: the command line
     int line = 0;                         // in that file, from 1; 0: none
     double seconds = 0.0;                 // wall time; recorded but never judged
 };
 
 // The cases of one suite, in their order.
 struct CheckSuite {
-    std::string name;                                             // name of the scene, or of the rest mesh
-    double seconds = 0.0;                                         // wall time of the whole suite
-    std::vector<std::pair<std::string, std::string>> properties;  // name, value
-    std::vector<CheckCase> cases;                                 // one per bound, and one per deformer of the baseline
+    std::string name;                                                  // name of the scene, or of the rest mesh
+    double seconds = 0.0;                                              // wall time of the whole suite
+    std::vector<std::pair<std::string, std::string>> properties = {};  // name, value
+    std::vector<CheckCase> cases = {};                                 // one per bound, and one per deformer of the baseline
 };
 
 int count(const std::vector<CheckSuite>& suites, CheckState state);  // summed over all suites

@@ -33,7 +33,7 @@ struct ComparedRow {
 };
 
 struct TableComparison {
-    std::vector<ComparedRow> rows;
+    std::vector<ComparedRow> rows = {};
     std::vector<std::string> only_first = {}, only_second = {};                  // the settings of further rows
     std::vector<std::string> columns_only_first = {}, columns_only_second = {};  // which are not compared
     std::vector<CellDifference> differing = {};

@@ -76,14 +76,14 @@ CaseKey case_key(const nlohmann::json& object, const std::string& file);
 
 // One deformer on one scene; each frame is a row of metrics.csv.
 struct CaseRecord {
-    std::string scene, deformer, variant;          // as in metrics.csv; the variant may be empty or "default"
-    CaseKey place = {};                            // body and motion of the scene; empty if the plan of its study does not state them
-    std::string order = "", precision = "";        // of projection; both are empty if the deformer has none
-    int iterations = 0;                            // 0: the deformer has none
-    std::vector<double> frame, time_s, angle_deg;  // #frames each; angle_deg is empty for clips
-    int frames_not_converged = 0;                  // these frames are left out of the series
-    std::vector<double> volume_change_pct, volume_abs_change_pct, inverted_tets;  // #frames each; as in FrameMetrics
-    std::string run;                                                              // the folder of the run, as reports name it
+    std::string scene, deformer = {}, variant = {};  // as in metrics.csv; the variant may be empty or "default"
+    CaseKey place = {};                              // body and motion of the scene; empty if the plan of its study does not state them
+    std::string order = {}, precision = {};          // of projection; both are empty if the deformer has none
+    int iterations = 0;                              // 0: the deformer has none
+    std::vector<double> frame = {}, time_s = {}, angle_deg = {};  // #frames each; angle_deg is empty for clips
+    int frames_not_converged = 0;                                 // these frames are left out of the series
+    std::vector<double> volume_change_pct = {}, volume_abs_change_pct = {}, inverted_tets = {};  // #frames each; as in FrameMetrics
+    std::string run = {};  // the folder of the run, as reports name it
     // a further run of the same body and motion (another mesh, another reference), for comparisons only
     bool beside = false;
 

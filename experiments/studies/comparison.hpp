@@ -33,11 +33,12 @@ struct ComparedFolders {
     std::string first, second;                             // folders of results: of `reproduce`, of one run, or kept records
     bool second_is_part = false;                           // what only the first folder has is no difference
     std::optional<std::vector<std::string>> studies = {};  // that are compared; nothing: all
+    std::vector<std::string> without_bodies = {};          // whose runs are not compared, since they have other tets
 };
 
 struct ResultComparison {
     ComparedFolders folders;
-    std::vector<ComparedTable> tables;                           // that both have
+    std::vector<ComparedTable> tables = {};                      // that both have
     std::vector<std::string> only_first = {}, only_second = {};  // studies, runs, tables and rows
     std::vector<std::string> other_settings = {};                // of a run: "pbs.k_stretch = 0.2 | 0.5"
     std::vector<std::string> other_verdicts = {};                // "C04: holds | fails"

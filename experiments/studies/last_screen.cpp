@@ -22,12 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const analysis::Verdict* find(const std::vector<analysis::Verdict>& verdicts, const std::string& id)
-{
-    const auto found = std::ranges::find(verdicts, id, [](const analysis::Verdict& of) { return of.claim.id; });
-    return found == verdicts.end() ? nullptr : &*found;
-}
-
 // 83.5 to 176 1/s; empty without numbers.
 std::string range_text(const analysis::Verdict& verdict)
 {
@@ -162,7 +156,7 @@ bool show_last_screen(LastScreen screen)
         return true;
     }
     const ResultComparison compared =
-        compare_results({.first = records, .second = screen.folder, .second_is_part = true, .studies = screen.studies});
+        compare_results({records, screen.folder, true, screen.studies, screen.other_tets});
     const std::map<std::string, std::string> here = here_texts(screen, compared);
     const std::vector<analysis::Verdict> verdicts = screen.full ? screen.here : on_record(screen, records);
     write_verdicts(verdicts, screen.folder);

@@ -12,10 +12,11 @@
 namespace experiments {
 
 struct LastScreen {
-    std::string folder;                   // of the results
-    std::vector<analysis::Verdict> here;  // from the results alone
-    std::vector<std::string> studies;     // that were run
-    bool full = false;                    // all of their cases
+    std::string folder;                        // of the results
+    std::vector<analysis::Verdict> here = {};  // from the results alone
+    std::vector<std::string> studies = {};     // that were run
+    std::vector<std::string> other_tets = {};  // bodies whose tets are not those of the record
+    bool full = false;                         // all of their cases
 };
 
 // Writes claims.json, claims.md and, if there is a kept record, repeated.json into the folder, and prints the screen. Returns whether the

@@ -5,7 +5,10 @@
 #include "analysis/verdicts/verdict.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
+#include "experiments/run/run.hpp"
 #include "experiments/studies/last_screen.hpp"
+#include "experiments/studies/shared/kept_references.hpp"
+#include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -234,13 +237,24 @@ bool all_computable(const std::vector<analysis::Verdict>& verdicts)
     return std::ranges::none_of(verdicts, [](const auto& of) { return of.kind == analysis::VerdictKind::not_computable; });
 }
 
-// Each body that is not installed once, with the command that brings it.
-void name_left_out(const std::vector<PlannedStudy>& planned)
+// Names each body that is not installed once, with the command that brings it, and those whose tets are not those of the record, which are
+// returned.
+std::vector<std::string> name_left_out(const std::vector<PlannedStudy>& planned)
 {
     std::set<std::string> reasons;
+    const auto name = [&](const std::string& reason) {
+        if (reasons.insert(reason).second) spdlog::info("excluded: {}", reason);
+    };
     for (const PlannedStudy& of : planned)
-        for (const analysis::LeftOut& left_out : of.plan.left_out)
-            if (reasons.insert(left_out.reason).second) spdlog::info("excluded: {}", left_out.reason);
+        for (const analysis::LeftOut& left_out : of.plan.left_out) name(left_out.reason);
+    std::vector<std::string> other_tets;
+    for (const pbs::NamedBody& body : pbs::named_bodies()) try {
+            if (body.is_character && pbs::body_is_installed(body.name)) require_kept_tets(body.name);
+        } catch (const pbs::InputError& error) {
+            other_tets.push_back(body.name);
+            name(error.what());
+        }
+    return other_tets;
 }
 
 }  // namespace
@@ -255,12 +269,15 @@ int reproduce(const ReproduceArguments& arguments)
     double wall_s = 0.0;
     for (const ExpectedCost& of : expected) wall_s += of.wall_s;
     if (planned.size() > 1) spdlog::info("{} studies, about {:.0f} min", planned.size(), std::ceil(wall_s / 60.0));
-    name_left_out(planned);
+    const std::vector<std::string> other_tets = name_left_out(planned);
+
+    if (const std::string cgal = run_provenance(1).libraries["CGAL"]; cgal != cgal_of_the_record)
+        spdlog::info("the tets are those of the record; CGAL {} of this system would make others than CGAL {}", cgal, cgal_of_the_record);
 
     analysis::make_output_folder(arguments.folder);
     analysis::remove_abandoned_files(arguments.folder, false);
     CollectedWarnings warnings(analysis::path_in(arguments.folder, "warnings.txt"));
-    LastScreen screen{.folder = arguments.folder, .full = arguments.full};
+    LastScreen screen{.folder = arguments.folder, .other_tets = other_tets, .full = arguments.full};
     bool broke_down = false, refused = false, all_hold = true;
     const std::map<const Study*, StudyOutcome> outcomes = run_all(planned, arguments.jobs);
     for (const PlannedStudy& of : planned) {

@@ -41,7 +41,7 @@ class Stage:
     """A window with its lights and camera."""
 
     def __init__(self, width_px, height_px, background=paper):
-        records.need(os.environ.get("DISPLAY"), "no display to render on; run under xvfb-run -a")
+        records.need(os.environ.get("DISPLAY"), "no display to render on; on Debian: apt-get install xvfb xauth, and run under xvfb-run -a")
         self.renderer = made(vtkRenderer, Background=background)
         self.renderer.GetActiveCamera().ParallelProjectionOn()
         for direction, strength in (((-0.6, 0.8, 1.0), 0.9), ((1.0, 0.3, 0.6), 0.4)):

@@ -11,7 +11,7 @@ import textwrap
 import matplotlib
 
 matplotlib.use("Agg")
-from matplotlib import pyplot, ticker  # noqa: E402
+from matplotlib import font_manager, pyplot, ticker  # noqa: E402
 
 import records  # noqa: E402
 from drawing import hover_titles  # noqa: E402
@@ -35,6 +35,15 @@ matplotlib.rcParams.update({
 
 sequence = [(rose, "v"), (indigo, "o"), (teal, "^"), (wine, "D"), (sand, "s"), (cyan, "P"), (ink, "x")]
 lines = [*looks.lines.values(), "-", looks.lines["dashed"]]
+
+
+def need_font():
+    """Raises RecordsMissing without the font of all letters, in place of which matplotlib would take one of other widths."""
+    font, = matplotlib.rcParams["font.family"]
+    try:
+        font_manager.findfont(font, fallback_to_default=False)
+    except ValueError:
+        raise records.RecordsMissing(f"the font {font} is not installed; on Debian: apt-get install fonts-dejavu-core") from None
 
 
 def panels(rows, columns, height_in=2.0, width_in=width_in, height_ratios=None, width_ratios=None, **options):

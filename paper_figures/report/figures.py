@@ -51,6 +51,8 @@ def drawn(found, entry):
     if absent:
         raise records.RecordsMissing(record_set.why_absent(found, absent))
     entry.check(found.results)
+    cause = file.with_suffix(".cause.txt")
+    records.need(file.is_file() or not cause.is_file(), cause.is_file() and cause.read_text().strip())
     records.need(file.is_file(), "does not exist yet: paper_figures/make_all.py draws it")
     newest_s = max(behind.stat().st_mtime for behind in entry.files(found.results))
     if file.stat().st_mtime < newest_s - entries.slack_s:
@@ -82,7 +84,7 @@ def drawn_figure(found, entry, number, file):
 
 def section(found):
     """The HTML of the figures, their entries, and a list of those that are missing."""
-    parts, shown, missing, number = [], [], [], 0
+    parts, shown, causes, number = [], [], {}, 0
     for entry in entries.read():  # the paper's figures come first, and keep their numbers even if others are missing
         number += entry.title.startswith("Figure ")
         try:
@@ -93,7 +95,8 @@ def section(found):
             parts.append(drawn_figure(found, as_drawn, number, file))
             shown.append(as_drawn)
         except records.RecordsMissing as error:
-            missing.append(f"figure {entry.name}: {error}".replace(f"{found.results}/", ""))
+            causes.setdefault(str(error).replace(f"{found.results}/", ""), []).append(entry.name)
+    missing = [f"figure{'s' * (len(names) > 1)} {', '.join(names)}: {cause}" for cause, names in causes.items()]
     intro = ("R: redrawn in minutes on any machine; CR: in hours; NR: not from this repository\u2019s records. "
              "With JavaScript, values are shown next to the pointer or the finger; with the keyboard: tab to a plot, then the arrow keys.")
     listed = element("ul", joined(element("li", line) for line in missing), class_="not-drawn") if missing else ""

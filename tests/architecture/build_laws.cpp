@@ -132,7 +132,7 @@ std::set<std::string> known_to_cmake(const SourceTree& tree)
 // The name that is searched for: find_package(NAME ...), or find_library(VARIABLE NAME ...), also with NAMES before it.
 std::string looked_for(const std::string& line)
 {
-    static const std::regex call(R"(^[^#]*\bfind_(?:package\s*\(\s*|library\s*\(\s*\w+\s+(?:NAMES\s+)?)([\w.+-]+))");
+    static const std::regex call(R"(^[^#]*\bfind_(?:(?:package|known)\s*\(\s*|library\s*\(\s*\w+\s+(?:NAMES\s+)?)([\w.+-]+))");
     std::smatch match;
     return std::regex_search(line, match, call) ? match[1].str() : "";
 }
@@ -195,14 +195,15 @@ Violations registers_at_home(const SourceTree& tree)
 
 Violations package_list_form(const SourceTree& tree)
 {
-    static const std::regex entry(R"([a-z0-9][a-z0-9+.-]+ +[0-9][\w.+:~-]* +(run|full|check|long) +(\[[\w.+, -]+\] )?\w.*)");
+    static const std::regex entry(
+        R"([a-z0-9][a-z0-9+.-]+ +[0-9][0-9.]* +(?:[0-9][0-9.]*|-) +(run|full|check|long) +(\[[\w.+, -]+\] )?\w.*)");
     Violations violations;
     std::set<std::string> packages;
     int number = 0;
     for (const std::string& line : package_lines(tree)) {
         ++number;
         if (line.empty() || line.starts_with('#')) continue;
-        if (!std::regex_match(line, entry)) violations.push_back(at(list, number, "expected: package version group [names] purpose"));
+        if (!std::regex_match(line, entry)) violations.push_back(at(list, number, "expected: package oldest newest group [names] purpose"));
         const std::string package = line.substr(0, line.find(' '));
         if (!packages.insert(package).second) violations.push_back(at(list, number, package + " twice"));
     }

@@ -137,6 +137,7 @@ StudyPlan plan(bool full)
 {
     return plan_of_cases("references", full, [&](const StudyCase& in_file, StudyPlan& plan) {
         ReferenceCase of{.pose = reference_pose(in_file), .is_compared = !full};
+        if (of.is_compared) require_kept_tets(of.pose.of.body);
         of.members = members_of(of.pose.stratum);
         of.flesh = reference_flesh(of.pose.scene);
         plan.runs.push_back(work_run(in_file.name, of, in_file.cost_s, solve_and_record));

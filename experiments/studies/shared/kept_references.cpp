@@ -1,6 +1,9 @@
 #include "experiments/studies/shared/kept_references.hpp"
 
+#include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
+#include "experiments/run/run.hpp"
+#include "pbs/character/bodies.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/input_error.hpp"
 
@@ -199,6 +202,34 @@ KeptReferences unpacked(const std::string& text, const std::string& file, const 
         throw pbs::InputError(file, 0, "", "", std::string("is no file of references, or damaged: ") + error.what());
     }
     return references;
+}
+
+std::string why_other_tets(const std::string& body)
+{
+    const fs::path folder = pbs::references_folder();
+    std::error_code none;
+    for (const fs::path& file : fs::directory_iterator(folder / "tets", none))
+        if (file.filename().string().starts_with(body + "-")) return "";
+    for (const fs::path& file : fs::directory_iterator(folder, none)) {
+        if (file.extension() != ".ref" || !file.filename().string().starts_with(body + "_")) continue;
+        const json kept = json::from_cbor(inflated(analysis::read_text(file.string())), true, false);
+        if (!kept.is_object() || kept.value("body", "") != body) continue;
+        const std::string hash = pbs::content_hash(pbs::make_character({.body = body, .surface = false}).mesh);
+        if (kept.value("mesh_hash", "") == hash) return "";
+        return fmt::format("its tets may not be redistributed, and CGAL {} of this system makes others than those of the record",
+                           run_provenance(1).libraries["CGAL"]);
+    }
+    return "";
+}
+
+void require_kept_tets(const std::string& body)
+{
+    const std::string why = why_other_tets(body);
+    if (!why.empty())
+        throw pbs::InputError("", 0, "character.body", body,
+                              why +
+                                  ": its numbers are not compared; repeat them on the system of the record (Debian 12), or solve its "
+                                  "references with `pbskin reproduce references --full`");
 }
 
 std::string file_of_references(const std::string& pose)

@@ -52,6 +52,15 @@ inline constexpr double kept_quantum_m = 2e-6;
 // them.
 KeptReferences unpacked(const std::string& text, const std::string& file, const pbs::Character& character);
 
+// The mesher that made the tets of the record.
+inline constexpr const char* cgal_of_the_record = "5.5.1";
+
+// Why the references of an installed body do not belong to its tets on this system: the tets of a body that may not be redistributed are
+// made anew, and another version of CGAL makes others. Empty if they do belong to them, or if there are none of the body.
+std::string why_other_tets(const std::string& body);
+// InputError with this reason, and what to do.
+void require_kept_tets(const std::string& body);
+
 // The file of a pose in pbs::references_folder().
 std::string file_of_references(const std::string& pose);
 // InputError as unpacked; where there is no such file; and where the file has another pose, or its bones are not those of the pose.

@@ -62,6 +62,7 @@ StudyPlan plan_of(bool full, const std::vector<ComparedMethod>& external)
     const std::vector<double>& shown_ms = comparison_times().tables_ms;
     return plan_of_cases("work_precision", full, [&](const StudyCase& in_file, StudyPlan& plan) {
         ComparisonCase of{.name = in_file.name, .body = in_file.value<std::string>("body")};
+        require_kept_tets(of.body);
         of.what = option_of<Measured>(in_file.value<std::string>("what"));
         of.clip = in_file.value<std::string>("clip", "");
         for (const ReferencePose& pose : poses)

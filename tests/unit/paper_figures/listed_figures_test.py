@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tomllib
 import unittest
+from unittest import mock
 
 from results_case import ResultsTest, root
 import synthetic_records
@@ -45,9 +46,22 @@ class Listing(ResultsTest):
                 synthetic_records.write_origin(self.results / study / "run")
         said = self.make_all(status=1)[1]
         for entry in entries.read():
-            self.assertIn(f"figures: {entry.name} not drawn: {self.results}", said)
-            self.assertIn(": does not exist", next(line for line in said.splitlines() if f" {entry.name} not" in line))
-        self.assertFalse(list(self.results.glob("figures/*")))
+            cause = (self.results / "figures" / f"{entry.name}.cause.txt").read_text().strip()
+            self.assertRegex(cause, f"^{self.results}.*: does not exist$")
+            named, = [line for line in said.splitlines() if line.endswith(f" not drawn: {cause}")]
+            self.assertIn(entry.name, re.findall(r"\w+", named))
+        self.assertEqual({file.name for file in self.results.glob("figures/*")}, {f"{entry.name}.cause.txt" for entry in entries.read()})
+
+    def test_one_cause_of_several_figures_is_printed_once(self):
+        synthetic_records.write_study(self.results)
+        without = mock.Mock(side_effect=ValueError)
+        with mock.patch("matplotlib.font_manager.findfont", without):
+            said = self.make_all(status=1)[1]
+        about_font = [line for line in said.splitlines() if "fonts-dejavu-core" in line]
+        self.assertEqual(len(about_font), 1, said)
+        self.assertIn("volume_over_angle", about_font[0])
+        self.make_all("volume_over_angle")
+        self.assertFalse((self.results / "figures" / "volume_over_angle.cause.txt").exists())
 
 
 def quick_studies():
@@ -124,7 +138,7 @@ class Staleness(ResultsTest):
     def test_a_figure_that_is_refused_leaves_no_old_one(self):
         self.make_all("volume_over_angle")
         self.refused_without("volume/limb_bend/metrics.csv", "volume_over_angle")
-        self.assertFalse(list(self.results.glob("figures/volume_over_angle.*")))
+        self.assertEqual([file.name for file in self.results.glob("figures/volume_over_angle.*")], ["volume_over_angle.cause.txt"])
 
     def test_two_revisions_in_one_figure(self):
         synthetic_records.write_origin(self.volume / "limb_bend", of="f" * 40)

@@ -269,7 +269,7 @@ class Report(ReportTest):
         for part in ('<use href="#volume_over_angle-m1"/>', "url(#volume_over_clip-p1)", 'download="volume_over_angle.csv"',
                      '<circle r="1" data-value="PBS, &quot;k&quot; &lt; 1: 1, 2"/>', "<b>Figure 12: volume_over_clip is shown. </b>"):
             self.assertIn(part, text)
-        self.assertIn("missing: figure volume_over_iterations: does not exist yet", said)
+        self.assertIn("missing: figures volume_over_iterations, volume_by_region: does not exist yet", said)
 
     def test_a_caption_tells_the_numbers_of_the_figure_that_was_drawn(self):
         self.write_svg("volume_over_iterations")
@@ -288,7 +288,7 @@ class Report(ReportTest):
         self.write_svg("volume_over_angle")
         (self.results / "volume" / "limb_bend" / "metrics.csv").unlink()
         _, text, said, _ = self.report()
-        self.assertIn("figure volume_over_angle: volume/limb_bend/metrics.csv: does not exist", said)
+        self.assertIn("figures volume_over_angle, volume_over_iterations: volume/limb_bend/metrics.csv: does not exist", said)
         self.assertNotIn('id="figure-volume_over_angle"', text)
 
     def test_the_viewer_or_why_there_is_none(self):

@@ -3,6 +3,7 @@
 #include "experiments/studies/shared/kept_references.hpp"
 
 #include "pbs/character/body_cache.hpp"
+#include "pbs/geometry/mesh_io.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/refusal.hpp"
@@ -14,6 +15,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <tuple>
 
@@ -208,6 +211,30 @@ TEST(KeptReferences, AreReadByTheNameAndTheBonesOfTheirPose)
     expect_refused("renamed", references.bones, "renamed.ref: pose = bar_bend_70: ", "expected the references of renamed");
     expect_refused("bar_bend_70", elsewhere, "bar_bend_70.ref: bones = forearm: ", solve);
     ::unsetenv("PBSKIN_REFERENCES");
+}
+
+// The tets of a body that are not kept come from the mesher of the system. Here the cache has some of them.
+TEST(OtherTets, AreThoseThatTheReferencesOfTheBodyWereNotSolvedOn)
+{
+    const test_support::ScratchFolder folder;
+    const std::string name = "bar-1800-v2-", kept = folder.path() / "tets";
+    ::setenv("PBSKIN_REFERENCES", folder.path().c_str(), 1);
+    ::setenv("PBSKIN_CACHE", folder.path().c_str(), 1);
+    write_tet_mesh(folder / "bar.vtu", bar.mesh);
+    std::filesystem::rename(folder / "bar.vtu", folder / (name + pbs::hash_of_file(folder / "bar.vtu") + ".vtu"));
+
+    EXPECT_EQ(why_other_tets("bar"), "") << "there are no references";
+    folder.file("bar_bend_70.ref", packed(bent_bar(), bar));
+    EXPECT_EQ(why_other_tets("bar"), "") << "they were solved on these tets";
+    folder.file("bar_bend_70.ref", packed_with([](json& all) { all["mesh_hash"] = "0123"; }));
+    EXPECT_NE(why_other_tets("bar").find(" makes others than those of the record"), std::string::npos);
+    const std::string refused = refusal_of([] { require_kept_tets("bar"); });
+    for (const char* part : {"character.body = bar: ", "(Debian 12)", "`pbskin reproduce references --full`"})
+        EXPECT_NE(refused.find(part), std::string::npos) << refused;
+    std::filesystem::create_directory(kept);
+    std::ofstream(kept + "/" + name + "0.vtu") << "";
+    EXPECT_EQ(why_other_tets("bar"), "") << "a system with the kept tets has no others";
+    for (const char* variable : {"PBSKIN_REFERENCES", "PBSKIN_CACHE"}) ::unsetenv(variable);
 }
 
 }  // namespace
