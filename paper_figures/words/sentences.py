@@ -318,6 +318,27 @@ def without_a_body(claim):
     return [f"If one body is excluded, the verdict changes: it is {in_words(changes)}"]
 
 
+def on_other_tets(claim, meshes):
+    """The verdicts on other tets of the human and the limb, of rows of experiments/records/other_tets.csv: one sentence, or none."""
+    verdicts = [row["verdict"] for row in meshes if row["claim"] == claim["id"]]
+    if not verdicts:
+        return []
+    among = f"{len(verdicts)} other tet meshes of the human and the limb, with sizes within a tenth"
+    others = [f"{names[kind]!r} on {verdicts.count(kind)}" for kind in dict.fromkeys(verdicts) if kind != claim["verdict"]]
+    if not others:
+        return [f"On {among}, the verdict is the same"]
+    return [f"On {among}, the verdict changes: it is {in_words(others)} of them"]
+
+
+other_tets_head = ["tets", "human: vertices", "limb: vertices", "verdict", "cases that hold", "human and limb"]
+
+
+def other_tets_rows(claim, meshes):
+    return [[f"{row['size']} of the size", row["human_vertices"], row["limb_vertices"], names[row["verdict"]],
+             f"{row['holding']} of {row['cases']}", f"{row['least']} to {row['most']}" + ("" if row["unit"] == "1" else f" {row['unit']}")]
+            for row in meshes if row["claim"] == claim["id"]]
+
+
 def threshold_ranges(claim):
     """For each end of a threshold, the range over which the verdict is the same: one sentence each."""
     texts = []

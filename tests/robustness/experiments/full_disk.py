@@ -18,7 +18,7 @@ import run_records
 import sound_files
 
 CHECK = pathlib.Path(__file__).with_name("full_disk_check.toml").read_text()
-LIMB = foreign_arm.SCENE.replace('mesh = "arm.msh"\nskeleton = "arm.skeleton.toml"', 'body = "limb"\nvertices = 600') \
+LIMB = foreign_arm.SCENE.replace('mesh = "arm.msh"\nskeleton = "arm.skeleton.toml"', 'body = "limb"\nvertices = 610') \
     .replace('"elbow"', '"forearm"').replace('["lbs", "dqs", "pbs"]', '["lbs"]') + "[output]\nframes_every = 0\n"
 FULL = r"File too large|No space left on device"
 
