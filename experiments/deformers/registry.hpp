@@ -31,8 +31,8 @@ struct DeformerTraits {
 
 // kind_of (deformer_kind.hpp) fills all of it from the struct of options and the class of the deformer.
 struct DeformerKind {
-    std::string name;     // in scenes and records
-    std::string meaning;  // a line of `pbskin list deformers`
+    std::string name;          // in scenes and records
+    std::string meaning = {};  // a line of `pbskin list deformers`
     std::function<std::unique_ptr<Deformer>(const DeformerSpec& spec)> make = {};
 
     // For a kind with options:

@@ -61,9 +61,9 @@ struct FrameMeasurement {
 // The pose of a frame, and the reference's positions in it.
 struct FrameContext {
     const pbs::Pose* pose = nullptr;
-    std::optional<double> angle_deg;
+    std::optional<double> angle_deg = {};
     const pbs::Positions* reference = nullptr;  // null: there is no reference, or it is not finite
-    std::optional<analysis::ErrorNorms> reference_error;
+    std::optional<analysis::ErrorNorms> reference_error = {};
 };
 
 // The vertices that errors are measured on. prescribed: vertices whose positions a deformer is given, #V or empty; they are left out.

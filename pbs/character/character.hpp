@@ -21,10 +21,10 @@ struct RiggedModel;
 
 // The skin of a rigged file, with the file itself.
 struct ArtistSkin {
-    Weights weights;                           // the artist's weights in the tets, #V; none of a file without joints
-    std::shared_ptr<const RiggedModel> model;  // the file with its animations (model_character.hpp)
-    double largest_distance_m = 0.0;           // from a vertex of the tets' boundary to the surface of the model
-    bool is_cut = false;                       // between parts that move apart: only bones with a weight in flesh hold it
+    Weights weights = {};                           // the artist's weights in the tets, #V; none of a file without joints
+    std::shared_ptr<const RiggedModel> model = {};  // the file with its animations (model_character.hpp)
+    double largest_distance_m = 0.0;                // from a vertex of the tets' boundary to the surface of the model
+    bool is_cut = false;                            // between parts that move apart: only bones with a weight in flesh hold it
 };
 
 // make_character returns a whole one; whoever fills one in directly is responsible for matching sizes.

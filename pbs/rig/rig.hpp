@@ -85,7 +85,7 @@ struct RigMesh {
     Triangles triangles;            // #F x 3
     std::vector<SkinJoint> joints;  // of its skin, weighted or not; empty: it is moved by its node
     Weights skin;                   // of the points; `bone` is an index into `joints`; not read where there are no joints
-    RigLook look;
+    RigLook look = {};
 };
 
 struct Rig {

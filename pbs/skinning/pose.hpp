@@ -41,10 +41,10 @@ using Pose = std::vector<Eigen::Isometry3d>;
 
 // Poses one time step apart; every `steps_per_frame`-th is a frame, the first and the last included.
 struct Motion {
-    std::vector<Pose> steps;        // every pose, the substeps between frames included
-    double time_step_s = 0.01;      // Delta t of Algorithm 1
-    int steps_per_frame = 1;        // 1 or more
-    std::vector<double> angle_deg;  // of a sweep, one per frame; empty for a clip
+    std::vector<Pose> steps;             // every pose, the substeps between frames included
+    double time_step_s = 0.01;           // Delta t of Algorithm 1
+    int steps_per_frame = 1;             // 1 or more
+    std::vector<double> angle_deg = {};  // of a sweep, one per frame; empty for a clip
 
     // Whole frames; 0 where there is no step.
     int frames() const { return steps.empty() ? 0 : static_cast<int>((steps.size() - 1) / steps_per_frame) + 1; }

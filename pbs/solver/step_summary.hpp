@@ -28,8 +28,8 @@ struct StepSummary {
     double sleeping_share = 0.0;          // of stretch and volume constraints that were left out
     int wakings = 0;                      // how often the step was redone because some of them were needed
     double seconds = 0.0;                 // wall time of the step
-    WorkCounters work;                    // that was done in the step, of all attempts
-    std::vector<Residuals> history;       // one per iteration, if requested
+    WorkCounters work = {};               // that was done in the step, of all attempts
+    std::vector<Residuals> history = {};  // one per iteration, if requested
 };
 
 // How far particles are from satisfying their constraints; summed in double. p: particle positions [m], #V; q: posed bind points [m], #V;

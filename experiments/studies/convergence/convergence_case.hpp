@@ -111,7 +111,7 @@ struct ConvergenceResult {
     std::vector<ConvergencePaths> all;
     bool ladder = false;  // as in the case
     bool exponents = false;
-    std::string breakdown;  // paths that ceased to be finite; `reference` states one that was not reached
+    std::string breakdown = {};  // paths that ceased to be finite; `reference` states one that was not reached
 };
 
 // solutions: the folder in which the solutions of the references are kept (solutions_of_run); "": none.

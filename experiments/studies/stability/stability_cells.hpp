@@ -238,18 +238,18 @@ inline constexpr NameTable<StartOutcome, 5> option_names<StartOutcome>{{{StartOu
 
 // A row of starts.csv.
 struct StartRow {
-    std::string body, model, precision;
-    std::string pose;                     // bend_90, twist_90
-    std::string start;                    // flattened, mirrored, random, point
-    std::string setting;                  // the option that the row changes; empty: all have their defaults
-    std::optional<double> setting_value;  // its value
+    std::string body, model, precision = {};
+    std::string pose = {};                     // bend_90, twist_90
+    std::string start = {};                    // flattened, mirrored, random, point
+    std::string setting = {};                  // the option that the row changes; empty: all have their defaults
+    std::optional<double> setting_value = {};  // its value
     StartOutcome outcome = StartOutcome::not_reached;
-    std::optional<int> iterations_until_reached;  // the first number of iterations from which on all are within the distance
+    std::optional<int> iterations_until_reached = {};  // the first number of iterations from which on all are within the distance
     int most_iterations = 0;
-    std::optional<double> from_own_result_pct;  // after the most iterations; empty: not finite
-    std::optional<double> own_change_pct;       // of the own result in the second half of the iterations; empty: not finite
-    std::optional<int> inverted_tets, own_inverted_tets;
-    std::string reason;  // why a start is not applicable
+    std::optional<double> from_own_result_pct = {};  // after the most iterations; empty: not finite
+    std::optional<double> own_change_pct = {};       // of the own result in the second half of the iterations; empty: not finite
+    std::optional<int> inverted_tets = {}, own_inverted_tets = {};
+    std::string reason = {};  // why a start is not applicable
     double cpu_s = 0.0;
 };
 extern const analysis::Columns<StartRow> start_columns;

@@ -30,12 +30,12 @@ analysis::Columns<MemberErrors> member_error_columns();  // smooth_pct, ...: err
 
 // points.csv: one setting in one pose, begun without a frame before (cold).
 struct PointRow {
-    std::string pose, body;
+    std::string pose, body = {};
     Stratum stratum = Stratum::movement;
-    std::string method;
+    std::string method = {};
     GivenFlesh flesh = GivenFlesh::none;
-    std::string setting;
-    std::string outcome;                   // finished, not_finite
+    std::string setting = {};
+    std::string outcome = {};              // finished, not_finite
     std::optional<double> ms = {};         // median of several frames
     std::optional<double> times_pbs = {};  // over the time of PBS with 24 iterations in plain code, measured right after
     FrameClock clock = FrameClock::processor;
@@ -63,7 +63,7 @@ enum class Measured { training, evaluation, played };
 NAMED_OPTIONS(Measured, training, evaluation, played)
 
 struct ComparisonCase {
-    std::string name, body;
+    std::string name = {}, body = {};
     Measured what = Measured::evaluation;
     std::string clip = {};  // of played
     std::vector<ReferencePose> poses = {};

@@ -217,8 +217,12 @@ protected:
         const auto reason = reasons_.find(attack);
         const bool is_reasoned = reason != reasons_.end();
         print(claim_.id, attack, name_of(before_), after, is_reasoned ? reason->second : "");
-        if ((before_ == holds || before_ == mixed) && !is_reasoned) EXPECT_GE(of.lost, least_lost) << attack;
-        if (is_lost(before_) && !is_reasoned) EXPECT_LE(of.held, 1.0 - least_lost) << attack;
+        if ((before_ == holds || before_ == mixed) && !is_reasoned) {
+            EXPECT_GE(of.lost, least_lost) << attack;
+        }
+        if (is_lost(before_) && !is_reasoned) {
+            EXPECT_LE(of.held, 1.0 - least_lost) << attack;
+        }
         used_.insert(attack);
     }
 

@@ -81,9 +81,13 @@ TEST(DepthConstraint, ProjectionEndsAtZeroAndConservesMomentum)
         Vec3 momentum = Vec3::Zero();
         for (int i = 0; i < 5; ++i) {
             if (w[i] > 0.0) momentum += (x[i] - before[i]) / w[i];
-            if (w[i] == 0.0) EXPECT_EQ(x[i], before[i]);
+            if (w[i] == 0.0) {
+                EXPECT_EQ(x[i], before[i]);
+            }
         }
-        if (w[0] > 0.0) EXPECT_LE(momentum.norm(), rounding);
+        if (w[0] > 0.0) {
+            EXPECT_LE(momentum.norm(), rounding);
+        }
     }
 }
 

@@ -144,7 +144,9 @@ TYPED_TEST(Blend, MovesAVertexOfOneBoneWithTheBone)
                     dual = this->dual_quaternion(four_points, four_vertices, two_bones());
     for (const Positions& posed : {linear, dual})
         EXPECT_LT((posed.row(0).transpose() - expected).norm(), this->motion_error(3 + 1, 1.7 + 2.3));
-    if (!std::is_same_v<TypeParam, Plain>) EXPECT_EQ(linear.row(0), dual.row(0)) << "packed code moves it by one matrix in both";
+    if (!std::is_same_v<TypeParam, Plain>) {
+        EXPECT_EQ(linear.row(0), dual.row(0)) << "packed code moves it by one matrix in both";
+    }
 }
 
 TYPED_TEST(Blend, OfNoVerticesIsEmptyAndABrokenPoseIsAnOutcomeNotAnError)

@@ -206,7 +206,9 @@ TEST(Readings, DifferFromTheirBaselineWhichComesBeforeAndThoseOfAStepRememberNot
             names.push_back(reading.name);
             ASSERT_EQ(std::ranges::count(names, reading.baseline), 1) << reading.name;
             EXPECT_EQ(reading.place.empty(), reading.name == reading.baseline);
-            if (!reading.place.empty()) EXPECT_NE(reading.settings, named(readings, reading.baseline).settings) << reading.name;
+            if (!reading.place.empty()) {
+                EXPECT_NE(reading.settings, named(readings, reading.baseline).settings) << reading.name;
+            }
         }
     }
     EXPECT_EQ(readings_of(limb, "all").size() + 1, readings_of(limb, "of_a_step").size() + readings_of(limb, "of_motion").size());

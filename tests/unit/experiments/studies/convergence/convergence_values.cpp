@@ -27,9 +27,7 @@ std::vector<Measurement> values_named(const std::vector<Measurement>& all, const
 TEST(ConvergenceFigures, ValueIsOfTheOwnMeshAndTheOthersAreItsRange)
 {
     const ConvergenceResult result{{starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8}), starts_at_rates(1900, {0.88, 0.95, 0.9, 0.8}),
-                                    starts_at_rates(1650, {0.91, 0.95, 0.9, 0.8})},
-                                   false,
-                                   ""};
+                                    starts_at_rates(1650, {0.91, 0.95, 0.9, 0.8})}};
     const auto iterations = values_named(convergence_values(result), "iterations_to_tolerance");
     ASSERT_EQ(iterations.size(), 2u);  // by residual; by volume, which stays at 1 %
     EXPECT_EQ(iterations[0].value, 29.0);
@@ -41,7 +39,7 @@ TEST(ConvergenceFigures, ValueIsOfTheOwnMeshAndTheOthersAreItsRange)
 
 TEST(ConvergenceFigures, EachOrderAndPrecisionHasAValueOfItsOwn)
 {
-    const auto all = convergence_values({{papers_paths({0.88, 0.9, 0.9, 0.9}), starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})}, false, ""});
+    const auto all = convergence_values({{papers_paths({0.88, 0.9, 0.9, 0.9}), starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})}});
     const auto iterations = values_named(all, "iterations_to_tolerance");
     ASSERT_EQ(iterations.size(), 4u);  // two settings by two tolerances
     for (const auto& [at, value, setting] : {std::tuple(0, 24.0, "plain f64"), {2, 29.0, "ordered f32"}}) {
@@ -56,22 +54,22 @@ TEST(ConvergenceFigures, EachOrderAndPrecisionHasAValueOfItsOwn)
 TEST(ConvergenceFigures, ControlsAreComparedWithLbsAndLeaveTheFloorAsItIs)
 {
     ConvergencePaths paths = papers_paths({0.9, 0.9, 0.9, 0.9});
-    const auto all = convergence_values({{paths}, false, ""});
+    const auto all = convergence_values({{paths}});
     const Measurement lbs = values_named(all, "iterations_over_lbs_guess", "lbs").at(0),
                       random = values_named(all, "iterations_over_lbs_guess", "random").at(0);
     EXPECT_EQ(lbs.value, 1.0);
     EXPECT_EQ(random.value, 1000.0 / 29.0);
     EXPECT_EQ(random.limit, analysis::Limit::at_least);
     paths.controls[0] = test_support::path_to_floor(1000, 0.5, 1.0, 0.9);
-    EXPECT_EQ(values_named(convergence_values({{paths}, false, ""}), "iterations_to_tolerance").at(0).value, 29.0);
-    EXPECT_LT(values_named(convergence_values({{paths}, false, ""}), "iterations_over_lbs_guess", "lbs").at(0).value, 1.0);
+    EXPECT_EQ(values_named(convergence_values({{paths}}), "iterations_to_tolerance").at(0).value, 29.0);
+    EXPECT_LT(values_named(convergence_values({{paths}}), "iterations_over_lbs_guess", "lbs").at(0).value, 1.0);
 }
 
 TEST(ConvergenceFigures, TheAuthorsLaterCodeHasAFloorOfItsOwn)
 {
     ConvergencePaths paths = papers_paths({0.9, 0.9, 0.9, 0.9});
     paths.author = test_support::path_to_floor(1000, 3.0, 3.0, 0.5);  // 3 + 3 0.5^n <= 1.05 * 3 from n = 5 on
-    const auto all = values_named(convergence_values({{paths}, false, ""}), "iterations_to_tolerance");
+    const auto all = values_named(convergence_values({{paths}}), "iterations_to_tolerance");
     ASSERT_EQ(all.size(), 3u);
     EXPECT_EQ(all[2].value, 5.0);
     EXPECT_EQ(all[2].limit, analysis::Limit::none);
@@ -80,7 +78,7 @@ TEST(ConvergenceFigures, TheAuthorsLaterCodeHasAFloorOfItsOwn)
 
 TEST(ConvergenceFigures, StartsAreComparedWithLbs)
 {
-    const ConvergenceResult result{{starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8})}, false, ""};
+    const ConvergenceResult result{{starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8})}};
     const auto all = convergence_values(result);
     EXPECT_EQ(values_named(all, "iterations_over_lbs_guess", "previous_frame").at(0).value, 59.0 / 29.0);
     EXPECT_EQ(values_named(all, "iterations_over_lbs_guess", "rest_pose").at(0).value, 1.0);
@@ -91,7 +89,7 @@ TEST(ConvergenceFigures, AStartThatNeverArrivesGivesABound)
 {
     ConvergencePaths paths = starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9});
     paths.paths[2] = test_support::path_to_floor(1000, 2.0, 1.0, 0.9);
-    const auto ratio = values_named(convergence_values({{paths}, false, ""}), "iterations_over_lbs_guess", "rest_pose");
+    const auto ratio = values_named(convergence_values({{paths}}), "iterations_over_lbs_guess", "rest_pose");
     ASSERT_EQ(ratio.size(), 1u);
     EXPECT_EQ(ratio[0].value, 1000.0 / 29.0);
     EXPECT_EQ(ratio[0].limit, analysis::Limit::at_least);
@@ -100,7 +98,7 @@ TEST(ConvergenceFigures, AStartThatNeverArrivesGivesABound)
 // Volume stays at 1 % from every initial guess.
 TEST(ConvergenceFigures, WhereNeitherArrivesThereIsNone)
 {
-    const auto all = convergence_values({{starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})}, false, ""});
+    const auto all = convergence_values({{starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})}});
     for (const Measurement& measured : all)
         EXPECT_FALSE(measured.quantity == "iterations_over_lbs_guess" && measured.of.tolerance == "volume") << text_of(measured.of);
 }
@@ -112,7 +110,7 @@ TEST(ConvergenceFigures, AMeshOnWhichNeitherArrivesOpensTheRange)
     for (IterationPath& path : arriving.paths)
         for (Look& look : path.looks) look.volume_abs_change_pct = look.iteration < 8 ? 1.0 : 0.0;
     for (const std::size_t start : {2, 3}) lost.paths[start] = arriving.paths[start];
-    const auto all = convergence_values({{arriving, lost}, false, ""});
+    const auto all = convergence_values({{arriving, lost}});
     const auto previous = values_named(all, "iterations_over_lbs_guess", "previous_frame").at(1);
     EXPECT_EQ(previous.value, 1.0);
     EXPECT_EQ(previous.low, 0.0);
@@ -127,7 +125,7 @@ TEST(ConvergenceFigures, TwistsAndTheLimbAreReportedAndNotJudged)
     ConvergencePaths twist = starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8});
     twist.character = false;
     twist.twist = true;
-    const auto all = convergence_values({{twist}, false, ""});
+    const auto all = convergence_values({{twist}});
     EXPECT_TRUE(values_named(all, "iterations_to_tolerance").empty());
     EXPECT_TRUE(values_named(all, "iterations_over_lbs_guess", "previous_frame").empty());
     EXPECT_EQ(values_named(all, "iterations_to_tolerance_of_limbs").at(0).value, 29.0);
@@ -161,7 +159,7 @@ TEST(ConvergenceFigures, ErrorsOfNoReferenceAreLeftOut)
     ConvergencePaths paths = starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9});
     for (IterationPath& path : paths.paths)
         for (Look& look : path.looks) look.error_joint_pct = std::numeric_limits<double>::quiet_NaN();
-    for (const Measurement& measured : convergence_values({{paths}, false, ""}))
+    for (const Measurement& measured : convergence_values({{paths}}))
         EXPECT_FALSE(measured.quantity.starts_with("error")) << measured.quantity;
 }
 

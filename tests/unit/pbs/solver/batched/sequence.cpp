@@ -168,11 +168,12 @@ TYPED_TEST(Sequence, EqualsThePlainProjectionInTheSameSequence)
 TYPED_TEST(Sequence, AnotherSequenceIsFarOff)
 {
     for (const Part part : TypeParam::parts)
-        if (part != Part::bind)  // each of which moves its own vertex alone
+        if (part != Part::bind) {  // each of which moves its own vertex alone
             EXPECT_GT((this->by_kernels(Order::ordered, part, this->constraints(part)) - this->one_by_one(Order::grouped, part))
                           .cwiseAbs()
                           .maxCoeff(),
                       TypeParam::far_off * TypeParam::rounding_m(Order::ordered, part));
+        }
 }
 
 // Multipliers too.

@@ -72,7 +72,9 @@ void expect_the_lowest_energy_and_the_distance_of_other_tets(const PosedReferenc
     double largest_pct = reference.distance(solutions[4].positions, solutions[1].positions).joint_pct;  // of the two equilibria
     for (std::size_t i = 0; i < solutions.size(); ++i) {
         ASSERT_TRUE(solutions[i].finished);
-        if (solutions[i].element_order == 2) EXPECT_GE(solutions[i].energy_j / solutions[i].volume_m3, lowest);
+        if (solutions[i].element_order == 2) {
+            EXPECT_GE(solutions[i].energy_j / solutions[i].volume_m3, lowest);
+        }
         if (i == 0 || i > 4) largest_pct = std::max(largest_pct, reference.error_of(solutions[i].positions).joint_pct);
     }
     EXPECT_EQ(reference.spread().joint_pct, largest_pct);
@@ -268,7 +270,9 @@ TEST(PosedReference, LeavesOutTheTipOfTheCrease)
     EXPECT_GT(reference.masked_share_pct(), 0.0);
     const double radius_m = pbs::bone_capsules(bar, 1.0)[1].radius_m;
     for (std::size_t v = 0; v < masked.size(); ++v)
-        if (masked[v]) EXPECT_LT(std::abs(bar.mesh.rest(static_cast<Eigen::Index>(v), 0)), radius_m) << "the joint is at x = 0";
+        if (masked[v]) {
+            EXPECT_LT(std::abs(bar.mesh.rest(static_cast<Eigen::Index>(v), 0)), radius_m) << "the joint is at x = 0";
+        }
     for (std::size_t v = 0; v < masked.size(); ++v) {
         pbs::Positions moved = reference.reference().positions;
         moved.row(static_cast<Eigen::Index>(v)).array() += 0.5;
