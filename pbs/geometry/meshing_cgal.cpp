@@ -1,7 +1,7 @@
 // CGAL's mesher, and the built-in bodies: a capsule from its distance function, a bar from its eight corners.
 #include "pbs/geometry/meshing_cgal.hpp"
 
-#include "pbs/geometry/cgal_alternative.hpp"
+#include "pbs/geometry/cgal_versions.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/meshing_attempts.hpp"

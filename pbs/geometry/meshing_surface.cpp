@@ -2,7 +2,7 @@
 // Alpha wrap: Portaneri et al., ACM TOG 41(4), 2022. Delaunay refinement, perturbation, exudation: Jamin et al., ACM TOMS 41(4), 2015.
 #include "pbs/geometry/meshing.hpp"
 
-#include "pbs/geometry/cgal_alternative.hpp"
+#include "pbs/geometry/cgal_versions.hpp"
 #include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing_attempts.hpp"
@@ -10,7 +10,6 @@
 #include "pbs/geometry/topology.hpp"
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
-#include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Polygon_mesh_processing/compute_normal.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -38,7 +37,7 @@ namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
 using Surface = CGAL::Surface_mesh<Point>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_face_graph_triangle_primitive<Surface>>>;
+using Tree = CGAL::AABB_tree<CgalTreeTraits<Kernel, CGAL::AABB_face_graph_triangle_primitive<Surface>>>;
 
 // The vertices of each connected part, ascending; parts in the order of their first vertices.
 std::vector<std::vector<Surface::Vertex_index>> vertices_of_parts(const Surface& surface)

@@ -170,8 +170,9 @@ AccessorNumbers read_elements(const tinygltf::Model& model, int view_index, cons
 void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor, const Field& field, AccessorNumbers& numbers)
 {
     const auto& sparse = accessor.sparse;
-    // A count is signed in one version of tinygltf and unsigned in another.
-    if (static_cast<long long>(sparse.count) < 0 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
+    // Counts and offsets are signed in one version of tinygltf and unsigned in another.
+    const auto is_negative = [](auto number) { return static_cast<long long>(number) < 0; };
+    if (is_negative(sparse.count) || is_negative(sparse.indices.byteOffset) || is_negative(sparse.values.byteOffset))
         field.refuse(std::to_string(sparse.count), "expected counts and offsets of 0 or more");
     const auto count = static_cast<std::size_t>(sparse.count), components = static_cast<std::size_t>(numbers.cols());
     const AccessorNumbers indices =

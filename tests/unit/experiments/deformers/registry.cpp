@@ -108,7 +108,7 @@ TEST_P(EveryDeformer, RepeatsToTheBitAndWhateverTheThreads)
 std::string other_value(const SceneKey& key)
 {
     const nlohmann::json now = nlohmann::json::parse(key.default_json.empty() ? "0.5" : key.default_json);
-    if (!key.choices.empty()) return '"' + key.choices[key.choices.front() == now ? 1 : 0] + '"';
+    if (!key.choices.empty()) return '"' + key.choices[nlohmann::json(key.choices.front()) == now ? 1 : 0] + '"';
     if (key.type == KeyType::boolean) return now.get<bool>() ? "false" : "true";
     if (key.type == KeyType::vec3) return "[1.0, 2.0, 3.0]";
     const double number = now.get<double>(), lowest = std::isfinite(key.range.lowest) ? key.range.lowest : 0.0;

@@ -1,9 +1,14 @@
-// What CGAL takes from Boost up to version 5, and from the standard library since version 6: a result that is one of several kinds, and a
-// value that may be missing.
+// Where CGAL 5 and 6 differ. A result that is one of several kinds, and a value that may be missing, are of Boost up to version 5, and of
+// the standard library since version 6, which also has another name for the traits of a tree of boxes.
 //   if (const auto* point = alternative<Point>(hit->first)) ...
 #pragma once
 
 #include <CGAL/version.h>
+#if CGAL_VERSION_MAJOR < 6
+#include <CGAL/AABB_traits.h>
+#else
+#include <CGAL/AABB_traits_3.h>
+#endif
 
 #include <boost/optional.hpp>
 #include <boost/variant.hpp>
@@ -16,9 +21,13 @@ namespace pbs {
 #if CGAL_VERSION_MAJOR < 6
 template <typename Value>
 using CgalOptional = boost::optional<Value>;
+template <typename Geometry, typename Primitive>
+using CgalTreeTraits = CGAL::AABB_traits<Geometry, Primitive>;
 #else
 template <typename Value>
 using CgalOptional = std::optional<Value>;
+template <typename Geometry, typename Primitive>
+using CgalTreeTraits = CGAL::AABB_traits_3<Geometry, Primitive>;
 #endif
 
 // Null if the result is of another kind.
