@@ -316,7 +316,7 @@ int parse_and_act(const reference_fem::MpiSession& session, int argc, char** arg
 int main(int argc, char** argv)
 {
     experiments::restart_with_better_blas_kernels(argv);
-    const reference_fem::MpiSession session(argc, argv);
+    const reference_fem::MpiSession session(argv);
     try {
         return experiments::parse_and_act(session, argc, argv);
     } catch (const pbs::InputError& error) {  // on every rank

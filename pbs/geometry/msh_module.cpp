@@ -88,7 +88,9 @@ extern "C" void pbskin_gmsh_read(const std::string& path, const std::string& nam
         gmsh::open(named);
         pbs::refuse_other_volumes(path);
         mesh = pbs::current_tets(path, tags);
-    } catch (const std::string& words) {
+    } catch (const std::string& words) {  // of Gmsh 4.8
         throw pbs::InputError(path, 0, "", "", "Gmsh: " + words);
+    } catch (const std::runtime_error& error) {  // of later ones
+        throw pbs::InputError(path, 0, "", "", std::string("Gmsh: ") + error.what());
     }
 }

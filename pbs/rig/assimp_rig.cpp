@@ -10,6 +10,7 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <assimp/version.h>
 #include <minizip/unzip.h>
 #include <pugixml.hpp>
 #include <zlib.h>
@@ -324,6 +325,16 @@ Weights skin_of(const aiMesh& mesh, Rig& rig)
     return normalised_skin(points, rig.file, mesh.mName.C_Str(), rig.remarks);
 }
 
+// What an inverse bind matrix lacks. assimp 5.4 leaves the transform of the mesh's own node out of those of an FBX file (changed by
+// assimp's pull request 5349, mended by 5751).
+Eigen::Affine3d missing_in_binds(const aiNode* node, const std::string& path)
+{
+    Eigen::Affine3d missing = Eigen::Affine3d::Identity();
+    if (aiGetVersionMajor() != 5 || aiGetVersionMinor() != 4 || content_extension(path) != ".fbx") return missing;
+    for (; node != nullptr; node = node->mParent) missing = to_eigen(node->mTransformation) * missing;
+    return missing;
+}
+
 RigMesh mesh_of(const aiMesh& source, int node, const Nodes& nodes, Rig& rig)
 {
     RigMesh mesh;
@@ -344,9 +355,10 @@ RigMesh mesh_of(const aiMesh& source, int node, const Nodes& nodes, Rig& rig)
         mesh.look.put(0, 3 + 2 * set,
                       (Eigen::MatrixX2f(uv.rows(), 2) << uv.col(0), (1.0F - uv.col(1).array()).matrix()).finished());  // glTF's v: down
     }
+    const Eigen::Affine3d missing = missing_in_binds(nodes[static_cast<std::size_t>(node)], rig.file);
     for (unsigned joint = 0; joint < source.mNumBones; ++joint)
         mesh.joints.push_back(
-            {joint_named(source.mBones[joint]->mName.C_Str(), nodes, rig), to_eigen(source.mBones[joint]->mOffsetMatrix)});
+            {joint_named(source.mBones[joint]->mName.C_Str(), nodes, rig), to_eigen(source.mBones[joint]->mOffsetMatrix) * missing});
     for (const SkinJoint& joint : mesh.joints)
         if (!(std::abs(joint.inverse_bind.linear().determinant()) > 0.0))
             throw InputError(rig.file, 0, "mesh " + mesh.name + ", joint " + rig.nodes[joint.node].name + ", inverse bind matrix", "",

@@ -45,6 +45,26 @@ bool read_own_file(std::vector<unsigned char>* bytes, std::string* error, const 
     return true;
 }
 
+// All of them: where one is missing, tinygltf 2.9 reads any file by its own.
+template <typename Callbacks>
+Callbacks own_files(std::string& path)
+{
+    Callbacks files{};
+    files.FileExists = file_exists;
+    files.ExpandFilePath = [](const std::string& file, void*) { return file; };
+    files.ReadWholeFile = read_own_file;
+    files.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; };
+    if constexpr (requires { files.GetFileSizeInBytes; })  // not in 2.7
+        files.GetFileSizeInBytes = [](std::size_t* size, std::string* error, const std::string& file, void* path_of_model) {
+            std::vector<unsigned char> bytes;
+            const bool is_read = read_own_file(&bytes, error, file, path_of_model);
+            *size = bytes.size();
+            return is_read;
+        };
+    files.user_data = &path;
+    return files;
+}
+
 void require_known_extensions(const tinygltf::Model& model, const std::string& path)
 {
     for (const std::string& extension : model.extensionsRequired)
@@ -196,12 +216,7 @@ void read_gltf_model(const std::string& bytes, const std::string& path, tinygltf
     std::string own_path = path, error, warning;
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(keep_image_of_a_data_uri, nullptr);
-    tinygltf::FsCallbacks files{};  // by name: versions have further members
-    files.FileExists = file_exists;
-    files.ExpandFilePath = [](const std::string& file, void*) { return file; };
-    files.ReadWholeFile = read_own_file;
-    files.user_data = &own_path;
-    loader.SetFsCallbacks(files);
+    loader.SetFsCallbacks(own_files<tinygltf::FsCallbacks>(own_path));
     const auto length = static_cast<unsigned>(bytes.size());
     const bool read =
         bytes.rfind("glTF", 0) == 0

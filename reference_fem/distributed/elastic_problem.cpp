@@ -131,12 +131,13 @@ std::optional<pbs::Vec3> PrescribedNodes::displacement(const std::pair<int, int>
 
 class MpiSession::Implementation {
 public:
-    Implementation(int& argc, char**& argv) : mpi(argc, argv, 1) {}
+    explicit Implementation(char** program) : mpi(words, program, 1) {}
 
+    int words = 1;  // of the command: PETSc, which deal.II starts, would take the options for its own
     dealii::Utilities::MPI::MPI_InitFinalize mpi;
 };
 
-MpiSession::MpiSession(int& argc, char**& argv) : implementation_(std::make_unique<Implementation>(argc, argv))
+MpiSession::MpiSession(char** argv) : implementation_(std::make_unique<Implementation>(argv))
 {
 }
 

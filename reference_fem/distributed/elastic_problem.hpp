@@ -99,13 +99,13 @@ private:
 };
 
 // MPI for the whole life of a program, and the data that ranks exchange before there is a distributed mesh. This header includes no MPI.
-//   MpiSession session(argc, argv);
+//   MpiSession session(argv);
 //   if (session.rank() == 0) mesh = read_tet_mesh(file).mesh;
 //   session.broadcast(mesh.rest);
 // One a program, over MPI_COMM_WORLD; its end ends MPI.
 class MpiSession {
 public:
-    MpiSession(int& argc, char**& argv);  // one thread a rank
+    explicit MpiSession(char** argv);  // of main; one thread a rank
     ~MpiSession();
 
     int rank() const;                                // from 0
@@ -126,7 +126,7 @@ private:
 
 // The linear reference beyond one machine: the same elements, loads and attachment as LinearElasticity, on a mesh spread over MPI ranks
 // (deal.II's fully distributed triangulation), solved by conjugate gradients with Trilinos ML's smoothed aggregation.
-//   MpiSession session(argc, argv);
+//   MpiSession session(argv);
 //   const ElasticSolution solution = solve_distributed(mesh, problem);   // by all ranks at once, with the same arguments
 //   solution.summary.converged; solution.displacement;
 // The header is plain; deal.II is seen by the .cpp files alone.

@@ -46,6 +46,12 @@ int last(const std::vector<int>* values)
     def sources(self):
         return ["pbs", "reference_fem", "analysis", "experiments"]
 
+    def test_finds_nothing(self):
+        version = subprocess.run([os.environ["PBS_CPPCHECK"], "--version"], capture_output=True, text=True, check=True).stdout.strip()
+        if version != "Cppcheck 2.10":
+            self.skipTest(f"{version} has other false findings than 2.10, for which the suppressions are")
+        super().test_finds_nothing()
+
 
 class Shellcheck(Checker, unittest.TestCase):
     command, options, found = [os.environ.get("PBS_SHELLCHECK"), "-x", "--format=gcc"], [], 1

@@ -6,11 +6,12 @@
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/bar_character.hpp"
 
-#include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <link.h>
 
 #include <cmath>
 #include <memory>
+#include <string_view>
 
 namespace {
 
@@ -28,20 +29,22 @@ pbs::Pose turned()
     return pose;
 }
 
+// Of any version.
 bool is_loaded(const char* library)
 {
-    void* handle = dlopen(library, RTLD_NOW | RTLD_NOLOAD);
-    if (handle) dlclose(handle);
-    return handle != nullptr;
+    const auto has_name = [](dl_phdr_info* info, std::size_t, void* name) {
+        return static_cast<int>(std::string_view(info->dlpi_name).find(static_cast<const char*>(name)) != std::string_view::npos);
+    };
+    return dl_iterate_phdr(has_name, const_cast<char*>(library)) != 0;
 }
 
 TEST(FemModule, BringsDealIIOnlyWhenItIsAskedFor)
 {
-    EXPECT_FALSE(is_loaded("libdeal.ii.so.9.4.1"));
+    EXPECT_FALSE(is_loaded("libdeal.ii.so"));
     const auto character = test_support::bar_character({24, 4, 4});
     const auto fem = make_fem({.element_order = 1});
     fem->reset(character);
-    EXPECT_TRUE(is_loaded("libdeal.ii.so.9.4.1"));
+    EXPECT_TRUE(is_loaded("libdeal.ii.so"));
     const pbs::Pose rest(2, Eigen::Isometry3d::Identity());
     EXPECT_EQ(fem->advance(rest, 0.01).outcome, pbs::Outcome::finished);
     EXPECT_EQ(fem->positions(), character.mesh.rest);
