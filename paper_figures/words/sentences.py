@@ -320,23 +320,34 @@ def without_a_body(claim):
 
 def on_other_tets(claim, meshes):
     """The verdicts on other tets of the human and the limb, of rows of experiments/records/other_tets.csv: one sentence, or none."""
-    verdicts = [row["verdict"] for row in meshes if row["claim"] == claim["id"]]
-    if not verdicts:
-        return []
-    among = f"{len(verdicts)} other tet meshes of the human and the limb, with sizes within a tenth"
-    others = [f"{names[kind]!r} on {verdicts.count(kind)}" for kind in dict.fromkeys(verdicts) if kind != claim["verdict"]]
+    others = [row for row in meshes if row["claim"] == claim["id"] and row["size"] != "1.00"]
     if not others:
-        return [f"On {among}, the verdict is the same"]
-    return [f"On {among}, the verdict changes: it is {in_words(others)} of them"]
+        return []
+    verdict = same_or_changed("the verdict", claim["verdict"], [row["verdict"] for row in others])
+    later = held_out(claim)
+    if later:
+        verdict += ", and " + same_or_changed("that on the held-out cases", later["verdict"], [row["held_out"] for row in others])
+    return [f"On {len(others)} other tet meshes of the human's and the limb's surfaces, of up to a tenth more or fewer vertices, {verdict}"]
 
 
-other_tets_head = ["tets", "human: vertices", "limb: vertices", "verdict", "cases that hold", "human and limb"]
+def same_or_changed(what, recorded, verdicts):
+    changes = [f"{names[kind]!r} on {verdicts.count(kind)}" for kind in dict.fromkeys(verdicts) if kind != recorded]
+    return f"{what} changes: it is {in_words(changes)} of them" if changes else f"{what} is the same"
+
+
+other_tets_head = ["size", "human: vertices", "limb: vertices", "verdict", "on the held-out cases", "cases that hold", "human and limb"]
 
 
 def other_tets_rows(claim, meshes):
-    return [[f"{row['size']} of the size", row["human_vertices"], row["limb_vertices"], names[row["verdict"]],
-             f"{row['holding']} of {row['cases']}", f"{row['least']} to {row['most']}" + ("" if row["unit"] == "1" else f" {row['unit']}")]
-            for row in meshes if row["claim"] == claim["id"]]
+    """A row for each mesh, that of the record (1.00) among them, with the values of human and limb alone."""
+    rows = []
+    for row in meshes:
+        if row["claim"] == claim["id"]:
+            unit = "" if row["unit"] == "1" else f" {row['unit']}"
+            rows.append([f"{row['size']} times", row["human_vertices"], row["limb_vertices"], names[row["verdict"]],
+                         names.get(row["held_out"], "\u2013"), f"{row['holding']} of {row['cases']}",
+                         f"{figure(float(row['least']))} to {figure(float(row['most']))}{unit}"])
+    return rows
 
 
 def threshold_ranges(claim):

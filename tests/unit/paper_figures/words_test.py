@@ -182,6 +182,26 @@ class Basis(unittest.TestCase):
                          ["If one body is excluded, the verdict changes: it is 'inconclusive' without any one of limb, man and ring and "
                           "'mixed' without lady"])
 
+    def test_the_verdict_on_other_tets(self):
+        def rows(name, held_out="", **kinds):
+            return [{"claim": name, "size": size[1:].replace("_", "."), "human_vertices": "2115", "limb_vertices": "1573", "verdict": kind,
+                     "held_out": held_out, "cases": "8", "holding": "1", "least": "-6.959", "most": "7.6", "unit": "%"}
+                    for size, kind in kinds.items()]
+
+        def told(**kinds):
+            return sentences.on_other_tets(claim("C01", "fails"), rows("C01", **kinds) + rows("C04", _1_10="holds"))
+
+        among = "On 2 other tet meshes of the human's and the limb's surfaces, of up to a tenth more or fewer vertices, the verdict"
+        self.assertEqual(sentences.on_other_tets(claim("C13", "holds"), rows("C01", _0_90="fails")), [])
+        self.assertEqual(told(_0_90="fails", _1_00="fails", _1_10="fails"), [f"{among} is the same"])
+        self.assertEqual(told(_0_90="mixed", _1_00="fails", _1_10="fails"), [f"{among} changes: it is 'mixed' on 1 of them"])
+        self.assertEqual(told(_0_90="mixed", _1_10="holds"), [f"{among} changes: it is 'mixed' on 1 and 'holds' on 1 of them"])
+        later = claim("C01", "fails", held_out=claim("C01", "holds"))
+        self.assertEqual(sentences.on_other_tets(later, rows("C01", held_out="holds", _0_90="fails", _1_10="fails")),
+                         [f"{among} is the same, and that on the held-out cases is the same"])
+        self.assertEqual(sentences.other_tets_rows(claim("C01", "fails"), rows("C01", _0_90="not_shown") + rows("C04", _1_10="holds")),
+                         [["0.90 times", "2115", "1573", "not shown", "\u2013", "1 of 8", "\u22126.96 to 7.6 %"]])
+
     def test_the_range_of_each_threshold(self):
         def told(low, high, **others):
             range_of = {"end": "high", "threshold": 1.05, "low": low, "high": high} | others
