@@ -11,7 +11,10 @@ from words import sentences
 experiments = part.source / "experiments"
 studies = experiments / "studies"
 claim_pages = experiments / "verdicts" / "claims"
-other_tets = experiments / "records" / "other_tets.csv"
+
+
+def meshes():
+    return records.read_rows(experiments / "records" / "other_tets.csv")
 
 
 def listed_claims():
@@ -73,14 +76,14 @@ def claim_lines(claim):
     """Verdict and primary number of a claim; its controls, comparisons and readings, which are no part of the verdict."""
     lines = [f"**{claim['id']}: {sentences.both_verdicts(claim)}.** {claim['statement']}", "", f"{sentences.in_line(claim)}."]
     basis = sentences.basis(claim)
-    meshes = records.read_rows(other_tets)
-    depends = sentences.without_a_body(claim) + sentences.on_other_tets(claim, meshes) + sentences.threshold_ranges(claim)
+    rows_on_meshes = meshes()
+    depends = sentences.without_a_body(claim) + sentences.on_other_tets(claim, rows_on_meshes) + sentences.threshold_ranges(claim)
     told = [*([basis] if basis else []), *(f"{text}." for text in depends + sentences.on_held_out_cases(claim))]
     lines = [tables.in_markdown(text) for text in lines + [line for text in told for line in ("", text)]]
     lines += markdown_table(sentences.control_head, sentences.control_rows(claim))
     lines += markdown_table(sentences.compared_head, sentences.compared_rows(claim))
     lines += markdown_table(sentences.reading_head, sentences.reading_rows(claim))
-    lines += markdown_table(sentences.other_tets_head, sentences.other_tets_rows(claim, meshes))
+    lines += markdown_table(sentences.other_tets_head, sentences.other_tets_rows(claim, rows_on_meshes))
     rows = sentences.control_rows(sentences.held_out(claim)) if sentences.held_out(claim) else []
     if rows:
         lines += ["", "Controls on the held-out cases:", *markdown_table(sentences.control_head, rows)]

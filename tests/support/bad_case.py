@@ -30,8 +30,8 @@ WORDS_OF_NO_USER = ("json.exception", "basic_string", "std::", "vector::", "file
 @dataclasses.dataclass
 class Case:
     """`files` (name -> text, bytes, or a function that makes it from its path) exist in the folder in which `command` runs. stderr must
-    contain `says`: the place, if its name is not among the files or the command's words, and the rule that is broken. A word may be several,
-    with " | " between them, where the versions of a library differ."""
+    contain `says`: the place, if its name is not among the files or the command's words, and the rule that is broken. A word may be several
+    texts with " | " between them, where the versions of a library differ."""
     name: str
     files: dict
     command: list

@@ -40,6 +40,11 @@ class ReadmeTest(ResultsTest):
 
 
 class ClaimPage(unittest.TestCase):
+    def setUp(self):
+        patch = unittest.mock.patch.object(readme_pages, "meshes", lambda: [])  # the claims are made up, the meshes are not
+        patch.start()
+        self.addCleanup(patch.stop)
+
     def test_a_claim_has_its_verdict_then_its_basis_then_a_table_for_each_kind_of_comparison(self):
         shown = claim("C04", "holds", [case(1.0)] * 5, titles={"ratio": "radius"}, interval_low=0.48, interval_high=1.0, chance=0.001,
                       q=0.2, controls=[selection("LBS", [case(0.5, False)], "negative_control")],
@@ -62,6 +67,14 @@ class ClaimPage(unittest.TestCase):
         self.assertRegex(last_line("abcde"), "^Plain f32 and the claim's own reading disagree: in the 5 cases that both have, ")
         for bodies in ("abcd", "abcdx"):  # fewer than five are no sample
             self.assertNotIn("disagree", last_line(bodies))
+
+    def test_other_tets_have_a_sentence_and_a_table(self):
+        row = {"claim": "C04", "size": "0.90", "human_vertices": "2115", "limb_vertices": "1573", "verdict": "fails", "held_out": "",
+               "cases": "5", "holding": "2", "least": "0.5", "most": "1", "unit": "1"}
+        with unittest.mock.patch.object(readme_pages, "meshes", lambda: [row]):
+            lines = readme_pages.claim_lines(claim("C04", "holds", [case(1.0)] * 5, titles={"ratio": "radius"}))
+        self.assertRegex("\n".join(lines), "On 1 other tet .*, the verdict changes: it is 'fails' on 1 of them")
+        self.assertIn("| 0.90 times | 2115 | 1573 | fails | \u2013 | 2 of 5 | 0.5 to 1 |", lines)
 
     def test_a_page_begins_with_verdicts_that_differ(self):
         later = claim("C04", "fails", [case(0.5, False)], controls=[selection("LBS", [case(0.5, False)], "negative_control")])
