@@ -77,7 +77,14 @@ install_packages() {
     logged "$output/packages.txt" "${apt[@]}" update -qq || refuse "apt-get update failed: $cause"
     local package available=()
     for package; do
-        if apt-cache show "$package" &>/dev/null; then available+=("$package"); else say "$package: $(this_system) does not have it"; fi
+        if apt-cache show "$package" &>/dev/null; then
+            available+=("$package")
+        elif grep -q "^$package " < <(packages_of run check); then
+            refuse "$package: apt does not know this package, which is required; $(this_system) does not have it, or \`apt-get update\`" \
+                "did not reach its source (all of it: $output/packages.txt)"
+        else
+            say "$package: $(this_system) does not have it"
+        fi
     done
     logged "$output/packages.txt" "${apt[@]}" install -y -qq --no-install-recommends "${available[@]}" ||
         refuse "apt-get install failed: $cause; by hand: $by_hand"
@@ -114,11 +121,13 @@ logged() {
 
 # The first error in what CMake, a compiler, apt or npm printed, on one line; without any, the last line. CMake breaks its sentences.
 first_error() {
-    awk '/^CMake Error/ { of_cmake = 1; next }
+    awk '/^CMake Error: ./ { sub(/^CMake Error: /, ""); error = $0; exit }
+        /^CMake Error/ { of_cmake = 1; next }
         of_cmake && /^  / { sub(/^ +/, ""); error = error (error ? " " : "") $0; next }
         of_cmake && error { exit }
         /^npm (ERR!|error) (code|errno|syscall)/ { next }
-        /(^|[ :])error( |:)|^E: |undefined reference|npm ERR!/ && !of_cmake { error = $0; exit }
+        /warning: / { last = $0; next }
+        /(^|[ :])error( |:)|^E: |undefined reference|ld: cannot find |npm ERR!/ && !of_cmake { error = $0; exit }
         NF { last = $0 }
         END { print error ? error : last }' "$1"
 }

@@ -41,9 +41,10 @@ def draw(entry, results, folder):
     except Exception as error:  # one figure must not keep the others from being drawn
         cause = error if isinstance(error, records.RecordsMissing) else f"internal error, please report it: {type(error).__name__}: {error}"
         delete(entry.name, folder)
+        line = " ".join(str(cause).split())
         with whole_file.beside(folder / f"{entry.name}.cause.txt") as path:
-            path.write_text(f"{cause}\n", encoding="utf-8")
-        return str(cause)
+            path.write_text(f"{line}\n", encoding="utf-8")
+        return line
     print(f"figures: {folder / entry.name}")
     return None
 

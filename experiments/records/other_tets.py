@@ -22,8 +22,8 @@ from records import kept  # noqa: E402
 
 SIZES = (0.90, 1.10, 0.95, 1.05, 1.02)  # number of vertices over that of the body's own mesh
 OWN_TETS = HERE.parent / "references" / "tets"
-VERTICES = {"human": 2400, "limb": 1775}  # wanted for the own mesh
-OWN = {"human": 2325, "limb": 1780}  # of the own mesh
+WANTED_VERTICES = {"human": 2400, "limb": 1775}  # the mesher's aim for the mesh of the record
+VERTICES_OF_RECORD = {"human": 2325, "limb": 1780}
 SCENES = {"human": "human_01_01", "limb": "limb_twist"}
 # The runs whose values decide claims. human_stop and the comparisons with quadratic elements decide none; those over several sizes have
 # several meshes already.
@@ -47,7 +47,7 @@ def runs_of(study, record):
 
 def mesh(pbskin, body, size, folder):
     """The tets of another size, stored as if they were those of the body's own mesh. Returns their number of vertices."""
-    wanted = round(size * VERTICES[body])
+    wanted = round(size * WANTED_VERTICES[body])
     with tempfile.TemporaryDirectory() as scratch:
         environment = os.environ | {"PBSKIN_CACHE": scratch}
         settings = (f"character.vertices={wanted}", "motion.frames=2" if body == "limb" else "motion.duration_s=0.04",
@@ -55,7 +55,7 @@ def mesh(pbskin, body, size, folder):
         subprocess.run([pbskin, "run", SCENES[body], "-o", f"{scratch}/run", *(word for key in settings for word in ("--set", key))],
                        env=environment, check=True, stdout=subprocess.DEVNULL)
         made, = pathlib.Path(scratch).glob(f"{body}-{wanted}-*.vtu")
-        own, = OWN_TETS.glob(f"{body}-{VERTICES[body]}-*.vtu")
+        own, = OWN_TETS.glob(f"{body}-{WANTED_VERTICES[body]}-*.vtu")
         key, content = own.stem.rpartition("-")[0], made.stem.rpartition("-")[2]
         for old in folder.glob(f"{body}-*.vtu"):
             old.unlink()
@@ -67,7 +67,7 @@ def measure(pbskin, record, size, folder):
     """Returns the number of vertices of each body."""
     tets = folder / "references" / "tets"
     tets.mkdir(parents=True, exist_ok=True)
-    vertices = {body: mesh(pbskin, body, size, tets) for body in VERTICES}
+    vertices = {body: mesh(pbskin, body, size, tets) for body in WANTED_VERTICES}
     environment = os.environ | {"PBSKIN_REFERENCES": str(tets.parent)}
     for study in RUNS:
         only = [word for run in runs_of(study, record) for word in ("--only", run)]
@@ -87,13 +87,15 @@ def judge(pbskin, record, measured):
                     sys.exit(f"other_tets: {measured / study / run}: this run did not finish")
                 shutil.rmtree(both / study / run)
                 shutil.copytree(measured / study / run, both / study / run)
+        (both / "claims.json").unlink(missing_ok=True)
         subprocess.run([pbskin, "reproduce", "--judge", "-o", both], stdout=subprocess.DEVNULL, check=False)
         return json.loads((both / "claims.json").read_text(encoding="utf-8"))["claims"]
 
 
 def values_on(claim):
-    """Of the bodies that are meshed anew."""
-    return [case["value"] for case in claim["cases"] if case.get("body") in VERTICES and case["value"] is not None]
+    """The values of the cases on the human and the limb."""
+    return [case["value"] for case in claim["cases"]
+            if case.get("body") in WANTED_VERTICES and case["value"] is not None and not case["excluded"]]
 
 
 def row_of(claim, size, vertices):
@@ -105,7 +107,7 @@ def row_of(claim, size, vertices):
 
 
 def is_decided(claim):
-    """Whether these runs give values of this claim. C12b is about several sizes and is not measured again."""
+    """Whether these runs measure this claim. C12b is about several sizes and is not measured again."""
     return claim["study"] in RUNS and claim["id"] != "C12b" and bool(values_on(claim))
 
 
@@ -114,7 +116,7 @@ def rows(pbskin, record, output):
         folder = output / f"{size:.2f}"
         vertices = measure(pbskin, record, size, folder)
         yield from (row_of(claim, size, vertices) for claim in judge(pbskin, record, folder / "runs") if is_decided(claim))
-    yield from (row_of(claim, 1.0, OWN) for claim in judge(pbskin, record, None) if is_decided(claim))
+    yield from (row_of(claim, 1.0, VERTICES_OF_RECORD) for claim in judge(pbskin, record, None) if is_decided(claim))
 
 
 def main(pbskin, output):

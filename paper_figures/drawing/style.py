@@ -38,7 +38,7 @@ lines = [*looks.lines.values(), "-", looks.lines["dashed"]]
 
 
 def need_font():
-    """Raises RecordsMissing without the font of all letters, in place of which matplotlib would take one of other widths."""
+    """Raises RecordsMissing if the figures' font is not installed; matplotlib would use one of other widths."""
     font, = matplotlib.rcParams["font.family"]
     try:
         font_manager.findfont(font, fallback_to_default=False)

@@ -327,7 +327,9 @@ def on_other_tets(claim, meshes):
     later = held_out(claim)
     if later:
         verdict += ", and " + same_or_changed("that on the held-out cases", later["verdict"], [row["held_out"] for row in others])
-    return [f"On {len(others)} other tet meshes of the human's and the limb's surfaces, of up to a tenth more or fewer vertices, {verdict}"]
+    sizes = sorted({row["size"] for row in others})
+    return [f"On {len(others)} other tet meshes of the human's and the limb's surfaces, with {' to '.join([sizes[0], sizes[-1]])} times as "
+            f"many vertices, {verdict}"]
 
 
 def same_or_changed(what, recorded, verdicts):
@@ -335,7 +337,7 @@ def same_or_changed(what, recorded, verdicts):
     return f"{what} changes: it is {in_words(changes)} of them" if changes else f"{what} is the same"
 
 
-other_tets_head = ["size", "human: vertices", "limb: vertices", "verdict", "on the held-out cases", "cases that hold", "human and limb"]
+other_tets_head = ["vertices wanted", "human: vertices", "limb: vertices", "verdict", "on the held-out cases", "cases that hold", "values of human and limb"]
 
 
 def other_tets_rows(claim, meshes):
@@ -344,7 +346,8 @@ def other_tets_rows(claim, meshes):
     for row in meshes:
         if row["claim"] == claim["id"]:
             unit = "" if row["unit"] == "1" else f" {row['unit']}"
-            rows.append([f"{row['size']} times", row["human_vertices"], row["limb_vertices"], names[row["verdict"]],
+            size = "as on the record" if row["size"] == "1.00" else f"{row['size']} times"
+            rows.append([size, row["human_vertices"], row["limb_vertices"], names[row["verdict"]],
                          names.get(row["held_out"], "\u2013"), f"{row['holding']} of {row['cases']}",
                          f"{figure(float(row['least']))} to {figure(float(row['most']))}{unit}"])
     return rows

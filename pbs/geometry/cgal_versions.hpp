@@ -1,4 +1,4 @@
-// Where CGAL 5 and 6 differ. A result that is one of several kinds, and a value that may be missing, are of Boost up to version 5, and of
+// One name for what CGAL 5 and 6 call differently. A result that is one of several kinds, and a value that may be missing, are of Boost up to version 5, and of
 // the standard library since version 6, which also has another name for the traits of a tree of boxes.
 //   if (const auto* point = alternative<Point>(hit->first)) ...
 #pragma once

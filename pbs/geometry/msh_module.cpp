@@ -88,9 +88,11 @@ extern "C" void pbskin_gmsh_read(const std::string& path, const std::string& nam
         gmsh::open(named);
         pbs::refuse_other_volumes(path);
         mesh = pbs::current_tets(path, tags);
-    } catch (const std::string& words) {  // of Gmsh 4.8
+    } catch (const pbs::InputError&) {
+        throw;
+    } catch (const std::string& words) {  // Gmsh 4.8 throws its message
         throw pbs::InputError(path, 0, "", "", "Gmsh: " + words);
-    } catch (const std::runtime_error& error) {  // of later ones
+    } catch (const std::runtime_error& error) {  // Gmsh 4.13 throws a runtime_error
         throw pbs::InputError(path, 0, "", "", std::string("Gmsh: ") + error.what());
     }
 }

@@ -32,7 +32,7 @@ bool add_triangles(const std::vector<Point>& points, const Polygon& polygon, std
     std::vector<CGAL::Surface_mesh<Point>::Vertex_index> corners;
     for (const std::size_t vertex : polygon) corners.push_back(mesh.add_vertex(points[vertex]));
     mesh.add_face(corners);
-    // Of a polygon without area, CGAL 6 makes triangles without area, where CGAL 5 makes none.
+    // CGAL 6 triangulates a polygon without area; CGAL 5 refuses it.
     if (!CGAL::Polygon_mesh_processing::triangulate_faces(mesh) || !(CGAL::Polygon_mesh_processing::area(mesh) > 0.0)) return false;
     for (const auto face : mesh.faces())
         for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face)))

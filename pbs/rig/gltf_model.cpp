@@ -45,7 +45,7 @@ bool read_own_file(std::vector<unsigned char>* bytes, std::string* error, const 
     return true;
 }
 
-// All of them: where one is missing, tinygltf 2.9 reads any file by its own.
+// Sets every callback: tinygltf 2.9 ignores an incomplete set and uses its own, which read any file.
 template <typename Callbacks>
 Callbacks own_files(std::string& path)
 {

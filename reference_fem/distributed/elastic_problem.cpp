@@ -131,9 +131,9 @@ std::optional<pbs::Vec3> PrescribedNodes::displacement(const std::pair<int, int>
 
 class MpiSession::Implementation {
 public:
-    explicit Implementation(char** program) : mpi(words, program, 1) {}
+    explicit Implementation(char** program) : mpi(program_name_only, program, 1) {}
 
-    int words = 1;  // of the command: PETSc, which deal.II starts, would take the options for its own
+    int program_name_only = 1;  // PETSc, which deal.II starts, would take the other arguments for its own
     dealii::Utilities::MPI::MPI_InitFinalize mpi;
 };
 

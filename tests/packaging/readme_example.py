@@ -32,7 +32,7 @@ class OwnMesh(unittest.TestCase):
         stated, found = ends_of(section), ends_of(self.finished.stdout + self.finished.stderr)
         self.assertEqual(sorted(stated), ["lbs", "pbs"])
         for deformer, ends in stated.items():
-            # Another version of CGAL makes other tets, on which what PBS leaves of the loss, a hundredth of it, changes by up to a third.
+            # Another CGAL makes other tets. PBS leaves about a hundredth of the loss, and this remainder changes by up to a third.
             self.assertAlmostEqual(ends[0], found[deformer][0], delta={"lbs": 0.1, "pbs": 0.5}[deformer] * abs(ends[0]))
 
     def test_a_bound_that_does_not_hold_is_exit_status_1(self):

@@ -1,4 +1,4 @@
-"""What a user reads where the machine is not as expected: versions of libraries, a build that fails, packages that a system does not have,
+"""Tests what a user reads if the machine is not as expected: versions of libraries, a build that fails, packages that a system does not have,
 npm out of reach. Reference: the sentence that the set-up scripts promise, and the versions in cmake/packages.txt."""
 import os
 import pathlib
@@ -48,8 +48,8 @@ class KnownVersions(ScratchCase):
     def test_an_older_one_ends_the_configuration_in_one_sentence(self):
         status, _, error = self.configured("4.14.3")
         self.assertEqual(status, 1)
-        self.assertEqual(error, f"CGAL 4.14 is older than {versions('CGAL')[0]}, the oldest version that was tried (Debian 12); "
-                                "on Debian and Ubuntu: apt-get install libcgal-dev")
+        self.assertEqual(error, f"CGAL 4.14 is older than {versions('CGAL')[0]}, the oldest version that was tried; Debian 12 "
+                                "and later releases have it (libcgal-dev)")
 
     def test_a_newer_one_is_named(self):
         status, said, _ = self.configured("99.1")
@@ -73,10 +73,14 @@ def shell(script, **environment):
 
 
 class FirstError(ScratchCase):
-    def test_of_each_program(self):
+    def test_is_found_for_each_program(self):
         for printed, error in (
                 ("[1/3] x\nFAILED: x.o\na.cpp:3:1: fatal error: b.h: No\n    3 | #include\n", "a.cpp:3:1: fatal error: b.h: No"),
                 ("CMake Error at a.cmake:2 (message):\n  One sentence\n  on two lines\n\nCall Stack:\n  b\n", "One sentence on two lines"),
+                ("CMake Error: CMake was unable to find a build program\n-- Configuring incomplete\n",
+                 "CMake was unable to find a build program"),
+                ("a.cpp:1:2: warning: this is an error: no\na.cpp:2:1: error: yes\n", "a.cpp:2:1: error: yes"),
+                ("/usr/bin/ld: cannot find -lfoo\ncollect2: error: ld returned 1\n", "/usr/bin/ld: cannot find -lfoo"),
                 ("CMake Warning at a:\n  x\n\nninja: error: loading 'build.ninja'\n", "ninja: error: loading 'build.ninja'"),
                 ("x.o: in function `f':\nundefined reference to `g()'\n", "undefined reference to `g()'"),
                 ("Hit: 1\nE: Unable to locate package x\n", "E: Unable to locate package x"),
@@ -107,6 +111,15 @@ class Packages(ScratchCase):
         done = self.with_programs(f"output={self.folder}/out; install_packages valgrind calculix-ccx gcovr < /dev/null")
         self.assertIn("calculix-ccx: ", done.stdout)
         self.assertTrue((self.folder / "asked").read_text().endswith(" valgrind gcovr\n"), done.stderr)
+
+    def test_one_that_is_required_and_unknown_to_apt_ends_the_installation(self):
+        self.program("apt-cache", 'test "$2" != libcgal-dev')
+        self.program("apt-get", f'echo "$@" >> {self.folder}/asked')
+        self.program("sudo", 'exec "$@"')
+        done = self.with_programs(f"output={self.folder}/out; install_packages libcgal-dev valgrind < /dev/null")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("libcgal-dev: apt does not know this package, which is required", done.stderr)
+        self.assertNotIn("install", (self.folder / "asked").read_text())
 
     def test_npm_that_cannot_fetch_is_tried_again_the_next_time(self):
         viewer = self.folder / "paper_figures" / "viewer"

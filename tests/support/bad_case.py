@@ -121,6 +121,8 @@ def what_is_wrong_with(told, case, common):
     ours = [line.startswith("pbskin: ") for line in lines if not line.startswith("pbskin: warning: ")]
     if sum(ours) != 1 or not lines[-1].startswith("pbskin: "):
         yield "expected one line that begins with `pbskin: `, and that the last"
+    elif any(lines[-1].count(f"{name}: ") > 1 for name in case.files):
+        yield "names the file twice"
     elif not is_well_formed(lines[-1], names):
         yield "expected the form `FILE[:LINE]: FIELD = VALUE: RULE`"
 

@@ -191,7 +191,7 @@ class Basis(unittest.TestCase):
         def told(**kinds):
             return sentences.on_other_tets(claim("C01", "fails"), rows("C01", **kinds) + rows("C04", _1_10="holds"))
 
-        among = "On 2 other tet meshes of the human's and the limb's surfaces, of up to a tenth more or fewer vertices, the verdict"
+        among = "On 2 other tet meshes of the human's and the limb's surfaces, with 0.90 to 1.10 times as many vertices, the verdict"
         self.assertEqual(sentences.on_other_tets(claim("C13", "holds"), rows("C01", _0_90="fails")), [])
         self.assertEqual(told(_0_90="fails", _1_00="fails", _1_10="fails"), [f"{among} is the same"])
         self.assertEqual(told(_0_90="mixed", _1_00="fails", _1_10="fails"), [f"{among} changes: it is 'mixed' on 1 of them"])

@@ -29,7 +29,7 @@ pbs::Pose turned()
     return pose;
 }
 
-// Of any version.
+// Whether a library of this name is loaded, in any version.
 bool is_loaded(const char* library)
 {
     const auto has_name = [](dl_phdr_info* info, std::size_t, void* name) {
