@@ -337,7 +337,8 @@ def same_or_changed(what, recorded, verdicts):
     return f"{what} changes: it is {in_words(changes)} of them" if changes else f"{what} is the same"
 
 
-other_tets_head = ["vertices wanted", "human: vertices", "limb: vertices", "verdict", "on the held-out cases", "cases that hold", "values of human and limb"]
+other_tets_head = ["vertices wanted", "human: vertices", "limb: vertices", "verdict", "on the held-out cases", "cases that hold",
+                   "values of human and limb"]
 
 
 def other_tets_rows(claim, meshes):

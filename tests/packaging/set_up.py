@@ -1,5 +1,5 @@
-"""Tests what a user reads if the machine is not as expected: versions of libraries, a build that fails, packages that a system does not have,
-npm out of reach. Reference: the sentence that the set-up scripts promise, and the versions in cmake/packages.txt."""
+"""Tests what a user reads if the machine is not as expected: versions of libraries, a build that fails, packages that a system does not
+have, npm out of reach. Reference: the sentence that the set-up scripts promise, and the versions in cmake/packages.txt."""
 import os
 import pathlib
 import subprocess
