@@ -325,8 +325,8 @@ Weights skin_of(const aiMesh& mesh, Rig& rig)
     return normalised_skin(points, rig.file, mesh.mName.C_Str(), rig.remarks);
 }
 
-// What an inverse bind matrix lacks. assimp 5.4 leaves the transform of the mesh's own node out of those of an FBX file (changed by
-// assimp's pull request 5349, mended by 5751).
+// Returns the factor by which the inverse bind matrices of a mesh must be multiplied. assimp 5.4 leaves the transform of the mesh's node
+// out of those of an FBX file (assimp's pull request 5349 changed this, and 5751 corrected it).
 Eigen::Affine3d missing_in_binds(const aiNode* node, const std::string& path)
 {
     Eigen::Affine3d missing = Eigen::Affine3d::Identity();

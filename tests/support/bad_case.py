@@ -139,7 +139,7 @@ def problems(case, common):
     if case.status == 2:
         found += what_is_wrong_with(told, case, common)
     if not (SANITIZED and UNLIMITED.search(case.name)):
-        found += [f"does not say {word!r}" for word in case.says if not any(one in told for one in word.split(" | "))]
+        found += [f"does not say {word!r}" for word in case.says if not any(text in told for text in word.split(" | "))]
     found += [f"says that a value is {value}, which nobody typed" for value in re.findall(NO_NUMBER, told) if not typed(value, case)]
     found += [f"says {word!r}" for word in WORDS_OF_NO_USER if word in told]
     found += [f"took {seconds:.1f} s of processor time"] if case.status == 2 and seconds > MOST_SECONDS else []

@@ -188,17 +188,17 @@ class Basis(unittest.TestCase):
                      "held_out": held_out, "cases": "8", "holding": "1", "least": "-6.959", "most": "7.6", "unit": "%"}
                     for size, kind in kinds.items()]
 
-        def told(**kinds):
+        def sentence(**kinds):
             return sentences.on_other_tets(claim("C01", "fails"), rows("C01", **kinds) + rows("C04", _1_10="holds"))
 
-        among = "On 2 other tet meshes of the human's and the limb's surfaces, with 0.90 to 1.10 times as many vertices, the verdict"
+        meshes = "On 2 other tet meshes of the human's and the limb's surfaces, with 0.90 to 1.10 times as many vertices, the verdict"
         self.assertEqual(sentences.on_other_tets(claim("C13", "holds"), rows("C01", _0_90="fails")), [])
-        self.assertEqual(told(_0_90="fails", _1_00="fails", _1_10="fails"), [f"{among} is the same"])
-        self.assertEqual(told(_0_90="mixed", _1_00="fails", _1_10="fails"), [f"{among} changes: it is 'mixed' on 1 of them"])
-        self.assertEqual(told(_0_90="mixed", _1_10="holds"), [f"{among} changes: it is 'mixed' on 1 and 'holds' on 1 of them"])
+        self.assertEqual(sentence(_0_90="fails", _1_00="fails", _1_10="fails"), [f"{meshes} is the same"])
+        self.assertEqual(sentence(_0_90="mixed", _1_00="fails", _1_10="fails"), [f"{meshes} changes: it is 'mixed' on 1 of them"])
+        self.assertEqual(sentence(_0_90="mixed", _1_10="holds"), [f"{meshes} changes: it is 'mixed' on 1 and 'holds' on 1 of them"])
         later = claim("C01", "fails", held_out=claim("C01", "holds"))
         self.assertEqual(sentences.on_other_tets(later, rows("C01", held_out="holds", _0_90="fails", _1_10="fails")),
-                         [f"{among} is the same, and that on the held-out cases is the same"])
+                         [f"{meshes} is the same, and that on the held-out cases is the same"])
         self.assertEqual(sentences.other_tets_rows(claim("C01", "fails"), rows("C01", _0_90="not_shown") + rows("C04", _1_10="holds")),
                          [["0.90 times", "2115", "1573", "not shown", "\u2013", "1 of 8", "\u22126.96 to 7.6 %"]])
 
