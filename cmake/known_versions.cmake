@@ -7,6 +7,15 @@ macro(find_known name)
     require_known_version(${name} "${${name}_FOUND}" "${${name}_VERSION}")
 endmacro()
 
+# The same for a library without a CMake package: its header states the version in macros. MAJOR and MINOR are their names.
+function(require_known_header name header major minor)
+    foreach(macro IN LISTS major minor)
+        file(STRINGS ${header} ${macro} REGEX "^#define ${macro} +[0-9]")
+        string(REGEX REPLACE "^#define ${macro} +([0-9]+).*" "\\1" ${macro} "${${macro}}")
+    endforeach()
+    require_known_version(${name} TRUE "${${major}}.${${minor}}")
+endfunction()
+
 function(require_known_version name found version)
     file(STRINGS ${PROJECT_SOURCE_DIR}/cmake/packages.txt row REGEX "^[^#].*[[, ]${name}[],]")
     string(REGEX MATCHALL "[^ ]+" row "${row}")

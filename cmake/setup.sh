@@ -119,6 +119,16 @@ logged() {
     return "$status"
 }
 
+# configured COMMAND..., built OPTION...: what they print goes to files. A failure ends the script with its first error.
+configured() {
+    timed configure logged "$output/configure.txt" "$@" || refuse "CMake could not configure the build: $cause"
+    grep "is newer than" "$output/configure.txt" | sort -u || true
+}
+built() {
+    timed build logged "$output/build.txt" cmake --build "$build_folder" -j "$jobs" "$@" ||
+        refuse "the build failed: $cause; it was tried with Debian 12 and 13, and this is $(this_system)"
+}
+
 # The first error in what CMake, a compiler, apt or npm printed, on one line; without any, the last line. CMake breaks its sentences.
 first_error() {
     awk '/^CMake Error: ./ { sub(/^CMake Error: /, ""); error = $0; exit }

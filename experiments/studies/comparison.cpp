@@ -32,17 +32,10 @@ std::string study_of(const std::string& name)
     return name.substr(0, name.find('/'));
 }
 
-// The name of a run has its body between underscores: man_01_01, pbs_man, equal_quality_man_crouch.
-bool is_of(const std::string& run, const std::vector<std::string>& bodies)
-{
-    return std::ranges::any_of(bodies,
-                               [&](const std::string& body) { return ("_" + run + "_").find("_" + body + "_") != std::string::npos; });
-}
-
 // A folder of results with the tables of its finished runs: of one run, of the studies with their plans, or of other runs in its folders.
 struct Results {
     Results(const std::string& folder, const ComparedFolders& compared)
-        : stated(folder), opened(folder), root(opened.folder()), without_bodies(compared.without_bodies)
+        : stated(folder), opened(folder), root(opened.folder()), excluded_bodies(compared.excluded_bodies)
     {
         const auto& studies = compared.studies;
         if (!fs::is_directory(root)) throw pbs::InputError(folder, 0, "", "", "expected a folder of results");
@@ -71,7 +64,8 @@ struct Results {
 
     void add_run(const fs::path& run)
     {
-        if (is_of(run.filename().string(), without_bodies)) return;
+        const auto is_of_run = [&](const std::string& body) { return is_run_of(run.filename().string(), body); };
+        if (std::ranges::any_of(excluded_bodies, is_of_run)) return;
         const fs::path name = run == root ? fs::path() : run.lexically_relative(root);
         runs.insert(name.string());
         for (const fs::path& file : fs::directory_iterator(run))
@@ -81,7 +75,7 @@ struct Results {
     fs::path stated;
     OpenedRecords opened;
     fs::path root;
-    std::vector<std::string> without_bodies;
+    std::vector<std::string> excluded_bodies;
     std::set<std::string> runs;
     std::map<std::string, fs::path> tables;
 };
@@ -302,6 +296,11 @@ std::vector<std::string> differences_in(const ResultComparison& compared)
 
 }  // namespace
 
+bool is_run_of(const std::string& run, const std::string& body)
+{
+    return ("_" + run + "_").find("_" + body + "_") != std::string::npos;
+}
+
 int ResultComparison::numbers() const
 {
     int total = 0;
@@ -340,7 +339,7 @@ ResultComparison compare_results(const ComparedFolders& folders)
         });
     compare_tables_of(first, second, compared);
     compare_settings(first, second, compared);
-    if (folders.without_bodies.empty()) compare_verdicts(first, second, compared);
+    if (folders.excluded_bodies.empty()) compare_verdicts(first, second, compared);
     if (!folders.studies && compared.tables.empty() && compared.only_first.empty() && compared.only_second.empty())
         throw pbs::InputError(folders.second, 0, "", "", "no number in common with " + folders.first);
     return compared;

@@ -33,8 +33,12 @@ struct ComparedFolders {
     std::string first, second;                             // folders of results: of `reproduce`, of one run, or kept records
     bool second_is_part = false;                           // what only the first folder has is no difference
     std::optional<std::vector<std::string>> studies = {};  // that are compared; nothing: all
-    std::vector<std::string> without_bodies = {};          // whose runs are not compared, since they have other tets
+    // Bodies with other tets, whose runs are not compared. A verdict takes in all bodies, so that no verdict is compared either.
+    std::vector<std::string> excluded_bodies = {};
 };
+
+// The name of a run has its body between underscores: man_01_01, pbs_man, equal_quality_man_crouch.
+bool is_run_of(const std::string& run, const std::string& body);
 
 struct ResultComparison {
     ComparedFolders folders;

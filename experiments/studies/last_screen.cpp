@@ -155,8 +155,11 @@ bool show_last_screen(LastScreen screen)
         fmt::print("{}", analysis::claims_table(screen.here, width, terminal_has_colours()));
         return true;
     }
-    const ResultComparison compared =
-        compare_results({records, screen.folder, true, screen.studies, screen.other_tets});
+    const ResultComparison compared = compare_results({.first = records,
+                                                       .second = screen.folder,
+                                                       .second_is_part = true,
+                                                       .studies = screen.studies,
+                                                       .excluded_bodies = screen.other_tets});
     const std::map<std::string, std::string> here = here_texts(screen, compared);
     const std::vector<analysis::Verdict> verdicts = screen.full ? screen.here : on_record(screen, records);
     write_verdicts(verdicts, screen.folder);

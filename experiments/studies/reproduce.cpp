@@ -237,23 +237,36 @@ bool all_computable(const std::vector<analysis::Verdict>& verdicts)
     return std::ranges::none_of(verdicts, [](const auto& of) { return of.kind == analysis::VerdictKind::not_computable; });
 }
 
-// Names each body that is not installed once, with the command that brings it, and those whose tets are not those of the record, which are
-// returned.
-std::vector<std::string> name_left_out(const std::vector<PlannedStudy>& planned)
+// Names each body that is not installed once, with the command that brings it.
+void name_left_out(const std::vector<PlannedStudy>& planned)
 {
     std::set<std::string> reasons;
-    const auto name = [&](const std::string& reason) {
-        if (reasons.insert(reason).second) spdlog::info("excluded: {}", reason);
-    };
     for (const PlannedStudy& of : planned)
-        for (const analysis::LeftOut& left_out : of.plan.left_out) name(left_out.reason);
+        for (const analysis::LeftOut& left_out : of.plan.left_out)
+            if (reasons.insert(left_out.reason).second) spdlog::info("excluded: {}", left_out.reason);
+}
+
+bool has_run_of(const std::vector<PlannedStudy>& planned, const std::string& body)
+{
+    return std::ranges::any_of(planned, [&](const PlannedStudy& of) {
+        return std::ranges::any_of(of.plan.runs, [&](const StudyRun& run) { return is_run_of(run.name, body); });
+    });
+}
+
+// The bodies among the runs whose tets are not those of the record. Each is named once, with the reason.
+std::vector<std::string> name_other_tets(const std::vector<PlannedStudy>& planned)
+{
     std::vector<std::string> other_tets;
     for (const pbs::NamedBody& body : pbs::named_bodies()) try {
-            if (body.is_character && pbs::body_is_installed(body.name)) require_kept_tets(body.name);
+            if (body.is_character && pbs::body_is_installed(body.name) && has_run_of(planned, body.name)) require_kept_tets(body.name);
         } catch (const pbs::InputError& error) {
             other_tets.push_back(body.name);
-            name(error.what());
+            spdlog::info("neither the runs of {0} nor verdicts are compared with the record: {1}", body.name, error.what());
         }
+    const std::string cgal = run_provenance(1).libraries["CGAL"];
+    if (cgal != cgal_of_the_record)
+        spdlog::info("the tets{} are those of the record; CGAL {} of this system would make others than CGAL {}",
+                     other_tets.empty() ? "" : " of all other bodies", cgal, cgal_of_the_record);
     return other_tets;
 }
 
@@ -269,10 +282,8 @@ int reproduce(const ReproduceArguments& arguments)
     double wall_s = 0.0;
     for (const ExpectedCost& of : expected) wall_s += of.wall_s;
     if (planned.size() > 1) spdlog::info("{} studies, about {:.0f} min", planned.size(), std::ceil(wall_s / 60.0));
-    const std::vector<std::string> other_tets = name_left_out(planned);
-
-    if (const std::string cgal = run_provenance(1).libraries["CGAL"]; cgal != cgal_of_the_record)
-        spdlog::info("the tets are those of the record; CGAL {} of this system would make others than CGAL {}", cgal, cgal_of_the_record);
+    name_left_out(planned);
+    const std::vector<std::string> other_tets = name_other_tets(planned);
 
     analysis::make_output_folder(arguments.folder);
     analysis::remove_abandoned_files(arguments.folder, false);

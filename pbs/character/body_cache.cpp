@@ -65,16 +65,31 @@ std::vector<fs::path> files_of_key(const std::string& folder, const std::string&
     return files;
 }
 
+bool is_whole(const fs::path& file, const std::string& key)
+{
+    return file.filename().string() == key + "-" + hash_of_file(file.string()) + format;
+}
+
+// The tets that came with the program are never made anew in silence, since another system's mesher would make others.
+std::optional<TetMesh> read_kept(const std::string& key)
+{
+    for (const fs::path& file : files_of_key(references_folder() + "/tets", key)) {
+        if (is_whole(file, key)) return read_tet_frame(file.string());  // checked before it was stored
+        throw InputError(file.string(), 0, "", "",
+                         "is damaged: the hash in its name is not that of its bytes; install the program anew, or fetch the file again "
+                         "with git");
+    }
+    return std::nullopt;
+}
+
 // What is damaged in the cache is removed, and the mesh is made again.
 std::optional<TetMesh> read_cached(const std::string& key)
 {
-    for (const std::string& folder : {references_folder() + "/tets", cache_folder()})
-        for (const fs::path& file : files_of_key(folder, key)) try {
-                const bool is_whole = file.filename().string() == key + "-" + hash_of_file(file.string()) + format;
-                if (is_whole) return read_tet_frame(file.string());  // checked before it was stored
-                if (folder == cache_folder()) fs::remove(file);
-            } catch (const std::exception&) {  // unreadable
-            }
+    for (const fs::path& file : files_of_key(cache_folder(), key)) try {
+            if (is_whole(file, key)) return read_tet_frame(file.string());
+            fs::remove(file);
+        } catch (const std::exception&) {  // unreadable
+        }
     return std::nullopt;
 }
 
@@ -171,6 +186,7 @@ std::string references_folder()
 
 TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make)
 {
+    if (const std::optional<TetMesh> mesh = read_kept(key)) return *mesh;
     if (const std::optional<TetMesh> mesh = read_cached(key)) return *mesh;
     std::error_code ignored;
     fs::create_directories(cache_folder(), ignored);

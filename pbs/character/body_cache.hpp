@@ -26,7 +26,7 @@ std::string cache_folder();
 std::string references_folder();
 
 // Reads the mesh from that folder or from the cache, or makes and stores it while other processes wait. Where the cache cannot be written,
-// the mesh is made every time.
+// the mesh is made every time. InputError for a file of that folder that is damaged.
 TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make);
 
 // Records name files, not folders of the machine.

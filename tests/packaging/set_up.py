@@ -56,6 +56,18 @@ class KnownVersions(ScratchCase):
         self.assertEqual(status, 0)
         self.assertIn(f"\nCGAL 99.1 is newer than {versions('CGAL')[1]}, the newest version that was tried (Debian 13)\n", f"\n{said}")
 
+    def test_one_that_states_its_version_in_a_header_is_judged_alike(self):
+        oldest, newest = versions("gmsh")
+        for version, status, said in ((oldest, 0, ""), ("3.0", 1, f"gmsh 3.0 is older than {oldest}"),
+                                      ("99.1", 0, f"gmsh 99.1 is newer than {newest}")):
+            major, minor = version.split(".")
+            header = self.folder / "gmsh.h"
+            header.write_text(f"#define G_VERSION \"{version}\"\n#define G_MAJOR {major}\n#define G_MINOR   {minor}  \n")
+            done, log, _ = self.configured("5.5.1", f"CGAL)\nrequire_known_header(gmsh {header} G_MAJOR G_MINOR")
+            self.assertEqual(done, status, log)
+            self.assertEqual("gmsh" in log, bool(said), log)
+            self.assertIn(said, " ".join(log.split()))
+
     def test_a_missing_one_is_named_with_its_package(self):
         (self.folder / "CGALConfig.cmake").write_text("")
         status, _, error = self.configured("5.5.1", "deal.II HINTS /none NO_DEFAULT_PATH")

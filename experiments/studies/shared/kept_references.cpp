@@ -182,7 +182,8 @@ KeptReferences unpacked(const std::string& text, const std::string& file, const 
                 fmt::format("the tets of {} have the hash {}, so that these references do not belong to them; solve them with "
                             "`pbskin reproduce references --full`",
                             character.name, hash));
-        for (const std::vector<double> numbers : all.at("bones")) {
+        for (const json& bone : all.at("bones")) {
+            const std::vector<double> numbers = bone;
             if (numbers.size() != 16) throw std::runtime_error("a transform of another size");
             references.bones.emplace_back(Eigen::Map<const Eigen::Matrix4d>(numbers.data()));
         }
@@ -208,16 +209,15 @@ std::string why_other_tets(const std::string& body)
 {
     const fs::path folder = pbs::references_folder();
     std::error_code none;
-    for (const fs::path& file : fs::directory_iterator(folder / "tets", none))
-        if (file.filename().string().starts_with(body + "-")) return "";
     for (const fs::path& file : fs::directory_iterator(folder, none)) {
         if (file.extension() != ".ref" || !file.filename().string().starts_with(body + "_")) continue;
         const json kept = json::from_cbor(inflated(analysis::read_text(file.string())), true, false);
         if (!kept.is_object() || kept.value("body", "") != body) continue;
         const std::string hash = pbs::content_hash(pbs::make_character({.body = body, .surface = false}).mesh);
         if (kept.value("mesh_hash", "") == hash) return "";
-        return fmt::format("its tets may not be redistributed, and CGAL {} of this system makes others than those of the record",
-                           run_provenance(1).libraries["CGAL"]);
+        return fmt::format(
+            "its tets do not come with the program, and CGAL {} of this system makes others than CGAL {}, which made those of the record",
+            run_provenance(1).libraries["CGAL"], cgal_of_the_record);
     }
     return "";
 }
@@ -227,9 +227,8 @@ void require_kept_tets(const std::string& body)
     const std::string why = why_other_tets(body);
     if (!why.empty())
         throw pbs::InputError("", 0, "character.body", body,
-                              why +
-                                  ": its numbers are not compared; repeat them on the system of the record (Debian 12), or solve its "
-                                  "references with `pbskin reproduce references --full`");
+                              why + ": repeat its numbers on Debian 12, the system of the record, or solve its references on these tets with "
+                                    "`pbskin reproduce references --full`");
 }
 
 std::string file_of_references(const std::string& pose)

@@ -55,8 +55,8 @@ KeptReferences unpacked(const std::string& text, const std::string& file, const 
 // The mesher that made the tets of the record.
 inline constexpr const char* cgal_of_the_record = "5.5.1";
 
-// Why the references of an installed body do not belong to its tets on this system: the tets of a body that may not be redistributed are
-// made anew, and another version of CGAL makes others. Empty if they do belong to them, or if there are none of the body.
+// Why the kept references of an installed body do not belong to its tets here. The tets of a body that may not be redistributed are made
+// on each system, and another version of CGAL makes others. Empty if the references belong to them, or if there are none of this body.
 std::string why_other_tets(const std::string& body);
 // InputError with this reason, and what to do.
 void require_kept_tets(const std::string& body);

@@ -142,6 +142,21 @@ class KeptRecord(program.ProgramTest):
     def test_this_machine_repeats_it(self):
         self.assertRegex(self.reproduces(), r"^This machine repeats the record: ([1-9][\d,]*) of \1 numbers agree")
 
+    def test_a_body_with_other_tets_is_named_once_and_its_runs_are_not_compared(self):
+        references = pathlib.Path(self.path("references"))
+        shutil.copytree(pathlib.Path(program.SOURCE) / "experiments" / "references", references)
+        own, = (references / "tets").glob("limb-1775-*")
+        other, = (references / "tets").glob("limb-1700-*")
+        own.unlink()
+        other.rename(other.with_name(other.name.replace("1700", "1775")))
+        done = self.ends(0, "reproduce", "momentum", "-o", self.results,
+                         env=os.environ | {"PBSKIN_RECORDS": str(self.records), "PBSKIN_REFERENCES": str(references)})
+        self.assertEqual(done.stderr.count("neither the runs of limb nor verdicts are compared with the record"), 1, done.stderr)
+        self.assertNotIn("runs of human", done.stderr)
+        compared = json.loads((self.results / "repeated.json").read_text())
+        self.assertTrue(compared["agrees"])
+        self.assertNotIn("momentum/limb", json.dumps(compared))
+
     def test_a_folder_without_records_is_refused(self):
         records = os.environ | {"PBSKIN_RECORDS": self.path("nothing")}
         self.refuses("PBSKIN_RECORDS = ", "reproduce", "audit", "-o", self.results, env=records)

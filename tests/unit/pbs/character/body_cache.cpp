@@ -3,6 +3,7 @@
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/mesh_io.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
@@ -199,16 +200,17 @@ TEST_F(KeptTets, WinOverTheCacheAndTheMesher)
     EXPECT_EQ(content_hash(get("one")), content_hash(two_tets())) << "another key";
 }
 
-// What a release brought is not removed, since no other program makes it again.
-TEST_F(KeptTets, ThatAreDamagedAreIgnoredAndStay)
+// What came with the program is not removed, and other tets do not take its place in silence.
+TEST_F(KeptTets, ThatAreDamagedAreRefusedAndStay)
 {
     const std::string whole = read_text_file(file.string());
     for (const std::string& damaged : {whole.substr(0, whole.size() / 2), std::string(), whole + " "}) {
         std::ofstream(file, std::ios::binary) << damaged;
-        EXPECT_EQ(content_hash(get()), content_hash(two_tets())) << damaged.size() << " bytes";
+        const std::string refused = test_support::refusal_of([&] { get(); });
+        EXPECT_TRUE(refused.starts_with(file.string() + ": is damaged: ")) << refused;
         EXPECT_EQ(read_text_file(file.string()), damaged);
     }
-    EXPECT_EQ(made, 1) << "the mesh is found in the cache";
+    EXPECT_EQ(made, 0);
     std::ofstream(file, std::ios::binary) << whole;
     EXPECT_EQ(content_hash(get()), content_hash(kept()));
 }
