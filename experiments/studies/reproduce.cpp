@@ -258,7 +258,7 @@ std::vector<std::string> name_other_tets(const std::vector<PlannedStudy>& planne
 {
     std::vector<std::string> other_tets;
     for (const pbs::NamedBody& body : pbs::named_bodies()) try {
-            if (body.is_character && pbs::body_is_installed(body.name) && has_run_of(planned, body.name)) require_kept_tets(body.name);
+            if (pbs::body_is_installed(body.name) && has_run_of(planned, body.name)) require_kept_tets(body.name);
         } catch (const pbs::InputError& error) {
             other_tets.push_back(body.name);
             spdlog::info("neither the runs of {0} nor verdicts are compared with the record: {1}", body.name, error.what());

@@ -75,8 +75,13 @@ def files(folder, name):
     return [folder / run / name for run in runs if (folder / run / name).is_file()]
 
 
+def filled_files(folder, name):
+    """Those of them that have a row."""
+    return [file for file in files(folder, name) if records.read_rows(file)]
+
+
 def of_runs(folder, name, needed):
     """The rows of a table of all runs, in the order of the plan. A run may have none, but not all of them."""
-    filled = [file for file in files(folder, name) if records.read_rows(file)]
+    filled = filled_files(folder, name)
     records.need(filled, f"{folder}: {name}: no rows in any run")
     return [row for file in filled for row in records.table(file, needed)]

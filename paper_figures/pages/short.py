@@ -77,8 +77,10 @@ def counts(folder, name, keys):
 
 
 def stability(folder):
-    return [("Cells", counts(folder, "cells", ("body", "model", "factor", "second_factor"))),
-            ("Broken initial shapes", counts(folder, "starts", ("body", "model", "pose", "setting", "setting_value")))]
+    cells = ("Cells", counts(folder, "cells", ("body", "model", "factor", "second_factor")))
+    if not pages.filled_files(folder, "starts.csv"):  # those are of the full form
+        return [cells]
+    return [cells, ("Broken initial shapes", counts(folder, "starts", ("body", "model", "pose", "setting", "setting_value")))]
 
 
 def temporal(folder):

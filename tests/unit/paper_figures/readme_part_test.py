@@ -325,6 +325,15 @@ class Pages(ResultsTest):
         self.assertEqual(text, "- C05: 2 sections measured\n- C05: 1 sections too_far: human bend_90 elbow\n\n## Remarks\n\n"
                          "- C05: human crouch elbow, measured: pbs is wide\n")
 
+    def test_broken_initial_shapes_are_of_the_full_form_alone(self):
+        study = self.results / "stability"
+        write_table(study / "pbs" / "cells.csv", [{"body": "human", "model": "pbs", "factor": "k", "second_factor": "h", "outcome": "kept"}])
+        (study / "plan.json").write_text(json.dumps({"runs": [{"name": "pbs"}]}), encoding="utf-8")
+        self.assertEqual([heading for heading, _ in short.stability(study)], ["Cells"])
+        write_table(study / "pbs" / "starts.csv", [{"body": "human", "model": "pbs", "pose": "crouch", "setting": "k", "setting_value": "1",
+                                                    "outcome": "recovered"}])
+        self.assertEqual([heading for heading, _ in short.stability(study)], ["Cells", "Broken initial shapes"])
+
     def test_a_study_without_records_has_no_page(self):
         self.assertEqual(pages.write(self.results), ([], 0))
         run = subprocess.run([sys.executable, "-B", root / "paper_figures/make_pages.py", self.results], capture_output=True, text=True)

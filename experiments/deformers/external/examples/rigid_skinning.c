@@ -12,13 +12,26 @@ struct rigid_skinning {
 
 int pbskin_deformer_version(void) { return PBSKIN_DEFORMER_VERSION; }
 
+void pbskin_deformer_destroy(void* deformer)
+{
+    struct rigid_skinning* self = deformer;
+    free(self->rest);
+    free(self->bone);
+    free(self);
+}
+
 void* pbskin_deformer_create(const struct pbskin_character* character)
 {
     const int bones = character->bones;
-    struct rigid_skinning* made = malloc(sizeof *made);
+    struct rigid_skinning* made = calloc(1, sizeof *made);
+    if (!made) return NULL;
     made->vertices = character->vertices;
     made->rest = malloc(3 * made->vertices * sizeof(double));
     made->bone = malloc(made->vertices * sizeof(int));
+    if (!made->rest || !made->bone) {
+        pbskin_deformer_destroy(made);
+        return NULL;
+    }
     for (int i = 0; i < 3 * made->vertices; ++i) made->rest[i] = character->rest[i];
     for (int v = 0; v < made->vertices; ++v) {
         made->bone[v] = 0;
@@ -39,12 +52,4 @@ int pbskin_deformer_advance(void* deformer, const double* pose, double time_step
             positions[3 * v + row] = transform[0] * x[0] + transform[1] * x[1] + transform[2] * x[2] + transform[3];
         }
     return 0;
-}
-
-void pbskin_deformer_destroy(void* deformer)
-{
-    struct rigid_skinning* self = deformer;
-    free(self->rest);
-    free(self->bone);
-    free(self);
 }
