@@ -56,7 +56,7 @@ fuzz_target(fuzz/clip.cpp pbs_character
     pbs/character/clip.cpp pbs/character/joint_names.cpp pbs/character/retarget.cpp pbs/skinning/pose.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/rig.cpp pbs_rig
     pbs/rig/rigged_body.cpp pbs/rig/gltf_rig.cpp pbs/rig/gltf_model.cpp pbs/rig/rig_pose.cpp
-    pbs/rig/rig_reader.cpp pbs/skinning/pose.cpp
+    pbs/rig/rig_reader.cpp pbs/rig/rig_repairs.cpp pbs/skinning/pose.cpp
     pbs/geometry/content_format.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/texts.cpp experiments
     analysis/records/tables.cpp analysis/records/record_files.cpp
@@ -69,7 +69,7 @@ fuzz_target(fuzz/files.cpp pbs_character
     pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/assimp.cpp pbs_rig
     pbs/rig/assimp_rig.cpp pbs/rig/rigged_body.cpp pbs/rig/rig_pose.cpp
-    pbs/rig/rig_reader.cpp pbs/skinning/pose.cpp pbs/geometry/content_format.cpp
+    pbs/rig/rig_reader.cpp pbs/rig/rig_repairs.cpp pbs/skinning/pose.cpp pbs/geometry/content_format.cpp
     pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_libraries(assimp assimp::assimp pugixml::pugixml ${MINIZIP_LIBRARY} ZLIB::ZLIB)
 fuzz_target(fuzz/content.cpp pbs_mesh_io

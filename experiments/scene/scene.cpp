@@ -225,6 +225,14 @@ CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& characte
     return made;
 }
 
+// The largest rotation of a bone from the rest pose [deg] where the motion is a single frame, such as an animation of one key; else 0.
+double pose_deg(const pbs::Motion& motion)
+{
+    if (motion.frames() != 1) return 0.0;
+    const pbs::Pose rest(motion.steps.front().size(), Eigen::Isometry3d::Identity());
+    return pbs::largest_rotation_deg({.steps = {rest, motion.steps.front()}});
+}
+
 CaseMotion motion_of_model(const MotionSpec& spec, const pbs::Character& character, const std::string& scene_file)
 {
     const pbs::RiggedModel& model = *character.artist->model;
@@ -349,7 +357,12 @@ CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& charac
     const double displacement_m = pbs::largest_displacement_m(made.motion, character.skeleton);
     const pbs::Positions& rest = character.mesh.rest;
     const double size_m = rest.rows() > 0 ? (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm() : 0.0;
-    if (made.largest_rotation_deg < still_deg && displacement_m <= still_share * size_m)
+    if (const double posed_deg = pose_deg(made.motion); posed_deg >= still_deg)
+        made.remarks.push_back(
+            fmt::format("{}: the motion is one pose, in which the bones are turned by up to {:.3g} degrees from the rest "
+                        "pose; nothing moves after it",
+                        scene_file, posed_deg));
+    else if (made.largest_rotation_deg < still_deg && displacement_m <= still_share * size_m)
         made.remarks.push_back(fmt::format("{}: no joint moves: the bones turn by at most {:.2g} degrees and move by at most {:.2g} m",
                                            scene_file, made.largest_rotation_deg, displacement_m));
     return made;

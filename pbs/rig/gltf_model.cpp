@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -22,7 +23,8 @@ namespace {
 
 constexpr std::size_t most_elements = 100'000'000;
 
-// Extensions by how their names begin that do not change where vertices are, and the one that stores them as integers.
+// Extensions by how their names begin that do not change where vertices are, although nodes and meshes may have them, and the one that
+// stores vertices as integers.
 constexpr std::array<std::string_view, 6> known_extensions = {"KHR_materials_",      "KHR_texture_", "EXT_texture_",
                                                               "KHR_lights_punctual", "KHR_xmp",      "KHR_mesh_quantization"};
 
@@ -65,12 +67,61 @@ Callbacks own_files(std::string& path)
     return files;
 }
 
-void require_known_extensions(const tinygltf::Model& model, const std::string& path)
+// The JSON of a .gltf file, or of the first chunk of a .glb file; discarded where it is none.
+nlohmann::json document_in(const std::string& bytes)
 {
-    for (const std::string& extension : model.extensionsRequired)
-        if (std::none_of(known_extensions.begin(), known_extensions.end(),
-                         [&](std::string_view known) { return extension.rfind(known, 0) == 0; }))
-            throw InputError(path, 0, "extensionsRequired", extension, "not supported: export the model without it");
+    std::uint32_t length = 0;
+    const bool is_binary = bytes.starts_with("glTF") && bytes.size() > 20;
+    if (is_binary) std::memcpy(&length, bytes.data() + 12, sizeof length);
+    return nlohmann::json::parse(is_binary ? bytes.substr(20, length) : bytes, nullptr, false);
+}
+
+// Whether an object in this part of a document has the extension.
+bool has_extension(const nlohmann::json& part, const std::string& extension)
+{
+    if (const auto own = part.is_object() ? part.find("extensions") : part.end(); own != part.end() && own->contains(extension))
+        return true;
+    return part.is_structured() && std::ranges::any_of(part, [&](const auto& inner) { return has_extension(inner, extension); });
+}
+
+// Only an extension of these objects can change where vertices are; materials, textures and images cannot.
+bool may_move_vertices(const std::string& extension, const nlohmann::json& document)
+{
+    if (std::ranges::any_of(known_extensions, [&](std::string_view known) { return extension.starts_with(known); })) return false;
+    return std::ranges::any_of(std::array{"nodes", "meshes", "skins", "animations", "accessors", "bufferViews", "buffers"},
+                               [&](const char* part) { return document.contains(part) && has_extension(document[part], extension); });
+}
+
+void require_known_extensions(const std::string& bytes, const std::string& path)
+{
+    const nlohmann::json document = document_in(bytes);
+    const auto required = document.is_object() ? document.find("extensionsRequired") : document.end();
+    if (required == document.end()) return;
+    for (const nlohmann::json& extension : *required)
+        if (extension.is_string() && may_move_vertices(extension, document))
+            throw InputError(path, 0, "extensionsRequired", extension.get<std::string>(), "not supported: export the model without it");
+}
+
+// The text of a .gltf file whose buffers may be named as their files are: tinygltf decodes %20, and takes two letters behind any other %
+// and each + for codes, too.
+std::string with_encoded_names(const std::string& text)
+{
+    if (text.find_first_of("%+") == std::string::npos) return text;
+    nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
+    if (!document.is_object() || !document.contains("buffers") || !document["buffers"].is_array()) return text;
+    for (nlohmann::json& buffer : document["buffers"]) {
+        if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
+        const std::string uri = buffer["uri"];
+        if (uri.starts_with("data:")) continue;
+        std::string encoded;
+        for (std::size_t at = 0; at < uri.size(); ++at) {
+            const bool is_code = at + 2 < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[at + 1])) != 0 &&
+                                 std::isxdigit(static_cast<unsigned char>(uri[at + 2])) != 0;
+            encoded += uri[at] == '+' ? "%2B" : uri[at] == '%' && !is_code ? "%25" : std::string(1, uri[at]);
+        }
+        buffer["uri"] = encoded;
+    }
+    return document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::string one_line(std::string text)
@@ -217,17 +268,20 @@ void read_gltf_model(const std::string& bytes, const std::string& path, tinygltf
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(keep_image_of_a_data_uri, nullptr);
     loader.SetFsCallbacks(own_files<tinygltf::FsCallbacks>(own_path));
-    const auto length = static_cast<unsigned>(bytes.size());
-    const bool read =
-        bytes.rfind("glTF", 0) == 0
-            ? loader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()), length, folder)
-            : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), length, folder);
+    bool read = false;
+    if (bytes.starts_with("glTF")) {
+        read = loader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
+                                           static_cast<unsigned>(bytes.size()), folder);
+    } else {
+        const std::string text = with_encoded_names(bytes);
+        read = loader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()), folder);
+    }
     if (!read) {
-        require_known_extensions(model, path);  // which may be why
+        require_known_extensions(bytes, path);  // which may be why
         throw InputError(path, 0, "", "", "no glTF that tinygltf can read: " + one_line(error));
     }
     if (model.asset.version.rfind("2.", 0) != 0) throw InputError(path, 0, "asset.version", model.asset.version, "expected 2.0");
-    require_known_extensions(model, path);
+    if (!model.extensionsRequired.empty()) require_known_extensions(bytes, path);
 }
 
 RigMaterials read_gltf_materials(const std::string& path)
@@ -239,10 +293,7 @@ RigMaterials gltf_materials(const std::string& bytes, const std::string& path)
 {
     tinygltf::Model model;
     read_gltf_model(bytes, path, model);
-    std::uint32_t length = 0;  // of a .glb file's first chunk
-    const bool is_binary = bytes.starts_with("glTF");
-    if (is_binary) std::memcpy(&length, bytes.data() + 12, sizeof length);
-    const auto source = nlohmann::json::parse(is_binary ? bytes.substr(20, length) : bytes);
+    const nlohmann::json source = document_in(bytes);
     RigMaterials materials;
     if (!source.contains("materials")) return materials;
     nlohmann::json document;
@@ -267,8 +318,8 @@ RigMaterials gltf_materials(const std::string& bytes, const std::string& path)
     return materials;
 }
 
-AccessorNumbers accessor_numbers(const tinygltf::Model& model, int accessor, int components, const std::string& path,
-                                 const std::string& field_name)
+AccessorNumbers accessor_values(const tinygltf::Model& model, int accessor, int components, const std::string& path,
+                                const std::string& field_name)
 {
     const Field field{path, field_name};
     if (accessor < 0 || accessor >= static_cast<int>(model.accessors.size()))
@@ -284,8 +335,22 @@ AccessorNumbers accessor_numbers(const tinygltf::Model& model, int accessor, int
             read_elements(model, from.bufferView,
                           {from.componentType, from.normalized, from.count, static_cast<std::size_t>(components), from.byteOffset}, field);
     if (from.sparse.isSparse) apply_sparse(model, from, field, numbers);
-    if (!numbers.allFinite()) field.refuse(std::to_string(accessor), "expected finite numbers");
     return numbers;
+}
+
+AccessorNumbers accessor_numbers(const tinygltf::Model& model, int accessor, int components, const std::string& path,
+                                 const std::string& field_name)
+{
+    AccessorNumbers numbers = accessor_values(model, accessor, components, path, field_name);
+    if (numbers.allFinite()) return numbers;
+    Eigen::Index first = 0, bad = 0;
+    for (Eigen::Index e = numbers.rows(); e-- > 0;)
+        if (!numbers.row(e).allFinite()) {
+            first = e;
+            ++bad;
+        }
+    Field{path, field_name}.refuse(std::to_string(bad) + " of " + std::to_string(numbers.rows()) + " elements",
+                                   "expected finite numbers, first in element " + std::to_string(first));
 }
 
 }  // namespace pbs

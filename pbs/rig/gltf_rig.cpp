@@ -14,6 +14,9 @@
 namespace pbs {
 namespace {
 
+constexpr double last_row_rounding = 1e-6;    // of a node's matrix in single precision
+constexpr double bind_last_row_error = 1e-4;  // of an inverse bind matrix; a matrix by rows has the place of a joint there
+
 // One mesh while its primitives are read.
 class MeshReader {
 public:
@@ -29,11 +32,18 @@ public:
             add(source_.primitives[p], field_ + "/primitives/" + std::to_string(p), joints);
         mesh_.points = Eigen::Map<const Positions>(points_.data(), static_cast<Eigen::Index>(points_.size() / 3), 3);
         mesh_.triangles = Eigen::Map<const Triangles>(triangles_.data(), static_cast<Eigen::Index>(triangles_.size() / 3), 3);
-        if (joints > 0) mesh_.skin = normalised_skin(shares_, rig_.file, mesh_.name, rig_.remarks);
+        if (joints > 0)
+            mesh_.skin =
+                normalised_skin(with_weights_of_neighbours(shares_, mesh_, rig_.file, rig_.remarks), rig_.file, mesh_.name, rig_.remarks);
         return mesh_;
     }
 
 private:
+    // The points of a primitive among those of the mesh.
+    struct PointRange {
+        int first = 0, count = 0;
+    };
+
     static bool is_of_triangles(const tinygltf::Primitive& primitive)
     {
         return primitive.mode == TINYGLTF_MODE_TRIANGLES || primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
@@ -49,69 +59,79 @@ private:
         if (!primitive.targets.empty())
             rig_.remarks.push_back("mesh " + source_.name + ": " + std::to_string(primitive.targets.size()) +
                                    " morph targets are left out");
-        const auto first = static_cast<int>(points_.size() / 3);
-        const AccessorNumbers points = attribute(primitive, "POSITION", 3, field);
-        points_.insert(points_.end(), points.data(), points.data() + points.size());
-        add_triangles(primitive, first, static_cast<int>(points.rows()), field);
+        const auto [range, is_new] = points_of_.try_emplace(primitive.attributes);
+        if (is_new) range->second = add_points(primitive, field, joints);
+        add_triangles(primitive, range->second, field);
         mesh_.look.material.resize(triangles_.size() / 3, primitive.material);
-        add_look(primitive, "NORMAL", first, 0, points.rows(), field);
-        for (int set = 0; primitive.attributes.count("TEXCOORD_" + std::to_string(set)) > 0; ++set)
-            add_look(primitive, "TEXCOORD_" + std::to_string(set), first, 3 + 2 * set, points.rows(), field);
-        if (joints > 0) add_weights(primitive, static_cast<int>(points.rows()), joints, field);
     }
 
-    AccessorNumbers attribute(const tinygltf::Primitive& primitive, const std::string& name, int components, const std::string& field)
+    PointRange add_points(const tinygltf::Primitive& primitive, const std::string& field, int joints)
+    {
+        const AccessorNumbers points = attribute(primitive, "POSITION", 3, field);
+        const PointRange range = {static_cast<int>(points_.size() / 3), static_cast<int>(points.rows())};
+        points_.insert(points_.end(), points.data(), points.data() + points.size());
+        add_look(primitive, "NORMAL", range, 0, field);
+        for (int set = 0; primitive.attributes.count("TEXCOORD_" + std::to_string(set)) > 0; ++set)
+            add_look(primitive, "TEXCOORD_" + std::to_string(set), range, 3 + 2 * set, field);
+        if (joints > 0) add_weights(primitive, range.count, joints, field);
+        return range;
+    }
+
+    AccessorNumbers attribute(const tinygltf::Primitive& primitive, const std::string& name, int components, const std::string& field,
+                              decltype(&accessor_numbers) read = accessor_numbers)
     {
         const auto found = primitive.attributes.find(name);
         if (found == primitive.attributes.end()) throw InputError(rig_.file, 0, field + "/attributes/" + name, "", "missing");
-        return accessor_numbers(model_, found->second, components, rig_.file, field + "/attributes/" + name);
+        return read(model_, found->second, components, rig_.file, field + "/attributes/" + name);
     }
 
     // Takes the primitive's indices, or its vertices in their order.
-    void add_triangles(const tinygltf::Primitive& primitive, int first, int points, const std::string& field)
+    void add_triangles(const tinygltf::Primitive& primitive, const PointRange& points, const std::string& field)
     {
         std::vector<int> corners;
         if (primitive.indices >= 0) {
             const AccessorNumbers indices = accessor_numbers(model_, primitive.indices, 1, rig_.file, field + "/indices");
             for (const double index : indices.col(0)) {
-                if (!(index >= 0.0 && index < points))
-                    throw InputError(rig_.file, 0, field + "/indices", number_text(index, 12), expected_whole("an index", 0, points - 1));
+                if (!(index >= 0.0 && index < points.count))
+                    throw InputError(rig_.file, 0, field + "/indices", number_text(index, 12),
+                                     expected_whole("an index", 0, points.count - 1));
                 corners.push_back(static_cast<int>(index));
             }
         } else {
-            for (int p = 0; p < points; ++p) corners.push_back(p);
+            for (int p = 0; p < points.count; ++p) corners.push_back(p);
         }
         const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES, fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
         for (std::size_t c = 0; c + 2 < corners.size(); c += list ? 3 : 1) {
             // A strip's odd triangles run the other way round (glTF 2.0, Sec. 3.7.2.1).
             const bool odd = !list && !fan && c % 2 == 1;
             for (const std::size_t corner : {fan ? 0 : c, c + (odd ? 2 : 1), c + (odd ? 1 : 2)})
-                triangles_.push_back(first + corners[corner]);
+                triangles_.push_back(points.first + corners[corner]);
         }
     }
 
     // No point's place depends on it, so that damaged numbers are left out.
-    void add_look(const tinygltf::Primitive& primitive, const std::string& name, int first, int column, Eigen::Index points,
+    void add_look(const tinygltf::Primitive& primitive, const std::string& name, const PointRange& points, int column,
                   const std::string& field)
     {
         if (primitive.attributes.count(name) == 0) return;
         try {
             const AccessorNumbers rows = attribute(primitive, name, column == 0 ? 3 : 2, field);
-            if (rows.rows() != points) throw InputError(rig_.file, 0, field, name, "expected as many as there are points");
-            mesh_.look.put(first, column, rows.cast<float>());
+            if (rows.rows() != points.count) throw InputError(rig_.file, 0, field, name, "expected as many as there are points");
+            mesh_.look.put(points.first, column, rows.cast<float>());
         } catch (const InputError& error) {
             rig_.remarks.push_back("mesh " + source_.name + ": " + name + " is left out: " + error.what());
         }
     }
 
-    // All sets JOINTS_0 and WEIGHTS_0, JOINTS_1 and WEIGHTS_1, ... of a primitive.
+    // All sets JOINTS_0 and WEIGHTS_0, JOINTS_1 and WEIGHTS_1, ... of a primitive. Weights may be no numbers: with_weights_of_neighbours.
     void add_weights(const tinygltf::Primitive& primitive, int points, int joints, const std::string& field)
     {
         const std::size_t first = shares_.size();
         shares_.resize(first + static_cast<std::size_t>(points));
         for (int set = 0; primitive.attributes.count("JOINTS_" + std::to_string(set)) > 0; ++set) {
             const std::string names = "JOINTS_" + std::to_string(set), weights_name = "WEIGHTS_" + std::to_string(set);
-            const AccessorNumbers numbers = attribute(primitive, names, 4, field), weights = attribute(primitive, weights_name, 4, field);
+            const AccessorNumbers numbers = attribute(primitive, names, 4, field),
+                                  weights = attribute(primitive, weights_name, 4, field, accessor_values);
             for (const auto& [name, rows] : {std::pair(names, numbers.rows()), std::pair(weights_name, weights.rows())})
                 if (rows != points)
                     throw InputError(rig_.file, 0, field + "/attributes/" + name, std::to_string(rows),
@@ -119,7 +139,7 @@ private:
             for (int p = 0; p < points; ++p)
                 for (int k = 0; k < 4; ++k) {
                     if (weights(p, k) == 0.0) continue;
-                    if (!(numbers(p, k) >= 0.0 && numbers(p, k) < joints))
+                    if (!(numbers(p, k) >= 0.0 && numbers(p, k) < joints) && std::isfinite(weights(p, k)))
                         throw InputError(rig_.file, 0, field + "/attributes/" + names, number_text(numbers(p, k), 12),
                                          expected_whole("the number of a joint", 0, joints - 1));
                     shares_[first + static_cast<std::size_t>(p)].push_back({static_cast<int>(numbers(p, k)), weights(p, k)});
@@ -133,6 +153,7 @@ private:
     Rig& rig_;
     RigMesh mesh_;
     std::vector<double> points_;
+    std::map<std::map<std::string, int>, PointRange> points_of_;  // primitives with the same attributes have the same points
     std::vector<int> triangles_;
     std::vector<std::vector<JointShare>> shares_;  // of the points, if they are weighted
 };
@@ -157,6 +178,12 @@ std::vector<SkinJoint> joints_of(const tinygltf::Model& model, int skin_index, c
         const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix4d>(matrices.row(static_cast<Eigen::Index>(j)).data());  // by columns
         if (!(std::abs(matrix.topLeftCorner<3, 3>().determinant()) > 0.0))
             throw InputError(path, 0, field + "/inverseBindMatrices", std::to_string(j), "expected matrices that can be inverted");
+        if (!(matrix.row(3) - Eigen::RowVector4d::Unit(3)).isZero(bind_last_row_error))
+            throw InputError(path, 0, field + "/inverseBindMatrices", "matrix " + std::to_string(j),
+                             matrix.col(3).head<3>().isZero()
+                                 ? "is stored by rows: expected its columns one after the other (transpose the matrices, or export the "
+                                   "model with another program)"
+                                 : "expected the last row 0, 0, 0, 1");
         joints[j].inverse_bind.affine() = matrix.topRows<3>();
     }
     return joints;
@@ -219,7 +246,8 @@ void check(const tinygltf::AnimationChannel& channel, const tinygltf::Model& mod
         throw InputError(path, 0, field + "/target/node", std::to_string(channel.target_node), "expected a node of the file");
     if (!model.nodes[channel.target_node].matrix.empty())
         throw InputError(path, 0, field + "/target/node", std::to_string(channel.target_node),
-                         "expected a node without a matrix: its animation replaces translation, rotation or scale");
+                         "expected a node without a matrix, whose translation, rotation or scale the animation replaces: export the "
+                         "model with these three");
     if (channel.sampler < 0 || channel.sampler >= static_cast<int>(samplers))
         throw InputError(path, 0, field + "/sampler", std::to_string(channel.sampler), "expected a sampler of the animation");
     if (channel.target_path != "translation" && channel.target_path != "rotation" && channel.target_path != "scale")
@@ -233,7 +261,8 @@ RigAnimation animation_of(const tinygltf::Model& model, std::size_t index, const
     RigAnimation animation;
     animation.name = source.name.empty() ? "animation " + std::to_string(index) : source.name;
     animation.start_s = std::numeric_limits<double>::max();
-    std::map<int, NodeTracks> tracks_of;  // by node
+    animation.end_s = std::numeric_limits<double>::lowest();  // times may be negative
+    std::map<int, NodeTracks> tracks_of;                      // by node
     bool morphs = false;
     for (std::size_t c = 0; c < source.channels.size(); ++c) {
         const tinygltf::AnimationChannel& channel = source.channels[c];
@@ -281,7 +310,7 @@ NodeTransform transform_of(const tinygltf::Node& node, const std::string& path, 
         if (!node.translation.empty() || !node.rotation.empty() || !node.scale.empty())
             throw InputError(path, 0, field + "/matrix", "", "expected a matrix or translation, rotation and scale, not both");
         const Eigen::RowVector4d last(0.0, 0.0, 0.0, 1.0);
-        if (!(matrix.matrix().row(3) - last).isZero(1e-6))  // single precision
+        if (!(matrix.matrix().row(3) - last).isZero(last_row_rounding))
             throw InputError(path, 0, field + "/matrix", "", "expected the last row 0, 0, 0, 1");
         matrix.matrix().row(3) = last;
         transform.matrix = matrix;

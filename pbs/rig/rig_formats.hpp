@@ -27,15 +27,17 @@ RigMaterials read_gltf_materials(const std::string& path);
 RigMaterials gltf_materials(const std::string& bytes, const std::string& path);
 
 // The first step of all: fills `model`; images that are files of their own are not read. An InputError where the file is no glTF 2.0,
-// refers to buffers that cannot be read, or requires an extension that changes geometry and is not known here, such as
-// KHR_draco_mesh_compression.
+// refers to buffers that cannot be read, or requires an extension that is not known here and that nodes, meshes, animations or buffers
+// have, such as KHR_draco_mesh_compression.
 void read_gltf_model(const std::string& bytes, const std::string& path, pbs_tinygltf::Model& model);
 
 // The numbers of an accessor, checked against the bytes that the file has, and converted as glTF 2.0, Sec. 3.6.2 defines: #elements x
 // `components`. Normalised integers become numbers from -1 or 0 to 1; sparse accessors are applied. An InputError names the field of the
 // file, such as "skins/0/inverseBindMatrices", where the accessor does not exist, has another number of components, reaches beyond its
-// bytes or holds numbers that are not finite.
+// bytes or holds numbers that are not finite; accessor_values accepts these.
 using AccessorNumbers = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+AccessorNumbers accessor_values(const pbs_tinygltf::Model& model, int accessor, int components, const std::string& path,
+                                const std::string& field);
 AccessorNumbers accessor_numbers(const pbs_tinygltf::Model& model, int accessor, int components, const std::string& path,
                                  const std::string& field);
 

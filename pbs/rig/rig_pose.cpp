@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 namespace pbs {
 namespace {
@@ -136,6 +137,31 @@ Positions blended(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& of_jo
     return points;
 }
 
+// The size of a pose over that of the bind pose: that of the joint with as much weight on smaller joints as on larger ones, for a single
+// one may be scaled for its looks. A node that scales them all, as converters put it above a model, may be below a root joint that moves
+// no point.
+double size_of_pose(const Rig& rig, const RigAnimation* animation, const RigBinding& binding)
+{
+    const std::vector<Eigen::Affine3d> pose = node_transforms(rig, animation, animation ? animation->start_s : 0.0);
+    std::map<int, double> weight;  // of each joint
+    for (const RigMesh& mesh : binding.meshes)
+        for (std::size_t e = 0; e < mesh.skin.bone.size(); ++e) weight[mesh.joints[mesh.skin.bone[e]].node] += mesh.skin.weight[e];
+    std::vector<std::tuple<double, int, double>> sizes;  // of a joint, the joint and its weight
+    double rest = 0.0;
+    for (const auto& [node, own] : weight) {
+        sizes.emplace_back(scale_of(pose[node]) / scale_of(binding.bind.at(node)), node, own);
+        rest += 0.5 * own;
+    }
+    std::ranges::sort(sizes);
+    std::size_t middle = 0;
+    while (middle + 1 < sizes.size() && (rest -= std::get<2>(sizes[middle])) > 0.0) ++middle;
+    const double size = std::get<0>(sizes[middle]);
+    if (!(size > 0.0 && std::isfinite(size)))
+        throw InputError(rig.file, 0, "scale of " + rig.nodes[std::get<1>(sizes.front())].name, number_text(size),
+                         "expected a scale that is not zero");
+    return std::abs(size - 1.0) <= same_scale ? 1.0 : size;
+}
+
 void add_bind_pose(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& rest, RigBinding& binding)
 {
     const Eigen::Affine3d to_rest = mesh_to_rest(mesh, binding, rest);
@@ -236,17 +262,7 @@ RigBinding bind_rig(const Rig& rig, const RigAnimation* animation, double scale)
     if (binding.meshes.empty()) throw InputError(rig.file, 0, "meshes", "", "expected a mesh that a joint moves");
     for (const RigMesh& mesh : binding.meshes) add_bind_pose(mesh, rest, binding);
 
-    double size = 1.0;
-    if (animation) {
-        const int root = root_joint(binding.meshes.front()).node;
-        const double at_rest = scale_of(rest[root]), at_start = scale_of(node_transforms(rig, animation, animation->start_s)[root]);
-        for (const double scale_of_root : {at_rest, at_start})
-            if (!(scale_of_root > 0.0 && std::isfinite(scale_of_root)))
-                throw InputError(rig.file, 0, "scale of " + rig.nodes[root].name, number_text(scale_of_root),
-                                 "expected a scale that is not zero");
-        size = at_start / at_rest;
-        if (std::abs(size - 1.0) <= same_scale) size = 1.0;
-    }
+    const double size = size_of_pose(rig, animation, binding);
     for (auto& [node, bind] : binding.bind) bind = Eigen::Scaling(size * binding.metres_per_unit) * bind;
     return binding;
 }

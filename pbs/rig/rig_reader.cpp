@@ -131,6 +131,7 @@ bool is_rig_file(const std::string& path)
 Rig read_rig(const std::string& path)
 {
     Rig rig = read_any_rig(path);
+    leave_out_second_sides_and_unused_points(rig);
     if (rig.meshes.empty()) throw InputError(path, 0, "meshes", "0", "expected a mesh with triangles");
     return rig;
 }

@@ -17,7 +17,8 @@ bool is_rig_file(const std::string& path);
 // mesh.
 bool rig_has_skin(const std::string& path);
 
-// The reader is chosen by the file's content. An InputError where the file is none of these formats, damaged or has no mesh.
+// The reader is chosen by the file's content. The surfaces have neither second sides nor points without a triangle. An InputError where the
+// file is none of these formats, damaged or has no mesh.
 Rig read_rig(const std::string& path);
 
 // The materials of the same file and their images, if they are in the file, below its folder or next to it.
@@ -31,6 +32,16 @@ struct JointShare {
     int joint = 0;  // index into RigMesh::joints
     double weight = 0.0;
 };
+
+// The shares of each point of a mesh, of which up to 1 % may have a weight that is no finite number: these take the mean weights of their
+// neighbours, points at one place that of each other, which is a remark. mesh: its name, points and triangles. An InputError where there
+// are more, or where a point has no neighbour with weights.
+std::vector<std::vector<JointShare>> with_weights_of_neighbours(std::vector<std::vector<JointShare>> points, const RigMesh& mesh,
+                                                                const std::string& file, std::vector<std::string>& remarks);
+
+// Leaves out, with a remark each, what is no part of the surface of a mesh: the second side of a shell, which has each triangle once more
+// with its corners in the reverse order, and points that no triangle uses. A sheet keeps both sides, which enclose nothing.
+void leave_out_second_sides_and_unused_points(Rig& rig);
 
 // The skin weights of a mesh, with sums of one. points: the shares of each point; one joint may occur several times, and its weights are
 // added. Points whose weights are all zero follow joint 0, and sums that are not one within 1e-3 are counted: both are remarks. An

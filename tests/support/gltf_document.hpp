@@ -67,6 +67,13 @@ public:
         return static_cast<int>(json["accessors"].size()) - 1;
     }
 
+    // The number of an accessor with the same numbers as another one.
+    int put_copy(int accessor)
+    {
+        json["accessors"].push_back(json["accessors"][accessor]);
+        return static_cast<int>(json["accessors"].size()) - 1;
+    }
+
     std::string text() const
     {
         nlohmann::json document = json;

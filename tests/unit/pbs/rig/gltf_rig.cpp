@@ -2,9 +2,12 @@
 
 #include "pbs/rig/rig_formats.hpp"
 #include "tests/support/gltf_document.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
+
+#include <limits>
 
 namespace {
 
@@ -24,6 +27,13 @@ protected:
     }
 
     RigMesh read_mesh() const { return read().meshes.at(0); }
+
+    void expect_refused(const std::string& field_and_value, const std::string& rule) const
+    {
+        const std::string message = test_support::refusal_of([&] { read(); });
+        EXPECT_NE(message.find("a.gltf: " + field_and_value), std::string::npos) << message;
+        EXPECT_NE(message.find(rule), std::string::npos) << message;
+    }
 
     Rig rig_of_nodes(const std::string& nodes, const std::string& scenes = "{}")
     {
@@ -121,9 +131,30 @@ TEST_F(GltfRig, ShowsTheMeshesOfTheDefaultScene)
 
 TEST_F(GltfRig, ExtensionsThatDoNotMoveVerticesAreAllowed)
 {
-    for (const char* extension : {"KHR_materials_unlit", "KHR_texture_transform", "KHR_mesh_quantization"}) {
+    for (const char* extension : {"KHR_materials_unlit", "KHR_texture_transform", "KHR_mesh_quantization", "KHR_lights_punctual"}) {
         gltf.json["extensionsRequired"] = {extension};
+        gltf.json["nodes"][0]["extensions"] = {{extension, json::object()}};
         EXPECT_NO_THROW(read()) << extension;
+    }
+    gltf.json["extensionsRequired"] = {"ACME_texture"};
+    gltf.json["nodes"][0].erase("extensions");
+    gltf.json["textures"] = {{{"extensions", {{"ACME_texture", {{"source", 0}}}}}}};
+    EXPECT_NO_THROW(read());
+    for (json* owner : {&gltf.json["nodes"][1], &primitive(), &animation()["channels"][0]["target"], &gltf.json["bufferViews"][2]}) {
+        (*owner)["extensions"] = {{"ACME_texture", json::object()}};
+        expect_refused("extensionsRequired = ACME_texture: not supported", "export the model without it");
+        owner->erase("extensions");
+    }
+}
+
+TEST_F(GltfRig, BuffersMayBeNamedAsTheirFiles)
+{
+    for (const auto& [file, uri] : {std::pair("arm 10%.bin", "arm 10%.bin"), std::pair("arm 10%.bin", "arm%2010%25.bin"),
+                                    std::pair("50%more+.bin", "50%more+.bin"), std::pair("100%", "100%")}) {
+        const test_support::ScratchFolder folder;
+        folder.file(file, gltf.bytes);
+        gltf.json["buffers"] = {{{"byteLength", gltf.bytes.size()}, {"uri", uri}}};
+        EXPECT_EQ(read_gltf_rig(folder.file("a.gltf", gltf.json.dump())).meshes.at(0).points.rows(), 4) << uri;
     }
 }
 
@@ -142,10 +173,49 @@ TEST_F(GltfMeshes, ListsStripsAndFansOfTrianglesOrTheVerticesInTheirOrder)
 TEST_F(GltfMeshes, SeveralPrimitivesAreOneMesh)
 {
     gltf.json["meshes"][0]["primitives"].push_back(primitive());
+    gltf.json["meshes"][0]["primitives"][1]["attributes"]["WEIGHTS_0"] = gltf.put_copy(3);
     const RigMesh mesh = read_mesh();
     EXPECT_EQ(mesh.points.rows(), 8);
     EXPECT_EQ(mesh.triangles, (Triangles(4, 3) << 0, 1, 3, 1, 2, 3, 4, 5, 7, 5, 6, 7).finished());
     EXPECT_EQ(mesh.skin.first, (std::vector<int>{0, 1, 3, 4, 6, 7, 9, 10, 12}));
+}
+
+// Forty primitives of an exporter that shares the numbers of all of them.
+TEST_F(GltfMeshes, PrimitivesWithTheSameAttributesShareTheirPoints)
+{
+    const RigMesh one = read_mesh();
+    primitive()["material"] = 0;
+    for (int material = 1; material < 40; ++material) {
+        json other = primitive();
+        other["material"] = material;
+        other["indices"] = gltf.put<std::uint16_t>("SCALAR", {3, 1, 0});
+        gltf.json["meshes"][0]["primitives"].push_back(other);
+    }
+    const RigMesh mesh = read_mesh();
+    EXPECT_EQ(mesh.points, one.points);
+    EXPECT_EQ(mesh.skin.first, one.skin.first);
+    EXPECT_EQ(mesh.triangles.rows(), 2 + 39);
+    EXPECT_EQ(Eigen::RowVector3i(mesh.triangles.row(40)), Eigen::RowVector3i(3, 1, 0));
+    EXPECT_EQ(mesh.look.material.back(), 39);
+}
+
+TEST_F(GltfMeshes, AWeightThatIsNoNumberIsRefusedByTheNumberOfItsPoints)
+{
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    primitive()["attributes"]["WEIGHTS_0"] = gltf.put<float>("VEC4", {1, 0, 0, 0, nan, 0.5F, 0, 0, 1, 0, 0, 0, 0.25F, 0.75F, 0, 0});
+    expect_refused("mesh arm, weights = 1 of 4 points: ", "expected at most 1 %");
+    primitive()["attributes"]["POSITION"] = gltf.put<float>("VEC3", {1, 0, 0, 1, 2, 0, 1, nan, 0, nan, 2, 0});
+    expect_refused("meshes/0/primitives/0/attributes/POSITION = 2 of 4 elements: ", "expected finite numbers, first in element 2");
+}
+
+TEST_F(GltfMeshes, InverseBindMatricesByRowsAreRefused)
+{
+    gltf.json["skins"][0]["inverseBindMatrices"] =
+        gltf.put<float>("MAT4", {1, 0, 0, -1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, -1, 0, 1, 0, -2, 0, 0, 1, 0, 0, 0, 0, 1});
+    expect_refused("skins/0/inverseBindMatrices = matrix 0: is stored by rows", "transpose");
+    gltf.json["skins"][0]["inverseBindMatrices"] =
+        gltf.put<float>("MAT4", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 0.5F, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 0, 1});
+    expect_refused("skins/0/inverseBindMatrices = matrix 1: expected the last row 0, 0, 0, 1", "");
 }
 
 TEST_F(GltfMeshes, PointsLinesAndMorphTargetsAreLeftOutWithARemark)
@@ -220,6 +290,14 @@ TEST_F(GltfAnimations, HaveTheKeysOfTheirSamplers)
     EXPECT_EQ(tracks.rotation->interpolation, Interpolation::linear);
     EXPECT_EQ(tracks.rotation->times_s, (std::vector<double>{0.0, 1.0}));
     EXPECT_EQ(tracks.rotation->values, (std::vector<Eigen::Vector4d>{{0, 0, 0, 1}, {0, 0, 1, 0}}));
+}
+
+TEST_F(GltfAnimations, MayEndBeforeTheTimeZero)
+{
+    animation()["samplers"][0]["input"] = gltf.put<float>("SCALAR", {-2.0F, -1.0F});
+    const RigAnimation moved = read().animations.at(0);
+    EXPECT_EQ(moved.start_s, -2.0);
+    EXPECT_EQ(moved.end_s, -1.0);
 }
 
 TEST_F(GltfAnimations, ACubicSplineHasThreeValuesPerKey)

@@ -119,6 +119,57 @@ Rig with_scaled_root(const Vec3& first)
     return rig;
 }
 
+// The arm below a joint that moves no point and a node, which is none, as converters add them. The skin was bound without that node.
+Rig below_a_container(const Vec3& scale)
+{
+    Rig arm = test_support::two_joint_rig(), rig = arm;
+    rig.nodes = {test_support::rig_node("reference", -1, {0, 0, 0}), test_support::rig_node("container", 0, {0, 0, 0})};
+    rig.nodes[1].rest.scale = scale;
+    for (RigNode node : arm.nodes) {
+        node.parent = node.parent < 0 ? 1 : node.parent + 2;
+        rig.nodes.push_back(node);
+    }
+    RigMesh& mesh = rig.meshes[0];
+    mesh.node += 2;
+    mesh.joints = {joint_bound_at(0, {0, 0, 0}), joint_bound_at(2, {1, 0, 0}), joint_bound_at(3, {1, 2, 0})};
+    for (int& joint : mesh.skin.bone) ++joint;
+    rig.animations[0].nodes[0].node += 2;
+    return rig;
+}
+
+TEST(ScaledContainer, BelowTheRootJointBelongsToTheRestPoseAsToTheMotion)
+{
+    const Rig centimetres = below_a_container(Vec3::Constant(0.01));
+    for (const RigAnimation* animation : {static_cast<const RigAnimation*>(nullptr), &centimetres.animations[0]}) {
+        const RigBinding binding = bind_rig(centimetres, animation, 1.0);
+        EXPECT_LE((rest_points(binding.meshes[0], binding) - 0.01 * centimetres.meshes[0].points).cwiseAbs().maxCoeff(),
+                  test_support::rounding_error(64, 0.04));
+    }
+    const RiggedBody body = make_rigged_body(centimetres, &centimetres.animations[0], 1.0);
+    double stretch = 0.0;
+    rigid_pose(body, node_transforms(centimetres, &centimetres.animations[0], 0.5), &stretch);
+    EXPECT_LE(stretch, test_support::rounding_error(64, 1.0));
+}
+
+TEST(ScaledContainer, ThatAnAnimationScalesHasTheSizeOfTheFirstFrame)
+{
+    Rig rig = below_a_container(Vec3::Ones());
+    const KeyTrack scale{.times_s = {0.0}, .values = {{0.01, 0.01, 0.01, 0}}};
+    rig.animations[0].nodes.push_back({1, {}, {}, scale});
+    const RigBinding binding = bind_rig(rig, &rig.animations[0], 1.0);
+    EXPECT_LE((rest_points(binding.meshes[0], binding) - 0.01 * rig.meshes[0].points).cwiseAbs().maxCoeff(),
+              test_support::rounding_error(64, 0.04));
+}
+
+TEST(ScaledContainer, AJointThatIsScaledForItsLooksDoesNotCount)
+{
+    Rig rig = test_support::two_joint_rig();
+    rig.meshes[0].skin.weight = {1.0, 0.6, 0.4, 1.0, 0.6, 0.4};  // 2.2 of 4 on the root
+    rig.nodes[1].rest.scale = Vec3::Constant(3.0);
+    const RigBinding binding = bind_rig(rig, nullptr, 1.0);
+    EXPECT_EQ(rest_points(binding.meshes[0], binding), rig.meshes[0].points);
+}
+
 // A mirrored root has the size of its magnitude. The scale is a cubic root of a determinant: some 20 roundings of numbers of at most 12.
 TEST(ScaledAnimation, TheFirstFrameDeterminesTheSize)
 {
