@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string_view>
 
 namespace pbs {
 namespace {
@@ -23,18 +24,39 @@ std::string code_of(unsigned char c)
     return std::string("\\x") + digits[c >> 4] + digits[c & 15];
 }
 
-// Control characters by their codes, those that UTF-8 has beyond ASCII (U+0080 to U+009F) among them.
+// The bytes of the character of UTF-8 that begins here (RFC 3629, Sec. 4); 0: there is none.
+std::size_t bytes_of_character(std::string_view text)
+{
+    const auto byte = [&](std::size_t at) { return at < text.size() ? static_cast<unsigned char>(text[at]) : 0; };
+    const int first = byte(0), second = byte(1);
+    if (first < 0x80) return 1;
+    const std::size_t length = first >= 0xC2 && first < 0xE0   ? 2
+                               : first >= 0xE0 && first < 0xF0 ? 3
+                               : first >= 0xF0 && first < 0xF5 ? 4
+                                                               : 0;
+    for (std::size_t at = 1; at < length; ++at)
+        if ((byte(at) & 0xC0) != 0x80) return 0;
+    const bool is_overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
+    const bool is_none = (first == 0xED && second > 0x9F) || (first == 0xF4 && second > 0x8F);  // a surrogate, beyond U+10FFFF
+    return is_overlong || is_none ? 0 : length;
+}
+
+// Control characters by their codes, those that UTF-8 has beyond ASCII (U+0080 to U+009F) among them, and bytes that are no UTF-8.
 std::string escaped(const std::string& text)
 {
     std::string shown;
     for (std::size_t i = 0; i < text.size(); ++i) {
-        const auto byte = [&](std::size_t at) { return at < text.size() ? static_cast<unsigned char>(text[at]) : 0; };
-        if (byte(i) == 0xC2 && byte(i + 1) >= 0x80 && byte(i + 1) < 0xA0)
-            shown += code_of(static_cast<unsigned char>(byte(++i)));
-        else if (byte(i) < ' ' || byte(i) == 0x7F)
-            shown += code_of(static_cast<unsigned char>(byte(i)));
-        else
-            shown += text[i];
+        const std::string_view rest = std::string_view(text).substr(i);
+        const std::size_t length = bytes_of_character(rest);
+        const auto byte = static_cast<unsigned char>(rest.front());
+        if (length == 2 && byte == 0xC2 && static_cast<unsigned char>(rest[1]) < 0xA0)
+            shown += code_of(static_cast<unsigned char>(text[++i]));
+        else if (length == 0 || byte < ' ' || byte == 0x7F)
+            shown += code_of(byte);
+        else {
+            shown += rest.substr(0, length);
+            i += length - 1;
+        }
     }
     return shown;
 }

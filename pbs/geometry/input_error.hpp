@@ -14,7 +14,7 @@ namespace pbs {
 class InputError : public std::runtime_error {
 public:
     // line 0: no line is known; an empty field or value is left out, a long one cut to 80 bytes. The message is one line: control
-    // characters stand in it by their codes (\n, \x1b).
+    // characters and bytes that are no UTF-8 stand in it by their codes (\n, \x1b).
     InputError(const std::string& file, int line, const std::string& field, const std::string& value, const std::string& rule);
 };
 

@@ -139,30 +139,43 @@ class Model:
             waiting += self.nodes[n].get("children", [])
 
     def mesh_points(self, n, moved):
-        """The points of all triangle primitives of a node's mesh, in the scene."""
-        node = self.nodes[n]
+        """The points of all triangle primitives of a node's mesh, in the scene, that triangles use; primitives with the same attributes
+        share them."""
+        node, used = self.nodes[n], {}
         for primitive in self.document["meshes"][node["mesh"]]["primitives"]:
-            if primitive.get("mode", 4) not in (4, 5, 6):
-                continue
-            points = self.numbers(primitive["attributes"]["POSITION"])
-            points = numpy.hstack([points, numpy.ones((len(points), 1))])
-            if "skin" not in node:
-                yield (points @ self.world(n, moved).T)[:, :3]
-                continue
-            skin = self.document["skins"][node["skin"]]
-            inverse = self.numbers(skin["inverseBindMatrices"]).reshape(-1, 4, 4).transpose(0, 2, 1) if "inverseBindMatrices" in skin \
-                else numpy.tile(numpy.eye(4), (len(skin["joints"]), 1, 1))
-            matrices = numpy.array([self.world(joint, moved) @ inverse[j] for j, joint in enumerate(skin["joints"])])
-            total, sums = numpy.zeros((len(points), 3)), numpy.zeros(len(points))
-            for part in range(8):
-                if f"JOINTS_{part}" not in primitive["attributes"]:
-                    break
-                joints = self.numbers(primitive["attributes"][f"JOINTS_{part}"]).astype(int)
-                weights = self.numbers(primitive["attributes"][f"WEIGHTS_{part}"])
-                for k in range(4):
-                    total += weights[:, k:k + 1] * numpy.einsum("pij,pj->pi", matrices[joints[:, k]], points)[:, :3]
-                    sums += weights[:, k]
-            yield total / sums[:, None]
+            if primitive.get("mode", 4) in (4, 5, 6):
+                used.setdefault(json.dumps(primitive["attributes"], sort_keys=True), (primitive, []))[1].append(self.corners(primitive))
+        for primitive, corners in used.values():
+            yield self.skinned(node, n, primitive, moved)[numpy.unique(numpy.concatenate(corners))]
+
+    def corners(self, primitive):
+        """The points that the triangles of a primitive use."""
+        if "indices" in primitive:
+            corners = self.numbers(primitive["indices"])[:, 0].astype(int)
+        else:
+            corners = numpy.arange(self.document["accessors"][primitive["attributes"]["POSITION"]]["count"])
+        return corners[:len(corners) // 3 * 3] if primitive.get("mode", 4) == 4 else corners
+
+    def skinned(self, node, n, primitive, moved):
+        """The points of a primitive of the mesh of node n, #P x 3."""
+        points = self.numbers(primitive["attributes"]["POSITION"])
+        points = numpy.hstack([points, numpy.ones((len(points), 1))])
+        if "skin" not in node:
+            return (points @ self.world(n, moved).T)[:, :3]
+        skin = self.document["skins"][node["skin"]]
+        inverse = self.numbers(skin["inverseBindMatrices"]).reshape(-1, 4, 4).transpose(0, 2, 1) if "inverseBindMatrices" in skin \
+            else numpy.tile(numpy.eye(4), (len(skin["joints"]), 1, 1))
+        matrices = numpy.array([self.world(joint, moved) @ inverse[j] for j, joint in enumerate(skin["joints"])])
+        total, sums = numpy.zeros((len(points), 3)), numpy.zeros(len(points))
+        for part in range(8):
+            if f"JOINTS_{part}" not in primitive["attributes"]:
+                break
+            joints = self.numbers(primitive["attributes"][f"JOINTS_{part}"]).astype(int)
+            weights = self.numbers(primitive["attributes"][f"WEIGHTS_{part}"])
+            for k in range(4):
+                total += weights[:, k:k + 1] * numpy.einsum("pij,pj->pi", matrices[joints[:, k]], points)[:, :3]
+                sums += weights[:, k]
+        return total / sums[:, None]
 
     def points(self, name, time_s):
         """All meshes in the order of their nodes; time_s None: at rest."""

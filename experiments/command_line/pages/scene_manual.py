@@ -37,6 +37,12 @@ further = {
         "A clip (.bvh, .gltf, .glb, .fbx) can serve as skeleton: its zero pose is the rest pose."),
     "Weight files": (
         "A CSV file with the columns `vertex`, `joint` and `weight`. The weights of a vertex add up to 1.",),
+    "Rigged models": (
+        "Accepted with a warning: points that no triangle uses, and the second side of a shell whose triangles are all there once more "
+        "in the reverse order (both are left out); weights that are no numbers, at up to 1 % of a mesh's points (they take those of "
+        "their neighbours).",
+        "Refused: weights that are no numbers at more points, inverse bind matrices stored by rows, an animated node with a matrix, and "
+        "a required extension that nodes, meshes, animations or buffers of a glTF file have, such as the compression of Draco."),
     "Meshes and surfaces": (
         "Tet meshes are read from .msh (Gmsh 2.2 and 4.1), .vtu, .vtk, .mesh (MEDIT) and .node with .ele (TetGen).",
         "`pbskin mesh` makes one from a surface (.obj, .ply, .off, .stl, .gltf).",

@@ -8,6 +8,7 @@
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/rig/rig_reader.hpp"
+#include "pbs/rig/rigged_body.hpp"
 #include "tests/support/arm_in_formats.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/gltf_document.hpp"
@@ -24,49 +25,78 @@
 #include <locale>
 #include <random>
 #include <regex>
+#include <tuple>
 
 namespace readers {
 namespace {
 
 using test_support::ScratchFolder;
 
-std::string counts(Eigen::Index points, Eigen::Index cells)
+// A sum that another number or another order changes.
+template <typename Numbers>
+std::string sum_of(const Numbers& numbers)
 {
-    return std::to_string(points) + " points, " + std::to_string(cells) + " cells";
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < numbers.size(); ++i) sum += std::sqrt(2.0 + double(i)) * double(numbers.reshaped()(i));
+    return ", sum " + pbs::number_text(sum, 12);
+}
+
+template <typename Cells>
+std::string content_of(const pbs::Positions& points, const Cells& cells)
+{
+    return std::to_string(points.rows()) + " points, " + std::to_string(cells.rows()) + " cells" + sum_of(points) + sum_of(cells);
 }
 
 std::string read_tets(const std::string& path)
 {
     const pbs::TetMesh mesh = pbs::read_tet_mesh(path).mesh;
-    return counts(mesh.rest.rows(), mesh.tets.rows());
+    return content_of(mesh.rest, mesh.tets);
+}
+
+std::string read_frame(const std::string& path)
+{
+    const pbs::TetMesh mesh = pbs::read_tet_frame(path);
+    return content_of(mesh.rest, mesh.tets);
 }
 
 std::string read_surface(const std::string& path)
 {
     const pbs::SurfaceMesh surface = pbs::read_surface(path);
-    return counts(surface.points.rows(), surface.triangles.rows());
+    return content_of(surface.points, surface.triangles);
 }
 
 std::string read_rig(const std::string& path)
 {
-    const pbs::RigMesh mesh = pbs::read_rig(path).meshes.at(0);
-    return counts(mesh.points.rows(), mesh.triangles.rows());
+    const pbs::Rig rig = pbs::read_rig(path);
+    const auto& [points, triangles, skin] = std::tie(rig.meshes.at(0).points, rig.meshes.at(0).triangles, rig.meshes.at(0).skin);
+    const std::vector<Eigen::Affine3d> nodes = pbs::node_transforms(rig, pbs::find_animation(rig, ""), 0.5);
+    return content_of(points, triangles) + sum_of(Eigen::Map<const Eigen::VectorXd>(skin.weight.data(), Eigen::Index(skin.weight.size()))) +
+           sum_of(pbs::skinned_points(rig.meshes.at(0), nodes));
 }
 
 std::string read_clip(const std::string& path)
 {
-    return std::to_string(pbs::read_clip(path).frames()) + " frames";
+    const pbs::Clip clip = pbs::read_clip(path);
+    std::string content = std::to_string(clip.frames()) + " frames of " + pbs::number_text(clip.frame_time_s, 12) + " s";
+    for (const auto& frame : clip.local)
+        for (const Eigen::Quaterniond& turn : frame) content += sum_of(turn.coeffs());
+    return content + sum_of(clip.zero_pose) + sum_of(clip.root);
 }
 
 std::string read_skeleton(const std::string& path)
 {
-    return std::to_string(pbs::parse_skeleton(pbs::read_text_file(path, pbs::most_settings_bytes), path).bones.size()) + " bones";
+    std::string content;
+    for (const pbs::Bone& bone : pbs::parse_skeleton(pbs::read_text_file(path, pbs::most_settings_bytes), path).bones)
+        content += bone.name + sum_of(bone.head) + sum_of(bone.tail) + "; ";
+    return content;
 }
 
 std::string read_weights(const std::string& path)
 {
     const pbs::Skeleton skeleton{{{"upper", -1, {-1, 0, 0}, {0, 0, 0}}, {"forearm", 0, {0, 0, 0}, {1, 0, 0}}}};
-    return std::to_string(pbs::parse_weights(pbs::read_text_file(path), path, skeleton, 2).vertices()) + " vertices";
+    const pbs::Weights weights = pbs::parse_weights(pbs::read_text_file(path), path, skeleton, 2);
+    return std::to_string(weights.vertices()) + " vertices" +
+           sum_of(Eigen::Map<const Eigen::VectorXd>(weights.weight.data(), Eigen::Index(weights.weight.size())));
 }
 
 // A bar as this program writes it.
@@ -77,7 +107,8 @@ std::string written(const std::string& extension)
     return pbs::read_text_file(folder / ("bar" + extension));
 }
 
-const std::string points = "0 0 0\n{x=1} 0 0\n0 1 0\n0 0 1\n", faces = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 {corner=2}\n";
+const std::string points = "0 0 0\n{x=1} 0 0\n0 1 0\n0 0 1\n", fifth = "0.5 -0.25 -1\n",
+                  faces = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 {corner=2}\n";
 const std::string msh =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{count=4}\n1 0 0 0\n2 {x=1} 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
     "$Elements\n1\n1 4 2 0 1 1 2 3 {corner=4}\n$EndElements\n";
@@ -87,13 +118,24 @@ const std::string medit =
 const std::string vtk = "# vtk DataFile Version 3.0\ntet\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {count=4} double\n" + points +
                         "CELLS 1 5\n4 0 1 2 {corner=3}\nCELL_TYPES 1\n10\n";
 const std::string node = "{count=4} 3 0 0\n0 0 0 0\n1 {x=1} 0 0\n2 0 1 0\n3 0 0 1\n", ele = "1 4 0\n0 0 1 2 {corner=3}\n";
+// Two tets, so that a count which is too small would leave out one of them.
+const std::string msh_of_two =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{count=5}\n1 0 0 0\n2 {x=1} 0 0\n3 0 1 0\n4 0 0 1\n5 0.5 -0.25 -1\n$EndNodes\n"
+    "$Elements\n{cells=2}\n1 4 2 0 1 1 2 3 4\n2 4 2 0 1 1 3 2 {corner=5}\n$EndElements\n";
+const std::string medit_of_two =
+    "MeshVersionFormatted 2\nDimension 3\nVertices\n{count=5}\n0 0 0 1\n{x=1} 0 0 1\n0 1 0 1\n0 0 1 1\n0.5 -0.25 -1 1\nTetrahedra\n"
+    "{cells=2}\n1 2 3 4 1\n1 3 2 {corner=5} 1\nEnd\n";
+const std::string vtk_of_two = "# vtk DataFile Version 3.0\ntets\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {count=5} double\n" + points +
+                               fifth + "CELLS {cells=2} 10\n4 0 1 2 3\n4 0 2 1 {corner=4}\nCELL_TYPES 2\n10\n10\n";
+const std::string nodes_of_two = "{count=5} 3 0 0\n0 0 0 0\n1 {x=1} 0 0\n2 0 1 0\n3 0 0 1\n4 0.5 -0.25 -1\n",
+                  tets_of_two = "{cells=2} 4 0\n0 0 1 2 3\n1 0 2 1 {corner=4}\n";
 const std::string tobj = "v 0 0 0\nv {x=1} 0 0\nv 0 1 0\nv 0 0 1\nt 0 1 2 {corner=3}\n";
 const std::string obj = "v 0 0 0\nv {x=1} 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 const std::string ply =
-    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4\n"
+    "ply\nformat ascii 1.0\nelement vertex {count=4}\nproperty float x\nproperty float y\nproperty float z\nelement face {cells=4}\n"
     "property list uchar int vertex_indices\nend_header\n" +
     points + faces;
-const std::string off = "OFF\n4 4 0\n" + points + faces;
+const std::string off = "OFF\n{count=4} {cells=4} 0\n" + points + faces;
 const std::string stl =
     "solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex {x=1} 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
 const std::string bvh =
@@ -130,6 +172,15 @@ const std::vector<Reader>& all_readers()
         {"written_vtu", "a.vtu", written(".vtu"), read_tets},
         {"tetgen_tets", "a.ele", ele, read_tets, "a.node", node},
         {"tetgen_points", "a.node", node, read_tets, "a.ele", ele},
+        {"two_in_gmsh", "a.msh", msh_of_two, read_tets},
+        {"two_in_medit", "a.mesh", medit_of_two, read_tets},
+        {"two_in_vtk", "a.vtk", vtk_of_two, read_tets},
+        {"two_in_tetgen_tets", "a.ele", tets_of_two, read_tets, "a.node", nodes_of_two},
+        {"two_in_tetgen_points", "a.node", nodes_of_two, read_tets, "a.ele", tets_of_two},
+        {"gmsh_frame", "a.msh", msh_of_two, read_frame},
+        {"medit_frame", "a.mesh", medit_of_two, read_frame},
+        {"vtk_frame", "a.vtk", vtk_of_two, read_frame},
+        {"written_frame", "a.vtu", written(".vtu"), read_frame},
         {.name = "tobj", .file = "a.tobj", .text = tobj, .read = read_tets, .has_an_end = false},
         {.name = "obj", .file = "a.obj", .text = obj, .read = read_surface, .has_an_end = false},
 #ifdef PBS_WITH_CGAL
@@ -144,6 +195,8 @@ const std::vector<Reader>& all_readers()
         {"collada", "a.dae", test_support::collada_arm(), read_rig},
         {"fbx", "a.fbx", test_support::fbx_arm(), read_rig},
         {"bvh", "a.bvh", bvh, read_clip},
+        {"gltf_clip", "a.gltf", test_support::two_joint_document().text(), read_clip},
+        {"fbx_clip", "a.fbx", test_support::fbx_arm(), read_clip},
         {.name = "skeleton", .file = "a.toml", .text = skeleton, .read = read_skeleton, .has_an_end = false},
         {"weights", "a.csv", "vertex,joint,weight\n0,upper,1\n1,upper,0.25\n1,forearm,0.75\n", read_weights},
     };
@@ -162,7 +215,7 @@ std::string sound(const std::string& text)
 
 std::string with_number(const std::string& text, const std::string& place, const std::string& number)
 {
-    static const std::regex any(R"(\{(x|corner|count)=(\d)\})");
+    static const std::regex any(R"(\{(x|corner|count|cells)=(\d)\})");
     const std::string changed = std::regex_replace(text, std::regex("\\{" + place + R"(=\d\})"), number);
     return std::regex_replace(changed, any, "$2");
 }
@@ -211,7 +264,12 @@ protected:
 };
 
 class ReaderOfWholeFiles : public ReaderContract {};  // a part of any other file is another file
-class ReaderOfNumbers : public ReaderContract {};     // the bad numbers of the others are in bad_files.cpp
+class ReaderOfText : public ReaderContract {};        // not of bytes
+// The bad numbers of the other readers are in bad_files.cpp.
+class ReaderOfNumbers : public ReaderContract {
+protected:
+    static bool has(const std::string& place) { return GetParam().text.find("{" + place + "=") != std::string::npos; }
+};
 
 template <typename IsWanted>
 std::vector<Reader> readers_that(IsWanted is_wanted)
@@ -228,6 +286,9 @@ std::string name_in_suite(const testing::TestParamInfo<Reader>& info)
 
 INSTANTIATE_TEST_SUITE_P(Readers, ReaderContract, testing::ValuesIn(all_readers()), name_in_suite);
 INSTANTIATE_TEST_SUITE_P(Readers, ReaderOfWholeFiles, testing::ValuesIn(readers_that(std::mem_fn(&Reader::has_an_end))), name_in_suite);
+INSTANTIATE_TEST_SUITE_P(Readers, ReaderOfText,
+                         testing::ValuesIn(readers_that([](const Reader& of) { return of.text.find('\0') == std::string::npos; })),
+                         name_in_suite);
 INSTANTIATE_TEST_SUITE_P(Readers, ReaderOfNumbers,
                          testing::ValuesIn(readers_that([](const Reader& of) { return of.text.find("{x=") != std::string::npos; })),
                          name_in_suite);
@@ -274,13 +335,58 @@ TEST_P(ReaderContract, ReadsADamagedByteOrRefusesItByName)
     }
 }
 
+// The same content as other programs and editors write it.
+struct Dialect {
+    std::string name;
+    std::string (*of)(const std::string& text);
+};
+
+const Dialect dialects[] = {
+    {"a byte-order mark", [](const std::string& text) { return "\xef\xbb\xbf" + text; }},
+    {"lines that end in CR LF", [](const std::string& text) { return std::regex_replace(text, std::regex("\n"), "\r\n"); }},
+    {"tabs between numbers", [](const std::string& text) { return std::regex_replace(text, std::regex("(\\d) (?=[-\\d])"), "$1\t"); }},
+    {"two spaces between numbers",
+     [](const std::string& text) { return std::regex_replace(text, std::regex("(\\d) (?=[-\\d])"), "$1  "); }},
+    {"spaces at the ends of lines", [](const std::string& text) { return std::regex_replace(text, std::regex("\n"), " \n"); }},
+    {"empty lines at the end", [](const std::string& text) { return text + "\n\n"; }},
+    {"no end of the last line", [](const std::string& text) { return text.ends_with('\n') ? text.substr(0, text.size() - 1) : text; }},
+};
+
+TEST_P(ReaderOfText, ReadsTheSameContentInEveryDialect)
+{
+    const std::string answer = answer_to(whole);
+    for (const Dialect& dialect : dialects) EXPECT_EQ(answer_to(dialect.of(whole)), answer) << dialect.name;
+}
+
 TEST_P(ReaderOfNumbers, RefusesNumbersThatCannotBe)
 {
-    for (const auto& [place, numbers] : {std::pair<std::string, std::vector<std::string>>{"x", {"nan", "inf", "1e999", "abc"}},
-                                         {"corner", {"9", "-1", "99999999999"}},
-                                         {"count", {"5", "-4", "4000000000"}}})
+    for (const auto& [place, numbers] : {std::pair<std::string, std::vector<std::string>>{
+                                             "x", {"nan", "inf", "1e999", "abc", "1.#QNAN", "1.#INF", "1.5.2", "--1", "1,5", "1e"}},
+                                         {"corner", {"9", "-1", "99999999999", "nan", "1.5", "x"}},
+                                         {"count", {"-4", "4000000000", "nan"}},
+                                         {"cells", {"-4", "4000000000", "nan"}}})
         for (const std::string& number : numbers)
-            if (GetParam().text.find("{" + place + "=") != std::string::npos) expect_refused(with_number(GetParam().text, place, number));
+            if (has(place)) expect_refused(with_number(GetParam().text, place, number));
+}
+
+TEST_P(ReaderOfNumbers, RefusesCountsThatAreWrongByOne)
+{
+    for (const std::string place : {"count", "cells"}) {
+        std::smatch found;
+        if (!std::regex_search(GetParam().text, found, std::regex("\\{" + place + "=(\\d)\\}"))) continue;
+        const int count = std::stoi(found[1]);
+        for (const int other : {count - 1, count + 1}) expect_refused(with_number(GetParam().text, place, std::to_string(other)));
+    }
+}
+
+// Fortran writes 0.29 as 2.9D-01.
+TEST_P(ReaderOfNumbers, ReadsFortransExponentsOrRefusesThem)
+{
+    const std::string answer = answer_to(with_number(GetParam().text, "x", "0.29"));
+    for (const std::string number : {"2.9D-01", "0.29d0"}) {
+        const std::string of_fortran = answer_to(with_number(GetParam().text, "x", number));
+        EXPECT_TRUE(of_fortran == answer || !of_fortran.starts_with("read: ")) << number << ": " << of_fortran;
+    }
 }
 
 // Reading and writing files does not depend on the locale of the program that uses the library. Reference: the bytes that are written

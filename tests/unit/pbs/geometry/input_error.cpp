@@ -29,7 +29,11 @@ TEST(InputError, ControlCharactersStandByTheirCodes)
                    "2J \xc2\xa0\xc3\x9b\xc2",
                    "no such joint"),
               "joint = \\x9b"
-              "2J \xc2\xa0\xc3\x9b\xc2: no such joint");
+              "2J \xc2\xa0\xc3\x9b\\xc2: no such joint");
+    const std::string none = "\x82 \xc0\xaf \xed\xa0\x80 \xf4\x90\x80\x80 \xe2\x82", whole = "\xe2\x82\xac \xf0\x9f\xa6\xb4";
+    EXPECT_EQ(told("", 0, "v", none, whole),
+              "v = \\x82 \\xc0\\xaf \\xed\\xa0\\x80 \\xf4\\x90\\x80\\x80 \\xe2\\x82: \xe2\x82\xac \xf0\x9f\xa6\xb4")
+        << "no UTF-8";
     EXPECT_EQ(told("", 0, "", "", told("a\n", 0, "", "", "no such file")), "a\\n: no such file");  // a message that contains a message
 }
 
