@@ -311,7 +311,7 @@ int joint_named(const std::string& name, const Nodes& nodes, const Rig& rig)
     return with_mesh;
 }
 
-Weights skin_of(const aiMesh& mesh, Rig& rig)
+Weights skin_of(const aiMesh& mesh, const RigMesh& own, Rig& rig)
 {
     std::vector<std::vector<JointShare>> points(mesh.mNumVertices);
     for (unsigned joint = 0; joint < mesh.mNumBones; ++joint)
@@ -322,7 +322,7 @@ Weights skin_of(const aiMesh& mesh, Rig& rig)
                                  std::to_string(weight.mVertexId), "expected a vertex of the mesh");
             points[weight.mVertexId].push_back({static_cast<int>(joint), weight.mWeight});
         }
-    return normalised_skin(points, rig.file, mesh.mName.C_Str(), rig.remarks);
+    return normalised_skin(with_weights_of_neighbours(points, own, rig.file, rig.remarks), rig.file, own.name, rig.remarks);
 }
 
 // Returns the factor by which the inverse bind matrices of a mesh must be multiplied. assimp 5.4 leaves the transform of the mesh's node
@@ -363,7 +363,7 @@ RigMesh mesh_of(const aiMesh& source, int node, const Nodes& nodes, Rig& rig)
         if (!(std::abs(joint.inverse_bind.linear().determinant()) > 0.0))
             throw InputError(rig.file, 0, "mesh " + mesh.name + ", joint " + rig.nodes[joint.node].name + ", inverse bind matrix", "",
                              "expected a matrix that has an inverse");
-    if (!mesh.joints.empty()) mesh.skin = skin_of(source, rig);
+    if (!mesh.joints.empty()) mesh.skin = skin_of(source, mesh, rig);
     if (source.mNumAnimMeshes > 0)
         rig.remarks.push_back("mesh " + mesh.name + ": " + std::to_string(source.mNumAnimMeshes) + " morph targets are left out");
     return mesh;
