@@ -97,10 +97,14 @@ CheckRules parse_check_rules(const std::string& text, const std::string& file, c
 
 // Bounds on single frames, and their results frame by frame and as test cases. Each bound has the name of the option that sets it.
 struct FrameValues {
-    FrameMetrics metrics;
+    FrameMetrics metrics;          // of a surface volume_change_pct and volume_abs_change_pct alone
     double j_max = 0.0;            // largest V_t / V0_t
     double edge_strain_max = 0.0;  // largest |l / l0 - 1|
+    int self_intersections = 0;    // of a surface: pairs of triangles that meet
 };
+
+// What is measured, and what a bound applies to.
+enum class Measured { tets, surface, both };
 
 struct FrameBound {
     std::string option;  // --max-volume-change
@@ -109,12 +113,16 @@ struct FrameBound {
     bool is_upper = true;
     double lowest = 0.0;  // the lowest bound that makes sense
     double (*of)(const FrameValues&) = nullptr;
+    std::string unit = {};     // behind a number, with its blank
+    bool is_absolute = false;  // the bound is on |value|
+    Measured applies_to = Measured::both;
     std::optional<double> value = {};  // nothing: the bound is not asked for
 };
 std::vector<FrameBound> known_frame_bounds();
 
-// InputError for a bound that no frame or every frame meets: not finite, or below the lowest possible value.
-void require_meaningful(const FrameBound& bound);
+// InputError for a bound that no frame or every frame meets: not finite, or below the lowest possible value; and for one that does not
+// apply to what is measured.
+void require_meaningful(const FrameBound& bound, Measured measured);
 
 // A bound that does not hold, e.g. "|volume_change_pct| = 0.62 > 0.5". Empty if it holds or was not asked for. A value that is not a
 // number breaks every bound.
@@ -133,6 +141,10 @@ struct RefusedFrame {
 // refused frame.
 CheckSuite frame_suite(const std::string& name, const std::vector<FrameBound>& bounds, const std::vector<MeasuredFrame>& frames,
                        const std::vector<RefusedFrame>& refused, double seconds);
+
+// The result in one line: "fails: 14 of 18 frames beyond 0.5 %, worst -8.64 % in frame 17", "holds: ..." or, without a bound, the range of
+// the volume. Bounds other than that on the volume are named by their metric, and frames that could not be read are counted.
+std::string frame_summary(const std::vector<FrameBound>& bounds, const std::vector<MeasuredFrame>& frames, std::size_t refused);
 
 // Compares a scene's metrics.csv with a bound and with a baseline.
 // Every frame of the bound must lie within it. The case names the frame farthest outside or, if all hold, the one nearest to the bound. For

@@ -61,15 +61,6 @@ void require_closed(const pbs::Positions& points, const pbs::Triangles& triangle
     throw pbs::InputError("", 0, "edge", fmt::format("{}-{}", edge->first, edge->second), "expected a closed, oriented surface");
 }
 
-double volume_within(const pbs::Positions& points, const pbs::Triangles& triangles)
-{
-    const pbs::Vec3 origin = points.row(triangles(0, 0));  // a nearby origin, so that a surface far from zero loses no digits
-    CompensatedSum volume;
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        volume += pbs::tet_volume(origin, points.row(triangles(f, 0)), points.row(triangles(f, 1)), points.row(triangles(f, 2)));
-    return volume.value();
-}
-
 }  // namespace
 
 MeshMetrics::MeshMetrics(const pbs::Positions& rest, const pbs::Tets& tets)
@@ -171,10 +162,19 @@ std::vector<RegionVolume> RegionMetrics::measure(const pbs::Positions& positions
     return changes;
 }
 
+double signed_volume(const pbs::Positions& points, const pbs::Triangles& triangles)
+{
+    const pbs::Vec3 origin = points.row(triangles(0, 0));  // a nearby origin, so that a surface far from zero loses no digits
+    CompensatedSum volume;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        volume += pbs::tet_volume(origin, points.row(triangles(f, 0)), points.row(triangles(f, 1)), points.row(triangles(f, 2)));
+    return volume.value();
+}
+
 double enclosed_volume(const pbs::Positions& points, const pbs::Triangles& triangles)
 {
     require_closed(points, triangles);
-    return volume_within(points, triangles);
+    return signed_volume(points, triangles);
 }
 
 SurfaceVolume::SurfaceVolume(const pbs::Positions& rest, const pbs::Triangles& triangles)
@@ -187,13 +187,13 @@ SurfaceVolume::SurfaceVolume(const pbs::Positions& rest, const pbs::Triangles& t
 double SurfaceVolume::change_pct(const pbs::Positions& posed) const
 {
     require_points(posed, points_, "the posed surface");
-    return 100.0 * (volume_within(posed, triangles_) - rest_volume_) / rest_volume_;
+    return 100.0 * (signed_volume(posed, triangles_) - rest_volume_) / rest_volume_;
 }
 
 std::optional<SurfaceVolume> surface_volume_of(const pbs::Positions& rest, const pbs::Triangles& triangles)
 {
     const pbs::Triangles joined = pbs::joined_triangles(rest, triangles);
-    if (!pbs::is_closed(joined) || !(volume_within(rest, joined) > 0.0)) return std::nullopt;
+    if (!pbs::is_closed(joined) || !(signed_volume(rest, joined) > 0.0)) return std::nullopt;
     return SurfaceVolume(rest, joined);
 }
 

@@ -112,6 +112,8 @@ private:
 // is closed and oriented (each edge occurs equally often in both directions). Where the surface crosses itself, parts count by their
 // winding number.
 double enclosed_volume(const pbs::Positions& points, const pbs::Triangles& triangles);
+// The same sum for any triangles, which are at least one, without a check.
+double signed_volume(const pbs::Positions& points, const pbs::Triangles& triangles);
 
 // The surface of many frames: what does not change is checked and measured only once.
 class SurfaceVolume {

@@ -46,14 +46,19 @@ int write_report_page(const std::string& folder, bool quiet);
 
 // The files that a user means by frames: files, `frames_%04d.vtu`, `frames_*.vtu` (quoted), or a folder with one sequence.
 //   for (const std::string& path : frame_files({"out/frames_%04d.vtu"})) ...
-// The files in the order of their numbers. The number is the one in place of %d, or the one that differs between the names
-// (frame_7_v2.vtu, frame_8_v2.vtu). Files that are named one by one are taken as they are. InputError:
+// The files in the order of their numbers, which may be negative and have a fraction. The number is the one in place of %d (%g, %f), or the
+// one that differs between the names (frame_7_v2.vtu, frame_8_v2.vtu; time_0.5.vtu, time_1.vtu). A minus behind a letter is a hyphen
+// (frame-7.vtu), unless other names lack it (t-1.vtu, t0.vtu). Files that are named one by one are taken as they are. InputError:
 // - for a pattern or a folder that has no frames,
 // - for names that differ in several numbers,
 // - for a folder with several sequences,
 // - for a number that is missing between the first and the last of a sequence, by its own smallest step: every fifth frame is no gap, if
-//   there are three or more.
-std::vector<std::string> frame_files(const std::vector<std::string>& arguments);
+//   there are three or more. A last step that is shorter than all others, which are equal, is a warning.
+struct FrameSearch {
+    bool any_step = false;     // gaps are no error
+    bool of_surfaces = false;  // in a folder the files of surfaces count, instead of those of tets
+};
+std::vector<std::string> frame_files(const std::vector<std::string>& arguments, const FrameSearch& search = {});
 
 // The names of the frames in reports: the file's name, or its path as given if several files have that name.
 std::vector<std::string> frame_names(const std::vector<std::string>& paths);

@@ -54,11 +54,7 @@ std::string from_folder(const std::string& file, const std::string& folder)
 
 std::string sampled(double duration_s, const TrialOptions& options, const std::string& file)
 {
-    const double rate_hz = duration_s > 0.0 ? std::min(highest_rate_hz, (options.frames - 1) / duration_s) : highest_rate_hz;
-    if (rate_hz < lowest_rate_hz)
-        throw pbs::InputError(file, 0, "duration of the motion [s]", pbs::number_text(duration_s),
-                              fmt::format("expected at most {} for {} frames", (options.frames - 1) / lowest_rate_hz, options.frames));
-    return fmt::format("rate_hz = {}\n", nlohmann::json(rate_hz).dump());
+    return fmt::format("rate_hz = {}\n", nlohmann::json(trial_rate_hz(duration_s, options.frames, file)).dump());
 }
 
 // A clip of another skeleton is refused before any tets are made, which takes seconds.
@@ -140,7 +136,17 @@ std::pair<double, double> motion_of(const pbs::Rig& rig, const pbs::RiggedBody& 
     return {turn_deg, std::max(turn_deg * M_PI / 180.0, pbs::largest_displacement_m(motion, body.skeleton) / size_m)};
 }
 
-// The first animation that turns a joint by more than least_turn_deg, else the one that moves most; null: none. `made` describes them all.
+}  // namespace
+
+double trial_rate_hz(double duration_s, int frames, const std::string& file)
+{
+    const double rate_hz = duration_s > 0.0 ? std::min(highest_rate_hz, (frames - 1) / duration_s) : highest_rate_hz;
+    if (rate_hz < lowest_rate_hz)
+        throw pbs::InputError(file, 0, "duration of the motion [s]", pbs::number_text(duration_s),
+                              fmt::format("expected at most {} for {} frames", (frames - 1) / lowest_rate_hz, frames));
+    return rate_hz;
+}
+
 const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs::Rig& rig, const pbs::RiggedBody& body, TrialScene& made)
 {
     const auto& animations = rig.animations;
@@ -169,6 +175,8 @@ const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs
                                                  options.model, animations.size(), taken.name, why, fmt::join(others, ", ")));
     return &taken;
 }
+
+namespace {
 
 std::string motion(const TrialOptions& options, TrialScene& made)
 {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiments/scene/scene.hpp"
+#include "pbs/rig/rigged_body.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -32,6 +33,14 @@ struct TrialScene {
     nlohmann::json animations;  // those of the model, in the order of the file: [{name, duration_s, largest_rotation_deg of a joint}]
 };
 TrialScene trial_scene(const TrialOptions& options);
+
+// The animation of a model that a trial takes if none is named: the first one that turns a joint by more than 5 degrees, else the one that
+// moves most; null: the rig has none. made: gets a note on the choice, and the description of all animations.
+const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs::Rig& rig, const pbs::RiggedBody& body, TrialScene& made);
+
+// The frames per second of a motion of which at most so many frames are wanted: 30 Hz or fewer. InputError for a motion so long that the
+// rate would be below 1e-3 Hz.
+double trial_rate_hz(double duration_s, int frames, const std::string& file);
 
 // The scene of an earlier trial of the model in options.folder, which a new one replaces; empty: there is none. An InputError where the
 // folder has the trial of another model, a scene that a user wrote or changed, or other files that a trial would replace.

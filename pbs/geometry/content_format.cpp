@@ -104,6 +104,8 @@ std::string content_extension(const std::string& path)
     if (is_binary_stl(path, beginning)) return ".stl";
     if (holds(beginning, "; FBX ") || holds(beginning, "FBXHeaderExtension")) return ".fbx";
     if (holds(beginning, "<COLLADA")) return ".dae";
+    if (holds(beginning, "<VTKFile") && holds(beginning, "\"PolyData\"")) return ".vtp";
+    if (beginning.starts_with("# vtk DataFile")) return holds(beginning, "DATASET POLYDATA") ? ".vtp" : "";
     const std::vector<std::string> words = first_words(beginning);
     if (words.empty()) return "";
     if (words[0] == "MeshVersionFormatted") return ".mesh";

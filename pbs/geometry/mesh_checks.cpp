@@ -12,6 +12,7 @@
 #include <fstream>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -103,21 +104,21 @@ int normalise_orientation(const std::string& path, TetMesh& mesh)
     return flipped;
 }
 
-// Vertices of the file, of which an unused one may be anywhere.
-void check_distinct(const std::string& path, const MeshReading& reading)
+// Vertices of the file in one place, each with the one before it there; an unused one may be anywhere.
+std::vector<std::array<int, 2>> doubled_vertices(const MeshReading& reading)
 {
     const Positions& points = reading.mesh.rest;
     std::vector<Eigen::Index> order(static_cast<std::size_t>(points.rows()));
     std::iota(order.begin(), order.end(), Eigen::Index(0));
     const auto key = [&](Eigen::Index i) { return std::array{points(i, 0), points(i, 1), points(i, 2)}; };
     std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return std::pair(key(a), a) < std::pair(key(b), b); });
+    std::vector<std::array<int, 2>> doubled;
     for (std::size_t i = 1; i < order.size(); ++i) {
         const int vertex = reading.file_vertex[static_cast<std::size_t>(order[i])];
         const int before = reading.file_vertex[static_cast<std::size_t>(order[i - 1])];
-        if (vertex != before && key(order[i - 1]) == key(order[i]))
-            throw InputError(path, 0, numbered("vertex", vertex), listed(points.row(order[i])),
-                             "expected a point of its own; " + numbered("vertex", before) + " is there already: merge the two");
+        if (vertex != before && key(order[i - 1]) == key(order[i])) doubled.push_back({before, vertex});
     }
+    return doubled;
 }
 
 void check_places(const std::string& path, const Positions& points)
@@ -146,21 +147,23 @@ void check_faces(const std::string& path, const TetMesh& mesh)
     }
 }
 
-// Where tets were separated, triangles share a place but not all vertices.
-void check_boundary([[maybe_unused]] const std::string& path, [[maybe_unused]] const MeshReading& reading)
+// The first triangle of the boundary that meets another one; nothing: there is none. Where tets were separated and where vertices of the
+// file are in one place, triangles share a place but not all vertices.
+std::optional<int> overlapping_triangle([[maybe_unused]] const MeshReading& reading, [[maybe_unused]] const Triangles& boundary)
 {
 #ifdef PBS_WITH_CGAL
-    const Triangles boundary = boundary_of(reading.mesh.tets);
+    std::vector<int> place(static_cast<std::size_t>(reading.file_vertices));
+    std::iota(place.begin(), place.end(), 0);
+    for (const auto& [before, vertex] : reading.doubled_vertices) place[vertex] = place[before];
+    const auto place_of = [&](int vertex) { return place[reading.file_vertex[vertex]]; };
     for (const auto& [a, b] : self_intersections(reading.mesh.rest, boundary)) {
-        bool were_split = false;
+        bool share_a_place = false;
         for (const int of_a : boundary.row(a))
-            for (const int of_b : boundary.row(b))
-                were_split = were_split || (of_a != of_b && reading.file_vertex[of_a] == reading.file_vertex[of_b]);
-        if (were_split) continue;
-        throw InputError(path, 0, "boundary", "vertex " + std::to_string(reading.file_vertex[boundary(a, 0)]),
-                         "expected a surface that does not intersect itself; it does near this vertex: mesh the body anew (pbskin mesh)");
+            for (const int of_b : boundary.row(b)) share_a_place = share_a_place || (of_a != of_b && place_of(of_a) == place_of(of_b));
+        if (!share_a_place) return a;
     }
 #endif
+    return std::nullopt;
 }
 
 // The number of triangles at each edge.
@@ -247,16 +250,30 @@ void check_frame(const std::string& path, const TetMesh& mesh)
     check_places(path, mesh.rest);
 }
 
-MeshReading check_rest(const std::string& path, TetMesh mesh, bool separates)
+MeshReading check_rest(const std::string& path, TetMesh mesh, bool for_computing)
 {
     check_frame(path, mesh);
     require_extent(path, mesh.rest);
     const int flipped_tets = normalise_orientation(path, mesh);
     check_faces(path, mesh);
     MeshReading reading = repaired(mesh);
-    check_distinct(path, reading);
-    check_boundary(path, reading);
-    if (!separates) reading = repaired(mesh, false);
+    reading.doubled_vertices = doubled_vertices(reading);
+    if (for_computing && !reading.doubled_vertices.empty()) {
+        const auto [before, vertex] = reading.doubled_vertices.front();
+        throw InputError(path, 0, numbered("vertex", vertex), listed(mesh.rest.row(vertex)),
+                         "expected a point of its own; " + numbered("vertex", before) + " is there already: merge the two");
+    }
+    const Triangles boundary = boundary_of(reading.mesh.tets);
+    if (const auto triangle = overlapping_triangle(reading, boundary)) reading.overlapping = reading.file_vertex[boundary(*triangle, 0)];
+    if (for_computing && reading.overlapping >= 0)
+        throw InputError(path, 0, "boundary", "vertex " + std::to_string(reading.overlapping),
+                         "expected a surface that does not intersect itself; it does near this vertex: mesh the body anew (pbskin mesh)");
+    if (!for_computing) {
+        MeshReading kept = repaired(mesh, false);
+        kept.doubled_vertices = std::move(reading.doubled_vertices);
+        kept.overlapping = reading.overlapping;
+        reading = std::move(kept);
+    }
     reading.flipped_tets = flipped_tets;
     reading.touching_edges = touching_edges(mesh.tets);
     return reading;
@@ -287,6 +304,11 @@ std::vector<std::string> remarks_on(const std::string& path, const MeshReading& 
              is_split ? "split, so that each side has its own" : "kept: no metric needs a manifold boundary", remarks);
     add_list(path, "vertices at which parts touch", reading.split_vertices, "split, so that each part has its own", remarks);
     if (reading.cut_faces > 0) remarks.push_back(remark(path, "faces that were cut", reading.cut_faces, "they joined parts that touch"));
+    add_list(path, "vertices in one place", reading.doubled_vertices,
+             "kept, as at a crack or where bodies touch: no metric needs them joined", remarks);
+    if (reading.overlapping >= 0)
+        remarks.push_back(remark(path, "boundary that intersects itself, near vertex", reading.overlapping,
+                                 "kept: the volume where bodies overlap counts for each of them"));
     const int parts = topology_of(reading.mesh.tets, reading.mesh.rest.rows()).components;
     if (parts > 1) remarks.push_back(remark(path, "parts", parts, "kept; no face joins them"));
     add_size(path, reading.mesh.rest, remarks);

@@ -224,9 +224,9 @@ TetMesh read_tet_frame(const std::string& path)
     return mesh;
 }
 
-MeshReading read_tet_mesh(const std::string& path, bool separates)
+MeshReading read_tet_mesh(const std::string& path, bool for_computing)
 {
-    MeshReading reading = check_rest(path, read_by_content(path), separates);
+    MeshReading reading = check_rest(path, read_by_content(path), for_computing);
     if (format_of(path) == TetFormat::gmsh && format_extension(path) != lower_extension(path)) reading.read_as = format_extension(path);
     return reading;
 }

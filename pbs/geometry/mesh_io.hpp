@@ -22,7 +22,10 @@ struct MeshReading {
     std::vector<int> split_vertices;   // of the file, at which parts touch without a common face: each part got a vertex of its own
     std::vector<std::array<int, 2>> touching_edges;  // vertices of the file; in each, tets touch that no face joins around it
     int cut_faces = 0;                               // in two tets of the file, but in one each after the split
-    std::string read_as;  // the usual extension of the file's format, if its own is another one; empty: as it is named
+    // Vertices of the file in one place, as at cracks and where bodies touch: each with the one before it there. For metrics alone.
+    std::vector<std::array<int, 2>> doubled_vertices;
+    int overlapping = -1;  // a vertex of the file near which the boundary intersects itself; -1: it does not, or nothing was checked
+    std::string read_as;   // the usual extension of the file's format, if its own is another one; empty: as it is named
 };
 
 // The reader is chosen by the content of a file where it shows the format, otherwise by the extension. For TetGen and .tobj it does not.
@@ -30,12 +33,18 @@ struct MeshReading {
 // A tet mesh to compute on: finite, not empty, indices in range, no tet without volume, no face in three tets, no neighbours that
 // overlap, boundary not self-intersecting (checked in builds with CGAL), no two vertices in one place. Unused vertices are left out, tets
 // that touch in a vertex or an edge alone are separated there, so that the boundary is manifold, and the orientation is normalised.
-// separates: false keeps the file's vertices, for metrics, which need no manifold boundary.
-MeshReading read_tet_mesh(const std::string& path, bool separates = true);
+// for_computing: false keeps the file's vertices, and states those in one place and a boundary that intersects itself in the result, for
+// metrics, which need neither a manifold boundary nor one that bodies do not share.
+MeshReading read_tet_mesh(const std::string& path, bool for_computing = true);
 
 // Points and tets as they are in the file, including inverted tets: the metrics of deformed frames need them.
 // InputError where there is no tet, an index out of range, or a coordinate that is not finite or beyond 1e9 m.
 TetMesh read_tet_frame(const std::string& path);
+
+// The vectors of the points of a .vtu, .vtk or .vtp, such as a displacement: each array with three components by its name, #P x 3 in the
+// file's order. name: that array alone, so that damage in others does no harm; empty: all. None of a file of another format. InputError for
+// arrays that VTK cannot read.
+std::map<std::string, Positions> read_point_vectors(const std::string& path, const std::string& name = "");
 
 // By extension: .msh (4.1 ASCII), .vtu, .mesh. Written to a temporary file and renamed. The format alone can be checked before the work.
 void require_tet_mesh_format(const std::string& path);
@@ -49,11 +58,18 @@ struct SurfaceMesh {
     Triangles triangles;  // #F x 3
 };
 
-// .obj, .ply, .off, .stl, .gltf, .glb, .dae, .zae, .fbx, by content where it shows the format and otherwise by extension. Polygons are
+// .obj, .ply, .off, .stl, .vtp, .gltf, .glb, .dae, .zae, .fbx, by content where it shows the format and otherwise by extension. Polygons are
 // triangulated, points split at texture seams are joined (equal coordinates, to the bit), nodes' transforms and the file's unit applied.
 // mesh_name: the mesh or node of that name alone. InputError where there is none of that name, no triangle, or a coordinate that is not
 // finite or beyond 1e9 m; a surface may be open.
 SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name = "");
+
+// Points and triangles as they are in the file, in its order and with its seams; each corner of a .stl is a point of its own. Frames of a
+// surface have the same points in the same order. How a polygon is triangulated may depend on the frame. InputErrors as of read_surface.
+SurfaceMesh read_surface_frame(const std::string& path);
+
+// Whether the content of a file, or else its extension, is that of a surface that read_surface takes.
+bool is_surface_file(const std::string& path);
 
 // One deformed frame as VTK XML: Float64, compressed, atomic. Fields have one entry per point (or 3, or one per cell).
 struct FrameFields {

@@ -18,6 +18,7 @@ TetMesh read_tobj(const std::string& path);    // .tobj
 TetMesh read_tetgen(const std::string& path);  // .node or .ele; the other file is in the same folder
 
 SurfaceMesh read_polygons(const std::string& path);  // .ply, .off, .stl, by CGAL
+SurfaceMesh read_vtp(const std::string& path);       // .vtp and .vtk with a surface, by VTK
 
 // Before Gmsh may see a file: it runs one that is no mesh as a script. Loads the module. Returns the number of vertices that the file
 // names, -1 where that is not known.
@@ -47,8 +48,8 @@ void check_frame(const std::string& path, const TetMesh& mesh);
 
 // check_frame, and: not smaller than 1e-9 m, no tet without volume, no two vertices in one place, no face in three tets, no overlap of
 // neighbours and, in a build with CGAL, no self-intersection of the boundary. The mesh is repaired; the orientation is normalised by
-// swapping the last two vertices.
-MeshReading check_rest(const std::string& path, TetMesh mesh, bool separates = true);
+// swapping the last two vertices. for_computing: read_tet_mesh.
+MeshReading check_rest(const std::string& path, TetMesh mesh, bool for_computing = true);
 
 // Repairs that move no tet: unused vertices are left out, and the vertices of tets that touch without a common face are split, so that the
 // boundary is manifold; not if `separates` is false. Where other tets join what touches, some of their faces are cut. Indices in range, at

@@ -29,7 +29,7 @@ namespace pbs {
 namespace {
 
 constexpr double farthest_m = 1e9;
-constexpr std::array<std::string_view, 9> extensions = {".obj", ".ply", ".off", ".stl", ".gltf", ".glb", ".dae", ".zae", ".fbx"};
+constexpr std::array<std::string_view, 10> extensions = {".obj", ".ply", ".off", ".stl", ".vtp", ".gltf", ".glb", ".dae", ".zae", ".fbx"};
 
 // assimp takes a negative index of COLLADA's <p> for 0 and goes on with a torn surface.
 void refuse_negative_indices(const std::string& path)
@@ -168,7 +168,8 @@ void check_raw_surface(const std::string& path, const SurfaceMesh& mesh)
 SurfaceMesh read_by_library(const std::string& path, const std::string& mesh_name)
 {
     const std::string extension = format_extension(path);
-    if (extension != ".ply" && extension != ".off" && extension != ".stl") return read_assimp(path, mesh_name);
+    if (extension == ".vtp" && mesh_name.empty()) return read_vtp(path);
+    if (extension != ".ply" && extension != ".off" && extension != ".stl" && extension != ".vtp") return read_assimp(path, mesh_name);
     if (!mesh_name.empty()) throw InputError(path, 0, "mesh", mesh_name, "expected no name: such a file holds one mesh");
 #ifdef PBS_WITH_CGAL
     return read_polygons(path);
@@ -213,15 +214,30 @@ SurfaceMesh checked_points(const std::string& path, const std::string& mesh_name
 {
     require_readable(path, most_mesh_bytes);
     const std::string content = content_extension(path), extension = format_extension(path);
-    if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
+    if (!is_surface_file(path))
         throw InputError(path, 0, content.empty() ? "extension" : "format of the content", extension,
-                         "expected a surface: .obj, .ply, .off, .stl, .gltf, .glb, .dae, .zae or .fbx");
+                         "expected a surface: .obj, .ply, .off, .stl, .vtp, .gltf, .glb, .dae, .zae or .fbx");
     SurfaceMesh read = read_guarded(path, [&](const std::string& file) { return read_by_library(file, mesh_name); });
     check_raw_surface(path, read);
     return read;
 }
 
 }  // namespace
+
+bool is_surface_file(const std::string& path)
+{
+    return std::find(extensions.begin(), extensions.end(), format_extension(path)) != extensions.end();
+}
+
+SurfaceMesh read_surface_frame(const std::string& path)
+{
+    SurfaceMesh surface = checked_points(path, "");
+    if (format_extension(path) != ".stl") return surface;
+    surface.points = surface.points(surface.triangles.reshaped<Eigen::RowMajor>(), Eigen::all).eval();
+    surface.triangles = Eigen::VectorXi::LinSpaced(surface.points.rows(), 0, static_cast<int>(surface.points.rows()) - 1)
+                            .reshaped<Eigen::RowMajor>(surface.triangles.rows(), 3);
+    return surface;
+}
 
 SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name)
 {

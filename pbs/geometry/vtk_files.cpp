@@ -9,7 +9,9 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellTypes.h>
+#include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
+#include <vtkGenericDataObjectReader.h>
 #include <vtkIdList.h>
 #include <vtkIntArray.h>
 #include <vtkLogger.h>
@@ -17,10 +19,12 @@
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
+#include <vtkPointSet.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridReader.h>
+#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
@@ -108,6 +112,51 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& path)
     }
     vtkNew<vtkXMLUnstructuredGridReader> reader;
     return grid_of(path, *reader.Get());
+}
+
+// The points, cells and arrays of a file that is read as a whole. array: the only one of the points' that is read; empty: all.
+template <typename XmlReader>
+vtkSmartPointer<vtkDataObject> data_of(const std::string& path, XmlReader& reader, const std::string& array)
+{
+    collect_messages();
+    reader.SetFileName(path.c_str());
+    reader.UpdateInformation();
+    reader.GetCellDataArraySelection()->DisableAllArrays();
+    if (!array.empty()) {
+        reader.GetPointDataArraySelection()->DisableAllArrays();
+        reader.GetPointDataArraySelection()->EnableArray(array.c_str());
+    }
+    reader.Update();
+    throw_if_any_message(path);
+    return reader.GetOutputDataObject(0);
+}
+
+vtkSmartPointer<vtkDataObject> read_data(const std::string& path, const std::string& array)
+{
+    const std::string beginning = beginning_of(path);
+    if (beginning.starts_with("# vtk DataFile")) {
+        vtkNew<vtkGenericDataObjectReader> reader;
+        reader->ReadAllVectorsOn();
+        reader->ReadAllFieldsOn();
+        collect_messages();
+        reader->SetFileName(path.c_str());
+        reader->Update();
+        throw_if_any_message(path);
+        return reader->GetOutput();
+    }
+    if (beginning.find("\"PolyData\"") != std::string::npos) {
+        vtkNew<vtkXMLPolyDataReader> reader;
+        return data_of(path, *reader.Get(), array);
+    }
+    vtkNew<vtkXMLUnstructuredGridReader> reader;
+    return data_of(path, *reader.Get(), array);
+}
+
+Positions points_in(vtkPointSet& data)
+{
+    Positions points(data.GetNumberOfPoints(), 3);
+    for (vtkIdType i = 0; i < data.GetNumberOfPoints(); ++i) data.GetPoint(i, points.row(i).data());
+    return points;
 }
 
 bool is_lower_dimensional(int type)
@@ -224,6 +273,47 @@ TetMesh read_vtk(const std::string& path)
                 checked_index(path, static_cast<long long>(t), corners->GetId(corner), points);
     }
     return mesh;
+}
+
+SurfaceMesh read_vtp(const std::string& path)
+{
+    const vtkSmartPointer<vtkPolyData> surface = vtkPolyData::SafeDownCast(read_data(path, ""));
+    if (!surface) throw InputError(path, 0, "", "", "expected a VTK surface (PolyData)");
+    SurfaceMesh mesh;
+    mesh.points = points_in(*surface);
+    std::vector<int> corners;
+    vtkNew<vtkIdList> ids;
+    vtkNew<vtkPoints> places;
+    for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c) {
+        vtkCell* cell = surface->GetCell(c);
+        if (cell->GetCellDimension() != 2) continue;
+        for (vtkIdType k = 0; k < cell->GetNumberOfPoints(); ++k)
+            checked_index(path, c, cell->GetPointId(static_cast<int>(k)), mesh.points.rows());
+        if (!cell->Triangulate(0, ids, places))
+            throw InputError(path, 0, "face " + std::to_string(c), "", "expected an area, and no two edges that cross");
+        for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k) corners.push_back(static_cast<int>(ids->GetId(k)));
+    }
+    mesh.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
+    return mesh;
+}
+
+std::map<std::string, Positions> read_point_vectors(const std::string& path, const std::string& name)
+{
+    const std::string beginning = beginning_of(path);
+    if (!beginning.starts_with("# vtk DataFile") && beginning.find("<VTKFile") == std::string::npos) return {};
+    const vtkSmartPointer<vtkPointSet> data = vtkPointSet::SafeDownCast(read_data(path, name));
+    std::map<std::string, Positions> vectors;
+    if (!data) return vectors;
+    vtkPointData* fields = data->GetPointData();
+    for (int a = 0; a < fields->GetNumberOfArrays(); ++a) {
+        vtkDataArray* array = fields->GetArray(a);
+        if (!array || !array->GetName() || array->GetNumberOfComponents() != 3) continue;
+        if (!name.empty() && name != array->GetName()) continue;
+        Positions& values = vectors[array->GetName()];
+        values.resize(array->GetNumberOfTuples(), 3);
+        for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) array->GetTuple(i, values.row(i).data());
+    }
+    return vectors;
 }
 
 void write_vtu(const std::string& path, const Positions& points, const Tets& tets, const FrameFields& fields)

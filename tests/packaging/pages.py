@@ -56,7 +56,7 @@ class ManPage(unittest.TestCase):
             checked = run("mandoc", "-Tlint", "-Wwarning", pages / page)
             self.assertEqual(checked.stdout + checked.stderr, "")
         shown = re.sub(".\b", "", run("mandoc", "-Tascii", pages / "pbskin.1").stdout)  # overstruck characters are bold
-        self.assertIn("pbskin measure REST FRAMES ...", shown)
+        self.assertIn("pbskin measure REST [FRAME ...]", shown)
 
 
 class SceneManual(unittest.TestCase):

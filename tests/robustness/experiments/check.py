@@ -15,6 +15,7 @@ import xml.etree.ElementTree as ElementTree
 
 import foreign_arm
 import program
+import rig_files
 import run_records
 
 BOUNDS = pathlib.Path(__file__).with_name("check_bounds.toml").read_text()
@@ -178,6 +179,7 @@ class Check(foreign_arm.ArmTest):
 SOURCE = pathlib.Path(program.SOURCE)
 WORKFLOW = SOURCE / ".github" / "workflows" / "volume.yml"
 ELSEWHERE = SOURCE / ".github" / "examples" / "volume_elsewhere.yml"
+RIG = SOURCE / ".github" / "examples" / "volume_of_a_rig.yml"
 SHELL = ["sh", "-e", "-c"]
 
 EXPORT = pathlib.Path(__file__).with_name("export_frames.sh.in").read_text()
@@ -203,7 +205,8 @@ def steps(workflow=WORKFLOW):
 class Workflows(program.ProgramTest):
     def test_every_step_is_a_script(self):
         for workflow, names in ((WORKFLOW, ["Certificates and git", "Build", "Hold the bounds", "Measure written frames"]),
-                                (ELSEWHERE, ["Certificates and git", "Packages", "Build", "Export frames", "Hold the bounds"])):
+                                (ELSEWHERE, ["Certificates and git", "Packages", "Build", "Export frames", "Hold the bounds"]),
+                                (RIG, ["Certificates and git", "Packages", "Build", "Hold the bound"])):
             self.assertEqual(list(steps(workflow)), names)
             for name, script in steps(workflow).items():
                 self.assertTrue(script, name)
@@ -211,7 +214,8 @@ class Workflows(program.ProgramTest):
 
     def test_the_build_names_what_there_is(self):
         presets = json.loads((SOURCE / "CMakePresets.json").read_text(encoding="utf-8"))["configurePresets"]
-        for packages, build in ((steps()["Build"], steps()["Build"]), (steps(ELSEWHERE)["Packages"], steps(ELSEWHERE)["Build"])):
+        for packages, build in ((steps()["Build"], steps()["Build"]),
+                                *((steps(example)["Packages"], steps(example)["Build"]) for example in (ELSEWHERE, RIG))):
             self.assertIn("provide_packages()", (SOURCE / re.search(r"source (\S+)", packages)[1]).read_text(encoding="utf-8"))
             self.assertIn(re.search(r"--preset (\S+)", build)[1], [preset["name"] for preset in presets])
             options = re.findall(r"-D(\w+)=", build)
@@ -246,6 +250,16 @@ class Workflows(program.ProgramTest):
                     self.assertEqual(process.returncode, status if name == "Hold the bounds" else 0, process.stdout + process.stderr)
                 failed = run_records.failed_cases(self.path("results", "frames.xml"))
                 self.assertEqual(bool(failed), status == 1, failed)
+
+    def test_a_rig_within_and_beyond_the_bound(self):
+        """A tube that is bent by 70 degrees, and one whose first pose is its only one."""
+        self.script("pbskin/build/release/bin/pbskin", f'exec "{program.PBSKIN}" "$@"\n')
+        for options, status in (({}, 1), ({"one_joint": True}, 0)):
+            with self.subTest(options):
+                rig_files.write("plain", self.path("MODEL.glb"), **options)
+                process = self.act(steps(RIG)["Hold the bound"].replace("--max-volume-change 3", "--max-volume-change 0.1"), os.environ)
+                self.assertEqual(process.returncode, status, process.stdout + process.stderr)
+                self.assertEqual(len(run_records.failed_cases(self.path("results", "volume.xml"))), status)
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ def stretched(percent, scale=1.0):
     return [(scale * x * (1.0 + percent / 100.0), scale * y, scale * z) for x, y, z in POINTS]
 
 
-def write_vtk(path, points, tets):
+def write_vtk(path, points, tets, vectors=None):
     grid, cloud = vtk.vtkUnstructuredGrid(), vtk.vtkPoints()
     cloud.SetDataTypeToDouble()
     for point in points:
@@ -25,6 +25,13 @@ def write_vtk(path, points, tets):
     grid.SetPoints(cloud)
     for tet in tets:
         grid.InsertNextCell(vtk.VTK_TETRA, 4, tet)
+    for name, rows in (vectors or {}).items():
+        array = vtk.vtkDoubleArray()
+        array.SetName(name)
+        array.SetNumberOfComponents(3)
+        for row in rows:
+            array.InsertNextTuple(row)
+        grid.GetPointData().AddArray(array)
     writer = vtk.vtkXMLUnstructuredGridWriter() if path.endswith(".vtu") else vtk.vtkUnstructuredGridWriter()
     writer.SetFileName(path)
     writer.SetInputData(grid)
@@ -153,6 +160,84 @@ class ForeignFrames(program.ProgramTest):
             for bound, value in itertools.product(bounds, values):
                 self.refuses(f"{bound} = {value}: expected a finite number{rule}", "arm_0001.vtu", f"{bound}={value}")
         self.measure(0, "arm_0001.vtu", "--min-j=-1")
+
+    def test_undeformed_points_and_a_displacement(self):
+        """As programs of finite elements write them: without the name of the vector such a frame would not differ from the rest mesh."""
+        shift = lambda percent: [tuple(a - b for a, b in zip(moved, rest)) for moved, rest in zip(stretched(percent), POINTS)]
+        for name, file in (("displacement", "arm.vtk"), ("u", "arm.vtu"), ("Displacement_Vector", "arm.vtk")):
+            with self.subTest(name):
+                write_vtk(self.path(file), POINTS, TETS, {name: shift(-26.0), "velocity": shift(1.0)})
+                self.refuses(f"expected deformed points, but the deformation seems to be in the points' vector {name}: add --displacement {name}",
+                             file, "--max-volume-change", "0.5")
+                self.measure(1, file, "--displacement", name, "--max-volume-change", "0.5", "--csv", "volume.csv")
+                self.assertAlmostEqual(float(self.rows("volume.csv")[0]["volume_change_pct"]), -26.0, places=5)
+                self.refuses(f"--displacement = v: expected a vector of the points: it has {name}, velocity", file, "--displacement", "v")
+        write_vtk(self.path("rest.vtk"), POINTS, TETS, {"displacement": shift(0.0), "velocity": shift(1.0), "rest_position": POINTS})
+        self.measure(0, "rest.vtk", "--max-volume-change", "0.001")
+        write_vtk(self.path("moved.vtk"), stretched(1.0), TETS, {"displacement": shift(1.0)})
+        self.measure(0, "moved.vtk", "--max-volume-change", "1.001")
+        self.refuses("points that are deformed already need no such option", "moved.vtk", "--displacement", "displacement")
+
+    def test_doubled_nodes_and_bodies_that_overlap(self):
+        """A crack, bodies in contact and a body within another: each counts with its own tets."""
+        half = lambda low, high: [tet for tet in TETS if all(low <= POINTS[v][0] <= high for v in tet)]
+        left, right = half(0.0, 0.5), half(0.5, 1.0)
+        self.assertEqual(len(left) + len(right), len(TETS))
+        points = [*POINTS, *POINTS]
+        tets = left + [tuple(v + len(POINTS) for v in tet) for tet in right]
+        for shift, words in ((0.0, "vertices in one place = 9 "), (-0.2, "boundary that intersects itself, near vertex = ")):
+            with self.subTest(words):
+                rest = [*POINTS, *((x + shift, y, z) for x, y, z in POINTS)]
+                foreign_arm.write_msh(self.path("rest.msh"), *self.used(rest, tets))
+                write_vtk(self.path("arm.vtk"), *self.used([(1.03 * x, y, z) for x, y, z in rest], tets))
+                self.measure(0, "arm.vtk", "--csv", "volume.csv", says=words)
+                self.assertAlmostEqual(float(self.rows("volume.csv")[0]["volume_change_pct"]), 3.0, places=5)
+
+    def used(self, points, tets):
+        """The points of these tets, and the tets by their numbers."""
+        kept = sorted({v for tet in tets for v in tet})
+        return [points[v] for v in kept], [tuple(kept.index(v) for v in tet) for tet in tets]
+
+    def test_numbers_are_sorted_as_numbers(self):
+        for pattern, names in (("a/t_*.vtk", ("t_-1.5", "t_-1", "t_-0.25", "t_0.5", "t_1", "t_10")), ("b/t*.vtk", ("t-10", "t-2", "t0", "t5")),
+                               ("c/v1.2_f*.vtk", ("v1.2_f8", "v1.2_f9", "v1.2_f10")), ("d/f-*.vtk", ("f-8", "f-9", "f-10")),
+                               ("e/*.vtk", ("0.05", "0.1", "0.15", "0.2")), ("g/t_%g.vtk", ("t_-2", "t_0.5", "t_3"))):
+            with self.subTest(pattern):
+                folder = os.path.dirname(pattern)
+                os.makedirs(self.path(folder))
+                for name in names:
+                    write_vtk(self.path(folder, name + ".vtk"), stretched(0.1), TETS)
+                self.measure(0, pattern, "--any-step", "--csv", "volume.csv")
+                self.assertEqual(self.measured_frames(), [name + ".vtk" for name in names])
+
+    def test_a_last_step_that_is_shorter_and_steps_that_differ(self):
+        self.frames(dict.fromkeys((0, 10, 20, 25), 0.1))
+        process = self.measure(0, "arm_*.vtu", "--csv", "volume.csv", says="the last step of the sequence is 5 instead of 10")
+        self.assertEqual(len(self.measured_frames()), 4, process.stderr)
+        self.frames({45: 0.1})
+        self.refuses("arm_0005.vtu: frame = 5: missing: the sequence goes from 0 to 45 by 5; --any-step measures the frames that there are",
+                     "arm_*.vtu")
+        self.measure(0, "arm_*.vtu", "--any-step", "--csv", "volume.csv")
+        self.assertEqual(len(self.measured_frames()), 5)
+
+    def test_the_last_line_and_what_to_do_next(self):
+        self.frames({1: 0.2, 2: -0.9, 3: 0.6})
+        for bounds, status, line in (
+                (("--max-volume-change", "0.5"), 1, "fails: 2 of 3 frames beyond 0.5 %, worst -0.9 % in frame arm_0002.vtu"),
+                (("--max-volume-change", "1"), 0, "holds: 3 frames within 1 %, worst -0.9 % in frame arm_0002.vtu"),
+                (("--max-volume-change", "0.5", "--max-inverted", "0", "--min-j", "0.995"), 1,
+                 "fails: 2 of 3 frames beyond 0.5 %, worst -0.9 % in frame arm_0002.vtu; j_min: 1 of 3 frames below 0.995, worst 0.991 in "
+                 "frame arm_0002.vtu"),
+                ((), 0, "measured: 3 frames, volume -0.9 % in frame arm_0002.vtu to 0.6 % in frame arm_0003.vtu")):
+            with self.subTest(bounds):
+                process = self.measure(status, "arm_%04d.vtu", *bounds, "--junit", "volume.xml", says="next: ")
+                self.assertEqual(process.stdout.splitlines()[-1], line)
+                self.assertNotIn("--junit", process.stderr.splitlines()[-1])
+                self.assertEqual("--max-volume-change" in process.stderr.splitlines()[-1], not bounds)
+        self.write("arm_0002.vtu", "no VTK")
+        process = self.measure(2, "arm_%04d.vtu", "--max-volume-change", "0.5")
+        self.assertEqual(process.stdout.splitlines()[-1],
+                         "fails: 1 of 2 frames beyond 0.5 %, worst 0.6 % in frame arm_0003.vtu; 1 of 3 frames could not be measured")
 
     def test_other_vertices_order_and_units(self):
         write_vtk(self.path("fewer.vtu"), *foreign_arm.mesh((5, 2, 2)))

@@ -50,6 +50,9 @@ TEST_F(ContentFormat, IsThatOfTheFirstBytesWhateverTheName)
     EXPECT_EQ(content("; FBX 7.3.0 project file\n"), ".fbx");
     EXPECT_EQ(content("<?xml version=\"1.0\"?>\n<COLLADA>"), ".dae");
     EXPECT_EQ(content("PK\x03\x04"), ".zae");
+    EXPECT_EQ(content("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\">"), ".vtp");
+    EXPECT_EQ(content("# vtk DataFile Version 5.1\nf 1 2\nASCII\nDATASET POLYDATA\n"), ".vtp");
+    EXPECT_EQ(content("# vtk DataFile Version 5.1\nf 1 2\nASCII\nDATASET UNSTRUCTURED_GRID\n"), "");
     EXPECT_EQ(content(ply), ".ply");
     EXPECT_EQ(content(off), ".off");
     EXPECT_EQ(content("COFF\n"), ".off");

@@ -104,6 +104,31 @@ TEST(RestMesh, ThatTouchesItselfInAnEdgeIsAcceptedWithARemark)
     EXPECT_EQ(kept.mesh.rest, bar.rest);
 }
 
+// Two bars of 4 tets a cell side by side, and one 0.5 within the other: with vertices of their own.
+TEST(RestMesh, ForMetricsVerticesInOnePlaceAndBodiesThatOverlapAreKeptWithARemark)
+{
+    const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
+    for (const double shift : {1.0, 0.5}) {
+        pbs::TetMesh both{pbs::Positions(16, 3), pbs::Tets(2 * bar.tets.rows(), 4)};
+        both.rest << bar.rest, bar.rest.rowwise() + Eigen::RowVector3d(shift, 0, 0);
+        both.tets << bar.tets, bar.tets.array() + 8;
+        const pbs::MeshReading reading = pbs::check_rest("m.vtu", both, false);
+        EXPECT_EQ(reading.mesh.rest, both.rest);
+        EXPECT_EQ(reading.mesh.tets, both.tets);
+        EXPECT_EQ(reading.doubled_vertices.size(), shift == 1.0 ? 4u : 0u);
+        const std::vector<std::string> remarks = pbs::remarks_on("m.vtu", reading);
+#ifdef PBS_WITH_CGAL
+        EXPECT_EQ(reading.overlapping >= 0, shift == 0.5);
+        ASSERT_EQ(remarks.size(), 2u);
+        EXPECT_NE(remarks[0].find(shift == 1.0 ? "vertices in one place = 4 (" : "boundary that intersects itself, near vertex = "),
+                  std::string::npos)
+            << remarks[0];
+#endif
+        EXPECT_EQ(remarks.back(), "m.vtu: parts = 2: kept; no face joins them");
+        EXPECT_THROW(pbs::check_rest("m.vtu", both), pbs::InputError);
+    }
+}
+
 TEST(Frame, CoordinatesWhoseVolumesOverflowAreRefused)
 {
     for (const double bad : {1e200, -2e9, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {

@@ -85,6 +85,19 @@ TEST_F(Writing, FramesMayBeInvertedAndFlat)
     EXPECT_THROW(pbs::read_tet_mesh(folder / "flat.vtu"), pbs::InputError);
 }
 
+TEST_F(Writing, TheVectorsOfAFramesPointsAreReadBackByNameToTheBit)
+{
+    const pbs::TetMesh bar = awkward_bar();
+    const pbs::Positions shift = 2.0 * bar.rest;
+    pbs::write_vtu(folder / "a.vtu", bar.rest, bar.tets,
+                   {.point_vectors = {{"u", shift}, {"v", bar.rest}}, .point_flags = {}, .cell_scalars = {}});
+    EXPECT_EQ(pbs::read_point_vectors(folder / "a.vtu").size(), 2u);
+    EXPECT_EQ(pbs::read_point_vectors(folder / "a.vtu", "u"), (std::map<std::string, pbs::Positions>{{"u", shift}}));
+    EXPECT_TRUE(pbs::read_point_vectors(folder / "a.vtu", "w").empty());
+    pbs::write_tet_mesh(folder / "a.mesh", bar);
+    EXPECT_TRUE(pbs::read_point_vectors(folder / "a.mesh").empty());
+}
+
 TEST_F(Writing, IntoAMissingFolderIsRefusedAndNamesTheFile)
 {
     for (const std::string name : {"/no/such/folder/a.msh", "/no/such/folder/a.vtu", "/no/such/folder/a.mesh"})

@@ -87,6 +87,27 @@ TEST_F(Surface, QuadsAreTriangulatedAndPointsJoinedInEveryFormat)
     }
 }
 
+TEST_F(Surface, AFrameKeepsThePointsOfTheFileAndAVtpIsReadToTheBit)
+{
+    const pbs::SurfaceMesh cube = pbs::read_surface(folder.file("cube.obj", points("v ", 1.0 / 3.0) + faces("f", 1)));
+    pbs::write_vtp(folder / "cube.vtp", cube.points, cube.triangles);
+    const pbs::SurfaceMesh vtp = pbs::read_surface_frame(folder / "cube.vtp");
+    EXPECT_EQ(vtp.points, cube.points);
+    EXPECT_EQ(vtp.triangles, cube.triangles);
+    expect_cube(folder / "cube.vtp", 1.0 / 3.0);
+    EXPECT_TRUE(pbs::is_surface_file(folder / "cube.vtp"));
+    EXPECT_FALSE(pbs::is_surface_file(folder / "cube.vtu"));
+#ifdef PBS_WITH_CGAL
+    const pbs::SurfaceMesh corners = pbs::read_surface_frame(folder.file("cube.stl", stl(2.0)));
+    EXPECT_EQ(corners.points.rows(), 36);
+    EXPECT_EQ(corners.triangles.row(11), (pbs::Triangles(1, 3) << 33, 34, 35).finished());
+    EXPECT_EQ(corners.points.row(35), (pbs::Positions(1, 3) << 0, 2, 2).finished());  // the last corner of the last quad
+    const pbs::SurfaceMesh own =
+        pbs::read_surface_frame(folder.file("seam.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 0\n0 1 0\n-1 0 0\n3 0 1 2\n3 3 4 5\n"));
+    EXPECT_EQ(own.points.rows(), 6) << "seams are kept";
+#endif
+}
+
 TEST_F(Surface, PointsSplitAtTextureSeamsAreJoined)
 {
     std::ostringstream text;  // each corner of each face has a texture coordinate of its own

@@ -1,0 +1,66 @@
+#include "experiments/command_line/measure/measured_frames.hpp"
+
+#include "experiments/command_line/verbs.hpp"
+#include "experiments/process/terminal.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace experiments {
+namespace {
+
+// Prints the bounds that do not hold in a frame on stderr. Returns whether all hold.
+bool report_broken(const std::vector<analysis::FrameBound>& bounds, const std::string& path, const analysis::FrameValues& values)
+{
+    bool all_hold = true;
+    for (const analysis::FrameBound& bound : bounds) {
+        const std::string broken = broken_text(bound, values);
+        if (!broken.empty()) fmt::print(stderr, "pbskin: {}: {}\n", path, broken);
+        all_hold = all_hold && broken.empty();
+    }
+    return all_hold;
+}
+
+// An option that was not given.
+std::string next_step(const MeasureArguments& arguments, const std::string& explanation)
+{
+    if (std::ranges::none_of(arguments.bounds, [](const analysis::FrameBound& bound) { return bound.value.has_value(); }))
+        return explanation + "; --max-volume-change 0.5 holds the volume to a bound";
+    if (arguments.reports.junit.empty()) return explanation + "; --junit FILE writes a report for continuous integration";
+    return explanation + (arguments.csv.empty() ? "; --csv FILE writes the values" : "");
+}
+
+}  // namespace
+
+MeasuredFrames measure_each(const MeasureArguments& arguments, const std::vector<std::string>& paths, const std::vector<std::string>& names,
+                            const std::function<analysis::FrameValues(std::size_t)>& measure_frame)
+{
+    MeasuredFrames measured;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        stop_if_interrupted();
+        try {
+            measured.frames.push_back({names[i], measure_frame(i)});
+            measured.all_hold = report_broken(arguments.bounds, paths[i], measured.frames.back().values) && measured.all_hold;
+        } catch (const pbs::InputError& error) {
+            fmt::print(stderr, "pbskin: {}\n", error.what());
+            measured.refused.push_back({names[i], error.what()});
+        }
+    }
+    return measured;
+}
+
+int reported(const MeasureArguments& arguments, const MeasuredFrames& measured, const std::string& explanation)
+{
+    const std::string suite = std::filesystem::path(arguments.rest).filename().string();
+    write_reports(arguments.reports,
+                  {frame_suite(suite, arguments.bounds, measured.frames, measured.refused, measured.stopwatch.seconds())});
+    if (!arguments.quiet) fmt::print("{}\n", frame_summary(arguments.bounds, measured.frames, measured.refused.size()));
+    if (!measured.refused.empty()) return exit_input;
+    say_next(next_step(arguments, explanation));
+    return measured.all_hold ? exit_finished : exit_bound;
+}
+
+}  // namespace experiments

@@ -1,0 +1,45 @@
+// What `pbskin measure` does with frames of any kind: it measures each, compares it with the bounds, and reports.
+//   MeasuredFrames measured = measure_each(arguments, paths, names, [&](std::size_t frame) { return values_of(read(paths[frame])); });
+//   return reported(arguments, measured, "pbskin explain volume_change_pct explains a column");
+#pragma once
+
+#include "analysis/check/check.hpp"
+#include "experiments/verdicts/check/check_run.hpp"
+#include "pbs/geometry/cost.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+struct MeasureArguments {
+    std::string rest, csv, shells, reference, displacement, animation;
+    std::vector<std::string> frames;
+    int most_frames = 60;  // of an animation
+    bool any_step = false, quiet = false;
+    std::vector<analysis::FrameBound> bounds = analysis::known_frame_bounds();
+    CheckReports reports;
+};
+
+struct MeasuredFrames {
+    std::vector<analysis::MeasuredFrame> frames;
+    std::vector<analysis::RefusedFrame> refused;
+    bool all_hold = true;
+    pbs::Stopwatch stopwatch = {};
+};
+
+// measure_frame returns the values of a frame and prints its row; an InputError of it is reported, and the other frames are measured.
+// paths: of the frames in messages; names: in reports.
+MeasuredFrames measure_each(const MeasureArguments& arguments, const std::vector<std::string>& paths, const std::vector<std::string>& names,
+                            const std::function<analysis::FrameValues(std::size_t)>& measure_frame);
+
+// Writes the reports and prints the result in one line and what to do next. Returns the exit status.
+int reported(const MeasureArguments& arguments, const MeasuredFrames& measured, const std::string& explanation);
+
+// Measures a rest tet mesh and its frames; a surface and its frames; a rigged model along its animation. Each returns the exit status.
+int measure_tets(const MeasureArguments& arguments);
+int measure_surfaces(const MeasureArguments& arguments);
+int measure_rig(const MeasureArguments& arguments);
+
+}  // namespace experiments

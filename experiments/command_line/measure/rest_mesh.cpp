@@ -1,0 +1,93 @@
+#include "experiments/command_line/measure/rest_mesh.hpp"
+
+#include "experiments/command_line/measure/frame_points.hpp"
+#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/topology.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace experiments {
+
+RestMesh::RestMesh(const pbs::MeshReading& reading, std::string displacement)
+    : mesh_(reading.mesh),
+      file_vertex_(reading.file_vertex),
+      file_vertices_(reading.file_vertices),
+      edges_(pbs::edges_of(mesh_.tets)),
+      corners_(sorted_corners(mesh_.tets.unaryExpr([this](int vertex) { return file_vertex_[vertex]; }))),
+      displacement_(std::move(displacement))
+{
+}
+
+pbs::Positions RestMesh::read_frame(const std::string& path, bool* is_displaced) const
+{
+    const pbs::Positions points = points_in(path);
+    if (displacement_.empty() && are_at_rest(points, mesh_.rest)) {
+        const FileShape shape = shape_of(path, points);
+        if (is_displaced && !are_at_rest(shape.positions, mesh_.rest)) *is_displaced = true;
+        if (!shape.is_at_rest) return shape.positions;
+    }
+    const pbs::Positions positions = shape_of_frame(path, points, mesh_.rest, file_vertex_, displacement_);
+    require_same_units(path, mesh_.rest, edges_, positions);
+    return positions;
+}
+
+FileShape RestMesh::read_shape(const std::string& path) const
+{
+    return shape_of(path, points_in(path));
+}
+
+std::vector<RestMesh::Corners> RestMesh::sorted_corners(const pbs::Tets& tets)
+{
+    std::vector<Corners> all;
+    for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+        Corners corners = {tets(t, 0), tets(t, 1), tets(t, 2), tets(t, 3)};
+        std::sort(corners.begin(), corners.end());
+        all.push_back(corners);
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+pbs::Positions RestMesh::points_in(const std::string& path) const
+{
+    const pbs::TetMesh frame = pbs::read_tet_frame(path);
+    require_as_many_points(path, frame.rest.rows(), file_vertices_);
+    require_same_tets(path, frame.tets);
+    pbs::Positions points = frame.rest(file_vertex_, Eigen::all);
+    require_same_units(path, mesh_.rest, edges_, points);
+    return points;
+}
+
+FileShape RestMesh::shape_of(const std::string& path, const pbs::Positions& points) const
+{
+    FileShape shape{.positions = points, .is_at_rest = are_at_rest(points, mesh_.rest), .fields = read_plain_fields(path)};
+    for (auto& [name, values] : shape.fields.of_points) {
+        if (values.rows() != file_vertices_)
+            throw pbs::InputError(path, 0, name, fmt::format("{} rows", values.rows()), fmt::format("expected {}", file_vertices_));
+        values = values(file_vertex_, Eigen::all).eval();
+    }
+    const auto displacement = shape.fields.of_points.find("displacement");
+    if (!shape.is_at_rest || displacement == shape.fields.of_points.end()) return shape;
+    if (displacement->second.cols() != 3)
+        throw pbs::InputError(path, 0, "components of displacement", std::to_string(displacement->second.cols()), "expected 3");
+    shape.positions = mesh_.rest + displacement->second;
+    shape.is_at_rest = false;
+    return shape;
+}
+
+void RestMesh::require_same_tets(const std::string& path, const pbs::Tets& tets) const
+{
+    const std::vector<Corners> corners = sorted_corners(tets);
+    if (corners.size() != corners_.size())
+        throw pbs::InputError(path, 0, "tets", std::to_string(corners.size()), fmt::format("expected the rest mesh's {}", corners_.size()));
+    if (const auto other = std::ranges::mismatch(corners_, corners).in1; other != corners_.end())
+        throw pbs::InputError(path, 0, "tets", "",
+                              fmt::format("expected the rest mesh's, on the same vertices; it has a tet on {}, and this frame "
+                                          "does not: was the order of the vertices kept on export?",
+                                          fmt::join(*other, " ")));
+}
+
+}  // namespace experiments

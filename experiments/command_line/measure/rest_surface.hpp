@@ -1,0 +1,49 @@
+// A surface at rest and its frames from files. They have the points of the surface at rest, in the same order and in the same unit.
+//   const RestSurface rest("rest.obj", pbs::read_surface_frame("rest.obj"));
+//   const pbs::Positions points = rest.read_frame("frame_0001.obj", "");
+#pragma once
+
+#include "analysis/metrics/closed_shells.hpp"
+#include "pbs/geometry/mesh_io.hpp"
+
+#include <string>
+#include <vector>
+
+namespace experiments {
+
+// The points of a mesh in a file with several, from `first` to the next one's.
+struct NamedPoints {
+    std::string name;
+    Eigen::Index first = 0;
+};
+
+class RestSurface {
+public:
+    // meshes: in the order of their points; empty: the file does not name them. InputError for a surface without a closed shell.
+    RestSurface(std::string path, pbs::SurfaceMesh surface, std::vector<NamedPoints> meshes = {});
+
+    // [m], #P x 3. InputErrors: another number of points, other triangles except where a polygon is cut into triangles in another way,
+    // another unit, and those of shape_of_frame (frame_points.hpp).
+    pbs::Positions read_frame(const std::string& path, const std::string& displacement) const;
+
+    const pbs::Positions& points() const { return surface_.points; }  // [m], #P x 3
+    const analysis::ClosedShells& shells() const { return shells_; }
+    const pbs::Edges& edges() const { return edges_; }           // of the closed shells
+    std::string mesh_of(const analysis::Shell& shell) const;     // its name; empty: not known
+    int self_intersections(const pbs::Positions& points) const;  // pairs of triangles of the closed shells that meet
+
+    // What was left out, joined or taken otherwise than the file has it, a sentence each.
+    std::vector<std::string> remarks() const;
+
+private:
+    std::string name_of(int shell) const;  // "3 (Eyes)"
+    std::string listed(const std::vector<int>& shells) const;
+
+    std::string path_;
+    pbs::SurfaceMesh surface_;
+    std::vector<NamedPoints> meshes_;
+    analysis::ClosedShells shells_;
+    pbs::Edges edges_;
+};
+
+}  // namespace experiments

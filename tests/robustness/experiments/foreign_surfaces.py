@@ -1,0 +1,214 @@
+"""`pbskin measure` on surfaces that other programs export. Reference: a box stretched by s along one axis encloses 1 + s times its volume."""
+import itertools
+import os
+import unittest
+
+import numpy
+import vtk
+
+import program
+import run_records
+
+# The six faces of a box, outward; corner 4 x + 2 y + z.
+QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+
+
+def box(low=(0, 0, 0), edge=1.0):
+    """Corners, 8 x 3."""
+    return numpy.array(low) + edge * numpy.array(list(itertools.product((0.0, 1.0), repeat=3)))
+
+
+def stretched(points, percent):
+    return points * [1.0 + percent / 100.0, 1.0, 1.0]
+
+
+def triangles_of(faces):
+    return [(face[0], face[k], face[k + 1]) for face in faces for k in range(1, len(face) - 1)]
+
+
+def inward(faces):
+    return [face[::-1] for face in faces]
+
+
+def joined(*parts):
+    """Points and faces of several parts."""
+    points, faces = [], []
+    for part_points, part_faces in parts:
+        faces += [tuple(index + len(points) for index in face) for face in part_faces]
+        points += list(part_points)
+    return numpy.array(points), faces
+
+
+def write_vtp(path, points, faces, vector=None):
+    surface, cloud, cells = vtk.vtkPolyData(), vtk.vtkPoints(), vtk.vtkCellArray()
+    cloud.SetDataTypeToDouble()
+    for point in points:
+        cloud.InsertNextPoint(point)
+    for face in faces:
+        cells.InsertNextCell(len(face), face)
+    surface.SetPoints(cloud)
+    surface.SetPolys(cells)
+    if vector is not None:
+        array = vtk.vtkDoubleArray()
+        array.SetName("u")
+        array.SetNumberOfComponents(3)
+        for row in vector:
+            array.InsertNextTuple(row)
+        surface.GetPointData().AddArray(array)
+    writer = vtk.vtkXMLPolyDataWriter()
+    writer.SetFileName(path)
+    writer.SetInputData(surface)
+    writer.Write()
+
+
+def obj(points, faces):
+    rows = "".join("v %.17g %.17g %.17g\n" % tuple(point) for point in points)
+    return rows + "".join("f " + " ".join(str(index + 1) for index in face) + "\n" for face in faces)
+
+
+def off(points, faces):
+    rows = "".join("%.17g %.17g %.17g\n" % tuple(point) for point in points)
+    return f"OFF\n{len(points)} {len(faces)} 0\n" + rows + "".join(f"{len(face)} {' '.join(map(str, face))}\n" for face in faces)
+
+
+def ply(points, faces):
+    rows = "".join("%.17g %.17g %.17g\n" % tuple(point) for point in points)
+    return (f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty double x\nproperty double y\nproperty double z\n"
+            f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n" + rows
+            + "".join(f"{len(face)} {' '.join(map(str, face))}\n" for face in faces))
+
+
+def stl(points, faces):
+    corners = lambda face: "".join("vertex %.9g %.9g %.9g\n" % tuple(points[index]) for index in face)
+    return "solid box\n" + "".join(f"facet normal 0 0 0\nouter loop\n{corners(face)}endloop\nendfacet\n"
+                                   for face in triangles_of(faces)) + "endsolid box\n"
+
+
+TEXTS = {".obj": obj, ".off": off, ".ply": ply, ".stl": stl}
+
+
+class ForeignSurfaces(program.ProgramTest):
+    def write_surface(self, name, points, faces, **options):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        extension = os.path.splitext(name)[1]
+        if extension == ".vtp":
+            write_vtp(self.path(name), points, faces, **options)
+        else:
+            self.write(name, TEXTS[extension](points, faces))
+
+    def measure(self, status, *arguments, **expected):
+        return self.ends(status, "measure", *arguments, cwd=self.folder, **expected,
+                         env={name: value for name, value in os.environ.items() if not name.startswith("GITHUB_")})
+
+    def changes(self, *arguments, column="volume_change_pct", file="v.csv"):
+        """The column of the table, after a measurement without bounds."""
+        self.measure(0, *arguments, "--csv", "v.csv", "--shells", "s.csv")
+        return [float(row[column]) for row in self.rows(file)]
+
+    def test_each_format_as_a_sequence(self):
+        for extension in (*TEXTS, ".vtp"):
+            with self.subTest(extension):
+                self.write_surface("rest" + extension, box(), QUADS)
+                for number, percent in enumerate((0.0, 10.0, -5.0)):
+                    self.write_surface(f"{extension[1:]}/f_{number}{extension}", stretched(box(), percent), QUADS)
+                for found in (self.changes("rest" + extension, f"{extension[1:]}/f_%d{extension}"), self.changes("rest" + extension, extension[1:])):
+                    for value, percent in zip(found, (0.0, 10.0, -5.0), strict=True):
+                        self.assertAlmostEqual(value, percent, places=4)  # in single precision
+
+    def test_a_sequence_whose_polygons_are_cut_in_another_way(self):
+        """Nearly flat octagons as caps: the readers take other diagonals where one corner rises."""
+        angles = 2 * numpy.pi * numpy.arange(8) / 8
+        ring = numpy.stack([numpy.cos(angles), numpy.sin(angles), 0 * angles], axis=1)
+        points = numpy.vstack([ring, ring + [0, 0, 1]])
+        faces = [tuple(range(7, -1, -1)), tuple(range(8, 16))] + [(k, (k + 1) % 8, 8 + (k + 1) % 8, 8 + k) for k in range(8)]
+        for extension in (".obj", ".ply", ".vtp"):
+            self.write_surface("rest" + extension, points, faces)
+            for corner in range(8, 16):
+                moved = points.copy()
+                moved[corner] *= [1.2, 1.2, 1.1]
+                self.write_surface("frame" + extension, moved, faces)
+                self.changes("rest" + extension, "frame" + extension)
+
+    def test_another_order_number_or_unit_is_refused(self):
+        points, faces = joined((box(), QUADS))
+        self.write_surface("rest.obj", points, triangles_of(faces))
+        swapped = points[[1, 0, *range(2, 8)]]
+        self.write_surface("order.ply", swapped, [tuple({0: 1, 1: 0}.get(i, i) for i in face) for face in triangles_of(faces)])
+        self.write_surface("rest.ply", points, triangles_of(faces))
+        self.measure(2, "rest.ply", "order.ply", says="was the order of the vertices kept on export?")
+        self.write_surface("fewer.ply", *joined((box()[:7], [face for face in triangles_of(faces) if 7 not in face])))
+        self.measure(2, "rest.ply", "fewer.ply", says="vertices = 7: expected the rest mesh's 8")
+        self.write_surface("units.ply", 1000 * points, triangles_of(faces))
+        self.measure(2, "rest.ply", "units.ply", says="factor of 1000, as of millimetres against metres")
+
+    def test_seams_cavities_nested_bodies_and_open_shells(self):
+        """The same numbers with and without seams: each face with points of its own."""
+        hair = ([(5, 0, 0), (6, 0, 0), (5, 1, 0)], [(0, 1, 2)])
+        points, faces = joined((box(edge=4.0), QUADS), (box((1, 1, 1), 2.0), inward(QUADS)), (box((10, 0, 0)), QUADS), hair)
+        split = joined(*[(points[list(face)], [tuple(range(len(face)))]) for face in faces])
+        for name, (rest, rest_faces) in (("shared", (points, faces)), ("split", split)):
+            with self.subTest(name):
+                frame = rest.copy()
+                inside = ((rest > 0.5) & (rest < 3.5)).all(axis=1)
+                frame[inside] = 2 + 0.5 * (rest[inside] - 2)  # the cavity of 8 shrinks to 1
+                self.write_surface("rest.ply", rest, rest_faces)
+                self.write_surface("frame.ply", frame, rest_faces)
+                process = self.measure(0, "rest.ply", "frame.ply", "--csv", "v.csv", "--shells", "s.csv",
+                                       says="open shells = 1 of 4 shells (4 of 1 triangles): excluded")
+                self.assertIn("cavities = 1 of 4 shells (2 of 12 triangles): their volume is subtracted", process.stderr)
+                row, = self.rows("v.csv")
+                self.assertAlmostEqual(float(row["volume_m3"]), 64 - 1 + 1, places=9)
+                self.assertAlmostEqual(float(row["volume_change_pct"]), 100 * 7 / (64 - 8 + 1), places=9)
+                self.assertAlmostEqual(float(row["volume_abs_change_pct"]), 100 * 7 / (64 - 8 + 1), places=9)
+                shells = [(row["shell"], row["role"], round(float(row["volume_m3"]), 9)) for row in self.rows("s.csv")]
+                self.assertEqual(shells, [("1", "body", 64), ("2", "cavity", -1), ("3", "body", 1)])
+
+    def test_a_surface_without_a_closed_shell_is_refused(self):
+        self.write_surface("open.obj", box(), QUADS[:5])
+        self.measure(2, "open.obj", "open.obj", says="closed shells = 0 of 1: expected a surface that encloses a volume; its largest shell, 1, "
+                     "has 4 edges that do not lie between two triangles, first from")
+
+    def test_a_small_closed_part_of_an_open_surface_is_named(self):
+        points, faces = joined((box(edge=10.0), QUADS[:5]), (box((20, 0, 0)), QUADS))
+        self.write_surface("rest.obj", points, faces)
+        self.measure(0, "rest.obj", "rest.obj", says="closed shells = 1 % of the surface's area")
+
+    def test_self_intersections_are_counted_and_bounded(self):
+        """A corner that is pushed through the opposite one: its three faces leave through those of that corner."""
+        faces = triangles_of(QUADS)
+        self.write_surface("rest.obj", box(), faces)
+        frame = box()
+        frame[0] = [1.5, 1.4, 1.3]
+        self.write_surface("folded.obj", frame, faces)
+        self.assertEqual(self.changes("rest.obj", "rest.obj", column="self_intersections"), [0])
+        self.assertGreater(self.changes("rest.obj", "folded.obj", column="self_intersections")[0], 0)
+        self.measure(0, "rest.obj", "rest.obj", "--max-self-intersections", "0")
+        self.measure(1, "rest.obj", "folded.obj", "--max-self-intersections", "0", says="self_intersections = ")
+
+    def test_bounds_reports_and_the_last_line(self):
+        self.write_surface("rest.obj", box(), QUADS)
+        for number, percent in enumerate((0.1, -8.5, 2.0, 0.4)):
+            self.write_surface(f"f_{number}.obj", stretched(box(), percent), QUADS)
+        process = self.measure(1, "rest.obj", "f_%d.obj", "--max-volume-change", "0.5", "--junit", "v.xml",
+                               says="pbskin: f_1.obj: |volume_change_pct| = 8.5")
+        self.assertEqual(process.stdout.splitlines()[-1], "fails: 2 of 4 frames beyond 0.5 %, worst -8.5 % in frame f_1.obj")
+        self.assertEqual(run_records.failed_cases(self.path("v.xml")), {("rest.obj", "--max-volume-change 0.5")})
+        self.assertNotIn("--max-volume-change", process.stderr.splitlines()[-1])
+        process = self.measure(0, "rest.obj", "f_%d.obj", "--max-volume-change", "9")
+        self.assertEqual(process.stdout.splitlines()[-1], "holds: 4 frames within 9 %, worst -8.5 % in frame f_1.obj")
+        process = self.measure(0, "rest.obj", "f_%d.obj", says="--max-volume-change 0.5 holds the volume to a bound")
+        self.assertEqual(process.stdout.splitlines()[-1], "measured: 4 frames, volume -8.5 % in frame f_1.obj to 2 % in frame f_2.obj")
+        self.measure(2, "rest.obj", "f_%d.obj", "--max-inverted", "0", says="--max-inverted = 0: a surface has no tets")
+
+    def test_a_displacement_of_the_points(self):
+        rest, frame = box(), stretched(box(), 7.0)
+        self.write_surface("rest.vtp", rest, QUADS)
+        self.write_surface("frame.vtp", rest, QUADS, vector=frame - rest)
+        self.measure(2, "rest.vtp", "frame.vtp", says="add --displacement u, or --displacement none")
+        self.assertAlmostEqual(self.changes("rest.vtp", "frame.vtp", "--displacement", "u")[0], 7.0, places=9)
+        self.measure(0, "rest.vtp", "frame.vtp", "--displacement", "none", says="nothing moves")
+        self.measure(2, "rest.vtp", "frame.vtp", "--displacement", "v", says="expected a vector of the points: it has u")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,62 @@
+// Reference: three frames whose worst one is visible at a glance.
+
+#include "analysis/check/check.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace {
+
+using analysis::FrameBound;
+using analysis::Measured;
+
+analysis::MeasuredFrame frame(const std::string& name, double volume_change_pct, int inverted_tets)
+{
+    analysis::FrameValues values;
+    values.metrics.volume_change_pct = volume_change_pct;
+    values.metrics.inverted_tets = inverted_tets;
+    return {name, values};
+}
+
+const std::vector<analysis::MeasuredFrame> frames = {frame("0", 0.25, 0), frame("1", -8.64, 2), frame("2", 3.0, 1)};
+
+// The known bounds with the values of some.
+std::vector<FrameBound> bounds(const std::vector<std::pair<std::string, double>>& values)
+{
+    std::vector<FrameBound> known = analysis::known_frame_bounds();
+    for (const auto& [option, value] : values)
+        for (FrameBound& bound : known)
+            if (bound.option == option) bound.value = value;
+    return known;
+}
+
+TEST(FrameSummary, IsOneLineWithTheWorstFrameAndItsSign)
+{
+    const auto summary = [](const auto& values, std::size_t refused = 0) { return frame_summary(bounds(values), frames, refused); };
+    using Values = std::vector<std::pair<std::string, double>>;
+    EXPECT_EQ(summary(Values{{"--max-volume-change", 0.5}}), "fails: 2 of 3 frames beyond 0.5 %, worst -8.64 % in frame 1");
+    EXPECT_EQ(summary(Values{{"--max-volume-change", 9.0}}), "holds: 3 frames within 9 %, worst -8.64 % in frame 1");
+    EXPECT_EQ(summary(Values{{"--max-volume-change", 9.0}, {"--max-inverted", 1.0}}),
+              "fails: inverted_tets: 1 of 3 frames beyond 1, worst 2 in frame 1");
+    EXPECT_EQ(summary(Values{}), "measured: 3 frames, volume -8.64 % in frame 1 to 3 % in frame 2");
+    EXPECT_EQ(summary(Values{{"--max-volume-change", 9.0}}, 1),
+              "refused: 1 of 4 frames could not be measured; the others: holds: 3 frames within 9 %, worst -8.64 % in frame 1");
+    EXPECT_EQ(analysis::frame_summary(bounds({}), {}, 2), "refused: 2 of 2 frames could not be measured");
+    EXPECT_EQ(analysis::frame_summary(bounds({}), {frames[0]}, 0), "measured: 1 frame, volume 0.25 %");
+}
+
+TEST(FrameBounds, AreRefusedWhereTheyDoNotApply)
+{
+    for (const FrameBound& bound : analysis::known_frame_bounds()) {
+        FrameBound asked = bound;
+        EXPECT_NO_THROW(require_meaningful(asked, Measured::tets)) << "not asked for";
+        asked.value = 1.0;
+        EXPECT_NO_THROW(require_meaningful(asked, bound.applies_to == Measured::surface ? Measured::surface : Measured::tets));
+        if (bound.applies_to == Measured::tets) EXPECT_THROW(require_meaningful(asked, Measured::surface), pbs::InputError);
+        if (bound.applies_to == Measured::surface) EXPECT_THROW(require_meaningful(asked, Measured::tets), pbs::InputError);
+    }
+}
+
+}  // namespace

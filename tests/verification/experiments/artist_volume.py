@@ -1,0 +1,112 @@
+"""`pbskin measure MODEL`: the volume inside the artist's surface along the model's own animation. Reference: the file format's skinning
+formula, computed from the bytes of the file by skin_formula.py and fbx_formula.py, and VTK's vtkMassProperties. Tolerance: points differ by
+up to 1e-6 of the model's size, which changes the volume by up to this times the surface's area."""
+import os
+import unittest
+
+import numpy
+import vtk
+
+import fbx_formula
+import program
+import rig_files
+import skin_formula
+
+FRAMES = 5
+INSTALLED = "/usr/share/assimp/models"
+FBX_MODELS = tuple(f"{INSTALLED}/FBX/{name}.fbx" for name in ("animation_with_skeleton", "huesitos"))
+
+
+def volume_and_area(points, faces):
+    """Of a surface whose polygons VTK cuts into triangles and whose seams VTK joins."""
+    surface, cloud, cells = vtk.vtkPolyData(), vtk.vtkPoints(), vtk.vtkCellArray()
+    cloud.SetDataTypeToDouble()
+    for point in points:
+        cloud.InsertNextPoint(point)
+    for face in faces:
+        cells.InsertNextCell(len(face), face)
+    surface.SetPoints(cloud)
+    surface.SetPolys(cells)
+    triangles, mass = vtk.vtkTriangleFilter(), vtk.vtkMassProperties()
+    triangles.SetInputData(surface)
+    mass.SetInputConnection(triangles.GetOutputPort())
+    return mass.GetVolume(), mass.GetSurfaceArea()
+
+
+def gltf_faces(model):
+    """The triangles of all meshes, in the order of skin_formula.Model.points."""
+    meshes = []
+    for node in sorted(model.scene_nodes()):
+        if "mesh" not in model.nodes[node]:
+            continue
+        faces, first = [], 0
+        for primitive in model.document["meshes"][model.nodes[node]["mesh"]]["primitives"]:
+            faces.append(model.numbers(primitive["indices"])[:, 0].astype(int).reshape(-1, 3) + first)
+            first += len(model.numbers(primitive["attributes"]["POSITION"]))
+        meshes.append((first, numpy.concatenate(faces)))
+    ordered, first = [], 0
+    for count, faces in sorted(meshes, key=lambda mesh: mesh[0], reverse=True):
+        ordered += (faces + first).tolist()
+        first += count
+    return ordered
+
+
+def fbx_faces(model):
+    """The polygons of all geometries, in the order of fbx_formula.Model.points. The last corner of each is stored as its complement."""
+    faces, first = [], 0
+    for record in model.objects.values():
+        if record.name != "Geometry" or not record.all("Vertices"):
+            continue
+        face = []
+        for index in record.one("PolygonVertexIndex").values[0]:
+            face.append(first + int(index if index >= 0 else ~index))
+            if index < 0:
+                faces.append(face)
+                face = []
+        first += len(record.one("Vertices").values[0]) // 3
+    return faces
+
+
+class ArtistVolume(program.ProgramTest):
+    def compare(self, file, points_at, rest, faces, arguments=()):
+        """points_at: the points [m] at each time_s of the table; rest: those of the bind pose."""
+        self.succeeds("measure", file, "--frames", FRAMES, "--csv", self.path("v.csv"), *arguments)
+        rest_m3, rest_m2 = volume_and_area(rest, faces)
+        rows = self.rows("v.csv")
+        self.assertEqual(len(rows), FRAMES)
+        for row in rows:
+            points = points_at(float(row["time_s"]))
+            volume_m3, area_m2 = volume_and_area(points, faces)
+            tolerance_m3 = 1e-6 * numpy.linalg.norm(numpy.ptp(points, axis=0)) * area_m2
+            self.assertAlmostEqual(float(row["volume_m3"]), volume_m3, delta=tolerance_m3)
+            self.assertAlmostEqual(float(row["volume_change_pct"]), 100 * (volume_m3 / rest_m3 - 1), delta=200 * tolerance_m3 / rest_m3)
+        return [float(row["volume_change_pct"]) for row in rows]
+
+    def compare_gltf(self, file, animation=None):
+        model = skin_formula.Model(file)
+        begin, _ = model.span_s(animation)
+        rest = numpy.concatenate([model.numbers(primitive["attributes"]["POSITION"])
+                                  for mesh in model.document["meshes"] for primitive in mesh["primitives"]])
+        return self.compare(file, lambda time_s: model.points(animation, begin + time_s), rest, gltf_faces(model),
+                            () if animation is None else ("--animation", animation))
+
+    def test_a_gltf_model(self):
+        """The tube bends, and linear blending loses volume."""
+        changes = self.compare_gltf(rig_files.write("plain", self.path("rig.glb")))
+        self.assertLess(min(changes), -0.5)
+        self.compare_gltf(rig_files.write("two_animations", self.path("rig.glb")), "Twist")
+        self.compare_gltf(rig_files.write("spline", self.path("rig.glb")))
+
+    @unittest.skipUnless(all(map(os.path.exists, FBX_MODELS)), "assimp-testmodels is not installed")
+    def test_fbx_models(self):
+        for file in FBX_MODELS:
+            with self.subTest(file):
+                model = fbx_formula.Model(file)
+                begin, _ = model.span_s()
+                metres = model.metres_per_unit
+                rest = metres * model.points(None, begin)
+                self.compare(file, lambda time_s: metres * model.points(None, begin + time_s), rest, fbx_faces(model))
+
+
+if __name__ == "__main__":
+    unittest.main()
