@@ -8,7 +8,7 @@ file(CREATE_LINK ${PROJECT_SOURCE_DIR}/experiments/records/full ${PROJECT_BINARY
 
 set(programs pbskin)
 set(modules pbskin_native_plain)
-foreach(target IN ITEMS pbskin_cholmod pbskin_gmsh pbskin_fem pbskin_verification)
+foreach(target IN ITEMS pbskin_cholmod pbskin_fem pbskin_verification)
     if(TARGET ${target})
         list(APPEND modules ${target})
     endif()

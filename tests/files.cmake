@@ -4,13 +4,14 @@ set(left_out)
 if(PBS_WITH_MESH_IO)
     list(APPEND left_out pbs/geometry/mesh_io_unavailable)
 else()
-    list(APPEND left_out pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_checks pbs/geometry/mesh_io
-        pbs/geometry/mesh_repairs pbs/geometry/surface_reader pbs/character/bodies pbs/character/body_cache)
+    list(APPEND left_out pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/medit_files pbs/geometry/mesh_checks
+        pbs/geometry/mesh_io pbs/geometry/mesh_repairs pbs/geometry/msh_files pbs/geometry/surface_obj pbs/geometry/surface_polygons
+        pbs/geometry/surface_reader pbs/geometry/text_words pbs/geometry/vtk_files pbs/character/bodies pbs/character/body_cache)
 endif()
 if(PBS_WITH_CGAL)
     list(APPEND left_out pbs/geometry/meshing_unavailable)
 else()
-    list(APPEND left_out pbs/geometry/meshing pbs/geometry/self_intersection pbs/character/bodies
+    list(APPEND left_out pbs/geometry/meshing pbs/geometry/self_intersection pbs/geometry/surface_polygons pbs/character/bodies
         pbs/character/bone_capsules)
 endif()
 if(NOT PBS_WITH_RIG_IMPORT)
@@ -19,11 +20,12 @@ if(NOT PBS_WITH_RIG_IMPORT)
 endif()
 
 pbs_tests(unit pbs_files
-    FILES pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/mesh_checks pbs/geometry/mesh_io
+    FILES pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/medit_files pbs/geometry/mesh_checks pbs/geometry/mesh_io
         pbs/geometry/mesh_io_unavailable pbs/geometry/mesh_repairs pbs/geometry/meshing pbs/geometry/meshing_unavailable
-        pbs/geometry/self_intersection pbs/geometry/surface_reader
+        pbs/geometry/msh_files pbs/geometry/self_intersection pbs/geometry/surface_obj pbs/geometry/surface_polygons
+        pbs/geometry/surface_reader pbs/geometry/text_words pbs/geometry/vtk_files
     EXCEPT ${left_out}
-    ALONE pbs/geometry/surface_reader
+    ALONE pbs/geometry/msh_files pbs/geometry/surface_obj pbs/geometry/surface_reader pbs/geometry/vtk_files
     LIBRARIES pbs_mesh_io pbs_meshing pbs_module)
 pbs_tests(unit pbs_rig FOLDERS pbs/rig EXCEPT ${left_out} LIBRARIES pbs_rig pbs_mesh_io)
 pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out}
@@ -36,10 +38,14 @@ if(TARGET pbskin_cholmod)
         LIBRARIES pbs_flesh ${threads})
     add_dependencies(test_unit_pbs_flesh pbskin_cholmod)
 endif()
-if(TARGET pbskin_gmsh)
-    add_dependencies(test_unit_pbs_files pbskin_gmsh)
+if(TARGET pbskin_cholmod)  # a module that is loaded
+    add_dependencies(test_unit_pbs_files pbskin_cholmod)
+    target_compile_definitions(test_unit_pbs_files PRIVATE PBS_WITH_CHOLMOD)
 endif()
 if(PBS_WITH_MESH_IO)
+    find_path(GMSH_INCLUDE_DIR gmsh.h REQUIRED)
+    find_library(GMSH_LIBRARY gmsh REQUIRED)
+    require_known_header(gmsh ${GMSH_INCLUDE_DIR}/gmsh.h GMSH_API_VERSION_MAJOR GMSH_API_VERSION_MINOR)
     pbs_tests(robustness pbs_geometry FOLDERS pbs/geometry LIBRARIES pbs_mesh_io)
     pbs_tests(verification pbs_geometry FOLDERS pbs/geometry LIBRARIES pbs_mesh_io ${GMSH_LIBRARY})  # Gmsh's library, VTK's Python
 endif()

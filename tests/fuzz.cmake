@@ -65,8 +65,9 @@ fuzz_target(fuzz/texts.cpp experiments
     pbs/character/clip.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/files.cpp pbs_character
     pbs/character/frankie.cpp pbs/character/skinning_weights.cpp pbs/skinning/pose.cpp pbs/geometry/mesh_io.cpp
-    pbs/geometry/content_format.cpp pbs/geometry/msh_files.cpp pbs/geometry/mesh_checks.cpp pbs/geometry/mesh_repairs.cpp
-    pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
+    pbs/geometry/content_format.cpp pbs/geometry/medit_files.cpp pbs/geometry/msh_files.cpp pbs/geometry/surface_obj.cpp
+    pbs/geometry/text_words.cpp pbs/geometry/mesh_checks.cpp pbs/geometry/mesh_repairs.cpp pbs/geometry/files.cpp
+    pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/assimp.cpp pbs_rig
     pbs/rig/assimp_rig.cpp pbs/rig/rigged_body.cpp pbs/rig/rig_pose.cpp
     pbs/rig/rig_reader.cpp pbs/rig/rig_repairs.cpp pbs/skinning/pose.cpp pbs/geometry/content_format.cpp

@@ -4,6 +4,7 @@
 #include "experiments/process/terminal.hpp"
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_io.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -233,7 +234,7 @@ void require_one_sequence(const std::string& folder, const FoundFrames& found)
 
 bool is_frame(const fs::path& file, bool of_surfaces)
 {
-    static const std::set<std::string> tets = {".vtu", ".vtk", ".msh", ".mesh", ".ele"},
+    static const std::set<std::string> tets = {".vtu", ".pvtu", ".vtk", ".msh", ".mesh", ".ele"},
                                        surfaces = {".obj", ".ply", ".off", ".stl", ".vtp", ".glb", ".gltf", ".fbx", ".dae", ".zae"};
     return (of_surfaces ? surfaces : tets).contains(pbs::lower_extension(file.string()));
 }
@@ -284,6 +285,7 @@ std::optional<Sequence> of_number_pattern(const std::string& pattern)
 std::vector<std::string> files_of(const std::string& argument, const FrameSearch& search)
 {
     std::error_code error;
+    if (pbs::lower_extension(argument) == ".pvd") return pbs::read_pvd(argument);
     if (fs::is_regular_file(argument, error)) return {argument};
     FoundFrames found;
     const bool is_folder = fs::is_directory(argument, error);

@@ -59,13 +59,13 @@ void add_measure_verb(CommandLine& line)
                               [&common = line.common, arguments] { return measure(*arguments, common.quiet); });
     verb->add_option(
             "rest", arguments->rest,
-            "rest mesh: tets (.msh .vtu .vtk .mesh .tobj .ele) or a surface (.obj .ply .stl .off .vtp .glb .gltf .fbx .dae), whose "
+            "rest mesh: tets (.msh .vtu .pvtu .vtk .mesh .tobj .ele) or a surface (.obj .ply .stl .off .vtp .glb .gltf .fbx .dae), whose "
             "closed shells are measured; or, without frames, a rigged model (.glb .gltf .fbx .dae), which is measured along its "
             "animation as the artist's own skinning moves it")
         ->required();
     verb->add_option(
         "frame", arguments->frames,
-        "deformed frames with the same vertices in the same order: files, 'frame_%04d.vtu', 'frame_*.vtu' or a folder with one "
+        "deformed frames with the same vertices in the same order: files, a .pvd, 'frame_%04d.vtu', 'frame_*.vtu' or a folder with one "
         "sequence, in which no number may be missing");
     verb->add_option(
             "--displacement", arguments->displacement,

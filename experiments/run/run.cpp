@@ -322,22 +322,28 @@ private:
     void record_deformer(Runner& runner, int frame, double time_s, FrameContext context)
     {
         const pbs::Positions& positions = runner.deformer->positions();
-        const pbs::StepSummary& step = runner.steps.summary();
+        pbs::StepSummary step = runner.steps.summary();
         // A reference that did not reach its pose is in another one, so that it has no error.
-        if (runner.traits.solves_equations && step.outcome == pbs::Outcome::not_converged) context.reference = nullptr;
+        const bool is_elsewhere = runner.traits.solves_equations && step.outcome == pbs::Outcome::not_converged;
+        if (is_elsewhere) context.reference = nullptr;
         const FrameMeasurement measured = cost_.time("metrics", [&] { return measurer_.measure(positions, context); });
+        // Products of three finite lengths may leave the range of a double.
+        const bool has_volume = std::isfinite(measured.metrics.volume_change_pct);
+        if (!has_volume) step.outcome = pbs::Outcome::not_finite;
         cost_.time("records", [&] {
             folder_.add_frame(runner.spec, frame, time_s, measured, step);
             folder_.add_positions(runner.spec.label, positions);
         });
-        runner.lowest_change_pct = std::min(runner.lowest_change_pct, measured.metrics.volume_change_pct);
-        runner.highest_change_pct = std::max(runner.highest_change_pct, measured.metrics.volume_change_pct);
+        if (has_volume && !is_elsewhere) {
+            runner.lowest_change_pct = std::min(runner.lowest_change_pct, measured.metrics.volume_change_pct);
+            runner.highest_change_pct = std::max(runner.highest_change_pct, measured.metrics.volume_change_pct);
+        }
         runner.most_inverted = std::max(runner.most_inverted, measured.metrics.inverted_tets);
         if (measured.error_below_reference_error() && runner.spec.name != scene_.reference)
             ++frames_below_reference_error_[runner.spec.label];
         if (step.outcome == pbs::Outcome::not_converged) not_converged_[runner.spec.label].push_back(frame);
         if (step.outcome == pbs::Outcome::not_finite) breakdowns_[runner.spec.label].push_back(frame);
-        if (step.outcome != pbs::Outcome::finished || has_inverted_flesh(runner)) record_breakdown(runner, frame);
+        if (step.outcome != pbs::Outcome::finished || has_inverted_flesh(runner)) record_breakdown(runner, frame, step.outcome);
         if (scene_.output.writes(frame))
             cost_.time("frames", [&] {
                 folder_.write_frame(runner.spec, frame, time_s, character_, positions, measurer_, prescribed_vertices(*runner.deformer));
@@ -361,9 +367,8 @@ private:
                (reference.traits.is_negative_control || !has_inverted_flesh(reference));
     }
 
-    void record_breakdown(const Runner& runner, int frame)
+    void record_breakdown(const Runner& runner, int frame, pbs::Outcome outcome)
     {
-        const pbs::Outcome outcome = runner.steps.summary().outcome;
         const pbs::Positions positions =
             outcome == pbs::Outcome::not_converged ? last_state(*runner.deformer) : runner.deformer->positions();
         BrokenFrame broken = broken_frame(frame, outcome, positions, measurer_.volume_ratios(positions));
@@ -412,8 +417,11 @@ private:
 
         RunResult result{frames_, stopwatch_.seconds(), breakdown_, bad_frame_, {}};
         for (const Runner& runner : runners_)
-            result.lines.push_back(fmt::format("  {:<12} volume change {:8.3f} to {:7.3f} %, at most {} inverted tets", runner.spec.label,
-                                               runner.lowest_change_pct, runner.highest_change_pct, runner.most_inverted));
+            result.lines.push_back(
+                runner.lowest_change_pct > runner.highest_change_pct
+                    ? fmt::format("  {:<12} reached none of {} poses, so that it has no volume change", runner.spec.label, frames_)
+                    : fmt::format("  {:<12} volume change {:8.3f} to {:7.3f} %, at most {} inverted tets", runner.spec.label,
+                                  runner.lowest_change_pct, runner.highest_change_pct, runner.most_inverted));
         for (const auto& [label, frames] : not_converged_)
             result.lines.push_back(fmt::format("  {:<12} did not converge in {} of {} frames; as a reference, it is not compared there",
                                                label, frames.size(), frames_));

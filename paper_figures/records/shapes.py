@@ -93,7 +93,9 @@ third_schema = Rule("3", lambda value: value == 3)
 fourth_schema = Rule("4", lambda value: value == 4)  # of claims.json
 provenance = {"version?": text, "git_revision?": text, "git_dirty?": truth, "compiler?": text, "flags?": text, "build_type?": text,
               "cpu_model?": text, "logical_cpus?": whole, "threads?": whole, "libraries?": {"*": text}, "input_hashes?": {"*": text}}
-deformer = {"label": text, "name": text, "variant": text, "options?": {"k_stretch?": number, "jiggle?": {"k_stretch": number}}}
+deformer = {"label": text, "name": text, "variant": text,
+            "options?": {"k_stretch?": number,  # XPBD records whether it jiggles, PBS with which stiffness
+                         "jiggle?": lambda value: {"k_stretch": number} if isinstance(value, dict) else truth}}
 scene = {"reference?": {"name?": text}, "fem?": [{"name": text, "model": text, "element_order": whole}],
          "character?": {"body?": text}, "motion?": {"clip?": text}, "runs?": [deformer]}
 run = {"schema?": third_schema, "provenance?": provenance, "scene?": scene, "work?": {},

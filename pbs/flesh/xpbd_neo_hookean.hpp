@@ -46,8 +46,10 @@ struct XpbdFlesh {
     HoldModes hold;
     std::vector<int> first_mode;  // of each tet, #T + 1
     // Inverse masses w_i = time_step^2 / D_i [1/m], #V. D_i is the stiffness of the energy along vertex i without its volume term. The
-    // limit does not depend on the masses, and with these a small tet is no stiffer than a large one in units of its masses. 1: no tet.
+    // limit does not depend on the masses, and with these a small tet is no stiffer than a large one in units of its masses. D_i is larger
+    // where a tet has nearly all the stiffness of several of its vertices, which would oscillate. 1: no tet.
     Eigen::VectorXd w;
+    double size_m = 0.0;  // diagonal of the bounding box at rest
 };
 
 // One constraint block: the springs of a tet or its pair of neo-Hookean constraints.
@@ -67,7 +69,7 @@ public:
         for (std::size_t i = 0; i < this->place_.size(); ++i) rows[this->place_[i]][3] = Scalar(w_(static_cast<Eigen::Index>(i)));
         return rows;
     }
-    virtual void set_targets(const Positions& targets) = 0;  // of the hold's modes [m]; packed: their mean becomes the origin of the rows
+    virtual void set_targets(const Positions& targets) = 0;  // of the hold's modes [m]; packed: sets the origin of the rows near them
     virtual void forget() = 0;                               // sets all multipliers, and the forces that tets have applied, to zero
     // Visits every constraint once. with_residual: r is corrected; otherwise it is neglected, as published.
     virtual void iterate(Rows<Scalar>& x, bool with_residual) = 0;

@@ -1,5 +1,5 @@
-// Other people's readers on damaged files: assimp ends the process on one damaged .ply in two, VTK and Gmsh on rarer ones, and all three
-// may take memory or time without limit. A child process tries first, silent, with limits on memory, processor time and time: far more than
+// Other people's readers on damaged files: assimp ends the process on one damaged .ply in two, VTK on rarer ones, and both may
+// take memory or time without limit. A child process tries first, silent, with limits on memory, processor time and time: far more than
 // a sound file needs, and no more than half of the memory that there is. Whatever becomes of the child, the caller gets what was read or an
 // InputError that names the file and says how the child died.
 //   const TetMesh mesh = read_guarded("arm.vtu", read_vtk);

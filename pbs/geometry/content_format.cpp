@@ -1,12 +1,11 @@
 #include "pbs/geometry/content_format.hpp"
 
-#include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/text_words.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +18,12 @@ namespace pbs {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string lower(std::string text)
+{
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
 
 bool holds(const std::string& beginning, const char* text)
 {
@@ -51,8 +56,9 @@ bool is_obj_keyword(const std::string& word)
 }
 
 // A header of any 80 bytes, the number of triangles, and 50 bytes for each of them.
-bool is_binary_stl(const std::string& path, const std::string& beginning)
+bool is_binary_stl(const std::string& path)
 {
+    const std::string beginning = beginning_of(path);
     constexpr std::size_t header = 80, before_triangles = 84, of_triangle = 50;
     if (beginning.size() < before_triangles + of_triangle) return false;
     std::uint32_t triangles = 0;
@@ -81,9 +87,7 @@ bool lies_below(const fs::path& file, const fs::path& folder)
 
 std::string lower_extension(const std::string& path)
 {
-    std::string extension = fs::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
-    return extension;
+    return lower(fs::path(path).extension().string());
 }
 
 std::string beginning_of(const std::string& path)
@@ -99,9 +103,9 @@ std::string beginning_of(const std::string& path)
 
 std::string content_extension(const std::string& path)
 {
-    const std::string beginning = beginning_of(path);
+    const std::string beginning = as_utf8(beginning_of(path));
     if (const std::string extension = extension_by_first_bytes(beginning); !extension.empty()) return extension;
-    if (is_binary_stl(path, beginning)) return ".stl";
+    if (is_binary_stl(path)) return ".stl";
     if (holds(beginning, "; FBX ") || holds(beginning, "FBXHeaderExtension")) return ".fbx";
     if (holds(beginning, "<COLLADA")) return ".dae";
     if (holds(beginning, "<VTKFile") && holds(beginning, "\"PolyData\"")) return ".vtp";
@@ -110,7 +114,7 @@ std::string content_extension(const std::string& path)
     if (words.empty()) return "";
     if (words[0] == "MeshVersionFormatted") return ".mesh";
     if (is_off_keyword(words[0])) return ".off";
-    if (words[0] == "solid" && holds(beginning, "facet")) return ".stl";
+    if (lower(words[0]) == "solid" && holds(lower(beginning), "facet")) return ".stl";
     return is_obj_keyword(words[0]) && words.size() > 1 ? ".obj" : "";
 }
 
@@ -133,28 +137,6 @@ bool may_be_opened_for(const std::string& path, const std::string& file)
     if (code || !fs::is_regular_file(target, code)) return false;
     const fs::path own = fs::canonical(path, code), named = fs::weakly_canonical(fs::absolute(path).parent_path(), code);
     return target == own || lies_below(target, own.parent_path()) || lies_below(target, named);
-}
-
-NamedLink::NamedLink(const std::string& path, const std::string& extension) : link_(path)
-{
-    if (lower_extension(path) == extension) return;
-    std::error_code code;
-    const fs::path target = fs::canonical(path, code);
-    std::string made = (fs::temp_directory_path(code) / "pbskin-XXXXXX").string();
-    if (!code && mkdtemp(made.data())) {
-        folder_ = made;
-        link_ = (fs::path(folder_) / (fs::path(path).filename().string() + extension)).string();
-        fs::create_symlink(target, link_, code);
-        if (!code) return;
-    }
-    fs::remove_all(folder_, code);
-    throw InputError(path, 0, "extension", lower_extension(path), "no link of another name can be made: rename the file to " + extension);
-}
-
-NamedLink::~NamedLink()
-{
-    std::error_code ignored;
-    if (!folder_.empty()) fs::remove_all(folder_, ignored);
 }
 
 }  // namespace pbs

@@ -10,7 +10,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <sstream>
@@ -60,7 +62,9 @@ namespace {
 // |V| / (longest edge)^3 is 0.118 for the regular tet. Rounding of the coordinates alone leaves some 1e-16 D / l of it, D the distance
 // from the origin: 1e-10 keeps clear of that for every mesh with D / l < 1e5.
 constexpr double flat_tet = 1e-10;
-constexpr double farthest_m = 1e9;                      // beyond, products of three lengths leave the range of a double
+// Height over length is 1e-4 and less: gradients of barycentric coordinates, which are its inverse, leave a float 3 digits of 7, and the
+// condition number of an energy's Hessian grows with their square.
+constexpr double sliver = 1e-5;
 constexpr double smallest_m = 1e-3, largest_m = 100.0;  // of a character
 
 std::string numbered(const char* what, Eigen::Index i)
@@ -88,12 +92,15 @@ double longest_edge(const TetMesh& mesh, Eigen::Index t)
     return longest;
 }
 
-int normalise_orientation(const std::string& path, TetMesh& mesh)
+// flattest: the tet with the least |V| / (longest edge)^3, and this number.
+int normalise_orientation(const std::string& path, TetMesh& mesh, std::pair<Eigen::Index, double>& flattest)
 {
     int flipped = 0;
+    flattest.second = std::numeric_limits<double>::infinity();
     const Eigen::VectorXd volumes = tet_volumes(mesh.rest, mesh.tets);
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
-        const double length = longest_edge(mesh, t);
+        const double length = longest_edge(mesh, t), flatness = std::abs(volumes(t)) / (length * length * length);
+        if (flatness < flattest.second) flattest = {t, flatness};
         if (!(std::abs(volumes(t)) > flat_tet * length * length * length))
             throw InputError(path, 0, numbered("tet", t), listed(mesh.tets.row(t)),
                              "expected a volume; its four vertices are in one plane");
@@ -226,6 +233,60 @@ void add_open_and_joined_edges(const std::string& path, const SurfaceMesh& surfa
                                  listed(surface.points.row(first->first.second), 6) + "; the surface is wrapped"));
 }
 
+// How often the triangles go round a point (A. Van Oosterom, J. Strackee, IEEE Trans. Biomed. Eng. 30, 1983): 1 inside of a closed surface
+// that faces outwards, -1 of one that faces inwards, 0 outside.
+double winding_number(const Vec3& point, const Positions& points, const Triangles& triangles)
+{
+    double angle = 0.0;
+    for (const auto& triangle : triangles.rowwise()) {
+        const Vec3 a = points.row(triangle(0)).transpose() - point, b = points.row(triangle(1)).transpose() - point,
+                   c = points.row(triangle(2)).transpose() - point;
+        const double of_a = a.norm(), of_b = b.norm(), of_c = c.norm();
+        angle += 2.0 * std::atan2(a.dot(b.cross(c)), of_a * of_b * of_c + a.dot(b) * of_c + b.dot(c) * of_a + c.dot(a) * of_b);
+    }
+    return angle / (4.0 * std::numbers::pi);
+}
+
+// The parts of a surface that no point joins and that are closed.
+std::vector<Triangles> closed_shells(const SurfaceMesh& surface)
+{
+    Classes parts(static_cast<std::size_t>(surface.points.rows()));
+    for (const auto& triangle : surface.triangles.rowwise())
+        for (int k = 1; k < 3; ++k) parts.unite(triangle(k), triangle(0));
+    std::map<int, std::vector<Eigen::Index>> rows;
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) rows[parts.find(surface.triangles(f, 0))].push_back(f);
+    std::vector<Triangles> shells;
+    for (const auto& [part, members] : rows) {
+        const Triangles shell = surface.triangles(members, Eigen::all);
+        const auto triangles_at = triangles_at_edges(shell);
+        if (std::ranges::all_of(triangles_at, [](const auto& edge) { return edge.second == 2; })) shells.push_back(shell);
+    }
+    return shells;
+}
+
+// A shell inside another one that faces the other way is the skin of a cavity.
+void add_cavities(const std::string& path, const SurfaceMesh& surface, std::vector<std::string>& remarks)
+{
+    const std::vector<Triangles> shells = closed_shells(surface);
+    int cavities = 0;
+    double volume = 0.0;
+    for (const Triangles& inner : shells) {
+        const double of_inner = fan_volume(surface.points, inner);
+        const Vec3 point = surface.points.row(inner(0, 0));
+        const bool is_cavity = std::ranges::any_of(shells, [&](const Triangles& outer) {
+            return of_inner * fan_volume(surface.points, outer) < 0.0 && std::abs(winding_number(point, surface.points, outer)) > 0.5;
+        });
+        if (!is_cavity) continue;
+        ++cavities;
+        volume += std::abs(of_inner);
+    }
+    if (cavities > 0)
+        remarks.push_back(remark(path, "closed cavities", cavities,
+                                 number_text(volume) +
+                                     " m^3 in all, filled by tets: the mesher wraps the outside alone; for a hollow body, "
+                                     "mesh it with another program and use its tets"));
+}
+
 // Skins of characters do so: MakeHuman's at lips and lids. Without CGAL this is not checked, and never for tet meshes.
 void add_crossings([[maybe_unused]] const std::string& path, [[maybe_unused]] const SurfaceMesh& surface,
                    [[maybe_unused]] std::vector<std::string>& remarks)
@@ -254,7 +315,8 @@ MeshReading check_rest(const std::string& path, TetMesh mesh, bool for_computing
 {
     check_frame(path, mesh);
     require_extent(path, mesh.rest);
-    const int flipped_tets = normalise_orientation(path, mesh);
+    std::pair<Eigen::Index, double> flattest;
+    const int flipped_tets = normalise_orientation(path, mesh, flattest);
     check_faces(path, mesh);
     MeshReading reading = repaired(mesh);
     reading.doubled_vertices = doubled_vertices(reading);
@@ -275,6 +337,8 @@ MeshReading check_rest(const std::string& path, TetMesh mesh, bool for_computing
         reading = std::move(kept);
     }
     reading.flipped_tets = flipped_tets;
+    reading.flattest_tet = static_cast<int>(flattest.first);
+    reading.flatness = flattest.second;
     reading.touching_edges = touching_edges(mesh.tets);
     return reading;
 }
@@ -296,8 +360,17 @@ std::vector<std::string> remarks_on(const std::string& path, const MeshReading& 
 {
     std::vector<std::string> remarks;
     if (!reading.read_as.empty()) remarks.push_back(remark_on_name(path, reading.read_as));
+    if (!reading.listed_at.empty())
+        remarks.push_back(remark(path, "nodes", reading.file_vertices,
+                                 "not listed by their tags; vertices are numbered from 0 by ascending tag, as weights and frames must be"));
+    if (reading.repeated_tets > 0) remarks.push_back(remark(path, "tets listed more than once", reading.repeated_tets, "counted once"));
     if (reading.flipped_tets > 0)
         remarks.push_back(remark(path, "inverted tets", reading.flipped_tets, "turned, so that every rest volume is positive"));
+    if (reading.flatness < sliver)
+        remarks.push_back(remark(path, numbered("flattest tet", reading.flattest_tet), number_text(reading.flatness, 2),
+                                 "a sliver by its volume over its longest edge cubed, which is 0.118 for a regular tet; the methods that "
+                                 "minimise an energy may end far from its minimum, and FEM may reach no pose: mesh the body anew "
+                                 "(pbskin mesh)"));
     add_list(path, "unused vertices", reading.unused_vertices, "left out; no tet uses them", remarks);
     const bool is_split = !reading.split_vertices.empty();
     add_list(path, "edges at which parts touch", reading.touching_edges,
@@ -322,6 +395,7 @@ std::vector<std::string> remarks_on(const std::string& path, const SurfaceMesh& 
     if (triangles_without_area > 0) remarks.push_back(remark(path, "triangles without area", triangles_without_area, "left out"));
     add_open_and_joined_edges(path, surface, remarks);
     add_crossings(path, surface, remarks);
+    add_cavities(path, surface, remarks);
     if (const double volume = fan_volume(surface.points, surface.triangles); volume < 0.0)
         remarks.push_back(remark(path, "enclosed volume [m^3]", volume, "inside out; taken as the body that it encloses"));
     add_size(path, surface.points, remarks);

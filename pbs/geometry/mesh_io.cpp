@@ -4,19 +4,22 @@
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
+#include "pbs/geometry/text_words.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace pbs {
 namespace {
 
-enum class TetFormat { vtk, gmsh, tetgen, tobj };
+enum class TetFormat { vtk, gmsh, medit, tetgen, tobj };
 
 // By what the file holds; files of TetGen and HOBAK, which begin with plain numbers or vertices, by their extension.
 TetFormat format_of(const std::string& path)
@@ -25,33 +28,49 @@ TetFormat format_of(const std::string& path)
     const auto holds = [&](const char* text) { return beginning.find(text) != std::string::npos; };
     if (holds("# vtk DataFile") || holds("<VTKFile")) return TetFormat::vtk;
     const std::string format = format_extension(path);
-    if (format == ".msh" || format == ".mesh") return TetFormat::gmsh;
-    if (extension == ".vtu" || extension == ".vtk") return TetFormat::vtk;
+    if (format == ".msh") return TetFormat::gmsh;
+    if (format == ".mesh") return TetFormat::medit;
+    if (extension == ".vtu" || extension == ".pvtu" || extension == ".vtk") return TetFormat::vtk;
     if (extension == ".node" || extension == ".ele") return TetFormat::tetgen;
     if (extension == ".tobj") return TetFormat::tobj;
-    throw InputError(path, 0, "extension", extension, "expected a tet mesh: .msh, .vtu, .vtk, .mesh, .tobj, .node or .ele");
+    throw InputError(path, 0, "extension", extension, "expected a tet mesh: .msh, .vtu, .pvtu, .vtk, .mesh, .tobj, .node or .ele");
 }
 
-// Gmsh chooses its own reader by the extension.
-TetMesh read_by_gmsh(const std::string& path)
-{
-    const long long named = check_gmsh_file(path);
-    const NamedLink link(path, format_extension(path));
-    TetMesh read = read_guarded(path, [&](const std::string& file) { return read_gmsh(file, link.path()); });
-    if (read.tets.rows() > 0 && named >= 0 && named != read.rest.rows())  // it leaves out vertices that no element uses
-        throw InputError(path, 0, "vertices", std::to_string(named),
-                         "expected all in elements; Gmsh reads " + std::to_string(read.rest.rows()));
-    return read;
-}
-
-TetMesh read_by_content(const std::string& path)
+TetFile read_as_listed(const std::string& path)
 {
     const TetFormat format = format_of(path);
     require_readable(path, format == TetFormat::vtk ? most_mesh_bytes : most_text_bytes);
-    if (format == TetFormat::tetgen) return read_tetgen(path);
-    if (format == TetFormat::tobj) return read_tobj(path);
-    if (format == TetFormat::vtk) return read_guarded(path, read_vtk);
-    return read_by_gmsh(path);
+    if (format == TetFormat::tetgen) return {.mesh = read_tetgen(path)};
+    if (format == TetFormat::tobj) return {.mesh = read_tobj(path)};
+    if (format == TetFormat::medit) return {.mesh = read_medit(path)};
+    if (format == TetFormat::vtk) return {.mesh = read_guarded(path, read_vtk)};
+    return read_msh(path);
+}
+
+// Keeps the first of the tets on the same four vertices: files list a tet once for each group or partition that it belongs to.
+int drop_repeated_tets(Tets& tets)
+{
+    std::vector<std::pair<std::array<int, 4>, Eigen::Index>> sorted;
+    for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+        std::array<int, 4> corners = {tets(t, 0), tets(t, 1), tets(t, 2), tets(t, 3)};
+        std::sort(corners.begin(), corners.end());
+        sorted.emplace_back(corners, t);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<Eigen::Index> kept;
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+        if (i == 0 || sorted[i].first != sorted[i - 1].first) kept.push_back(sorted[i].second);
+    const auto repeated = static_cast<int>(sorted.size() - kept.size());
+    std::sort(kept.begin(), kept.end());
+    if (repeated > 0) tets = tets(kept, Eigen::all).eval();
+    return repeated;
+}
+
+TetFile read_by_content(const std::string& path)
+{
+    TetFile file = read_as_listed(path);
+    file.repeated_tets = drop_repeated_tets(file.mesh.tets);
+    return file;
 }
 
 // TetGen's pair NAME.node and NAME.ele: plain numbers, '#' begins a comment, vertices counted from 0 or 1 as the first one says.
@@ -63,7 +82,7 @@ public:
     explicit NumberLines(const std::string& path) : path_(path)
     {
         require_readable(path, most_text_bytes);
-        file_.open(path);
+        file_.str(as_utf8(read_text_file(path)));
     }
 
     // The next line that holds numbers; at least `least` of them.
@@ -73,6 +92,16 @@ public:
         while (numbers_.empty());
         if (numbers_.size() < least) fail(field, text_, "expected at least " + std::to_string(least) + " numbers");
         return numbers_;
+    }
+
+    // The last of the stated number of lines has been read: no line of numbers follows.
+    void require_end(const char* field, long long count)
+    {
+        while (file_.peek() != std::istringstream::traits_type::eof()) {
+            read_line(field);
+            if (!numbers_.empty())
+                fail(field, std::to_string(count), "expected the number of those that are listed; this line follows the last of them");
+        }
     }
 
     // A whole number from the current line.
@@ -107,7 +136,7 @@ private:
     }
 
     std::string path_, text_;
-    std::ifstream file_;
+    std::istringstream file_;
     int line_ = 0;
     std::vector<double> numbers_;
 };
@@ -134,6 +163,7 @@ Positions read_nodes(const std::string& path, long long& first)
         lines.whole("point", 0, first + i, first + i);
         coordinates.insert(coordinates.end(), numbers.begin() + 1, numbers.begin() + 4);
     }
+    lines.require_end("#points", count);
     return Eigen::Map<const Positions>(coordinates.data(), count, 3);
 }
 
@@ -149,6 +179,7 @@ Tets read_elements(const std::string& path, long long points, long long first)
         for (std::size_t k = 1; k <= 4; ++k)
             corners.push_back(static_cast<int>(lines.whole("tet vertex", k, first, first + points - 1) - first));
     }
+    lines.require_end("#tets", count);
     return Eigen::Map<const Tets>(corners.data(), count, 4);
 }
 
@@ -188,7 +219,7 @@ TetMesh read_tetgen(const std::string& path)
 
 TetMesh read_tobj(const std::string& path)
 {
-    std::ifstream file(path);
+    std::istringstream file(as_utf8(read_text_file(path)));
     std::vector<double> coordinates;
     std::vector<int> corners, lines;
     int number = 0;
@@ -219,15 +250,19 @@ TetMesh read_tobj(const std::string& path)
 
 TetMesh read_tet_frame(const std::string& path)
 {
-    TetMesh mesh = read_by_content(path);
+    TetMesh mesh = read_by_content(path).mesh;
     check_frame(path, mesh);
     return mesh;
 }
 
 MeshReading read_tet_mesh(const std::string& path, bool for_computing)
 {
-    MeshReading reading = check_rest(path, read_by_content(path), for_computing);
-    if (format_of(path) == TetFormat::gmsh && format_extension(path) != lower_extension(path)) reading.read_as = format_extension(path);
+    TetFile file = read_by_content(path);
+    MeshReading reading = check_rest(path, std::move(file.mesh), for_computing);
+    reading.listed_at = std::move(file.listed_at);
+    reading.repeated_tets = file.repeated_tets;
+    if (const std::string format = format_extension(path); (format == ".msh" || format == ".mesh") && format != lower_extension(path))
+        reading.read_as = format;
     return reading;
 }
 

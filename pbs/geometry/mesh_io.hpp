@@ -1,6 +1,6 @@
-// Reading and writing meshes. Read by libraries: Gmsh (.msh 1, 2.2 and 4.1, MEDIT .mesh; a module, loaded with the first such file), VTK
-// (.vtu, .vtk), assimp and CGAL (surfaces); TetGen's .node/.ele, which no library in Debian reads alone, here. Bad files are InputErrors,
-// and in a build without PBS_WITH_MESH_IO everything is.
+// Reading and writing meshes. Libraries read .vtu, .pvtu and .vtk (VTK) and most surfaces (assimp and CGAL). Gmsh's .msh, MEDIT's .mesh,
+// TetGen's .node/.ele, .tobj and .obj are read here: their libraries drop or guess without a word what a file holds. Bad files are
+// InputErrors, and in a build without PBS_WITH_MESH_IO everything is.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -14,7 +14,7 @@ namespace pbs {
 
 // The result of read_tet_mesh.
 struct MeshReading {
-    TetMesh mesh;                      // positively oriented, in the file's order [m]
+    TetMesh mesh;                      // positively oriented, in the file's order; nodes and elements of a .msh by their tags [m]
     int flipped_tets = 0;              // number of tets whose orientation was normalised
     int file_vertices = 0;             // of the file
     std::vector<int> file_vertex;      // the file's number of each vertex, from 0, #V
@@ -25,7 +25,11 @@ struct MeshReading {
     // Vertices of the file in one place, as at cracks and where bodies touch: each with the one before it there. For metrics alone.
     std::vector<std::array<int, 2>> doubled_vertices;
     int overlapping = -1;  // a vertex of the file near which the boundary intersects itself; -1: it does not, or nothing was checked
-    std::string read_as;   // the usual extension of the file's format, if its own is another one; empty: as it is named
+    int flattest_tet = 0;                            // of the file, with the least volume over its longest edge cubed
+    double flatness = 0.118;                         // that number; 0.118 is the regular tet's
+    int repeated_tets = 0;                           // on the same four vertices as an earlier one of the file; each counts once
+    std::vector<int> listed_at;  // where a .msh lists its nodes: the place of each of them by tag; empty: they are listed by their tags
+    std::string read_as;         // the usual extension of the file's format, if its own is another one; empty: as it is named
 };
 
 // The reader is chosen by the content of a file where it shows the format, otherwise by the extension. For TetGen and .tobj it does not.
@@ -37,7 +41,8 @@ struct MeshReading {
 // metrics, which need neither a manifold boundary nor one that bodies do not share.
 MeshReading read_tet_mesh(const std::string& path, bool for_computing = true);
 
-// Points and tets as they are in the file, including inverted tets: the metrics of deformed frames need them.
+// Points and tets as they are in the file, including inverted tets: the metrics of deformed frames need them. A tet that is listed several
+// times counts once.
 // InputError where there is no tet, an index out of range, or a coordinate that is not finite or beyond 1e9 m.
 TetMesh read_tet_frame(const std::string& path);
 
@@ -83,19 +88,23 @@ void write_vtu(const std::string& path, const Positions& points, const Tets& tet
 // A surface, without fields; errors as of write_vtu.
 void write_vtp(const std::string& path, const Positions& points, const Triangles& triangles);
 
+// The files of a .pvd by time, relative to the current folder. InputError: no such collection, or several parts of one time.
+std::vector<std::string> read_pvd(const std::string& path);
+
 // A ParaView collection of frames: time [s] -> file name relative to the .pvd, in the order given; names stand in it as they are, without a
 // check. InputError where it cannot be written.
 void write_pvd(const std::string& path, const std::vector<std::pair<double, std::string>>& frames);
 
 // Remarks on properties of a mesh that are accepted although its author may not have intended them: one line each, printed for the user.
 //   for (const std::string& remark : remarks_on("arm.msh", read_tet_mesh("arm.msh"))) ...
-// A name that does not fit the content, turned tets, vertices that were left out or split, edges at which parts touch, faces that were cut,
+// A name that does not fit the content, nodes that are not listed by tag, tets that are listed several times, turned tets, the flattest tet
+// where it is a sliver, vertices that were left out or split, edges at which parts touch, faces that were cut,
 // parts that no face joins, and a size that speaks for other units than metres (under 1 mm or above 100 m).
 std::vector<std::string> remarks_on(const std::string& path, const MeshReading& reading);
 
 // read_surface of a file that a user names, with its remarks: a name that does not fit the content, points that no triangle uses, triangles
-// that are a line or a point, holes, edges in three triangles or more, triangles that cross (checked in builds with CGAL), a surface inside
-// out, and the size as above.
+// that are a line or a point, holes, edges in three triangles or more, triangles that cross (checked in builds with CGAL), closed
+// cavities, a surface inside out, and the size as above.
 SurfaceMesh read_surface(const std::string& path, std::vector<std::string>& remarks, double scale = 1.0);
 
 // On a file whose content has the format of files with another extension.

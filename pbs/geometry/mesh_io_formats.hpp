@@ -11,20 +11,30 @@
 
 namespace pbs {
 
-TetMesh read_vtk(const std::string& path);  // .vtu, .vtk, by VTK
-// .msh 2.2 and 4.1, .mesh, by Gmsh, in a module. named: the path, or a link to it, with the extension that fits the content.
-TetMesh read_gmsh(const std::string& path, const std::string& named);
+inline constexpr double farthest_m = 1e9;  // of a point from the origin: beyond, products of three lengths leave the range of a double
+
+struct TetFile {
+    TetMesh mesh;                     // in the order of their tags where nodes and elements have any, else as listed
+    std::vector<int> listed_at = {};  // as in MeshReading
+    int repeated_tets = 0;
+};
+
+TetMesh read_vtk(const std::string& path);     // .vtu, .pvtu, .vtk, by VTK
+TetFile read_msh(const std::string& path);     // Gmsh's .msh
+TetMesh read_medit(const std::string& path);   // .mesh
 TetMesh read_tobj(const std::string& path);    // .tobj
 TetMesh read_tetgen(const std::string& path);  // .node or .ele; the other file is in the same folder
 
 SurfaceMesh read_polygons(const std::string& path);  // .ply, .off, .stl, by CGAL
 SurfaceMesh read_vtp(const std::string& path);       // .vtp and .vtk with a surface, by VTK
 
-// Before Gmsh may see a file: it runs one that is no mesh as a script. Loads the module. Returns the number of vertices that the file
-// names, -1 where that is not known.
-long long check_gmsh_file(const std::string& path);
+// .obj; mesh_name as in read_surface. Polygons are triangulated by CGAL, in a build without it by fans, where these are right.
+SurfaceMesh read_obj(const std::string& path, const std::string& mesh_name);
 
-// Written by our own code, with 17 digits: Gmsh's own writer prints 16 (.msh) or 14 (.mesh), which does not read back to the bit.
+// The corners of triangles that cover polygons [places in points, #S x 3], by CGAL. InputError: a corner out of range, a polygon without
+// area, or one whose edges cross.
+std::vector<int> triangulated(const std::string& path, const Positions& points, const std::vector<std::vector<std::size_t>>& polygons);
+
 void write_msh(const std::string& path, const TetMesh& mesh);    // 4.1 ASCII
 void write_medit(const std::string& path, const TetMesh& mesh);  // .mesh, version 2
 

@@ -1,266 +1,350 @@
-// The door of the Gmsh module.
+// Gmsh's .msh 1, 2 to 2.2, 4.0 and 4.1, as text and as bytes of either order. Gmsh's library is no help here: it drops elements whose
+// number occurred before and nodes that no element uses, and it does not tell in which order the file lists its nodes, which is the order
+// that exporters give to frames. What is read here is compared with its files in tests/verification.
+// Format: Gmsh reference manual 4.13, "MSH file format" and "Legacy formats".
 
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
-#include "pbs/geometry/module.hpp"
+#include "pbs/geometry/text_words.hpp"
 
 #include <algorithm>
-#include <cstdlib>
-#include <cstring>
-#include <functional>
-#include <locale>
-#include <sstream>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 namespace pbs {
 namespace {
 
-constexpr const char* module_name = "pbskin_gmsh";
+struct ElementType {
+    int nodes, dimension;
+    const char* name;
+};
+constexpr int tet_type = 4;
+constexpr std::array<ElementType, 32> element_types = {{{0, 0, ""},
+                                                        {2, 1, "line"},
+                                                        {3, 2, "triangle"},
+                                                        {4, 2, "quadrangle"},
+                                                        {4, 3, "tetrahedron"},
+                                                        {8, 3, "hexahedron"},
+                                                        {6, 3, "prism"},
+                                                        {5, 3, "pyramid"},
+                                                        {3, 1, "line of 3 nodes"},
+                                                        {6, 2, "triangle of 6 nodes"},
+                                                        {9, 2, "quadrangle of 9 nodes"},
+                                                        {10, 3, "tetrahedron of 10 nodes"},
+                                                        {27, 3, "hexahedron of 27 nodes"},
+                                                        {18, 3, "prism of 18 nodes"},
+                                                        {14, 3, "pyramid of 14 nodes"},
+                                                        {1, 0, "point"},
+                                                        {8, 2, "quadrangle of 8 nodes"},
+                                                        {20, 3, "hexahedron of 20 nodes"},
+                                                        {15, 3, "prism of 15 nodes"},
+                                                        {13, 3, "pyramid of 13 nodes"},
+                                                        {9, 2, "triangle of 9 nodes"},
+                                                        {10, 2, "triangle of 10 nodes"},
+                                                        {12, 2, "triangle of 12 nodes"},
+                                                        {15, 2, "triangle of 15 nodes"},
+                                                        {15, 2, "triangle of 15 nodes, incomplete"},
+                                                        {21, 2, "triangle of 21 nodes"},
+                                                        {4, 1, "line of 4 nodes"},
+                                                        {5, 1, "line of 5 nodes"},
+                                                        {6, 1, "line of 6 nodes"},
+                                                        {20, 3, "tetrahedron of 20 nodes"},
+                                                        {35, 3, "tetrahedron of 35 nodes"},
+                                                        {56, 3, "tetrahedron of 56 nodes"}}};
 
-std::string first_word(const std::string& text)
-{
-    const std::size_t begin = text.find_first_not_of(" \t\r\n");
-    if (begin == std::string::npos) return "";
-    return text.substr(begin, std::min<std::size_t>(text.find_first_of(" \t\r\n", begin) - begin, 40));
-}
-
-// The sections of a Gmsh file: version 1 has names of its own.
-struct MshSections {
+// The sections of a file: version 1 has names of its own.
+struct Sections {
     const char *nodes, *end_nodes, *elements, *end_elements;
 };
 
-MshSections sections_of(const std::string& text)
-{
-    if (text.rfind("$NOD", 0) == 0) return {"$NOD", "$ENDNOD", "$ELM", "$ENDELM"};
-    return {"$Nodes", "$EndNodes", "$Elements", "$EndElements"};
-}
-
-void check_msh(const std::string& path, const std::string& text)
-{
-    const MshSections sections = sections_of(text);
-    if (text.rfind("$MeshFormat", 0) != 0 && text.rfind("$NOD", 0) != 0)
-        throw InputError(path, 1, "", "", "expected a Gmsh file beginning with $MeshFormat");
-    for (const auto& [begin, end] : {std::pair(sections.nodes, sections.end_nodes), std::pair(sections.elements, sections.end_elements)}) {
-        if (("\n" + text).find(std::string("\n") + begin) == std::string::npos)
-            throw InputError(path, 0, "", "", std::string("the section ") + begin + " is missing");
-        if (text.find(end) == std::string::npos) throw InputError(path, 0, "", "", std::string("truncated: ") + end + " is missing");
+// The values of a file, which are words of a text or bytes.
+class MshValues {
+public:
+    explicit MshValues(const std::string& path) : path_(path), words_(path, as_utf8(read_text_file(path)))
+    {
+        const std::string& text = words_.text();
+        if (!text.starts_with("$MeshFormat") && !text.starts_with("$NOD"))
+            throw InputError(path, 1, "", "", "expected a Gmsh file beginning with $MeshFormat");
+        if (text.starts_with("$MeshFormat")) read_format();
+        require_sections();
     }
-}
 
-bool is_number(const std::string& word)
-{
-    char* end = nullptr;
-    std::strtod(word.c_str(), &end);
-    return end != word.c_str() && *end == '\0';
-}
-
-// Gmsh takes what is no number for the number before it: a line holds a keyword and numbers, or numbers alone.
-void check_medit_words(const std::string& path, const std::string& text)
-{
-    std::istringstream lines(text);
-    int number = 0;
-    for (std::string line; std::getline(lines, line);) {
-        ++number;
-        std::istringstream words(line.substr(0, line.find('#')));
-        std::string word;
-        if (words >> word && !is_number(word) && !(word[0] >= 'A' && word[0] <= 'Z'))
-            throw InputError(path, number, "word", word.substr(0, 40), "expected a number or a keyword");
-        while (words >> word)
-            if (!is_number(word)) throw InputError(path, number, "word", word.substr(0, 40), "expected a number");
+    double version() const { return version_; }
+    bool is_binary() const { return is_binary_; }
+    Sections sections() const
+    {
+        if (version_ == 1.0) return {"$NOD", "$ENDNOD", "$ELM", "$ENDELM"};
+        return {"$Nodes", "$EndNodes", "$Elements", "$EndElements"};
     }
-}
 
-// The number of entries that a section of a MEDIT file states, and how many numbers follow it.
-std::pair<long long, long long> medit_section(const std::string& text, const std::string& name)
-{
-    std::istringstream lines(text.substr(text.find(name) + name.size()));
-    long long entries = -1, numbers = -1;  // the number of entries itself
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream words(line.substr(0, line.find('#')));
-        for (std::string word; words >> word; ++numbers) {
-            if (!is_number(word)) return {entries, numbers};
-            if (numbers < 0) entries = static_cast<long long>(std::strtod(word.c_str(), nullptr));
+    // Goes behind the line that begins a section.
+    void enter(const char* section)
+    {
+        words_.go_to(place_of(section));
+        words_.skip_line();
+    }
+    // The section ends here, or its count is wrong.
+    void leave(const std::string& end, const char* field, long long count)
+    {
+        if (words_.peek() == end) return;
+        const std::string rule = "expected the number of those that are listed; " + end + " does not follow the last of them";
+        if (is_binary_) throw InputError(path_, 0, field, std::to_string(count), rule);
+        words_.next(field);
+        words_.fail(field, std::to_string(count), rule);
+    }
+    // A number of things that follow, each of which takes a byte or more. Version 2 writes it as a word in binary files, too.
+    long long count(const char* field)
+    {
+        const auto most = static_cast<long long>(words_.text().size());
+        if (version_ >= 4.0) return whole<std::uint64_t>(field, 0, most);
+        const long long count = words_.whole(field, 0, most);
+        if (is_binary_) words_.skip_line();
+        return count;
+    }
+    long long tag(const char* field) { return version_ >= 4.1 ? whole<std::uint64_t>(field) : whole<std::int32_t>(field); }
+
+    template <typename Integer>
+    long long whole(const char* field, long long low = std::numeric_limits<long long>::min(),
+                    long long high = std::numeric_limits<long long>::max())
+    {
+        if (!is_binary_) return words_.whole(field, low, high);
+        const Integer stored = of_bytes<Integer>(field);
+        const auto number = static_cast<long long>(stored);
+        if (!std::in_range<long long>(stored) || number < low || number > high)
+            throw InputError(path_, 0, field, std::to_string(stored), expected_whole("a whole number", low, high));
+        return number;
+    }
+    double real(const char* field) { return is_binary_ ? of_bytes<double>(field) : words_.number(field); }
+
+private:
+    void read_format()
+    {
+        words_.skip_line();
+        version_ = words_.number("version");
+        constexpr std::array known = {2.0, 2.1, 2.2, 4.0, 4.1};
+        if (std::find(known.begin(), known.end(), version_) == known.end())
+            words_.fail("version", number_text(version_), "expected 1, 2 to 2.2, 4 or 4.1: save it anew (gmsh FILE -save -format msh41)");
+        is_binary_ = words_.whole("file type", 0, 1) == 1;
+        if (!is_binary_) return;
+        words_.whole("bytes of a number", 8, 8);
+        words_.skip_line();
+        const auto one = of_bytes<std::int32_t>("order of bytes");
+        is_swapped_ = one != 1;
+        if (is_swapped_ && one != 1 << 24) throw InputError(path_, 0, "order of bytes", std::to_string(one), "expected 1 or 16777216");
+    }
+
+    // Of the line that begins with a keyword; npos: there is none.
+    std::size_t place_of(const std::string& keyword) const
+    {
+        const std::string& text = words_.text();
+        const std::size_t before = text.find("\n" + keyword);
+        return text.starts_with(keyword) ? 0 : before == std::string::npos ? before : before + 1;
+    }
+
+    void require_sections() const
+    {
+        const auto [nodes, end_nodes, elements, end_elements] = sections();
+        for (const auto& [begin, end] : {std::pair(nodes, end_nodes), std::pair(elements, end_elements)}) {
+            if (place_of(begin) == std::string::npos)
+                throw InputError(path_, 0, "", "", std::string("the section ") + begin + " is missing");
+            if (place_of(end) == std::string::npos) throw InputError(path_, 0, "", "", std::string("truncated: ") + end + " is missing");
         }
     }
-    return {entries, numbers};
-}
 
-void check_medit(const std::string& path, const std::string& text)
-{
-    if (first_word(text) != "MeshVersionFormatted")
-        throw InputError(path, 1, "", "", "expected a MEDIT file beginning with MeshVersionFormatted");
-    for (const char* section : {"Vertices", "Tetrahedra"})
-        if (text.find(section) == std::string::npos)
-            throw InputError(path, 0, "", "", std::string("the section ") + section + " is missing");
-    check_medit_words(path, text);
-    // Gmsh takes what is missing of the last tet from its memory.
-    if (const auto [tets, numbers] = medit_section(text, "Tetrahedra"); numbers < 5 * tets)
-        throw InputError(path, 0, "Tetrahedra", std::to_string(tets),
-                         "truncated: expected five numbers each, and there are " + std::to_string(numbers));
-}
-
-// The text after the line "$Nodes".
-std::size_t begin_of_nodes(const std::string& text)
-{
-    return text.find('\n', ("\n" + text).find(std::string("\n") + sections_of(text).nodes)) + 1;
-}
-
-// "4\n" (1, 2.2), "1 4 1 4\n" (4.1: blocks, nodes, ...; binary: the same as size_t).
-long long nodes_in_msh(const std::string& text)
-{
-    double version = 1.0;
-    int binary = 0;
-    if (text.rfind("$MeshFormat", 0) == 0) {
-        std::istringstream header(text.substr(text.find('\n'), 100));
-        header.imbue(std::locale::classic());
-        header >> version >> binary;
+    template <typename Number>
+    Number of_bytes(const char* field)
+    {
+        std::array<char, sizeof(Number)> bytes;
+        const std::string_view read = words_.bytes(bytes.size(), field);
+        std::copy(read.begin(), read.end(), bytes.begin());
+        if (is_swapped_) std::reverse(bytes.begin(), bytes.end());
+        return std::bit_cast<Number>(bytes);
     }
-    const std::size_t nodes = begin_of_nodes(text);
-    std::size_t numbers[2] = {};
-    if (version == 4.1 && binary) {
-        if (nodes + sizeof numbers > text.size()) return -1;
-        std::memcpy(numbers, text.data() + nodes, sizeof numbers);
-        return static_cast<long long>(numbers[1]);
+
+    std::string path_;
+    TextWords words_;
+    double version_ = 1.0;
+    bool is_binary_ = false, is_swapped_ = false;
+};
+
+// As the file lists them.
+struct MshContent {
+    std::vector<long long> node_tags, tet_tags, corners;  // #V, #T, 4 #T
+    std::vector<double> coordinates;                      // [m], 3 #V
+};
+
+// What a block of version 4 has in common: entities of this dimension.
+struct Block {
+    int dimension;
+    bool is_parametric;
+    int type;
+    long long entries;
+};
+
+Block read_block(MshValues& values, bool of_nodes)
+{
+    long long dimension = values.whole<std::int32_t>("entity"), tag = values.whole<std::int32_t>("entity");
+    if (values.version() < 4.1) std::swap(dimension, tag);
+    const long long last = values.whole<std::int32_t>(of_nodes ? "parametric" : "element type");
+    return {static_cast<int>(std::clamp(dimension, 0LL, 3LL)), of_nodes && last != 0, of_nodes ? 0 : static_cast<int>(last),
+            values.count(of_nodes ? "nodes of a block" : "elements of a block")};
+}
+
+void read_point(MshValues& values, MshContent& content, int parameters)
+{
+    for (int axis = 0; axis < 3; ++axis) content.coordinates.push_back(values.real("node"));
+    for (int p = 0; p < parameters; ++p) values.real("node");
+}
+
+void require_sum(const std::string& path, const char* field, long long stated, std::size_t in_blocks)
+{
+    if (static_cast<std::size_t>(stated) != in_blocks)
+        throw InputError(path, 0, field, std::to_string(stated), "expected the sum of the blocks, " + std::to_string(in_blocks));
+}
+
+void read_msh_nodes(const std::string& path, MshValues& values, MshContent& content)
+{
+    values.enter(values.sections().nodes);
+    if (values.version() < 4.0) {
+        const long long nodes = values.count("nodes");
+        for (long long i = 0; i < nodes; ++i) {
+            content.node_tags.push_back(values.tag("node"));
+            read_point(values, content, 0);
+        }
+        return values.leave(values.sections().end_nodes, "nodes", nodes);
     }
-    std::istringstream counts(text.substr(nodes, 100));
-    if (version == 4.1) counts >> numbers[0] >> numbers[1];
-    if (version < 4.0) counts >> numbers[1];
-    return counts && numbers[1] > 0 ? static_cast<long long>(numbers[1]) : -1;
-}
-
-long long vertices_in_medit(const std::string& text)
-{
-    std::istringstream count(text.substr(text.find("Vertices") + 8, 100));
-    long long vertices = -1;
-    count >> vertices;
-    return count ? vertices : -1;
-}
-
-// Whether a text file has as many lines of nodes as it states. Those of a binary file cannot be counted like this.
-bool has_all_nodes(const std::string& text, long long nodes)
-{
-    const std::size_t begin = begin_of_nodes(text);
-    std::istringstream lines(text.substr(begin, text.find(sections_of(text).end_nodes) - begin));
-    long long count = -1;  // the line of the number itself
-    for (std::string line; std::getline(lines, line);) count += !first_word(line).empty();
-    return count == nodes;
-}
-
-// Gmsh leaves out the nodes that no element uses. If the file numbers its nodes from 1 without gaps, each gets its place back; those that
-// were left out are put at the origin, and no tet names them.
-void restore_unused(const std::vector<std::size_t>& tags, Eigen::Index nodes, TetMesh& mesh)
-{
-    if (tags.empty() || tags.front() < 1 || static_cast<Eigen::Index>(tags.back()) > nodes) return;
-    Positions points = Positions::Zero(nodes, 3);
-    for (std::size_t p = 0; p < tags.size(); ++p)
-        points.row(static_cast<Eigen::Index>(tags[p]) - 1) = mesh.rest.row(static_cast<Eigen::Index>(p));
-    mesh.tets = mesh.tets.unaryExpr([&](int p) { return static_cast<int>(tags[static_cast<std::size_t>(p)]) - 1; }).eval();
-    mesh.rest = std::move(points);
-}
-
-bool is_msh(const std::string& path)
-{
-    return format_extension(path) == ".msh";
-}
-
-// Gmsh 4.1 and MEDIT, both ASCII with 17 digits, one entity (3, 1) holding all tets.
-// Formats: Gmsh reference manual 4.8, "MSH file format"; MEDIT, Frey, "MEDIT: an interactive mesh visualization software" (INRIA, 2001).
-
-// 17 significant digits name a double exactly. Whatever the locale of the program that uses this library.
-void write_text(const std::string& path, const std::function<void(std::ostringstream&)>& write)
-{
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text.precision(17);
-    write(text);
-    write_atomically(path, text.str());
-}
-
-void write_point(std::ostringstream& file, const Positions& points, Eigen::Index i)
-{
-    file << points(i, 0) << ' ' << points(i, 1) << ' ' << points(i, 2);
-}
-
-void write_corners(std::ostringstream& file, const Tets& tets, Eigen::Index t)
-{
-    for (int corner = 0; corner < 4; ++corner) file << tets(t, corner) + 1 << ' ';
-}
-
-void write_msh_entities(std::ostringstream& file, const Positions& points)
-{
-    Vec3 low = Vec3::Zero(), high = Vec3::Zero();
-    if (points.rows() > 0) {
-        low = points.colwise().minCoeff().transpose();
-        high = points.colwise().maxCoeff().transpose();
+    const long long blocks = values.count("blocks"), nodes = values.count("nodes");
+    for (int k = 0; k < (values.version() >= 4.1 ? 2 : 0); ++k) values.tag("least and largest tag");
+    for (long long b = 0; b < blocks; ++b) {
+        const Block block = read_block(values, true);
+        const int parameters = block.is_parametric ? block.dimension : 0;
+        if (values.version() >= 4.1)
+            for (long long i = 0; i < block.entries; ++i) content.node_tags.push_back(values.tag("node"));
+        for (long long i = 0; i < block.entries; ++i) {
+            if (values.version() < 4.1) content.node_tags.push_back(values.tag("node"));
+            read_point(values, content, parameters);
+        }
     }
-    file << "$Entities\n0 0 0 1\n1 " << low.transpose() << ' ' << high.transpose() << " 0 0\n$EndEntities\n";
+    values.leave(values.sections().end_nodes, "nodes", nodes);
+    require_sum(path, "nodes", nodes, content.node_tags.size());
+}
+
+const ElementType& volume_is_tet(const std::string& path, long long type)
+{
+    if (type < 1 || type >= static_cast<long long>(element_types.size()))
+        throw InputError(path, 0, "element type", std::to_string(type), "expected 1 to 31; four-node tetrahedra have type 4");
+    const ElementType& of = element_types[static_cast<std::size_t>(type)];
+    if (of.dimension == 3 && type != tet_type) throw InputError(path, 0, "elements", of.name, "expected four-node tetrahedra");
+    return of;
+}
+
+void read_corners(MshValues& values, long long type, int nodes, long long tag, MshContent& content)
+{
+    if (type == tet_type) content.tet_tags.push_back(tag);
+    for (int k = 0; k < nodes; ++k) {
+        const long long node = values.tag("node of an element");
+        if (type == tet_type) content.corners.push_back(node);
+    }
+}
+
+// Version 1: number, type, two regions, number of nodes. Version 2: number, type, number of tags, tags; in bytes, runs of elements share
+// type and number of tags.
+void read_listed_elements(const std::string& path, MshValues& values, MshContent& content)
+{
+    const long long elements = values.count("elements");
+    long long type = 0, tags = 0;
+    for (long long e = 0, in_run = 0; e < elements; ++e) {
+        if (values.is_binary() && in_run == 0) {
+            type = values.whole<std::int32_t>("element type");
+            in_run = values.whole<std::int32_t>("elements of a run", 1, elements - e);
+            tags = values.whole<std::int32_t>("tags", 0, 1LL << 30);
+        }
+        const long long number = values.tag("element");
+        if (values.is_binary()) {
+            --in_run;
+        } else {
+            type = values.whole<std::int32_t>("element type");
+            tags = values.version() < 2.0 ? 3 : values.whole<std::int32_t>("tags", 0, 1LL << 30);
+        }
+        const int nodes = volume_is_tet(path, type).nodes;
+        for (long long t = 0; t < tags; ++t) values.whole<std::int32_t>("tag of an element");
+        read_corners(values, type, nodes, number, content);
+    }
+    values.leave(values.sections().end_elements, "elements", elements);
+}
+
+void read_msh_elements(const std::string& path, MshValues& values, MshContent& content)
+{
+    values.enter(values.sections().elements);
+    if (values.version() < 4.0) return read_listed_elements(path, values, content);
+    const long long blocks = values.count("blocks"), elements = values.count("elements");
+    std::size_t in_blocks = 0;
+    for (int k = 0; k < (values.version() >= 4.1 ? 2 : 0); ++k) values.tag("least and largest tag");
+    for (long long b = 0; b < blocks; ++b) {
+        const Block block = read_block(values, false);
+        const int nodes = volume_is_tet(path, block.type).nodes;
+        for (long long e = 0; e < block.entries; ++e) read_corners(values, block.type, nodes, values.tag("element"), content);
+        in_blocks += static_cast<std::size_t>(block.entries);
+    }
+    values.leave(values.sections().end_elements, "elements", elements);
+    require_sum(path, "elements", elements, in_blocks);
+}
+
+// Indices that put the tags in ascending order; equal ones stay in theirs.
+std::vector<std::size_t> ascending(const std::vector<long long>& tags)
+{
+    std::vector<std::size_t> order(tags.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return tags[a] < tags[b]; });
+    return order;
 }
 
 }  // namespace
 
-long long check_gmsh_file(const std::string& path)
+TetFile read_msh(const std::string& path)
 {
-    const std::string text = read_text_file(path);
-    is_msh(path) ? check_msh(path, text) : check_medit(path, text);
-    load_module(module_name);
-    return is_msh(path) ? nodes_in_msh(text) : vertices_in_medit(text);
-}
+    MshValues values(path);
+    MshContent content;
+    read_msh_nodes(path, values, content);
+    read_msh_elements(path, values, content);
 
-TetMesh read_gmsh(const std::string& path, const std::string& named)
-{
-    TetMesh mesh;
-    std::vector<std::size_t> tags;
-    load_module(module_name)
-        .function<void(const std::string&, const std::string&, TetMesh&, std::vector<std::size_t>&)>("pbskin_gmsh_read")(path, named, mesh,
-                                                                                                                         tags);
-    const std::string text = read_text_file(path);
-    const bool msh = is_msh(path);
-    const long long nodes = msh ? nodes_in_msh(text) : vertices_in_medit(text);
-    if (nodes > mesh.rest.rows() && (msh ? has_all_nodes(text, nodes) : medit_section(text, "Vertices").second == 4 * nodes))
-        restore_unused(tags, nodes, mesh);
-    return mesh;
-}
+    TetFile file;
+    const auto vertices = static_cast<Eigen::Index>(content.node_tags.size());
+    file.mesh.rest.resize(vertices, 3);
+    file.listed_at.reserve(content.node_tags.size());
+    std::unordered_map<long long, int> index_of;
+    for (const std::size_t from : ascending(content.node_tags)) {
+        const int to = static_cast<int>(index_of.size());
+        if (!index_of.emplace(content.node_tags[from], to).second)
+            throw InputError(path, 0, "node", std::to_string(content.node_tags[from]), "expected each tag once");
+        file.mesh.rest.row(to) = Eigen::Map<const Eigen::RowVector3d>(content.coordinates.data() + 3 * from);
+        file.listed_at.push_back(static_cast<int>(from));
+    }
+    if (std::is_sorted(file.listed_at.begin(), file.listed_at.end())) file.listed_at.clear();
 
-void write_msh(const std::string& path, const TetMesh& mesh)
-{
-    write_text(path, [&](std::ostringstream& file) {
-        const Eigen::Index points = mesh.rest.rows(), tets = mesh.tets.rows();
-        file << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
-        write_msh_entities(file, mesh.rest);
-        file << "$Nodes\n1 " << points << " 1 " << points << "\n3 1 0 " << points << '\n';
-        for (Eigen::Index i = 0; i < points; ++i) file << i + 1 << '\n';
-        for (Eigen::Index i = 0; i < points; ++i) {
-            write_point(file, mesh.rest, i);
-            file << '\n';
+    file.mesh.tets.resize(static_cast<Eigen::Index>(content.tet_tags.size()), 4);
+    Eigen::Index to = 0;
+    for (const std::size_t from : ascending(content.tet_tags)) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto found = index_of.find(content.corners[4 * from + k]);
+            if (found == index_of.end())
+                throw InputError(path, 0, "element " + std::to_string(content.tet_tags[from]),
+                                 std::to_string(content.corners[4 * from + k]), "expected the tag of a node");
+            file.mesh.tets(to, static_cast<Eigen::Index>(k)) = found->second;
         }
-        file << "$EndNodes\n$Elements\n1 " << tets << " 1 " << tets << "\n3 1 4 " << tets << '\n';
-        for (Eigen::Index t = 0; t < tets; ++t) {
-            file << t + 1 << ' ';
-            write_corners(file, mesh.tets, t);
-            file << '\n';
-        }
-        file << "$EndElements\n";
-    });
-}
-
-void write_medit(const std::string& path, const TetMesh& mesh)
-{
-    write_text(path, [&](std::ostringstream& file) {
-        file << "MeshVersionFormatted 2\nDimension 3\nVertices\n" << mesh.rest.rows() << '\n';
-        for (Eigen::Index i = 0; i < mesh.rest.rows(); ++i) {
-            write_point(file, mesh.rest, i);
-            file << " 1\n";
-        }
-        file << "Tetrahedra\n" << mesh.tets.rows() << '\n';
-        for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
-            write_corners(file, mesh.tets, t);
-            file << "1\n";
-        }
-        file << "End\n";
-    });
+        ++to;
+    }
+    return file;
 }
 
 }  // namespace pbs

@@ -4,13 +4,16 @@
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
+#include "pbs/geometry/text_words.hpp"
 
 #include <vtkCell.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellTypes.h>
 #include <vtkDataArraySelection.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
+#include <vtkGenericCell.h>
 #include <vtkGenericDataObjectReader.h>
 #include <vtkIdList.h>
 #include <vtkIntArray.h>
@@ -22,16 +25,23 @@
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridReader.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLPUnstructuredGridReader.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
+#include <vtkXMLUtilities.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <locale>
+#include <map>
 #include <mutex>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -92,11 +102,11 @@ void throw_if_any_message(const std::string& path)
     if (!collected.empty()) throw InputError(path, 0, "", "", "VTK: " + words_of(collected));
 }
 
+constexpr const char* ghosts = "vtkGhostType";  // VTK's own name
+
 template <typename Reader>
 vtkSmartPointer<vtkUnstructuredGrid> grid_of(const std::string& path, Reader& reader)
 {
-    collect_messages();
-    reader.SetFileName(path.c_str());
     reader.Update();
     throw_if_any_message(path);
     vtkSmartPointer<vtkUnstructuredGrid> grid = reader.GetOutput();
@@ -104,13 +114,17 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const std::string& path, Reader& re
     return grid;
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& path)
+// Without the arrays of points and cells, whose defects are no matter here, except the one that marks what pieces share.
+template <typename Reader>
+vtkSmartPointer<vtkUnstructuredGrid> xml_grid(const std::string& path)
 {
-    if (beginning_of(path).starts_with("# vtk DataFile")) {  // either format may have either extension
-        vtkNew<vtkUnstructuredGridReader> reader;
-        return grid_of(path, *reader.Get());
-    }
-    vtkNew<vtkXMLUnstructuredGridReader> reader;
+    collect_messages();
+    vtkNew<Reader> reader;
+    reader->SetFileName(path.c_str());
+    reader->UpdateInformation();
+    reader->GetPointDataArraySelection()->DisableAllArrays();
+    reader->GetCellDataArraySelection()->DisableAllArrays();
+    reader->GetCellDataArraySelection()->EnableArray(ghosts);
     return grid_of(path, *reader.Get());
 }
 
@@ -148,6 +162,10 @@ vtkSmartPointer<vtkDataObject> read_data(const std::string& path, const std::str
         vtkNew<vtkXMLPolyDataReader> reader;
         return data_of(path, *reader.Get(), array);
     }
+    if (beginning.find("\"PUnstructuredGrid\"") != std::string::npos) {
+        vtkNew<vtkXMLPUnstructuredGridReader> reader;
+        return data_of(path, *reader.Get(), array);
+    }
     vtkNew<vtkXMLUnstructuredGridReader> reader;
     return data_of(path, *reader.Get(), array);
 }
@@ -159,21 +177,48 @@ Positions points_in(vtkPointSet& data)
     return points;
 }
 
-bool is_lower_dimensional(int type)
+// The same for the older format, in which arrays come last.
+vtkSmartPointer<vtkUnstructuredGrid> legacy_grid(const std::string& path)
 {
-    return type == VTK_VERTEX || type == VTK_POLY_VERTEX || type == VTK_LINE || type == VTK_POLY_LINE || type == VTK_TRIANGLE ||
-           type == VTK_TRIANGLE_STRIP || type == VTK_POLYGON || type == VTK_PIXEL || type == VTK_QUAD;
+    collect_messages();
+    std::string text = read_text_file(path, most_mesh_bytes);
+    text.erase(std::min({text.find("\nPOINT_DATA "), text.find("\nCELL_DATA "), text.size()}));
+    vtkNew<vtkUnstructuredGridReader> reader;
+    reader->ReadFromInputStringOn();
+    reader->SetInputString(text + '\n');
+    return grid_of(path, *reader.Get());
 }
 
-// The cells that are tets; other volume cells are refused.
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& path)
+{
+    const std::string beginning = beginning_of(path);  // any of the formats may have any of the extensions
+    if (beginning.starts_with("# vtk DataFile")) return legacy_grid(path);
+    if (beginning.find("\"Collection\"") != std::string::npos)
+        throw InputError(path, 0, "type", "Collection", "expected one mesh; `pbskin measure` takes a .pvd for its frames");
+    if (beginning.find("\"PUnstructuredGrid\"") != std::string::npos) return xml_grid<vtkXMLPUnstructuredGridReader>(path);
+    return xml_grid<vtkXMLUnstructuredGridReader>(path);
+}
+
+// Tets have four nodes, by whichever of their names; a file of a program with cells of any order calls them Lagrange's or Bezier's.
+bool is_tet(vtkUnstructuredGrid& grid, vtkIdType cell)
+{
+    const int type = grid.GetCellType(cell);
+    if (type == VTK_TETRA) return true;
+    return (type == VTK_LAGRANGE_TETRAHEDRON || type == VTK_BEZIER_TETRAHEDRON) && grid.GetCells()->GetCellSize(cell) == 4;
+}
+
+// The cells that are tets, without copies of other pieces' cells; other volume cells are refused.
 std::vector<vtkIdType> tet_cells(const std::string& path, vtkUnstructuredGrid& grid)
 {
+    vtkUnsignedCharArray* marks = vtkUnsignedCharArray::SafeDownCast(grid.GetCellData()->GetArray(ghosts));
     std::vector<vtkIdType> cells;
     for (vtkIdType cell = 0; cell < grid.GetNumberOfCells(); ++cell) {
+        if (marks && (marks->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL)) continue;
         const int type = grid.GetCellType(cell);
-        if (type == VTK_TETRA)
+        const vtkSmartPointer<vtkCell> kind = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
+        if (is_tet(grid, cell))
             cells.push_back(cell);
-        else if (!is_lower_dimensional(type))
+        else if (!kind || kind->GetCellDimension() == 3)
             throw InputError(path, 0, "cell " + std::to_string(cell), vtkCellTypes::GetClassNameFromTypeId(type),
                              "expected four-node tetrahedra (VTK_TETRA)");
     }
@@ -335,6 +380,28 @@ void write_vtp(const std::string& path, const Positions& points, const Triangles
     vtkNew<vtkXMLPolyDataWriter> writer;
     writer->SetInputData(surface);
     write_xml(path, *writer);
+}
+
+std::vector<std::string> read_pvd(const std::string& path)
+{
+    const std::string text = as_utf8(read_text_file(path));
+    const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromString(text.c_str()));
+    vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
+    if (!collection) throw InputError(path, 0, "", "", "expected a ParaView collection, <VTKFile type=\"Collection\">");
+    std::map<double, std::string> files;
+    for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
+        vtkXMLDataElement* set = collection->GetNestedElement(i);
+        const char *file = set->GetAttribute("file"), *time = set->GetAttribute("timestep");
+        const std::optional<double> time_s = time ? number_in(time) : i;
+        if (!file || !time_s) throw InputError(path, 0, "DataSet " + std::to_string(i), time ? time : "", "expected a timestep and a file");
+        const std::filesystem::path named = std::filesystem::path(path).parent_path() / file;
+        if (!files.emplace(*time_s, named.string()).second)
+            throw InputError(path, 0, "timestep", time, "expected one file for each: join its parts before the export");
+    }
+    std::vector<std::string> frames;
+    for (const auto& [time_s, file] : files) frames.push_back(file);
+    if (frames.empty()) throw InputError(path, 0, "DataSet", "", "expected at least one");
+    return frames;
 }
 
 void write_pvd(const std::string& path, const std::vector<std::pair<double, std::string>>& frames)

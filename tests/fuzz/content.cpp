@@ -1,11 +1,11 @@
 // Any bytes as a surface or a tet mesh, whose reader is chosen by the content: the first byte chooses the name, the second one what is
 // asked for. The format does not depend on the name, and the result is a surface or a mesh with valid indices, or an InputError. assimp and
-// VTK read in a child process. A breakdown of theirs is counted, since the child contains it for users too. Gmsh is left out, and CGAL in
+// VTK read in a child process. A breakdown of theirs is counted, since the child contains it for users too. CGAL is left out in
 // libFuzzer's program.
 #include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/content_format.hpp"
+#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
-#include "pbs/geometry/module.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "tests/fuzz/library_child.hpp"
 #include "tests/fuzz/target.hpp"
@@ -14,16 +14,6 @@
 #include <array>
 
 namespace pbs {
-
-const Module& load_module(const std::string& name)
-{
-    throw InputError(name, 0, "", "", "left out");
-}
-
-void* Module::address(const char*) const
-{
-    return nullptr;
-}
 
 // With limits that suit a fuzzer.
 void try_reading(const std::string& path, const std::function<void(const std::string&)>& read)

@@ -1,29 +1,12 @@
-// Any bytes as a file that the program itself reads, selected by their first byte: TetGen's pair (separated by a zero byte), .tobj,
-// weights, IQM, and the checks before Gmsh reads .mesh and .msh. The result is valid, or an InputError.
+// Any bytes as a file that the program itself reads, selected by their first byte: TetGen's pair (separated by a zero byte), .tobj, .msh,
+// .mesh, .obj, weights and IQM. The result is valid, or an InputError.
 #include "pbs/character/named_bodies.hpp"
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
-#include "pbs/geometry/module.hpp"
 #include "tests/fuzz/target.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-namespace pbs {
-
-// Gmsh is not called; the target ends at the input for it.
-const Module& load_module(const std::string& name)
-{
-    static const Module none(name, nullptr);
-    return none;
-}
-
-void* Module::address(const char*) const
-{
-    return nullptr;
-}
-
-}  // namespace pbs
 
 namespace {
 
@@ -73,6 +56,7 @@ void fuzz::try_input(const std::string& input)
     if (input[0] == 'o') expect_valid(pbs::read_tobj(written("fuzz.tobj", bytes)));
     if (input[0] == 'w') try_weights(bytes);
     if (input[0] == 'i') try_iqm(bytes);
-    if (input[0] == 'm') pbs::check_gmsh_file(written("fuzz.mesh", bytes));
-    if (input[0] == 'g') pbs::check_gmsh_file(written("fuzz.msh", bytes));
+    if (input[0] == 'm') expect_valid(pbs::read_medit(written("fuzz.mesh", bytes)));
+    if (input[0] == 'g') expect_valid(pbs::read_msh(written("fuzz.msh", bytes)).mesh);
+    if (input[0] == 'v') pbs::read_obj(written("fuzz.obj", bytes), "");
 }

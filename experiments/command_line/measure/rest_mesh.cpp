@@ -19,6 +19,9 @@ RestMesh::RestMesh(const pbs::MeshReading& reading, std::string displacement)
       corners_(sorted_corners(mesh_.tets.unaryExpr([this](int vertex) { return file_vertex_[vertex]; }))),
       displacement_(std::move(displacement))
 {
+    if (reading.listed_at.empty()) return;
+    for (const int vertex : file_vertex_) listed_vertex_.push_back(reading.listed_at[vertex]);
+    listed_corners_ = sorted_corners(mesh_.tets.unaryExpr([this](int vertex) { return listed_vertex_[vertex]; }));
 }
 
 pbs::Positions RestMesh::read_frame(const std::string& path, bool* is_displaced) const
@@ -55,8 +58,7 @@ pbs::Positions RestMesh::points_in(const std::string& path) const
 {
     const pbs::TetMesh frame = pbs::read_tet_frame(path);
     require_as_many_points(path, frame.rest.rows(), file_vertices_);
-    require_same_tets(path, frame.tets);
-    pbs::Positions points = frame.rest(file_vertex_, Eigen::all);
+    pbs::Positions points = frame.rest(places_in(path, frame.tets), Eigen::all);
     require_same_units(path, mesh_.rest, edges_, points);
     return points;
 }
@@ -78,9 +80,10 @@ FileShape RestMesh::shape_of(const std::string& path, const pbs::Positions& poin
     return shape;
 }
 
-void RestMesh::require_same_tets(const std::string& path, const pbs::Tets& tets) const
+const std::vector<int>& RestMesh::places_in(const std::string& path, const pbs::Tets& tets) const
 {
     const std::vector<Corners> corners = sorted_corners(tets);
+    if (!listed_corners_.empty() && corners == listed_corners_) return listed_vertex_;
     if (corners.size() != corners_.size())
         throw pbs::InputError(path, 0, "tets", std::to_string(corners.size()), fmt::format("expected the rest mesh's {}", corners_.size()));
     if (const auto other = std::ranges::mismatch(corners_, corners).in1; other != corners_.end())
@@ -88,6 +91,7 @@ void RestMesh::require_same_tets(const std::string& path, const pbs::Tets& tets)
                               fmt::format("expected the rest mesh's, on the same vertices; it has a tet on {}, and this frame "
                                           "does not: was the order of the vertices kept on export?",
                                           fmt::join(*other, " ")));
+    return file_vertex_;
 }
 
 }  // namespace experiments

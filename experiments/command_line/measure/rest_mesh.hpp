@@ -39,13 +39,17 @@ private:
     static std::vector<Corners> sorted_corners(const pbs::Tets& tets);
     pbs::Positions points_in(const std::string& path) const;
     FileShape shape_of(const std::string& path, const pbs::Positions& points) const;
-    void require_same_tets(const std::string& path, const pbs::Tets& tets) const;
+    // Where a frame has the vertices. One of a .msh that lists its nodes in another order than by their tags may have either order; the
+    // tets show which. InputError for other tets.
+    const std::vector<int>& places_in(const std::string& path, const pbs::Tets& tets) const;
 
     pbs::TetMesh mesh_;
     std::vector<int> file_vertex_;  // of the rest mesh's file, #V
     int file_vertices_ = 0;
     pbs::Edges edges_;
-    std::vector<Corners> corners_;  // each tet's in ascending order as the file numbers them, and the tets sorted
+    std::vector<Corners> corners_;         // each tet's in ascending order as the file numbers them, and the tets sorted
+    std::vector<int> listed_vertex_;       // the place where the file lists each vertex, #V, and the tets by these;
+    std::vector<Corners> listed_corners_;  // empty: in the order of corners_
     std::string displacement_;
 };
 

@@ -122,6 +122,15 @@ class OwnDeformer(program.ProgramTest):
     def test_the_python_example_on_the_limb(self):
         self.python_example(LIMB, 4)
 
+    def test_the_page_of_a_run_with_every_deformer_is_made(self):
+        listed = [line.split()[0] for line in self.succeeds("list", "deformers").stdout.splitlines()[1:]]
+        names = [name for name in listed if name not in ("fem", "external")]  # these have a table each
+        self.assertIn("xpbd_small_steps", names)
+        self.scene(LIMB, f"[deformers]\nuse = {json.dumps(names)}\n")
+        self.run_scene()
+        self.succeeds("report", self.path("out"))
+        self.assertIn('<th scope="row">', self.read("out", "report.html"))
+
     def test_the_python_example_on_a_real_body(self):
         self.needs_the_human()
         self.python_example(HUMAN, 6)

@@ -91,6 +91,39 @@ TEST_P(EveryDeformer, FollowsARigidMotion)
     EXPECT_LT(largest_distance(after(spec, {pose}), expected), rounding_m);
 }
 
+// Positions 1e5 sizes away have 17 bits less behind the point: a hundred of their roundings, and those at the origin.
+TEST_P(EveryDeformer, DoesNotDependOnTheDistanceFromTheOrigin)
+{
+    const Eigen::RowVector3d far_m(0x1p17, -0x1p18, 0x1p16);
+    pbs::Character moved = limb_of_tets();
+    moved.mesh.rest.rowwise() += far_m;
+    for (pbs::Bone& bone : moved.skeleton.bones) {
+        bone.head += far_m.transpose();
+        bone.tail += far_m.transpose();
+    }
+    const std::unique_ptr<Deformer> deformer = make_deformer(spec);
+    deformer->reset(moved);
+    for (const pbs::Pose& pose : pbs::joint_sweep(moved.skeleton, 1, pbs::Vec3::UnitZ(), 45.0, 4, 0.01).steps)
+        EXPECT_EQ(deformer->advance(pose, 0.01).outcome, pbs::Outcome::finished);
+    const pbs::Positions back = deformer->positions().rowwise() - far_m;
+    EXPECT_LT(largest_distance(back, after(spec, sweep().steps)), rounding_m + 100 * 0x1p-53 * far_m.norm());
+}
+
+// A body of one tet is held by the springs and bones inside of it alone.
+TEST_P(EveryDeformer, KeepsABodyOfOneTetAtRest)
+{
+    for (const double height_m : {0.3, 2.0}) {
+        const pbs::TetMesh tet = {pbs::Positions{{-0.3, -0.2, -0.2}, {-0.3, 0.3, -0.2}, {-0.3, 0.0, 0.3}, {height_m - 0.3, 0.0, 0.0}},
+                                  pbs::Tets{{0, 1, 2, 3}}};
+        const pbs::Character character = test_support::character_of(test_support::two_bones_in(tet));
+        const std::unique_ptr<Deformer> deformer = make_deformer(spec);
+        deformer->reset(character);
+        for (int frame = 0; frame < 3; ++frame)
+            EXPECT_EQ(deformer->advance(pbs::Pose(2, Eigen::Isometry3d::Identity()), 0.01).outcome, pbs::Outcome::finished);
+        EXPECT_LT(largest_distance(deformer->positions(), tet.rest), rounding_m) << height_m;
+    }
+}
+
 TEST_P(EveryDeformer, RepeatsToTheBitAndWhateverTheThreads)
 {
     const pbs::Positions once = after(spec, sweep().steps);

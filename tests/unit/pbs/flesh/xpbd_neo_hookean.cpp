@@ -101,6 +101,31 @@ HeldXpbd one_tet(const pbs::BoneSprings& springs)
     return HeldXpbd(test_support::HeldBar(limb, springs));
 }
 
+// Halfway from the middle of a tet to its vertices, so that it can neither move nor turn.
+pbs::BoneSprings springs_in(const pbs::TetMesh& tet)
+{
+    const Positions points = (0.5 * tet.rest).rowwise() + 0.5 * tet.rest.colwise().mean();
+    return {points, Eigen::VectorXd::Constant(4, 0.01), {0, 0, 1, 1}};
+}
+
+// At the default time step; the vertices of one tet share their stiffness with no other.
+TEST(XpbdNeoHookean, OneTetStaysAtRestInEitherArithmeticForThousandsOfIterations)
+{
+    for (const double height_m : {0.1, 0.6, 3.0}) {
+        const pbs::TetMesh tet = {Positions{{-0.1, -0.1, -0.1}, {-0.1, 0.1, -0.1}, {-0.1, 0.0, 0.1}, {height_m - 0.1, 0.0, 0.0}},
+                                  pbs::Tets{{0, 1, 2, 3}}};
+        const HeldXpbd held{test_support::HeldBar(test_support::two_bones_in(tet), springs_in(tet))};
+        for (const int iterations : {200, 3000}) {
+            Positions x = tet.rest;
+            held.minimise<double>({.iterations = iterations}, x);
+            EXPECT_LT((x - tet.rest).norm(), 1e-12) << height_m;
+            x = tet.rest;
+            held.minimise<float>({.iterations = iterations}, x);
+            EXPECT_LT((x - tet.rest).norm(), 1e-5) << height_m;
+        }
+    }
+}
+
 Matrix3d deformation(const pbs::NeoHookeanTet& tet, const Positions& x)
 {
     const auto p = [&](int i) { return pbs::Vec3(x.row(tet.vertex[i])); };

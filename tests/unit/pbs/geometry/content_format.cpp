@@ -19,7 +19,6 @@
 namespace {
 
 using ContentFormat = test_support::FolderTest;
-using NamedLink = test_support::FolderTest;
 using test_support::ScratchFolder;
 
 const std::string ply =
@@ -151,50 +150,6 @@ TEST_F(OwnFolderTest, AllowsWhatLiesBesideTheFileOrBesideALinkToIt)
     EXPECT_TRUE(pbs::may_be_opened_for(scratch / "own2/link.gltf", scratch / "own/beside.bin"));
     EXPECT_TRUE(pbs::may_be_opened_for(scratch / "own2/link.gltf", scratch / "own2/similar.bin"));
     EXPECT_FALSE(pbs::may_be_opened_for(scratch / "own2/link.gltf", scratch / "above.bin"));
-}
-
-// Reference: the specification in content_format.hpp.
-
-namespace fs = std::filesystem;
-
-// The folder for temporary files, as long as the object exists.
-class TemporaryFiles {
-public:
-    explicit TemporaryFiles(const std::string& folder)
-    {
-        if (const char* before = std::getenv("TMPDIR")) before_ = before;
-        setenv("TMPDIR", folder.c_str(), 1);
-    }
-    ~TemporaryFiles() { before_.empty() ? unsetenv("TMPDIR") : setenv("TMPDIR", before_.c_str(), 1); }
-    TemporaryFiles(const TemporaryFiles&) = delete;
-    TemporaryFiles& operator=(const TemporaryFiles&) = delete;
-
-private:
-    std::string before_;
-};
-TEST_F(NamedLink, IsTheFileUnderTheOtherNameAndLeavesNothingOrTheFileItself)
-{
-    const ScratchFolder folder, temporary;
-    const std::string file = folder.file("a.txt", "text");
-    const TemporaryFiles here(temporary.path());
-    {
-        const pbs::NamedLink link(file, ".mesh");
-        EXPECT_TRUE(link.path().ends_with("/a.txt.mesh")) << link.path();
-        std::string text;
-        std::ifstream(link.path()) >> text;
-        EXPECT_EQ(text, "text");
-    }
-    EXPECT_TRUE(fs::is_empty(temporary.path()));
-    EXPECT_TRUE(fs::exists(file));
-    const std::string named = folder.file("A.MESH", "text");
-    EXPECT_EQ(pbs::NamedLink(named, ".mesh").path(), named);
-}
-
-TEST_F(NamedLink, AsksForAnotherNameWhereNoLinkCanBeMade)
-{
-    const std::string file = folder.file("a.txt", "text");
-    const TemporaryFiles nowhere(folder / "none");
-    expect_input_error([&] { pbs::NamedLink(file, ".mesh"); }, file + ": extension = .txt: ", "rename the file to .mesh");
 }
 
 }  // namespace
