@@ -5,6 +5,8 @@
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -9,6 +9,8 @@
 #include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/geometry/text_words.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -44,17 +46,19 @@ private:
         std::string_view line = text_.substr(at_, end - at_);
         at_ = std::min(end + 1, text_.size());
         ++line_;
-        constexpr std::string_view blanks = " \t\r\v\f";
+        constexpr std::string_view blanks = " \t\r\v\f", blanks_and_comment = " \t\r\v\f#";
         for (std::size_t begin = 0; (begin = line.find_first_not_of(blanks, begin)) != std::string_view::npos && line[begin] != '#';) {
-            const std::size_t word_end = std::min(line.find_first_of(blanks, begin), line.size());
-            words_.push_back(line.substr(begin, word_end - begin));
-            begin = word_end;
+            const std::size_t end_of_word = std::min(line.find_first_of(is_face() ? blanks_and_comment : blanks, begin), line.size());
+            words_.push_back(line.substr(begin, end_of_word - begin));
+            begin = end_of_word;
         }
-        if (words_.empty() || !words_.back().ends_with('\\') || (words_.front() != "v" && words_.front() != "f")) return false;
+        if (words_.empty() || (words_.front() != "v" && !is_face()) || !words_.back().ends_with('\\')) return false;
         words_.back().remove_suffix(1);
         if (words_.back().empty()) words_.pop_back();
         return true;
     }
+
+    bool is_face() const { return !words_.empty() && words_.front() == "f"; }
 
     std::string_view text_;
     std::size_t at_ = 0;

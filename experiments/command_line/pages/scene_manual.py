@@ -44,16 +44,18 @@ further = {
         "Refused: weights that are no numbers at more points, inverse bind matrices stored by rows, an animated node with a matrix, and "
         "a required extension that nodes, meshes, animations or buffers of a glTF file have, such as the compression of Draco."),
     "Meshes and surfaces": (
-        "Tet meshes are read from .msh (Gmsh 2.2 and 4.1), .vtu, .vtk, .mesh (MEDIT) and .node with .ele (TetGen).",
+        "Tet meshes are read from .msh (Gmsh 1 to 2.2, 4.0 and 4.1), .vtu, .pvtu, .vtk, .mesh (MEDIT) and .node with .ele (TetGen).",
         "`pbskin mesh` makes one from a surface (.obj, .ply, .off, .stl, .gltf).",
+        "The nodes of a .msh are numbered from 0 by ascending tag. A file that lists them in another order gets a warning: weights by "
+        "vertex follow the tags, and frames for `pbskin measure` may follow either order.",
         "The reader is chosen by the content of a file where it shows the format. A file with the extension of another format gets a "
         "warning.",
         "Coordinates are in metres. A body of less than 1 mm or more than 100 m gets a warning, for files do not state a unit.",
         "Accepted with a warning: a tet mesh of several parts (each is skinned by itself); parts that touch in a vertex or an edge alone "
         "(they are separated there; `pbskin measure` keeps the file's vertices); unused vertices (they are left out); inverted tets (they "
-        "are turned back); "
+        "are turned back); a tet that is listed twice (it counts once); a sliver, a nearly flat tet (it stays, and is named); "
         "a surface with unused points or triangles without area (they are left out), with holes or crossing triangles (it is wrapped), "
-        "or facing inwards.",
+        "with closed cavities (they are filled), or facing inwards.",
         "Refused: an index out of range, a coordinate that is not a number, an edge of a surface in three or more triangles, a surface "
         "without volume, a triangle that occurs twice; in a tet mesh two vertices at one place, or a boundary that intersects itself.",
         "Points of a surface at the same place are joined without a message, since exporters split them at texture seams.")}

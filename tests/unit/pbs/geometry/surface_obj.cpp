@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -28,12 +29,12 @@ TEST_F(Obj, IsReadInEveryFormThatProgramsWrite)
         indented += c == '\n' ? "\n \t" : std::string(1, c);
         of_windows += c == '\n' ? "\r\n" : std::string(1, c);
     }
-    for (const std::string& text :
-         {points + faces, utf16, "  " + indented, of_windows, "# a folder\\of\\windows\\\n" + points + "usemtl skin\\pale\\\n" + faces,
-          "v 0 0 0 # origin\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2 # below\nf 1 2 4#\nf 2 3 4\nf 1 4 3\n",
-          "v 0 \\\n0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 \\\r\n3 \\\n2\nf 1 2 4\nf 2 3 4\nf 1 4 3",
-          points + "f -4 -2 -3\nf -4 -3 -1\nf 2/1/1 3/2/1 4//1\nf 1/7 4/8 3/9\n",
-          "v 0 0 0 1.0\nv 1.0D+00 0 0 0.5 0.5 0.5\nv 0 1e0 0\nv 0 0 +1.\nl 1 2\np 1\n" + faces}) {
+    for (const std::string& text : std::vector<std::string>{
+             points + faces, utf16, "  " + indented, of_windows, "# a folder\\of\\windows\\\n" + points + "usemtl skin\\pale\\\n" + faces,
+             "v 0 0 0 # origin\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2 # below\nf 1 2 4#\nf 2 3 4\nf 1 4 3\n",
+             "v 0 \\\n0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 \\\r\n3 \\\n2\nf 1 2 4\nf 2 3 4\nf 1 4 3",
+             points + "f -4 -2 -3\nf -4 -3 -1\nf 2/1/1 3/2/1 4//1\nf 1/7 4/8 3/9\n",
+             "v 0 0 0 1.0\nv 1.0D+00 0 0 0.5 0.5 0.5\nv 0 1e0 0\nv 0 0 +1.\nl 1 2\np 1\n" + faces}) {
         const pbs::SurfaceMesh mesh = pbs::read_surface(folder.file("a.obj", text));
         EXPECT_EQ(mesh.points.rows(), 4) << text;
         EXPECT_EQ(mesh.triangles.rows(), 4) << text;
