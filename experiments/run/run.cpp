@@ -138,11 +138,12 @@ pbs::Character character_with_warnings(const Scene& scene, std::vector<std::stri
 }
 
 // Reads the motion, and adds the hashes of its clip to the character's inputs; a sweep has no clip.
-CaseMotion read_motion(const Scene& scene, pbs::Character& character, std::vector<std::string>& warnings)
+CaseMotion read_motion(const Scene& scene, pbs::Character& character, std::vector<std::string>& warnings, std::vector<std::string>& notes)
 {
     const pbs::InputFile clip(scene.motion.clip);
     CaseMotion motion = make_case_motion(scene.motion, character, scene.file);
     add_warnings(motion.remarks, warnings);
+    add_remarks(motion.notes, notes, "note");
     if (scene.motion.clip.empty()) return motion;
     for (const auto& hashed : clip.hashed()) character.inputs.push_back(hashed);
     return motion;
@@ -158,7 +159,7 @@ public:
           warnings_(printed(remarks.warnings, "warning")),
           notes_(printed(remarks.notes, "note")),
           character_(cost_.time("character", [&] { return character_with_warnings(scene, warnings_); })),
-          motion_case_(cost_.time("motion", [&] { return read_motion(scene, character_, warnings_); })),
+          motion_case_(cost_.time("motion", [&] { return read_motion(scene, character_, warnings_, notes_); })),
           motion_(motion_case_.motion),
           runners_(make_runners(scene, character_, cost_)),
           measurer_(
@@ -262,6 +263,7 @@ private:
     void remark_on_inverted_start()
     {
         if (!scene_.character.body.empty()) return;  // made with its skeleton
+        if (motion_case_.is_far_from_clip()) return;  // which a warning names as the cause
         std::vector<std::string> counts;
         int most = 0;
         for (const Runner& runner : runners_) {
@@ -301,7 +303,7 @@ private:
         const auto parent = [&](int bone) { return bones[static_cast<std::size_t>(bone)].parent; };
         const bool at_a_joint =
             carrier.bone == carrier.of_flesh || parent(carrier.bone) == carrier.of_flesh || parent(carrier.of_flesh) == carrier.bone;
-        if (pct > far_from_artist_pct)
+        if (pct > far_from_artist_pct && !motion_case_.is_far_from_clip())
             add_warnings(
                 {fmt::format("{}: the surface that LBS carries with the tets is up to {:.1f} % of the model's size away from the "
                              "artist's, in frame {}: ",
@@ -412,6 +414,7 @@ private:
                              {"time_zero_s", motion_case_.time_zero_s}};
         if (motion_case_.clip_joints > 0)
             outcome["motion"].update({{"clip_joints", motion_case_.clip_joints}, {"matched_joints", motion_case_.matched_joints}});
+        for (const pbs::PartAngle& angle : motion_case_.angles) outcome["motion"]["angles_to_clip_deg"][angle.part] = angle.largest_deg;
         outcome.update(run_end(stopwatch_.seconds()));
         folder_.finish(character_, records, outcome, cost_, error_bar_ ? error_bar_->method() : nlohmann::json());
 

@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -109,15 +110,21 @@ bool is_twist(const std::string& movement);  // about the bones' own axes alone
 struct CaseMotion {
     pbs::Motion motion;
     std::vector<std::string> remarks;
+    std::vector<std::string> notes;           // what the reader of a clip chose, and parts that point elsewhere by more than 10 degrees
+    std::vector<pbs::PartAngle> angles = {};  // between the body and a clip
     int clip_joints = 0, matched_joints = 0;  // of a clip: its joints that move, and those of them that move a bone
     double largest_rotation_deg = 0.0;        // of a bone, from the first frame to another one
+    bool is_far_from_clip() const             // some part of the body points elsewhere by more than 30 degrees
+    {
+        return std::ranges::any_of(angles, [](const pbs::PartAngle& angle) { return angle.largest_deg > 30.0; });
+    }
     std::string time_zero;                    // what time_s = 0 of the records is
     double time_zero_s = 0.0;                 // that time in the file of the clip or the animation; 0 of a sweep
 };
 CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& character, const std::string& scene_file);
 
-// The moving joints of a clip that move a bone of the skeleton. An InputError if there are none, or fewer than one half and the scene does
-// not allow it. Fingers, toes and the like of a clip whose scheme of names is known do not count where the skeleton lacks them.
+// The moving joints of a clip that move a bone of the skeleton. An InputError if there are none, or if the scene does not allow it and they
+// are fewer than one half or leave out a half of a limb. Fingers, toes and the like of a clip whose scheme of names is known do not count where the skeleton lacks them.
 pbs::ClipMatch accepted_match(const MotionSpec& spec, const pbs::Clip& clip, const pbs::Skeleton& skeleton);
 
 pbs::MotionSampling sampling_of(const MotionSpec& spec);

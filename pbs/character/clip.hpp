@@ -1,14 +1,17 @@
-// Motion capture clips (BVH, glTF, FBX, by assimp) and how they reach our skeletons.
+// Motion capture clips (BVH; glTF, FBX and COLLADA by the readers of rigs) and how they reach our skeletons.
 #pragma once
 
 #include "pbs/skinning/pose.hpp"
 
+#include <array>
 #include <string>
 #include <vector>
 
 namespace pbs {
 
-// Joint rotations and root positions as the clip has them. End sites are joints without motion, so that every limb has a direction.
+constexpr double shortest_frame_s = 1e-6, longest_frame_s = 1e3;  // time between two frames of a clip
+
+// Joint rotations and places as the clip has them. End sites are joints without motion, so that every limb has a direction.
 struct Clip {
     std::string name;                                    // the file
     double frame_time_s = 0.0;                           // between frames, 1e-6 to 1000 s
@@ -16,15 +19,24 @@ struct Clip {
     std::vector<int> parent;                             // -1: root; parents precede their children
     Positions zero_pose;                                 // joint positions of the zero pose [clip's units], #joints x 3
     std::vector<std::vector<Eigen::Quaterniond>> local;  // relative to the parent, identities in the zero pose, #frames x #joints
-    Positions root;                                      // root position per frame [clip's units], #frames x 3
+    std::vector<Positions> places;                       // joint positions in each frame [clip's units], #frames of #joints x 3
+    std::vector<bool> holds = {};                        // joints whose keys are steps, #joints; empty: none
+    std::vector<std::string> remarks = {};               // what the reader chose or corrected, a sentence each
     // 1 or more of a clip that was read.
     int frames() const { return static_cast<int>(local.size()); }
 };
 
-// The first motion in the file. BVH keeps its frames; motions with free keys (glTF, FBX) are sampled at 120 Hz. Unreadable, empty and
-// non-finite clips are InputErrors, and so are two joints of one name, times of keys that go back, a motion that moves none of the joints,
-// files over 256 MiB, and every clip in a build without rig import (PBS_WITH_RIG_IMPORT).
+// The motion in the file. BVH keeps its frames. Of a rig (glTF, FBX, COLLADA) the first animation that turns a joint by more than 5 degrees
+// is taken, or else the one that turns one most; it is sampled at 120 Hz, and its zero pose is the bind pose of the skin, or where there is
+// none the pose of the nodes without an animation. Unreadable, empty and non-finite clips are InputErrors, and so are two joints of one
+// name, a motion that moves none of the joints, files over 256 MiB, and every clip in a build without rig import (PBS_WITH_RIG_IMPORT).
 Clip read_clip(const std::string& path);
+
+// The parts of read_clip. Dialects of BVH: keywords in any case, names with spaces, any white space and line breaks, several roots, a row
+// more or less than Frames states, numbers without a blank before a minus sign, positions in the channels in place of offsets. An InputError
+// names the line, the field and the rule.
+bool is_bvh(const std::string& text, const std::string& path);  // by its extension or its first word, HIERARCHY, after a byte-order mark
+Clip read_bvh(const std::string& text, const std::string& path);
 
 // An InputError where damage may have led the library astray: a number that is not finite or beyond 1e9, a rotation that is not of unit
 // length, a frame time that no motion can have. read_clip has called it.
@@ -35,13 +47,21 @@ struct ClipSampling : MotionSampling {
     bool drop_first_frame = true;  // cgspeed's conversions begin with a T pose
 };
 
-// The clip's motion on a skeleton: R_bone(t) = R_joint(t) A, A the least rotation from the bone's rest direction to the joint's limb in the
-// zero pose (none where the joint branches). joint_map() determines the joint of each bone; bones without one follow their parent.
-// Rotations only, so that bones keep their lengths; the root's path is scaled by leg length, and the clip's first frame (the T pose
-// dropped) is at the skeleton's rest place. Poses between frames by slerp. A clip none of whose names match is an InputError, and so is a
-// stretch of time it does not hold, one without a frame after the dropped one, a rate_hz or time_step_s that is not positive, and a product
-// of the two that is not 1 / n with n from 1 to 100,000.
-Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& sampling);
+// The angle between a part of the posed body and the same part of the clip.
+struct PartAngle {
+    std::string part;          // hips, chest, head, left upper arm, ...
+    double largest_deg = 0.0;  // over the steps of the motion
+};
+
+// The clip's motion on a skeleton: R_bone(t) = C R_joint(t) C^-1 A. R_joint is the turn of the joint from the rest pose of the clip, C carries
+// the axes of the clip's body into those of the skeleton's (body_axes.hpp), and A is the least rotation from the bone's rest direction to the
+// joint's limb in the rest pose (none where the joint branches). joint_map() determines the joint of each bone; bones without one follow
+// their parent. Rotations only, so that bones keep their lengths; the path of the joint that moves the root bone is scaled by leg length, and
+// the clip's first frame (the T pose dropped) is at the skeleton's rest place. Poses between frames by slerp. InputErrors: a clip none of
+// whose names match; one whose rest pose cannot be known; a first frame in which the body's trunk or hips point more than 30 degrees away
+// from the clip's; a stretch of time it does not hold, one without a frame after the dropped one; a rate_hz or time_step_s that is not
+// positive, and a product of the two that is not 1 / n with n from 1 to 100,000. angles: the parts whose joints are known, if wanted.
+Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& sampling, std::vector<PartAngle>* angles = nullptr);
 
 // Full path of a clip given by name: as it is, relative to `folder`, or in Debian's assimp-testmodels. InputError where it is
 // in none of them.
@@ -57,17 +77,29 @@ struct JointMapping {
     bool leg = false;          // its length counts in the scale of the root's path
 };
 
-// Where clip and skeleton have the names of two schemes that are known (the table in joint_names.cpp: bodies by name, CMU, Mixamo, Rigify,
-// Unreal), a bone follows the joint of the same part of the body. All other bones follow the joint of the same name; where there is none,
-// names are compared without capitals, separators, namespaces and the spelling of the side (LeftHand, hand_l, L.Hand).
+// The joints of a body, by the table of names: indices into the joints of a clip or the bones of a skeleton, -1: unknown. Left, right.
+struct BodyJoints {
+    int chest = -1, neck = -1, head = -1;
+    std::array<int, 2> upper_arm = {-1, -1}, forearm = {-1, -1}, hand = {-1, -1}, thigh = {-1, -1}, shin = {-1, -1}, foot = {-1, -1};
+};
+
+// A bone follows the joint of the same name. Where there is none, and clip and skeleton have the names of two schemes that are known (the
+// table in joint_names.cpp), it follows the joint of the same part of the body. For all others, names are compared without capitals,
+// separators, namespaces, a prefix or a number at the end that all names have, and the spelling of the side (LeftHand, hand_l, L.Hand).
 struct JointMap {
     std::vector<JointMapping> bones;  // #bones
     std::vector<bool> is_small;       // fingers, toes and the like of a clip with a known scheme, #joints
+    BodyJoints of_clip, of_skeleton;
+    // Limbs of which one half has a joint and the other one, whose joint moves in the clip, has none: "forearm.L".
+    std::vector<std::string> torn;
 };
 JointMap joint_map(const Clip& clip, const Skeleton& skeleton);
 
 // Angle [rad], in (-pi, pi], of the twist of `rotation` about the unit vector `axis` (swing-twist decomposition).
 double twist_angle(const Eigen::Quaterniond& rotation, const Vec3& axis);
+
+// Whether a joint turns in its parent by more than single precision's rounding, 1e-4 rad, from the first frame to another one.
+bool joint_moves(const Clip& clip, std::size_t joint);
 
 // How much of a clip reaches a skeleton.
 struct ClipMatch {
@@ -76,6 +108,7 @@ struct ClipMatch {
     std::vector<std::string> unmatched;            // names of the others
     int small = 0;                                 // of the others, fingers, toes and the like, which a body may lack
     std::vector<std::string> bones_without_joint;  // names of the bones that follow their parent
+    std::vector<std::string> torn;                 // bones of limbs whose other half follows the clip, as in JointMap
 };
 
 // By the same names as retarget().
@@ -93,12 +126,5 @@ double largest_displacement_m(const Motion& motion, const Skeleton& skeleton);
 // have none, and what is attached to them is attached to the next bone above. scale: metres per unit of the clip. InputError where no bone
 // is left.
 Skeleton skeleton_from_clip(const Clip& clip, double scale);
-
-// Whether a file is BVH, by its extension or its first word, HIERARCHY, as assimp decides. White space and a byte-order mark may precede.
-bool is_bvh(const std::string& text, const std::string& path);
-
-// Checks what assimp does not. InputError: Frames or Frame Time is not a positive number, the header announces more frames than the text
-// can hold, or joints are nested deeper than a reader's stack allows. The reader itself refuses a file without a header.
-void check_bvh_header(const std::string& text, const std::string& path);
 
 }  // namespace pbs

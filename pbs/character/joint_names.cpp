@@ -12,41 +12,79 @@ namespace {
 
 enum class PartKind { trunk, girdle, limb, leg };  // all but the trunk have two sides
 
-// A part of the body under its name in each scheme, in lower case without separators and side; "" where a scheme has no such joint.
+// The columns of the table: the bodies by name, CMU's clips as BVH (cgspeed) and as ASF/AMC, recordings that name joints (elbow, knee) and
+// not limbs, Mixamo (and HumanIK, LAFAN1), Blender's Rigify, Unreal's mannequin, VRM (and VRoid, Unity, Bandai-Namco), Rokoko, Poser (and
+// Daz), Biped of 3ds Max, Character Creator, OptiTrack, Xsens MVN, which counts the chest from the waist, and SMPL.
+constexpr int scheme_of_bodies = 0, schemes = 15;
+
+// A part of the body under its names in each scheme, in lower case without separators, prefix and side; "" where a scheme has no such joint,
+// and words where it has several names.
 struct BodyPart {
     PartKind kind;
     int next;            // its limb ends at the part so many rows below; 0: none
     double twist_share;  // of the twist of that part, for the bodies by name
-    std::array<std::string_view, 7> names;
+    std::array<std::string_view, schemes> names;
 };
 
-// The schemes are those of the bodies by name, of CMU's clips as BVH (cgspeed) and as ASF/AMC, of other recordings, of Mixamo, of Blender's
-// Rigify and of Unreal's mannequin. CMU keeps the twist of the forearm in the wrist. Three joints can carry it here, elbow, mid-forearm and
-// wrist; equal steps of a third at each keep the largest step least: 1/3 on the upper half, 2/3 on the lower half, all of it on the hand.
+// CMU keeps the twist of the forearm in the wrist. Three joints can carry it here, elbow, mid-forearm and wrist; equal steps of a third at
+// each keep the largest step least: 1/3 on the upper half, 2/3 on the lower half, all of it on the hand.
 constexpr BodyPart body_parts[] = {
-    {PartKind::trunk, 0, 0.0, {"pelvis", "hips", "root", "hips", "hips", "spine", "pelvis"}},
-    {PartKind::trunk, 0, 0.0, {"spine", "lowerback", "lowerback", "ab", "spine", "spine001", "spine01"}},
-    {PartKind::trunk, 0, 0.0, {"", "spine", "upperback", "", "spine1", "spine002", "spine02"}},
-    {PartKind::trunk, 0, 0.0, {"chest", "spine1", "thorax", "chest", "spine2", "spine003", "spine03"}},
-    {PartKind::trunk, 0, 0.0, {"neck", "neck", "lowerneck", "neck", "neck", "spine004", "neck01"}},
-    {PartKind::trunk, 0, 0.0, {"", "neck1", "upperneck", "", "", "spine005", "neck02"}},
-    {PartKind::trunk, 0, 0.0, {"head", "head", "head", "head", "head", "spine006", "head"}},
-    {PartKind::girdle, 0, 0.0, {"clavicle", "shoulder", "clavicle", "collar", "shoulder", "shoulder", "clavicle"}},
-    {PartKind::limb, 1, 0.0, {"upperarm", "arm", "humerus", "shoulder", "arm", "upperarm", "upperarm"}},
-    {PartKind::limb, 2, 1.0 / 3.0, {"forearmupper", "forearm", "radius", "elbow", "forearm", "forearm", "lowerarm"}},
-    {PartKind::limb, 1, 2.0 / 3.0, {"forearmlower", "forearm", "radius", "elbow", "forearm", "forearm", "lowerarm"}},
-    {PartKind::limb, 0, 0.0, {"hand", "hand", "wrist", "wrist", "hand", "hand", "hand"}},
-    {PartKind::leg, 1, 0.0, {"thigh", "upleg", "femur", "hip", "upleg", "thigh", "thigh"}},
-    {PartKind::leg, 1, 0.0, {"shin", "leg", "tibia", "knee", "leg", "shin", "calf"}},
-    {PartKind::limb, 1, 0.0, {"foot", "foot", "foot", "ankle", "foot", "foot", "foot"}},
-    {PartKind::limb, 0, 0.0, {"", "toebase", "toes", "toes", "toebase", "toe", "ball"}},
+    {PartKind::trunk, 0, 0.0,
+     {"pelvis", "hips", "root", "hips", "hips", "spine", "pelvis", "hips", "hips", "hip pelvis", "pelvis", "hip pelvis", "hip hips", "hips",
+      "pelvis"}},
+    {PartKind::trunk, 0, 0.0,
+     {"spine", "lowerback", "lowerback", "ab", "spine", "spine001", "spine01", "spine", "spine spine1", "abdomen abdomenlower spine1", "spine",
+      "waist", "ab", "chest", "spine1"}},
+    {PartKind::trunk, 0, 0.0,
+     {"", "spine", "upperback", "", "spine1", "spine002", "spine02", "", "spine2", "abdomenupper waist spine2", "", "spine01", "", "chest2",
+      "spine2"}},
+    {PartKind::trunk, 0, 0.0,
+     {"chest", "spine1", "thorax", "chest", "spine2", "spine003", "spine03", "chest", "chest spine4", "chest chestlower spine3", "spine1",
+      "spine02", "chest", "chest4", "spine3"}},
+    {PartKind::trunk, 0, 0.0,
+     {"", "", "", "", "spine3", "", "spine04", "upperchest", "", "chestupper spine4", "spine2", "", "", "", ""}},
+    {PartKind::trunk, 0, 0.0,
+     {"neck", "neck", "lowerneck", "neck", "neck", "spine004", "neck01", "neck", "neck", "neck necklower neck1", "neck", "necktwist01", "neck",
+      "neck", "neck"}},
+    {PartKind::trunk, 0, 0.0,
+     {"", "neck1", "upperneck", "", "", "spine005", "neck02", "", "", "neckupper neck2", "", "necktwist02", "", "", ""}},
+    {PartKind::trunk, 0, 0.0,
+     {"head", "head", "head", "head", "head", "spine006", "head", "head", "head", "head", "head", "head", "head", "head", "head"}},
+    {PartKind::girdle, 0, 0.0,
+     {"clavicle", "shoulder", "clavicle", "collar", "shoulder", "shoulder", "clavicle", "shoulder", "shoulder", "collar shoulder", "clavicle",
+      "clavicle", "shoulder", "collar", "collar"}},
+    {PartKind::limb, 1, 0.0,
+     {"upperarm", "arm", "humerus", "shoulder", "arm", "upperarm", "upperarm", "upperarm", "arm", "shldr shldrbend upperarm", "upperarm",
+      "upperarm", "uarm", "shoulder", "shoulder"}},
+    {PartKind::limb, 2, 1.0 / 3.0,
+     {"forearmupper", "forearm", "radius", "elbow", "forearm", "forearm", "lowerarm", "lowerarm", "forearm", "forearm forearmbend", "forearm",
+      "forearm", "farm", "elbow", "elbow"}},
+    {PartKind::limb, 1, 2.0 / 3.0,
+     {"forearmlower", "forearm", "radius", "elbow", "forearm", "forearm", "lowerarm", "lowerarm", "forearm", "forearm forearmbend", "forearm",
+      "forearm", "farm", "elbow", "elbow"}},
+    {PartKind::limb, 0, 0.0,
+     {"hand", "hand", "wrist", "wrist", "hand", "hand", "hand", "hand", "hand", "hand", "hand", "hand", "hand", "wrist", "wrist"}},
+    {PartKind::leg, 1, 0.0,
+     {"thigh", "upleg", "femur", "hip", "upleg", "thigh", "thigh", "upperleg", "thigh", "thigh thighbend", "thigh", "thigh", "thigh", "hip",
+      "hip"}},
+    {PartKind::leg, 1, 0.0,
+     {"shin", "leg", "tibia", "knee", "leg", "shin", "calf", "lowerleg", "shin", "shin", "calf", "calf", "shin", "knee", "knee"}},
+    {PartKind::limb, 1, 0.0,
+     {"foot", "foot", "foot", "ankle", "foot", "foot", "foot", "foot", "foot", "foot", "foot", "foot", "foot", "ankle", "ankle"}},
+    {PartKind::limb, 0, 0.0,
+     {"", "toebase", "toes", "toes", "toebase toe", "toe", "ball", "toebase toes toe", "toe", "toe toes", "toe0", "toebase", "toe", "toe",
+      "foot"}},
 };
 
-constexpr int thigh = 12;  // row of body_parts; the shin follows
+constexpr int chest_row = 3, neck_row = 5, head_row = 7, upper_arm_row = 9, forearm_row = 10, hand_row = 12, thigh_row = 13, shin_row = 14,
+              foot_row = 15;
 
 // Words in the names of joints that a body may lack without being another one: fingers, toes, the face, twists, goals of kinematics.
 const std::set<std::string> small_parts = {"finger", "fingers", "thumb", "index", "middle", "ring", "pinky", "little", "metacarpal",
                                            "palm",   "toe",     "toes",  "ball",  "eye",    "jaw",  "twist", "ik"};
+
+// Words that rigs put in front of all their joints: Rigify, Mixamo, 3ds Max, Character Creator, VRoid, Source, SMPL's averages.
+const std::set<std::string> rig_prefixes = {"def", "org", "bip", "bip01", "bip001", "cc", "base", "j", "valvebiped", "avg"};
 
 struct JointKey {
     std::string stem;  // in lower case without separators, side, namespace and prefix of a rig
@@ -74,24 +112,49 @@ bool is_small_part(const std::string& word)
     return small_parts.count(word.substr(0, word.find_last_not_of("0123456789") + 1)) > 0;
 }
 
+// Whether a scheme has this name for the part.
+bool is_called(const BodyPart& part, int scheme, std::string_view stem)
+{
+    std::string_view names = part.names[scheme];
+    while (!stem.empty() && !names.empty()) {
+        const std::size_t end = std::min(names.find(' '), names.size());
+        if (names.substr(0, end) == stem) return true;
+        names.remove_prefix(std::min(end + 1, names.size()));
+    }
+    return false;
+}
+
 bool has_two_sides(const std::string& stem)
 {
     return is_small_part(stem) || std::ranges::any_of(body_parts, [&](const BodyPart& part) {
-               return part.kind != PartKind::trunk && !stem.empty() && std::ranges::count(part.names, stem) > 0;
+               for (int scheme = 0; scheme < schemes; ++scheme)
+                   if (part.kind != PartKind::trunk && is_called(part, scheme, stem)) return true;
+               return false;
            });
 }
 
+bool is_side(const std::string& word)
+{
+    return word == "l" || word == "r" || word == "left" || word == "right";
+}
+
+bool is_number(const std::string& word)
+{
+    return !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
+}
+
 // mixamorig:LeftUpLeg, DEF-up_leg.l, R_UpLeg and rupleg are all "upleg" of a side.
-JointKey key_of(const std::string& name)
+JointKey key_of(const std::vector<std::string>& words)
 {
     JointKey key;
-    const std::vector<std::string> words = words_of(name);
+    bool is_prefix = true;
     for (std::size_t w = 0; w < words.size(); ++w) {
         const std::string& word = words[w];
-        if (w == 0 && words.size() > 1 && (word == "def" || word == "org" || word.starts_with("mixamorig"))) continue;
-        if (word == "l" || word == "r" || word == "left" || word == "right")
+        is_prefix = is_prefix && w + 1 < words.size() && (rig_prefixes.contains(word) || word.starts_with("mixamorig"));
+        if (is_prefix) continue;
+        if (is_side(word))
             key.side = word[0];
-        else
+        else if (word != "c" || w + 1 == words.size())  // VRoid's centre
             key.stem += word;
         key.is_small = key.is_small || is_small_part(word);
     }
@@ -101,13 +164,49 @@ JointKey key_of(const std::string& name)
     return key;
 }
 
+// Without what exporters add to all names, the words that most of them begin with and the number that most of them end with (Model_Hips,
+// Hips_01): of two thirds of the names, end sites aside, and of four or more. Names that would become equal keep their numbers.
+std::vector<JointKey> keys_of(const std::vector<std::string>& names)
+{
+    using Words = std::vector<std::string>;
+    std::vector<Words> words;
+    for (const std::string& name : names) words.push_back(words_of(name));
+    const auto is_common = [&](auto has) {
+        std::size_t with = 0, all = 0;
+        for (std::size_t n = 0; n < names.size(); ++n) {
+            if (names[n].starts_with("EndSite_")) continue;
+            ++all;
+            with += words[n].size() > 1 && has(words[n]);
+        }
+        return with >= 4 && 3 * with >= 2 * all;
+    };
+    const auto ends_with_number = [](const Words& name) { return is_number(name.back()); };
+    if (is_common(ends_with_number)) {
+        std::vector<Words> shorter = words;
+        for (Words& name : shorter)
+            if (name.size() > 1 && ends_with_number(name)) name.pop_back();
+        if (std::set<Words>(shorter.begin(), shorter.end()).size() == std::set<Words>(words.begin(), words.end()).size()) words = shorter;
+    }
+    for (std::size_t n = 0; n < words.size(); ++n) {  // the first word of each name may be that of most
+        const std::string first = words[n].front();
+        const auto begins_with_it = [&](const Words& name) { return name.front() == first; };
+        if (words[n].size() < 2 || is_side(first) || !is_common(begins_with_it)) continue;
+        for (Words& name : words)
+            if (name.size() > 1 && begins_with_it(name)) name.erase(name.begin());
+        n = static_cast<std::size_t>(-1);
+    }
+    std::vector<JointKey> keys;
+    for (const Words& name : words) keys.push_back(key_of(name));
+    return keys;
+}
+
 // The row of body_parts; -1: none.
 int part_of(const JointKey& key, int scheme)
 {
     const auto* found = std::ranges::find_if(body_parts, [&](const BodyPart& part) {
-        return !key.stem.empty() && key.stem == part.names[scheme] && (key.side != ' ') == (part.kind != PartKind::trunk);
+        return is_called(part, scheme, key.stem) && (key.side != ' ') == (part.kind != PartKind::trunk);
     });
-    return found == std::end(body_parts) ? -1 : static_cast<int>(found - body_parts);
+    return scheme < 0 || found == std::end(body_parts) ? -1 : static_cast<int>(found - body_parts);
 }
 
 // The scheme that knows most of the names, thighs and shins among them; -1: none.
@@ -115,54 +214,135 @@ int scheme_of(const std::vector<JointKey>& keys)
 {
     int scheme = -1;
     std::size_t most = 0;
-    for (int s = 0; s < static_cast<int>(body_parts[0].names.size()); ++s) {
+    for (int s = 0; s < schemes; ++s) {
         std::multiset<int> parts;
         for (const JointKey& key : keys) parts.insert(part_of(key, s));
         const std::size_t known = parts.size() - parts.count(-1);
-        if (known <= most || parts.count(thigh) == 0 || parts.count(thigh + 1) == 0) continue;
+        if (known <= most || parts.count(thigh_row) == 0 || parts.count(shin_row) == 0) continue;
         most = known;
         scheme = s;
     }
     return scheme;
 }
 
-int joint_with(const std::vector<JointKey>& joints, std::string_view stem, char side)
+int joint_with(const std::vector<JointKey>& keys, std::string_view stem, char side)
 {
-    const auto found = std::ranges::find_if(joints, [&](const JointKey& key) { return key.stem == stem && key.side == side; });
-    return stem.empty() || found == joints.end() ? -1 : static_cast<int>(found - joints.begin());
+    const auto found = std::ranges::find_if(keys, [&](const JointKey& key) { return key.stem == stem && key.side == side; });
+    return stem.empty() || found == keys.end() ? -1 : static_cast<int>(found - keys.begin());
+}
+
+// The joint of a part of the body; -1: none. Of a part with several names, the first one that occurs.
+int joint_of_part(const std::vector<JointKey>& keys, int row, int scheme, char side)
+{
+    for (std::string_view names = scheme < 0 ? "" : body_parts[row].names[scheme]; !names.empty();) {
+        const std::size_t end = std::min(names.find(' '), names.size());
+        if (const int joint = joint_with(keys, names.substr(0, end), side); joint >= 0) return joint;
+        names.remove_prefix(std::min(end + 1, names.size()));
+    }
+    return -1;
+}
+
+BodyJoints body_joints(const std::vector<JointKey>& keys, int scheme)
+{
+    BodyJoints body;
+    const auto joint = [&](int row, char side) { return joint_of_part(keys, row, scheme, side); };
+    body.chest = joint(chest_row, ' ');
+    body.neck = joint(neck_row, ' ');
+    body.head = joint(head_row, ' ');
+    for (const auto& [s, side] : {std::pair(0, 'l'), std::pair(1, 'r')}) {
+        body.upper_arm[s] = joint(upper_arm_row, side);
+        body.forearm[s] = joint(forearm_row, side);
+        body.hand[s] = joint(hand_row, side);
+        body.thigh[s] = joint(thigh_row, side);
+        body.shin[s] = joint(shin_row, side);
+        body.foot[s] = joint(foot_row, side);
+    }
+    return body;
+}
+
+// What a name means decides between schemes: the hip of one is the thigh of another. Parts of the trunk are told apart by their names alone.
+bool is_same_part(int part_of_bone, int part_of_joint)
+{
+    const auto is_trunk = [](int row) { return row >= 0 && body_parts[row].kind == PartKind::trunk; };
+    return part_of_joint < 0 || part_of_bone == part_of_joint || (is_trunk(part_of_joint) && (part_of_bone < 0 || is_trunk(part_of_bone)));
+}
+
+bool is_below(const std::vector<int>& parent, int joint, int above)
+{
+    while (joint >= 0 && joint != above) joint = parent[joint];
+    return joint >= 0;
+}
+
+// Bones of a limb without a joint between two that have one, or below one, whose own joint the clip has under another name: it moves between
+// (or below) theirs, on the same side, and no bone follows it.
+std::vector<std::string> torn_limbs(const Clip& clip, const Skeleton& skeleton, const JointMap& map, const std::vector<JointKey>& joints,
+                                    const std::vector<JointKey>& bones, int own)
+{
+    std::set<int> followed;
+    for (const JointMapping& mapping : map.bones) followed.insert({mapping.joint, mapping.twist_joint});
+    std::vector<int> bone_parent;
+    for (const Bone& bone : skeleton.bones) bone_parent.push_back(bone.parent);
+    std::vector<std::string> torn;
+    for (int b = 0; b < static_cast<int>(bones.size()); ++b) {
+        if (map.bones[b].joint >= 0 || bones[b].side == ' ' || bones[b].is_small) continue;
+        int above = skeleton.bones[b].parent, below = -1;
+        while (above >= 0 && map.bones[above].joint < 0) above = skeleton.bones[above].parent;
+        for (int other = b + 1; other < static_cast<int>(bones.size()) && below < 0; ++other)
+            if (map.bones[other].joint >= 0 && !bones[other].is_small && is_below(bone_parent, other, b)) below = other;
+        const int part = part_of(bones[b], own);
+        const bool is_lower_half = part == forearm_row || part == forearm_row + 1 || part == shin_row;
+        if (above < 0 || (below < 0 && !is_lower_half)) continue;
+        for (int j = 0; j < static_cast<int>(joints.size()); ++j) {
+            const bool is_between = j != map.bones[above].joint && is_below(clip.parent, j, map.bones[above].joint) &&
+                                    (below < 0 || (j != map.bones[below].joint && is_below(clip.parent, map.bones[below].joint, j)));
+            if (!is_between || followed.contains(j) || joints[j].is_small || !joint_moves(clip, static_cast<std::size_t>(j))) continue;
+            torn.push_back(skeleton.bones[b].name + " (its joint may be " + clip.joints[j] + ")");
+            break;
+        }
+    }
+    return torn;
 }
 
 }  // namespace
 
 JointMap joint_map(const Clip& clip, const Skeleton& skeleton)
 {
-    std::vector<JointKey> joints, bones;
-    for (const std::string& name : clip.joints) joints.push_back(key_of(name));
-    for (const Bone& bone : skeleton.bones) bones.push_back(key_of(bone.name));
+    std::vector<std::string> bone_names;
+    for (const Bone& bone : skeleton.bones) bone_names.push_back(bone.name);
+    const std::vector<JointKey> joints = keys_of(clip.joints), bones = keys_of(bone_names);
     const int own = scheme_of(bones), of_clip = scheme_of(joints);
     const bool is_known = own >= 0 && of_clip >= 0, by_parts = is_known && own != of_clip;
     JointMap map;
+    map.of_clip = body_joints(joints, of_clip);
+    map.of_skeleton = body_joints(bones, own);
     for (std::size_t b = 0; b < bones.size(); ++b) {
         JointMapping mapping;
-        const int part = by_parts ? part_of(bones[b], own) : -1;
-        const auto joint_of = [&](int row) { return joint_with(joints, body_parts[row].names[of_clip], bones[b].side); };
+        const int part = is_known ? part_of(bones[b], own) : -1;
+        const auto joint_of = [&](int row) { return joint_of_part(joints, row, of_clip, bones[b].side); };
+        const auto is_taken = [&](int joint) { return joint >= 0 && (!by_parts || is_same_part(part, part_of(joints[joint], of_clip))); };
+        const auto same = std::ranges::find(clip.joints, skeleton.bones[b].name);
+        const int equal = same == clip.joints.end() ? -1 : static_cast<int>(same - clip.joints.begin());
+        const int alike = joint_with(joints, bones[b].stem, bones[b].side);
+        if (is_taken(equal))
+            mapping.joint = equal;
+        else if (by_parts && part >= 0)
+            mapping.joint = joint_of(part);
+        else if (is_taken(alike) && (!by_parts || part_of(joints[alike], of_clip) < 0))
+            mapping.joint = alike;
+        mapping.aligned = mapping.joint >= 0 && std::ranges::count(clip.parent, mapping.joint) == 1;
         if (part >= 0) {
             const BodyPart& of = body_parts[part];
-            mapping = {.joint = joint_of(part), .aligned = of.kind >= PartKind::limb, .leg = of.kind == PartKind::leg};
+            mapping.leg = of.kind == PartKind::leg;
             if (of.next > 0) mapping.limb_end = joint_of(part + of.next);
-            if (own == 0 && of.twist_share > 0.0) mapping.twist_joint = mapping.limb_end;
+            if (by_parts) mapping.aligned = of.kind >= PartKind::limb;
+            if (mapping.limb_end >= 0) mapping.aligned = true;
+            if (by_parts && own == scheme_of_bodies && of.twist_share > 0.0) mapping.twist_joint = mapping.limb_end;
             mapping.twist_share = of.twist_share;
-        } else {
-            const auto same = std::ranges::find(clip.joints, skeleton.bones[b].name);
-            mapping.joint =
-                same == clip.joints.end() ? joint_with(joints, bones[b].stem, bones[b].side) : static_cast<int>(same - clip.joints.begin());
-            // The hip of one scheme is the thigh of another.
-            if (by_parts && mapping.joint >= 0 && part_of(joints[mapping.joint], of_clip) >= 0) mapping.joint = -1;
-            mapping.aligned = mapping.joint >= 0 && std::ranges::count(clip.parent, mapping.joint) == 1;
         }
         map.bones.push_back(mapping);
     }
     for (const JointKey& joint : joints) map.is_small.push_back(is_known && joint.is_small);
+    map.torn = torn_limbs(clip, skeleton, map, joints, bones, own);
     return map;
 }
 

@@ -1,5 +1,6 @@
 #include "pbs/character/clip.hpp"
 
+#include "pbs/character/body_axes.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <algorithm>
@@ -19,14 +20,17 @@ constexpr double same_rotation_rad = 1e-4;  // of keys in single precision, with
 
 // The plan of one bone. Without a joint it follows its parent.
 struct BoneFollowing : JointMapping {
-    Eigen::Quaterniond alignment = Eigen::Quaterniond::Identity();  // A: rest direction of the bone -> limb in the zero pose
-    Vec3 limb = Vec3::Zero();                                       // to the end of the joint's limb in the zero pose [clip's units]
+    Eigen::Quaterniond alignment = Eigen::Quaterniond::Identity();  // A: rest direction of the bone -> limb in the rest pose
+    Vec3 limb = Vec3::Zero();                                       // to the end of the joint's limb in the rest pose [clip's units]
 };
 
 // The plans of all bones of a skeleton, in its order.
 struct RetargetPlan {
     std::vector<BoneFollowing> bones;  // #bones
     double scale = 1.0;  // [m] per clip unit: bones' lengths over limbs', of the legs where they are known, else of all that follow
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // C: from the axes of the clip's body to those of the skeleton's
+    Rotations rest;     // turns of the joints from the zero pose to the rest pose, #joints; empty: they are one
+    int root_joint = -1;  // that moves the root bone
 };
 
 std::vector<int> children_of(const Clip& clip, int joint)
@@ -39,32 +43,55 @@ std::vector<int> children_of(const Clip& clip, int joint)
 
 // Vector from the joint to the first of limb_end and its descendants at another position, along first children; zero where there is none.
 // limb_end -1: the joint's children, of which a thumb points to the side of its hand.
-Vec3 limb_of(const Clip& clip, int joint, int limb_end)
+Vec3 limb_of(const Clip& clip, const Positions& rest, int joint, int limb_end)
 {
-    const double extent = (clip.zero_pose.colwise().maxCoeff() - clip.zero_pose.colwise().minCoeff()).norm();
+    const double extent = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
     for (std::vector<int> below = limb_end < 0 ? children_of(clip, joint) : std::vector{limb_end}; !below.empty();
          below = children_of(clip, below.front()))
         for (const int child : below) {
             if (clip.joints[child].find("humb") != std::string::npos) continue;
-            const Vec3 limb = clip.zero_pose.row(child) - clip.zero_pose.row(joint);
+            const Vec3 limb = rest.row(child) - rest.row(joint);
             if (limb.norm() > shortest_limb * extent) return limb;
         }
     return Vec3::Zero();
 }
 
-// An InputError where the map has no joint for any bone.
+Rotations global_rotations(const Rotations& local, const std::vector<int>& parent)
+{
+    Rotations global;
+    for (std::size_t j = 0; j < local.size(); ++j) global.push_back(parent[j] < 0 ? local[j] : global[parent[j]] * local[j]);
+    return global;
+}
+
+// The joint of the first bone that has one and none above it that has one; -1: there is none.
+int root_joint_of(const Skeleton& skeleton, const JointMap& map)
+{
+    for (std::size_t b = 0; b < skeleton.bones.size(); ++b)
+        if (map.bones[b].joint >= 0) return map.bones[b].joint;  // parents come first
+    return -1;
+}
+
+// InputErrors: the map has no joint for any bone, or the rest pose of the clip cannot be known.
 RetargetPlan plan_retargeting(const Clip& clip, const Skeleton& skeleton, const JointMap& map)
 {
     RetargetPlan plan;
-    std::vector<std::string> names;
-    bool follows = false;
+    plan.root_joint = root_joint_of(skeleton, map);
+    if (plan.root_joint < 0) {
+        std::vector<std::string> names;
+        for (const Bone& bone : skeleton.bones) names.push_back(bone.name);
+        throw InputError(clip.name, 0, "joints", name_list(clip.joints),
+                         "no joint has the name of a bone (bones: " + name_list(names) +
+                             "): rename the joints of the clip as the bones, or both as those of Mixamo or another program of the manual's list");
+    }
+    const int rest_frame_of_clip = rest_frame(clip, map.of_clip);
+    const Positions& rest = rest_frame_of_clip < 0 ? clip.zero_pose : clip.places[rest_frame_of_clip];
+    if (rest_frame_of_clip >= 0) plan.rest = global_rotations(clip.local[rest_frame_of_clip], clip.parent);
+    plan.axes = axes_of_clip_to_skeleton(rest, skeleton, map);
     Eigen::Vector2d legs(0.0, 0.0), all(0.0, 0.0);  // lengths of the bones [m] and of their limbs
     for (std::size_t b = 0; b < skeleton.bones.size(); ++b) {
         const Vec3 bone = skeleton.bones[b].tail - skeleton.bones[b].head;
         BoneFollowing following{map.bones[b]};
-        names.push_back(skeleton.bones[b].name);
-        follows = follows || following.joint >= 0;
-        if (following.joint >= 0) following.limb = limb_of(clip, following.joint, following.limb_end);
+        if (following.joint >= 0) following.limb = plan.axes * limb_of(clip, rest, following.joint, following.limb_end);
         if (!following.limb.isZero(0.0)) {
             if (following.aligned) following.alignment = Eigen::Quaterniond::FromTwoVectors(bone, following.limb);
             const Eigen::Vector2d lengths(bone.norm(), following.limb.norm());
@@ -73,18 +100,15 @@ RetargetPlan plan_retargeting(const Clip& clip, const Skeleton& skeleton, const 
         }
         plan.bones.push_back(following);
     }
-    if (!follows)
-        throw InputError(clip.name, 0, "joints", name_list(clip.joints),
-                         "no joint has the name of a bone (bones: " + name_list(names) + ")");
     const Eigen::Vector2d& lengths = legs(1) > 0.0 ? legs : all;
     plan.scale = lengths(1) > 0.0 ? lengths(0) / lengths(1) : 1.0;
     return plan;
 }
 
-// Local rotations and root position of the clip at `frame`, which may lie between two.
+// Local rotations and places of the clip's joints at `frame`, which may lie between two.
 struct ClipPose {
     Rotations local;
-    Vec3 root;
+    Positions places;
 };
 
 ClipPose sample(const Clip& clip, double frame)
@@ -93,16 +117,25 @@ ClipPose sample(const Clip& clip, double frame)
     const int after = std::min(before + 1, clip.frames() - 1);
     const double between = std::clamp(frame - before, 0.0, 1.0);
     ClipPose pose;
-    for (std::size_t j = 0; j < clip.joints.size(); ++j) pose.local.push_back(clip.local[before][j].slerp(between, clip.local[after][j]));
-    pose.root = (1.0 - between) * clip.root.row(before) + between * clip.root.row(after);
+    pose.places = (1.0 - between) * clip.places[before] + between * clip.places[after];
+    for (std::size_t j = 0; j < clip.joints.size(); ++j) {
+        const bool holds = !clip.holds.empty() && clip.holds[j];
+        const int held = between > 1.0 - rounding ? after : before;  // a step belongs to the frame at its own time
+        pose.local.push_back(holds ? clip.local[held][j] : clip.local[before][j].slerp(between, clip.local[after][j]));
+        if (holds) pose.places.row(static_cast<Eigen::Index>(j)) = clip.places[held].row(static_cast<Eigen::Index>(j));
+    }
     return pose;
 }
 
-Rotations global_rotations(const Rotations& local, const std::vector<int>& parent)
+// Turns of the joints from the rest pose, in the axes of the skeleton's body.
+Rotations joint_turns(const RetargetPlan& plan, const Clip& clip, const Rotations& local)
 {
-    Rotations global;
-    for (std::size_t j = 0; j < local.size(); ++j) global.push_back(parent[j] < 0 ? local[j] : global[parent[j]] * local[j]);
-    return global;
+    Rotations turns = global_rotations(local, clip.parent);
+    for (std::size_t j = 0; j < plan.rest.size(); ++j) turns[j] = turns[j] * plan.rest[j].conjugate();
+    if (plan.axes.isIdentity(0.0)) return turns;
+    const Eigen::Quaterniond axes(plan.axes);
+    for (Eigen::Quaterniond& turn : turns) turn = axes * turn * axes.conjugate();
+    return turns;
 }
 
 // R_bone = R_joint (share of the twist) A.
@@ -127,13 +160,6 @@ Pose pose_of(const RetargetPlan& plan, const Skeleton& skeleton, const Rotations
     return pose_from_joints(skeleton, local, root_translation);
 }
 
-bool moves(const Clip& clip, std::size_t joint)
-{
-    return std::any_of(clip.local.begin(), clip.local.end(), [&](const std::vector<Eigen::Quaterniond>& frame) {
-        return clip.local.front()[joint].angularDistance(frame[joint]) > same_rotation_rad;
-    });
-}
-
 // The first child of each joint that does not coincide with it, -1 where there is none, #joints.
 std::vector<int> first_children(const Clip& clip)
 {
@@ -147,6 +173,13 @@ std::vector<int> first_children(const Clip& clip)
 
 }  // namespace
 
+bool joint_moves(const Clip& clip, std::size_t joint)
+{
+    return std::any_of(clip.local.begin(), clip.local.end(), [&](const std::vector<Eigen::Quaterniond>& frame) {
+        return clip.local.front()[joint].angularDistance(frame[joint]) > same_rotation_rad;
+    });
+}
+
 double twist_angle(const Eigen::Quaterniond& rotation, const Vec3& axis)
 {
     double angle = 2.0 * std::atan2(rotation.vec().dot(axis), rotation.w());
@@ -155,11 +188,15 @@ double twist_angle(const Eigen::Quaterniond& rotation, const Vec3& axis)
     return angle;
 }
 
-Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& sampling)
+Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& sampling, std::vector<PartAngle>* angles)
 {
     const int first = sampling.drop_first_frame ? 1 : 0;
     if (clip.frames() <= first) throw InputError(clip.name, 0, "Frames", std::to_string(clip.frames()), "no frame is left after the first");
-    const RetargetPlan plan = plan_retargeting(clip, skeleton, joint_map(clip, skeleton));
+    const JointMap map = joint_map(clip, skeleton);
+    const RetargetPlan plan = plan_retargeting(clip, skeleton, map);
+    const std::vector<BodySegment> segments = body_segments(map);
+    std::vector<PartAngle> found;
+    for (const BodySegment& segment : segments) found.push_back({segment.part});
 
     Motion motion;
     motion.time_step_s = sampling.time_step_s;
@@ -170,9 +207,15 @@ Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& 
     for (int step = 0; step <= steps; ++step) {
         const double time_s = sampling.start_s + step * sampling.time_step_s;
         const ClipPose source = sample(clip, first + time_s / clip.frame_time_s);
-        const Vec3 moved = plan.scale * (source.root - clip.root.row(first).transpose());
-        motion.steps.push_back(pose_of(plan, skeleton, global_rotations(source.local, clip.parent), moved));
+        const Vec3 moved = plan.scale * (source.places.row(plan.root_joint) - clip.places[first].row(plan.root_joint));
+        motion.steps.push_back(pose_of(plan, skeleton, joint_turns(plan, clip, source.local), plan.axes * moved));
+        const Positions body = posed_heads(skeleton, motion.steps.back()), joints = source.places * plan.axes.transpose();
+        if (step == 0) check_trunk(clip, map, body, joints);
+        for (std::size_t s = 0; s < segments.size(); ++s)
+            found[s].largest_deg = std::max(found[s].largest_deg, angle_deg(body.row(segments[s].to_bone) - body.row(segments[s].from_bone),
+                                                                            joints.row(segments[s].to_joint) - joints.row(segments[s].from_joint)));
     }
+    if (angles) *angles = found;
     return motion;
 }
 
@@ -181,6 +224,7 @@ ClipMatch match_of(const Clip& clip, const Skeleton& skeleton)
     const JointMap map = joint_map(clip, skeleton);
     const RetargetPlan plan = plan_retargeting(clip, skeleton, map);
     ClipMatch match;
+    match.torn = map.torn;
     std::set<int> followed;
     for (std::size_t b = 0; b < plan.bones.size(); ++b)
         if (plan.bones[b].joint >= 0)
@@ -188,7 +232,7 @@ ClipMatch match_of(const Clip& clip, const Skeleton& skeleton)
         else
             match.bones_without_joint.push_back(skeleton.bones[b].name);
     for (std::size_t j = 0; j < clip.joints.size(); ++j) {
-        if (!moves(clip, j)) continue;
+        if (!joint_moves(clip, j)) continue;
         ++match.moving;
         match.matched += static_cast<int>(followed.count(static_cast<int>(j)));
         if (followed.count(static_cast<int>(j)) > 0) continue;

@@ -111,7 +111,13 @@ RigFormat format_of(const std::string& path)
     return extension == ".dae" || extension == ".zae" ? RigFormat::collada : RigFormat::none;
 }
 
-// With or without a mesh.
+}  // namespace
+
+bool is_rig_file(const std::string& path)
+{
+    return format_of(path) != RigFormat::none;
+}
+
 Rig read_any_rig(const std::string& path)
 {
     require_readable(path, most_mesh_bytes);
@@ -119,13 +125,6 @@ Rig read_any_rig(const std::string& path)
     if (format == RigFormat::none)
         throw InputError(path, 0, "", "", "no rig: expected glTF 2.0 (.glb, .gltf), FBX (.fbx) or COLLADA (.dae, .zae)");
     return checked(read_guarded(path, format == RigFormat::gltf ? read_gltf_rig : read_assimp_rig));
-}
-
-}  // namespace
-
-bool is_rig_file(const std::string& path)
-{
-    return format_of(path) != RigFormat::none;
 }
 
 Rig read_rig(const std::string& path)

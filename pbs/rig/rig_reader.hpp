@@ -21,6 +21,9 @@ bool rig_has_skin(const std::string& path);
 // file is none of these formats, damaged or has no mesh.
 Rig read_rig(const std::string& path);
 
+// With or without a mesh: a clip may be a skeleton alone.
+Rig read_any_rig(const std::string& path);
+
 // The materials of the same file and their images, if they are in the file, below its folder or next to it.
 RigMaterials read_materials(const std::string& path);
 

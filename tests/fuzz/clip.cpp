@@ -33,14 +33,16 @@ std::optional<pbs::Clip> clip_of(fuzz::TakenBytes taken)
     }
     clip.zero_pose = points_of(taken.take_array<double>());
     const std::vector<double> rotations = taken.take_array<double>();  // x, y, z, w
-    clip.root = points_of(taken.take_array<double>());
+    const pbs::Positions path = points_of(taken.take_array<double>());
     if (!taken.whole() || joints == 0 || rotations.empty() || rotations.size() % (4 * joints) != 0) return std::nullopt;
     for (std::size_t at = 0; at < rotations.size(); at += 4) {
         if (at % (4 * joints) == 0) clip.local.emplace_back();
         clip.local.back().emplace_back(rotations.data() + at);
     }
-    const bool shaped = clip.zero_pose.rows() == static_cast<Eigen::Index>(joints) && clip.root.rows() == clip.frames();
-    return shaped ? std::optional(clip) : std::nullopt;
+    const bool shaped = clip.zero_pose.rows() == static_cast<Eigen::Index>(joints) && path.rows() == clip.frames();
+    if (!shaped) return std::nullopt;
+    for (const auto& place : path.rowwise()) clip.places.emplace_back(clip.zero_pose.rowwise() + place);
+    return clip;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Any text as one that the program itself reads, selected by its first byte: a BVH's header, a CSV record, or --set (one per line) on a
+// Any text as one that the program itself reads, selected by its first byte: a BVH, a CSV record, or --set (one per line) on a
 // scene. The result is valid or an InputError.
 #include "analysis/records/tables.hpp"
 #include "experiments/settings/scene_values.hpp"
@@ -38,7 +38,7 @@ void fuzz::try_input(const std::string& bytes)
 {
     if (bytes.empty()) return;
     const std::string text = bytes.substr(1);
-    if (bytes[0] == 'b' && pbs::is_bvh(text, "clip")) pbs::check_bvh_header(text, "clip.bvh");
+    if (bytes[0] == 'b' && pbs::is_bvh(text, "clip")) pbs::check_clip(pbs::read_bvh(text, "clip.bvh"));
     if (bytes[0] == 'c') try_csv(text);
     if (bytes[0] == 's') try_settings(text);
 }

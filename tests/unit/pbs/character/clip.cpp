@@ -1,4 +1,5 @@
-// Reference: the errors that assimp 5.2 accepts and should not; each refusal by file, line and field.
+// Reference: one motion in the dialects of BVH, whose plain form is compared with independent kinematics elsewhere; refusals by file, line
+// and field.
 
 #include "pbs/character/clip.hpp"
 #include "tests/support/rounding_error.hpp"
@@ -6,6 +7,9 @@
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
 
 namespace {
 
@@ -19,8 +23,8 @@ std::string bvh(const std::string& frames, const std::string& time)
 
 TEST(BvhHeader, AWholeOnePasses)
 {
-    EXPECT_NO_THROW(check_bvh_header(bvh("2", "0.0083333"), "a.bvh"));
-    EXPECT_NO_THROW(check_bvh_header(bvh("\t2", " .01"), "a.bvh"));
+    EXPECT_NO_THROW(read_bvh(bvh("2", "0.0083333"), "a.bvh"));
+    EXPECT_NO_THROW(read_bvh(bvh("\t2", " .01"), "a.bvh"));
 }
 
 TEST(BvhHeader, ABvhIsKnownByItsExtensionOrItsFirstWord)
@@ -28,26 +32,110 @@ TEST(BvhHeader, ABvhIsKnownByItsExtensionOrItsFirstWord)
     for (const std::string before : {"", "\n", " \t\r\n\v\f\n", "\xef\xbb\xbf", "\xef\xbb\xbf\n"})
         EXPECT_TRUE(is_bvh(before + bvh("2", "0.01"), "a.clip")) << before;
     EXPECT_TRUE(is_bvh("noise", "folder/a.BVH"));
-    for (const std::string text : {"", " \n", "\xef\xbb\xbf", "solid HIERARCHY", "HIERARCH"})
-        EXPECT_FALSE(is_bvh(text, "a.bvh.clip")) << text;
+    EXPECT_TRUE(is_bvh("hierarchy", "a.clip"));
+    for (const std::string text : {"", " \n", "solid HIERARCHY", "HIERARCH"}) EXPECT_FALSE(is_bvh(text, "a.bvh.clip")) << text;
 }
 
-TEST(BvhHeader, WhatIsNotThereIsLeftToTheReader)
+TEST(BvhHeader, WhatIsMissingIsNamed)
 {
-    EXPECT_NO_THROW(check_bvh_header("", "a.bvh"));
-    EXPECT_NO_THROW(check_bvh_header("HIERARCHY\nMOTION\n", "a.bvh"));
+    expect_input_error([&] { read_bvh("", "a.bvh"); }, "a.bvh:1: no clip in BVH", "HIERARCHY");
+    expect_input_error([&] { read_bvh("HIERARCHY\nMOTION\n", "a.bvh"); }, "a.bvh:2: CHANNELS = 0", "holds no motion");
+    expect_input_error([&] { read_bvh("HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n", "a.bvh"); }, "a.bvh:5: JOINT = a", "ends inside");
 }
 
 TEST(BvhHeader, FramesMustBeAWholeNumberAboveZero)
 {
     for (const std::string frames : {"0", "-3", "2.5", "nan", "many"})
-        expect_input_error([&] { check_bvh_header(bvh(frames, "0.01"), "a.bvh"); }, "a.bvh:6: Frames = " + frames, "1 or more");
+        expect_input_error([&] { read_bvh(bvh(frames, "0.01"), "a.bvh"); }, "a.bvh:6: Frames = " + frames, "1 or more");
 }
 
 TEST(BvhHeader, FrameTimeMustBePositiveAndFinite)
 {
     for (const std::string time : {"0", "-0.01", "nan", "inf", "soon"})
-        expect_input_error([&] { check_bvh_header(bvh("2", time), "a.bvh"); }, "a.bvh:7: Frame Time = " + time, "from 1e-6 to 1000 s");
+        expect_input_error([&] { read_bvh(bvh("2", time), "a.bvh"); }, "a.bvh:7: Frame Time = " + time, "from 1e-6 to 1000 s");
+}
+
+// Three joints and two end sites, three frames.
+const std::string plain =
+    "HIERARCHY\nROOT Hips\n{\n\tOFFSET 1 2 3\n\tCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n\tJOINT Knee\n\t{\n"
+    "\t\tOFFSET 0 -2 0\n\t\tCHANNELS 3 Zrotation Xrotation Yrotation\n\t\tJOINT Foot\n\t\t{\n\t\t\tOFFSET 0 -2 0.5\n"
+    "\t\t\tCHANNELS 3 Zrotation Xrotation Yrotation\n\t\t\tEnd Site\n\t\t\t{\n\t\t\t\tOFFSET 0 0 1\n\t\t\t}\n\t\t}\n\t}\n}\n"
+    "MOTION\nFrames: 3\nFrame Time: 0.1\n1 2 3 10 -20 30 5 0 -40 0 0 7\n1 2 4 15 -25 35 6 1 -41 1 1 8\n2 2 4 20 -30 40 7 2 -42 2 2 9\n";
+
+std::string changed(std::string text, const std::string& what, const std::string& by)
+{
+    EXPECT_NE(text.find(what), std::string::npos) << what;
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size()) text.replace(at, what.size(), by);
+    return text;
+}
+
+void expect_same(const Clip& clip, const Clip& expected, int frames = 3)
+{
+    ASSERT_EQ(clip.frames(), frames);
+    EXPECT_EQ(clip.frame_time_s, expected.frame_time_s);
+    for (std::size_t frame = 0; frame < std::size_t(frames); ++frame)
+        for (std::size_t j = 0; j < expected.joints.size(); ++j) {
+            EXPECT_EQ(clip.local[frame][j].coeffs(), expected.local[frame][j].coeffs());
+            EXPECT_EQ(clip.places[frame].row(j), expected.places[frame].row(j));
+        }
+}
+
+TEST(BvhDialect, SpellingsOfOneMotionAreOneClip)
+{
+    const Clip expected = read_bvh(plain, "a.bvh");
+    std::string lower = plain;
+    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    for (const std::string& text :
+         {"\xef\xbb\xbf" + plain, changed(plain, "\n", "\r\n"), changed(plain, "\n", "\n\n"), changed(plain, "End Site", "End site"),
+          changed(plain, "Frames: 3", "Frames:3"), changed(plain, "Frame Time: ", "FRAME TIME:\t"), changed(plain, "10 -20 30", "10-20+30"), lower,
+          changed(plain, "10 -20 30", "1.0E1 -2.0e+1 +30.0"), changed(plain, "-20 30 5", "-20\n30\t\n5"),
+          changed(plain, "JOINT Knee", "JOINT Left Knee of mine"), changed(plain, "0.1\n", "0,1\n")}) {
+        SCOPED_TRACE(text);
+        const Clip clip = read_bvh(text, "a.bvh");
+        expect_same(clip, expected);
+        EXPECT_TRUE(clip.remarks.empty());
+    }
+    EXPECT_EQ(read_bvh(changed(plain, "JOINT Knee", "JOINT Left Knee of mine  "), "a.bvh").joints[1], "Left Knee of mine");
+}
+
+TEST(BvhDialect, ARowMoreOrLessThanStatedIsTakenAsItIsAndNoted)
+{
+    const Clip expected = read_bvh(plain, "a.bvh");
+    for (const std::string frames : {"2", "4"}) {
+        const Clip clip = read_bvh(changed(plain, "Frames: 3", "Frames: " + frames), "a.bvh");
+        expect_same(clip, expected);
+        ASSERT_EQ(clip.remarks.size(), 1u);
+        EXPECT_EQ(clip.remarks[0], "a.bvh:22: Frames = " + frames + ": the file has 3 rows, which are taken");
+    }
+    expect_input_error([&] { read_bvh(changed(plain, "Frames: 3", "Frames: 5"), "a.bvh"); }, "a.bvh:24: motion = 36 numbers",
+                       "Frames times channels: 60");
+    expect_input_error([&] { read_bvh(changed(plain, "2 2 9\n", "2 2\n"), "a.bvh"); }, "a.bvh:24: motion = 35 numbers", "a row has 12 numbers");
+}
+
+TEST(BvhDialect, ASecondRootChangesNoPlaceOfTheFirst)
+{
+    std::string text = changed(plain, "MOTION", "ROOT Prop\n{\nOFFSET 9 9 9\nCHANNELS 3 Xposition Yposition Zposition\n}\nMOTION");
+    for (const std::string end : {" 7\n", " 8\n", " 9\n"}) text = changed(text, end, end.substr(0, 2) + " 4 5 6\n");
+    const Clip clip = read_bvh(text, "a.bvh");
+    expect_same(clip, read_bvh(plain, "a.bvh"));
+    EXPECT_EQ(clip.joints.back(), "Prop");
+    EXPECT_EQ(clip.parent.back(), -1);
+    EXPECT_EQ(Vec3(clip.places[0].bottomRows(1).transpose()), Vec3(4, 5, 6));
+}
+
+TEST(BvhDialect, PositionsAreTheOffsetsWhereThoseAreZero)
+{
+    std::string text = changed(plain, "0 -2 0\n\t\tCHANNELS 3", "0 0 0\n\t\tCHANNELS 6 Xposition Yposition Zposition");
+    text = changed(text, " 5 0 -40", " 0 -2 0 5 0 -40");
+    text = changed(text, " 6 1 -41", " 0 -2 0 6 1 -41");
+    text = changed(text, " 7 2 -42", " 0 -2 0 7 2 -42");
+    const Clip clip = read_bvh(text, "a.bvh"), expected = read_bvh(plain, "a.bvh");
+    expect_same(clip, expected);
+    EXPECT_EQ(clip.zero_pose, expected.zero_pose);
+    ASSERT_EQ(clip.remarks.size(), 1u);
+    EXPECT_NE(clip.remarks[0].find("1 joints have the offset 0"), std::string::npos) << clip.remarks[0];
+    const std::string without = changed(changed(plain, "0 -2 0\n", "0 0 0\n"), "0 -2 0.5\n", "0 0 0\n");
+    expect_input_error([&] { read_bvh(without, "a.bvh"); }, "a.bvh: OFFSET = 0 0 0", "export the clip with the offsets");
 }
 
 TEST(Clip, BlankLinesBeforeItChangeNothing)

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace {
@@ -28,13 +29,35 @@ const std::vector<Names> schemes = {
     {"pelvis", "spine_01", "spine_03", "neck_01", "head", "clavicle_l", "upperarm_l", "lowerarm_l", "hand_l", "thigh_l", "calf_l",
      "foot_l"},
     // One scheme in several spellings of the side.
-    {"HIPS", "lower_back", "spine1", "neck", "head", "L_Shoulder", "Arm.L", "fore_arm_l", "hand_left", "l-UpLeg", "leftleg", "lfoot"}};
+    {"HIPS", "lower_back", "spine1", "neck", "head", "L_Shoulder", "Arm.L", "fore_arm_l", "hand_left", "l-UpLeg", "leftleg", "lfoot"},
+    {"J_Bip_C_Hips", "J_Bip_C_Spine", "J_Bip_C_Chest", "J_Bip_C_Neck", "J_Bip_C_Head", "J_Bip_L_Shoulder", "J_Bip_L_UpperArm",
+     "J_Bip_L_LowerArm", "J_Bip_L_Hand", "J_Bip_L_UpperLeg", "J_Bip_L_LowerLeg", "J_Bip_L_Foot"},
+    {"hips", "spine", "chest", "neck", "head", "leftShoulder", "leftUpperArm", "leftLowerArm", "leftHand", "leftUpperLeg", "leftLowerLeg",
+     "leftFoot"},
+    {"Hips", "Spine", "Chest", "Neck", "Head", "Shoulder_L", "UpperArm_L", "LowerArm_L", "Hand_L", "UpperLeg_L", "LowerLeg_L", "Foot_L"},
+    {"Hips", "Spine", "Chest", "Neck", "Head", "LeftShoulder", "LeftArm", "LeftForeArm", "LeftHand", "LeftThigh", "LeftShin", "LeftFoot"},
+    {"hip", "abdomenLower", "chestLower", "neckLower", "head", "lCollar", "lShldrBend", "lForearmBend", "lHand", "lThighBend", "lShin",
+     "lFoot"},
+    {"hip", "abdomen", "chest", "neck", "head", "lCollar", "lShldr", "lForeArm", "lHand", "lThigh", "lShin", "lFoot"},
+    {"Bip01 Pelvis", "Bip01 Spine", "Bip01 Spine1", "Bip01 Neck", "Bip01 Head", "Bip01 L Clavicle", "Bip01 L UpperArm", "Bip01 L Forearm",
+     "Bip01 L Hand", "Bip01 L Thigh", "Bip01 L Calf", "Bip01 L Foot"},
+    {"CC_Base_Hip", "CC_Base_Waist", "CC_Base_Spine02", "CC_Base_NeckTwist01", "CC_Base_Head", "CC_Base_L_Clavicle", "CC_Base_L_Upperarm",
+     "CC_Base_L_Forearm", "CC_Base_L_Hand", "CC_Base_L_Thigh", "CC_Base_L_Calf", "CC_Base_L_Foot"},
+    {"Hip", "Ab", "Chest", "Neck", "Head", "LShoulder", "LUArm", "LFArm", "LHand", "LThigh", "LShin", "LFoot"},
+    {"Hips", "Chest", "Chest4", "Neck", "Head", "LeftCollar", "LeftShoulder", "LeftElbow", "LeftWrist", "LeftHip", "LeftKnee", "LeftAnkle"},
+    {"Pelvis", "Spine1", "Spine3", "Neck", "Head", "L_Collar", "L_Shoulder", "L_Elbow", "L_Wrist", "L_Hip", "L_Knee", "L_Ankle"},
+    // What exporters add to every name.
+    {"Model_Hips", "Model_Spine", "Model_Spine2", "Model_Neck", "Model_Head", "Model_LeftShoulder", "Model_LeftArm", "Model_LeftForeArm",
+     "Model_LeftHand", "Model_LeftUpLeg", "Model_LeftLeg", "Model_LeftFoot"},
+    {"Hips_01", "Spine_02", "Spine2_03", "Neck_04", "Head_05", "LeftShoulder_06", "LeftArm_07", "LeftForeArm_08", "LeftHand_09",
+     "LeftUpLeg_10", "LeftLeg_11", "LeftFoot_12"}};
 constexpr int mixamo = 3, unreal = 5;
 
 std::string other_side(std::string name)
 {
     for (const auto& [left, right] :
-         {std::pair<std::string, std::string>{"Left", "Right"}, {"left", "right"}, {"L_", "R_"}, {".L", ".R"}, {"_l", "_r"}, {"l", "r"}})
+         {std::pair<std::string, std::string>{"Left", "Right"}, {"left", "right"}, {"_L", "_R"}, {"L_", "R_"}, {" L ", " R "}, {".L", ".R"},
+          {"_l", "_r"}, {"l", "r"}, {"L", "R"}})
         if (const std::size_t at = name.find(left); at != std::string::npos) return name.replace(at, left.size(), right);
     return name;
 }
@@ -127,6 +150,49 @@ TEST(JointNames, ABoneOfAModelFollowsTheSamePartOfAnotherScheme)
         EXPECT_EQ(clip.joints.at(map.bones.at(find_bone(model, of_model[part])).joint), on_both_sides(schemes[unreal])[part]);
 }
 
+// LeftShoulder is the collar bone of one scheme and the upper arm of another; Spine and Neck are called alike where schemes differ.
+TEST(JointNames, EqualNamesComeFirstUnlessTheyAreOtherParts)
+{
+    const Names of_model = on_both_sides(schemes[mixamo - 3]);  // CMU: LowerBack, Spine1
+    Names of_clip = on_both_sides({"Hips", "Chest", "Spine1", "Neck", "Head", "LeftCollar", "LeftShoulder", "LeftElbow", "LeftWrist", "LeftHip",
+                                   "LeftKnee", "LeftAnkle"});
+    const Clip clip = clip_of(of_clip);
+    const Skeleton model = skeleton_from_clip(clip_of(of_model), 1.0);
+    const JointMap map = joint_map(clip, model);
+    const auto joint_of = [&](const std::string& bone) { return clip.joints.at(map.bones.at(find_bone(model, bone)).joint); };
+    EXPECT_EQ(joint_of("Spine1"), "Spine1") << "no part of the clip's scheme, but the same name";
+    EXPECT_EQ(joint_of("LeftShoulder"), "LeftCollar");
+    EXPECT_EQ(joint_of("LeftArm"), "LeftShoulder");
+    EXPECT_EQ(joint_of("RightUpLeg"), "RightHip");
+}
+
+TEST(JointNames, HalfALimbIsNoMatch)
+{
+    const auto torn = [](const std::string& joint) {
+        Names names = on_both_sides(schemes[mixamo]);
+        *std::ranges::find(names, "mixamorig:" + joint) = "mixamorig:LeftUnheardOf";
+        return joint_map(clip_of(names), human_skeleton()).torn;
+    };
+    EXPECT_EQ(torn("LeftForeArm"), (Names{"forearm_upper.L (its joint may be mixamorig:LeftUnheardOf)",
+                                          "forearm_lower.L (its joint may be mixamorig:LeftUnheardOf)"}));
+    EXPECT_EQ(torn("LeftArm"), Names{"upper_arm.L (its joint may be mixamorig:LeftUnheardOf)"});
+    EXPECT_EQ(torn("LeftShoulder"), Names{"clavicle.L (its joint may be mixamorig:LeftUnheardOf)"});
+    EXPECT_EQ(torn("LeftFoot"), Names{}) << "nothing below it follows the clip";
+    EXPECT_TRUE(joint_map(clip_of(on_both_sides(schemes[mixamo])), human_skeleton()).torn.empty());
+}
+
+TEST(JointNames, NumbersThatTellJointsApartAreKept)
+{
+    const Skeleton chain{{{"Bone.001", -1, Vec3(0, 0, 0), Vec3(1, 0, 0)}, {"Bone.003", 0, Vec3(1, 0, 0), Vec3(2, 0, 0)},
+                          {"Bone.002", 1, Vec3(2, 0, 0), Vec3(3, 0, 0)}, {"Bone.004", 2, Vec3(3, 0, 0), Vec3(4, 0, 0)}}};
+    Clip clip;
+    clip.joints = {"Bone_001", "Bone_002", "Bone_003", "Bone_004"};
+    clip.parent = {-1, 0, 1, 2};
+    const JointMap map = joint_map(clip, chain);
+    for (const auto& [bone, joint] : {std::pair(0, 0), std::pair(1, 2), std::pair(2, 1), std::pair(3, 3)})
+        EXPECT_EQ(map.bones[bone].joint, joint);
+}
+
 TEST(JointNames, FingersCountOnlyWhereABoneFollowsThem)
 {
     Clip clip = clip_of(on_both_sides(schemes[mixamo]));
@@ -136,6 +202,10 @@ TEST(JointNames, FingersCountOnlyWhereABoneFollowsThem)
         clip.zero_pose.conservativeResize(clip.zero_pose.rows() + 1, 3);
         clip.zero_pose.bottomRows(1) = clip.zero_pose.row(8) + Eigen::RowVector3d(0, 1, 0);
         for (auto& frame : clip.local) frame.push_back(frame[8]);
+        for (Positions& places : clip.places) {
+            places.conservativeResize(clip.zero_pose.rows(), 3);
+            places.bottomRows(1) = places.row(8) + Eigen::RowVector3d(0, 1, 0);
+        }
     }
     const ClipMatch match = match_of(clip, human_skeleton());
     EXPECT_EQ(match.moving, 22);

@@ -16,6 +16,23 @@ using namespace pbs;
 
 const Skeleton limb{{{"upper", -1, Vec3(-1, 0, 0), Vec3(0, 0, 0)}, {"forearm", 0, Vec3(0, 0, 0), Vec3(1, 0, 0)}}};
 
+// The places of all joints in each frame, whose root goes along `path`, #frames x 3.
+void place_joints(Clip& clip, const Positions& path)
+{
+    clip.places.assign(static_cast<std::size_t>(clip.frames()), clip.zero_pose);
+    for (std::size_t frame = 0; frame < clip.places.size(); ++frame) {
+        std::vector<Eigen::Quaterniond> turns;
+        Positions& places = clip.places[frame];
+        for (std::size_t j = 0; j < clip.joints.size(); ++j) {
+            const int above = clip.parent[j];
+            turns.push_back(above < 0 ? clip.local[frame][j] : turns[above] * clip.local[frame][j]);
+            if (above < 0) places.row(j) = path.row(frame);
+            if (above >= 0)
+                places.row(j) = places.row(above) + (turns[above] * Vec3(clip.zero_pose.row(j) - clip.zero_pose.row(above))).transpose();
+        }
+    }
+}
+
 // A chain of joints, `spacing` apart, whose root stays; those of which `turns` is true turn by `degrees` per frame about z.
 Clip chain_of(const std::vector<std::string>& joints, const std::vector<bool>& turns, double degrees = 10.0, int frames = 3,
               const Vec3& spacing = Vec3::UnitX())
@@ -29,12 +46,12 @@ Clip chain_of(const std::vector<std::string>& joints, const std::vector<bool>& t
         clip.parent.push_back(j - 1);
         clip.zero_pose.row(j) = j * spacing;
     }
-    clip.root = Positions::Zero(frames, 3);
     for (int frame = 0; frame < frames; ++frame) {
         clip.local.emplace_back();
         for (const bool turn : turns)
             clip.local.back().emplace_back(Eigen::AngleAxisd(turn ? frame * degrees * M_PI / 180.0 : 0.0, Vec3::UnitZ()));
     }
+    place_joints(clip, Positions::Zero(frames, 3));
     return clip;
 }
 
@@ -44,7 +61,9 @@ Clip bending_clip(int frames, const Vec3& direction = Vec3::UnitX())
 {
     Clip clip = chain_of({"upper", "forearm", "hand"}, {false, true, false}, 10.0, frames, 2.0 * direction);
     clip.name = "bending.bvh";
-    for (int frame = 0; frame < frames; ++frame) clip.root(frame, 1) = frame;
+    Positions path = Positions::Zero(frames, 3);
+    for (int frame = 0; frame < frames; ++frame) path(frame, 1) = frame;
+    place_joints(clip, path);
     return clip;
 }
 
@@ -140,7 +159,32 @@ TEST(Retarget, BranchingJointsAreNotAligned)
     clip.zero_pose.conservativeResize(4, 3);
     clip.zero_pose.row(3) << 1, 0, 0;
     for (auto& local : clip.local) local.push_back(Eigen::Quaterniond::Identity());
+    place_joints(clip, Positions::Zero(2, 3));
     EXPECT_EQ(Eigen::Matrix3d(retarget(clip, limb, whole_clip()).steps[0][0].linear()), Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+}
+
+TEST(Retarget, ThePathIsThatOfTheJointThatMovesTheRootBone)
+{
+    Clip clip = chain_of({"reference", "upper", "forearm", "hand"}, {false, false, true, false}, 10.0, 3, 2.0 * Vec3::UnitX());
+    for (int frame = 0; frame < 3; ++frame) {
+        clip.places[frame].bottomRows(3).rowwise() += Eigen::RowVector3d(0.0, 0.0, frame);
+        clip.local[frame][0] = Eigen::AngleAxisd(0.0, Vec3::UnitX());
+    }
+    const Motion motion = retarget(clip, limb, whole_clip());
+    const double rounding_m = test_support::rounding_error(8, 6.0) + of_rotations;
+    for (int frame = 0; frame < 3; ++frame)  // bones of 1 m follow limbs of 2 units
+        EXPECT_LT((motion.steps[frame][0].translation() - Vec3(0.0, 0.0, 0.5 * frame)).norm(), rounding_m);
+}
+
+TEST(Retarget, JointsWhoseKeysAreStepsHoldTheirTurn)
+{
+    Clip clip = bending_clip(3);
+    clip.holds = {false, true, false};
+    ClipSampling sampling = whole_clip();
+    sampling.time_step_s = 0.0025;
+    const Motion motion = retarget(clip, limb, sampling);
+    ASSERT_EQ(motion.steps.size(), 9u);
+    for (int step = 0; step < 9; ++step) EXPECT_NEAR(angle_about_z_deg(motion.steps[step][1]), 10.0 * (step / 4), of_angles_deg) << step;
 }
 
 TEST(Retarget, RefusesWhatItCannotDo)

@@ -20,23 +20,6 @@ double of_time_s(double frame_time_s)
     return rounding_error_in<float>(1, frame_time_s);
 }
 
-// Joint positions [clip's units] of one frame, from the clip's rotations and the lengths of its zero pose.
-Positions joint_positions(const Clip& clip, int frame)
-{
-    Positions positions(clip.zero_pose.rows(), 3);
-    std::vector<Eigen::Quaterniond> global;
-    for (std::size_t j = 0; j < clip.joints.size(); ++j) {
-        const int parent = clip.parent[j];
-        global.push_back(parent < 0 ? clip.local[frame][j] : global[parent] * clip.local[frame][j]);
-        if (parent < 0)
-            positions.row(j) = clip.root.row(frame);
-        else
-            positions.row(j) =
-                positions.row(parent) + (global[parent] * Vec3(clip.zero_pose.row(j) - clip.zero_pose.row(parent))).transpose();
-    }
-    return positions;
-}
-
 TEST(ReadClip, AgreesWithIndependentKinematicsOnACmuClip)
 {
     const std::string path = find_clip("01_01.bvh", ".");
@@ -49,7 +32,7 @@ TEST(ReadClip, AgreesWithIndependentKinematicsOnACmuClip)
 
     double largest = 0.0;
     for (int frame = 0; frame < clip.frames(); frame += 10) {
-        const Positions positions = joint_positions(clip, frame);
+        const Positions& positions = clip.places[frame];
         const std::vector<Eigen::Isometry3d> joints = bvh_kinematics::forward(expected, expected.frames[frame]);
         for (std::size_t j = 0; j < joints.size(); ++j) {
             ASSERT_EQ(clip.joints[j], expected.joints[j].name);
@@ -97,9 +80,9 @@ TEST(ReadClip, ClosedForm)
     // The root turns x to y; the forearm turns its y to z about its own x, so the end site points along the world's z.
     turned << -1, 0, 5, -1, 2, 5, -1, 2, 8;
     EXPECT_EQ(clip.zero_pose, zero);
-    EXPECT_EQ(joint_positions(clip, 0), zero.rowwise() + Eigen::RowVector3d(1, 2, 3));
+    EXPECT_EQ(clip.places[0], zero.rowwise() + Eigen::RowVector3d(1, 2, 3));
     // In single precision, a quarter turn and its quaternion go through some eight roundings, twice, on a path of 5 m.
-    EXPECT_LT((joint_positions(clip, 1) - turned).cwiseAbs().maxCoeff(), rounding_error_in<float>(2 * 8, 5.0));
+    EXPECT_LT((clip.places[1] - turned).cwiseAbs().maxCoeff(), rounding_error_in<float>(2 * 8, 5.0));
 }
 
 TEST(ReadClip, OtherFormatsThanBvh)
