@@ -25,9 +25,7 @@ Vec3 between(const Positions& points, int from, int to)
 // The axis of the file that is nearest to a direction, if it is near; otherwise the direction.
 Vec3 snapped(const Vec3& direction, double near_deg)
 {
-    Eigen::Index axis = 0;
-    direction.cwiseAbs().maxCoeff(&axis);
-    const Vec3 nearest = (direction(axis) < 0.0 ? -1.0 : 1.0) * Vec3::Unit(axis);
+    const Vec3 nearest = nearest_axis(direction);
     return angle_deg(direction, nearest) <= near_deg ? nearest : direction.normalized();
 }
 
@@ -95,6 +93,13 @@ Eigen::Matrix3d rotation_of_same_rig(const Positions& rest, const Skeleton& skel
 double angle_deg(const Vec3& a, const Vec3& b)
 {
     return std::atan2(a.cross(b).norm(), a.dot(b)) * degrees;
+}
+
+Vec3 nearest_axis(const Vec3& direction)
+{
+    Eigen::Index axis = 0;
+    direction.cwiseAbs().maxCoeff(&axis);
+    return (direction(axis) < 0.0 ? -1.0 : 1.0) * Vec3::Unit(axis);
 }
 
 std::optional<TrunkDirections> trunk_directions(const Positions& points, const BodyJoints& joints)

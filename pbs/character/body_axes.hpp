@@ -25,6 +25,9 @@ std::optional<TrunkDirections> trunk_directions(const Positions& points, const B
 // within 30 degrees, left within 5.
 Eigen::Matrix3d body_axes(const TrunkDirections& trunk);
 
+// The axis of the file, positive or negative, that is nearest to a direction.
+Vec3 nearest_axis(const Vec3& direction);
+
 // Straight legs below the trunk, and straight arms at its sides that hang by at most 70 degrees (a T or A pose). Limbs whose joints are
 // unknown do not count; no legs are no such pose.
 bool is_t_or_a_pose(const Positions& points, const BodyJoints& joints);

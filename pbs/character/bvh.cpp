@@ -280,6 +280,32 @@ void take_offsets_from_positions(BvhMotion& motion, const std::string& path, std
                          "expected joints apart from each other: export the clip with the offsets of its joints, or with their positions");
 }
 
+// Some programs write the path of the hips for a joint above them as well, which has positions alone: it is the same in every frame, and
+// would count twice.
+void drop_repeated_paths(BvhMotion& motion, const std::string& path, std::vector<std::string>& remarks)
+{
+    constexpr double same_path = 1e-3;  // of its extent
+    for (const BvhJoint& joint : motion.joints) {
+        if (joint.parent < 0 || !joint.has_positions()) continue;
+        const BvhJoint& above = motion.joints[joint.parent];
+        if (!above.has_positions() || above.channels.find_first_of("XYZ") != std::string::npos) continue;
+        const Vec3 first = place_of(joint, motion.numbers.data()), first_above = place_of(above, motion.numbers.data());
+        double farthest_apart = 0.0, longest = 0.0;
+        for (std::size_t row = 0; row < motion.rows(); ++row) {
+            const float* numbers = motion.numbers.data() + row * motion.channels;
+            const Vec3 moved = place_of(joint, numbers) - first;
+            longest = std::max(longest, moved.norm());
+            farthest_apart = std::max(farthest_apart, (moved - (place_of(above, numbers) - first_above)).norm());
+        }
+        if (longest == 0.0 || farthest_apart > same_path * longest) continue;
+        for (std::size_t row = 0; row < motion.rows(); ++row)
+            for (std::size_t c = 0; c < joint.channels.size(); ++c)
+                if (const char channel = joint.channels[c]; channel >= 'x')
+                    motion.numbers[row * motion.channels + joint.first_channel + c] = static_cast<float>(first(channel - 'x'));
+        remarks.push_back(path + ": " + joint.name + " and " + above.name + " above it have the same path; it is taken once");
+    }
+}
+
 Vec3 zero_place(const Clip& clip, const BvhJoint& joint)
 {
     return joint.parent < 0 ? joint.offset : Vec3(clip.zero_pose.row(joint.parent).transpose() + joint.offset);
@@ -315,6 +341,7 @@ Clip read_bvh(const std::string& text, const std::string& path)
     clip.name = path;
     BvhMotion motion = BvhParser(text, path).motion(clip.remarks);
     take_offsets_from_positions(motion, path, clip.remarks);
+    drop_repeated_paths(motion, path, clip.remarks);
     clip.frame_time_s = motion.frame_time_s;
     clip.zero_pose.resize(static_cast<Eigen::Index>(motion.joints.size()), 3);
     std::set<std::string> seen;

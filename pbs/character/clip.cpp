@@ -1,5 +1,6 @@
 #include "pbs/character/clip.hpp"
 
+#include "pbs/character/body_axes.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/nearest_rotation.hpp"
@@ -18,6 +19,7 @@ constexpr double farthest = 1e9;            // [clip's units]
 constexpr double key_rate_hz = 120.0;       // at which motions are sampled whose keys are not frames
 constexpr double most_frames = 10'000'000;  // a day at 115 Hz
 constexpr double least_turn_deg = 5.0;      // of a joint in an animation that is a motion
+constexpr double same_pose_deg = 5.0;       // of every joint, between the bind pose and that of the nodes
 constexpr int frames_looked_at = 31;        // of each animation, to find the one that moves
 
 using Rotations = std::vector<Eigen::Quaterniond>;
@@ -45,21 +47,51 @@ Rotations local_turns(const Rig& rig, const Rotations& zero, const Rotations& no
     return local;
 }
 
+Positions places_of(const std::vector<Eigen::Affine3d>& nodes)
+{
+    Positions places(static_cast<Eigen::Index>(nodes.size()), 3);
+    for (std::size_t n = 0; n < nodes.size(); ++n) places.row(static_cast<Eigen::Index>(n)) = nodes[n].translation();
+    return places;
+}
+
+// The same bind pose as it stands in the scene. The root's own rotation tells that only where the nodes rest in the bind pose; otherwise the
+// pose of the mesh's coordinates is taken, with the least rotation that carries its upward axis to that of the nodes.
+std::vector<Eigen::Affine3d> upright(const std::vector<Eigen::Affine3d>& bound, const std::vector<Eigen::Affine3d>& rest,
+                                     const std::set<int>& joints, const Eigen::Affine3d& mesh_to_rest, const BodyJoints& body)
+{
+    const Rotations rotations = rotations_of(bound), resting = rotations_of(rest);
+    const bool rests_as_bound =
+        std::ranges::all_of(joints, [&](int n) { return rotations[n].angularDistance(resting[n]) <= same_pose_deg * M_PI / 180.0; });
+    const double size = std::cbrt(std::abs(mesh_to_rest.linear().determinant()));
+    if (rests_as_bound || !(size > 0.0)) return bound;
+    std::vector<Eigen::Affine3d> in_mesh;
+    for (const Eigen::Affine3d& node : bound) in_mesh.push_back(Eigen::Scaling(size) * mesh_to_rest.inverse() * node);
+    const auto in_mesh_trunk = trunk_directions(places_of(in_mesh), body), in_scene = trunk_directions(places_of(rest), body);
+    if (!in_mesh_trunk || !in_scene) return bound;
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond::FromTwoVectors(body_axes(*in_mesh_trunk).col(1), nearest_axis(in_scene->up));
+    for (Eigen::Affine3d& node : in_mesh) node = turn * node;
+    return in_mesh;
+}
+
 // Joints where their skin was bound; other nodes where they rest, below them.
-std::vector<Eigen::Affine3d> zero_pose_of(const Rig& rig)
+std::vector<Eigen::Affine3d> zero_pose_of(const Rig& rig, const BodyJoints& body)
 {
     const std::vector<Eigen::Affine3d> rest = node_transforms(rig, nullptr, 0.0);
     if (std::ranges::all_of(rig.meshes, [](const RigMesh& mesh) { return mesh.joints.empty(); })) return rest;
     const RigBinding binding = bind_rig(rig, nullptr, 1.0 / rig.unit_m);
     std::vector<Eigen::Affine3d> zero = rest;
+    std::set<int> joints;
     for (std::size_t n = 0; n < rig.nodes.size(); ++n) {
         const int parent = rig.nodes[n].parent;
-        if (const auto bound = binding.bind.find(static_cast<int>(n)); bound != binding.bind.end())
+        if (const auto bound = binding.bind.find(static_cast<int>(n)); bound != binding.bind.end()) {
             zero[n] = bound->second;
-        else if (parent >= 0)
+            joints.insert(static_cast<int>(n));
+        } else if (parent >= 0)
             zero[n] = zero[parent] * rig.nodes[n].rest.affine();
     }
-    return zero;
+    const SkinJoint& joint = binding.meshes.front().joints.front();
+    return upright(zero, rest, joints, binding.bind.at(joint.node) * joint.inverse_bind, body);
 }
 
 // The largest turn of a node in its parent from the start of an animation [deg].
@@ -90,11 +122,10 @@ const RigAnimation& moving_animation(const Rig& rig, Clip& clip)
     }
     for (const RigAnimation& animation : rig.animations)
         if (&animation != taken) others.push_back(animation.name);
+    const std::string why = largest_deg > least_turn_deg ? "the first one that turns a joint by more than " : "which turns a joint most: none does by more than ";
     if (!others.empty())
-        clip.remarks.push_back(rig.file + ": of its " + std::to_string(rig.animations.size()) + " animations " + taken->name +
-                               " is taken, the first one that turns a joint by more than " + number_text(least_turn_deg) +
-                               " degrees, or else the one that turns one most (a file with one animation leaves no choice; the others: " +
-                               name_list(others) + ")");
+        clip.remarks.push_back(rig.file + ": it has " + std::to_string(rig.animations.size()) + " animations; " + taken->name + " is taken, " +
+                               why + number_text(least_turn_deg) + " degrees (export another one alone to take it: " + name_list(others) + ")");
     return *taken;
 }
 
@@ -122,13 +153,6 @@ void add_joints(const Rig& rig, const std::set<int>& moved, Clip& clip)
     }
 }
 
-Positions places_of(const std::vector<Eigen::Affine3d>& nodes)
-{
-    Positions places(static_cast<Eigen::Index>(nodes.size()), 3);
-    for (std::size_t n = 0; n < nodes.size(); ++n) places.row(static_cast<Eigen::Index>(n)) = nodes[n].translation();
-    return places;
-}
-
 bool is_step(const std::optional<KeyTrack>& track)
 {
     return track && track->interpolation == Interpolation::step;
@@ -146,7 +170,7 @@ Clip clip_of_rig(const std::string& path)
     clip.holds.assign(rig.nodes.size(), false);
     for (const NodeTracks& tracks : animation.nodes) clip.holds[tracks.node] = is_step(tracks.rotation) || is_step(tracks.translation);
 
-    const std::vector<Eigen::Affine3d> zero = zero_pose_of(rig);
+    const std::vector<Eigen::Affine3d> zero = zero_pose_of(rig, body_joints(clip.joints));
     const Rotations zero_rotations = rotations_of(zero);
     clip.zero_pose = places_of(zero);
     clip.frame_time_s = 1.0 / key_rate_hz;

@@ -83,6 +83,9 @@ struct BodyJoints {
     std::array<int, 2> upper_arm = {-1, -1}, forearm = {-1, -1}, hand = {-1, -1}, thigh = {-1, -1}, shin = {-1, -1}, foot = {-1, -1};
 };
 
+// Those of these names. Unknown where no scheme knows thighs and shins of them.
+BodyJoints body_joints(const std::vector<std::string>& names);
+
 // A bone follows the joint of the same name. Where there is none, and clip and skeleton have the names of two schemes that are known (the
 // table in joint_names.cpp), it follows the joint of the same part of the body. For all others, names are compared without capitals,
 // separators, namespaces, a prefix or a number at the end that all names have, and the spelling of the side (LeftHand, hand_l, L.Hand).

@@ -305,6 +305,12 @@ std::vector<std::string> torn_limbs(const Clip& clip, const Skeleton& skeleton, 
 
 }  // namespace
 
+BodyJoints body_joints(const std::vector<std::string>& names)
+{
+    const std::vector<JointKey> keys = keys_of(names);
+    return body_joints(keys, scheme_of(keys));
+}
+
 JointMap joint_map(const Clip& clip, const Skeleton& skeleton)
 {
     std::vector<std::string> bone_names;
