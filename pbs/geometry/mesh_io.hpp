@@ -24,10 +24,10 @@ struct MeshReading {
     int cut_faces = 0;                               // in two tets of the file, but in one each after the split
     // Vertices of the file in one place, as at cracks and where bodies touch: each with the one before it there. For metrics alone.
     std::vector<std::array<int, 2>> doubled_vertices;
-    int overlapping = -1;  // a vertex of the file near which the boundary intersects itself; -1: it does not, or nothing was checked
-    int flattest_tet = 0;                            // of the file, with the least volume over its longest edge cubed
-    double flatness = 0.118;                         // that number; 0.118 is the regular tet's
-    int repeated_tets = 0;                           // on the same four vertices as an earlier one of the file; each counts once
+    int overlapping = -1;        // a vertex of the file near which the boundary intersects itself; -1: it does not, or nothing was checked
+    int flattest_tet = 0;        // of the file, with the least volume over its longest edge cubed
+    double flatness = 0.118;     // that number; 0.118 is the regular tet's
+    int repeated_tets = 0;       // on the same four vertices as an earlier one of the file; each counts once
     std::vector<int> listed_at;  // where a .msh lists its nodes: the place of each of them by tag; empty: they are listed by their tags
     std::string read_as;         // the usual extension of the file's format, if its own is another one; empty: as it is named
 };
@@ -63,10 +63,10 @@ struct SurfaceMesh {
     Triangles triangles;  // #F x 3
 };
 
-// .obj, .ply, .off, .stl, .vtp, .gltf, .glb, .dae, .zae, .fbx, by content where it shows the format and otherwise by extension. Polygons are
-// triangulated, points split at texture seams are joined (equal coordinates, to the bit), nodes' transforms and the file's unit applied.
-// mesh_name: the mesh or node of that name alone. InputError where there is none of that name, no triangle, or a coordinate that is not
-// finite or beyond 1e9 m; a surface may be open.
+// .obj, .ply, .off, .stl, .vtp, .gltf, .glb, .dae, .zae, .fbx, by content where it shows the format and otherwise by extension. Polygons
+// are triangulated, points split at texture seams are joined (equal coordinates, to the bit), nodes' transforms and the file's unit
+// applied. mesh_name: the mesh or node of that name alone. InputError where there is none of that name, no triangle, or a coordinate that
+// is not finite or beyond 1e9 m; a surface may be open.
 SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name = "");
 
 // Points and triangles as they are in the file, in its order and with its seams; each corner of a .stl is a point of its own. Frames of a

@@ -26,13 +26,13 @@ RestMesh::RestMesh(const pbs::MeshReading& reading, std::string displacement)
 
 pbs::Positions RestMesh::read_frame(const std::string& path, bool* is_displaced) const
 {
-    const pbs::Positions points = points_in(path);
-    if (displacement_.empty() && are_at_rest(points, mesh_.rest)) {
-        const FileShape shape = shape_of(path, points);
+    const FramePoints frame = points_in(path);
+    if (displacement_.empty() && are_at_rest(frame.points, mesh_.rest)) {
+        const FileShape shape = shape_of(path, frame);
         if (is_displaced && !are_at_rest(shape.positions, mesh_.rest)) *is_displaced = true;
         if (!shape.is_at_rest) return shape.positions;
     }
-    const pbs::Positions positions = shape_of_frame(path, points, mesh_.rest, file_vertex_, displacement_);
+    const pbs::Positions positions = shape_of_frame(path, frame.points, mesh_.rest, frame.places, displacement_);
     require_same_units(path, mesh_.rest, edges_, positions);
     return positions;
 }
@@ -54,22 +54,23 @@ std::vector<RestMesh::Corners> RestMesh::sorted_corners(const pbs::Tets& tets)
     return all;
 }
 
-pbs::Positions RestMesh::points_in(const std::string& path) const
+RestMesh::FramePoints RestMesh::points_in(const std::string& path) const
 {
     const pbs::TetMesh frame = pbs::read_tet_frame(path);
     require_as_many_points(path, frame.rest.rows(), file_vertices_);
-    pbs::Positions points = frame.rest(places_in(path, frame.tets), Eigen::all);
+    const std::vector<int>& places = places_in(path, frame.tets);
+    pbs::Positions points = frame.rest(places, Eigen::all);
     require_same_units(path, mesh_.rest, edges_, points);
-    return points;
+    return {std::move(points), places};
 }
 
-FileShape RestMesh::shape_of(const std::string& path, const pbs::Positions& points) const
+FileShape RestMesh::shape_of(const std::string& path, const FramePoints& frame) const
 {
-    FileShape shape{.positions = points, .is_at_rest = are_at_rest(points, mesh_.rest), .fields = read_plain_fields(path)};
+    FileShape shape{.positions = frame.points, .is_at_rest = are_at_rest(frame.points, mesh_.rest), .fields = read_plain_fields(path)};
     for (auto& [name, values] : shape.fields.of_points) {
         if (values.rows() != file_vertices_)
             throw pbs::InputError(path, 0, name, fmt::format("{} rows", values.rows()), fmt::format("expected {}", file_vertices_));
-        values = values(file_vertex_, Eigen::all).eval();
+        values = values(frame.places, Eigen::all).eval();
     }
     const auto displacement = shape.fields.of_points.find("displacement");
     if (!shape.is_at_rest || displacement == shape.fields.of_points.end()) return shape;

@@ -37,8 +37,12 @@ private:
     using Corners = std::array<int, 4>;
 
     static std::vector<Corners> sorted_corners(const pbs::Tets& tets);
-    pbs::Positions points_in(const std::string& path) const;
-    FileShape shape_of(const std::string& path, const pbs::Positions& points) const;
+    struct FramePoints {
+        pbs::Positions points;           // [m], #V x 3
+        const std::vector<int>& places;  // of the vertices in the frame's file, #V
+    };
+    FramePoints points_in(const std::string& path) const;
+    FileShape shape_of(const std::string& path, const FramePoints& frame) const;
     // Where a frame has the vertices. One of a .msh that lists its nodes in another order than by their tags may have either order; the
     // tets show which. InputError for other tets.
     const std::vector<int>& places_in(const std::string& path, const pbs::Tets& tets) const;
