@@ -253,10 +253,10 @@ protected:
         if (!GetParam().beside.empty()) folder.file(GetParam().beside, sound(GetParam().text_beside));
     }
     std::string answer_to(const std::string& content) const { return answer_of(GetParam(), folder.file(GetParam().file, content)); }
-    void expect_refused(const std::string& content) const
+    void expect_refused(const std::string& content, const std::string& change = "") const
     {
         const std::string answer = answer_to(content);
-        EXPECT_FALSE(answer.starts_with("read: ")) << answer;
+        EXPECT_FALSE(answer.starts_with("read: ")) << change << ": " << answer;
     }
 
     const ScratchFolder folder;
@@ -366,7 +366,7 @@ TEST_P(ReaderOfNumbers, RefusesNumbersThatCannotBe)
                                          {"count", {"-4", "4000000000", "nan"}},
                                          {"cells", {"-4", "4000000000", "nan"}}})
         for (const std::string& number : numbers)
-            if (has(place)) expect_refused(with_number(GetParam().text, place, number));
+            if (has(place)) expect_refused(with_number(GetParam().text, place, number), place + " = " + number);
 }
 
 TEST_P(ReaderOfNumbers, RefusesCountsThatAreWrongByOne)
@@ -375,7 +375,8 @@ TEST_P(ReaderOfNumbers, RefusesCountsThatAreWrongByOne)
         std::smatch found;
         if (!std::regex_search(GetParam().text, found, std::regex("\\{" + place + "=(\\d)\\}"))) continue;
         const int count = std::stoi(found[1]);
-        for (const int other : {count - 1, count + 1}) expect_refused(with_number(GetParam().text, place, std::to_string(other)));
+        for (const int other : {count - 1, count + 1})
+            expect_refused(with_number(GetParam().text, place, std::to_string(other)), place + " = " + std::to_string(other));
     }
 }
 
