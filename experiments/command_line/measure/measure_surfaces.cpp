@@ -221,10 +221,19 @@ int measure_rig(const MeasureArguments& arguments)
         names.push_back(std::to_string(frame));
         paths.push_back(fmt::format("{}: frame {}", arguments.rest, frame));
     }
+    pbs::Positions first;
+    bool moves = false;
     const MeasuredFrames measured = measure_each(arguments, paths, names, [&](std::size_t i) {
         const int frame = static_cast<int>(i);
-        return measurement.measure(names[i], pbs::artist_frame(rig, body, animation, sampling, frame), frame * sampling.time_step_s);
+        const pbs::Positions points = pbs::artist_frame(rig, body, animation, sampling, frame);
+        if (frame == 0) first = points;
+        moves = moves || points != first;
+        return measurement.measure(names[i], points, frame * sampling.time_step_s);
     });
+    if (!moves)
+        throw pbs::InputError(arguments.rest, 0, "animation", animation.name,
+                              "expected one that moves the surface by its nodes or joints; what morph targets move can be measured as "
+                              "deformed surfaces (pbskin measure REST FRAME...)");
     measurement.finish(true);
     return reported(arguments, measured, explanation);
 }

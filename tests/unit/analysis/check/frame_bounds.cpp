@@ -51,11 +51,15 @@ TEST(FrameBounds, AreRefusedWhereTheyDoNotApply)
 {
     for (const FrameBound& bound : analysis::known_frame_bounds()) {
         FrameBound asked = bound;
-        EXPECT_NO_THROW(require_meaningful(asked, Measured::tets)) << "not asked for";
         asked.value = 1.0;
-        EXPECT_NO_THROW(require_meaningful(asked, bound.applies_to == Measured::surface ? Measured::surface : Measured::tets));
-        if (bound.applies_to == Measured::tets) EXPECT_THROW(require_meaningful(asked, Measured::surface), pbs::InputError);
-        if (bound.applies_to == Measured::surface) EXPECT_THROW(require_meaningful(asked, Measured::tets), pbs::InputError);
+        for (const Measured measured : {Measured::tets, Measured::surface}) {
+            EXPECT_NO_THROW(require_meaningful(bound, measured)) << "not asked for";
+            if (bound.applies_to == Measured::both || bound.applies_to == measured) {
+                EXPECT_NO_THROW(require_meaningful(asked, measured)) << bound.option;
+            } else {
+                EXPECT_THROW(require_meaningful(asked, measured), pbs::InputError) << bound.option;
+            }
+        }
     }
 }
 
