@@ -97,10 +97,10 @@ CheckRules parse_check_rules(const std::string& text, const std::string& file, c
 
 // Bounds on single frames, and their results frame by frame and as test cases. Each bound has the name of the option that sets it.
 struct FrameValues {
-    FrameMetrics metrics;          // of a surface volume_change_pct and volume_abs_change_pct alone
-    double j_max = 0.0;            // largest V_t / V0_t
-    double edge_strain_max = 0.0;  // largest |l / l0 - 1|
-    int self_intersections = 0;    // of a surface: pairs of triangles that meet
+    FrameMetrics metrics;             // of a surface volume_change_pct and volume_abs_change_pct alone
+    double j_max = 0.0;               // largest V_t / V0_t
+    double edge_strain_max = 0.0;     // largest |l / l0 - 1|
+    double self_intersections = 0.0;  // of a surface: pairs of triangles that meet; NaN: not counted, in a build without CGAL
 };
 
 // What is measured, and what a bound applies to.

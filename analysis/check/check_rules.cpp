@@ -214,7 +214,7 @@ std::vector<FrameBound> known_frame_bounds()
             {"--max-stretch-rms", "stretch_rms", "bound on the root mean square of l / l0 - 1 over the edges", true, 0.0,
              [](Values f) { return f.metrics.stretch_rms; }, "", false, Measured::tets},
             {"--max-self-intersections", "self_intersections", "bound on the pairs of triangles of a surface that meet", true, 0.0,
-             [](Values f) { return static_cast<double>(f.self_intersections); }, "", false, Measured::surface}};
+             [](Values f) { return f.self_intersections; }, "", false, Measured::surface}};
 }
 
 void require_meaningful(const FrameBound& bound, Measured measured)

@@ -18,6 +18,7 @@ namespace {
 // A closed shell that encloses less than this part of (its area)^(3/2) is a sheet: 0.09 for a sphere, 0.001 for a plate of 1 : 300, and
 // some 1e-8 for the rounding of coordinates in single precision.
 constexpr double least_enclosed = 1e-6;
+constexpr double same_place = 1e-6;  // of the surface's diagonal: coordinates in single precision
 
 // An edge of a triangle: its points, ascending, and whether the triangle passes it from the first to the second.
 struct Side {
@@ -56,19 +57,50 @@ bool is_balanced(auto first, auto last)
     return 2 * std::count_if(first, last, [](const Side& side) { return side.forward; }) == last - first;
 }
 
-// The point that stands for each point: for a point of an open edge, the first one of an open edge at its place.
+std::vector<bool> open_points(Eigen::Index points, const pbs::Triangles& triangles)
+{
+    std::vector<bool> is_open(static_cast<std::size_t>(points), false);
+    for_each_edge(sides_of(triangles), [&](auto first, auto last) {
+        if (is_balanced(first, last)) return;
+        for (const int point : first->points) is_open[point] = true;
+    });
+    return is_open;
+}
+
+pbs::Triangles renamed(const pbs::Triangles& triangles, const std::vector<int>& joined)
+{
+    return triangles.unaryExpr([&](int point) { return joined[point]; });
+}
+
+// Joins the points at open edges that are nearer to each other than a rounding. They are sorted along a direction in which hardly two
+// points of a surface lie at the same place.
+void join_near(const pbs::Positions& points, const std::vector<bool>& is_open, std::vector<int>& joined)
+{
+    const double near_m = same_place * (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+    const Eigen::VectorXd along = points * pbs::Vec3(0.48, 0.64, 0.6);
+    std::vector<int> order;
+    for (int p = 0; p < points.rows(); ++p)
+        if (is_open[p]) order.push_back(p);
+    std::ranges::stable_sort(order, {}, [&](int p) { return along(p); });
+    pbs::Classes classes(joined.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        for (std::size_t j = i + 1; j < order.size() && along(order[j]) - along(order[i]) <= near_m; ++j)
+            if ((points.row(order[i]) - points.row(order[j])).norm() <= near_m) classes.unite(order[j], order[i]);
+    for (int& point : joined) point = classes.find(point);
+}
+
+// The point that stands for each point: for a point of an open edge, one of an open edge at its place, to the bit; where edges are still
+// open, one that is as near as coordinates in single precision can tell.
 std::vector<int> joined_points(const pbs::Positions& points, const pbs::Triangles& triangles)
 {
-    std::vector<bool> is_open(static_cast<std::size_t>(points.rows()), false);
-    for_each_edge(sides_of(triangles), [&](auto first, auto last) {
-        if (!is_balanced(first, last))
-            for (const int point : first->points) is_open[point] = true;
-    });
+    std::vector<bool> is_open = open_points(points.rows(), triangles);
     std::vector<int> joined(is_open.size());
     std::iota(joined.begin(), joined.end(), 0);
     std::map<std::array<double, 3>, int> first_at;
     for (int p = 0; p < points.rows(); ++p)
         if (is_open[p]) joined[p] = first_at.emplace(std::array{points(p, 0), points(p, 1), points(p, 2)}, p).first->second;
+    is_open = open_points(points.rows(), renamed(triangles, joined));
+    if (std::ranges::count(is_open, true) > 0) join_near(points, is_open, joined);
     return joined;
 }
 
@@ -80,7 +112,7 @@ pbs::Triangles picked(const pbs::Triangles& triangles, const std::vector<int>& r
 // By joined points, without those that are a line or a point.
 pbs::Triangles with_area(const pbs::Triangles& triangles, const std::vector<int>& joined)
 {
-    const pbs::Triangles all = triangles.unaryExpr([&](int point) { return joined[point]; });
+    const pbs::Triangles all = renamed(triangles, joined);
     std::vector<int> kept;
     for (int f = 0; f < all.rows(); ++f)
         if (all(f, 0) != all(f, 1) && all(f, 1) != all(f, 2) && all(f, 2) != all(f, 0)) kept.push_back(f);

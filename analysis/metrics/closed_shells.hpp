@@ -1,9 +1,9 @@
 // The closed shells of a triangle surface, as the bodies, eyes and teeth of a character are, and the volume that each encloses.
 //   const ClosedShells shells(rest.points, rest.triangles);
 //   const Eigen::VectorXd change_m3 = shells.volumes(posed) - shells.volumes(rest.points);
-// Files repeat points along seams of texture or of normals. Such points are joined at rest: those at the same place, to the bit, at open
-// edges alone. Bodies that touch each other stay apart. A shell is what shared edges join. It is closed if its triangles pass each edge
-// equally often in both directions.
+// Files repeat points along seams of texture or of normals. Such points are joined at rest: those at the same place, to the rounding of
+// single precision, at open edges alone. Bodies that touch each other stay apart. A shell is what shared edges join. It is closed if its
+// triangles pass each edge equally often in both directions.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"

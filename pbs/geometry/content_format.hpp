@@ -1,8 +1,8 @@
 // The format of a file by its content, as the extension that files of this format have. Readers are chosen by it, since files are renamed
 // and exported under wrong names.
 //   format_extension("arm.obj")   ".ply" if the file begins with "ply"
-// It knows glTF 2.0 (.glb, .gltf), FBX, COLLADA (.dae, .zae), PLY, OFF, STL, OBJ, surfaces of VTK (.vtp), Gmsh (.msh) and MEDIT (.mesh). A zip archive is taken
-// for .zae, the only one of these formats that is packed.
+// It knows glTF 2.0 (.glb, .gltf), FBX, COLLADA (.dae, .zae), PLY, OFF, STL, OBJ, VTK's surfaces (.vtp), Gmsh (.msh) and MEDIT (.mesh). A
+// zip archive is taken for .zae, the only one of these formats that is packed.
 #pragma once
 
 #include <string>

@@ -38,7 +38,11 @@ double rounding_m(const pbs::Positions& rest)
 std::map<std::string, pbs::Positions> vectors_of(const std::string& path, const std::string& name, const std::vector<int>& file_point)
 {
     auto vectors = pbs::read_guarded(path, [&](const std::string& file) { return pbs::read_point_vectors(file, name); });
-    for (auto& [of, values] : vectors) values = values(file_point, Eigen::all).eval();
+    for (auto& [of, values] : vectors) {
+        if (values.rows() <= std::ranges::max(file_point))
+            throw pbs::InputError(path, 0, of, fmt::format("{} rows", values.rows()), "expected one for each point");
+        values = values(file_point, Eigen::all).eval();
+    }
     return vectors;
 }
 

@@ -13,6 +13,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace experiments {
 namespace {
@@ -23,7 +25,7 @@ struct SurfaceRow {
     std::optional<double> time_s = {};  // of an animation, from its first key
     double volume_m3 = 0.0, volume_change_pct = 0.0;
     double volume_abs_change_pct = 0.0;  // 100 sum |V_s - V0_s| / V0 over the shells s
-    int self_intersections = 0;
+    std::optional<int> self_intersections = {};
     double edge_strain_max = 0.0;
 };
 
@@ -33,6 +35,11 @@ struct ShellRow {
     std::string mesh, role;
     double volume_m3 = 0.0, volume_change_pct = 0.0;
 };
+
+std::string text_of(const std::optional<int>& count)
+{
+    return count ? std::to_string(*count) : "-";
+}
 
 const char* role_name(analysis::ShellRole role)
 {
@@ -60,7 +67,7 @@ public:
         warn(rest.remarks());
         if (arguments.quiet) return;
         fmt::print("{}: {} closed shell{}, {:.6g} m^3, {} pairs of triangles meet\n", arguments.rest, volumes_m3_.size(),
-                   volumes_m3_.size() == 1 ? "" : "s", volumes_m3_.sum(), rest.self_intersections(rest.points()));
+                   volumes_m3_.size() == 1 ? "" : "s", volumes_m3_.sum(), text_of(rest.self_intersections(rest.points())));
         fmt::print("{:<32} {:>14} {:>14} {:>14} {:>18} {:>12}\n", "frame", "volume m^3", "volume %", "volume abs %", "self-intersections",
                    "edge strain");
     }
@@ -84,11 +91,11 @@ public:
         moves_ = moves_ || points != rest_.points();
         if (!arguments_.quiet)
             fmt::print("{:<32} {:>14.6g} {:>14.6f} {:>14.6f} {:>18} {:>12.6f}\n", name, row.volume_m3, row.volume_change_pct,
-                       row.volume_abs_change_pct, row.self_intersections, row.edge_strain_max);
+                       row.volume_abs_change_pct, text_of(row.self_intersections), row.edge_strain_max);
         rows_.push_back(row);
         return {.metrics = {.volume_change_pct = row.volume_change_pct, .volume_abs_change_pct = row.volume_abs_change_pct},
                 .edge_strain_max = row.edge_strain_max,
-                .self_intersections = row.self_intersections};
+                .self_intersections = row.self_intersections ? *row.self_intersections : std::numeric_limits<double>::quiet_NaN()};
     }
 
     // Prints the shells, writes the tables, and warns of what is seen only in all frames together.
@@ -167,10 +174,12 @@ const pbs::RigAnimation& animation_of(const MeasureArguments& arguments, const p
     TrialScene choice;
     const pbs::RigAnimation* taken = moving_animation(options, rig, pbs::make_rigged_body(rig, nullptr, 1.0), choice);
     warn(choice.remarks.notes);
-    if (!taken)
-        throw pbs::InputError(arguments.rest, 0, "animations", "0",
-                              "expected one to measure along, or deformed surfaces behind the model (pbskin measure REST FRAME...)");
-    return *taken;
+    if (taken) return *taken;
+    warn(rig.remarks);
+    throw pbs::InputError(
+        arguments.rest, 0, "animations", "0",
+        "expected one that moves nodes or joints, to measure along it; deformed surfaces, as of morph targets, are measured "
+        "as frames (pbskin measure REST FRAME...)");
 }
 
 std::vector<NamedPoints> meshes_of(const pbs::RiggedBody& body)

@@ -133,11 +133,15 @@ std::string RestSurface::mesh_of(const Shell& shell) const
     return name;
 }
 
-int RestSurface::self_intersections(const pbs::Positions& points) const
+std::optional<int> RestSurface::self_intersections(const pbs::Positions& points) const
 {
     pbs::Triangles triangles = shells_.triangles();
     const std::vector<int> used = pbs::renumbered(triangles, points.rows());
-    return pbs::count_self_intersections(points(used, Eigen::all), triangles);
+    try {
+        return pbs::count_self_intersections(points(used, Eigen::all), triangles);
+    } catch (const pbs::InputError&) {
+        return std::nullopt;
+    }
 }
 
 std::string RestSurface::name_of(int shell) const
@@ -185,6 +189,8 @@ std::vector<std::string> RestSurface::remarks() const
     add(
         "triangles turned", [](const Shell& shell) { return shell.role != ShellRole::open && shell.turned > 0; },
         "the surface was inside out, or not all of its triangles faced to one side");
+    if (const double gap_m = shells_.largest_gap_m(surface_.points); gap_m > 0.0)
+        remarks.push_back(fmt::format("{}: gap between points of a seam = {:.3g} m: joined, as if it were a rounding", path_, gap_m));
     constexpr double most_of_it = 0.5;
     if (shells_.counted_share() < most_of_it)
         remarks.push_back(

@@ -6,6 +6,7 @@
 #include "analysis/metrics/closed_shells.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,9 +29,10 @@ public:
 
     const pbs::Positions& points() const { return surface_.points; }  // [m], #P x 3
     const analysis::ClosedShells& shells() const { return shells_; }
-    const pbs::Edges& edges() const { return edges_; }           // of the closed shells
-    std::string mesh_of(const analysis::Shell& shell) const;     // its name; empty: not known
-    int self_intersections(const pbs::Positions& points) const;  // pairs of triangles of the closed shells that meet
+    const pbs::Edges& edges() const { return edges_; }        // of the closed shells
+    std::string mesh_of(const analysis::Shell& shell) const;  // its name; empty: not known
+    // Pairs of triangles of the closed shells that meet; nothing: a build without CGAL. points: [m], #P x 3.
+    std::optional<int> self_intersections(const pbs::Positions& points) const;
 
     // What was left out, joined or taken otherwise than the file has it, a sentence each.
     std::vector<std::string> remarks() const;

@@ -167,8 +167,8 @@ class ForeignFrames(program.ProgramTest):
         for name, file in (("displacement", "arm.vtk"), ("u", "arm.vtu"), ("Displacement_Vector", "arm.vtk")):
             with self.subTest(name):
                 write_vtk(self.path(file), POINTS, TETS, {name: shift(-26.0), "velocity": shift(1.0)})
-                self.refuses(f"expected deformed points, but the deformation seems to be in the points' vector {name}: add --displacement {name}",
-                             file, "--max-volume-change", "0.5")
+                self.refuses("expected deformed points, but the deformation seems to be in the points' vector "
+                             f"{name}: add --displacement {name}", file, "--max-volume-change", "0.5")
                 self.measure(1, file, "--displacement", name, "--max-volume-change", "0.5", "--csv", "volume.csv")
                 self.assertAlmostEqual(float(self.rows("volume.csv")[0]["volume_change_pct"]), -26.0, places=5)
                 self.refuses(f"--displacement = v: expected a vector of the points: it has {name}, velocity", file, "--displacement", "v")
@@ -199,7 +199,8 @@ class ForeignFrames(program.ProgramTest):
         return [points[v] for v in kept], [tuple(kept.index(v) for v in tet) for tet in tets]
 
     def test_numbers_are_sorted_as_numbers(self):
-        for pattern, names in (("a/t_*.vtk", ("t_-1.5", "t_-1", "t_-0.25", "t_0.5", "t_1", "t_10")), ("b/t*.vtk", ("t-10", "t-2", "t0", "t5")),
+        for pattern, names in (("a/t_*.vtk", ("t_-1.5", "t_-1", "t_-0.25", "t_0.5", "t_1", "t_10")),
+                               ("b/t*.vtk", ("t-10", "t-2", "t0", "t5")),
                                ("c/v1.2_f*.vtk", ("v1.2_f8", "v1.2_f9", "v1.2_f10")), ("d/f-*.vtk", ("f-8", "f-9", "f-10")),
                                ("e/*.vtk", ("0.05", "0.1", "0.15", "0.2")), ("g/t_%g.vtk", ("t_-2", "t_0.5", "t_3"))):
             with self.subTest(pattern):

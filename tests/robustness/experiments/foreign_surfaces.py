@@ -1,4 +1,5 @@
-"""`pbskin measure` on surfaces that other programs export. Reference: a box stretched by s along one axis encloses 1 + s times its volume."""
+"""`pbskin measure` on surfaces that other programs export. Reference: a box stretched by s along one axis encloses 1 + s times its
+volume."""
 import itertools
 import os
 import unittest
@@ -111,8 +112,8 @@ class ForeignSurfaces(program.ProgramTest):
                 self.write_surface("rest" + extension, box(), QUADS)
                 for number, percent in enumerate((0.0, 10.0, -5.0)):
                     self.write_surface(f"{extension[1:]}/f_{number}{extension}", stretched(box(), percent), QUADS)
-                for found in (self.changes("rest" + extension, f"{extension[1:]}/f_%d{extension}"), self.changes("rest" + extension, extension[1:])):
-                    for value, percent in zip(found, (0.0, 10.0, -5.0), strict=True):
+                for frames in (f"{extension[1:]}/f_%d{extension}", extension[1:]):  # a pattern and a folder
+                    for value, percent in zip(self.changes("rest" + extension, frames), (0.0, 10.0, -5.0), strict=True):
                         self.assertAlmostEqual(value, percent, places=4)  # in single precision
 
     def test_a_sequence_whose_polygons_are_cut_in_another_way(self):
@@ -165,8 +166,8 @@ class ForeignSurfaces(program.ProgramTest):
 
     def test_a_surface_without_a_closed_shell_is_refused(self):
         self.write_surface("open.obj", box(), QUADS[:5])
-        self.measure(2, "open.obj", "open.obj", says="closed shells = 0 of 1: expected a surface that encloses a volume; its largest shell, 1, "
-                     "has 4 edges that do not lie between two triangles, first from")
+        self.measure(2, "open.obj", "open.obj", says="closed shells = 0 of 1: expected a surface that encloses a volume; its largest shell, "
+                     "1, has 4 edges that do not lie between two triangles, first from")
 
     def test_a_small_closed_part_of_an_open_surface_is_named(self):
         points, faces = joined((box(edge=10.0), QUADS[:5]), (box((20, 0, 0)), QUADS))

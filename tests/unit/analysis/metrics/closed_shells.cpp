@@ -75,6 +75,22 @@ TEST(ClosedShells, ACubeWithAndWithoutSeamsAndFarFromTheOrigin)
     expect_volumes(with_seams(cube({1048576, 4194304, -1048576}, 2)), {8});
 }
 
+// The joined cube lacks up to the shift on each of its faces: 6 faces of 4 m^2.
+TEST(ClosedShells, ASeamWithARoundingInItIsJoinedAndAWiderOneIsOpen)
+{
+    Surface surface = with_seams(cube({0, 0, 0}, 2));
+    const pbs::Positions exact = surface.points;
+    for (const double shift_m : {1e-7, 1e-3}) {
+        for (Eigen::Index p = 0; p < exact.rows(); ++p)
+            surface.points.row(p) = exact.row(p).array() + shift_m * std::sin(7.0 * static_cast<double>(p));
+        const ClosedShells shells = shells_of(surface);
+        ASSERT_EQ(shells.counted().size(), shift_m == 1e-7 ? 1u : 0u);
+        if (shells.counted().empty()) continue;
+        EXPECT_NEAR(shells.volumes(surface.points)(0), 8.0, 24.0 * shift_m);
+        EXPECT_GT(shells.largest_gap_m(surface.points), 0.0);
+    }
+}
+
 TEST(ClosedShells, ACavityIsSubtractedAndANestedBodyAdded)
 {
     for (const bool inward : {true, false}) {
