@@ -166,8 +166,8 @@ class ForeignSurfaces(program.ProgramTest):
 
     def test_a_surface_without_a_closed_shell_is_refused(self):
         self.write_surface("open.obj", box(), QUADS[:5])
-        self.measure(2, "open.obj", "open.obj", says="closed shells = 0 of 1: expected a surface that encloses a volume; its largest shell, "
-                     "1, has 4 edges that do not lie between two triangles, first from")
+        self.measure(2, "open.obj", "open.obj", says="closed shells = 0 of 1: expected a surface that encloses a volume; its largest "
+                     "shell, 1, has 4 edges that do not lie between two triangles, first from")
 
     def test_a_small_closed_part_of_an_open_surface_is_named(self):
         points, faces = joined((box(edge=10.0), QUADS[:5]), (box((20, 0, 0)), QUADS))
