@@ -69,16 +69,17 @@ template class XpbdNeoHookean<double>;
 
 namespace {
 
-// A visit takes the multipliers' forces at the shape before it, and so treats the curvature of its two constraints explicitly, as a step of
-// gradient descent does. At rest, where the multipliers are -/+ mu V, this curvature is 2 mu V |dF|^2 / 2 for a dF that is symmetric and
-// without trace, so that a pass shrinks such errors if rho = mu V times the largest eigenvalue of sum_i w_i g_i g_i^T is below 1. Momentum
-// without restarts lowers the bound to 2/3, since gradient descent with b = 1 is stable up to steps of 4/3 and not of 2 over the curvature;
-// with restarts, single tets converge up to rho = 0.8 (measured). rho is below that in bodies whose vertices share their stiffness among
-// many tets, but not in one tet alone. A vertex of a tet with more gets the mass of a stiffness that is larger by the returned factor, 1 or
-// more, #V. stiffness: D_i, #V.
+// A visit corrects forces at the shape before it, and so treats the curvature of its two constraints explicitly: with the displacement a
+// that the tet has applied, a_{n+1} = -kappa (y_n + a_n) and x_{n+1} = y_n + a_{n+1} along an eigenvector of W times the curvature, of
+// eigenvalue kappa. These shrink for kappa < (2 + 2 b) / (3 + 4 b), which is 4/7 for the momentum b = 1. At rest the multipliers are -mu V
+// and mu V, and the curvature is at most 2 mu V |dF|^2, so that kappa <= 2 rho with rho = mu V times the largest eigenvalue of
+// sum_i w_i g_i g_i^T. One tet alone has rho >= 4/3 at w_i = 1 / D_i. Tets whose vertices share their stiffness with many others have less
+// (at most 1.18 in the bodies of this project), and their visits damp each other. So a tet beyond 5/4 is taken for alone, and its vertices
+// get the masses of a stiffness that is larger by the returned factor, 1 elsewhere, #V: kappa is then 0.51 at the default time step of 0.8.
+// stiffness: D_i, #V.
 Eigen::VectorXd curvature_in_excess(const std::vector<NeoHookeanTet>& tets, const FleshMaterial& material, const Eigen::VectorXd& stiffness)
 {
-    constexpr double most = 1.25;  // rho where the time step is 1: 0.8 at the default time step of 0.8
+    constexpr double alone = 1.25, stable = 0.4;  // rho at a time step of 1
     Eigen::VectorXd excess = Eigen::VectorXd::Ones(stiffness.size());
     for (const NeoHookeanTet& tet : tets) {
         const Eigen::Matrix<double, 3, 4> g = vertex_gradients(tet, Eigen::Matrix3d::Identity());
@@ -86,7 +87,8 @@ Eigen::VectorXd curvature_in_excess(const std::vector<NeoHookeanTet>& tets, cons
         for (int i = 0; i < 4; ++i)
             if (stiffness(tet.vertex[i]) > 0.0) S += g.col(i) * g.col(i).transpose() / stiffness(tet.vertex[i]);
         const double rho = material.mu * tet.volume * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(S).eigenvalues()(2);
-        for (const int vertex : tet.vertex) excess(vertex) = std::max(excess(vertex), rho / most);
+        if (rho <= alone) continue;
+        for (const int vertex : tet.vertex) excess(vertex) = std::max(excess(vertex), rho / stable);
     }
     return excess;
 }
