@@ -151,9 +151,10 @@ void add_try_verb(CommandLine& line)
                               "pbskin try hero.glb, then xdg-open results/hero/report.html",
                               [&common = line.common, options] { return try_model(*options, common); });
     verb->add_option("model", options->model, ".glb .gltf .fbx .dae .zae")->required();
-    verb->add_option("--animation", options->animation,
-                     "an animation of the model by name, the second of equal names being NAME (2), or a clip (.bvh .gltf .glb .fbx); by "
-                     "default the model's first one that turns a joint by more than 5 degrees");
+    verb->add_option(
+        "--animation", options->animation,
+        "an animation of the model by name, the second of equal names being NAME (2), or a clip (.bvh .gltf .glb .fbx .dae); by "
+        "default the model's first one that turns a joint by more than 5 degrees");
     verb->add_option("-o,--output", options->folder,
                      "folder of the records; by default results/NAME; an earlier trial of the same model there is replaced");
     verb->add_option("--frames", options->frames, "largest number of frames, distributed over the motion")
@@ -164,7 +165,8 @@ void add_try_verb(CommandLine& line)
     verb->add_option("--skeleton", options->skeleton, "skeleton of a model without joints: a file, or human");
     verb->add_option("--scale", options->scale, "enlarges the model, for files that state a wrong unit");
     verb->add_flag("--paraview", options->paraview, "keeps the frames for ParaView too (.vtu, .vtp), which take most of the space");
-    verb->add_flag("--allow-partial", options->allow_partial, "accepts a clip of which fewer than half of the moving joints match a bone");
+    verb->add_flag("--allow-partial", options->allow_partial,
+                   "accepts a clip of which fewer than half of the moving joints match a bone, or one half of a limb alone does");
     auto* error_bar = verb->add_flag(
         "--error-bar", options->error_bar,
         "also bounds the reference's own error, by three further solutions per frame, two of them on tets cut into eight. With 2,000 "

@@ -262,7 +262,7 @@ private:
     // Blending that inverts many tets in the first frame, before anything has moved far, points to a rest pose that is not the model's.
     void remark_on_inverted_start()
     {
-        if (!scene_.character.body.empty()) return;  // made with its skeleton
+        if (!scene_.character.body.empty()) return;   // made with its skeleton
         if (motion_case_.is_far_from_clip()) return;  // which a warning names as the cause
         std::vector<std::string> counts;
         int most = 0;

@@ -185,9 +185,9 @@ std::string read_scene_text(const std::string& path)
 }
 
 constexpr double noted_angle_deg = 10.0;  // between a part of the body and of the clip
-constexpr double still_deg = 0.1;       // no one sees less
-constexpr double still_share = 1e-3;    // over the size of the body, likewise
-constexpr double rigid_stretch = 1e-3;  // rounding of exporters
+constexpr double still_deg = 0.1;         // no one sees less
+constexpr double still_share = 1e-3;      // over the size of the body, likewise
+constexpr double rigid_stretch = 1e-3;    // rounding of exporters
 
 pbs::ClipSampling clip_sampling(const MotionSpec& spec)
 {
@@ -219,9 +219,10 @@ std::vector<std::string> notes_on_angles(const std::vector<pbs::PartAngle>& angl
     for (const pbs::PartAngle& angle : angles)
         if (angle.largest_deg > noted_angle_deg) parts.push_back(fmt::format("{} {:.0f}", angle.part, angle.largest_deg));
     if (parts.empty()) return {};
-    return {fmt::format("{}: the body points elsewhere than the clip, by up to so many degrees: {}; the trunk keeps the model's own posture, and "
-                        "bones without a joint follow their parent",
-                        clip, fmt::join(parts, ", "))};
+    return {fmt::format(
+        "{}: the body points elsewhere than the clip, by up to so many degrees: {}; the trunk keeps the model's own posture, and "
+        "bones without a joint follow their parent",
+        clip, fmt::join(parts, ", "))};
 }
 
 CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& character)
@@ -231,7 +232,8 @@ CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& characte
     CaseMotion made;
     made.motion = pbs::retarget(clip, character.skeleton, clip_sampling(spec), &made.angles);
     made.notes = clip.remarks;
-    for (const std::string& note : notes_on_angles(made.angles, spec.clip)) (made.is_far_from_clip() ? made.remarks : made.notes).push_back(note);
+    for (const std::string& note : notes_on_angles(made.angles, spec.clip))
+        (made.is_far_from_clip() ? made.remarks : made.notes).push_back(note);
     made.time_zero = "start of the clip after its first frame, a T pose, plus motion.start_s";
     made.time_zero_s = clip.frame_time_s + spec.start_s;
     made.clip_joints = match.moving - match.small;
@@ -387,15 +389,18 @@ pbs::ClipMatch accepted_match(const MotionSpec& spec, const pbs::Clip& clip, con
 {
     pbs::ClipMatch match = pbs::match_of(clip, skeleton);
     if (2 * match.matched < match.moving - match.small && !spec.allow_partial)
-        throw pbs::InputError(spec.clip, 0, "joints", share_of(match),
-                              "expected at least one half to match a bone of the character: rename the joints as the bones or as those of "
-                              "Mixamo (motion.allow_partial = true in the scene, or --allow-partial of `pbskin try`, accepts fewer); without "
-                              "a bone: " + pbs::name_list(match.unmatched));
+        throw pbs::InputError(
+            spec.clip, 0, "joints", share_of(match),
+            "expected at least one half to match a bone of the character: rename the joints as the bones or as those of "
+            "Mixamo (motion.allow_partial = true in the scene, or --allow-partial of `pbskin try`, accepts fewer); without "
+            "a bone: " +
+                pbs::name_list(match.unmatched));
     if (!match.torn.empty() && !spec.allow_partial)
-        throw pbs::InputError(spec.clip, 0, "joints of limbs", pbs::name_list(match.torn),
-                              "these bones match no joint, but the other half of their limb does, so that it would be bent wrongly: rename "
-                              "the joints as the bones or as those of Mixamo (motion.allow_partial = true in the scene, or --allow-partial of "
-                              "`pbskin try`, lets them follow their parents)");
+        throw pbs::InputError(
+            spec.clip, 0, "joints of limbs", pbs::name_list(match.torn),
+            "these bones match no joint, but the other half of their limb does, so that it would be bent wrongly: rename "
+            "the joints as the bones or as those of Mixamo (motion.allow_partial = true in the scene, or --allow-partial of "
+            "`pbskin try`, lets them follow their parents)");
     return match;
 }
 

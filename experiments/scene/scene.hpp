@@ -118,13 +118,14 @@ struct CaseMotion {
     {
         return std::ranges::any_of(angles, [](const pbs::PartAngle& angle) { return angle.largest_deg > 30.0; });
     }
-    std::string time_zero;                    // what time_s = 0 of the records is
-    double time_zero_s = 0.0;                 // that time in the file of the clip or the animation; 0 of a sweep
+    std::string time_zero;     // what time_s = 0 of the records is
+    double time_zero_s = 0.0;  // that time in the file of the clip or the animation; 0 of a sweep
 };
 CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& character, const std::string& scene_file);
 
 // The moving joints of a clip that move a bone of the skeleton. An InputError if there are none, or if the scene does not allow it and they
-// are fewer than one half or leave out a half of a limb. Fingers, toes and the like of a clip whose scheme of names is known do not count where the skeleton lacks them.
+// are fewer than one half or leave out a half of a limb. Fingers, toes and the like of a clip whose scheme of names is known do not count
+// where the skeleton lacks them.
 pbs::ClipMatch accepted_match(const MotionSpec& spec, const pbs::Clip& clip, const pbs::Skeleton& skeleton);
 
 pbs::MotionSampling sampling_of(const MotionSpec& spec);

@@ -63,17 +63,18 @@ const OptionFields<MotionSpec>& motion_fields()
                              "(`pbskin list movements`)"})
             .add("clip", &MotionSpec::clip,
                  {.meaning =
-                      "motion capture clip: relative to the scene, or by name from Debian's assimp-testmodels (01_01.bvh); a bone follows "
-                      "the joint of the same name, or of the same part of the body in the names of CMU (BVH, ASF/AMC), Mixamo, "
-                      "Rigify and Unreal"})
+                      "motion capture clip (.bvh .glb .gltf .fbx .dae): relative to the scene, or by name from Debian's assimp-testmodels "
+                      "(01_01.bvh); a bone follows the joint of the same name, or of the same part of the body in the names of CMU (BVH, "
+                      "ASF/AMC), Mixamo, Rigify, Unreal, VRM and VRoid, Rokoko, Poser and Daz, Biped, Character Creator, OptiTrack, Xsens, "
+                      "SMPL and Bandai-Namco; it may be z up or face another way, and its rest pose is its T or A pose"})
             .add("animation", &MotionSpec::animation,
                  {.meaning =
                       "an animation of character.model by name, the second of equal names being NAME (2); without this key, a joint or a "
                       "clip the model's first one"})
             .add("allow_partial", &MotionSpec::allow_partial,
-                 {.meaning =
-                      "accepts a clip of which fewer than half of the moving joints match a bone, fingers, toes and the like aside where "
-                      "the names are known ones"})
+                 {.meaning = "accepts a clip of which fewer than half of the moving joints match a bone, or one half of a limb alone does; "
+                             "fingers, "
+                             "toes and the like aside where the names are known ones"})
             .add("start_s", &MotionSpec::start_s,
                  {.unit = "s", .range = {0, 1e6}, .meaning = "start of the motion in the clip, without the T-pose of its first frame"})
             .add("duration_s", &MotionSpec::duration_s,

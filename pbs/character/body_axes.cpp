@@ -9,12 +9,12 @@
 namespace pbs {
 namespace {
 
-constexpr double least_trunk_angle_deg = 30.0;         // between the two directions of a trunk
+constexpr double least_trunk_angle_deg = 30.0;             // between the two directions of a trunk
 constexpr double near_up_deg = 30.0, near_left_deg = 5.0;  // of an axis
-constexpr double straight_deg = 40.0;                  // between the halves of a limb, and between a leg and down
-constexpr double lowest_arm_deg = 70.0;                // from the side, in an A pose
-constexpr double farthest_trunk_deg = 30.0;            // between clip and body
-constexpr double same_rig = 0.1;                       // rms of the joints from the bones over their extent
+constexpr double straight_deg = 40.0;                      // between the halves of a limb, and between a leg and down
+constexpr double lowest_arm_deg = 70.0;                    // from the side, in an A pose
+constexpr double farthest_trunk_deg = 30.0;                // between clip and body
+constexpr double same_rig = 0.1;                           // rms of the joints from the bones over their extent
 constexpr double degrees = 180.0 / M_PI;
 
 Vec3 between(const Positions& points, int from, int to)
@@ -53,8 +53,11 @@ std::string pose_text(const Positions& points, const BodyJoints& joints)
 {
     const auto trunk = trunk_directions(points, joints);
     if (!trunk) return "has no trunk, since joints coincide or lie in one line";
-    const auto legs_deg = [&](std::size_t side) { return angle_deg(between(points, joints.thigh[side], lower_end(joints, side)), -trunk->up); };
-    return "has legs that point " + number_text(std::max(legs_deg(0), legs_deg(1)), 3) + " degrees away from the trunk's downward direction";
+    const auto legs_deg = [&](std::size_t side) {
+        return angle_deg(between(points, joints.thigh[side], lower_end(joints, side)), -trunk->up);
+    };
+    return "has legs that point " + number_text(std::max(legs_deg(0), legs_deg(1)), 3) +
+           " degrees away from the trunk's downward direction";
 }
 
 // The rotation that carries matched joints onto heads of bones; the identity unless they are the same rig.
@@ -156,10 +159,11 @@ int rest_frame(const Clip& clip, const BodyJoints& joints)
     if (!is_known || is_t_or_a_pose(clip.zero_pose, joints)) return -1;
     if (is_t_or_a_pose(clip.places.front(), joints)) return 0;
     if (is_upright(clip.zero_pose, joints)) return -1;
-    throw InputError(clip.name, 0, "rest pose", "",
-                     "cannot be known: the pose without rotations " + pose_text(clip.zero_pose, joints) +
-                         " (in clips whose joints have frames along their bones, all offsets lie along one axis), and the first frame is neither "
-                         "a T nor an A pose: put a T pose in front of the motion, or export the clip with the skin's bind pose as .glb");
+    throw InputError(
+        clip.name, 0, "rest pose", "",
+        "cannot be known: the pose without rotations " + pose_text(clip.zero_pose, joints) +
+            " (in clips whose joints have frames along their bones, all offsets lie along one axis), and the first frame is neither "
+            "a T nor an A pose: put a T pose in front of the motion, or export the clip with the skin's bind pose as .glb");
 }
 
 Eigen::Matrix3d axes_of_clip_to_skeleton(const Positions& rest, const Skeleton& skeleton, const JointMap& map)
@@ -204,14 +208,17 @@ void check_trunk(const Clip& clip, const JointMap& map, const Positions& body_pl
 {
     const auto body = trunk_directions(body_places, map.of_skeleton), source = trunk_directions(clip_places, map.of_clip);
     if (!body || !source) return;
-    const auto hip_line = [](const Positions& points, const BodyJoints& joints) { return between(points, joints.thigh[1], joints.thigh[0]); };
+    const auto hip_line = [](const Positions& points, const BodyJoints& joints) {
+        return between(points, joints.thigh[1], joints.thigh[0]);
+    };
     const double trunk_deg = angle_deg(body->up, source->up);
     const double hips_deg = angle_deg(hip_line(body_places, map.of_skeleton), hip_line(clip_places, map.of_clip));
     for (const auto& [name, deg] : {std::pair<std::string, double>{"from the hips to the neck", trunk_deg}, {"from hip to hip", hips_deg}})
         if (deg > farthest_trunk_deg)
-            throw InputError(clip.name, 0, "direction " + name, number_text(deg, 3) + " degrees between the clip and the body",
-                             "expected at most 30 in the first frame: the rest pose of the clip or the bind pose of the model is not the one "
-                             "that its rotations are measured from; export either of them again in a T pose");
+            throw InputError(
+                clip.name, 0, "direction " + name, number_text(deg, 3) + " degrees between the clip and the body",
+                "expected at most 30 in the first frame: the rest pose of the clip or the bind pose of the model is not the one "
+                "that its rotations are measured from; export either of them again in a T pose");
 }
 
 }  // namespace pbs

@@ -48,15 +48,15 @@ struct BodySegment {
     int from_bone = -1, to_bone = -1, from_joint = -1, to_joint = -1;
 };
 
-// Hips (from the right to the left thigh), chest (from chest to neck), head (from neck to head), and the halves of the limbs, as far as their
-// joints are known in both.
+// Hips (from the right to the left thigh), chest (from chest to neck), head (from neck to head), and the halves of the limbs, as far as
+// their joints are known in both.
 std::vector<BodySegment> body_segments(const JointMap& map);
 
-Positions heads_of(const Skeleton& skeleton);                    // #bones x 3
+Positions heads_of(const Skeleton& skeleton);                       // #bones x 3
 Positions posed_heads(const Skeleton& skeleton, const Pose& pose);  // #bones x 3
 
-// An InputError where the trunk or the hips of the posed body point more than 30 degrees away from the clip's. clip_places: of the joints at
-// that time, in the axes of the skeleton.
+// An InputError where the trunk or the hips of the posed body point more than 30 degrees away from the clip's. clip_places: of the joints
+// at that time, in the axes of the skeleton.
 void check_trunk(const Clip& clip, const JointMap& map, const Positions& body_places, const Positions& clip_places);
 
 // Angle between two directions [deg]; 0 where one of them is no direction.

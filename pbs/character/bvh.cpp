@@ -239,10 +239,17 @@ Eigen::Quaterniond rotation_of(const BvhJoint& joint, const float* row)
         aiMatrix4x4 turn;
         const float angle = row[joint.first_channel + c] * static_cast<float>(AI_MATH_PI) / 180.0F;
         switch (joint.channels[c]) {
-        case 'X': aiMatrix4x4::RotationX(angle, turn); break;
-        case 'Y': aiMatrix4x4::RotationY(angle, turn); break;
-        case 'Z': aiMatrix4x4::RotationZ(angle, turn); break;
-        default: continue;
+            case 'X':
+                aiMatrix4x4::RotationX(angle, turn);
+                break;
+            case 'Y':
+                aiMatrix4x4::RotationY(angle, turn);
+                break;
+            case 'Z':
+                aiMatrix4x4::RotationZ(angle, turn);
+                break;
+            default:
+                continue;
         }
         rotation *= aiMatrix3x3(turn);
     }
@@ -272,9 +279,8 @@ void take_offsets_from_positions(BvhMotion& motion, const std::string& path, std
         remarks.push_back(path + ": " + std::to_string(names.size()) +
                           " joints have the offset 0 and positions in their channels; those of the first frame are taken as offsets: " +
                           name_list(names));
-    const bool has_extent = std::ranges::any_of(motion.joints, [](const BvhJoint& joint) {
-        return joint.parent >= 0 && !joint.is_end && !joint.offset.isZero(0.0);
-    });
+    const bool has_extent = std::ranges::any_of(
+        motion.joints, [](const BvhJoint& joint) { return joint.parent >= 0 && !joint.is_end && !joint.offset.isZero(0.0); });
     if (!has_extent && std::ranges::count(motion.joints, false, &BvhJoint::is_end) > 2)
         throw InputError(path, 0, "OFFSET", "0 0 0",
                          "expected joints apart from each other: export the clip with the offsets of its joints, or with their positions");

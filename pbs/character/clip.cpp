@@ -54,8 +54,8 @@ Positions places_of(const std::vector<Eigen::Affine3d>& nodes)
     return places;
 }
 
-// The same bind pose as it stands in the scene. The root's own rotation tells that only where the nodes rest in the bind pose; otherwise the
-// pose of the mesh's coordinates is taken, with the least rotation that carries its upward axis to that of the nodes.
+// The same bind pose as it stands in the scene. The root's own rotation tells that only where the nodes rest in the bind pose; otherwise
+// the pose of the mesh's coordinates is taken, with the least rotation that carries its upward axis to that of the nodes.
 std::vector<Eigen::Affine3d> upright(const std::vector<Eigen::Affine3d>& bound, const std::vector<Eigen::Affine3d>& rest,
                                      const std::set<int>& joints, const Eigen::Affine3d& mesh_to_rest, const BodyJoints& body)
 {
@@ -68,8 +68,7 @@ std::vector<Eigen::Affine3d> upright(const std::vector<Eigen::Affine3d>& bound, 
     for (const Eigen::Affine3d& node : bound) in_mesh.push_back(Eigen::Scaling(size) * mesh_to_rest.inverse() * node);
     const auto in_mesh_trunk = trunk_directions(places_of(in_mesh), body), in_scene = trunk_directions(places_of(rest), body);
     if (!in_mesh_trunk || !in_scene) return bound;
-    const Eigen::Quaterniond turn =
-        Eigen::Quaterniond::FromTwoVectors(body_axes(*in_mesh_trunk).col(1), nearest_axis(in_scene->up));
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(body_axes(*in_mesh_trunk).col(1), nearest_axis(in_scene->up));
     for (Eigen::Affine3d& node : in_mesh) node = turn * node;
     return in_mesh;
 }
@@ -122,10 +121,12 @@ const RigAnimation& moving_animation(const Rig& rig, Clip& clip)
     }
     for (const RigAnimation& animation : rig.animations)
         if (&animation != taken) others.push_back(animation.name);
-    const std::string why = largest_deg > least_turn_deg ? "the first one that turns a joint by more than " : "which turns a joint most: none does by more than ";
+    const std::string why = largest_deg > least_turn_deg ? "the first one that turns a joint by more than "
+                                                         : "which turns a joint most: none does by more than ";
     if (!others.empty())
-        clip.remarks.push_back(rig.file + ": it has " + std::to_string(rig.animations.size()) + " animations; " + taken->name + " is taken, " +
-                               why + number_text(least_turn_deg) + " degrees (export another one alone to take it: " + name_list(others) + ")");
+        clip.remarks.push_back(rig.file + ": it has " + std::to_string(rig.animations.size()) + " animations; " + taken->name +
+                               " is taken, " + why + number_text(least_turn_deg) +
+                               " degrees (export another one alone to take it: " + name_list(others) + ")");
     return *taken;
 }
 

@@ -33,8 +33,8 @@ struct Clip {
 Clip read_clip(const std::string& path);
 
 // The parts of read_clip. Dialects of BVH: keywords in any case, names with spaces, any white space and line breaks, several roots, a row
-// more or less than Frames states, numbers without a blank before a minus sign, positions in the channels in place of offsets. An InputError
-// names the line, the field and the rule.
+// more or less than Frames states, numbers without a blank before a minus sign, positions in the channels in place of offsets. An
+// InputError names the line, the field and the rule.
 bool is_bvh(const std::string& text, const std::string& path);  // by its extension or its first word, HIERARCHY, after a byte-order mark
 Clip read_bvh(const std::string& text, const std::string& path);
 
@@ -53,14 +53,15 @@ struct PartAngle {
     double largest_deg = 0.0;  // over the steps of the motion
 };
 
-// The clip's motion on a skeleton: R_bone(t) = C R_joint(t) C^-1 A. R_joint is the turn of the joint from the rest pose of the clip, C carries
-// the axes of the clip's body into those of the skeleton's (body_axes.hpp), and A is the least rotation from the bone's rest direction to the
-// joint's limb in the rest pose (none where the joint branches). joint_map() determines the joint of each bone; bones without one follow
-// their parent. Rotations only, so that bones keep their lengths; the path of the joint that moves the root bone is scaled by leg length, and
-// the clip's first frame (the T pose dropped) is at the skeleton's rest place. Poses between frames by slerp. InputErrors: a clip none of
-// whose names match; one whose rest pose cannot be known; a first frame in which the body's trunk or hips point more than 30 degrees away
-// from the clip's; a stretch of time it does not hold, one without a frame after the dropped one; a rate_hz or time_step_s that is not
-// positive, and a product of the two that is not 1 / n with n from 1 to 100,000. angles: the parts whose joints are known, if wanted.
+// The clip's motion on a skeleton: R_bone(t) = C R_joint(t) C^-1 A. R_joint is the turn of the joint from the rest pose of the clip, C
+// carries the axes of the clip's body into those of the skeleton's (body_axes.hpp), and A is the least rotation from the bone's rest
+// direction to the joint's limb in the rest pose (none where the joint branches). joint_map() determines the joint of each bone; bones
+// without one follow their parent. Rotations only, so that bones keep their lengths; the path of the joint that moves the root bone is
+// scaled by leg length, and the clip's first frame (the T pose dropped) is at the skeleton's rest place. Poses between frames by slerp.
+// InputErrors: a clip none of whose names match; one whose rest pose cannot be known; a first frame in which the body's trunk or hips point
+// more than 30 degrees away from the clip's; a stretch of time it does not hold, one without a frame after the dropped one; a rate_hz or
+// time_step_s that is not positive, and a product of the two that is not 1 / n with n from 1 to 100,000. angles: the parts whose joints are
+// known, if wanted.
 Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& sampling, std::vector<PartAngle>* angles = nullptr);
 
 // Full path of a clip given by name: as it is, relative to `folder`, or in Debian's assimp-testmodels. InputError where it is
@@ -123,7 +124,7 @@ double largest_rotation_deg(const Motion& motion);
 // The largest displacement of an end of a bone from the first pose to another one [m].
 double largest_displacement_m(const Motion& motion, const Skeleton& skeleton);
 
-// The skeleton that a clip's file (BVH, glTF, FBX) carries: its joints in the zero pose.
+// The skeleton that a clip's file (BVH, glTF, FBX) carries: its joints in the clip's rest pose.
 //   const Skeleton skeleton = skeleton_from_clip(read_clip("01_01.bvh"), 0.0254 / 0.45);   // CMU's unit in metres
 // A bone runs from each joint to its first child that lies elsewhere; joints without one (ends, and joints that coincide with their child)
 // have none, and what is attached to them is attached to the next bone above. scale: metres per unit of the clip. InputError where no bone

@@ -17,8 +17,8 @@ enum class PartKind { trunk, girdle, limb, leg };  // all but the trunk have two
 // Daz), Biped of 3ds Max, Character Creator, OptiTrack, Xsens MVN, which counts the chest from the waist, and SMPL.
 constexpr int scheme_of_bodies = 0, schemes = 15;
 
-// A part of the body under its names in each scheme, in lower case without separators, prefix and side; "" where a scheme has no such joint,
-// and words where it has several names.
+// A part of the body under its names in each scheme, in lower case without separators, prefix and side; "" where a scheme has no such
+// joint, and words where it has several names.
 struct BodyPart {
     PartKind kind;
     int next;            // its limb ends at the part so many rows below; 0: none
@@ -29,49 +29,80 @@ struct BodyPart {
 // CMU keeps the twist of the forearm in the wrist. Three joints can carry it here, elbow, mid-forearm and wrist; equal steps of a third at
 // each keep the largest step least: 1/3 on the upper half, 2/3 on the lower half, all of it on the hand.
 constexpr BodyPart body_parts[] = {
-    {PartKind::trunk, 0, 0.0,
+    {PartKind::trunk,
+     0,
+     0.0,
      {"pelvis", "hips", "root", "hips", "hips", "spine", "pelvis", "hips", "hips", "hip pelvis", "pelvis", "hip pelvis", "hip hips", "hips",
       "pelvis"}},
-    {PartKind::trunk, 0, 0.0,
-     {"spine", "lowerback", "lowerback", "ab", "spine", "spine001", "spine01", "spine", "spine spine1", "abdomen abdomenlower spine1", "spine",
-      "waist", "ab", "chest", "spine1"}},
-    {PartKind::trunk, 0, 0.0,
+    {PartKind::trunk,
+     0,
+     0.0,
+     {"spine", "lowerback", "lowerback", "ab", "spine", "spine001", "spine01", "spine", "spine spine1", "abdomen abdomenlower spine1",
+      "spine", "waist", "ab", "chest", "spine1"}},
+    {PartKind::trunk,
+     0,
+     0.0,
      {"", "spine", "upperback", "", "spine1", "spine002", "spine02", "", "spine2", "abdomenupper waist spine2", "", "spine01", "", "chest2",
       "spine2"}},
-    {PartKind::trunk, 0, 0.0,
+    {PartKind::trunk,
+     0,
+     0.0,
      {"chest", "spine1", "thorax", "chest", "spine2", "spine003", "spine03", "chest", "chest spine4", "chest chestlower spine3", "spine1",
       "spine02", "chest", "chest4", "spine3"}},
-    {PartKind::trunk, 0, 0.0,
-     {"", "", "", "", "spine3", "", "spine04", "upperchest", "", "chestupper spine4", "spine2", "", "", "", ""}},
-    {PartKind::trunk, 0, 0.0,
-     {"neck", "neck", "lowerneck", "neck", "neck", "spine004", "neck01", "neck", "neck", "neck necklower neck1", "neck", "necktwist01", "neck",
-      "neck", "neck"}},
-    {PartKind::trunk, 0, 0.0,
+    {PartKind::trunk, 0, 0.0, {"", "", "", "", "spine3", "", "spine04", "upperchest", "", "chestupper spine4", "spine2", "", "", "", ""}},
+    {PartKind::trunk,
+     0,
+     0.0,
+     {"neck", "neck", "lowerneck", "neck", "neck", "spine004", "neck01", "neck", "neck", "neck necklower neck1", "neck", "necktwist01",
+      "neck", "neck", "neck"}},
+    {PartKind::trunk,
+     0,
+     0.0,
      {"", "neck1", "upperneck", "", "", "spine005", "neck02", "", "", "neckupper neck2", "", "necktwist02", "", "", ""}},
-    {PartKind::trunk, 0, 0.0,
+    {PartKind::trunk,
+     0,
+     0.0,
      {"head", "head", "head", "head", "head", "spine006", "head", "head", "head", "head", "head", "head", "head", "head", "head"}},
-    {PartKind::girdle, 0, 0.0,
-     {"clavicle", "shoulder", "clavicle", "collar", "shoulder", "shoulder", "clavicle", "shoulder", "shoulder", "collar shoulder", "clavicle",
-      "clavicle", "shoulder", "collar", "collar"}},
-    {PartKind::limb, 1, 0.0,
+    {PartKind::girdle,
+     0,
+     0.0,
+     {"clavicle", "shoulder", "clavicle", "collar", "shoulder", "shoulder", "clavicle", "shoulder", "shoulder", "collar shoulder",
+      "clavicle", "clavicle", "shoulder", "collar", "collar"}},
+    {PartKind::limb,
+     1,
+     0.0,
      {"upperarm", "arm", "humerus", "shoulder", "arm", "upperarm", "upperarm", "upperarm", "arm", "shldr shldrbend upperarm", "upperarm",
       "upperarm", "uarm", "shoulder", "shoulder"}},
-    {PartKind::limb, 2, 1.0 / 3.0,
-     {"forearmupper", "forearm", "radius", "elbow", "forearm", "forearm", "lowerarm", "lowerarm", "forearm", "forearm forearmbend", "forearm",
-      "forearm", "farm", "elbow", "elbow"}},
-    {PartKind::limb, 1, 2.0 / 3.0,
-     {"forearmlower", "forearm", "radius", "elbow", "forearm", "forearm", "lowerarm", "lowerarm", "forearm", "forearm forearmbend", "forearm",
-      "forearm", "farm", "elbow", "elbow"}},
-    {PartKind::limb, 0, 0.0,
+    {PartKind::limb,
+     2,
+     1.0 / 3.0,
+     {"forearmupper", "forearm", "radius", "elbow", "forearm", "forearm", "lowerarm", "lowerarm", "forearm", "forearm forearmbend",
+      "forearm", "forearm", "farm", "elbow", "elbow"}},
+    {PartKind::limb,
+     1,
+     2.0 / 3.0,
+     {"forearmlower", "forearm", "radius", "elbow", "forearm", "forearm", "lowerarm", "lowerarm", "forearm", "forearm forearmbend",
+      "forearm", "forearm", "farm", "elbow", "elbow"}},
+    {PartKind::limb,
+     0,
+     0.0,
      {"hand", "hand", "wrist", "wrist", "hand", "hand", "hand", "hand", "hand", "hand", "hand", "hand", "hand", "wrist", "wrist"}},
-    {PartKind::leg, 1, 0.0,
+    {PartKind::leg,
+     1,
+     0.0,
      {"thigh", "upleg", "femur", "hip", "upleg", "thigh", "thigh", "upperleg", "thigh", "thigh thighbend", "thigh", "thigh", "thigh", "hip",
       "hip"}},
-    {PartKind::leg, 1, 0.0,
+    {PartKind::leg,
+     1,
+     0.0,
      {"shin", "leg", "tibia", "knee", "leg", "shin", "calf", "lowerleg", "shin", "shin", "calf", "calf", "shin", "knee", "knee"}},
-    {PartKind::limb, 1, 0.0,
+    {PartKind::limb,
+     1,
+     0.0,
      {"foot", "foot", "foot", "ankle", "foot", "foot", "foot", "foot", "foot", "foot", "foot", "foot", "foot", "ankle", "ankle"}},
-    {PartKind::limb, 0, 0.0,
+    {PartKind::limb,
+     0,
+     0.0,
      {"", "toebase", "toes", "toes", "toebase toe", "toe", "ball", "toebase toes toe", "toe", "toe toes", "toe0", "toebase", "toe", "toe",
       "foot"}},
 };
@@ -242,7 +273,7 @@ int joint_of_part(const std::vector<JointKey>& keys, int row, int scheme, char s
     return -1;
 }
 
-BodyJoints body_joints(const std::vector<JointKey>& keys, int scheme)
+BodyJoints joints_of_scheme(const std::vector<JointKey>& keys, int scheme)
 {
     BodyJoints body;
     const auto joint = [&](int row, char side) { return joint_of_part(keys, row, scheme, side); };
@@ -260,7 +291,8 @@ BodyJoints body_joints(const std::vector<JointKey>& keys, int scheme)
     return body;
 }
 
-// What a name means decides between schemes: the hip of one is the thigh of another. Parts of the trunk are told apart by their names alone.
+// What a name means decides between schemes: the hip of one is the thigh of another. Parts of the trunk are told apart by their names
+// alone.
 bool is_same_part(int part_of_bone, int part_of_joint)
 {
     const auto is_trunk = [](int row) { return row >= 0 && body_parts[row].kind == PartKind::trunk; };
@@ -273,8 +305,8 @@ bool is_below(const std::vector<int>& parent, int joint, int above)
     return joint >= 0;
 }
 
-// Bones of a limb without a joint between two that have one, or below one, whose own joint the clip has under another name: it moves between
-// (or below) theirs, on the same side, and no bone follows it.
+// Bones of a limb without a joint between two that have one, or below one, whose own joint the clip has under another name: it moves
+// between (or below) theirs, on the same side, and no bone follows it.
 std::vector<std::string> torn_limbs(const Clip& clip, const Skeleton& skeleton, const JointMap& map, const std::vector<JointKey>& joints,
                                     const std::vector<JointKey>& bones, int own)
 {
@@ -308,7 +340,7 @@ std::vector<std::string> torn_limbs(const Clip& clip, const Skeleton& skeleton, 
 BodyJoints body_joints(const std::vector<std::string>& names)
 {
     const std::vector<JointKey> keys = keys_of(names);
-    return body_joints(keys, scheme_of(keys));
+    return joints_of_scheme(keys, scheme_of(keys));
 }
 
 JointMap joint_map(const Clip& clip, const Skeleton& skeleton)
@@ -319,8 +351,8 @@ JointMap joint_map(const Clip& clip, const Skeleton& skeleton)
     const int own = scheme_of(bones), of_clip = scheme_of(joints);
     const bool is_known = own >= 0 && of_clip >= 0, by_parts = is_known && own != of_clip;
     JointMap map;
-    map.of_clip = body_joints(joints, of_clip);
-    map.of_skeleton = body_joints(bones, own);
+    map.of_clip = joints_of_scheme(joints, of_clip);
+    map.of_skeleton = joints_of_scheme(bones, own);
     for (std::size_t b = 0; b < bones.size(); ++b) {
         JointMapping mapping;
         const int part = is_known ? part_of(bones[b], own) : -1;

@@ -29,7 +29,7 @@ struct RetargetPlan {
     std::vector<BoneFollowing> bones;  // #bones
     double scale = 1.0;  // [m] per clip unit: bones' lengths over limbs', of the legs where they are known, else of all that follow
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // C: from the axes of the clip's body to those of the skeleton's
-    Rotations rest;     // turns of the joints from the zero pose to the rest pose, #joints; empty: they are one
+    Rotations rest;       // turns of the joints from the zero pose to the rest pose, #joints; empty: they are one
     int root_joint = -1;  // that moves the root bone
 };
 
@@ -71,6 +71,12 @@ int root_joint_of(const Skeleton& skeleton, const JointMap& map)
     return -1;
 }
 
+// The pose from which the turns of the clip are measured.
+const Positions& rest_places(const Clip& clip, int frame)
+{
+    return frame < 0 ? clip.zero_pose : clip.places[static_cast<std::size_t>(frame)];
+}
+
 // InputErrors: the map has no joint for any bone, or the rest pose of the clip cannot be known.
 RetargetPlan plan_retargeting(const Clip& clip, const Skeleton& skeleton, const JointMap& map)
 {
@@ -79,12 +85,13 @@ RetargetPlan plan_retargeting(const Clip& clip, const Skeleton& skeleton, const 
     if (plan.root_joint < 0) {
         std::vector<std::string> names;
         for (const Bone& bone : skeleton.bones) names.push_back(bone.name);
-        throw InputError(clip.name, 0, "joints", name_list(clip.joints),
-                         "no joint has the name of a bone (bones: " + name_list(names) +
-                             "): rename the joints of the clip as the bones, or both as those of Mixamo or another program of the manual's list");
+        throw InputError(
+            clip.name, 0, "joints", name_list(clip.joints),
+            "no joint has the name of a bone (bones: " + name_list(names) +
+                "): rename the joints of the clip as the bones, or as those of Mixamo or another program that motion.clip knows");
     }
     const int rest_frame_of_clip = rest_frame(clip, map.of_clip);
-    const Positions& rest = rest_frame_of_clip < 0 ? clip.zero_pose : clip.places[rest_frame_of_clip];
+    const Positions& rest = rest_places(clip, rest_frame_of_clip);
     if (rest_frame_of_clip >= 0) plan.rest = global_rotations(clip.local[rest_frame_of_clip], clip.parent);
     plan.axes = axes_of_clip_to_skeleton(rest, skeleton, map);
     Eigen::Vector2d legs(0.0, 0.0), all(0.0, 0.0);  // lengths of the bones [m] and of their limbs
@@ -161,12 +168,12 @@ Pose pose_of(const RetargetPlan& plan, const Skeleton& skeleton, const Rotations
 }
 
 // The first child of each joint that does not coincide with it, -1 where there is none, #joints.
-std::vector<int> first_children(const Clip& clip)
+std::vector<int> first_children(const Clip& clip, const Positions& rest)
 {
     std::vector<int> child(clip.joints.size(), -1);
     for (int j = 0; j < static_cast<int>(clip.joints.size()); ++j) {
         const int parent = clip.parent[j];
-        if (parent >= 0 && child[parent] < 0 && clip.zero_pose.row(j) != clip.zero_pose.row(parent)) child[parent] = j;
+        if (parent >= 0 && child[parent] < 0 && rest.row(j) != rest.row(parent)) child[parent] = j;
     }
     return child;
 }
@@ -212,8 +219,9 @@ Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& 
         const Positions body = posed_heads(skeleton, motion.steps.back()), joints = source.places * plan.axes.transpose();
         if (step == 0) check_trunk(clip, map, body, joints);
         for (std::size_t s = 0; s < segments.size(); ++s)
-            found[s].largest_deg = std::max(found[s].largest_deg, angle_deg(body.row(segments[s].to_bone) - body.row(segments[s].from_bone),
-                                                                            joints.row(segments[s].to_joint) - joints.row(segments[s].from_joint)));
+            found[s].largest_deg =
+                std::max(found[s].largest_deg, angle_deg(body.row(segments[s].to_bone) - body.row(segments[s].from_bone),
+                                                         joints.row(segments[s].to_joint) - joints.row(segments[s].from_joint)));
     }
     if (angles) *angles = found;
     return motion;
@@ -263,7 +271,8 @@ double largest_displacement_m(const Motion& motion, const Skeleton& skeleton)
 
 Skeleton skeleton_from_clip(const Clip& clip, double scale)
 {
-    const std::vector<int> child = first_children(clip);
+    const Positions& rest = rest_places(clip, rest_frame(clip, body_joints(clip.joints)));
+    const std::vector<int> child = first_children(clip, rest);
     std::vector<int> bone_of(clip.joints.size(), -1);  // of the joint, or of the next joint above that has one
     Skeleton skeleton;
     for (int j = 0; j < static_cast<int>(clip.joints.size()); ++j) {
@@ -271,8 +280,7 @@ Skeleton skeleton_from_clip(const Clip& clip, double scale)
         bone_of[j] = above;
         if (child[j] < 0) continue;
         bone_of[j] = static_cast<int>(skeleton.bones.size());
-        skeleton.bones.push_back(
-            {clip.joints[j], above, scale * clip.zero_pose.row(j).transpose(), scale * clip.zero_pose.row(child[j]).transpose()});
+        skeleton.bones.push_back({clip.joints[j], above, scale * rest.row(j).transpose(), scale * rest.row(child[j]).transpose()});
     }
     if (skeleton.bones.empty())
         throw InputError(clip.name, 0, "joints", std::to_string(clip.joints.size()), "expected joints apart from each other");

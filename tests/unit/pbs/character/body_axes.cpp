@@ -11,8 +11,9 @@ namespace {
 using namespace pbs;
 
 enum { hips, neck, head, arm_l, elbow_l, hand_l, arm_r, elbow_r, hand_r, thigh_l, knee_l, foot_l, thigh_r, knee_r, foot_r, joint_count };
-const std::vector<std::string> names = {"Hips",         "Neck",      "Head",      "LeftArm", "LeftForeArm", "LeftHand",   "RightArm", "RightForeArm",
-                                        "RightHand",    "LeftUpLeg", "LeftLeg",   "LeftFoot", "RightUpLeg", "RightLeg",   "RightFoot"};
+const std::vector<std::string> names = {"Hips",     "Neck",     "Head",         "LeftArm",   "LeftForeArm",
+                                        "LeftHand", "RightArm", "RightForeArm", "RightHand", "LeftUpLeg",
+                                        "LeftLeg",  "LeftFoot", "RightUpLeg",   "RightLeg",  "RightFoot"};
 const std::vector<int> parents = {-1, hips, neck, neck, arm_l, elbow_l, neck, arm_r, elbow_r, hips, thigh_l, knee_l, hips, thigh_r, knee_r};
 
 Eigen::Matrix3d about(const Vec3& axis, double deg)
@@ -26,15 +27,22 @@ Positions body(double arms_deg = 0.0)
     Positions points(joint_count, 3);
     const double c = std::cos(arms_deg * M_PI / 180.0), s = std::sin(arms_deg * M_PI / 180.0);
     points << 0, 1.0, 0, 0, 1.5, 0, 0, 1.6, 0, 0.2, 1.4, 0, 0.2 + 0.3 * c, 1.4 - 0.3 * s, 0, 0.2 + 0.5 * c, 1.4 - 0.5 * s, 0, -0.2, 1.4, 0,
-        -0.2 - 0.3 * c, 1.4 - 0.3 * s, 0, -0.2 - 0.5 * c, 1.4 - 0.5 * s, 0, 0.1, 0.9, 0, 0.1, 0.5, 0, 0.1, 0.1, 0, -0.1, 0.9, 0, -0.1, 0.5, 0,
-        -0.1, 0.1, 0;
+        -0.2 - 0.3 * c, 1.4 - 0.3 * s, 0, -0.2 - 0.5 * c, 1.4 - 0.5 * s, 0, 0.1, 0.9, 0, 0.1, 0.5, 0, 0.1, 0.1, 0, -0.1, 0.9, 0, -0.1, 0.5,
+        0, -0.1, 0.1, 0;
     return points;
 }
 
 BodyJoints joints()
 {
-    return {.chest = -1, .neck = neck, .head = head, .upper_arm = {arm_l, arm_r}, .forearm = {elbow_l, elbow_r}, .hand = {hand_l, hand_r},
-            .thigh = {thigh_l, thigh_r}, .shin = {knee_l, knee_r}, .foot = {foot_l, foot_r}};
+    return {.chest = -1,
+            .neck = neck,
+            .head = head,
+            .upper_arm = {arm_l, arm_r},
+            .forearm = {elbow_l, elbow_r},
+            .hand = {hand_l, hand_r},
+            .thigh = {thigh_l, thigh_r},
+            .shin = {knee_l, knee_r},
+            .foot = {foot_l, foot_r}};
 }
 
 Positions turned(const Positions& points, const Eigen::Matrix3d& turn)
@@ -150,7 +158,8 @@ TEST(CheckTrunk, ABodyThatLiesOrFacesAwayIsRefused)
     const JointMap map = joint_map(clip, skeleton);
     EXPECT_NO_THROW(check_trunk(clip, map, turned(body(), about(Vec3::UnitX(), 29.0)), body()));
     const auto refused = [&](const Eigen::Matrix3d& turn, const std::string& direction) {
-        expect_input_error([&] { check_trunk(clip, map, turned(body(), turn), body()); }, "walk.bvh: direction " + direction, "expected at most 30");
+        expect_input_error([&] { check_trunk(clip, map, turned(body(), turn), body()); }, "walk.bvh: direction " + direction,
+                           "expected at most 30");
     };
     refused(about(Vec3::UnitX(), 45.0), "from the hips to the neck = 45 degrees between the clip and the body");
     refused(about(Vec3::UnitY(), 90.0), "from hip to hip = 90 degrees between the clip and the body");

@@ -87,8 +87,8 @@ TEST(BvhDialect, SpellingsOfOneMotionAreOneClip)
     std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
     for (const std::string& text :
          {"\xef\xbb\xbf" + plain, changed(plain, "\n", "\r\n"), changed(plain, "\n", "\n\n"), changed(plain, "End Site", "End site"),
-          changed(plain, "Frames: 3", "Frames:3"), changed(plain, "Frame Time: ", "FRAME TIME:\t"), changed(plain, "10 -20 30", "10-20+30"), lower,
-          changed(plain, "10 -20 30", "1.0E1 -2.0e+1 +30.0"), changed(plain, "-20 30 5", "-20\n30\t\n5"),
+          changed(plain, "Frames: 3", "Frames:3"), changed(plain, "Frame Time: ", "FRAME TIME:\t"), changed(plain, "10 -20 30", "10-20+30"),
+          lower, changed(plain, "10 -20 30", "1.0E1 -2.0e+1 +30.0"), changed(plain, "-20 30 5", "-20\n30\t\n5"),
           changed(plain, "JOINT Knee", "JOINT Left Knee of mine"), changed(plain, "0.1\n", "0,1\n")}) {
         SCOPED_TRACE(text);
         const Clip clip = read_bvh(text, "a.bvh");
@@ -109,7 +109,8 @@ TEST(BvhDialect, ARowMoreOrLessThanStatedIsTakenAsItIsAndNoted)
     }
     expect_input_error([&] { read_bvh(changed(plain, "Frames: 3", "Frames: 5"), "a.bvh"); }, "a.bvh:24: motion = 36 numbers",
                        "Frames times channels: 60");
-    expect_input_error([&] { read_bvh(changed(plain, "2 2 9\n", "2 2\n"), "a.bvh"); }, "a.bvh:24: motion = 35 numbers", "a row has 12 numbers");
+    expect_input_error([&] { read_bvh(changed(plain, "2 2 9\n", "2 2\n"), "a.bvh"); }, "a.bvh:24: motion = 35 numbers",
+                       "a row has 12 numbers");
 }
 
 TEST(BvhDialect, ASecondRootChangesNoPlaceOfTheFirst)

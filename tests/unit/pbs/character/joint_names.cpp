@@ -55,9 +55,15 @@ constexpr int mixamo = 3, unreal = 5;
 
 std::string other_side(std::string name)
 {
-    for (const auto& [left, right] :
-         {std::pair<std::string, std::string>{"Left", "Right"}, {"left", "right"}, {"_L", "_R"}, {"L_", "R_"}, {" L ", " R "}, {".L", ".R"},
-          {"_l", "_r"}, {"l", "r"}, {"L", "R"}})
+    for (const auto& [left, right] : {std::pair<std::string, std::string>{"Left", "Right"},
+                                      {"left", "right"},
+                                      {"_L", "_R"},
+                                      {"L_", "R_"},
+                                      {" L ", " R "},
+                                      {".L", ".R"},
+                                      {"_l", "_r"},
+                                      {"l", "r"},
+                                      {"L", "R"}})
         if (const std::size_t at = name.find(left); at != std::string::npos) return name.replace(at, left.size(), right);
     return name;
 }
@@ -154,8 +160,8 @@ TEST(JointNames, ABoneOfAModelFollowsTheSamePartOfAnotherScheme)
 TEST(JointNames, EqualNamesComeFirstUnlessTheyAreOtherParts)
 {
     const Names of_model = on_both_sides(schemes[mixamo - 3]);  // CMU: LowerBack, Spine1
-    Names of_clip = on_both_sides({"Hips", "Chest", "Spine1", "Neck", "Head", "LeftCollar", "LeftShoulder", "LeftElbow", "LeftWrist", "LeftHip",
-                                   "LeftKnee", "LeftAnkle"});
+    Names of_clip = on_both_sides({"Hips", "Chest", "Spine1", "Neck", "Head", "LeftCollar", "LeftShoulder", "LeftElbow", "LeftWrist",
+                                   "LeftHip", "LeftKnee", "LeftAnkle"});
     const Clip clip = clip_of(of_clip);
     const Skeleton model = skeleton_from_clip(clip_of(of_model), 1.0);
     const JointMap map = joint_map(clip, model);
@@ -183,8 +189,10 @@ TEST(JointNames, HalfALimbIsNoMatch)
 
 TEST(JointNames, NumbersThatTellJointsApartAreKept)
 {
-    const Skeleton chain{{{"Bone.001", -1, Vec3(0, 0, 0), Vec3(1, 0, 0)}, {"Bone.003", 0, Vec3(1, 0, 0), Vec3(2, 0, 0)},
-                          {"Bone.002", 1, Vec3(2, 0, 0), Vec3(3, 0, 0)}, {"Bone.004", 2, Vec3(3, 0, 0), Vec3(4, 0, 0)}}};
+    const Skeleton chain{{{"Bone.001", -1, Vec3(0, 0, 0), Vec3(1, 0, 0)},
+                          {"Bone.003", 0, Vec3(1, 0, 0), Vec3(2, 0, 0)},
+                          {"Bone.002", 1, Vec3(2, 0, 0), Vec3(3, 0, 0)},
+                          {"Bone.004", 2, Vec3(3, 0, 0), Vec3(4, 0, 0)}}};
     Clip clip;
     clip.joints = {"Bone_001", "Bone_002", "Bone_003", "Bone_004"};
     clip.parent = {-1, 0, 1, 2};

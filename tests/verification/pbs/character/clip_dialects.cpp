@@ -56,8 +56,10 @@ std::string joint_text(const Bvh& bvh, const Dialect& dialect, const std::vector
     const auto& own = bvh.joints[joint];
     const bool is_end = own.channels.empty(), is_root = own.parent < 0;
     const Vec3 offset = is_root ? dialect.world * own.offset : frames[own.parent].transpose() * own.offset;
-    std::string text = (is_root ? "ROOT " : is_end ? "End Site" : "JOINT ") + (is_end ? "" : dialect.prefix + own.name) + "\n{\nOFFSET " +
-                       row_of(offset) + "\n";
+    std::string text = (is_root  ? "ROOT "
+                        : is_end ? "End Site"
+                                 : "JOINT ") +
+                       (is_end ? "" : dialect.prefix + own.name) + "\n{\nOFFSET " + row_of(offset) + "\n";
     const bool moves = is_root || dialect.positions_everywhere;
     if (!is_end) text += std::string("CHANNELS ") + (moves ? "6 Xposition Yposition Zposition" : "3") + " Zrotation Yrotation Xrotation\n";
     for (std::size_t child = joint + 1; child < bvh.joints.size(); ++child)
@@ -167,7 +169,8 @@ TEST(ClipDialect, OffsetsAlongOneAxisWithoutATPoseAreRefused)
     const Dialect dialect{.name = "no_t_pose", .frames_along_bones = true, .first_frame = false};
     const test_support::ScratchFolder folder;
     const Clip clip = read_clip(folder.file("walk.bvh", written(walk(), dialect)));
-    expect_input_error([&] { retarget(clip, human().skeleton, {}); }, folder / "walk.bvh: rest pose: cannot be known", "put a T pose in front");
+    expect_input_error([&] { retarget(clip, human().skeleton, {}); }, folder / "walk.bvh: rest pose: cannot be known",
+                       "put a T pose in front");
 }
 
 }  // namespace
