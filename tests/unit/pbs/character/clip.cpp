@@ -62,7 +62,7 @@ const std::string plain =
     "\t\t\tCHANNELS 3 Zrotation Xrotation Yrotation\n\t\t\tEnd Site\n\t\t\t{\n\t\t\t\tOFFSET 0 0 1\n\t\t\t}\n\t\t}\n\t}\n}\n"
     "MOTION\nFrames: 3\nFrame Time: 0.1\n1 2 3 10 -20 30 5 0 -40 0 0 7\n1 2 4 15 -25 35 6 1 -41 1 1 8\n2 2 4 20 -30 40 7 2 -42 2 2 9\n";
 
-std::string changed(std::string text, const std::string& what, const std::string& by)
+std::string rewritten(std::string text, const std::string& what, const std::string& by)
 {
     EXPECT_NE(text.find(what), std::string::npos) << what;
     for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size()) text.replace(at, what.size(), by);
@@ -85,38 +85,38 @@ TEST(BvhDialect, SpellingsOfOneMotionAreOneClip)
     const Clip expected = read_bvh(plain, "a.bvh");
     std::string lower = plain;
     std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
-    for (const std::string& text :
-         {"\xef\xbb\xbf" + plain, changed(plain, "\n", "\r\n"), changed(plain, "\n", "\n\n"), changed(plain, "End Site", "End site"),
-          changed(plain, "Frames: 3", "Frames:3"), changed(plain, "Frame Time: ", "FRAME TIME:\t"), changed(plain, "10 -20 30", "10-20+30"),
-          lower, changed(plain, "10 -20 30", "1.0E1 -2.0e+1 +30.0"), changed(plain, "-20 30 5", "-20\n30\t\n5"),
-          changed(plain, "JOINT Knee", "JOINT Left Knee of mine"), changed(plain, "0.1\n", "0,1\n")}) {
+    for (const std::string& text : {"\xef\xbb\xbf" + plain, rewritten(plain, "\n", "\r\n"), rewritten(plain, "\n", "\n\n"),
+                                    rewritten(plain, "End Site", "End site"), rewritten(plain, "Frames: 3", "Frames:3"),
+                                    rewritten(plain, "Frame Time: ", "FRAME TIME:\t"), rewritten(plain, "10 -20 30", "10-20+30"), lower,
+                                    rewritten(plain, "10 -20 30", "1.0E1 -2.0e+1 +30.0"), rewritten(plain, "-20 30 5", "-20\n30\t\n5"),
+                                    rewritten(plain, "JOINT Knee", "JOINT Left Knee of mine"), rewritten(plain, "0.1\n", "0,1\n")}) {
         SCOPED_TRACE(text);
         const Clip clip = read_bvh(text, "a.bvh");
         expect_same(clip, expected);
         EXPECT_TRUE(clip.remarks.empty());
     }
-    EXPECT_EQ(read_bvh(changed(plain, "JOINT Knee", "JOINT Left Knee of mine  "), "a.bvh").joints[1], "Left Knee of mine");
+    EXPECT_EQ(read_bvh(rewritten(plain, "JOINT Knee", "JOINT Left Knee of mine  "), "a.bvh").joints[1], "Left Knee of mine");
 }
 
 TEST(BvhDialect, ARowMoreOrLessThanStatedIsTakenAsItIsAndNoted)
 {
     const Clip expected = read_bvh(plain, "a.bvh");
     for (const std::string frames : {"2", "4"}) {
-        const Clip clip = read_bvh(changed(plain, "Frames: 3", "Frames: " + frames), "a.bvh");
+        const Clip clip = read_bvh(rewritten(plain, "Frames: 3", "Frames: " + frames), "a.bvh");
         expect_same(clip, expected);
         ASSERT_EQ(clip.remarks.size(), 1u);
         EXPECT_EQ(clip.remarks[0], "a.bvh:22: Frames = " + frames + ": the file has 3 rows, which are taken");
     }
-    expect_input_error([&] { read_bvh(changed(plain, "Frames: 3", "Frames: 5"), "a.bvh"); }, "a.bvh:24: motion = 36 numbers",
+    expect_input_error([&] { read_bvh(rewritten(plain, "Frames: 3", "Frames: 5"), "a.bvh"); }, "a.bvh:24: motion = 36 numbers",
                        "Frames times channels: 60");
-    expect_input_error([&] { read_bvh(changed(plain, "2 2 9\n", "2 2\n"), "a.bvh"); }, "a.bvh:24: motion = 35 numbers",
+    expect_input_error([&] { read_bvh(rewritten(plain, "2 2 9\n", "2 2\n"), "a.bvh"); }, "a.bvh:24: motion = 35 numbers",
                        "a row has 12 numbers");
 }
 
 TEST(BvhDialect, ASecondRootChangesNoPlaceOfTheFirst)
 {
-    std::string text = changed(plain, "MOTION", "ROOT Prop\n{\nOFFSET 9 9 9\nCHANNELS 3 Xposition Yposition Zposition\n}\nMOTION");
-    for (const std::string end : {" 7\n", " 8\n", " 9\n"}) text = changed(text, end, end.substr(0, 2) + " 4 5 6\n");
+    std::string text = rewritten(plain, "MOTION", "ROOT Prop\n{\nOFFSET 9 9 9\nCHANNELS 3 Xposition Yposition Zposition\n}\nMOTION");
+    for (const std::string end : {" 7\n", " 8\n", " 9\n"}) text = rewritten(text, end, end.substr(0, 2) + " 4 5 6\n");
     const Clip clip = read_bvh(text, "a.bvh");
     expect_same(clip, read_bvh(plain, "a.bvh"));
     EXPECT_EQ(clip.joints.back(), "Prop");
@@ -126,16 +126,16 @@ TEST(BvhDialect, ASecondRootChangesNoPlaceOfTheFirst)
 
 TEST(BvhDialect, PositionsAreTheOffsetsWhereThoseAreZero)
 {
-    std::string text = changed(plain, "0 -2 0\n\t\tCHANNELS 3", "0 0 0\n\t\tCHANNELS 6 Xposition Yposition Zposition");
-    text = changed(text, " 5 0 -40", " 0 -2 0 5 0 -40");
-    text = changed(text, " 6 1 -41", " 0 -2 0 6 1 -41");
-    text = changed(text, " 7 2 -42", " 0 -2 0 7 2 -42");
+    std::string text = rewritten(plain, "0 -2 0\n\t\tCHANNELS 3", "0 0 0\n\t\tCHANNELS 6 Xposition Yposition Zposition");
+    text = rewritten(text, " 5 0 -40", " 0 -2 0 5 0 -40");
+    text = rewritten(text, " 6 1 -41", " 0 -2 0 6 1 -41");
+    text = rewritten(text, " 7 2 -42", " 0 -2 0 7 2 -42");
     const Clip clip = read_bvh(text, "a.bvh"), expected = read_bvh(plain, "a.bvh");
     expect_same(clip, expected);
     EXPECT_EQ(clip.zero_pose, expected.zero_pose);
     ASSERT_EQ(clip.remarks.size(), 1u);
     EXPECT_NE(clip.remarks[0].find("1 joints have the offset 0"), std::string::npos) << clip.remarks[0];
-    const std::string without = changed(changed(plain, "0 -2 0\n", "0 0 0\n"), "0 -2 0.5\n", "0 0 0\n");
+    const std::string without = rewritten(rewritten(plain, "0 -2 0\n", "0 0 0\n"), "0 -2 0.5\n", "0 0 0\n");
     expect_input_error([&] { read_bvh(without, "a.bvh"); }, "a.bvh: OFFSET = 0 0 0", "export the clip with the offsets");
 }
 

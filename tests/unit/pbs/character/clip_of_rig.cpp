@@ -1,0 +1,109 @@
+// Reference: the rig of two joints of gltf_document.hpp, whose elbow turns half round about z within a second, and glTF 2.0, Appendix C.
+#include "pbs/character/clip.hpp"
+#include "tests/support/gltf_document.hpp"
+#include "tests/support/rounding_error.hpp"
+#include "tests/unit/pbs/character/expect_input_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using namespace pbs;
+using test_support::GltfDocument;
+
+// The file's quaternions are in single precision, and each has an angle of half a turn of its rotation.
+const double of_angles_deg = 2.0 * test_support::rounding_error_in<float>(8, 1.0) * 180.0 / M_PI;
+
+Clip read(const GltfDocument& gltf)
+{
+    const test_support::ScratchFolder folder;
+    return read_clip(folder.file("walk.gltf", gltf.text()));
+}
+
+double elbow_deg(const Clip& clip, int frame)
+{
+    const auto elbow = std::ranges::find(clip.joints, "elbow") - clip.joints.begin();
+    const Eigen::Quaterniond& turn = clip.local.at(frame).at(elbow);
+    return 2.0 * std::atan2(turn.z(), turn.w()) * 180.0 / M_PI;
+}
+
+TEST(ClipOfRig, HasTheTurnsAndPlacesOfItsNodes)
+{
+    const Clip clip = read(test_support::two_joint_document());
+    ASSERT_EQ(clip.frames(), 121);
+    EXPECT_TRUE(clip.remarks.empty());
+    for (const int frame : {0, 30, 60, 90}) EXPECT_NEAR(elbow_deg(clip, frame), 1.5 * frame, of_angles_deg);
+    EXPECT_EQ(Vec3(clip.places[60].row(1)), Vec3(1, 2, 0));
+}
+
+TEST(ClipOfRig, AnAnimationThatStandsStillIsNotTheMotion)
+{
+    GltfDocument gltf = test_support::two_joint_document();
+    const int still = gltf.put<float>("VEC4", {0, 0, 0, 1, 0, 0, 0, 1});
+    const nlohmann::json bend = gltf.json["animations"][0];
+    gltf.json["animations"][0]["name"] = "T-Pose";
+    gltf.json["animations"][0]["samplers"][0]["output"] = still;
+    gltf.json["animations"].push_back(bend);
+    const Clip clip = read(gltf);
+    EXPECT_NEAR(elbow_deg(clip, 60), 90.0, of_angles_deg);
+    ASSERT_EQ(clip.remarks.size(), 1u);
+    EXPECT_NE(clip.remarks[0].find("it has 2 animations; Bend is taken, the first one that turns a joint by more than 5 degrees"),
+              std::string::npos)
+        << clip.remarks[0];
+}
+
+TEST(ClipOfRig, ItsZeroPoseIsTheBindPoseAndNotThatOfTheNodes)
+{
+    GltfDocument gltf = test_support::two_joint_document();
+    gltf.json["nodes"][1]["rotation"] = {0.0, 0.0, std::sqrt(0.5), std::sqrt(0.5)};
+    const Clip clip = read(gltf);
+    EXPECT_NEAR(elbow_deg(clip, 0), 0.0, of_angles_deg);
+    EXPECT_NEAR(elbow_deg(clip, 60), 90.0, of_angles_deg);
+    EXPECT_LT((clip.zero_pose.row(1) - Eigen::RowVector3d(1, 2, 0)).norm(), 1e-6);
+    gltf.json.erase("skins");
+    gltf.json["nodes"][2].erase("skin");
+    EXPECT_NEAR(elbow_deg(read(gltf), 0), -90.0, of_angles_deg) << "without a skin the nodes' pose is the only one";
+}
+
+TEST(ClipOfRig, StepsAreHeldUntilTheNextKey)
+{
+    GltfDocument gltf = test_support::two_joint_document();
+    gltf.json["animations"][0]["samplers"][0]["interpolation"] = "STEP";
+    const Clip clip = read(gltf);
+    EXPECT_NEAR(elbow_deg(clip, 119), 0.0, of_angles_deg);
+    EXPECT_NEAR(std::abs(elbow_deg(clip, 120)), 180.0, of_angles_deg);
+    EXPECT_EQ(clip.holds, (std::vector<bool>{false, true, false}));
+}
+
+TEST(ClipOfRig, CubicSplinesAreEvaluatedByTheFormat)
+{
+    GltfDocument gltf = test_support::two_joint_document();
+    const int spline = gltf.put<float>("VEC4", {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0});
+    gltf.json["animations"][0]["samplers"][0] = {{"input", 5}, {"output", spline}, {"interpolation", "CUBICSPLINE"}};
+    const Clip clip = read(gltf);
+    for (const int frame : {0, 30, 60, 90}) {
+        const double t = frame / 120.0, share = 3.0 * t * t - 2.0 * t * t * t;  // without tangents
+        EXPECT_NEAR(elbow_deg(clip, frame), 2.0 * std::atan2(share, 1.0 - share) * 180.0 / M_PI, of_angles_deg) << frame;
+    }
+}
+
+TEST(ClipOfRig, TwoMovingJointsOfOneNameAreRefused)
+{
+    GltfDocument gltf = test_support::two_joint_document();
+    gltf.json["nodes"][0]["name"] = "elbow";
+    EXPECT_EQ(read(gltf).joints, (std::vector<std::string>{"elbow (2)", "elbow", "body"})) << "only one of them moves";
+    gltf.json["animations"][0]["channels"].push_back({{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}});
+    expect_input_error([&] { read(gltf); }, "", "joint = elbow: two moving joints have this name");
+}
+
+TEST(ClipOfRig, AFileWithoutAMotionIsRefused)
+{
+    GltfDocument gltf = test_support::two_joint_document();
+    gltf.json.erase("animations");
+    expect_input_error([&] { read(gltf); }, "", "animations = 0: holds no motion");
+}
+
+}  // namespace
