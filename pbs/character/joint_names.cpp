@@ -234,10 +234,11 @@ std::vector<JointKey> keys_of(const std::vector<std::string>& names)
 // The row of body_parts; -1: none.
 int part_of(const JointKey& key, int scheme)
 {
+    if (scheme < 0) return -1;
     const auto* found = std::ranges::find_if(body_parts, [&](const BodyPart& part) {
         return is_called(part, scheme, key.stem) && (key.side != ' ') == (part.kind != PartKind::trunk);
     });
-    return scheme < 0 || found == std::end(body_parts) ? -1 : static_cast<int>(found - body_parts);
+    return found == std::end(body_parts) ? -1 : static_cast<int>(found - body_parts);
 }
 
 // The scheme that knows most of the names, thighs and shins among them; -1: none.

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace {
@@ -55,6 +56,7 @@ constexpr int mixamo = 3, unreal = 5;
 
 std::string other_side(std::string name)
 {
+    if (name.starts_with('L') && std::isupper(static_cast<unsigned char>(name[1]))) return name.replace(0, 1, "R");  // LUArm
     for (const auto& [left, right] : {std::pair<std::string, std::string>{"Left", "Right"},
                                       {"left", "right"},
                                       {"_L", "_R"},
@@ -62,8 +64,7 @@ std::string other_side(std::string name)
                                       {" L ", " R "},
                                       {".L", ".R"},
                                       {"_l", "_r"},
-                                      {"l", "r"},
-                                      {"L", "R"}})
+                                      {"l", "r"}})
         if (const std::size_t at = name.find(left); at != std::string::npos) return name.replace(at, left.size(), right);
     return name;
 }
