@@ -16,7 +16,8 @@ else()
 endif()
 if(NOT PBS_WITH_RIG_IMPORT)
     list(APPEND left_out pbs/character/skeleton_file pbs/character/clip pbs/character/clip_of_rig pbs/character/joint_names
-        pbs/character/bodies pbs/rig/assimp_rig pbs/rig/glb_writer pbs/rig/gltf_rig pbs/rig/rig_reader)
+        pbs/character/bodies pbs/rig/collada_document pbs/rig/collada_rig pbs/rig/fbx_document pbs/rig/fbx_rig pbs/rig/glb_writer
+        pbs/rig/gltf_rig pbs/rig/rig_reader)
 endif()
 
 pbs_tests(unit pbs_files

@@ -69,8 +69,11 @@ fuzz_target(fuzz/files.cpp pbs_character
     pbs/geometry/text_words.cpp pbs/geometry/mesh_checks.cpp pbs/geometry/mesh_repairs.cpp pbs/geometry/files.cpp
     pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/assimp.cpp pbs_rig
-    pbs/rig/assimp_rig.cpp pbs/rig/rigged_body.cpp pbs/rig/rig_pose.cpp
-    pbs/rig/rig_reader.cpp pbs/rig/rig_repairs.cpp pbs/skinning/pose.cpp pbs/geometry/content_format.cpp
+    pbs/rig/collada_curves.cpp pbs/rig/collada_document.cpp pbs/rig/collada_rig.cpp pbs/rig/fbx_animation.cpp
+    pbs/rig/fbx_document.cpp pbs/rig/fbx_mesh.cpp
+    pbs/rig/fbx_objects.cpp pbs/rig/fbx_polygons.cpp pbs/rig/fbx_rig.cpp pbs/rig/fbx_transform.cpp
+    pbs/rig/rigged_body.cpp pbs/rig/rig_pose.cpp pbs/rig/rig_reader.cpp pbs/rig/rig_repairs.cpp pbs/skinning/pose.cpp
+    pbs/geometry/content_format.cpp
     pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_libraries(assimp assimp::assimp pugixml::pugixml ${MINIZIP_LIBRARY} ZLIB::ZLIB)
 fuzz_target(fuzz/content.cpp pbs_mesh_io

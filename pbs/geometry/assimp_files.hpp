@@ -9,11 +9,13 @@
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/scene.h>
 
 #include <filesystem>
 #include <new>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -21,8 +23,8 @@ namespace pbs {
 
 class OwnFolder : public Assimp::DefaultIOSystem {
 public:
-    // path: the file that is read; it may lie anywhere.
-    explicit OwnFolder(const std::string& path) : path_(path), name_(path_by_content(path)) {}
+    // path: the file that is read; it may lie anywhere. text: if not empty, in place of its content; it outlives the object.
+    explicit OwnFolder(const std::string& path, std::string_view text = {}) : path_(path), name_(path_by_content(path)), text_(text) {}
 
     // The path, or one of no file with another extension, in whose place the file is opened.
     const std::string& name_by_content() const { return name_; }
@@ -38,6 +40,8 @@ public:
     Assimp::IOStream* Open(const char* named, const char* mode) override
     {
         const std::string file = file_of(named);
+        if (!text_.empty() && file == path_)
+            return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(text_.data()), text_.size());
         if (allows(file)) return DefaultIOSystem::Open(file.c_str(), mode);
         std::error_code ignored;
         if (refused_.empty() && std::filesystem::exists(file, ignored)) refused_ = file;
@@ -57,13 +61,15 @@ private:
     std::string file_of(const std::string& named) const { return named == name_ ? path_ : named; }
 
     std::string path_, name_, refused_;
+    std::string_view text_;
 };
 
 // The scene, which the importer owns, with a root node. `refusal` begins the message of the InputError where assimp cannot read the file.
+// text: as that of OwnFolder.
 inline const aiScene& read_scene(Assimp::Importer& importer, const std::string& path, unsigned steps,
-                                 const std::string& refusal = "assimp: ")
+                                 const std::string& refusal = "assimp: ", std::string_view text = {})
 {
-    auto* files = new OwnFolder(path);
+    auto* files = new OwnFolder(path, text);
     importer.SetIOHandler(files);  // which owns it
     const aiScene* scene = importer.ReadFile(files->name_by_content(), steps);
     if (!scene) files->refuse_what_was_referred_to();

@@ -3,6 +3,7 @@
 //   const auto nodes = node_transforms(rig, nullptr, 0.0);      // rigged_body.hpp
 #pragma once
 
+#include "pbs/rig/fbx_transform.hpp"
 #include "pbs/skinning/weights.hpp"
 
 #include <Eigen/Geometry>
@@ -26,8 +27,9 @@ struct NodeTransform {
 // Names need not be unique, and may be empty.
 struct RigNode {
     std::string name;
-    int parent = -1;     // index into Rig::nodes, -1 for a root; parents precede their children
-    NodeTransform rest;  // where no animation says otherwise
+    int parent = -1;                       // index into Rig::nodes, -1 for a root; parents precede their children
+    NodeTransform rest;                    // where no animation says otherwise
+    std::optional<FbxTransform> fbx = {};  // in place of `rest`: a node of an FBX file
 };
 
 // How a property changes between two keys (glTF 2.0, Appendix C).
@@ -44,7 +46,8 @@ struct KeyTrack {
 // A property without keys keeps the value that it has at rest.
 struct NodeTracks {
     int node = -1;
-    std::optional<KeyTrack> translation, rotation, scale;
+    std::optional<KeyTrack> translation = {}, rotation = {}, scale = {};
+    FbxTracks fbx = {};  // in place of them: of a node of an FBX file
 };
 
 struct RigAnimation {
@@ -86,6 +89,8 @@ struct RigMesh {
     std::vector<SkinJoint> joints;  // of its skin, weighted or not; empty: it is moved by its node
     Weights skin;                   // of the points; `bone` is an index into `joints`; not read where there are no joints
     RigLook look = {};
+    std::vector<double> dual_quaternion_share = {};  // how far each point is moved by dual quaternions instead of linear blending, 0 to 1,
+                                                     // #P; empty: linear blending
 };
 
 struct Rig {

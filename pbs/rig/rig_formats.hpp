@@ -1,5 +1,6 @@
 // Rigs by format, and their materials: glTF 2.0 (.glb, .gltf) with tinygltf, since assimp leaves out the joints of a skin that have no
-// weight; FBX and COLLADA with assimp in its single precision. Buffers and images may be read only from the folder of the file.
+// weight; FBX by a reader of its own, since no library applies all of its rules; COLLADA with assimp in its single precision. Buffers and
+// images may be read only from the folder of the file.
 #pragma once
 
 #include "pbs/rig/rig.hpp"
@@ -41,35 +42,23 @@ AccessorNumbers accessor_values(const pbs_tinygltf::Model& model, int accessor, 
 AccessorNumbers accessor_numbers(const pbs_tinygltf::Model& model, int accessor, int components, const std::string& path,
                                  const std::string& field);
 
-// Joints of skins are the clusters of the file that have weights. An InputError where assimp cannot read the file, or a weight is negative
-// or not finite.
-// Between the keys of an FBX file the rotation of a node turns about one axis at a constant rate (slerp), whereas the format interpolates
-// each Euler angle. If the angles change by a, b and c [rad] between two keys, the two differ by about (|ab| + |bc| + |ca|) / 8 rad at
-// most; with one moving angle they agree. Constant and cubic curves are read as linear between their keys, which is a remark. At the keys
-// the poses are those of the format.
-Rig read_assimp_rig(const std::string& path);
+// FBX 7.0 and later, from the objects of the file and by the format's formulas (fbx_transform.hpp), in double precision. Joints of skins
+// are the clusters of the file that have points. An InputError names the object that is wrong.
+Rig read_fbx_rig(const std::string& path);
 
-// As assimp writes them into a glTF file.
+// The names of the materials, in the order of RigLook::material.
+std::vector<std::string> fbx_material_names(const std::string& path);
+
+// Joints of skins are those of the file that have weights. An InputError where assimp cannot read the file, and those of
+// collada_document.hpp.
+Rig read_collada_rig(const std::string& path);
+
+// Of FBX and COLLADA files, as assimp writes them into a glTF file.
 RigMaterials read_assimp_materials(const std::string& path);
 
-// Its steps after check_collada_weights: assimp's reading, into a scene that the importer owns, and the conversion of that scene.
-const aiScene& read_assimp_scene(Assimp::Importer& importer, const std::string& path);
+// The steps of read_collada_rig after collada_document.hpp: assimp's reading, of a text in place of the file's if one is given, into a
+// scene that the importer owns, and the conversion of that scene.
+const aiScene& read_assimp_scene(Assimp::Importer& importer, const std::string& path, const std::string& text = "");
 Rig rig_of_scene(const aiScene& scene, const std::string& path);
-
-// The skin weights of a COLLADA file as the file states them: assimp leaves out weights that are negative or not finite without a message.
-//   check_collada_weights("hero.dae");
-// .dae, or a .zae archive with .dae files. An InputError names the first weight, of a skin that the scene uses, that is negative or not
-// finite. Text that is not XML is left to the reader.
-void check_collada_weights(const std::string& path);
-
-// How the curves of an FBX file run between their keys, which assimp does not report: it reads all of them as linear.
-//   const FbxCurves curves = count_fbx_curves(read_text_file("hero.fbx"));
-struct FbxCurves {
-    int curves = 0;      // whose keys are marked as constant, linear or cubic
-    int not_linear = 0;  // with a constant or cubic key
-};
-
-// bytes: of a binary or a text file. Damaged curves are not counted.
-FbxCurves count_fbx_curves(const std::string& bytes);
 
 }  // namespace pbs

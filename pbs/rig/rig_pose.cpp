@@ -1,6 +1,7 @@
 #include "pbs/rig/rigged_body.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/skinning/blend.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,6 +51,14 @@ NodeTransform moved(const NodeTransform& rest, const NodeTracks& tracks, double 
     if (tracks.rotation) transform.rotation = rotation_at(*tracks.rotation, time_s);
     if (tracks.scale) transform.scale = vector_at(*tracks.scale, time_s);
     return transform;
+}
+
+FbxPlacement placed(const RigNode& node, const NodeTracks* tracks, double time_s, const FbxPlacement& parent)
+{
+    if (node.fbx) return placed_below(parent, tracks ? transform_at(*node.fbx, tracks->fbx, time_s) : *node.fbx);
+    FbxPlacement placement;
+    placement.world = parent.world * (tracks ? moved(node.rest, *tracks, time_s) : node.rest).affine();
+    return placement;
 }
 
 // Nodes that move meshes: joints of skins, and nodes that an animation moves.
@@ -162,6 +171,19 @@ double size_of_pose(const Rig& rig, const RigAnimation* animation, const RigBind
     return std::abs(size - 1.0) <= same_scale ? 1.0 : size;
 }
 
+// As FBX defines it: in the coordinates of the mesh's node, by the rotation and translation of each joint, without its scale.
+Positions blended_by_dual_quaternions(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& from_mesh, const Eigen::Affine3d& node)
+{
+    Pose pose;
+    for (const Eigen::Affine3d& joint : from_mesh) {
+        const Eigen::Affine3d local = node.inverse() * joint;
+        pose.push_back(Eigen::Translation3d(local.translation()) * Eigen::Quaterniond(local.rotation()));
+    }
+    Positions points;
+    dual_quaternion_skinning(mesh.points, mesh.skin, pose, points);
+    return (points * node.linear().transpose()).rowwise() + node.translation().transpose();
+}
+
 void add_bind_pose(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& rest, RigBinding& binding)
 {
     const Eigen::Affine3d to_rest = mesh_to_rest(mesh, binding, rest);
@@ -231,13 +253,16 @@ Eigen::Quaterniond rotation_at(const KeyTrack& track, double time_s)
 
 std::vector<Eigen::Affine3d> node_transforms(const Rig& rig, const RigAnimation* animation, double time_s)
 {
-    std::vector<Eigen::Affine3d> transforms;
-    for (const RigNode& node : rig.nodes) transforms.push_back(node.rest.affine());
+    std::vector<const NodeTracks*> tracks_of(rig.nodes.size());
     if (animation)
-        for (const NodeTracks& tracks : animation->nodes)
-            transforms[tracks.node] = moved(rig.nodes[tracks.node].rest, tracks, time_s).affine();
-    for (std::size_t n = 0; n < rig.nodes.size(); ++n)
-        if (const int parent = rig.nodes[n].parent; parent >= 0) transforms[n] = transforms[parent] * transforms[n];
+        for (const NodeTracks& tracks : animation->nodes) tracks_of[tracks.node] = &tracks;
+    std::vector<FbxPlacement> placements;
+    for (std::size_t n = 0; n < rig.nodes.size(); ++n) {
+        const RigNode& node = rig.nodes[n];
+        placements.push_back(placed(node, tracks_of[n], time_s, node.parent < 0 ? FbxPlacement{} : placements[node.parent]));
+    }
+    std::vector<Eigen::Affine3d> transforms;
+    for (const FbxPlacement& placement : placements) transforms.push_back(placement.world);
     return transforms;
 }
 
@@ -250,7 +275,10 @@ Positions skinned_points(const RigMesh& mesh, const std::vector<Eigen::Affine3d>
     }
     std::vector<Eigen::Affine3d> from_mesh;  // W_j B_j^-1
     for (const SkinJoint& joint : mesh.joints) from_mesh.push_back(node_transforms[joint.node] * joint.inverse_bind);
-    return blended(mesh, from_mesh);
+    moved = blended(mesh, from_mesh);
+    if (mesh.dual_quaternion_share.empty()) return moved;
+    const Eigen::Map<const Eigen::VectorXd> share(mesh.dual_quaternion_share.data(), moved.rows());
+    return moved + share.asDiagonal() * (blended_by_dual_quaternions(mesh, from_mesh, node_transforms[mesh.node]) - moved);
 }
 
 RigBinding bind_rig(const Rig& rig, const RigAnimation* animation, double scale)

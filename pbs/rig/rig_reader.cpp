@@ -51,6 +51,7 @@ bool is_sound(const RigMesh& mesh, std::size_t nodes)
            mesh.look.numbers.rows() <= mesh.points.rows() && mesh.look.material.size() <= static_cast<std::size_t>(mesh.triangles.rows()) &&
            std::ranges::all_of(
                mesh.joints, [&](const SkinJoint& joint) { return is_index(joint.node, nodes) && bounded(joint.inverse_bind.matrix()); }) &&
+           (mesh.dual_quaternion_share.empty() || mesh.dual_quaternion_share.size() == points) &&
            (mesh.joints.empty() || is_sound(mesh.skin, mesh.points.rows(), mesh.joints.size()));
 }
 
@@ -64,11 +65,34 @@ bool is_sound(const std::optional<KeyTrack>& track)
            std::ranges::all_of(track->values, [](const Eigen::Vector4d& value) { return bounded(value); });
 }
 
+bool is_sound(const std::optional<FbxTransform>& node)
+{
+    return !node || (std::ranges::all_of(node->lcl, bounded<Vec3>) && bounded(node->rotation_offset) && bounded(node->rotation_pivot) &&
+                     bounded(node->scaling_offset) && bounded(node->scaling_pivot) && bounded(node->pre_rotation_deg) &&
+                     bounded(node->post_rotation_deg));
+}
+
+bool is_sound(const std::optional<FbxCurve>& curve)
+{
+    return !curve ||
+           (!curve->empty() && std::ranges::is_sorted(*curve, {}, &FbxKey::time_s) && std::ranges::all_of(*curve, [](const FbxKey& key) {
+               return std::isfinite(key.time_s) && std::abs(key.value) <= farthest && std::isfinite(key.slope) &&
+                      std::isfinite(key.next_slope);
+           }));
+}
+
+bool is_sound(const FbxTracks& tracks)
+{
+    return std::ranges::all_of(
+        tracks, [](const auto& axes) { return std::ranges::all_of(axes, [](const auto& curve) { return is_sound(curve); }); });
+}
+
 bool is_sound(const RigAnimation& animation, std::size_t nodes)
 {
     return std::isfinite(animation.start_s) && std::isfinite(animation.end_s) && animation.start_s <= animation.end_s &&
            std::ranges::all_of(animation.nodes, [&](const NodeTracks& tracks) {
-               return is_index(tracks.node, nodes) && is_sound(tracks.translation) && is_sound(tracks.rotation) && is_sound(tracks.scale);
+               return is_index(tracks.node, nodes) && is_sound(tracks.translation) && is_sound(tracks.rotation) && is_sound(tracks.scale) &&
+                      is_sound(tracks.fbx);
            });
 }
 
@@ -124,7 +148,9 @@ Rig read_any_rig(const std::string& path)
     const RigFormat format = format_of(path);
     if (format == RigFormat::none)
         throw InputError(path, 0, "", "", "no rig: expected glTF 2.0 (.glb, .gltf), FBX (.fbx) or COLLADA (.dae, .zae)");
-    return checked(read_guarded(path, format == RigFormat::gltf ? read_gltf_rig : read_assimp_rig));
+    return checked(read_guarded(path, format == RigFormat::gltf  ? read_gltf_rig
+                                      : format == RigFormat::fbx ? read_fbx_rig
+                                                                 : read_collada_rig));
 }
 
 Rig read_rig(const std::string& path)
@@ -161,7 +187,7 @@ Rig checked(Rig rig)
     require(rig.unit_m > 0.0 && std::isfinite(rig.unit_m));
     for (std::size_t n = 0; n < rig.nodes.size(); ++n) {
         RigNode& node = rig.nodes[n];
-        require(node.parent >= -1 && node.parent < static_cast<int>(n) && is_sound(node.rest));
+        require(node.parent >= -1 && node.parent < static_cast<int>(n) && is_sound(node.rest) && is_sound(node.fbx));
         node.rest.rotation.normalize();
     }
     for (const RigMesh& mesh : rig.meshes) {

@@ -1,4 +1,5 @@
-// Rigs from files: glTF 2.0 (.glb, .gltf) by tinygltf, FBX and COLLADA (.dae, .zae) by assimp, after a child process has tried.
+// Rigs from files: glTF 2.0 (.glb, .gltf) by tinygltf, FBX by its own reader, COLLADA (.dae, .zae) by assimp, after a child process has
+// tried.
 //   const Rig rig = read_rig("hero.glb");
 #pragma once
 

@@ -1,7 +1,8 @@
-// Any bytes as FBX or COLLADA, which assimp reads in a child process. The result is a rig whose skeleton, surface and poses are finite and
-// whose weights sum to one, or an InputError. A breakdown of assimp itself is counted, since the child contains it for users too; one of
-// the project's conversion is a finding.
+// Any bytes as FBX, or as COLLADA, which assimp reads in a child process. The result is a rig whose skeleton, surface and poses are finite
+// and whose weights sum to one, or an InputError. A breakdown of assimp itself is counted, since the child contains it for users too; one
+// of the project's conversion is a finding.
 #include "pbs/geometry/content_format.hpp"
+#include "pbs/rig/collada_document.hpp"
 #include "pbs/rig/rig_formats.hpp"
 #include "pbs/rig/rig_reader.hpp"
 #include "tests/fuzz/library_child.hpp"
@@ -19,10 +20,11 @@ void fuzz::try_input(const std::string& bytes)
 {
     const std::string path = written("fuzz.bin", bytes), extension = pbs::content_extension(path);
     if (extension != ".fbx" && extension != ".dae" && extension != ".zae") return;
-    if (extension != ".fbx") pbs::check_collada_weights(path);
+    if (extension == ".fbx") return expect_sound(pbs::checked(pbs::read_fbx_rig(path)));
+    const pbs::ColladaDocument document = pbs::read_collada_document(path);
     const LibraryChild child([&](LibraryChild::Parent& parent) {
         Assimp::Importer importer;
-        const aiScene& scene = pbs::read_assimp_scene(importer, path);
+        const aiScene& scene = pbs::read_assimp_scene(importer, path, document.text);
         parent.library_is_done();
         expect_sound(pbs::checked(pbs::rig_of_scene(scene, path)));
     });

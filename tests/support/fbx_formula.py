@@ -1,11 +1,8 @@
 """The skinning formula of FBX, from the bytes of a binary file, in double precision: the sum over the clusters of weight x transform of the
 link x `Transform` of the cluster x point, divided by the sum of the weights. It covers what exporters such as Blender's write: Euler angles
-in the order xyz without pivots, and linear curves. Written from the format, without pbskin and assimp.
+in the order xyz without pivots, and linear curves. Written from the format, without pbskin.
 
     fbx_formula.Model("hero.fbx").points(None, 0.5)     # all meshes, #P x 3, in the file's unit
-
-Between keys the format interpolates each Euler angle, and assimp turns about one axis at a constant rate. Model.slerp_bound bounds the
-difference.
 """
 import struct
 import zlib
@@ -126,40 +123,6 @@ class Model:
             if label == "" and above in self.objects and self.objects[above].name == "Model":
                 return self.world(above, time_s) @ matrix
         return matrix
-
-    def keys_around(self, model, name, time_s):
-        """The last key before and the first one after a time, among all curves of a property; None at a key or outside."""
-        times = [self.objects[curve].one("KeyTime").values[0] / TICKS_PER_S for node, label in self.below.get(model, [])
-                 if label == name and self.objects[node].name == "AnimationCurveNode" for curve, _ in self.below.get(node, [])]
-        times = numpy.unique(numpy.concatenate(times)) if times else numpy.array([])
-        if len(times) == 0 or abs(times - time_s).min() < 1e-9 or not times[0] < time_s < times[-1]:
-            return None
-        after = numpy.searchsorted(times, time_s)
-        return times[after - 1], times[after]
-
-    def turn_bound(self, model, time_s):
-        """The largest angle [rad] at a time between a rotation whose Euler angles are interpolated and slerp, for a model and the ones
-        above it. Both agree at the keys. With the changes a, b and c of the angles over the time h between two keys, the angular
-        acceleration is at most (|ab| + |bc| + |ca|) / h^2, so that the difference f from slerp, a geodesic of speed v in a space of
-        curvature 1/4, satisfies f'' + v^2 / 4 f >= -acceleration: f <= 4 acceleration / v^2 (sec(v h / 4) - 1), which is
-        acceleration h^2 / 8 for small turns."""
-        bound = sum(self.turn_bound(above, time_s) for above, label in self.above.get(model, [])
-                    if label == "" and above in self.objects and self.objects[above].name == "Model")
-        around = self.keys_around(model, "Lcl Rotation", time_s)
-        if around is None:
-            return bound
-        at_rest = self.objects[model].properties().get("Lcl Rotation", [0, 0, 0])
-        a, b, c = numpy.radians(abs(numpy.subtract(*(self.sampled(model, "Lcl Rotation", at_rest, key) for key in around))))
-        turn = a + b + c  # at least that of slerp
-        return bound + (a * b + b * c + c * a) * 4 / turn**2 * (1 / numpy.cos(turn / 4) - 1) if turn > 1e-9 else bound
-
-    def slerp_bound(self, time_s):
-        """The largest distance [the file's unit] between points of the format and those of a reader that turns by slerp between keys: the
-        angles of a link and of all models above it, times the largest distance between a joint and a point."""
-        links = [below for record in self.objects for below, _ in self.below.get(record, [])
-                 if self.objects[record].name == "Deformer" and below in self.objects and self.objects[below].name == "Model"]
-        places = numpy.concatenate([self.points(None, time_s), *(self.world(link, time_s)[None, :3, 3] for link in links)])
-        return max(self.turn_bound(link, time_s) for link in links) * numpy.linalg.norm(numpy.ptp(places, axis=0))
 
     def geometry_points(self, geometry, time_s):
         points = self.objects[geometry].one("Vertices").values[0].reshape(-1, 3)
