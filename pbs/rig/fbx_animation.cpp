@@ -20,6 +20,7 @@ constexpr std::uint32_t auto_bit = 0x100, tcb_bit = 0x200;                      
 constexpr std::uint32_t clamp_bit = 0x1000, time_independent_bit = 0x2000, clamp_progressive_bit = 0x4000;
 constexpr std::uint32_t weighted_bit = 0x1000000, next_weighted_bit = 0x2000000;
 constexpr double same_value = 1e-5;  // of keys, for clamp_bit
+constexpr double same_time_s = 1e-6;
 constexpr double per_weight = 1e-4;  // weights are stored as whole numbers of this
 
 struct KeyAttributes {
@@ -148,6 +149,19 @@ FbxCurve curve_of(const FbxObject& curve, double rate, double start, const FbxOb
     return keys;
 }
 
+// Does a curve repeat, mirror or continue its keys before the first or behind the last one (record: Pre-Extrapolation or
+// Post-Extrapolation)?
+bool goes_on(const FbxObject& curve, std::string_view record)
+{
+    const FbxRecord* extrapolation = curve.record->record(record);
+    const FbxRecord* type = extrapolation ? extrapolation->record("Type") : nullptr;
+    if (!type) return false;
+    const std::string* word = type->text(0);
+    const std::int64_t* letter = type->whole(0);
+    const char kind = word && !word->empty() ? word->front() : letter ? static_cast<char>(*letter) : 'C';
+    return std::string_view("AKMR").find(kind) != std::string_view::npos;
+}
+
 constexpr std::array<const char*, 3> moved_properties = {"Lcl Translation", "Lcl Rotation", "Lcl Scaling"};
 
 // One animation while its layers are read.
@@ -224,6 +238,9 @@ private:
             if (curve.empty()) continue;
             first_s_ = std::min(first_s_, curve.front().time_s);
             last_s_ = std::max(last_s_, curve.back().time_s);
+            if (has_range_ && ((curve.front().time_s > same_time_s && goes_on(*connection.object, "Pre-Extrapolation")) ||
+                               (curve.back().time_s < longest_s_ - same_time_s && goes_on(*connection.object, "Post-Extrapolation"))))
+                obstacle_ = "one of its curves goes on beyond its keys";
             return curve;
         }
         const double value = objects_.number(curve_node, channel, at_rest);

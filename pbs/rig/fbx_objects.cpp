@@ -60,8 +60,10 @@ void FbxObjects::add_objects()
         const auto known = defaults.find(record.name);
         const auto [object, added] = by_id_.emplace(*id, FbxObject{*id, record.name, name ? name_in(*name) : "", kind ? *kind : "", &record,
                                                                    known == defaults.end() ? nullptr : known->second});
-        if (!added) throw InputError(path_, 0, record.name, std::to_string(*id), "expected numbers of objects that are unique, and not 0");
-        in_order_.push_back(&object->second);
+        if (added)
+            in_order_.push_back(&object->second);
+        else if (record.name == "Model" || record.name == "Geometry" || record.name == "Deformer")
+            throw InputError(path_, 0, record.name, std::to_string(*id), "expected numbers of objects that are unique, and not 0");
     }
 }
 

@@ -27,7 +27,7 @@ struct FbxConnection {
 
 class FbxObjects {
 public:
-    // An InputError where the file has no objects or connections, or two objects have one number.
+    // An InputError where the file has no objects or connections, or a Model, a Geometry or a Deformer has the number of another object.
     FbxObjects(FbxRecord file, const std::string& path);
     FbxObjects(const FbxObjects&) = delete;
     FbxObjects& operator=(const FbxObjects&) = delete;

@@ -69,9 +69,6 @@ void add_nodes(const FbxObject& above, int parent, int depth, FbxReading& readin
         if (depth > most_nodes_deep || !reading.node_of.emplace(model, static_cast<int>(nodes.size())).second)
             reading.objects.refuse(*model, "parent", above.name, "expected one parent, and at most 4096 nodes above each other");
         nodes.push_back({model->name, parent, NodeTransform(), transform_of(*model, reading)});
-        const auto& scale_above = nodes[static_cast<std::size_t>(parent)].fbx;
-        if (scale_above && nodes.back().fbx->inheritance == FbxInheritance::Rrs && !(scale_above->lcl[2].array() != 0.0).all())
-            reading.objects.refuse(*model, "InheritType", "2", "expected a parent whose Lcl Scaling has no zero");
         add_nodes(*model, static_cast<int>(nodes.size()) - 1, depth + 1, reading);
     }
 }

@@ -55,8 +55,9 @@ FbxPlacement placed_below(const FbxPlacement& parent, const FbxTransform& node)
     placed.own_scale = scale;
     placed.world.translation() = parent.world * place;
     Eigen::Matrix3d axes = parent.world.linear() * rotation;  // RSrs
-    if (node.inheritance == FbxInheritance::Rrs)
-        axes = parent.world.linear() * parent.own_scale.cwiseInverse().asDiagonal() * rotation;
+    if (node.inheritance == FbxInheritance::Rrs)              // what the parent scales to nothing stays nothing
+        axes =
+            parent.world.linear() * parent.own_scale.unaryExpr([](double s) { return s != 0.0 ? 1.0 / s : 0.0; }).asDiagonal() * rotation;
     else if (node.inheritance == FbxInheritance::RrSs)
         axes = placed.rotation * parent.rotation.transpose() * parent.world.linear();
     placed.world.linear() = axes * scale.asDiagonal();

@@ -242,6 +242,19 @@ TEST(FbxRig, MovesPointsByTheGeometricTransformBeforeTheSkin)
     expect_points(rig_of(file), 1.0, bent(90.0));
 }
 
+// A sword on the hand, whose points are turned by the geometric transform and then by the node and its joint.
+TEST(FbxRig, MovesAMeshWithoutASkinByItsNode)
+{
+    ArmFile file;
+    file.bend({{0, 1}, {0, 90}});
+    const auto sword = file.node("sword", file.hand, "Mesh", {{"Lcl Translation", {0, 0, 1}}, {"GeometricTranslation", {0, 2, 0}}});
+    file.mesh("blade", sword, {0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, -3});
+    const Rig rig = rig_of(file);
+    const Positions points = skinned_points(rig.meshes.at(1), node_transforms(rig, &rig.animations.at(0), 1.0));
+    const Positions expected{{-3, 2, 1}, {-3, 3, 1}, {-4, 2, 1}};  // (0, 5, 1) and its neighbours turned about (0, 2, 0)
+    EXPECT_LE((points - expected).cwiseAbs().maxCoeff(), file_rounding);
+}
+
 // Points with one joint move as before; the shared one turns by half of the angle about the elbow and keeps its distance, 1.
 TEST(FbxRig, BlendsByDualQuaternionsWhereTheSkinAsksForThem)
 {
@@ -293,6 +306,17 @@ TEST(FbxRig, LeavesAnAnimationOutThatItCannotEvaluate)
     expect_points(rig_of(muted), 1.0, bent(90.0));
 }
 
+TEST(FbxRig, LeavesAnAnimationOutWhoseCurveGoesOnBeyondItsKeys)
+{
+    for (const auto& [kind, stop_s, is_left_out] : {std::tuple("R", 4.0, true), {"R", 1.0, false}, {"C", 4.0, false}}) {
+        ArmFile file;
+        file.curves(file.layer(file.animation("Bend", 0.0, stop_s)), file.elbow, "Lcl Rotation", {0, 0, 0}, {{2, {{0, 1}, {0, 90}}}});
+        file.objects.back().records.push_back(
+            test_support::fbx_record("Post-Extrapolation", {}, {test_support::fbx_record("Type", {std::string(kind)})}));
+        EXPECT_EQ(rig_of(file).animations.empty(), is_left_out) << kind << stop_s;
+    }
+}
+
 TEST(FbxRig, NamesWhatIsWrong)
 {
     expect_refused(ArmFile({{"RotationOrder", {6}}, {"RotationActive", {1}}}), "Model elbow, RotationOrder = 6", "export glTF 2.0");
@@ -308,6 +332,9 @@ TEST(FbxRig, NamesWhatIsWrong)
     ArmFile back;
     back.bend({{1, 0}, {0, 90}});
     expect_refused(back, "AnimationCurve ", "key 1 = 90: expected finite numbers, and times that do not go back");
+    ArmFile twice;
+    twice.objects[1].values[0] = twice.root;
+    expect_refused(twice, "Model = 1", "expected numbers of objects that are unique");
     ArmFile below_itself;
     below_itself.connect(below_itself.root, below_itself.hand);
     expect_refused(below_itself, "Model root, parent = hand", "expected one parent");

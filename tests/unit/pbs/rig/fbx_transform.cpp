@@ -162,6 +162,8 @@ TEST(FbxTransform, ASegmentWithScaleCompensationKeepsItsSize)
     const Eigen::Affine3d placed = placed_below(placed_below({}, elbow), hand).world;
     EXPECT_LE((placed * Vec3::Zero() - Vec3(-56, 50, 0)).norm(), formula_rounding) << "35 times 1.6";
     EXPECT_LE((placed * Vec3(0, 10, 0) - Vec3(-66, 50, 0)).norm(), formula_rounding);
+    elbow.lcl[2] = {1, 0, 1};
+    EXPECT_LE((placed_below(placed_below({}, elbow), hand).world * Vec3(0, 10, 0) - Vec3(0, 50, 0)).norm(), formula_rounding) << "nothing";
 }
 
 FbxCurve curve(FbxInterpolation interpolation, double slope = 0.0, double next_slope = 0.0)

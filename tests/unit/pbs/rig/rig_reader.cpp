@@ -103,6 +103,8 @@ TEST(CheckedRig, HasNoNumberThatIsNotFiniteOrHuge)
             [&](Rig& rig) { rig.meshes[0].joints[1].inverse_bind.translation().x() = bad; },
             [&](Rig& rig) { rig.meshes[0].skin.weight[0] = bad; },
             [&](Rig& rig) { rig.animations[0].nodes[0].rotation->values[0].x() = bad; },
+            [&](Rig& rig) { rig.nodes[0].fbx = FbxTransform{.rotation_pivot = Vec3(0, bad, 0)}; },
+            [&](Rig& rig) { rig.animations[0].nodes[0].fbx[1][2] = FbxCurve{{.value = bad}}; },
         };
         expect_each_refused(damages);
     }
