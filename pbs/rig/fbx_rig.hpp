@@ -23,8 +23,8 @@ struct FbxReading {
 void add_fbx_meshes(const FbxObject& model, FbxReading& reading);
 
 // Adds the AnimationStacks that move a node. Times count from the stack's LocalStart, or from its first key where it states no times. A
-// stack that needs what is not evaluated (two layers that move one property, curves of pivots, curves that repeat beyond their keys) is left
-// out, with a remark that names the cause.
+// stack that needs what is not evaluated (two layers that move one property, curves of pivots, curves that repeat beyond their keys) is
+// left out, with a remark that names the cause.
 void add_fbx_animations(FbxReading& reading);
 
 }  // namespace pbs
