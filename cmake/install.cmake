@@ -27,7 +27,7 @@ function(pbs_install_headers component)
             "flesh/(local_shape|packed_|projective_|vbd|xpbd_)"
             "packed/(groups|lanes|parallel|vertex_order)"
             "solver/(algorithm_1|project_plain)"
-            "rig/(assimp_|gltf_|tiny_gltf)"
+            "rig/(collada_|fbx_(document|objects|polygons|rig)|gltf_|tiny_gltf)"
             "character/json_file")
         list(JOIN no_call_for_users "|" no_call_for_users)
         list(FILTER headers EXCLUDE REGEX "/(${no_call_for_users})[a-z_]*\\.hpp$")
