@@ -4,6 +4,7 @@
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
+#include "experiments/run/parts_of_one_bone.hpp"
 #include "experiments/run/reference_error_bar.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "pbs/character/bodies.hpp"
@@ -100,6 +101,7 @@ OutputSpec measured_output(const Scene& scene)
 
 constexpr double many_inverted_pct = 1.0;    // of the tets, in the first frame
 constexpr double far_from_artist_pct = 2.0;  // of the model's size
+constexpr double much_lag_deg = 5.0;         // of a part that one bone alone moves
 
 // Warnings and notes of a run reach the terminal at once and run.json at its end, each once. Records name files without folders of the
 // machine: "folder/hero.glb: two joints ..." -> "hero.glb: two joints ...".
@@ -248,6 +250,7 @@ private:
                 if ((fem && fem->has_contact()) || !measurer_.overlaps(*context.reference)) return;
                 if (frames_with_overlap_++ == 0) first_frame_with_overlap_ = frame;
             });
+            cost_.time("metrics", [&] { find_lag(frame, *context.reference, motion_.steps[step]); });
             if (error_bar_) cost_.time("error_bar", [&] { context.reference_error = error_bar_->bound(*context.reference, measurer_); });
         }
         for (Runner& runner : runners_) record_deformer(runner, frame, time_s, context);
@@ -279,6 +282,28 @@ private:
             add_warnings({text + ": its pose is far from the bind pose, or the weights do not fit the joints"}, warnings_);
         else
             add_remarks({text}, notes_, "note");
+    }
+
+    void find_lag(int frame, const pbs::Positions& reference, const pbs::Pose& pose)
+    {
+        if (!parts_) parts_.emplace(character_);
+        PartLag lag = parts_->largest_lag(reference, pose);
+        lag.frame = frame;
+        if (lag.bone >= 0 && (lag_.bone < 0 || lag.turn_deg > lag_.turn_deg)) lag_ = lag;
+    }
+
+    // A head that is longer than its bone is not held by springs around the bone.
+    nlohmann::json record_lag()
+    {
+        if (lag_.bone < 0) return nullptr;
+        const std::string& bone = character_.skeleton.bones[static_cast<std::size_t>(lag_.bone)].name;
+        if (lag_.turn_deg > much_lag_deg)
+            add_warnings(
+                {fmt::format("{}: in the reference, the flesh that {} alone moves is turned by up to {:.0f} degrees against it, in "
+                             "frame {}; attachment = \"held\" of [[fem]] ties such flesh to its bone",
+                             scene_.file, bone, lag_.turn_deg, lag_.frame)},
+                warnings_);
+        return {{"largest_deg", lag_.turn_deg}, {"bone", bone}, {"frame", lag_.frame}};
     }
 
     void warn_of_overlap()
@@ -403,6 +428,7 @@ private:
         if (!scene_.reference.empty()) {
             outcome["frames_with_overlap"] = frames_with_overlap_;
             outcome["largest_masked_share_pct"] = largest_masked_share_pct_;
+            outcome["reference_lag"] = record_lag();
         }
         if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
         warn_of_overlap();
@@ -441,7 +467,9 @@ private:
     std::vector<Runner> runners_;
     FrameMeasurer measurer_;
     std::optional<ReferenceErrorBar> error_bar_;
-    RunFolder folder_;  // made last, for it removes the records of an earlier run
+    std::optional<PartsOfOneBone> parts_;  // from the first frame of a reference
+    PartLag lag_;                          // the largest one
+    RunFolder folder_;                     // made last, for it removes the records of an earlier run
     int frames_ = 0, frames_with_overlap_ = 0, first_frame_with_overlap_ = 0;
     double largest_masked_share_pct_ = 0.0;
     std::string breakdown_, bad_frame_;

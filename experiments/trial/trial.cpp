@@ -209,6 +209,7 @@ constexpr const char* reference_tables = R"([[fem]]
 name = "nh_p1"                   # the reference: a neo-Hookean body on the same tets
 model = "neo_hookean"
 element_order = 1
+attachment = "held"              # what one bone alone moves, such as a head, follows it
 [reference]
 name = "nh_p1"
 )";
@@ -492,6 +493,7 @@ nlohmann::json trial_facts(const std::string& folder)
             {"widest_frame", fs::exists(distances) ? widest_frame(analysis::read_csv(distances)) : nullptr},
             {"frame_ms", frame_ms(metrics)},
             {"error_bar", error_bar_facts(metrics, run)},
+            {"reference_lag", outcome.value("reference_lag", nlohmann::json())},
             {"control", fs::exists(folder + "/skin/artist.pvd") ? nlohmann::json("skin/artist_*.vtp") : nullptr}};
 }
 

@@ -1,0 +1,40 @@
+// The parts of the flesh that one bone alone moves, such as a head, a hand or a hoof, and how far a frame turns them against their bones.
+//   const PartsOfOneBone parts(character);
+//   const PartLag lag = parts.largest_lag(positions, pose);
+//   lag.turn_deg > 5.0: flesh that the artist tied to lag.bone does not follow it
+#pragma once
+
+#include "pbs/character/character.hpp"
+#include "pbs/skinning/pose.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace experiments {
+
+struct PartLag {
+    double turn_deg = 0.0;
+    int bone = -1;  // -1: there is no such part
+    int frame = -1;
+};
+
+class PartsOfOneBone {
+public:
+    // A part consists of the tets of pbs::bones_that_move_alone.
+    explicit PartsOfOneBone(const pbs::Character& character);
+
+    // The largest angle between a bone's rotation and the one that fits its part best: the least squares over the part's vertices, each
+    // weighted by its share of the part's volume (P. Schoenemann, Psychometrika 31, 1966). positions [m], #V x 3, finite. Without a frame.
+    PartLag largest_lag(const pbs::Positions& positions, const pbs::Pose& pose) const;
+
+private:
+    struct Part {
+        int bone;
+        std::vector<int> vertices;
+        Eigen::Matrix3Xd arms;  // share (X - mean X) of each vertex at rest [m]
+    };
+    std::vector<Part> parts_;
+};
+
+}  // namespace experiments

@@ -1,0 +1,64 @@
+// Reference: rigid motions, of which the angle is known.
+
+#include "experiments/run/parts_of_one_bone.hpp"
+#include "pbs/character/bodies.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace {
+
+using namespace experiments;
+
+Eigen::Isometry3d turned(double angle_deg)
+{
+    Eigen::Isometry3d turn(Eigen::AngleAxisd(angle_deg * std::numbers::pi / 180.0, pbs::Vec3(1.0, 2.0, -2.0).normalized()));
+    turn.translation() = pbs::Vec3(0.3, -2.0, 0.1);
+    return turn;
+}
+
+class LagOfTheLimb : public testing::Test {
+protected:
+    const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 400});
+    const PartsOfOneBone parts{limb};
+    const pbs::Pose rest = pbs::Pose(limb.skeleton.bones.size(), Eigen::Isometry3d::Identity());
+    // The lag is the difference of two rotations, in radians within some epsilons, and 1 - cos doubles the digits that are lost near zero.
+    static constexpr double rounding_deg = 1e-6;
+};
+
+TEST_F(LagOfTheLimb, IsNoneWhereTheFleshMovesWithItsBones)
+{
+    const Eigen::Isometry3d turn = turned(70.0);
+    const pbs::Positions moved = (limb.mesh.rest * turn.linear().transpose()).rowwise() + turn.translation().transpose();
+    const PartLag lag = parts.largest_lag(moved, pbs::Pose(limb.skeleton.bones.size(), turn));
+    EXPECT_GE(lag.bone, 0);
+    EXPECT_NEAR(lag.turn_deg, 0.0, rounding_deg);
+}
+
+TEST_F(LagOfTheLimb, IsTheTurnOfTheBoneThatTheFleshDoesNotFollow)
+{
+    for (const std::size_t bone : {std::size_t{0}, limb.skeleton.bones.size() - 1}) {
+        pbs::Pose pose = rest;
+        pose[bone] = turned(36.0);
+        const PartLag lag = parts.largest_lag(limb.mesh.rest, pose);
+        EXPECT_EQ(lag.bone, static_cast<int>(bone));
+        EXPECT_NEAR(lag.turn_deg, 36.0, rounding_deg);
+    }
+}
+
+// Every vertex is blended between both bones.
+TEST(LagOfAPart, IsOfNoBoneWhereNoneMovesATetAlone)
+{
+    pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 400});
+    pbs::Weights& weights = limb.artist.emplace().weights;
+    weights.first = {0};
+    for (Eigen::Index v = 0; v < limb.mesh.rest.rows(); ++v) {
+        for (const int bone : {0, 1}) weights.add(bone, 0.5);
+        weights.end_vertex();
+    }
+    const pbs::Pose pose(limb.skeleton.bones.size(), turned(36.0));
+    EXPECT_EQ(PartsOfOneBone(limb).largest_lag(limb.mesh.rest, pose).bone, -1);
+}
+
+}  // namespace
