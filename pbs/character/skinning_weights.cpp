@@ -78,7 +78,8 @@ Rows read_rows(const std::string& csv, const std::string& path, const Skeleton& 
     int number = 0;
     for (std::string line; std::getline(text, line);) {
         ++number;
-        if (!line.empty() && line.back() == '\r') line.pop_back();
+        line.resize(line.find_last_not_of(" \t\r") + 1);
+        if (number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // a byte-order mark, as spreadsheets write it
         if (number == 1 && line != "vertex,joint,weight") throw InputError(path, 1, "", "", "expected the header vertex,joint,weight");
         if (number == 1 || line.empty()) continue;
         const Row row = read_row(split(line), skeleton, vertices, path, number);

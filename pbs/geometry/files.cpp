@@ -139,7 +139,7 @@ void check_toml_keys(const std::string& text, const std::string& file)
     // before them.
     int dots = 0;
     std::vector<int> around = {0};
-    for (std::size_t place = 0; place < text.size();) {
+    for (std::size_t place = text.starts_with("\xef\xbb\xbf") ? 3 : 0; place < text.size();) {  // behind a byte-order mark
         const char c = text[place];
         if (c == '"' || c == '\'') {
             if (place > 0 && is_within_a_word(text[place - 1]))  // the parser goes on with its word, whatever letters the text has

@@ -18,6 +18,7 @@ struct Reader {
     std::function<std::string(const std::string& path)> read;  // what was read, in a few numbers
     std::string beside = {}, text_beside = {};                 // a file that belongs to it
     bool has_an_end = true;                                    // a part of the file is none
+    int refused_dialects = 1;                                  // at most, such as that with a byte-order mark
 };
 
 inline void PrintTo(const Reader& reader, std::ostream* out)
