@@ -19,7 +19,8 @@ SEEDS = range(1000) if os.environ.get("PBS_LONG") else range(60)
 LEAST_SHARE_READ = 0.25  # of the changes; most others break a rule of the format
 MOST_PROCESSOR_S = 60.0
 ROUNDED_PCT = 1e-4  # single precision in a file with binary or short numbers
-WORDS = ["nan", "inf", "-inf", "1e999", "1.#QNAN", "1,5", "2.9D-01", "--1", "1.5.2", "0x10", "9" * 30, "", "abc", "-1", "0", "1e30", "1e-30"]
+WORDS = ["nan", "inf", "-inf", "1e999", "1.#QNAN", "1,5", "2.9D-01", "--1", "1.5.2", "0x10", "9" * 30, "", "abc", "-1", "0", "1e30",
+         "1e-30"]
 NUMBER = re.compile(rb"(?<![\w.#])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.])")
 
 
@@ -53,7 +54,8 @@ def change_lines(text, choices):
     if kind == "swap":
         lines[at], lines[other] = lines[other], lines[at]
     else:
-        lines[at:at + 1] = {"drop": [], "double": [lines[at]] * 2, "indent": [b" \t" + lines[at]], "comment": [b"# a remark\n", lines[at]]}[kind]
+        lines[at:at + 1] = {"drop": [], "double": [lines[at]] * 2, "indent": [b" \t" + lines[at]],
+                            "comment": [b"# a remark\n", lines[at]]}[kind]
     return b"".join(lines)
 
 
@@ -108,8 +110,8 @@ class Kind:
 RUN = ["run", "{scene}", "-o", "out", "--set"]
 MEASURE, MESH = ["measure", "arm.vtu", "{file}", "--csv", "out.csv"], ["mesh", "{file}", "-o", "out.vtu", "--vertices", "200"]
 TETS = [Kind(name, name.split(" ")[0], MEASURE, numpy.array(sound_files.POINTS)) for name in mesh_texts.FORMATS]
-SURFACES = [Kind("twenty triangles" + name if name == ".glb" else name, name.split(" ")[0], MESH, numpy.array(sound_files.CORNERS, dtype=float))
-            for name in (*mesh_texts.SURFACES, ".glb")]
+SURFACES = [Kind(name, "." + name.split(".")[1].split(" ")[0], MESH, numpy.array(sound_files.CORNERS, dtype=float))
+            for name in (*mesh_texts.SURFACES, "twenty triangles.glb")]
 OTHERS = [Kind(name, extension, [*RUN, f"{key}={{file}}"]) for name, extension, key in (
     ("clip.bvh", ".bvh", "motion.clip"), ("clip.gltf", ".gltf", "motion.clip"), ("clip.glb", ".glb", "motion.clip"),
     ("skeleton", ".toml", "character.skeleton"), ("weights", ".csv", "skinning.weights"))]

@@ -253,6 +253,24 @@ class OwnCharacter(TrialTest):
         self.assertEqual(facts["model"]["animation"], "Bend")
         self.assertEqual([round(one["largest_rotation_deg"]) for one in facts["animations"]], [0, 60])
 
+    def test_an_animation_of_one_key_is_a_pose(self):
+        model = self.rig(animations=(), extra=[("Pose", [(1, "rotation", [0.0], [rig_files.turn((0, 0, 1), 60)], "LINEAR")])])
+        facts, printed = self.tried(model)
+        self.remarked(facts, printed, "the motion is one pose, in which the bones are turned by up to 60 degrees from the rest pose")
+        self.assertNotIn("no joint moves", printed)
+        [found] = self.points("skin", "artist_*.vtp")
+        self.assertLess(abs(found - skin_formula.Model(model).points("Pose", 0.0)).max(), 3 * ROUNDED_M)
+
+    def test_a_body_whose_faces_are_doubled_is_as_large_as_the_plain_one(self):
+        """The second sides and 300 points that no triangle uses, far away."""
+        points, triangles = rig_files.tube()
+        doubled = numpy.vstack([points, numpy.full((300, 3), 30.0)]), numpy.vstack([triangles, triangles[:, ::-1]])
+        facts, printed = self.tried(self.rig(surface=doubled))
+        self.remarked(facts, printed, f"{len(triangles)} of {2 * len(triangles):,} triangles of mesh tube are the second side of others")
+        self.remarked(facts, printed, f"300 of {len(points) + 300} points of mesh tube are left out")
+        plain, _ = self.tried(self.rig(), into="plain")
+        self.assertEqual(facts["volume"], plain["volume"])
+
     def test_an_empty_first_take_and_equal_names(self):
         """A take without channels is left out, and the first of the others is still."""
         model = self.rig(animations=(), extra=[("Take 001", channels) for channels in ([], turned(0), turned(60))])
