@@ -55,39 +55,35 @@ void add_measure_verb(CommandLine& line)
 {
     auto arguments = std::make_shared<MeasureArguments>();
     CLI::App* verb = line.add("measure", "applies the metrics to frames of any program; exit 1 if a bound fails",
-                              "pbskin measure rest.vtu 'out/frame_%04d.vtu' --max-volume-change 0.5, or pbskin measure hero.glb",
+                              "pbskin measure rest.vtu 'frame_%04d.vtu' --max-volume-change 0.5; pbskin measure hero.glb",
                               [&common = line.common, arguments] { return measure(*arguments, common.quiet); });
     verb->add_option(
             "rest", arguments->rest,
-            "rest mesh: tets (.msh .vtu .pvtu .vtk .mesh .tobj .ele) or a surface (.obj .ply .stl .off .vtp .glb .gltf .fbx .dae), whose "
-            "closed shells are measured; or, without frames, a rigged model (.glb .gltf .fbx .dae), which is measured along its "
-            "animation as the artist's own skinning moves it")
+            "rest mesh: tets (.msh .vtu .pvtu .vtk .mesh .tobj .ele) or a surface (.obj .ply .stl .off .vtp .glb .gltf .fbx .dae); "
+            "without frames: a rigged model, along its animation")
         ->required();
     verb->add_option(
         "frame", arguments->frames,
-        "deformed frames with the same vertices in the same order: files, a .pvd, 'frame_%04d.vtu', 'frame_*.vtu' or a folder with one "
-        "sequence, in which no number may be missing");
-    verb->add_option(
-            "--displacement", arguments->displacement,
-            "the vector of the points by which frames of finite element programs are deformed, such as u; their points are those at "
-            "rest. none: frames are at rest where their points are")
+        "deformed frames, the same vertices in the same order: files, a .pvd, 'frame_%04d.vtu', 'frame_*.vtu' or a folder with one "
+        "sequence");
+    verb->add_option("--displacement", arguments->displacement,
+                     "vector of the points, such as u, that deforms the frames of finite element programs; none: frames are at rest")
         ->type_name("NAME");
     verb->add_flag("--any-step", arguments->any_step, "accepts a sequence in which numbers are missing, or whose steps differ");
-    verb->add_option("--animation", arguments->animation,
-                     "of a rigged model, by name; by default its first one that turns a joint by more than 5 degrees");
-    verb->add_option("--frames", arguments->most_frames, "largest number of frames of an animation, distributed over it")
+    verb->add_option("--animation", arguments->animation, "of a rigged model; by default the one that `try` takes")->type_name("NAME");
+    verb->add_option("--frames", arguments->most_frames, "largest number of frames of an animation; by default 60")
         ->check(CLI::Range(2, 100'000))
-        ->capture_default_str();
-    verb->add_option(
-            "--reference", arguments->reference,
-            "print the frames' errors against this deformed frame, or against one for each frame ('ref_%04d.vtu'); one that `pbskin "
-            "references export` wrote brings the vertices at the joints and its own error U")
+        ->type_name("N");
+    verb->add_option("--reference", arguments->reference,
+                     "print errors against this deformed frame, or against one for each frame ('ref_%04d.vtu'); `pbskin references` "
+                     "writes some")
         ->type_name("FILE");
-    verb->add_option("--csv", arguments->csv, "write the values as CSV, a row per frame");
-    verb->add_option("--shells", arguments->shells, "write the volume of each closed shell of a surface as CSV, a row per frame and shell");
-    for (analysis::FrameBound& bound : arguments->bounds) verb->add_option(bound.option, bound.value, bound.meaning);
-    verb->add_option("--junit", arguments->reports.junit, "write a JUnit report with one test case per bound");
-    verb->add_flag("--github", arguments->reports.github, "annotations for GitHub on stdout (the default where GITHUB_ACTIONS is true)");
+    verb->add_option("--csv", arguments->csv, "write the values as CSV, a row per frame")->type_name("FILE");
+    verb->add_option("--shells", arguments->shells, "the same for each closed shell of a surface")->type_name("FILE");
+    for (analysis::FrameBound& bound : arguments->bounds)
+        verb->add_option(bound.option, bound.value, bound.meaning)->type_name(bound.unit.empty() ? "N" : "PCT");
+    verb->add_option("--junit", arguments->reports.junit, "write a JUnit report with one test case per bound")->type_name("FILE");
+    verb->add_flag("--github", arguments->reports.github, "GitHub annotations on stdout (default where GITHUB_ACTIONS is true)");
 }
 
 }  // namespace experiments

@@ -84,12 +84,12 @@ TEST(CaseKey, MatchesWhatAsksForNoMoreAndNamesWhatIsSet)
     EXPECT_EQ(text_of({}), "");
 }
 
-const std::string head =
+const std::string record_head =
     "scene,deformer,variant,order,precision,iterations,threads,frame,time_s,volume_change_pct,volume_abs_change_pct,inverted_tets";
 
 TEST(CaseRecords, RowsAreGroupedByCase)
 {
-    const auto table = parse_csv(head +
+    const auto table = parse_csv(record_head +
                                      "\nlimb,lbs,,,,,1,0,0,0,0,0\nlimb,pbs,,ordered,f32,24,1,0,0,0,0,0\nlimb,lbs,,,,,1,1,0.01,-3,4,2\n"
                                      "limb,pbs,,ordered,f32,24,1,1,0.01,-0.1,1,0\nlimb,pbs,,plain,f64,24,1,0,0,0,0,0\n",
                                  "metrics.csv");
@@ -108,7 +108,7 @@ TEST(CaseRecords, RowsAreGroupedByCase)
 
 TEST(CaseRecords, AnglesMakeASweepAndThoseOfSomeFramesOnlyOrMissingColumnsAreRefused)
 {
-    const std::string angles = head + ",angle_deg\nlimb,lbs,,,,0,1,0,0,0,0,0,0\nlimb,lbs,,,,0,1,1,0.01,-3,4,2,";
+    const std::string angles = record_head + ",angle_deg\nlimb,lbs,,,,0,1,0,0,0,0,0,0\nlimb,lbs,,,,0,1,1,0.01,-3,4,2,";
     const auto records = case_records(parse_csv(angles + "10\nwalk,lbs,,,,0,1,0,0,0,0,0,\n", "metrics.csv"), "");
     EXPECT_EQ(records[0].angle_deg, (std::vector<double>{0.0, 10.0}));
     EXPECT_FALSE(records[1].is_sweep());
@@ -118,7 +118,7 @@ TEST(CaseRecords, AnglesMakeASweepAndThoseOfSomeFramesOnlyOrMissingColumnsAreRef
 
 TEST(CaseRecords, AReferencesFramesThatAreNotReachedAreLeftOutAndCounted)
 {
-    const auto table = parse_csv(head +
+    const auto table = parse_csv(record_head +
                                      ",outcome\nlimb,snh,,,,,1,0,0,0,0,0,finished\nlimb,snh,,,,,1,1,0.01,-9,9,9,not_converged\n"
                                      "limb,pbs,,plain,f32,24,1,1,0.01,-1,1,0,not_converged\n",
                                  "metrics.csv");
