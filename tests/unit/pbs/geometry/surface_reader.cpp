@@ -89,7 +89,8 @@ TEST_F(Surface, QuadsAreTriangulatedAndPointsJoinedInEveryFormat)
 
 TEST_F(Surface, AFrameKeepsThePointsOfTheFileAndAVtpIsReadToTheBit)
 {
-    const pbs::SurfaceMesh cube = pbs::read_surface(folder.file("cube.obj", points("v ", 1.0 / 3.0) + faces("f", 1)));
+    pbs::SurfaceMesh cube = pbs::read_surface(folder.file("cube.obj", points("v ", 1.0) + faces("f", 1)));
+    cube.points /= 3.0;
     pbs::write_vtp(folder / "cube.vtp", cube.points, cube.triangles);
     const pbs::SurfaceMesh vtp = pbs::read_surface_frame(folder / "cube.vtp");
     EXPECT_EQ(vtp.points, cube.points);
