@@ -73,21 +73,28 @@ namespace {
 // that the tet has applied, a_{n+1} = -kappa (y_n + a_n) and x_{n+1} = y_n + a_{n+1} along an eigenvector of W times the curvature, of
 // eigenvalue kappa. These shrink for kappa < (2 + 2 b) / (3 + 4 b), which is 4/7 for the momentum b = 1. At rest the multipliers are -mu V
 // and mu V, and the curvature is at most 2 mu V |dF|^2, so that kappa <= 2 rho with rho = mu V times the largest eigenvalue of
-// sum_i w_i g_i g_i^T. One tet alone has rho >= 4/3 at w_i = 1 / D_i. Tets whose vertices share their stiffness with many others have less
-// (at most 1.18 in the bodies of this project), and their visits damp each other. So a tet beyond 5/4 is taken for alone, and its vertices
-// get the masses of a stiffness that is larger by the returned factor, 1 elsewhere, #V: kappa is then 0.51 at the default time step of 0.8.
-// stiffness: D_i, #V.
+// sum_i w_i g_i g_i^T. The visits of tets that share their vertices with many others damp each other. A tet that has more than 9/16 of the
+// stiffness of its vertices on average is taken for alone: one tet has all of it, and no tet of this project's bodies more than 0.35.
+// Its vertices get the masses of a stiffness that is larger by the returned factor, 1 elsewhere, #V, so that kappa is at most 0.51 at the
+// default time step of 0.8. stiffness: D_i, #V.
 Eigen::VectorXd curvature_in_excess(const std::vector<NeoHookeanTet>& tets, const FleshMaterial& material, const Eigen::VectorXd& stiffness)
 {
-    constexpr double alone = 1.25, stable = 0.4;  // rho at a time step of 1
-    Eigen::VectorXd excess = Eigen::VectorXd::Ones(stiffness.size());
+    constexpr double alone = 4.0 * 9.0 / 16.0, stable = 0.4;  // rho at a time step of 1
+    Eigen::VectorXd excess = Eigen::VectorXd::Ones(stiffness.size()), of_flesh = Eigen::VectorXd::Zero(stiffness.size());
+    const auto of_tet = [&](const NeoHookeanTet& tet) -> Eigen::Vector4d {
+        return material.mu * tet.volume * vertex_gradients(tet, Eigen::Matrix3d::Identity()).colwise().squaredNorm().transpose();
+    };
+    for (const NeoHookeanTet& tet : tets)
+        for (int i = 0; i < 4; ++i) of_flesh(tet.vertex[i]) += of_tet(tet)(i);
     for (const NeoHookeanTet& tet : tets) {
+        double share = 0.0;
+        for (int i = 0; i < 4; ++i) share += of_tet(tet)(i) / of_flesh(tet.vertex[i]);
+        if (share <= alone) continue;
         const Eigen::Matrix<double, 3, 4> g = vertex_gradients(tet, Eigen::Matrix3d::Identity());
         Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
         for (int i = 0; i < 4; ++i)
             if (stiffness(tet.vertex[i]) > 0.0) S += g.col(i) * g.col(i).transpose() / stiffness(tet.vertex[i]);
         const double rho = material.mu * tet.volume * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(S).eigenvalues()(2);
-        if (rho <= alone) continue;
         for (const int vertex : tet.vertex) excess(vertex) = std::max(excess(vertex), rho / stable);
     }
     return excess;

@@ -100,7 +100,7 @@ public:
         while (file_.peek() != std::istringstream::traits_type::eof()) {
             read_line(field);
             if (!numbers_.empty())
-                fail(field, std::to_string(count), "expected the number of those that are listed; this line follows the last of them");
+                fail(field, std::to_string(count), "expected the number of those that are listed; more lines follow the last of them");
         }
     }
 
