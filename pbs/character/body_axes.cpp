@@ -11,7 +11,9 @@ namespace {
 
 constexpr double least_trunk_angle_deg = 30.0;             // between the two directions of a trunk
 constexpr double near_up_deg = 30.0, near_left_deg = 5.0;  // of an axis
-constexpr double straight_deg = 40.0;                      // between the halves of a limb, and between a leg and down
+constexpr double bent_deg = 15.0;                          // between the halves of a limb that is straight
+constexpr double spread_deg = 30.0;                        // between a leg and down
+constexpr double forward_deg = 30.0;                       // between an arm and the side, seen from above
 constexpr double lowest_arm_deg = 70.0;                    // from the side, in an A pose
 constexpr double farthest_trunk_deg = 30.0;                // between clip and body
 constexpr double same_rig = 0.1;                           // rms of the joints from the bones over their extent
@@ -36,7 +38,7 @@ int lower_end(const BodyJoints& joints, std::size_t side)
 
 bool is_straight(const Positions& points, int above, int middle, int below)
 {
-    return angle_deg(between(points, above, middle), between(points, middle, below)) <= straight_deg;
+    return angle_deg(between(points, above, middle), between(points, middle, below)) <= bent_deg;
 }
 
 // Legs that point down and a left side that is one for hips and shoulders.
@@ -139,14 +141,14 @@ bool is_t_or_a_pose(const Positions& points, const BodyJoints& joints)
     const Vec3 left = axes.col(0), up = axes.col(1);
     for (std::size_t side = 0; side < 2; ++side) {
         const Vec3 leg = between(points, joints.thigh[side], lower_end(joints, side));
-        if (leg.isZero(0.0) || angle_deg(leg, -up) > straight_deg) return false;
+        if (leg.isZero(0.0) || angle_deg(leg, -up) > spread_deg) return false;
         if (joints.foot[side] >= 0 && !is_straight(points, joints.thigh[side], joints.shin[side], joints.foot[side])) return false;
         if (joints.upper_arm[side] < 0 || joints.forearm[side] < 0) continue;
         const int end = joints.hand[side] >= 0 ? joints.hand[side] : joints.forearm[side];
         const Vec3 arm = between(points, joints.upper_arm[side], end).normalized(), outward = side == 0 ? left : Vec3(-left);
         const double raised = std::asin(std::clamp(arm.dot(up), -1.0, 1.0)) * degrees;
         if (arm.dot(outward) <= 0.0 || raised > 20.0 || raised < -lowest_arm_deg) return false;
-        if (angle_deg(arm - arm.dot(up) * up, outward) > straight_deg) return false;
+        if (angle_deg(arm - arm.dot(up) * up, outward) > forward_deg) return false;
         if (end == joints.hand[side] && !is_straight(points, joints.upper_arm[side], joints.forearm[side], end)) return false;
     }
     return true;

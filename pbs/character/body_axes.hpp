@@ -28,8 +28,8 @@ Eigen::Matrix3d body_axes(const TrunkDirections& trunk);
 // The axis of the file, positive or negative, that is nearest to a direction.
 Vec3 nearest_axis(const Vec3& direction);
 
-// Straight legs below the trunk, and straight arms at its sides that hang by at most 70 degrees (a T or A pose). Limbs whose joints are
-// unknown do not count; no legs are no such pose.
+// Straight legs below the trunk, and straight arms at its sides that hang by at most 70 degrees (a T or A pose). Knees and elbows are bent
+// by at most 15 degrees, as actors stand. Limbs whose joints are unknown do not count; no legs are no such pose.
 bool is_t_or_a_pose(const Positions& points, const BodyJoints& joints);
 
 // The pose from which the turns of a clip are measured: its zero pose if that is a T or A pose; else its first frame if that is one; else

@@ -20,6 +20,7 @@ constexpr double key_rate_hz = 120.0;       // at which motions are sampled whos
 constexpr double most_frames = 10'000'000;  // a day at 115 Hz
 constexpr double least_turn_deg = 5.0;      // of a joint in an animation that is a motion
 constexpr double same_pose_deg = 5.0;       // of every joint, between the bind pose and that of the nodes
+constexpr double same_size = 1e-3;          // relative, of single precision with some products
 constexpr int frames_looked_at = 31;        // of each animation, to find the one that moves
 
 using Rotations = std::vector<Eigen::Quaterniond>;
@@ -62,15 +63,23 @@ std::vector<Eigen::Affine3d> upright(const std::vector<Eigen::Affine3d>& bound, 
     const Rotations rotations = rotations_of(bound), resting = rotations_of(rest);
     const bool rests_as_bound =
         std::ranges::all_of(joints, [&](int n) { return rotations[n].angularDistance(resting[n]) <= same_pose_deg * M_PI / 180.0; });
-    const double size = std::cbrt(std::abs(mesh_to_rest.linear().determinant()));
-    if (rests_as_bound || !(size > 0.0)) return bound;
+    if (rests_as_bound || !(std::abs(mesh_to_rest.linear().determinant()) > 0.0)) return bound;
     std::vector<Eigen::Affine3d> in_mesh;
-    for (const Eigen::Affine3d& node : bound) in_mesh.push_back(Eigen::Scaling(size) * mesh_to_rest.inverse() * node);
+    for (const Eigen::Affine3d& node : bound) in_mesh.push_back(mesh_to_rest.inverse() * node);
     const auto in_mesh_trunk = trunk_directions(places_of(in_mesh), body), in_scene = trunk_directions(places_of(rest), body);
     if (!in_mesh_trunk || !in_scene) return bound;
     const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(body_axes(*in_mesh_trunk).col(1), nearest_axis(in_scene->up));
     for (Eigen::Affine3d& node : in_mesh) node = turn * node;
     return in_mesh;
+}
+
+double length_of_bones(const Rig& rig, const std::vector<Eigen::Affine3d>& nodes, const std::set<int>& joints)
+{
+    double length = 0.0;
+    for (const int joint : joints)
+        if (const int parent = rig.nodes[joint].parent; joints.contains(parent))
+            length += (nodes[joint].translation() - nodes[parent].translation()).norm();
+    return length;
 }
 
 // Joints where their skin was bound; other nodes where they rest, below them.
@@ -90,7 +99,12 @@ std::vector<Eigen::Affine3d> zero_pose_of(const Rig& rig, const BodyJoints& body
             zero[n] = zero[parent] * rig.nodes[n].rest.affine();
     }
     const SkinJoint& joint = binding.meshes.front().joints.front();
-    return upright(zero, rest, joints, binding.bind.at(joint.node) * joint.inverse_bind, body);
+    std::vector<Eigen::Affine3d> posed = upright(zero, rest, joints, binding.bind.at(joint.node) * joint.inverse_bind, body);
+    // Where the bind pose has another size than the nodes, the path is in the unit of the nodes.
+    const double length = length_of_bones(rig, posed, joints), length_at_rest = length_of_bones(rig, rest, joints);
+    if (length > 0.0 && std::abs(length_at_rest / length - 1.0) > same_size)
+        for (Eigen::Affine3d& node : posed) node = Eigen::Scaling(length_at_rest / length) * node;
+    return posed;
 }
 
 // The largest turn of a node in its parent from the start of an animation [deg].
