@@ -209,9 +209,9 @@ TEST_F(MotionCase, AClipThatMatchesLessThanHalfIsRefusedUnlessItIsAllowed)
 {
     MotionSpec walk = clip({"upper", "forearm", "a", "b", "c", "d", "e", "f", "g", "h"});
     expect_input_error([&] { made(walk); }, walk.clip + ": joints = 2 of 10 moving joints: ",
-                       "expected at least one half to match a bone of the character (motion.allow_partial = true in the scene, or "
-                       "--allow-partial of `pbskin try`, accepts fewer); without a bone: a, b, c, d, "
-                       "e, f and 2 others");
+                       "expected at least one half to match a bone of the character: rename the joints as the bones or as those of Mixamo "
+                       "(motion.allow_partial = true in the scene, or --allow-partial of `pbskin try`, accepts fewer); without a bone: a, "
+                       "b, c, d, e, f and 2 others");
     walk.allow_partial = true;
     EXPECT_EQ(made(walk).matched_joints, 2);
     walk = clip({"upper", "forearm", "a", "b", "c"});
