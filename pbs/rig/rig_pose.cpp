@@ -171,17 +171,20 @@ double size_of_pose(const Rig& rig, const RigAnimation* animation, const RigBind
     return std::abs(size - 1.0) <= same_scale ? 1.0 : size;
 }
 
-// As FBX defines it: in the coordinates of the mesh's node, by the rotation and translation of each joint, without its scale.
-Positions blended_by_dual_quaternions(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& from_mesh, const Eigen::Affine3d& node)
+// With scales as linear blending has them, and by dual quaternions of the rotations and translations.
+Positions blended_by_dual_quaternions(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& from_mesh)
 {
     Pose pose;
+    std::vector<Eigen::Affine3d> scales;
     for (const Eigen::Affine3d& joint : from_mesh) {
-        const Eigen::Affine3d local = node.inverse() * joint;
-        pose.push_back(Eigen::Translation3d(local.translation()) * Eigen::Quaterniond(local.rotation()));
+        Eigen::Matrix3d rotation, scale;
+        joint.computeRotationScaling(&rotation, &scale);
+        pose.push_back(Eigen::Translation3d(joint.translation()) * Eigen::Quaterniond(rotation));
+        scales.emplace_back(scale);
     }
     Positions points;
-    dual_quaternion_skinning(mesh.points, mesh.skin, pose, points);
-    return (points * node.linear().transpose()).rowwise() + node.translation().transpose();
+    dual_quaternion_skinning(blended(mesh, scales), mesh.skin, pose, points);
+    return points;
 }
 
 void add_bind_pose(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& rest, RigBinding& binding)
@@ -278,7 +281,7 @@ Positions skinned_points(const RigMesh& mesh, const std::vector<Eigen::Affine3d>
     moved = blended(mesh, from_mesh);
     if (mesh.dual_quaternion_share.empty()) return moved;
     const Eigen::Map<const Eigen::VectorXd> share(mesh.dual_quaternion_share.data(), moved.rows());
-    return moved + share.asDiagonal() * (blended_by_dual_quaternions(mesh, from_mesh, node_transforms[mesh.node]) - moved);
+    return moved + share.asDiagonal() * (blended_by_dual_quaternions(mesh, from_mesh) - moved);
 }
 
 RigBinding bind_rig(const Rig& rig, const RigAnimation* animation, double scale)

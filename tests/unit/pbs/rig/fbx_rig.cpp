@@ -270,6 +270,13 @@ TEST(FbxRig, BlendsByDualQuaternionsWhereTheSkinAsksForThem)
         Positions expected = bent(90.0);
         expected.row(1) = (1.0 - part) * expected.row(1) + part * by_quaternions.transpose();
         expect_points(rig_of(file), 1.0, expected);
+        const Rig rig = rig_of(file);
+        const RigAnimation* animation = find_animation(rig, "");
+        const RiggedBody body = make_rigged_body(rig, animation, 1.0);
+        const Positions by_pose = artist_points(body, rigid_pose(body, node_transforms(rig, animation, 1.0)));
+        EXPECT_LE((by_pose - rig.unit_m * expected).cwiseAbs().maxCoeff(), file_rounding) << "by a pose of the skeleton";
+        file.objects[0].records = {test_support::fbx_properties({{"Lcl Scaling", {2, 2, 2}}})};  // of the root
+        expect_points(rig_of(file), 1.0, 2.0 * expected);
     }
     expect_refused(ArmFile({}, {}, {}, "Muscle"), "Deformer ", "SkinningType = Muscle: expected Linear");
 }
