@@ -21,8 +21,8 @@ Vec3 vector_at(const KeyTrack& track, double time_s);
 Eigen::Quaterniond rotation_at(const KeyTrack& track, double time_s);
 
 // The format's skinning formula: sum_j w_j W_j B_j^-1 v with the joints' transforms W_j in the scene and their inverse bind matrices
-// B_j^-1; W_node v of a mesh without a skin. Where RigMesh::dual_quaternion_share is above 0, the same by dual quaternion linear blending of
-// the rotations and translations, with the scales of the sum, to that share. #P x 3, in the scene's coordinates and the file's unit.
+// B_j^-1; W_node v of a mesh without a skin. Where RigMesh::dual_quaternion_share is above 0, the same by dual quaternion linear blending
+// of the rotations and translations, with the scales of the sum, to that share. #P x 3, in the scene's coordinates and the file's unit.
 Positions skinned_points(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& node_transforms);
 
 // How the meshes of a rig are attached to its nodes in the bind pose: the joints that move them, and one rest space for all of them. That
