@@ -144,11 +144,21 @@ const RigAnimation& moving_animation(const Rig& rig, Clip& clip)
     return *taken;
 }
 
+// The curves of a node of an FBX file by which it turns or moves.
+std::vector<FbxCurve> fbx_curves(const NodeTracks& tracks)
+{
+    std::vector<FbxCurve> curves;
+    for (const int property : {0, 1})  // Lcl Translation, Lcl Rotation
+        for (const std::optional<FbxCurve>& curve : tracks.fbx[static_cast<std::size_t>(property)])
+            if (curve) curves.push_back(*curve);
+    return curves;
+}
+
 std::set<int> moved_nodes(const RigAnimation& animation)
 {
     std::set<int> nodes;
     for (const NodeTracks& tracks : animation.nodes)
-        if (tracks.rotation || tracks.translation) nodes.insert(tracks.node);
+        if (tracks.rotation || tracks.translation || !fbx_curves(tracks).empty()) nodes.insert(tracks.node);
     return nodes;
 }
 
@@ -168,9 +178,12 @@ void add_joints(const Rig& rig, const std::set<int>& moved, Clip& clip)
     }
 }
 
-bool is_step(const std::optional<KeyTrack>& track)
+// Whether the node stays where a key puts it until the next one.
+bool holds(const NodeTracks& tracks)
 {
-    return track && track->interpolation == Interpolation::step;
+    const auto is_step = [](const std::optional<KeyTrack>& track) { return track && track->interpolation == Interpolation::step; };
+    const auto is_constant = [](const FbxCurve& curve) { return curve.front().interpolation == FbxInterpolation::constant; };
+    return is_step(tracks.rotation) || is_step(tracks.translation) || std::ranges::any_of(fbx_curves(tracks), is_constant);
 }
 
 Clip clip_of_rig(const std::string& path)
@@ -183,7 +196,7 @@ Clip clip_of_rig(const std::string& path)
     if (moved.empty()) throw InputError(path, 0, "animation", animation.name, "its motion moves none of its joints");
     add_joints(rig, moved, clip);
     clip.holds.assign(rig.nodes.size(), false);
-    for (const NodeTracks& tracks : animation.nodes) clip.holds[tracks.node] = is_step(tracks.rotation) || is_step(tracks.translation);
+    for (const NodeTracks& tracks : animation.nodes) clip.holds[tracks.node] = holds(tracks);
 
     const std::vector<Eigen::Affine3d> zero = zero_pose_of(rig, body_joints(clip.joints));
     const Rotations zero_rotations = rotations_of(zero);

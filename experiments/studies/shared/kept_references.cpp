@@ -227,8 +227,8 @@ void require_kept_tets(const std::string& body)
     const std::string why = why_other_tets(body);
     if (!why.empty())
         throw pbs::InputError("", 0, "character.body", body,
-                              why + ": repeat its numbers on Debian 12, the system of the record, or solve its references on these tets with "
-                                    "`pbskin reproduce references --full`");
+                              why + ": repeat its numbers on Debian 12, the system of the record, or solve its references on these tets "
+                                    "with `pbskin reproduce references --full`");
 }
 
 std::string file_of_references(const std::string& pose)
