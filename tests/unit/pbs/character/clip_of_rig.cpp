@@ -1,5 +1,6 @@
 // Reference: the rig of two joints of gltf_document.hpp, whose elbow turns half round about z within a second, and glTF 2.0, Appendix C.
 #include "pbs/character/clip.hpp"
+#include "tests/support/fbx_file.hpp"
 #include "tests/support/gltf_document.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
@@ -87,6 +88,21 @@ TEST(ClipOfRig, CubicSplinesAreEvaluatedByTheFormat)
     for (const int frame : {0, 30, 60, 90}) {
         const double t = frame / 120.0, share = 3.0 * t * t - 2.0 * t * t * t;  // without tangents
         EXPECT_NEAR(elbow_deg(clip, frame), 2.0 * std::atan2(share, 1.0 - share) * 180.0 / M_PI, of_angles_deg) << frame;
+    }
+}
+
+TEST(ClipOfRig, TheCurvesOfFbxNodesAreAMotion)
+{
+    for (const auto& [flags, half_deg] : {std::pair<std::int64_t, double>(4, 45.0), {2, 0.0}}) {  // linear, constant
+        test_support::FbxFile file;
+        const std::int64_t root = file.node("root", 0, "LimbNode", {});
+        const std::int64_t elbow = file.node("elbow", root, "LimbNode", {{"Lcl Translation", {0, 2, 0}}});
+        file.curves(file.layer(file.animation("Bend")), elbow, "Lcl Rotation", {0, 0, 0}, {{2, {{0, 1}, {0, 90}, flags}}});
+        const test_support::ScratchFolder folder;
+        const Clip clip = read_clip(folder.file("walk.fbx", file.text()));
+        ASSERT_EQ(clip.frames(), 121);
+        EXPECT_NEAR(elbow_deg(clip, 60), half_deg, of_angles_deg);
+        EXPECT_EQ(clip.holds.at(1), flags == 2);
     }
 }
 
