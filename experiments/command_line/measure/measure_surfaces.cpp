@@ -143,14 +143,13 @@ private:
         fmt::print("\n{:<32} {:>14} {:>14} {:>14}  {}\n", "shell", "rest m^3", "lowest %", "highest %", "counts as");
         for (std::size_t i = 0; i < std::min(order.size(), most) && !shell_rows_.empty(); ++i) {
             double low = std::numeric_limits<double>::infinity(), high = -low;
-            const ShellRow* row = nullptr;
+            const ShellRow& first = shell_rows_[order[i]];  // of the shell: each frame has a row for each shell
             for (std::size_t r = order[i]; r < shell_rows_.size(); r += order.size()) {
-                row = &shell_rows_[r];
-                low = std::min(low, row->volume_change_pct);
-                high = std::max(high, row->volume_change_pct);
+                low = std::min(low, shell_rows_[r].volume_change_pct);
+                high = std::max(high, shell_rows_[r].volume_change_pct);
             }
-            fmt::print("{:<32} {:>14.6g} {:>14.6f} {:>14.6f}  {}\n", fmt::format("{} {}", row->shell, row->mesh),
-                       volumes_m3_(static_cast<Eigen::Index>(order[i])), low, high, row->role);
+            fmt::print("{:<32} {:>14.6g} {:>14.6f} {:>14.6f}  {}\n", fmt::format("{} {}", first.shell, first.mesh),
+                       volumes_m3_(static_cast<Eigen::Index>(order[i])), low, high, first.role);
         }
         if (order.size() > most) fmt::print("and {} smaller shells (--shells FILE has all)\n", order.size() - most);
     }
