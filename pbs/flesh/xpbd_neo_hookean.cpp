@@ -146,6 +146,7 @@ public:
           batches_(slabs_.slabs()),
           mode_places_(flesh.hold.modes().size())
     {
+        for (const HoldMode& mode : flesh.hold.modes()) sums_.push_back(mode.v.sum());
         for (int s = 0; s < slabs_.slabs(); ++s) {
             Slab& slab = batches_[s];
             const std::vector<int>& tets = slabs_.of_slab(s);
@@ -171,7 +172,8 @@ public:
         for (std::size_t r = 0; r < mode_places_.size(); ++r) {
             const auto& [slab, b, mode, lane] = mode_places_[r];
             HoldBatch<Scalar>& batch = batches_[slab].holds[b];
-            const double sum = sum_of_mode(mode_places_[r]);  // v^T (x - origin) = d - (sum of v) origin
+            // v^T (x - origin) = d - (sum of v) origin. Far away, the roundings of v in float would be multiplied by the distance.
+            const double sum = is_far_ ? sums_[r] : sum_of_mode(mode_places_[r]);
             for (int axis = 0; axis < 3; ++axis)
                 batch.target[mode][axis][lane] = Scalar(targets(static_cast<Eigen::Index>(r), axis) - sum * this->origin_(axis));
         }
@@ -231,16 +233,17 @@ private:
     {
         constexpr double nearby = 16.0;  // sizes of the body: at most 4 of the 24 bits of a float
         this->origin_.setZero();
+        is_far_ = false;
         if (targets.rows() == 0) return;
         this->origin_ = targets.colwise().mean();
         Vec3 place = Vec3::Zero();
         double squares = 0.0;
-        for (std::size_t r = 0; r < mode_places_.size(); ++r) {
-            const double sum = sum_of_mode(mode_places_[r]);
-            place += sum * targets.row(static_cast<Eigen::Index>(r)).transpose();
-            squares += sum * sum;
+        for (std::size_t r = 0; r < sums_.size(); ++r) {
+            place += sums_[r] * targets.row(static_cast<Eigen::Index>(r)).transpose();
+            squares += sums_[r] * sums_[r];
         }
-        if (squares > 0.0 && (place / squares - this->origin_).norm() > nearby * size_m_) this->origin_ = place / squares;
+        is_far_ = squares > 0.0 && (place / squares - this->origin_).norm() > nearby * size_m_;
+        if (is_far_) this->origin_ = place / squares;
     }
 
     static void fill_hold(HoldBatch<Scalar>& batch, int lane, int t, const XpbdFlesh& flesh)
@@ -276,6 +279,8 @@ private:
     double size_m_;
     std::vector<Slab> batches_;
     std::vector<ModePlace> mode_places_;  // of each mode
+    std::vector<double> sums_;            // of v of each mode, in double
+    bool is_far_ = false;                 // the flesh from the mean of the targets
 };
 
 }  // namespace

@@ -101,6 +101,7 @@ TEST_P(EveryDeformer, DoesNotDependOnTheDistanceFromTheOrigin)
         bone.head += far_m.transpose();
         bone.tail += far_m.transpose();
     }
+    moved.binding = pbs::bind_to_nearest_bone(moved.mesh.rest, moved.skeleton);
     const std::unique_ptr<Deformer> deformer = make_deformer(spec);
     deformer->reset(moved);
     for (const pbs::Pose& pose : pbs::joint_sweep(moved.skeleton, 1, pbs::Vec3::UnitZ(), 45.0, 4, 0.01).steps)
