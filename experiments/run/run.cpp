@@ -99,6 +99,7 @@ OutputSpec measured_output(const Scene& scene)
     return output;
 }
 
+constexpr double farthest_m = 1e9;           // of a vertex from the origin
 constexpr double many_inverted_pct = 1.0;    // of the tets, in the first frame
 constexpr double far_from_artist_pct = 2.0;  // of the model's size
 constexpr double much_lag_deg = 5.0;         // of a part that one bone alone moves
@@ -354,8 +355,8 @@ private:
         const bool is_elsewhere = runner.traits.solves_equations && step.outcome == pbs::Outcome::not_converged;
         if (is_elsewhere) context.reference = nullptr;
         const FrameMeasurement measured = cost_.time("metrics", [&] { return measurer_.measure(positions, context); });
-        // Products of three finite lengths may leave the range of a double.
-        const bool has_volume = std::isfinite(measured.metrics.volume_change_pct);
+        // As readers refuse: products of such lengths may leave the range of a double.
+        const bool has_volume = std::isfinite(measured.metrics.volume_change_pct) && positions.cwiseAbs().maxCoeff() <= farthest_m;
         if (!has_volume) step.outcome = pbs::Outcome::not_finite;
         cost_.time("records", [&] {
             folder_.add_frame(runner.spec, frame, time_s, measured, step);
