@@ -132,11 +132,13 @@ private:
     float number_in(const std::string& digits, std::size_t& at, const std::string& field) const
     {
         float value = std::nanf("");
+        std::size_t end = at;
         if (at < digits.size() && digits.find_first_not_of("0123456789+-.,eE", at) == std::string::npos) try {
-                at = static_cast<std::size_t>(Assimp::fast_atoreal_move<float, NoNumber>(digits.c_str() + at, value) - digits.c_str());
-            } catch (const NoNumber&) {  // no digit, or too many
+                end = static_cast<std::size_t>(Assimp::fast_atoreal_move<float, NoNumber>(digits.c_str() + at, value) - digits.c_str());
+            } catch (const NoNumber&) {  // no digit
             }
-        if (!std::isfinite(value)) refuse(field, digits, "expected a finite number");
+        if (end == at || !std::isfinite(value)) refuse(field, digits, "expected a finite number");  // too many digits are passed over
+        at = end;
         return value;
     }
 

@@ -113,6 +113,12 @@ TEST(BvhDialect, ARowMoreOrLessThanStatedIsTakenAsItIsAndNoted)
                        "a row has 12 numbers");
 }
 
+TEST(BvhDialect, NumbersThatAreNoneAreRefusedByFrame)
+{
+    for (const std::string number : {"99999999999999999999999999", "-99999999999999999999999999", "1e39", "nan", "--1", "1-", "."})
+        expect_input_error([&] { read_bvh(rewritten(plain, "-41", number), "a.bvh"); }, "a.bvh:25: ", "expected");
+}
+
 TEST(BvhDialect, ASecondRootChangesNoPlaceOfTheFirst)
 {
     std::string text = rewritten(plain, "MOTION", "ROOT Prop\n{\nOFFSET 1 1 1\nCHANNELS 3 Xposition Yposition Zposition\n}\nMOTION");
