@@ -9,10 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <sstream>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -126,13 +125,12 @@ private:
         ++line_;
         text_.erase(std::min(text_.find('#'), text_.size()));
         numbers_.clear();
-        const char* at = text_.c_str();
-        for (char* end = nullptr;; at = end) {
-            const double number = std::strtod(at, &end);
-            if (end == at) break;
-            numbers_.push_back(number);
+        std::istringstream words(text_);
+        for (std::string word; words >> word;) {
+            const std::optional<double> number = number_in(word);
+            if (!number) fail(field, text_.substr(0, 40), "expected numbers");
+            numbers_.push_back(*number);
         }
-        if (std::string_view(at).find_first_not_of(" \t\r") != std::string_view::npos) fail(field, text_.substr(0, 40), "expected numbers");
     }
 
     std::string path_, text_;
@@ -192,9 +190,9 @@ std::vector<double> numbers_of(const std::string& line, std::size_t count, const
     std::istringstream words(line.substr(1));
     std::vector<double> numbers;
     for (std::string word; words >> word;) {
-        char* end = nullptr;
-        numbers.push_back(std::strtod(word.c_str(), &end));
-        if (*end != '\0') throw InputError(path, number, line.substr(0, 1), word, "expected a number");
+        const std::optional<double> value = number_in(word);
+        if (!value) throw InputError(path, number, line.substr(0, 1), word, "expected a number");
+        numbers.push_back(*value);
     }
     if (numbers.size() != count)
         throw InputError(path, number, line.substr(0, 1), line.substr(0, 40), "expected " + std::to_string(count) + " numbers");

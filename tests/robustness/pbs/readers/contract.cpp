@@ -279,9 +279,7 @@ protected:
 class ReaderOfWholeWords : public ReaderOfNumbers {};
 
 // Their libraries stop within a word, so that 1.5.2 is 1.5, or leave out what lies behind a count that is too small.
-const std::set<std::string> readers_of_beginnings = {"gmsh",         "two_in_gmsh", "gmsh_frame",    "medit",
-                                                     "two_in_medit", "medit_frame", "tetgen_points", "two_in_tetgen_points",
-                                                     "obj",          "ply",         "off",           "stl"};
+const std::set<std::string> readers_of_beginnings = {"ply", "off", "stl"};
 
 template <typename IsWanted>
 std::vector<Reader> readers_that(IsWanted is_wanted)
