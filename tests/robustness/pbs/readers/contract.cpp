@@ -81,7 +81,8 @@ std::string read_clip(const std::string& path)
     std::string content = std::to_string(clip.frames()) + " frames of " + pbs::number_text(clip.frame_time_s, 12) + " s";
     for (const auto& frame : clip.local)
         for (const Eigen::Quaterniond& turn : frame) content += sum_of(turn.coeffs());
-    return content + sum_of(clip.zero_pose) + sum_of(clip.root);
+    for (const pbs::Positions& places : clip.places) content += sum_of(places);
+    return content + sum_of(clip.zero_pose);
 }
 
 std::string read_skeleton(const std::string& path)
