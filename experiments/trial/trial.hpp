@@ -64,6 +64,8 @@ std::string earlier_trial_scene(const TrialOptions& options);
 //   frame_ms      median time of a frame, per deformer
 //   error_bar     of the reference: the number of frames in which its own error is bounded, of how many, the largest bound at the joints
 //                 [%] and the wall time of the further solutions [s]; null without an error bar
+//   reference_lag the largest angle between a bone and the flesh that it alone moves, in the reference (largest_deg), the bone and the
+//                 frame; null without a reference, and where no bone moves a tet alone
 //   from_artist   where the surface carried by the tets under lbs is farthest from the artist's: largest_pct of the model's size, frame,
 //                 the bones of surface and flesh there, and the gap between them at rest; null: not compared
 //   control       the files of the surface by the format's own skinning; null: the model has no joints and so no skinning

@@ -22,7 +22,7 @@ class Presets(unittest.TestCase):
 
     def test_check_configures_by_the_preset_of_the_workflow(self):
         self.assertEqual(self.steps["ci"], [("configure", "ci"), ("build", "ci"), ("test", "ci")])
-        self.assertEqual(re.findall(r"configure cmake --preset (\S+)", text("check")), ["ci"])
+        self.assertEqual(re.findall(r"configured cmake --preset (\S+)", text("check")), ["ci"])
         self.assertNotRegex(text("check"), r"--preset ci[^|]* -D")
         self.assertRegex(text(".ci/run"), r'(?m)^exec ".*/\.\./check" "\$@"$')
 
