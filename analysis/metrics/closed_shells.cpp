@@ -265,6 +265,8 @@ void set_roles(const pbs::Positions& points, std::vector<Shell>& shells, std::ve
     const auto size = [&](int s) { return std::abs(shells[s].volume_m3); };
     std::ranges::stable_sort(closed, std::ranges::greater(), size);
     std::vector<Eigen::AlignedBox3d> boxes;
+    std::vector<bool> faces_outwards;  // of all shells, before any is turned
+    for (const Shell& shell : shells) faces_outwards.push_back(shell.volume_m3 > 0.0);
     for (const int s : closed) {
         Shell& shell = shells[s];
         const Eigen::AlignedBox3d box = box_of(points, shell.triangles);
@@ -277,8 +279,9 @@ void set_roles(const pbs::Positions& points, std::vector<Shell>& shells, std::ve
         boxes.push_back(box);
         if (shell.role == ShellRole::copy) continue;
         const bool is_in_flesh = shell.inside >= 0 && shells[shell.inside].role != ShellRole::cavity;
-        if (is_in_flesh) shell.role = shell.volume_m3 < 0.0 ? ShellRole::cavity : ShellRole::nested;
-        if (is_in_flesh || shell.volume_m3 > 0.0) continue;
+        // A surface that is inside out as a whole has its cavities outwards.
+        if (is_in_flesh) shell.role = faces_outwards[s] == faces_outwards[shell.inside] ? ShellRole::nested : ShellRole::cavity;
+        if (faces_outwards[s] == (shell.role != ShellRole::cavity)) continue;
         shell.turned += static_cast<int>(shell.triangles.rows());
         for (int f = 0; f < shell.triangles.rows(); ++f) turn(shell.triangles, f);
         shell.volume_m3 = -shell.volume_m3;

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t longest_number = 15;  // digits; what is longer is taken for text
+constexpr std::size_t longest_number = 24;  // digits; what is longer is taken for text
 
 bool is_digit(unsigned char c)
 {
@@ -69,7 +69,10 @@ std::string::const_iterator number_end(std::string::const_iterator digit, std::s
 {
     const auto whole = std::find_if_not(digit, end, is_digit);
     const bool has_fraction = form != NumberForm::whole && end - whole > 1 && *whole == '.' && is_digit(*std::next(whole));
-    return has_fraction ? std::find_if_not(std::next(whole), end, is_digit) : whole;
+    const auto mantissa = has_fraction ? std::find_if_not(std::next(whole), end, is_digit) : whole;
+    if (form == NumberForm::whole || end - mantissa < 3 || (*mantissa != 'e' && *mantissa != 'E')) return mantissa;
+    const auto sign = std::next(mantissa), digits = *sign == '-' || *sign == '+' ? std::next(sign) : end;  // 1e-05, as %g writes it
+    return digits != end && is_digit(*digits) ? std::find_if_not(digits, end, is_digit) : mantissa;
 }
 
 // Whether a text ends in the sign of the number behind it: a minus behind a letter or a digit is a hyphen.
@@ -261,7 +264,8 @@ std::vector<std::string> globbed(const std::string& pattern)
 // frames_%04d.vtu as C's printf writes it: the files whose number is written just so; %g and %f: any number.
 std::optional<Sequence> of_number_pattern(const std::string& pattern)
 {
-    static const std::regex form("(.*)%(0?)([0-9]{0,2})(\\.[0-9]+)?([dfg])(.*)"), decimal("-?[0-9]+(\\.[0-9]+)?"), whole("-?[0-9]+");
+    static const std::regex form("(.*)%(0?)([0-9]{0,2})(\\.[0-9]+)?([dfg])(.*)"), decimal("-?[0-9]+(\\.[0-9]+)?([eE][-+]?[0-9]+)?"),
+        whole("-?[0-9]+");
     const fs::path folder = fs::path(pattern).parent_path(), listed = folder.empty() ? "." : folder;
     const std::string wanted = name_of(pattern);
     std::smatch match;

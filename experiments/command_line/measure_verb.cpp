@@ -29,6 +29,8 @@ void require_effect(const MeasureArguments& arguments, bool is_rig, analysis::Me
     for (const analysis::FrameBound& bound : arguments.bounds) require_meaningful(bound, measured);
     refuse_where(!is_rig && !arguments.animation.empty(), "--animation", "expected a rigged model alone, without frames");
     refuse_where(is_rig && !arguments.displacement.empty(), "--displacement", "expected frames in files: a rigged model has none");
+    refuse_where(is_rig && arguments.any_step, "--any-step", "expected frames in files: a rigged model has none");
+    refuse_where(!is_rig && arguments.most_frames, "--frames", "expected a rigged model alone, without frames");
     refuse_where(measured == analysis::Measured::surface && !arguments.reference.empty(), "--reference",
                  "expected tets: a surface has no errors");
     refuse_where(measured == analysis::Measured::tets && !arguments.shells.empty(), "--shells", "expected a surface: tets have no shells");

@@ -220,8 +220,8 @@ std::vector<std::string> notes_on_angles(const std::vector<pbs::PartAngle>& angl
         if (angle.largest_deg > noted_angle_deg) parts.push_back(fmt::format("{} {:.0f}", angle.part, angle.largest_deg));
     if (parts.empty()) return {};
     return {fmt::format(
-        "{}: the body points elsewhere than the clip, by up to so many degrees: {}; the trunk keeps the model's own posture, and "
-        "bones without a joint follow their parent",
+        "{}: parts of the body point in other directions than in the clip; largest angles [degrees]: {}; the trunk keeps the model's own "
+        "posture, and bones without a joint follow their parent",
         clip, fmt::join(parts, ", "))};
 }
 
@@ -232,6 +232,10 @@ CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& characte
     CaseMotion made;
     made.motion = pbs::retarget(clip, character.skeleton, clip_sampling(spec), &made.angles);
     made.notes = clip.remarks;
+    if (std::ranges::none_of(made.angles, [](const pbs::PartAngle& angle) { return angle.part == "hips"; }))
+        made.notes.push_back(spec.clip +
+                             ": the names of its hips, legs or neck are unknown, so that its directions are not compared with the "
+                             "body's; look at the first frame");
     for (const std::string& note : notes_on_angles(made.angles, spec.clip))
         (made.is_far_from_clip() ? made.remarks : made.notes).push_back(note);
     made.time_zero = "start of the clip after its first frame, a T pose, plus motion.start_s";

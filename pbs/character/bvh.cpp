@@ -1,8 +1,9 @@
-// BVH as the programs write that people use: a reader of its own, for no library reads more than one dialect.
+// BVH in the dialects that programs write, by a reader of its own: assimp's reads only part of them.
 #include "pbs/character/clip.hpp"
 
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/text_words.hpp"
 
 #include <assimp/fast_atof.h>
 #include <assimp/matrix3x3.h>
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdlib>
 #include <set>
 #include <string_view>
 
@@ -20,6 +20,7 @@ namespace pbs {
 namespace {
 
 constexpr int deepest_nesting = 500;
+constexpr float farthest_number = 1e9F;  // of angles too, for assimp's functions count whole turns one by one
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf", blanks = " \t\r\n\v\f";
 
 std::string lower_case(std::string text)
@@ -87,6 +88,7 @@ public:
         if (!(seconds >= shortest_frame_s && seconds <= longest_frame_s))
             refuse("Frame Time", label_value_, "expected a time from 1e-6 to 1000 s");
         std::size_t begin = 0;
+        // By way of frames per second, as assimp has it, which read the clips of all records.
         motion_.frame_time_s = 1.0 / (1.0 / static_cast<double>(number_in(label_value_, begin, "Frame Time")));
         rows(static_cast<std::size_t>(frames), frames_line, remarks);
         return motion_;
@@ -137,9 +139,18 @@ private:
                 end = static_cast<std::size_t>(Assimp::fast_atoreal_move<float, NoNumber>(digits.c_str() + at, value) - digits.c_str());
             } catch (const NoNumber&) {  // no digit
             }
-        if (end == at || !std::isfinite(value)) refuse(field, digits, "expected a finite number");  // too many digits are passed over
+        if (end == at || !(std::abs(value) <= farthest_number)) refuse(field, digits, "expected a finite number of at most 1e9");
         at = end;
         return value;
+    }
+
+    // A joint may have several, which are numbered.
+    std::string end_site_name(int parent) const
+    {
+        const auto is_sibling = [&](const BvhJoint& joint) { return joint.is_end && joint.parent == parent; };
+        const auto siblings = std::ranges::count_if(motion_.joints, is_sibling);
+        const std::string name = "EndSite_" + motion_.joints[parent].name;
+        return siblings == 0 ? name : name + " (" + std::to_string(siblings + 1) + ")";
     }
 
     void joint(int parent, bool is_end, int depth)
@@ -149,7 +160,7 @@ private:
         read.name = name();
         read.parent = parent;
         read.is_end = is_end;
-        if (is_end) read.name = "EndSite_" + motion_.joints[parent].name;
+        if (is_end) read.name = end_site_name(parent);
         if (read.name.empty()) refuse("JOINT", "", "expected a name");
         if (word() != "{") refuse("JOINT", read.name, "expected { after the name");
         const int index = static_cast<int>(motion_.joints.size());
@@ -199,9 +210,7 @@ private:
         at_ = end;
         std::string point = label_value_;
         std::ranges::replace(point, ',', '.');
-        char* last = nullptr;
-        const double value = std::strtod(point.c_str(), &last);
-        return point.empty() || *last != '\0' ? std::nan("") : value;
+        return pbs::number_in(point).value_or(std::nan(""));
     }
 
     // All numbers to the end of the file, so many channels per frame, wherever the lines break. A minus sign begins a number, too.

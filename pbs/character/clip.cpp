@@ -95,8 +95,10 @@ std::vector<Eigen::Affine3d> zero_pose_of(const Rig& rig, const BodyJoints& body
         if (const auto bound = binding.bind.find(static_cast<int>(n)); bound != binding.bind.end()) {
             zero[n] = bound->second;
             joints.insert(static_cast<int>(n));
-        } else if (parent >= 0)
-            zero[n] = zero[parent] * rig.nodes[n].rest.affine();
+        } else if (parent >= 0) {
+            const bool has_inverse = std::abs(rest[parent].linear().determinant()) > 0.0;
+            zero[n] = zero[parent] * (has_inverse ? Eigen::Affine3d(rest[parent].inverse() * rest[n]) : Eigen::Affine3d::Identity());
+        }
     }
     const SkinJoint& joint = binding.meshes.front().joints.front();
     std::vector<Eigen::Affine3d> posed = upright(zero, rest, joints, binding.bind.at(joint.node) * joint.inverse_bind, body);
@@ -136,7 +138,7 @@ const RigAnimation& moving_animation(const Rig& rig, Clip& clip)
     for (const RigAnimation& animation : rig.animations)
         if (&animation != taken) others.push_back(animation.name);
     const std::string why = largest_deg > least_turn_deg ? "the first one that turns a joint by more than "
-                                                         : "which turns a joint most: none does by more than ";
+                                                         : "since it turns a joint most, although by no more than ";
     if (!others.empty())
         clip.remarks.push_back(rig.file + ": it has " + std::to_string(rig.animations.size()) + " animations; " + taken->name +
                                " is taken, " + why + number_text(least_turn_deg) +

@@ -266,7 +266,8 @@ int joint_with(const std::vector<JointKey>& keys, std::string_view stem, char si
 // The joint of a part of the body; -1: none. Of a part with several names, the first one that occurs.
 int joint_of_part(const std::vector<JointKey>& keys, int row, int scheme, char side)
 {
-    for (std::string_view names = scheme < 0 ? "" : body_parts[row].names[scheme]; !names.empty();) {
+    if (scheme < 0) return -1;
+    for (std::string_view names = body_parts[row].names[scheme]; !names.empty();) {
         const std::size_t end = std::min(names.find(' '), names.size());
         if (const int joint = joint_with(keys, names.substr(0, end), side); joint >= 0) return joint;
         names.remove_prefix(std::min(end + 1, names.size()));

@@ -22,6 +22,7 @@ PBS_REFUSE(bool is_surface_file(const std::string& path))
 PBS_REFUSE(std::map<std::string, Positions> read_point_vectors(const std::string& path, const std::string&))
 PBS_REFUSE(void write_vtu(const std::string& path, const Positions&, const Tets&, const FrameFields&))
 PBS_REFUSE(void write_vtp(const std::string& path, const Positions&, const Triangles&))
+PBS_REFUSE(std::vector<std::string> read_pvd(const std::string& path))
 PBS_REFUSE(void write_pvd(const std::string& path, const std::vector<std::pair<double, std::string>>&))
 
 }  // namespace pbs

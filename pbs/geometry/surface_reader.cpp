@@ -206,6 +206,7 @@ SurfaceMesh checked_points(const std::string& path, const std::string& mesh_name
 
 bool is_surface_file(const std::string& path)
 {
+    if (lower_extension(path) == ".tobj") return false;  // tets, which begin as an .obj does
     return std::find(extensions.begin(), extensions.end(), format_extension(path)) != extensions.end();
 }
 

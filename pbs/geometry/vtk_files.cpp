@@ -151,6 +151,8 @@ vtkSmartPointer<vtkDataObject> read_data(const std::string& path, const std::str
     if (beginning.starts_with("# vtk DataFile")) {
         vtkNew<vtkGenericDataObjectReader> reader;
         reader->ReadAllVectorsOn();
+        reader->ReadAllScalarsOn();  // of which some have three components
+        reader->ReadAllNormalsOn();
         reader->ReadAllFieldsOn();
         collect_messages();
         reader->SetFileName(path.c_str());
@@ -393,10 +395,11 @@ std::vector<std::string> read_pvd(const std::string& path)
         vtkXMLDataElement* set = collection->GetNestedElement(i);
         const char *file = set->GetAttribute("file"), *time = set->GetAttribute("timestep");
         const std::optional<double> time_s = time ? number_in(time) : i;
-        if (!file || !time_s) throw InputError(path, 0, "DataSet " + std::to_string(i), time ? time : "", "expected a timestep and a file");
+        const std::string time_text = time ? time : std::to_string(i);
+        if (!file || !time_s) throw InputError(path, 0, "DataSet " + std::to_string(i), time_text, "expected a timestep and a file");
         const std::filesystem::path named = std::filesystem::path(path).parent_path() / file;
         if (!files.emplace(*time_s, named.string()).second)
-            throw InputError(path, 0, "timestep", time, "expected one file for each: join its parts before the export");
+            throw InputError(path, 0, "timestep", time_text, "expected one file for each: join its parts before the export");
     }
     std::vector<std::string> frames;
     for (const auto& [time_s, file] : files) frames.push_back(file);

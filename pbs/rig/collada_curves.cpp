@@ -1,10 +1,11 @@
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/text_words.hpp"
 #include "pbs/rig/collada_xml.hpp"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -24,12 +25,10 @@ Numbers numbers_of_source(const pugi::xml_node& source, const ColladaXml& docume
     Numbers read;
     read.stride = std::max<std::size_t>(number_of(source.child("technique_common").child("accessor"), "stride", 1), 1);
     for (const std::string_view word : words_of(source.child("float_array").text().as_string())) {
-        double number = 0.0;
-        const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
-        if (std::from_chars(digits.data(), digits.data() + digits.size(), number).ec == std::errc::invalid_argument ||
-            !std::isfinite(number))
+        const std::optional<double> number = number_in(word);
+        if (!number || !std::isfinite(*number))
             throw InputError(document.path(), 0, "source " + id_of(source), std::string(word), "expected a finite number");
-        read.numbers.push_back(number);
+        read.numbers.push_back(*number);
     }
     return read;
 }

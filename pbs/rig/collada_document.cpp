@@ -237,7 +237,7 @@ void rename_joints(pugi::xml_node controller, const std::vector<pugi::xml_node>&
 // Each skeleton of a controller gets a controller of its own, since assimp seeks joints in the whole scene.
 void use_one_controller_per_skeleton(ColladaXml& document)
 {
-    std::map<std::string, std::set<std::string>> skeletons_of;  // of each controller
+    std::map<std::string, std::map<std::string, std::string>> urls_of;  // of each controller: the copy for each set of skeletons
     for (const pugi::xpath_node& found : document.root().select_nodes("//instance_controller")) {
         const std::string url = found.node().attribute("url").as_string();
         std::string names;
@@ -247,12 +247,15 @@ void use_one_controller_per_skeleton(ColladaXml& document)
             skeletons.push_back(document.target(skeleton.text().as_string()));
         }
         pugi::xml_node controller = document.target(url.c_str());
-        std::set<std::string>& known = skeletons_of[url];
-        if (!known.insert(names).second || known.size() == 1 || !controller.child("skin")) continue;
-        const std::string suffix = "-" + std::to_string(known.size());
+        if (!controller.child("skin")) continue;
+        std::map<std::string, std::string>& known = urls_of[url];
+        const std::string suffix = "-" + std::to_string(known.size() + 1);
+        const auto [own, is_new] = known.emplace(names, known.empty() ? url : url + suffix);
+        if (!is_new) found.node().attribute("url") = own->second.c_str();
+        if (!is_new || own->second == url) continue;
         pugi::xml_node copy = controller.parent().insert_copy_after(controller, controller);
         copy.attribute("id") = (id_of(controller) + suffix).c_str();
-        found.node().attribute("url") = (url + suffix).c_str();
+        found.node().attribute("url") = own->second.c_str();
         rename_joints(copy, skeletons, suffix, document);
         document.is_changed = true;
     }
@@ -286,7 +289,13 @@ ColladaDocument prepared(pugi::xml_document& xml, const std::string& path)
 ColladaDocument read_collada_document(const std::string& path)
 {
     if (content_extension(path) == ".zae") {
-        for (const std::string& text : collada_files_in(path)) check_document(text, path);
+        for (const std::string& text : collada_files_in(path)) {
+            check_document(text, path);
+            pugi::xml_document document;
+            if (document.load_buffer(text.data(), text.size()) && !prepared(document, path).text.empty())
+                throw InputError(path, 0, "", "",
+                                 "has curves, skins or morphs that are not read from an archive: unpack it, and use the .dae");
+        }
         return {};
     }
     const std::string text = read_text_file(path);

@@ -92,6 +92,8 @@ private:
                 objects_.refuse(geometry_, "PolygonVertexIndex", "", "expected polygons of at most 1000 corners: triangulate the mesh");
             polygons_.ends.push_back(polygons_.corners.size());
         }
+        if (polygons_.corners.size() != (polygons_.ends.empty() ? 0 : polygons_.ends.back()))
+            objects_.refuse(geometry_, "PolygonVertexIndex", "", "expected a negative number at the end of the last polygon");
         triangulate(control_, polygons_);
     }
 
@@ -131,7 +133,7 @@ private:
     {
         std::vector<int> order = polygons_.triangles;  // corners
         std::ranges::sort(order);
-        order.erase(std::ranges::unique(order).begin(), order.end());
+        order.erase(std::unique(order.begin(), order.end()), order.end());
         const auto rounded = (look / same_look).array().round().eval();
         const auto row = [&](int corner) {
             return std::span(rounded.data() + corner * look.cols(), static_cast<std::size_t>(look.cols()));

@@ -2,6 +2,8 @@
 
 #include "analysis/metrics/frame_metrics.hpp"
 #include "pbs/geometry/child_process.hpp"
+#include "pbs/geometry/content_format.hpp"
+#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 
@@ -56,6 +58,11 @@ bool may_be_displacement(const std::string& name, const pbs::Positions& values, 
 
 void require_no_displacement(const std::string& path, const pbs::Positions& rest, const std::vector<int>& file_point)
 {
+    if (pbs::content_extension(path) == ".msh" && pbs::read_text_file(path, pbs::most_mesh_bytes).find("$NodeData") != std::string::npos)
+        throw pbs::InputError(
+            path, 0, "points", "those of the rest mesh",
+            "expected deformed points: the $NodeData of a .msh is not read; write the frame as .vtu, or add --displacement "
+            "none if it is at rest");
     std::vector<std::string> names;
     for (const auto& [name, values] : vectors_of(path, "", file_point))
         if (may_be_displacement(name, values, rest)) names.push_back(name);

@@ -192,6 +192,7 @@ std::vector<NamedPoints> meshes_of(const pbs::RiggedBody& body)
     return meshes;
 }
 
+constexpr int most_frames_of_a_rig = 60;
 constexpr const char* explanation = "pbskin explain volume_change_pct explains a column";
 
 }  // namespace
@@ -220,7 +221,7 @@ int measure_rig(const MeasureArguments& arguments)
     const RestSurface rest(arguments.rest, {body.surface, body.triangles}, meshes_of(body));
     SurfaceMeasurement measurement(arguments, rest);
     const double duration_s = animation.end_s - animation.start_s;
-    const double rate_hz = trial_rate_hz(duration_s, arguments.most_frames, arguments.rest);
+    const double rate_hz = trial_rate_hz(duration_s, arguments.most_frames.value_or(most_frames_of_a_rig), arguments.rest);
     const pbs::MotionSampling sampling = {.rate_hz = rate_hz, .time_step_s = 1.0 / rate_hz};
     constexpr double slack_s = 1e-6;  // the last frame of a motion that was divided may lie behind its end by a rounding
     const int last = pbs::frames_after_the_first(sampling, duration_s, slack_s, arguments.rest);
@@ -229,16 +230,16 @@ int measure_rig(const MeasureArguments& arguments)
         names.push_back(std::to_string(frame));
         paths.push_back(fmt::format("{}: frame {}", arguments.rest, frame));
     }
-    pbs::Positions first;
+    pbs::Positions first = rest.points();  // with which an animation of a single pose is compared
     bool moves = false;
     const MeasuredFrames measured = measure_each(arguments, paths, names, [&](std::size_t i) {
         const int frame = static_cast<int>(i);
         const pbs::Positions points = pbs::artist_frame(rig, body, animation, sampling, frame);
-        if (frame == 0) first = points;
+        if (frame == 0 && last > 0) first = points;
         moves = moves || points != first;
         return measurement.measure(names[i], points, frame * sampling.time_step_s);
     });
-    if (!moves)
+    if (!moves && measured.refused.empty())
         throw pbs::InputError(arguments.rest, 0, "animation", animation.name,
                               "expected one that moves the surface by its nodes or joints; what morph targets move can be measured as "
                               "deformed surfaces (pbskin measure REST FRAME...)");

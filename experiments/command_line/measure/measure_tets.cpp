@@ -1,6 +1,7 @@
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/records/tables.hpp"
 #include "experiments/command_line/measure/file_reference.hpp"
+#include "experiments/command_line/measure/frame_points.hpp"
 #include "experiments/command_line/measure/measured_frames.hpp"
 #include "experiments/command_line/measure/rest_mesh.hpp"
 #include "experiments/command_line/verbs.hpp"
@@ -80,12 +81,13 @@ int measure_tets(const MeasureArguments& arguments)
     const analysis::SkinErrorMetrics skin(rest.mesh().rest, rest.mesh().tets);
     const std::vector<FileReference> references = file_references(arguments.reference, paths.size(), rest);
     std::vector<MeasuredRow> rows;
-    bool is_displaced = false;
+    bool is_displaced = false, moves = false;
     if (!arguments.quiet)
         fmt::print("{:<32} {:>14} {:>14} {:>9} {:>10} {:>10} {:>12} {:>12}\n", "frame", "volume %", "volume abs %", "inverted", "j_min",
                    "j_max", "stretch rms", "edge strain");
     const auto measure_frame = [&](std::size_t i) {
         const pbs::Positions positions = rest.read_frame(paths[i], &is_displaced);
+        moves = moves || !are_at_rest(positions, rest.mesh().rest);
         const MeasuredRow& row = rows.emplace_back(MeasuredRow{{names[i], values_of(rest, mesh_metrics, positions)}, {}});
         if (!references.empty()) rows.back().error = references[references.size() == 1 ? 0 : i].error_of(positions, skin);
         if (!arguments.quiet) print_row(row.frame);
@@ -96,6 +98,9 @@ int measure_tets(const MeasureArguments& arguments)
     if (is_displaced)
         warn({fmt::format("{}: points = those of the rest mesh: deformed by the field `displacement`, as of exported references",
                           paths.front())});
+    if (!moves && !rows.empty())
+        warn({fmt::format("{}: points = those at rest in all {} frames: nothing moves; --displacement names a vector that deforms them",
+                          arguments.rest, rows.size())});
     if (!references.empty() && !arguments.quiet) print_errors(rows);
     if (!arguments.csv.empty())
         (references.empty() ? table_of(columns, measured.frames) : table_of(error_columns, rows)).write(arguments.csv);

@@ -8,6 +8,7 @@
 #include "pbs/geometry/cost.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace experiments {
 struct MeasureArguments {
     std::string rest, csv, shells, reference, displacement, animation;
     std::vector<std::string> frames;
-    int most_frames = 60;  // of an animation
+    std::optional<int> most_frames = {};  // of an animation; nothing: 60
     bool any_step = false, quiet = false;
     std::vector<analysis::FrameBound> bounds = analysis::known_frame_bounds();
     CheckReports reports;

@@ -30,7 +30,10 @@ pbs::Positions RestMesh::read_frame(const std::string& path, bool* is_displaced)
     if (displacement_.empty() && are_at_rest(frame.points, mesh_.rest)) {
         const FileShape shape = shape_of(path, frame);
         if (is_displaced && !are_at_rest(shape.positions, mesh_.rest)) *is_displaced = true;
-        if (!shape.is_at_rest) return shape.positions;
+        if (!shape.is_at_rest) {
+            require_same_units(path, mesh_.rest, edges_, shape.positions);
+            return shape.positions;
+        }
     }
     const pbs::Positions positions = shape_of_frame(path, frame.points, mesh_.rest, frame.places, displacement_);
     require_same_units(path, mesh_.rest, edges_, positions);

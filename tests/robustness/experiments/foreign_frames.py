@@ -172,6 +172,16 @@ class ForeignFrames(program.ProgramTest):
                 self.measure(1, file, "--displacement", name, "--max-volume-change", "0.5", "--csv", "volume.csv")
                 self.assertAlmostEqual(float(self.rows("volume.csv")[0]["volume_change_pct"]), -26.0, places=5)
                 self.refuses(f"--displacement = v: expected a vector of the points: it has {name}, velocity", file, "--displacement", "v")
+        write_vtk(self.path("scalars.vtk"), POINTS, TETS)
+        with open(self.path("scalars.vtk"), "a", encoding="utf-8") as file:
+            file.write(f"\nPOINT_DATA {len(POINTS)}\nSCALARS s double 1\nLOOKUP_TABLE default\n" + "0\n" * len(POINTS)
+                       + "SCALARS u double 3\nLOOKUP_TABLE default\n" + "".join(f"{x} {y} {z}\n" for x, y, z in shift(-26.0)))
+        self.refuses("the deformation seems to be in the points' vector u: add --displacement u", "scalars.vtk")
+        foreign_arm.write_msh(self.path("nodes.msh"), POINTS, TETS)
+        with open(self.path("nodes.msh"), "a", encoding="utf-8") as file:
+            file.write("$NodeData\n1\n\"u\"\n1\n0\n3\n0\n3\n0\n$EndNodeData\n")
+        self.refuses("the $NodeData of a .msh is not read", "nodes.msh")
+        self.measure(0, "nodes.msh", "--displacement", "none", says="nothing moves")
         write_vtk(self.path("rest.vtk"), POINTS, TETS, {"displacement": shift(0.0), "velocity": shift(1.0), "rest_position": POINTS})
         self.measure(0, "rest.vtk", "--max-volume-change", "0.001")
         write_vtk(self.path("moved.vtk"), stretched(1.0), TETS, {"displacement": shift(1.0)})
@@ -202,7 +212,9 @@ class ForeignFrames(program.ProgramTest):
         for pattern, names in (("a/t_*.vtk", ("t_-1.5", "t_-1", "t_-0.25", "t_0.5", "t_1", "t_10")),
                                ("b/t*.vtk", ("t-10", "t-2", "t0", "t5")),
                                ("c/v1.2_f*.vtk", ("v1.2_f8", "v1.2_f9", "v1.2_f10")), ("d/f-*.vtk", ("f-8", "f-9", "f-10")),
-                               ("e/*.vtk", ("0.05", "0.1", "0.15", "0.2")), ("g/t_%g.vtk", ("t_-2", "t_0.5", "t_3"))):
+                               ("e/*.vtk", ("0.05", "0.1", "0.15", "0.2")), ("g/t_%g.vtk", ("t_-2", "t_0.5", "t_3")),
+                               ("h/t_%g.vtk", ("t_0", "t_1e-05", "t_2e-05", "t_0.0001")),
+                               ("i/t_*.vtk", ("t_0", "t_1e-05", "t_2e-05", "t_0.30000000000000004"))):
             with self.subTest(pattern):
                 folder = os.path.dirname(pattern)
                 os.makedirs(self.path(folder))

@@ -106,6 +106,23 @@ TEST(ClipOfRig, TheCurvesOfFbxNodesAreAMotion)
     }
 }
 
+TEST(ClipOfRig, AJointOfAnFbxFileThatMovesNoPointRestsBelowItsParent)
+{
+    test_support::FbxFile file;
+    const std::int64_t root = file.node("root", 0, "LimbNode", {});
+    const std::int64_t middle = file.node("middle", root, "LimbNode", {{"Lcl Translation", {0, 2, 0}}});
+    const std::int64_t hand = file.node("hand", middle, "LimbNode", {{"Lcl Translation", {0, 1, 0}}});
+    const std::int64_t mesh = file.mesh("skin", file.node("body", 0, "Mesh", {}), {1, 0, 0, 0, 3, 0, 0, 4, 1}, {0, 1, -3});
+    const std::int64_t skin = file.skin(mesh, "");
+    file.cluster(skin, root, {0}, {1}, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    file.cluster(skin, hand, {1, 2}, {1, 1}, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -3, 0, 1});
+    file.curves(file.layer(file.animation("Bend")), middle, "Lcl Rotation", {0, 0, 0}, {{2, {{0, 1}, {0, 90}, 4}}});
+    const test_support::ScratchFolder folder;
+    const Clip clip = read_clip(folder.file("walk.fbx", file.text()));
+    const auto row = std::ranges::find(clip.joints, "middle") - clip.joints.begin();
+    EXPECT_EQ(Vec3(clip.zero_pose.row(row)), Vec3(0, 2, 0));
+}
+
 TEST(ClipOfRig, TwoMovingJointsOfOneNameAreRefused)
 {
     GltfDocument gltf = test_support::two_joint_document();

@@ -91,6 +91,10 @@ TEST_F(VtkFiles, OfCollectionsAreListedByTime)
     expect_input_error([&] { pbs::read_tet_frame(path); }, path + ": ", ".pvd");
     pbs::write_pvd(path, {{1.0, "a.vtu"}, {1.0, "b.vtu"}});
     expect_input_error([&] { pbs::read_pvd(path); }, path + ": timestep = 1: ", "expected one file for each");
+    folder.file("a.pvd",
+                "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"1\" file=\"a.vtu\"/><DataSet file=\"b.vtu\"/>"
+                "</Collection></VTKFile>");
+    expect_input_error([&] { pbs::read_pvd(path); }, path + ": timestep = 1: ", "expected one file for each");
     folder.file("a.pvd", "<VTKFile type=\"UnstructuredGrid\"/>");
     expect_input_error([&] { pbs::read_pvd(path); }, path + ": ", "expected a ParaView collection");
     folder.file("a.pvd", "no markup");
