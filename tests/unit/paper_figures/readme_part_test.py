@@ -327,7 +327,8 @@ class Pages(ResultsTest):
 
     def test_broken_initial_shapes_are_of_the_full_form_alone(self):
         study = self.results / "stability"
-        write_table(study / "pbs" / "cells.csv", [{"body": "human", "model": "pbs", "factor": "k", "second_factor": "h", "outcome": "kept"}])
+        write_table(study / "pbs" / "cells.csv", [{"body": "human", "model": "pbs", "factor": "k", "second_factor": "h",
+                                                   "outcome": "kept"}])
         (study / "plan.json").write_text(json.dumps({"runs": [{"name": "pbs"}]}), encoding="utf-8")
         self.assertEqual([heading for heading, _ in short.stability(study)], ["Cells"])
         write_table(study / "pbs" / "starts.csv", [{"body": "human", "model": "pbs", "pose": "crouch", "setting": "k", "setting_value": "1",

@@ -58,7 +58,7 @@ TEST_P(RefusedFile, NamesFileLineFieldValueAndRule)
 const BadFile bad_meshes[] = {
     {"flat_tet", "gmsh", "4 0 0 1", "4 1 1 0", ": tet 0", "expected a volume"},
     {"gmsh_surface_alone", "gmsh", "1 4 2 0 1 1 2 3 4", "1 2 2 0 1 1 2 3", "", "expected at least one tetrahedron"},
-    {"gmsh_pyramid", "gmsh", "1 4 2 0 1 1 2 3 4", "1 7 2 0 1 1 2 3 4 1", "", "Pyramid"},
+    {"gmsh_pyramid", "gmsh", "1 4 2 0 1 1 2 3 4", "1 7 2 0 1 1 2 3 4 1", "", "pyramid"},
     {"vtk_surface_alone", "vtk", "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10", "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5", "",
      "expected at least one tetrahedron"},
     {"vtk_pyramid", "vtk", "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10", "CELLS 1 6\n5 0 1 2 3 0\nCELL_TYPES 1\n14", "", "vtkPyramid"},

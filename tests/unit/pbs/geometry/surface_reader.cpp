@@ -139,7 +139,7 @@ TEST_F(Surface, AnEdgeInThreeTrianglesIsARemarkWithItsPlace)
     EXPECT_EQ(pbs::read_surface(path, remarks).triangles.rows(), 13);
     EXPECT_NE(
         std::find(remarks.begin(), remarks.end(),
-                  path + ": edges of three or more triangles = 1: not manifold there, first from (0, 0, 0) to (1, 0, 0); the surface is "
+                  path + ": edges of three or more triangles = 1: not manifold there, first from (1, 0, 0) to (0, 0, 0); the surface is "
                          "wrapped"),
         remarks.end());
 }
