@@ -98,7 +98,7 @@ int measure_tets(const MeasureArguments& arguments)
     if (is_displaced)
         warn({fmt::format("{}: points = those of the rest mesh: deformed by the field `displacement`, as of exported references",
                           paths.front())});
-    if (!moves && !rows.empty())
+    if (!moves && !rows.empty() && measured.refused.empty())
         warn({fmt::format("{}: points = those at rest in all {} frames: nothing moves; --displacement names a vector that deforms them",
                           arguments.rest, rows.size())});
     if (!references.empty() && !arguments.quiet) print_errors(rows);
