@@ -26,6 +26,9 @@ TetMesh read_tobj(const std::string& path);    // .tobj
 TetMesh read_tetgen(const std::string& path);  // .node or .ele; the other file is in the same folder
 
 SurfaceMesh read_polygons(const std::string& path);  // .ply, .off, .stl, by CGAL
+// InputError for a word of such a text that is no number where the format has one, and for words behind what its counts state. STL: in
+// lower case.
+void check_polygon_text(const std::string& path, const std::string& text, const std::string& extension);
 SurfaceMesh read_vtp(const std::string& path);       // .vtp and .vtk with a surface, by VTK
 
 // .obj; mesh_name as in read_surface. Polygons are triangulated by CGAL, in a build without it by fans, where these are right.

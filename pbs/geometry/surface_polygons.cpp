@@ -94,14 +94,21 @@ bool read_soup(const std::string& path, std::vector<Point>& points, std::vector<
 {
     const std::string extension = format_extension(path), bytes = read_text_file(path, most_mesh_bytes);
     if (extension == ".ply") {
-        std::istringstream file(with_known_index_type(path, as_utf8(bytes)));
+        const std::string text = with_known_index_type(path, as_utf8(bytes));
+        if (text.find("format ascii") < text.find("end_header")) check_polygon_text(path, text, extension);
+        std::istringstream file(text);
         return CGAL::IO::read_PLY(file, points, polygons);
     }
     if (extension == ".stl") {
-        std::istringstream file(bytes.find('\0') == std::string::npos || as_utf8(bytes) != bytes ? in_lower_case(as_utf8(bytes)) : bytes);
+        const bool is_text = bytes.find('\0') == std::string::npos || as_utf8(bytes) != bytes;
+        const std::string text = is_text ? in_lower_case(as_utf8(bytes)) : bytes;
+        if (is_text) check_polygon_text(path, text, extension);
+        std::istringstream file(text);
         return CGAL::IO::read_STL(file, points, polygons);
     }
-    std::istringstream file(with_number_of_edges(as_utf8(bytes)));
+    const std::string text = with_number_of_edges(as_utf8(bytes));
+    check_polygon_text(path, text, extension);
+    std::istringstream file(text);
     return CGAL::IO::read_OFF(file, points, polygons);
 }
 
