@@ -103,7 +103,7 @@ struct FrameValues {
     double self_intersections = 0.0;  // of a surface: pairs of triangles that meet; NaN: not counted, in a build without CGAL
 };
 
-// What is measured, and what a bound applies to.
+// The kind of mesh that is measured, by which bounds are chosen.
 enum class Measured { tets, surface, both };
 
 struct FrameBound {

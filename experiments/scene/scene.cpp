@@ -212,7 +212,7 @@ std::vector<std::string> remarks_on_match(const pbs::ClipMatch& match, const std
     return {text};
 }
 
-// Of the parts of the body that point elsewhere than those of the clip, over the whole motion.
+// Names the parts of the body that point in other directions than those of the clip, over the whole motion.
 std::vector<std::string> notes_on_angles(const std::vector<pbs::PartAngle>& angles, const std::string& clip)
 {
     std::vector<std::string> parts;

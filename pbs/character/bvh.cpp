@@ -35,7 +35,7 @@ std::string trimmed(const std::string& text)
     return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-// What the file states of a joint or an end site. Channels: x, y, z positions and X, Y, Z rotations, in the order of the file.
+// A joint or an end site, as the file states it. Channels: x, y, z positions and X, Y, Z rotations, in the order of the file.
 struct BvhJoint {
     std::string name;
     int parent = -1;
@@ -55,7 +55,7 @@ struct BvhMotion {
     std::size_t rows() const { return numbers.size() / channels; }
 };
 
-// What assimp's function throws, in place of its own exception, which its library keeps to itself.
+// The exception that assimp's function throws here, since its own one is not exported by its library.
 struct NoNumber {
     template <typename... Words>
     explicit NoNumber(const Words&...)

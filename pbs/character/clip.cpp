@@ -25,7 +25,7 @@ constexpr int frames_looked_at = 31;        // of each animation, to find the on
 
 using Rotations = std::vector<Eigen::Quaterniond>;
 
-// Of each node in the scene, without its scale.
+// The rotation of each node in the scene, without its scale.
 Rotations rotations_of(const std::vector<Eigen::Affine3d>& nodes)
 {
     Rotations rotations;

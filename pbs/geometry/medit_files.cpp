@@ -64,7 +64,7 @@ void read_tetrahedra(TextWords& words, MeditContent& content)
     content.has_tets = true;
 }
 
-// What a section that is not needed holds: numbers and texts up to the next keyword.
+// Skips a section that is not needed: numbers and texts up to the next keyword.
 void skip_section(TextWords& words, const std::string& section)
 {
     constexpr std::array volumes = {"Hexahedra", "Prisms", "Pyramids", "TetrahedraP2"};

@@ -143,7 +143,7 @@ private:
         if (is_swapped_ && one != 1 << 24) throw InputError(path_, 0, "order of bytes", std::to_string(one), "expected 1 or 16777216");
     }
 
-    // Of the line that begins with a keyword; npos: there is none.
+    // The place of the line that begins with a keyword; npos: there is no such line.
     std::size_t place_of(const std::string& keyword) const
     {
         const std::string& text = words_.text();
@@ -183,7 +183,7 @@ struct MshContent {
     std::vector<double> coordinates;                      // [m], 3 #V
 };
 
-// What a block of version 4 has in common: entities of this dimension.
+// The head of a block in version 4, which all its entries share.
 struct Block {
     int dimension;
     bool is_parametric;

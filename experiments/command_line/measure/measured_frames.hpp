@@ -1,4 +1,4 @@
-// What `pbskin measure` does with frames of any kind: it measures each, compares it with the bounds, and reports.
+// `pbskin measure` for frames of any kind: each is measured and compared with the bounds, and the result is reported.
 //   MeasuredFrames measured = measure_each(arguments, paths, names, [&](std::size_t frame) { return values_of(read(paths[frame])); });
 //   return reported(arguments, measured, "pbskin explain volume_change_pct explains a column");
 #pragma once

@@ -34,7 +34,7 @@ public:
     // Pairs of triangles of the closed shells that meet; nothing: a build without CGAL. points: [m], #P x 3.
     std::optional<int> self_intersections(const pbs::Positions& points) const;
 
-    // What was left out, joined or taken otherwise than the file has it, a sentence each.
+    // One sentence for each change to the file's surface: points that were joined, faces that were turned, shells that were left out.
     std::vector<std::string> remarks() const;
 
 private:
