@@ -239,6 +239,11 @@ void ElasticBody::start_from_nodes(const pbs::Positions& nodes)
     implementation_->start_at(Eigen::VectorXd::Map(displacement.data(), displacement.size()));
 }
 
+void ElasticBody::give_up_when(std::function<bool()> is_over)
+{
+    implementation_->options_.newton.is_over = std::move(is_over);
+}
+
 NewtonSummary ElasticBody::solve_at_once(const Targets& targets, const pbs::Vec3& gravity_m_s2)
 {
     require(gravity_m_s2.allFinite(), "gravity_m_s2", gravity_m_s2.transpose(), "expected finite components");

@@ -72,6 +72,9 @@ public:
     void start_from(const pbs::Positions& vertices);
     void start_from_nodes(const pbs::Positions& nodes);
 
+    // Asked before each linear solve: once it is true, Newton's method is given up and the state that was asked for is not reached.
+    void give_up_when(std::function<bool()> is_over);
+
     // Newton alone for these targets, from the last state or start_from(), however broken: no load path, nothing taken back. positions()
     // are then the last iterate, converged or not. pbs::InputError unless quasi-static, and as solve(). With contact, an initial guess that
     // intersects itself ends with the outcome intersects_itself: the barrier would keep it as it is. This holds for solve_here(), too.

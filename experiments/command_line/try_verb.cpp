@@ -50,7 +50,7 @@ RunResult run_new_scene(const std::string& scene_file, const std::string& earlie
         Scene scene = read_scene(scene_file, {});
         for (DeformerSpec& spec : scene.deformers) spec.threads = threads;
         scene.output.surface_files = options.paraview;
-        return run_scene(scene, options.folder, remarks);
+        return run_scene(scene, options.folder, remarks, WhenInterrupted::finish_early);
     } catch (const pbs::InputError&) {
         std::error_code code;
         if (!earlier_scene.empty())
@@ -108,6 +108,10 @@ int try_model(TrialOptions options, const CommonOptions& common)
     const int page = write_report_page(options.folder, common.quiet);
     leave_what_is_of_use(options, page == exit_finished);
     spdlog::info("{}", facts["summary"].get<std::string>());
+    if (result.was_interrupted) {
+        spdlog::error("pbskin: interrupted; {}/report.html has what was finished, and the same command goes on from there", options.folder);
+        return exit_interrupted;
+    }
     if (page == exit_finished) say_next(fmt::format("xdg-open {}/report.html, or change {} and pbskin run it", options.folder, scene_file));
     if (result.failure().empty()) return page;
     spdlog::error("pbskin: {}", result.failure());
@@ -171,6 +175,12 @@ void add_try_verb(CommandLine& line)
         "--error-bar", options->error_bar,
         "also bounds the reference's own error, by three further solutions per frame, two of them on tets cut into eight. With 2,000 "
         "vertices each frame takes minutes, and the run needs 6 GB: choose a few --frames");
+    verb->add_option("--reference-seconds", options->reference_seconds,
+                     "processor time for the finite elements, which solve evenly spread frames until it is spent; the same command goes on "
+                     "with the others. 0: all frames, whatever they take")
+        ->check(CLI::Range(0.0, 1e7))
+        ->capture_default_str()
+        ->excludes(error_bar);
     verb->add_flag_callback(
             "--no-reference", [options] { options->reference = false; }, "leaves out the finite elements, which take most of the time")
         ->excludes(error_bar);

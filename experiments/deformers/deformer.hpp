@@ -64,6 +64,17 @@ public:
     // it.
     virtual void start_from(const pbs::Positions& /*shape*/) {}
 
+    // Makes an earlier frame, its pose and its positions [m], #V x 3, in the world, the state from which the next call of advance goes on.
+    // Deformers whose frames do not need the last one ignore it.
+    virtual void continue_from(const pbs::Pose& /*pose*/, const pbs::Positions& /*positions*/) {}
+
+    // Asked within advance: once it is true, a solver whose frame takes seconds gives up, and the pose is not reached. The others ignore
+    // it.
+    virtual void give_up_when(std::function<bool()> /*is_over*/) {}
+
+    // False in a frame without a solution, as of a reference whose budget of time left the frame out: positions() are then of no meaning.
+    virtual bool has_state() const { return true; }
+
     // True if the next positions depend on the last ones. Such a deformer gets every step; the others get only the frames.
     virtual bool has_memory() const { return false; }
 

@@ -33,7 +33,7 @@
 namespace experiments {
 namespace {
 
-volatile std::sig_atomic_t signalled = 0;
+volatile std::sig_atomic_t signalled = 0, taken = 0;
 bool progress_is_hidden = false;
 
 // The work that is interrupted has the time of grace to end by itself: a step between two frames, and the tables of the frames before it.
@@ -74,14 +74,14 @@ void on_signal(int signal)
 void on_alarm(int)
 {
     const int error = errno;
-    if (signalled != 0) {
+    if (interrupted()) {
         pbs::AtomicFile::remove_unfinished();
         if (getpid() == watching)
             for (const char* text : {"pbskin: ", last_words, "\n"}) print_from_handler(text, std::strlen(text));
         _exit(exit_interrupted);
     }
     ring_after(long_stage_s);
-    if (signalled != 0) ring_after(grace_s);  // a signal came after the first line
+    if (interrupted()) ring_after(grace_s);  // a signal came after the first line
     if (const int length = line_length.exchange(0); length > 0) print_from_handler(line_of_stage, static_cast<std::size_t>(length));
     errno = error;
 }
@@ -158,7 +158,15 @@ void watch_interrupts()
 
 bool interrupted()
 {
-    return signalled != 0;
+    return signalled != 0 && taken == 0;
+}
+
+bool take_interruption()
+{
+    if (!interrupted()) return false;
+    taken = 1;
+    ring_after(stages > 0 ? long_stage_s : 0.0);
+    return true;
 }
 
 void stop_if_interrupted()
@@ -207,12 +215,16 @@ Progress::~Progress()
 
 void Progress::advance_to(int done)
 {
+    if (done > 0) advance_to(done, fmt::format("{:.0f} s left", stopwatch_.seconds() / done * (total_ - done)));
+}
+
+void Progress::advance_to(int done, const std::string& words)
+{
     const double elapsed = stopwatch_.seconds();
-    if (!shown_ || done == 0 || (elapsed - last_drawn_s_ < redraw_s && done < total_)) return;
+    if (!shown_ || (elapsed - last_drawn_s_ < redraw_s && done < total_)) return;
     last_drawn_s_ = elapsed;
     const int filled = bar_width * done / total_;
-    const double left_s = elapsed / done * (total_ - done);
-    fmt::print(stderr, "\r\033[K{} [{:#<{}}{:.<{}}] {}/{} {:.0f} s left", label_, "", filled, "", bar_width - filled, done, total_, left_s);
+    fmt::print(stderr, "\r\033[K{} [{:#<{}}{:.<{}}] {}/{} {}", label_, "", filled, "", bar_width - filled, done, total_, words);
     std::fflush(stderr);
 }
 

@@ -39,6 +39,9 @@ struct Interrupted {};
 void watch_interrupts();
 bool interrupted();
 void stop_if_interrupted();  // throws Interrupted
+// For work that an interruption shortens rather than ends: returns whether there was one, and forgets it. The next signal ends the program
+// at once.
+bool take_interruption();
 
 // The number of characters in a line: COLUMNS, else the width of the terminal, else 100.
 std::size_t terminal_width();
@@ -53,6 +56,7 @@ public:
     Progress(std::string label, int total);
     ~Progress();
     void advance_to(int done);
+    void advance_to(int done, const std::string& words);  // in place of the time left
 
 private:
     std::string label_;

@@ -7,6 +7,7 @@
 #include "experiments/run/parts_of_one_bone.hpp"
 #include "experiments/run/reference_error_bar.hpp"
 #include "experiments/run/run_folder.hpp"
+#include "experiments/run/spread_reference.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/separated_parts.hpp"
@@ -56,13 +57,31 @@ struct Runner {
     int most_inverted = 0;
 };
 
-std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& character, CostRecord& cost)
+// All that the reference's frames depend on, except for their poses.
+std::string reference_key(const DeformerSpec& spec, const pbs::Character& character)
+{
+    const nlohmann::json settings = {to_json(spec), pbs::hash_of_file(load_module_with_blas("pbskin_fem").path()),
+                                     pbs::content_hash(character.mesh), pbs::hashes_by_name(character.inputs)};
+    return pbs::content_hash(settings.dump());
+}
+
+std::unique_ptr<Deformer> deformer_of(const DeformerSpec& spec, const Scene& scene, const pbs::Character& character,
+                                      const std::string& folder, WhenInterrupted when_interrupted)
+{
+    if (scene.reference_seconds == 0.0 || spec.name != scene.reference) return make_deformer(spec);
+    const ReferenceBudget budget{scene.reference_seconds, folder + "/reference_frames.cbor", reference_key(spec, character),
+                                 when_interrupted == WhenInterrupted::finish_early};
+    return std::make_unique<SpreadReference>(make_deformer(spec), budget);
+}
+
+std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& character, CostRecord& cost, const std::string& folder,
+                                 WhenInterrupted when_interrupted)
 {
     std::vector<Runner> runners;
     for (const DeformerSpec& spec : scene.deformers) {
         cost.time("set_up", spec.label, [&] {
             const pbs::Stage stage("setting up " + spec.label);
-            runners.push_back({spec, traits_of(spec), make_deformer(spec)});
+            runners.push_back({spec, traits_of(spec), deformer_of(spec, scene, character, folder, when_interrupted)});
             runners.back().deformer->reset(character);
         });
     }
@@ -157,14 +176,15 @@ constexpr double longest_loss_s = 1.0;
 
 class SceneRun {
 public:
-    SceneRun(const Scene& scene, const std::string& folder, const Remarks& remarks)
+    SceneRun(const Scene& scene, const std::string& folder, const Remarks& remarks, WhenInterrupted when_interrupted)
         : scene_(scene),
+          when_interrupted_(when_interrupted),
           warnings_(printed(remarks.warnings, "warning")),
           notes_(printed(remarks.notes, "note")),
           character_(cost_.time("character", [&] { return character_with_warnings(scene, warnings_); })),
           motion_case_(cost_.time("motion", [&] { return read_motion(scene, character_, warnings_, notes_); })),
           motion_(motion_case_.motion),
-          runners_(make_runners(scene, character_, cost_)),
+          runners_(make_runners(scene, character_, cost_, folder, when_interrupted)),
           measurer_(
               cost_.time("metrics_set_up", [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
           folder_((refuse_frames_beyond(motion_, scene), scene), character_, folder)
@@ -211,11 +231,20 @@ private:
     {
         std::vector<pbs::Pose> frames;
         for (std::size_t step = 0; step < motion_.steps.size(); step += motion_.steps_per_frame) frames.push_back(motion_.steps[step]);
-        for (Runner& runner : runners_) runner.deformer->foresee(runner.deformer->has_memory() ? motion_.steps : frames);
+        if (scene_.reference_seconds > 0.0)
+            spdlog::info("solving the reference: at most {:.0f} s of processor time for {} frames ...", scene_.reference_seconds,
+                         frames.size());
+        for (Runner& runner : runners_)
+            cost_.time("step", runner.spec.label,
+                       [&] { runner.deformer->foresee(runner.deformer->has_memory() ? motion_.steps : frames); });
         Progress progress(scene_.name, static_cast<int>(motion_.steps.size()));
         const pbs::Stage stage(fmt::format("moving {} through {} frames", scene_.name, frames.size()));
         pbs::Stopwatch since_tables;
         for (std::size_t step = 0; step < motion_.steps.size(); ++step) {
+            if (frames_ > 0 && when_interrupted_ == WhenInterrupted::finish_early && take_interruption()) {
+                was_interrupted_ = true;
+                break;
+            }
             stop_if_interrupted();
             const bool is_frame = step % motion_.steps_per_frame == 0;
             for (Runner& runner : runners_)
@@ -241,7 +270,7 @@ private:
         context.pose = &motion_.steps[step];
         if (!motion_.angle_deg.empty()) context.angle_deg = motion_.angle_deg[frame];
         const Runner& first = runners_.front();
-        if (scene_.output.errors && first.spec.name == scene_.reference && can_be_compared_with(first)) {
+        if (scene_.output.errors && first.spec.name == scene_.reference && first.deformer->has_state() && can_be_compared_with(first)) {
             context.reference = &first.deformer->positions();
             cost_.time("metrics", [&] {
                 const FemFacts* facts = first.deformer->facts();
@@ -254,7 +283,8 @@ private:
             cost_.time("metrics", [&] { find_lag(frame, *context.reference, motion_.steps[step]); });
             if (error_bar_) cost_.time("error_bar", [&] { context.reference_error = error_bar_->bound(*context.reference, measurer_); });
         }
-        for (Runner& runner : runners_) record_deformer(runner, frame, time_s, context);
+        for (Runner& runner : runners_)
+            if (runner.deformer->has_state()) record_deformer(runner, frame, time_s, context);
         if (frame == 0) remark_on_inverted_start();
         if (scene_.output.writes(frame)) {
             folder_.write_pose(frame, time_s, character_.skeleton, motion_.steps[step]);
@@ -305,6 +335,39 @@ private:
                              scene_.file, bone, lag_.turn_deg, lag_.frame)},
                 warnings_);
         return {{"largest_deg", lag_.turn_deg}, {"bone", bone}, {"frame", lag_.frame}};
+    }
+
+    // What a budget left out, and what held the reference up.
+    nlohmann::json record_reference_frames()
+    {
+        const auto* reference = dynamic_cast<const SpreadReference*>(runners_.front().deformer.get());
+        if (!reference) return nullptr;
+        const SpreadReference::Outcome& solved = reference->outcome();
+        was_interrupted_ = was_interrupted_ || solved.was_interrupted;
+        nlohmann::json not_reached = nlohmann::json::array();
+        for (const SpreadReference::NotReached& frame : solved.not_reached)
+            not_reached.push_back({{"frame", frame.frame}, {"cpu_seconds", frame.seconds}, {"bone", frame.bone}});
+        if (!solved.not_reached.empty()) {
+            const SpreadReference::NotReached& first = solved.not_reached.front();
+            add_warnings({fmt::format("{}: the reference did not reach {} of {} frames, first frame {} within {:.0f} s: the flesh of {} "
+                                      "holds it up, which is compressed most",
+                                      scene_.file, solved.not_reached.size(), solved.frames, first.frame, first.seconds, first.bone)},
+                         warnings_);
+        }
+        if (solved.solved < solved.frames)
+            add_remarks(
+                {fmt::format("{}: the reference has {} of {} frames, evenly spread, {}; only they have errors", scene_.file, solved.solved,
+                             solved.frames,
+                             solved.was_interrupted
+                                 ? "since it was interrupted"
+                                 : fmt::format("for which {:.0f} s of processor time were spent (reference.seconds)", solved.seconds))},
+                notes_, "note");
+        return {{"frames", solved.frames},
+                {"solved", solved.solved},
+                {"kept", solved.kept},
+                {"cpu_seconds", solved.seconds},
+                {"budget_s", scene_.reference_seconds},
+                {"not_reached", not_reached}};
     }
 
     void warn_of_overlap()
@@ -430,10 +493,12 @@ private:
             outcome["frames_with_overlap"] = frames_with_overlap_;
             outcome["largest_masked_share_pct"] = largest_masked_share_pct_;
             outcome["reference_lag"] = record_lag();
+            outcome["reference_frames"] = record_reference_frames();
         }
         if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
         warn_of_overlap();
         if (const nlohmann::json followed = record_followed_skin(); !followed.is_null()) outcome["from_artist"] = followed;
+        if (was_interrupted_) outcome["interrupted"] = true;
         outcome["warnings"] = warnings_;
         outcome["notes"] = notes_;
         outcome["motion"] = {{"largest_rotation_deg", motion_case_.largest_rotation_deg},
@@ -445,7 +510,7 @@ private:
         outcome.update(run_end(stopwatch_.seconds()));
         folder_.finish(character_, records, outcome, cost_, error_bar_ ? error_bar_->method() : nlohmann::json());
 
-        RunResult result{frames_, stopwatch_.seconds(), breakdown_, bad_frame_, {}};
+        RunResult result{frames_, stopwatch_.seconds(), breakdown_, bad_frame_, {}, was_interrupted_};
         for (const Runner& runner : runners_)
             result.lines.push_back(
                 runner.lowest_change_pct > runner.highest_change_pct
@@ -459,6 +524,8 @@ private:
     }
 
     const Scene& scene_;
+    WhenInterrupted when_interrupted_;
+    bool was_interrupted_ = false;
     std::vector<std::string> warnings_, notes_;
     CostRecord cost_;
     pbs::Stopwatch stopwatch_;
@@ -482,10 +549,10 @@ private:
 
 }  // namespace
 
-RunResult run_scene(const Scene& scene, const std::string& folder, const Remarks& remarks)
+RunResult run_scene(const Scene& scene, const std::string& folder, const Remarks& remarks, WhenInterrupted when_interrupted)
 {
     std::optional<pbs::Stage> preparing("preparing " + scene.name);
-    SceneRun run(scene, folder, remarks);
+    SceneRun run(scene, folder, remarks, when_interrupted);
     preparing.reset();
     return run.run();
 }

@@ -21,15 +21,21 @@ struct RunResult {
     std::string breakdown;           // the first deformer and frame that were not finite, with the first such vertex; empty: none
     std::string bad_frame;           // the first bad frame, with its worst tet and the number of bad frames of each deformer; empty: none
     std::vector<std::string> lines;  // a summary for the terminal, one line per deformer
+    bool was_interrupted = false;    // and finished with the frames, or the frames of the reference, up to then
 
     // Why a run failed that was expected to finish without bad frames: the breakdown, else the bad frame. Empty: it did not fail.
     const std::string& failure() const { return breakdown.empty() ? bad_frame : breakdown; }
 };
 
+// What an interruption ends: the run, whose tables of finished frames remain; or what takes long, so that the records are whole: the
+// solving of a reference with a budget, or else the motion after the present frame.
+enum class WhenInterrupted { stop, finish_early };
+
 // Overwrites the records in `folder`. Each file is written whole or not at all, run.json last. A breakdown of a negative control (the
 // printed forms, linear elasticity) is only recorded, under outcome.broken_frames.
 // remarks: what the caller has to say about the scene; they are printed and recorded before those of the run.
-RunResult run_scene(const Scene& scene, const std::string& folder, const Remarks& remarks = {});
+RunResult run_scene(const Scene& scene, const std::string& folder, const Remarks& remarks = {},
+                    WhenInterrupted when_interrupted = WhenInterrupted::stop);
 
 // The parts of run.json that are the same for all runs.
 //   run["provenance"] = run_provenance(threads);   run["outcome"].update(run_end(stopwatch.seconds()));

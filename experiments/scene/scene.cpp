@@ -157,13 +157,28 @@ OutputSpec read_output(const SceneValues& values)
     return output;
 }
 
-ErrorBar read_error_bar(const SceneValues& values, const std::string& reference, const std::vector<DeformerSpec>& deformers,
-                        const OutputSpec& output)
+// The reference's options; null: there is no reference, or it is no [[fem]] table.
+const FemOptions* fem_reference(const std::string& reference, const std::vector<DeformerSpec>& deformers)
+{
+    const auto spec = std::ranges::find(deformers, reference, &DeformerSpec::name);
+    return spec == deformers.end() ? nullptr : options_if<FemOptions>(*spec);
+}
+
+double read_reference_seconds(const SceneValues& values, const FemOptions* fem, ErrorBar error_bar)
+{
+    const double seconds = values.number("reference.seconds");
+    if (seconds == 0.0) return seconds;
+    if (!fem || fem->dynamics != reference_fem::Dynamics::quasi_static)
+        values.refuse("reference.seconds", "expected 0 if the reference is not a quasi-static [[fem]] table");
+    if (error_bar != ErrorBar::none)
+        values.refuse("reference.seconds", "expected 0 with reference.error_bar, whose further solutions belong to every frame");
+    return seconds;
+}
+
+ErrorBar read_error_bar(const SceneValues& values, const FemOptions* fem, const OutputSpec& output)
 {
     const ErrorBar error_bar = option_of<ErrorBar>(values.text("reference.error_bar"));
     if (error_bar == ErrorBar::none) return error_bar;
-    const auto reference_spec = std::ranges::find(deformers, reference, &DeformerSpec::name);
-    const FemOptions* fem = reference_spec == deformers.end() ? nullptr : options_if<FemOptions>(*reference_spec);
     if (!fem)
         values.refuse("reference.error_bar", "expected none if the reference is not a [[fem]] table, for it has no elements to refine");
     if (fem->formulation == reference_fem::Formulation::taylor_hood)
@@ -343,7 +358,9 @@ Scene read_scene(const std::string& file_or_name, const std::vector<std::string>
     scene.deformers = read_deformers(values);
     scene.reference = read_reference(values, scene.deformers);
     scene.output = read_output(values);
-    scene.error_bar = read_error_bar(values, scene.reference, scene.deformers, scene.output);
+    const FemOptions* fem = fem_reference(scene.reference, scene.deformers);
+    scene.error_bar = read_error_bar(values, fem, scene.output);
+    scene.reference_seconds = read_reference_seconds(values, fem, scene.error_bar);
     scene.resolved = values.resolved();
     scene.resolved["pbs"]["time_step_s"] = scene.motion.time_step_s;
     return scene;

@@ -58,6 +58,7 @@ struct Scene {
     std::vector<DeformerSpec> deformers;
     std::string reference;  // name of the deformer that errors are measured against; empty: none
     ErrorBar error_bar = ErrorBar::none;
+    double reference_seconds = 0.0;  // of processor time, for all of its frames; 0: no limit
     OutputSpec output;
     nlohmann::json resolved;  // every key and value, for run.json; paths as in the scene
 };

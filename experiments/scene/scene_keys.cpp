@@ -132,6 +132,12 @@ SceneSchema scene_schema(const std::vector<DeformerKind>& kinds)
                      .meaning =
                          "both also bounds the discretisation error of the reference, by three further solutions: with the other element "
                          "order, on tets cut into eight, and both; the method is in run.json"})
+               .key("seconds", number, 0.0,
+                    {.unit = "s",
+                     .range = {0.0, 1e7},
+                     .meaning = "processor time for all frames of a quasi-static reference: it solves frames that are evenly spread, ever "
+                                "closer to each other, until the time is spent, and the others have no errors; 0: every frame, whatever "
+                                "it takes"})
                .keys());
     append(Keys("deformers")
                .key("use", texts, {"lbs", "pbs"},

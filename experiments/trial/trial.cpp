@@ -440,7 +440,14 @@ TrialScene trial_scene(const TrialOptions& options)
     made.text += pbs_table;
     if (has_artist)
         made.text += "[[lbs]]\nname = \"lbs_paper\"               # linear blend skinning with the weights of Eq. 2\nweights = \"paper\"\n";
-    if (reference) made.text += std::string(reference_tables) + (options.error_bar ? "error_bar = \"both\"\n" : "");
+    if (reference) {
+        made.text += reference_tables;
+        if (options.error_bar)
+            made.text += "error_bar = \"both\"\n";
+        else if (options.reference_seconds > 0.0)
+            made.text += fmt::format("seconds = {}   # of processor time, spent on evenly spread frames\n",
+                                     nlohmann::json(options.reference_seconds).dump());
+    }
     made.text += fmt::format("[deformers]\nuse = [\"lbs\", \"dqs\", {}\"delta_mush\", \"pbs\"{}]\n", has_artist ? "\"lbs_paper\", " : "",
                              reference ? ", \"nh_p1\"" : "");
     made.text += "[output]\nframes_every = 1\nglb = true                       # also the moving surface of each deformer\n";
@@ -493,6 +500,8 @@ nlohmann::json trial_facts(const std::string& folder)
             {"widest_frame", fs::exists(distances) ? widest_frame(analysis::read_csv(distances)) : nullptr},
             {"frame_ms", frame_ms(metrics)},
             {"error_bar", error_bar_facts(metrics, run)},
+            {"reference_frames", outcome.value("reference_frames", nlohmann::json())},
+            {"interrupted", outcome.value("interrupted", false)},
             {"reference_lag", outcome.value("reference_lag", nlohmann::json())},
             {"control", fs::exists(folder + "/skin/artist.pvd") ? nlohmann::json("skin/artist_*.vtp") : nullptr}};
 }

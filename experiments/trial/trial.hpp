@@ -19,8 +19,9 @@ struct TrialOptions {
     int frames = 60;        // at most, distributed over the motion
     int vertices = 0;       // wanted of the tets; 0: the default of models
     double scale = 1.0;
-    bool error_bar = false;  // bounds the reference's own error
-    bool reference = true;   // also left out, with a remark, where the finite elements are not installed
+    bool error_bar = false;            // bounds the reference's own error
+    double reference_seconds = 120.0;  // of processor time, for all frames of the reference; 0: no limit
+    bool reference = true;             // also left out, with a remark, where the finite elements are not installed
     bool allow_partial = false;
     bool paraview = false;  // the frames are kept as .vtu and .vtp too
 };
@@ -66,6 +67,10 @@ std::string earlier_trial_scene(const TrialOptions& options);
 //                 [%] and the wall time of the further solutions [s]; null without an error bar
 //   reference_lag the largest angle between a bone and the flesh that it alone moves, in the reference (largest_deg), the bone and the
 //                 frame; null without a reference, and where no bone moves a tet alone
+//   reference_frames  what the budget of time allowed: frames of the motion, solved, kept (solved by an earlier trial), cpu_seconds,
+//   budget_s,
+//                 not_reached [{frame, cpu_seconds, bone that held it up}]; null without a budget
+//   interrupted   whether the trial was interrupted and has only what was finished by then
 //   from_artist   where the surface carried by the tets under lbs is farthest from the artist's: largest_pct of the model's size, frame,
 //                 the bones of surface and flesh there, and the gap between them at rest; null: not compared
 //   control       the files of the surface by the format's own skinning; null: the model has no joints and so no skinning

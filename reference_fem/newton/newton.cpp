@@ -48,7 +48,7 @@ bool all_quadratic(const Terms& terms)
 const char* name_of(NewtonOutcome outcome)
 {
     constexpr const char* names[] = {"converged", "iterations_exhausted", "no_descent", "not_positive_definite", "not_finite",
-                                     "blocked",   "intersects_itself"};
+                                     "blocked",   "intersects_itself",    "given_up"};
     return names[static_cast<int>(outcome)];
 }
 
@@ -264,6 +264,7 @@ NewtonSummary NewtonMinimiser::minimise(const Terms& terms, const Eigen::VectorX
         if (!carries_increment && is_converged(state, options)) return end(NewtonOutcome::converged);
         if (k == options.iterations || is_far_from_convex(summary, options)) break;
         if (is_blocked(summary)) return end(NewtonOutcome::blocked);
+        if (options.is_over && options.is_over()) return end(NewtonOutcome::given_up);
         Step step;
         if (may_reuse_factor(summary, options)) step = step_from(terms, state, displacement, increment, options);
         summary.iterations.back().reuses_factor = step.length > 0.0;
@@ -325,6 +326,7 @@ LoadPathSummary follow_load_path(const std::function<NewtonSummary(double fracti
             continue;
         }
         displacement = last_converged;
+        if (path.steps.back().newton.outcome == NewtonOutcome::given_up) break;
         converged_in_a_row = 0;
         step /= 2.0;
         if (step < options.smallest_step) break;

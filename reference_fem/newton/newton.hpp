@@ -32,6 +32,7 @@ struct NewtonOptions {
     // The factor serves again after a whole step that reduced the residual to at most this share of the one before; 0: for no second step.
     // Steps then converge linearly, at least at this rate, and cost a small part of a factorisation where the body has many nodes.
     double reuse_contraction = 0.0;
+    std::function<bool()> is_over = {};  // asked before each linear solve: true ends the minimisation there; empty: never
 };
 
 // A state and the step that left it; the last has none.
@@ -48,8 +49,17 @@ struct NewtonIteration {
 
 // no_descent: no length of the step lowers the energy enough; not_positive_definite: not even the projected Hessian can be factored;
 // not_finite: an energy, a gradient or a step is not; blocked: contact allows almost nothing of five steps in a row; intersects_itself: the
-// initial guess does, with contact, and no step was tried.
-enum class NewtonOutcome { converged, iterations_exhausted, no_descent, not_positive_definite, not_finite, blocked, intersects_itself };
+// initial guess does, with contact, and no step was tried; given_up: NewtonOptions::is_over.
+enum class NewtonOutcome {
+    converged,
+    iterations_exhausted,
+    no_descent,
+    not_positive_definite,
+    not_finite,
+    blocked,
+    intersects_itself,
+    given_up
+};
 const char* name_of(NewtonOutcome outcome);  // as it is spelt in the enum
 
 // Breakdown is an outcome: nothing is thrown.
@@ -119,7 +129,7 @@ private:
 };
 
 // Follows data from where they are (fraction 0) to where they shall be (fraction 1) in steps that are halved where a step does not
-// converge and doubled again after two that do.
+// converge and doubled again after two that do. An attempt that is given up ends the path.
 //   follow_load_path([&](double fraction) { set_targets(fraction); return newton.minimise(...); }, displacement, {});
 // By default the path tries the whole way first, and steps down to 1/64 of it where that fails.
 struct LoadPathOptions {

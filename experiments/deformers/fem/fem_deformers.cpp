@@ -126,6 +126,12 @@ FemOptions with_order_1(FemOptions options)
     return options;
 }
 
+bool was_given_up(const FrameSolve& solve)
+{
+    return !solve.stages.empty() && !solve.stages.back().steps.empty() &&
+           solve.stages.back().steps.back().newton.outcome == reference_fem::NewtonOutcome::given_up;
+}
+
 pbs::Pose rest_pose(const pbs::Skeleton& skeleton)
 {
     return pbs::Pose(skeleton.bones.size(), Eigen::Isometry3d::Identity());
@@ -166,6 +172,22 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
 pbs::Positions ElasticFemDeformer::in_the_world(const pbs::Positions& points) const
 {
     return has_memory() || !frame_ ? points : frame_->to_world(points);
+}
+
+void ElasticFemDeformer::continue_from(const pbs::Pose& pose, const pbs::Positions& positions)
+{
+    if (has_memory()) return;
+    const pbs::RootFrame frame(character_->skeleton, pose);
+    body_->start_from(frame.to_root(positions));
+    reached_pose_ = frame.pose();
+    is_started_ = true;
+    failures_in_a_row_ = 0;
+}
+
+void ElasticFemDeformer::give_up_when(std::function<bool()> is_over)
+{
+    if (fewer_nodes_) fewer_nodes_->give_up_when(is_over);
+    body_->give_up_when(std::move(is_over));
 }
 
 // The flesh between two places that press on each other has a tip where they are at most the limb's radius apart at rest.
@@ -306,7 +328,7 @@ FrameSolve ElasticFemDeformer::settle(const pbs::RootFrame& frame)
     FrameSolve solve;
     follow(pbs::PosePath(skeleton, reached_pose_, frame.pose()), here, gravity_m_s2, solve);
     failures_in_a_row_ = solve.converged() ? 0 : failures_in_a_row_ + 1;
-    if (failures_in_a_row_ != 2) return solve;
+    if (failures_in_a_row_ != 2 || was_given_up(solve)) return solve;
 
     solve.restarted = true;
     body_->start_from(character_->mesh.rest);

@@ -134,6 +134,8 @@ public:
     void reset(const pbs::Character& character) override;
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override;
     void start_from(const pbs::Positions& shape) override { start_ = shape; }
+    void continue_from(const pbs::Pose& pose, const pbs::Positions& positions) override;
+    void give_up_when(std::function<bool()> is_over) override;
     bool has_memory() const override { return options_.dynamics != reference_fem::Dynamics::quasi_static; }
     nlohmann::json record() const override;
 
