@@ -71,7 +71,7 @@ std::unique_ptr<Deformer> deformer_of(const DeformerSpec& spec, const Scene& sce
     if (scene.reference_seconds == 0.0 || spec.name != scene.reference) return make_deformer(spec);
     const ReferenceBudget budget{scene.reference_seconds, folder + "/reference_frames.cbor", reference_key(spec, character),
                                  when_interrupted == WhenInterrupted::finish_early};
-    return std::make_unique<SpreadReference>(make_deformer(spec), budget);
+    return std::make_unique<SpreadReference>(spec, budget);
 }
 
 std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& character, CostRecord& cost, const std::string& folder,
@@ -237,6 +237,8 @@ private:
         for (Runner& runner : runners_)
             cost_.time("step", runner.spec.label,
                        [&] { runner.deformer->foresee(runner.deformer->has_memory() ? motion_.steps : frames); });
+        if (const SpreadReference::Outcome* spread = spread_reference(); spread && spread->with_contact)
+            options_of<FemOptions>(runners_.front().spec).contact = false;
         Progress progress(scene_.name, static_cast<int>(motion_.steps.size()));
         const pbs::Stage stage(fmt::format("moving {} through {} frames", scene_.name, frames.size()));
         pbs::Stopwatch since_tables;
@@ -337,16 +339,28 @@ private:
         return {{"largest_deg", lag_.turn_deg}, {"bone", bone}, {"frame", lag_.frame}};
     }
 
+    // Null: the reference has no budget.
+    const SpreadReference::Outcome* spread_reference() const
+    {
+        const auto* reference = dynamic_cast<const SpreadReference*>(runners_.front().deformer.get());
+        return reference ? &reference->outcome() : nullptr;
+    }
+
     // What a budget left out, and what held the reference up.
     nlohmann::json record_reference_frames()
     {
-        const auto* reference = dynamic_cast<const SpreadReference*>(runners_.front().deformer.get());
-        if (!reference) return nullptr;
-        const SpreadReference::Outcome& solved = reference->outcome();
+        if (!spread_reference()) return nullptr;
+        const SpreadReference::Outcome& solved = *spread_reference();
         was_interrupted_ = was_interrupted_ || solved.was_interrupted;
         nlohmann::json not_reached = nlohmann::json::array();
         for (const SpreadReference::NotReached& frame : solved.not_reached)
             not_reached.push_back({{"frame", frame.frame}, {"cpu_seconds", frame.seconds}, {"bone", frame.bone}});
+        if (solved.with_contact)
+            add_warnings(
+                {fmt::format("{}: the reference has no contact, for with it frame {} was not reached within {:.0f} s: the flesh of {} "
+                             "holds it up; --reference-seconds 0 (reference.seconds) takes the time",
+                             scene_.file, solved.with_contact->frame, solved.with_contact->seconds, solved.with_contact->bone)},
+                warnings_);
         if (!solved.not_reached.empty()) {
             const SpreadReference::NotReached& first = solved.not_reached.front();
             add_warnings({fmt::format("{}: the reference did not reach {} of {} frames, first frame {} within {:.0f} s: the flesh of {} "
@@ -367,7 +381,8 @@ private:
                 {"kept", solved.kept},
                 {"cpu_seconds", solved.seconds},
                 {"budget_s", scene_.reference_seconds},
-                {"not_reached", not_reached}};
+                {"not_reached", not_reached},
+                {"contact", options_of<FemOptions>(runners_.front().spec).has_contact()}};
     }
 
     void warn_of_overlap()

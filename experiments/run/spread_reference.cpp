@@ -4,6 +4,8 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/process/machine.hpp"
+#include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/pose.hpp"
@@ -15,6 +17,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 namespace experiments {
@@ -22,6 +25,7 @@ namespace {
 
 constexpr int frames_with_equal_shares = 8;
 constexpr double longest_over_median = 3.0, between_writings_s = 1.0;
+constexpr int first_frames_with_contact = 4, most_steps_with_contact = 120;
 
 std::string hash_of(const pbs::Pose& pose)
 {
@@ -58,8 +62,8 @@ double share_of_frame(double seconds_left, int frames, int tried, const std::vec
     return std::min(seconds_left, std::max(usual_s, seconds_left / std::max(1, frames - tried)));
 }
 
-SpreadReference::SpreadReference(std::unique_ptr<Deformer> deformer, ReferenceBudget budget)
-    : deformer_(std::move(deformer)), budget_(std::move(budget))
+SpreadReference::SpreadReference(const DeformerSpec& spec, ReferenceBudget budget)
+    : spec_(spec), deformer_(make_deformer(spec)), budget_(std::move(budget))
 {
 }
 
@@ -84,19 +88,48 @@ void SpreadReference::foresee(const std::vector<pbs::Pose>& poses)
     find_kept();
     progress_.emplace("reference", outcome_.frames);
     try {
-        for (const int frame : spread_order(outcome_.frames))
-            if (has_time_left() && !frames_[static_cast<std::size_t>(frame)].solution) solve(frame);
-        for (const NotReached& earlier : std::exchange(outcome_.not_reached, {}))
-            if (has_time_left())
-                solve(earlier.frame);
-            else
-                outcome_.not_reached.push_back(earlier);
+        solve_all();
     } catch (const Interrupted&) {
         keep();
         throw;
     }
     keep();
     progress_.reset();
+}
+
+void SpreadReference::solve_all()
+{
+    const auto is_solved = [&](int frame) { return frames_[static_cast<std::size_t>(frame)].solution.has_value(); };
+    const std::vector<int> order = spread_order(outcome_.frames);
+    for (int next = 0; next < outcome_.frames && has_time_left(); ++next) {
+        if (is_solved(order[static_cast<std::size_t>(next)])) continue;
+        solve(order[static_cast<std::size_t>(next)]);
+        if (!tries_contact() || outcome_.not_reached.empty()) continue;
+        do_without_contact();
+        next = -1;
+    }
+    for (const NotReached& earlier : std::exchange(outcome_.not_reached, {}))
+        if (has_time_left())
+            solve(earlier.frame);
+        else
+            outcome_.not_reached.push_back(earlier);
+}
+
+bool SpreadReference::tries_contact() const
+{
+    return options_of<FemOptions>(spec_).has_contact() && outcome_.kept + tried_ <= first_frames_with_contact;
+}
+
+void SpreadReference::do_without_contact()
+{
+    outcome_.with_contact = outcome_.not_reached.front();
+    outcome_.not_reached.clear();
+    outcome_.solved = outcome_.kept = tried_ = 0;
+    reached_s_.clear();
+    for (Frame& frame : frames_) frame.solution.reset();
+    options_of<FemOptions>(spec_).contact = false;
+    deformer_ = make_deformer(spec_);
+    deformer_->reset(*character_);
 }
 
 bool SpreadReference::has_time_left() const
@@ -107,12 +140,15 @@ bool SpreadReference::has_time_left() const
 void SpreadReference::solve(int number)
 {
     Frame& frame = frames_[static_cast<std::size_t>(number)];
-    const double share_s = share_of_frame(budget_.seconds - outcome_.seconds, outcome_.frames, outcome_.kept + tried_++, reached_s_);
+    const double share_s = share_of_frame(budget_.seconds - outcome_.seconds, outcome_.frames, outcome_.kept + tried_, reached_s_);
+    ++tried_;
+    const int most_steps = tries_contact() ? most_steps_with_contact : std::numeric_limits<int>::max();
+    int steps = 0;
     const double start_s = process_cpu_s();
     const auto spent_s = [&] { return process_cpu_s() - start_s; };
     deformer_->give_up_when([&] {
         progress_->advance_to(outcome_.solved, fmt::format("frames, {:.0f} of {:.0f} s", outcome_.seconds + spent_s(), budget_.seconds));
-        return interrupted() || spent_s() > share_s;
+        return interrupted() || spent_s() > share_s || ++steps > most_steps;
     });
     continue_from_most_similar(number);
     Solution solution{.step = deformer_->advance(frame.pose, 0.0)};
@@ -181,7 +217,7 @@ bool SpreadReference::has_state() const
     return frame_ >= 0 && frames_[static_cast<std::size_t>(frame_)].solution.has_value();
 }
 
-// The file: {key, frames: {hash of the pose: {positions, seconds, iterations, lowest_det_f, tips}}} as CBOR.
+// The file: {key, with_contact, frames: {hash of the pose: {positions, seconds, iterations, lowest_det_f, tips}}} as CBOR.
 
 void SpreadReference::find_kept()
 {
@@ -189,6 +225,10 @@ void SpreadReference::find_kept()
     try {
         const nlohmann::json kept = nlohmann::json::from_cbor(analysis::read_text(budget_.file));
         if (kept.at("key") != budget_.key) return;
+        if (const nlohmann::json& frame = kept.at("with_contact"); !frame.is_null()) {
+            outcome_.not_reached = {{frame.at("frame"), frame.at("seconds"), frame.at("bone")}};
+            do_without_contact();
+        }
         for (Frame& frame : frames_) {
             const auto found = kept.at("frames").find(hash_of(frame.pose));
             if (found == kept.at("frames").end()) continue;
@@ -215,7 +255,9 @@ void SpreadReference::keep()
 {
     since_keeping_ = {};
     if (budget_.file.empty() || outcome_.solved == outcome_.kept) return;
-    nlohmann::json kept = {{"key", budget_.key}, {"frames", nlohmann::json::object()}};
+    nlohmann::json kept = {{"key", budget_.key}, {"frames", nlohmann::json::object()}, {"with_contact", nullptr}};
+    if (const auto& frame = outcome_.with_contact)
+        kept["with_contact"] = {{"frame", frame->frame}, {"seconds", frame->seconds}, {"bone", frame->bone}};
     for (const Frame& frame : frames_) {
         if (!frame.solution) continue;
         const pbs::Positions& positions = frame.solution->positions;

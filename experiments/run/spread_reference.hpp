@@ -37,8 +37,8 @@ double share_of_frame(double seconds_left, int frames, int tried, const std::vec
 
 class SpreadReference : public Deformer {
 public:
-    // A deformer without memory, whose frames it solves in another order.
-    SpreadReference(std::unique_ptr<Deformer> deformer, ReferenceBudget budget);
+    // spec: a quasi-static [[fem]] deformer.
+    SpreadReference(const DeformerSpec& spec, ReferenceBudget budget);
 
     void reset(const pbs::Character& character) override;
     void foresee(const std::vector<pbs::Pose>& poses) override;             // at least one; pbs::InputError if the file cannot be written
@@ -54,9 +54,10 @@ public:
         std::string bone;  // whose flesh is most compressed in the state in which the solver ended
     };
     struct Outcome {
-        int frames = 0, solved = 0, kept = 0;      // of the motion; with a solution; those among them that an earlier run had solved
-        std::vector<NotReached> not_reached = {};  // that were tried in vain
-        double seconds = 0.0;                      // that were spent
+        int frames = 0, solved = 0, kept = 0;         // of the motion; with a solution; those among them that an earlier run had solved
+        std::vector<NotReached> not_reached = {};     // that were tried in vain
+        double seconds = 0.0;                         // that were spent
+        std::optional<NotReached> with_contact = {};  // the frame for which contact was given up
         bool was_interrupted = false;
     };
     const Outcome& outcome() const { return outcome_; }
@@ -73,6 +74,9 @@ private:
         std::optional<Solution> solution = {};
     };
 
+    void solve_all();
+    bool tries_contact() const;
+    void do_without_contact();
     void find_kept();
     void keep();
     bool has_time_left() const;
@@ -80,6 +84,7 @@ private:
     void continue_from_most_similar(int number);
     std::string most_distorted_bone() const;
 
+    DeformerSpec spec_;
     std::unique_ptr<Deformer> deformer_;
     ReferenceBudget budget_;
     const pbs::Character* character_ = nullptr;
