@@ -364,17 +364,18 @@ private:
         if (!solved.not_reached.empty()) {
             const SpreadReference::NotReached& first = solved.not_reached.front();
             add_warnings({fmt::format("{}: the reference did not reach {} of {} frames, first frame {} within {:.0f} s: the flesh of {} "
-                                      "holds it up, which is compressed most",
+                                      "holds it up; these frames have no errors",
                                       scene_.file, solved.not_reached.size(), solved.frames, first.frame, first.seconds, first.bone)},
                          warnings_);
         }
-        if (solved.solved < solved.frames)
+        if (const auto tried = solved.solved + static_cast<int>(solved.not_reached.size()); tried < solved.frames)
             add_remarks(
-                {fmt::format("{}: the reference has {} of {} frames, evenly spread, {}; only they have errors", scene_.file, solved.solved,
+                {fmt::format("{}: the reference has {} of {} frames, and only they have errors: {}", scene_.file, solved.solved,
                              solved.frames,
-                             solved.was_interrupted
-                                 ? "since it was interrupted"
-                                 : fmt::format("for which {:.0f} s of processor time were spent (reference.seconds)", solved.seconds))},
+                             solved.was_interrupted ? "it was interrupted"
+                                                    : fmt::format("they are spread over the motion as evenly as {:.0f} s of processor "
+                                                                  "time allow (--reference-seconds, reference.seconds)",
+                                                                  solved.seconds))},
                 notes_, "note");
         return {{"frames", solved.frames},
                 {"solved", solved.solved},

@@ -17,15 +17,15 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <utility>
 
 namespace experiments {
 namespace {
 
-constexpr int frames_with_equal_shares = 8;
-constexpr double longest_over_median = 3.0, between_writings_s = 1.0;
-constexpr int first_frames_with_contact = 4, most_steps_with_contact = 120;
+constexpr int shares_of_what_is_left = 8, first_frames = 3;
+constexpr double between_writings_s = 1.0;
 
 std::string hash_of(const pbs::Pose& pose)
 {
@@ -36,30 +36,14 @@ std::string hash_of(const pbs::Pose& pose)
 
 }  // namespace
 
-std::vector<int> spread_order(int frames)
+int stride(int frames_left, double mean_s, double seconds_left)
 {
-    std::vector<int> order;
-    std::vector<bool> is_taken(static_cast<std::size_t>(frames), false);
-    const auto take = [&](int frame) {
-        if (!is_taken[static_cast<std::size_t>(frame)]) order.push_back(frame);
-        is_taken[static_cast<std::size_t>(frame)] = true;
-    };
-    take(0);
-    take(frames - 1);
-    for (unsigned k = 1; static_cast<int>(order.size()) < frames; ++k) {
-        double fraction = 0.0, digit = 0.5;
-        for (unsigned bits = k; bits > 0; bits /= 2, digit /= 2.0) fraction += (bits % 2) * digit;
-        take(static_cast<int>(std::lround(fraction * (frames - 1))));
-    }
-    return order;
+    return std::clamp(static_cast<int>(std::ceil(std::min(1e9, frames_left * mean_s / seconds_left))), 1, std::max(1, frames_left));
 }
 
-double share_of_frame(double seconds_left, int frames, int tried, const std::vector<double>& reached_s)
+double share_of_frame(int frames_left, double seconds_left)
 {
-    const int first = std::min(frames, frames_with_equal_shares);
-    if (tried < first) return seconds_left / (first - tried);
-    const double usual_s = reached_s.empty() ? 0.0 : longest_over_median * analysis::median(reached_s);
-    return std::min(seconds_left, std::max(usual_s, seconds_left / std::max(1, frames - tried)));
+    return seconds_left / std::clamp(frames_left, 1, shares_of_what_is_left);
 }
 
 SpreadReference::SpreadReference(const DeformerSpec& spec, ReferenceBudget budget)
@@ -75,9 +59,8 @@ void SpreadReference::reset(const pbs::Character& character)
     facts_.prescribed = prescribed_vertices(*deformer_);
     facts_.last_state = character.mesh.rest;
     frames_.clear();
-    reached_s_.clear();
     tried_ = 0;
-    frame_ = -1;
+    at_ = frame_ = -1;
     outcome_ = {};
 }
 
@@ -87,8 +70,15 @@ void SpreadReference::foresee(const std::vector<pbs::Pose>& poses)
     outcome_.frames = static_cast<int>(frames_.size());
     find_kept();
     progress_.emplace("reference", outcome_.frames);
+    std::set<int> left;
+    for (int number = 0; number < outcome_.frames; ++number)
+        if (!is_solved(number)) left.insert(number);
     try {
-        solve_all();
+        while (!left.empty() && has_time_left()) pass(left);
+        std::vector<NotReached> again = std::exchange(outcome_.not_reached, {});
+        for (; !again.empty() && has_time_left(); again.erase(again.begin()))
+            solve(again.front().frame, share_of_frame(static_cast<int>(again.size()), budget_.seconds - outcome_.seconds));
+        outcome_.not_reached.insert(outcome_.not_reached.end(), again.begin(), again.end());
     } catch (const Interrupted&) {
         keep();
         throw;
@@ -97,27 +87,28 @@ void SpreadReference::foresee(const std::vector<pbs::Pose>& poses)
     progress_.reset();
 }
 
-void SpreadReference::solve_all()
+// Once through those that are left, which loses each one that is tried.
+void SpreadReference::pass(std::set<int>& left)
 {
-    const auto is_solved = [&](int frame) { return frames_[static_cast<std::size_t>(frame)].solution.has_value(); };
-    const std::vector<int> order = spread_order(outcome_.frames);
-    for (int next = 0; next < outcome_.frames && has_time_left(); ++next) {
-        if (is_solved(order[static_cast<std::size_t>(next)])) continue;
-        solve(order[static_cast<std::size_t>(next)]);
-        if (!tries_contact() || outcome_.not_reached.empty()) continue;
-        do_without_contact();
-        next = -1;
-    }
-    for (const NotReached& earlier : std::exchange(outcome_.not_reached, {}))
+    for (auto next = left.begin(); next != left.end() && has_time_left();) {
+        const auto after = [&] { return static_cast<int>(std::distance(next, left.end())); };
+        solve(*next, share_of_frame(after(), budget_.seconds - outcome_.seconds));
+        if (is_held_up_by_contact()) {
+            do_without_contact();
+            for (int number = 0; number < outcome_.frames; ++number) left.insert(number);
+            next = left.begin();
+            continue;
+        }
+        next = left.erase(next);
         if (has_time_left())
-            solve(earlier.frame);
-        else
-            outcome_.not_reached.push_back(earlier);
+            std::advance(next, std::min(after(), stride(after(), outcome_.seconds / tried_, budget_.seconds - outcome_.seconds) - 1));
+    }
 }
 
-bool SpreadReference::tries_contact() const
+bool SpreadReference::is_held_up_by_contact() const
 {
-    return options_of<FemOptions>(spec_).has_contact() && outcome_.kept + tried_ <= first_frames_with_contact;
+    return options_of<FemOptions>(spec_).has_contact() && outcome_.kept == 0 && tried_ == first_frames &&
+           2 * outcome_.not_reached.size() > static_cast<std::size_t>(first_frames);
 }
 
 void SpreadReference::do_without_contact()
@@ -125,7 +116,7 @@ void SpreadReference::do_without_contact()
     outcome_.with_contact = outcome_.not_reached.front();
     outcome_.not_reached.clear();
     outcome_.solved = outcome_.kept = tried_ = 0;
-    reached_s_.clear();
+    at_ = -1;
     for (Frame& frame : frames_) frame.solution.reset();
     options_of<FemOptions>(spec_).contact = false;
     deformer_ = make_deformer(spec_);
@@ -137,20 +128,18 @@ bool SpreadReference::has_time_left() const
     return !outcome_.was_interrupted && outcome_.seconds < budget_.seconds;
 }
 
-void SpreadReference::solve(int number)
+void SpreadReference::solve(int number, double share_s)
 {
     Frame& frame = frames_[static_cast<std::size_t>(number)];
-    const double share_s = share_of_frame(budget_.seconds - outcome_.seconds, outcome_.frames, outcome_.kept + tried_, reached_s_);
     ++tried_;
-    const int most_steps = tries_contact() ? most_steps_with_contact : std::numeric_limits<int>::max();
-    int steps = 0;
     const double start_s = process_cpu_s();
     const auto spent_s = [&] { return process_cpu_s() - start_s; };
     deformer_->give_up_when([&] {
         progress_->advance_to(outcome_.solved, fmt::format("frames, {:.0f} of {:.0f} s", outcome_.seconds + spent_s(), budget_.seconds));
-        return interrupted() || spent_s() > share_s || ++steps > most_steps;
+        return interrupted() || spent_s() > share_s;
     });
     continue_from_most_similar(number);
+    at_ = number;
     Solution solution{.step = deformer_->advance(frame.pose, 0.0)};
     const double seconds = spent_s();
     outcome_.seconds += seconds;
@@ -158,7 +147,6 @@ void SpreadReference::solve(int number)
         solution.positions = deformer_->positions();
         if (const FemFacts* facts = deformer_->facts()) solution.lowest_det_f = facts->lowest_det_f, solution.tips = facts->tips;
         frame.solution = std::move(solution);
-        reached_s_.push_back(seconds);
         ++outcome_.solved;
         if (since_keeping_.seconds() > between_writings_s) keep();
     } else if (!interrupted()) {
@@ -171,22 +159,22 @@ void SpreadReference::solve(int number)
 
 void SpreadReference::continue_from_most_similar(int number)
 {
-    const pbs::Pose at_rest(character_->skeleton.bones.size(), Eigen::Isometry3d::Identity());
+    int before = number - 1, after = number + 1;
+    while (before >= 0 && before != at_ && !is_solved(before)) --before;
+    if (before == at_) return;  // where the deformer is
+    while (after < outcome_.frames && !is_solved(after)) ++after;
+    pbs::Pose from(character_->skeleton.bones.size(), Eigen::Isometry3d::Identity());
+    const pbs::Positions* positions = &character_->mesh.rest;
     const pbs::Pose& wanted = frames_[static_cast<std::size_t>(number)].relative;
-    const auto turn_deg = [&](const pbs::Pose& from) { return pbs::PosePath(character_->skeleton, from, wanted).largest_turn_deg(); };
-    const Frame* nearest = nullptr;
-    double least_deg = turn_deg(at_rest);
-    for (const int step : {-1, 1}) {
-        int other = number + step;
-        while (other >= 0 && other < outcome_.frames && !frames_[static_cast<std::size_t>(other)].solution) other += step;
+    const auto turn_deg = [&](const pbs::Pose& pose) { return pbs::PosePath(character_->skeleton, pose, wanted).largest_turn_deg(); };
+    double least_deg = turn_deg(from);
+    for (const int other : {before, after}) {
         if (other < 0 || other >= outcome_.frames) continue;
         const Frame& solved = frames_[static_cast<std::size_t>(other)];
-        if (const double deg = turn_deg(solved.relative); deg < least_deg) nearest = &solved, least_deg = deg;
+        if (const double deg = turn_deg(solved.relative); deg < least_deg)
+            least_deg = deg, from = solved.pose, positions = &solved.solution->positions;
     }
-    if (nearest)
-        deformer_->continue_from(nearest->pose, nearest->solution->positions);
-    else
-        deformer_->continue_from(at_rest, character_->mesh.rest);
+    deformer_->continue_from(from, *positions);
 }
 
 std::string SpreadReference::most_distorted_bone() const

@@ -1,8 +1,12 @@
-// The reference of a run that has a budget of processor time for it (reference.seconds). It solves frames that are evenly spread over the
-// motion, ever closer to each other, until the time is spent. Each frame continues from the solved one before or after it, or from rest,
-// whichever pose is most similar. Frames that are not reached are tried once more in the time that is left. What is solved is kept in a
-// file, from which the same run goes on.
-//   SpreadReference reference(make_deformer(spec), {.seconds = 120.0, .file = "DIR/reference_frames.cbor"});
+// The reference of a run that has a budget of processor time for it (reference.seconds): it passes through the motion, and as soon as all
+// frames would take longer than what is left, it leaves frames out, so that those which are solved are evenly spread up to the end. In the
+// time that is left then it passes through the others, and tries those that were not reached once more. A frame continues from the last
+// one, or from the solved one before or after it or from rest, whichever pose is most similar. What is solved is kept in a file, from which
+// the same run goes on.
+//
+// Contact can make a frame ten times as expensive, since where two parts touch, the initial guess and each step of Newton's method end at
+// once for the whole body. Where only one or none of the first three frames is reached, all frames are solved without contact.
+//   SpreadReference reference(spec, {.seconds = 120.0, .file = "DIR/reference_frames.cbor", .key = key});
 //   reference.reset(character);
 //   reference.foresee(poses);                                                     // solves
 //   for (const pbs::Pose& pose : poses)
@@ -14,6 +18,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,14 +31,11 @@ struct ReferenceBudget {
     bool goes_on_without_the_rest = false;  // after an interruption, which then ends the solving alone
 };
 
-// The frames 0 to frames - 1 in the order in which they are solved: the first, the last, and then by the base-2 sequence of J. G. van der
-// Corput (1935), so that those solved up to any moment are evenly spread.
-std::vector<int> spread_order(int frames);
+// How many frames to go on, so that the last of frames_left is reached when the time is spent: 1 or more. mean_s: of a frame.
+int stride(int frames_left, double mean_s, double seconds_left);
 
-// The processor time that the next frame may take [s]. The first eight frames share the budget equally. Later ones may take their equal
-// share or three times the median of the frames that were reached, whichever is longer. frames: of the motion; tried: those before this
-// one; reached_s: the time that each reached frame took.
-double share_of_frame(double seconds_left, int frames, int tried, const std::vector<double>& reached_s);
+// The processor time that a frame may take [s]: an eighth of what is left, more if fewer frames are left.
+double share_of_frame(int frames_left, double seconds_left);
 
 class SpreadReference : public Deformer {
 public:
@@ -74,13 +76,14 @@ private:
         std::optional<Solution> solution = {};
     };
 
-    void solve_all();
-    bool tries_contact() const;
+    void pass(std::set<int>& left);
+    bool is_solved(int number) const { return frames_[static_cast<std::size_t>(number)].solution.has_value(); }
+    bool is_held_up_by_contact() const;
     void do_without_contact();
     void find_kept();
     void keep();
     bool has_time_left() const;
-    void solve(int number);
+    void solve(int number, double share_s);
     void continue_from_most_similar(int number);
     std::string most_distorted_bone() const;
 
@@ -89,8 +92,9 @@ private:
     ReferenceBudget budget_;
     const pbs::Character* character_ = nullptr;
     std::vector<Frame> frames_;
-    std::vector<double> reached_s_;  // of each frame that was solved here
-    int tried_ = 0, frame_ = -1;     // frames that were tried here; the one of the last call of advance
+    int tried_ = 0;   // frames that were tried here
+    int at_ = -1;     // the frame whose pose, or a part of the way to it, the deformer has reached; -1: rest
+    int frame_ = -1;  // of the last call of advance
     pbs::Stopwatch since_keeping_;
     std::optional<Progress> progress_;
     FemFacts facts_;

@@ -271,6 +271,9 @@ TEST(Newton, OutcomesOfFailure)
     EXPECT_EQ(infinite.newton.minimise({&infinite.flesh}, held.zero, inverted, {}).outcome, NewtonOutcome::not_finite);
     const DeadLoad load(held.weight(10.0));
     EXPECT_EQ(held.newton.minimise({&held.flesh, &load}, held.zero, u, {.iterations = 1}).outcome, NewtonOutcome::iterations_exhausted);
+    u = held.zero;
+    EXPECT_EQ(held.newton.minimise({&held.flesh, &load}, held.zero, u, {.is_over = [] { return true; }}).outcome, NewtonOutcome::given_up);
+    EXPECT_EQ(u, held.zero) << "no step is taken";
     const NodalMatrix stiffness = rest_stiffness(other.space, other.flesh);
     StiffnessPotential concave(stiffness);
     concave.set(-1.0, other.zero);
@@ -331,6 +334,23 @@ TEST(LoadPath, TakesOneStepWhereItConvergesHalvesUntilItDoesAndDoublesAfterTwo)
     };
     follow_load_path(attempt, u, {.first_step = 0.125});
     EXPECT_EQ(fractions, (std::vector<double>{0.125, 0.25, 0.5, 0.75, 1.0}));
+}
+
+TEST(LoadPath, EndsInTheLastConvergedStateWhereAnAttemptIsGivenUp)
+{
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(1);
+    const auto attempt = [&](double fraction) {
+        NewtonSummary summary = Attempt{u, 0.25}(fraction);
+        if (fraction > 0.6) summary.outcome = NewtonOutcome::given_up;
+        return summary;
+    };
+    const LoadPathSummary path = follow_load_path(attempt, u, {});
+    EXPECT_EQ(path.steps.size(), 1u) << "no step is halved";
+    EXPECT_EQ(u(0), 0.0);
+    const LoadPathSummary later = follow_load_path(attempt, u, {.first_step = 0.25});
+    EXPECT_FALSE(later.converged());
+    EXPECT_EQ(later.reached, 0.5);
+    EXPECT_EQ(u(0), 0.5);
 }
 
 TEST(LoadPath, StopsAtAWallInTheLastConvergedState)
