@@ -241,8 +241,8 @@ def write_dancer(path, seconds=3.0, step=0.01):
               *both("foot", AHEAD, 20)]
     for chain in range(SKIRT_CHAINS):
         angle = 2 * numpy.pi * chain / SKIRT_CHAINS
-        outward = (numpy.sin(angle), 0.0, -numpy.cos(angle))  # about this axis a chain lifts away from the legs
-        for number, share in enumerate((22.0, 16.0, 12.0)):
+        outward = (-numpy.sin(angle), 0.0, numpy.cos(angle))  # about this axis a chain lifts away from the legs
+        for number, share in enumerate((11.0, 8.0, 6.0)):
             motion.append(swung(f"skirt.{chain}.{number}", outward, share, middle=share, phase=0.8 * chain - 1.6, cycles=3))
     for hair in ("hair.L", "hair.R"):
         motion += [swung(f"{hair}.{number}", AHEAD, 14, phase=-0.6 * number, cycles=3) for number in range(3)]
@@ -326,8 +326,8 @@ def write_slime(path, seconds=2.0, step=0.012, stretch=0.5):
 
 
 def write_far_first_pose(path, seconds=2.0, step=0.008, first_deg=115.0):
-    """A fish of 0.8 m. In the bind pose its side fins of 0.3 m stand out. From the first frame on they are turned by first_deg and swing a
-    little, and the tail beats."""
+    """A fish of 0.8 m. In the bind pose its side fins of 0.3 m point ahead. From the first frame on they are turned back by first_deg and swing
+    a little, and the tail beats."""
     figure, above = Figure(), None
     for number, (begin, radii) in enumerate(((0.0, (0.075, 0.11)), (-0.14, (0.11, 0.09)), (-0.28, (0.085, 0.05)), (-0.42, (0.045, 0.03)))):
         above = figure.joint(f"body.{number}", above, (0, 0, begin), ((0, 0, begin - 0.12), *radii))
@@ -335,13 +335,12 @@ def write_far_first_pose(path, seconds=2.0, step=0.008, first_deg=115.0):
     figure.joint("tail", above, (0, 0, -0.54), ((0, 0.11, -0.66), 0.03, 0.018))
     figure.capsule("tail", (0, 0, -0.54), (0, -0.11, -0.66), 0.03, 0.018)
     figure.joint("back_fin", "body.1", (0, 0.1, -0.15), ((0, 0.19, -0.24), 0.026, 0.014))
-    root, middle = numpy.array((0.08, -0.02, -0.02)), numpy.array((0.22, -0.03, -0.05))
-    fin = figure.pair("fin", "body.0", root, (middle, 0.028, 0.025), (middle + (-0.01, 0, -0.05), 0.028, 0.022))
-    figure.pair("fin_tip", fin, middle, (numpy.array((0.38, -0.04, -0.1)), 0.025, 0.014),
-                (numpy.array((0.33, -0.04, -0.16)), 0.024, 0.014))
+    root, along, back = numpy.array((0.085, -0.02, 0.0)), numpy.array((0.1, -0.005, 0.1)), numpy.array((0.03, 0.0, -0.03))
+    fin = figure.pair("fin", "body.0", root, (root + along, 0.028, 0.025), (root + along + back, 0.028, 0.022))
+    figure.pair("fin_tip", fin, root + along, (root + 2.1 * along, 0.025, 0.014), (root + 1.9 * along + 1.5 * back, 0.024, 0.014))
     swim = numpy.sin(4 * numpy.pi * numpy.linspace(0.0, 1.0, 33))
     motion = [swung(f"body.{number}", UP, 9 + 3 * number, phase=-0.8 * number) for number in range(1, 4)] + [swung("tail", UP, 25, phase=-3)]
-    motion += [turned(f"fin.{side}", (0.0, sign, 0.5 * sign), first_deg + 12 * swim) for side, sign in (("L", 1), ("R", -1))]
+    motion += [turned(f"fin.{side}", (0.0, sign, 0.3 * sign), first_deg + 12 * swim) for side, sign in (("L", 1), ("R", -1))]
     motion += [turned(f"fin_tip.{side}", (0.0, 0.0, -sign), 25 + 10 * swim) for side, sign in (("L", 1), ("R", -1))]
     points, triangles = figure.surface(step, 0.025)
     return written(path, figure, [(points, triangles, figure.weights(points, 0.03))], motion, seconds)
