@@ -1,5 +1,5 @@
-"""Rigged and moving characters of own making, with the traits of rigs that people export: a dancer with hair and a skirt, a dog whose head is
-longer than its bone, a deer with thin legs, a slime that stretches, and a fish whose first frame is far from its bind pose.
+"""Rigged and moving characters of own making, with the traits of rigs that people export: a dancer with hair and a skirt, a dog whose head
+is longer than its bone, a deer with thin legs, a slime that stretches, and a fish whose first frame is far from its bind pose.
 
     character_rigs.write_dancer(path)      # PATH.glb
 
@@ -134,8 +134,9 @@ def written(path, figure, parts, motion, seconds):
     nodes = rig_files.add_joints(gltf, [(*joint, {}) for joint in figure.joints])
     for number, part in enumerate(parts):
         gltf.node(name=f"part_{number}", mesh=rig_files.add_mesh(gltf, *part, 1.0, False), skin=0)
-    rig_files.add_animation(gltf, "Move", [(nodes[figure.number(name)], channel, numpy.linspace(0.0, seconds, len(values)), values, "LINEAR")
-                                           for name, channel, values in motion])
+    channels = [(nodes[figure.number(name)], channel, numpy.linspace(0.0, seconds, len(values)), values, "LINEAR")
+                for name, channel, values in motion]
+    rig_files.add_animation(gltf, "Move", channels)
     return rig_files.write_glb(path, *gltf.written())
 
 
@@ -272,8 +273,8 @@ def trot(amplitude):
 
 
 def write_long_head(path, seconds=2.0, step=0.01):
-    """A dog of 0.9 m. Its head bone ends at the ears, 0.05 m from its joint, and its muzzle reaches 0.25 m beyond; its feet hang on one bone
-    each. Head and feet turn quickly."""
+    """A dog of 0.9 m. Its head bone ends at the ears, 0.05 m from its joint, and its muzzle reaches 0.25 m beyond; its feet hang on one
+    bone each. Head and feet turn quickly."""
     figure = Figure()
     figure.joint("hips", None, (0, 0.5, -0.3), ((0, 0.5, -0.1), 0.095, 0.095))
     figure.joint("chest", "hips", (0, 0.5, -0.05), ((0, 0.5, 0.2), 0.1, 0.12))
@@ -319,15 +320,16 @@ def write_slime(path, seconds=2.0, step=0.012, stretch=0.5):
     wave = numpy.sin(4 * numpy.pi * numpy.linspace(0.0, 1.0, 33))
     change = numpy.where(wave > 0, stretch * wave, 0.5 * stretch * wave)
     motion = [moved(figure, name, 0.15 * change[:, None] * numpy.array(UP)) for name in ("middle", "top")]
-    motion += [moved(figure, f"lobe.{side}", change[::-1, None] * numpy.array((sign * 0.15, 0.03, 0))) for side, sign in (("L", 1), ("R", -1))]
+    motion += [moved(figure, f"lobe.{side}", change[::-1, None] * numpy.array((sign * 0.15, 0.03, 0)))
+               for side, sign in (("L", 1), ("R", -1))]
     motion += [swung("top", SIDE, 15)]
     points, triangles = figure.surface(step, 0.06)
     return written(path, figure, [(points, triangles, figure.weights(points, 0.12))], motion, seconds)
 
 
-def write_far_first_pose(path, seconds=2.0, step=0.008, first_deg=115.0):
-    """A fish of 0.8 m. In the bind pose its side fins of 0.3 m point ahead. From the first frame on they are turned back by first_deg and swing
-    a little, and the tail beats."""
+def write_far_first_pose(path, seconds=2.0, step=0.008, first_deg=165.0):
+    """A fish of 0.8 m with side fins of 0.3 m. From the first frame on they are turned over by first_deg, about an axis that is nearly
+    along them, and swing a little, and the tail beats. LBS collapses and inverts their roots in all frames."""
     figure, above = Figure(), None
     for number, (begin, radii) in enumerate(((0.0, (0.075, 0.11)), (-0.14, (0.11, 0.09)), (-0.28, (0.085, 0.05)), (-0.42, (0.045, 0.03)))):
         above = figure.joint(f"body.{number}", above, (0, 0, begin), ((0, 0, begin - 0.12), *radii))
@@ -339,11 +341,12 @@ def write_far_first_pose(path, seconds=2.0, step=0.008, first_deg=115.0):
     fin = figure.pair("fin", "body.0", root, (root + along, 0.028, 0.025), (root + along + back, 0.028, 0.022))
     figure.pair("fin_tip", fin, root + along, (root + 2.1 * along, 0.025, 0.014), (root + 1.9 * along + 1.5 * back, 0.024, 0.014))
     swim = numpy.sin(4 * numpy.pi * numpy.linspace(0.0, 1.0, 33))
-    motion = [swung(f"body.{number}", UP, 9 + 3 * number, phase=-0.8 * number) for number in range(1, 4)] + [swung("tail", UP, 25, phase=-3)]
-    motion += [turned(f"fin.{side}", (0.0, sign, 0.3 * sign), first_deg + 12 * swim) for side, sign in (("L", 1), ("R", -1))]
+    motion = [swung(f"body.{number}", UP, 9 + 3 * number, phase=-0.8 * number) for number in range(1, 4)]
+    motion += [swung("tail", UP, 25, phase=-3)]
+    motion += [turned(f"fin.{side}", (1.0, -0.05 * sign, sign), sign * (first_deg + 12 * swim)) for side, sign in (("L", 1), ("R", -1))]
     motion += [turned(f"fin_tip.{side}", (0.0, 0.0, -sign), 25 + 10 * swim) for side, sign in (("L", 1), ("R", -1))]
     points, triangles = figure.surface(step, 0.025)
-    return written(path, figure, [(points, triangles, figure.weights(points, 0.03))], motion, seconds)
+    return written(path, figure, [(points, triangles, figure.weights(points, 0.08))], motion, seconds)
 
 
 WRITERS = {"dancer": write_dancer, "long_head": write_long_head, "thin_walker": write_thin_walker, "slime": write_slime,
