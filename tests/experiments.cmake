@@ -60,6 +60,7 @@ pbs_program_test(robustness experiments/command_line)
 pbs_program_test(verification experiments/artist_skin)
 pbs_program_test(verification experiments/artist_volume)
 pbs_program_test(robustness experiments/own_character)
+pbs_program_test(robustness experiments/moving_characters)
 pbs_program_test(robustness experiments/meshing_ends)
 pbs_program_test(robustness experiments/changed_rigs)
 set_tests_properties(robustness/experiments/changed_rigs PROPERTIES TIMEOUT 14400)  # 1,000 models in ./check --long

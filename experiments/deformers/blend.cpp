@@ -209,7 +209,11 @@ DeformerKind delta_mush_kind()
 {
     OptionFields<DeltaMushOptions> fields("delta_mush");
     fields.add("iterations", &DeltaMushOptions::iterations, {.range = {0, 1e6}, .meaning = "iterations of Laplacian smoothing"})
-        .add("step", &DeltaMushOptions::step, {.range = {0, 1}, .meaning = "share of the way to the neighbours' mean in each"});
+        .add("step", &DeltaMushOptions::step, {.range = {0, 1}, .meaning = "share of the way to the neighbours' mean in each"})
+        .add("unsmoothed_share", &DeltaMushOptions::unsmoothed_share,
+             {.range = {0, 1},
+              .meaning = "share of the edges before smoothing in the frames that carry the detail; 0: the smoothed edges alone, as "
+                         "published, which turn limbs that are a few tets thick inside out. `pbskin try` takes 0.01"});
     return mush_kind<DeltaMushOptions, DeltaMushDeformer<double, pbs::DeltaMush>, PackedMushDeformer>(
         "delta_mush", "LBS, smoothed, to which the detail of the rest shape is added again (Mancewicz 2014): geometry alone", fields);
 }

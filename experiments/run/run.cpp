@@ -288,6 +288,7 @@ private:
         for (Runner& runner : runners_)
             if (runner.deformer->has_state()) record_deformer(runner, frame, time_s, context);
         if (frame == 0) remark_on_inverted_start();
+        if (frame == 0) remark_on_followed_motion();
         if (scene_.output.writes(frame)) {
             folder_.write_pose(frame, time_s, character_.skeleton, motion_.steps[step]);
             folder_.write_artist_skin(frame, time_s, character_, scene_.motion, motion_.steps[step]);
@@ -315,6 +316,31 @@ private:
             add_warnings({text + ": its pose is far from the bind pose, or the weights do not fit the joints"}, warnings_);
         else
             add_remarks({text}, notes_, "note");
+    }
+
+    // Which deformers follow a far motion from rest, and what stays caught: how many tets, and the bone that moves most of them.
+    void remark_on_followed_motion()
+    {
+        if (!scene_.character.body.empty()) return;
+        for (const Runner& runner : runners_) {
+            if (const nlohmann::json record = runner.deformer->record(); record.is_object() && record.contains("follows_from_rest"))
+                add_remarks({fmt::format("{}: the first frame turns a joint by more than 90 degrees from the bind pose: {} follows the "
+                                         "motion from there, and each frame begins at the last one",
+                                         scene_.file, runner.spec.label)},
+                            notes_, "note");
+            if (!runner.traits.iterations || runner.traits.solves_equations || runner.most_inverted == 0) continue;
+            const Eigen::VectorXd ratios = measurer_.volume_ratios(runner.deformer->positions());
+            std::vector<double> share(character_.skeleton.bones.size());
+            for (Eigen::Index tet = 0; tet < ratios.size(); ++tet)
+                for (const int v : character_.mesh.tets.row(tet))
+                    for (int e = character_.weights.first[v]; ratios(tet) <= 0.0 && e < character_.weights.first[v + 1]; ++e)
+                        share[character_.weights.bone[e]] += character_.weights.weight[e];
+            const auto most = std::ranges::max_element(share) - share.begin();
+            add_remarks(
+                {fmt::format("{}: {} begins with {} inverted tets, most of them at {}: what is caught in the first frame may stay so",
+                             scene_.file, runner.spec.label, runner.most_inverted, character_.skeleton.bones[most].name)},
+                notes_, "note");
+        }
     }
 
     void find_lag(int frame, const pbs::Positions& reference, const pbs::Pose& pose)

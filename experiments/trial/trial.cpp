@@ -195,8 +195,10 @@ std::string motion(const TrialOptions& options, TrialScene& made)
     return bending(options, body, made.remarks.notes);
 }
 
-// The settings of the built-in scenes.
-constexpr const char* pbs_table = R"([pbs]
+// The settings of the built-in scenes, except for delta mush: a model may be thinner than their bodies.
+constexpr const char* pbs_table = R"([delta_mush]
+unsmoothed_share = 0.01          # limbs that are a few tets thick are not turned inside out
+[pbs]
 iterations = 24
 k_stretch = 0.2
 k_volume = 1.0

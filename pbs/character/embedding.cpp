@@ -58,12 +58,13 @@ double squared_distance_to_tet(const Vec3& point, const TetCorners& corners)
     return least;
 }
 
-// The functor of Eigen's BVMinimize, and the cell at which it ended.
-template <typename SquaredDistance>
+// The functor of Eigen's BVMinimize, and the cell at which it ended. may_take is slow, and only asked where a cell would be the nearest.
+template <typename SquaredDistance, typename MayTake>
 struct NearestCell {
     using Scalar = double;
     Vec3 point;
     SquaredDistance squared_distance;  // of a cell
+    MayTake may_take;                  // a cell
     double least = std::numeric_limits<double>::max();
     int cell = -1;
 
@@ -71,18 +72,18 @@ struct NearestCell {
     double minimumOnObject(int candidate)
     {
         const double distance = squared_distance(candidate);
-        if (distance < least) {
-            least = distance;
-            cell = candidate;
-        }
-        return distance;
+        if (distance >= least) return distance;
+        if (!may_take(candidate)) return never;
+        cell = candidate;
+        return least = distance;
     }
 };
 
-template <typename SquaredDistance>
-NearestCell<SquaredDistance> nearest_cell(const Tree& tree, const Vec3& point, const SquaredDistance& squared_distance)
+template <typename SquaredDistance, typename MayTake>
+NearestCell<SquaredDistance, MayTake> nearest_cell(const Tree& tree, const Vec3& point, const SquaredDistance& squared_distance,
+                                                   const MayTake& may_take)
 {
-    NearestCell<SquaredDistance> nearest{point, squared_distance};
+    NearestCell<SquaredDistance, MayTake> nearest{point, squared_distance, may_take};
     Eigen::BVMinimize(tree, nearest);
     return nearest;
 }
@@ -111,9 +112,9 @@ EmbeddedSurface embed(const Positions& surface, const Triangles& triangles, cons
     for (Eigen::Index s = 0; s < surface.rows(); ++s) {
         const Vec3 point = surface.row(s);
         for (const bool is_restricted : {static_cast<bool>(may_carry), false}) {
-            const auto nearest = nearest_cell(tree, point, [&](int tet) {
-                return is_restricted && !may_carry(s, tet) ? never : squared_distance_to_tet(point, corners_of(mesh, tet));
-            });
+            const auto nearest = nearest_cell(
+                tree, point, [&](int tet) { return squared_distance_to_tet(point, corners_of(mesh, tet)); },
+                [&](int tet) { return !is_restricted || may_carry(s, tet); });
             if (nearest.cell < 0) continue;
             embedded.tet(s) = nearest.cell;
             embedded.barycentric.row(s) = barycentric_in_tet(point, corners_of(mesh, nearest.cell)).transpose();
@@ -171,10 +172,12 @@ SurfacePoint SurfaceTree::nearest(const Vec3& point, const std::function<bool(co
         for (int k = 0; k < 3; ++k) corners.row(k) = tree_->points.row(tree_->triangles(triangle, k));
         return nearest_in_triangle(point, corners);
     };
-    const auto nearest = nearest_cell(tree_->boxes, point, [&](int triangle) {
+    const auto squared_distance = [&](int triangle) {
         const Vec3 barycentric = barycentric_in(triangle);
-        if (is_wanted && !is_wanted({triangle, barycentric, 0.0})) return never;
         return (corners.transpose() * barycentric - point).squaredNorm();
+    };
+    const auto nearest = nearest_cell(tree_->boxes, point, squared_distance, [&](int triangle) {
+        return !is_wanted || is_wanted({triangle, barycentric_in(triangle), 0.0});
     });
     if (nearest.cell < 0) return {};
     return {nearest.cell, barycentric_in(nearest.cell), std::sqrt(nearest.least)};

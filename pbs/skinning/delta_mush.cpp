@@ -5,7 +5,7 @@
 namespace pbs {
 
 DeltaMush::DeltaMush(const TetMesh& mesh, const DeltaMushOptions& options)
-    : options_(options), neighbours_(adjacency_of(mesh.tets, static_cast<int>(mesh.rest.rows())))
+    : options_(options), neighbours_(adjacency_of(mesh.tets, static_cast<int>(mesh.rest.rows()))), rest_(mesh.rest)
 {
     smoothed_rest_ = smoothed(mesh.rest);
     delta_ = mesh.rest - smoothed_rest_;
@@ -15,7 +15,11 @@ void DeltaMush::apply(const Positions& blended, Positions& posed) const
 {
     const Positions smooth = smoothed(blended);
     posed.resize(blended.rows(), 3);
-    for (int i = 0; i < blended.rows(); ++i) posed.row(i) = smooth.row(i) + (rotation(smooth, i) * delta_.row(i).transpose()).transpose();
+    for (int i = 0; i < blended.rows(); ++i) {
+        Eigen::Matrix3d frame = covariance(smooth, smoothed_rest_, i);
+        if (options_.unsmoothed_share > 0.0) frame += options_.unsmoothed_share * covariance(blended, rest_, i);
+        posed.row(i) = smooth.row(i) + (nearest_rotation(frame) * delta_.row(i).transpose()).transpose();
+    }
 }
 
 Positions DeltaMush::smoothed(Positions positions) const
@@ -33,14 +37,14 @@ Positions DeltaMush::smoothed(Positions positions) const
     return positions;
 }
 
-// The rotation nearest to the sum over the neighbours of (posed edge) (rest edge)^T.
-Eigen::Matrix3d DeltaMush::rotation(const Positions& smoothed_posed, int vertex) const
+// The sum over the neighbours of (posed edge) (rest edge)^T.
+Eigen::Matrix3d DeltaMush::covariance(const Positions& posed, const Positions& rest, int vertex) const
 {
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     for (int k = neighbours_.first[vertex]; k < neighbours_.first[vertex + 1]; ++k)
-        covariance += (smoothed_posed.row(neighbours_.neighbour[k]) - smoothed_posed.row(vertex)).transpose() *
-                      (smoothed_rest_.row(neighbours_.neighbour[k]) - smoothed_rest_.row(vertex));
-    return nearest_rotation(covariance);
+        sum +=
+            (posed.row(neighbours_.neighbour[k]) - posed.row(vertex)).transpose() * (rest.row(neighbours_.neighbour[k]) - rest.row(vertex));
+    return sum;
 }
 
 template <class Scalar>
@@ -90,6 +94,7 @@ PackedDeltaMush<Scalar>::PackedDeltaMush(const TetMesh& mesh, const DeltaMushOpt
         const int count = first_[i + 1] - first_[i];
         one_over_.push_back(count > 0 ? Scalar(1) / static_cast<Scalar>(count) : Scalar(0));
     }
+    rest_ = padded_rows<Scalar>(mesh.rest, middle_);
     smoothed_rest_ = padded_rows<Scalar>(plain.smoothed_rest(), middle_);
     detail_ = padded_rows<Scalar>(plain.detail(), Vec3::Zero());
     smoothed_.resize(smoothed_rest_.size());
@@ -104,13 +109,16 @@ void PackedDeltaMush<Scalar>::apply_rows(const Scalar* blended)
     const int vertices = static_cast<int>(one_over_.size());
     for (int i = 0; i < vertices; ++i)
         for (int axis = 0; axis < 3; ++axis) smoothed_[4L * i + axis] = blended[3L * i + axis];
+    if (options_.unsmoothed_share > 0.0) unsmoothed_ = smoothed_;
     const NeighbourRows<Scalar> rows{vertices, first_.data(), neighbour_.data(), one_over_.data()};
     for (int iteration = 0; iteration < options_.iterations; ++iteration) {
         smooth_points(rows, static_cast<Scalar>(options_.step), smoothed_.data(), next_.data());
         smoothed_.swap(next_);
     }
     RefusedRotations<Scalar> refused = refused_.none_yet();
-    add_detail(rows, smoothed_rest_.data(), smoothed_.data(), detail_.data(), posed_.data(), refused);
+    const EdgeRows<Scalar> smoothed{smoothed_rest_.data(), smoothed_.data(), Scalar(1)};
+    const EdgeRows<Scalar> unsmoothed{rest_.data(), unsmoothed_.data(), static_cast<Scalar>(options_.unsmoothed_share)};
+    add_detail(rows, smoothed, unsmoothed, detail_.data(), posed_.data(), refused);
     PackedRotations<Scalar>::turn(refused, detail_, posed_);
 }
 

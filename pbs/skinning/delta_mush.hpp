@@ -5,6 +5,9 @@
 // The local frames of that paper are those of the normals of a surface. Here every vertex of the tet mesh, also in the interior, has the
 // rotation that best maps its smoothed rest edges to its smoothed posed edges (nearest_rotation.hpp). Smoothing is Laplacian with uniform
 // weights. DeltaMush is plain code in double; PackedDeltaMush computes the same in packed float.
+// Twenty iterations shrink a limb that is three tets thick to a thread of a hundredth of its width. The edges of a thread do not determine
+// the rotation about it, and the detail of neighbours turns in different ways, until the limb is inside out. `unsmoothed_share` adds the
+// edges before smoothing, which have the limb's full width: where smoothing leaves the body its width, they hardly count.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -20,6 +23,9 @@ namespace pbs {
 struct DeltaMushOptions {
     int iterations = 20;  // of smoothing
     double step = 0.5;    // share of the way to the neighbours' mean
+    // Share of the edges before smoothing in the covariance of a vertex, whose nearest rotation is its frame:
+    // sum (smoothed edge) (smoothed rest edge)^T + share * sum (edge) (rest edge)^T.
+    double unsmoothed_share = 0.0;
     // Which code a deformer runs: this plain one in f64, or PackedDeltaMush. Neither class reads it.
     Precision precision = Precision::f64;
     bool packed = false;
@@ -38,10 +44,11 @@ public:
 
 private:
     Positions smoothed(Positions positions) const;
-    Eigen::Matrix3d rotation(const Positions& smoothed_posed, int vertex) const;
+    Eigen::Matrix3d covariance(const Positions& posed, const Positions& rest, int vertex) const;  // of its edges [m^2]
 
     DeltaMushOptions options_;
     Adjacency neighbours_;
+    Positions rest_;
     Positions smoothed_rest_;
     Positions delta_;  // the detail that smoothing removes [m], #V x 3
 };
@@ -93,8 +100,9 @@ public:
 private:
     std::vector<int> first_, neighbour_;
     std::vector<Scalar> one_over_;                           // the number of neighbours, #V
-    std::vector<Scalar> smoothed_rest_, detail_;             // #V rows x, y, z, 0 [m]
+    std::vector<Scalar> rest_, smoothed_rest_, detail_;      // #V rows x, y, z, 0 [m]
     std::vector<Scalar> smoothed_, next_, posed_, blended_;  // of the last pose
+    std::vector<Scalar> unsmoothed_;                         // rows as smoothed_; empty: they do not count
     PackedRotations<Scalar> refused_;
     DeltaMushOptions options_;
     Vec3 middle_;  // of the rest shape [m]

@@ -80,6 +80,20 @@ PBS_INLINE Four<Scalar> everywhere(Four<Scalar> row)
     return __builtin_shufflevector(row, row, which, which, which, which);
 }
 
+// Adds the sum over the neighbours of (posed edge) (rest edge)^T, column by column.
+template <class Scalar>
+PBS_INLINE void add_edges(const NeighbourRows<Scalar>& rows, const EdgeRows<Scalar>& shape, int vertex, Four<Scalar> (&columns)[3])
+{
+    const Four<Scalar> point = load_four(shape.posed + 4L * vertex), rest = load_four(shape.rest + 4L * vertex);
+    for (int k = rows.first[vertex]; k < rows.first[vertex + 1]; ++k) {
+        const Four<Scalar> edge = load_four(shape.posed + 4L * rows.neighbour[k]) - point;
+        const Four<Scalar> rest_edge = load_four(shape.rest + 4L * rows.neighbour[k]) - rest;
+        columns[0] += edge * everywhere<0, Scalar>(rest_edge);
+        columns[1] += edge * everywhere<1, Scalar>(rest_edge);
+        columns[2] += edge * everywhere<2, Scalar>(rest_edge);
+    }
+}
+
 }  // namespace
 
 template <class Scalar>
@@ -100,20 +114,17 @@ void smooth_points(const NeighbourRows<Scalar>& rows, Scalar step, const Scalar*
 }
 
 template <class Scalar>
-void add_detail(const NeighbourRows<Scalar>& rows, const Scalar* smooth_rest, const Scalar* smooth, const Scalar* detail, Scalar* posed,
-                RefusedRotations<Scalar>& refused)
+void add_detail(const NeighbourRows<Scalar>& rows, const EdgeRows<Scalar>& smooth, const EdgeRows<Scalar>& unsmoothed, const Scalar* detail,
+                Scalar* posed, RefusedRotations<Scalar>& refused)
 {
     turn_all(rows.n, posed, refused, [=](int vertex, int place, Tile<Scalar>& waiting) {
-        const Four<Scalar> point = load_four(smooth + 4L * vertex), rest = load_four(smooth_rest + 4L * vertex);
-        Four<Scalar> columns[3] = {};
-        for (int k = rows.first[vertex]; k < rows.first[vertex + 1]; ++k) {
-            const Four<Scalar> edge = load_four(smooth + 4L * rows.neighbour[k]) - point;
-            const Four<Scalar> rest_edge = load_four(smooth_rest + 4L * rows.neighbour[k]) - rest;
-            columns[0] += edge * everywhere<0, Scalar>(rest_edge);
-            columns[1] += edge * everywhere<1, Scalar>(rest_edge);
-            columns[2] += edge * everywhere<2, Scalar>(rest_edge);
+        Four<Scalar> columns[3] = {}, wide[3] = {};
+        add_edges<Scalar>(rows, smooth, vertex, columns);
+        if (unsmoothed.share > 0) {
+            add_edges<Scalar>(rows, unsmoothed, vertex, wide);
+            for (int column = 0; column < 3; ++column) columns[column] += unsmoothed.share * wide[column];
         }
-        waiting.set(place, columns, detail + 4L * vertex, point);
+        waiting.set(place, columns, detail + 4L * vertex, load_four(smooth.posed + 4L * vertex));
     });
 }
 
@@ -142,10 +153,10 @@ void move_by_moments(const MomentRows<Scalar>& rows, const PaddedMatrix<Scalar>*
     });
 }
 
-#define PBS_MUSH_KERNELS(Scalar)                                                                                 \
-    template void smooth_points(const NeighbourRows<Scalar>&, Scalar, const Scalar*, Scalar*);                   \
-    template void add_detail(const NeighbourRows<Scalar>&, const Scalar*, const Scalar*, const Scalar*, Scalar*, \
-                             RefusedRotations<Scalar>&);                                                         \
+#define PBS_MUSH_KERNELS(Scalar)                                                                                                     \
+    template void smooth_points(const NeighbourRows<Scalar>&, Scalar, const Scalar*, Scalar*);                                       \
+    template void add_detail(const NeighbourRows<Scalar>&, const EdgeRows<Scalar>&, const EdgeRows<Scalar>&, const Scalar*, Scalar*, \
+                             RefusedRotations<Scalar>&);                                                                             \
     template void move_by_moments(const MomentRows<Scalar>&, const PaddedMatrix<Scalar>*, Scalar*, RefusedRotations<Scalar>&);
 PBS_MUSH_KERNELS(float)
 PBS_MUSH_KERNELS(double)

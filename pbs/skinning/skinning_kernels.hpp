@@ -70,11 +70,19 @@ struct RefusedRotations {
 template <class Scalar>
 void smooth_points(const NeighbourRows<Scalar>& rows, Scalar step, const Scalar* from, Scalar* to);
 
-// posed = smooth + R detail, R being the rotation that best maps the edges of `smooth_rest` to those of `smooth`. Refused vertices get
-// posed = smooth. posed: n rows of x, y, z.
+// A shape at rest and posed, whose edges count with a share in the frames; share 0: the pointers are not read.
 template <class Scalar>
-void add_detail(const NeighbourRows<Scalar>& rows, const Scalar* smooth_rest, const Scalar* smooth, const Scalar* detail, Scalar* posed,
-                RefusedRotations<Scalar>& refused);
+struct EdgeRows {
+    const Scalar* rest;
+    const Scalar* posed;
+    Scalar share;
+};
+
+// posed = smooth + R detail, R being the rotation that best maps the edges at rest to the posed ones, of the smoothed shape (share 1) and
+// of the unsmoothed one. Refused vertices get posed = smooth. posed: n rows of x, y, z.
+template <class Scalar>
+void add_detail(const NeighbourRows<Scalar>& rows, const EdgeRows<Scalar>& smooth, const EdgeRows<Scalar>& unsmoothed, const Scalar* detail,
+                Scalar* posed, RefusedRotations<Scalar>& refused);
 
 // The moments of the rest shape about a vertex's own centre that direct delta mush has precomputed for this vertex and a bone.
 template <class Scalar>

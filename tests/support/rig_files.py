@@ -121,10 +121,15 @@ def quantised(weights):
 
 
 def add_mesh(gltf, points, triangles, weights, unit, compact):
-    """A mesh with its skin weights, #P x at most 4; compact: as bytes and shorts."""
+    """A mesh with its skin weights, #P x #joints, of which the four largest of a point are kept; compact: as bytes and shorts."""
     count = weights.shape[1]
-    weights = numpy.pad(weights, ((0, 0), (0, 4 - count)))
-    joints = numpy.tile([*range(count), *[0] * (4 - count)], (len(points), 1))
+    if count > 4:
+        joints = numpy.argsort(-weights, axis=1, kind="stable")[:, :4]
+        weights = numpy.take_along_axis(weights, joints, axis=1)
+        weights = weights / weights.sum(axis=1, keepdims=True)
+    else:
+        weights = numpy.pad(weights, ((0, 0), (0, 4 - count)))
+        joints = numpy.tile([*range(count), *[0] * (4 - count)], (len(points), 1))
     attributes = {"POSITION": gltf.put(points / unit, "VEC3", FLOAT)}
     if compact:
         attributes["WEIGHTS_0"] = gltf.put(quantised(weights), "VEC4", UNSIGNED_BYTE, normalized=True)

@@ -112,7 +112,8 @@ struct Delta {
     using Plain = Delta<double, false>;
     static constexpr bool packed = is_packed;
     static inline const TwoBoneLimb limb = test_support::two_bone_limb({16, 4, 4}, Vec3::UnitZ(), 60.0);
-    static inline const std::vector<Options> settings = {{.iterations = 1}, {.iterations = 3}, {.iterations = 20}};
+    static inline const std::vector<Options> settings = {
+        {.iterations = 1}, {.iterations = 3}, {.iterations = 20}, {.iterations = 3, .unsmoothed_share = 0.5}};
     static inline const std::vector<Options> without_smoothing = {{.iterations = 0}, {.iterations = 5, .step = 0.0}};
 
     static Positions applied(const TwoBoneLimb& body, const Pose& pose, const Options& options)
@@ -352,6 +353,33 @@ TEST(DeltaMush, FlatMeshesAreMovedToo)
         EXPECT_TRUE(posed.allFinite());
         EXPECT_LT(largest(posed - expected), 1e-3 * largest(expected - flat.mesh.rest));
     }
+}
+
+// A limb that is three tets thick, with smooth weights, which bends and twists. By theory no tet is inverted by a rotation field as smooth
+// as the blend; with smoothed edges alone the limb is a thread, whose frames turn about it in different ways.
+TEST(DeltaMush, WithUnsmoothedEdgesThinLimbsAreNotTurnedInsideOut)
+{
+    TwoBoneLimb thin = test_support::two_bones_in(test_support::structured_bar({-1, -0.025, -0.025}, {1, 0.025, 0.025}, {40, 1, 1}));
+    thin.weights = {{0}, {}, {}};
+    for (const auto& point : thin.mesh.rest.rowwise()) {
+        const double forearm = std::clamp(0.5 + point(0) / 0.3, 0.0, 1.0);
+        thin.weights.bone.insert(thin.weights.bone.end(), {0, 1});
+        thin.weights.weight.insert(thin.weights.weight.end(), {1.0 - forearm, forearm});
+        thin.weights.first.push_back(static_cast<int>(thin.weights.bone.size()));
+    }
+    test_support::RandomPoints random(74);
+    const auto inverted = [&](const Positions& posed) { return (pbs::tet_volumes(posed, thin.mesh.tets).array() <= 0.0).count(); };
+    Eigen::Index as_published = 0;
+    for (int turn = 0; turn < 20; ++turn) {
+        const Vec3 axis = random.rigid_motion(0.0).linear().col(0);
+        const Pose pose = pbs::joint_sweep(thin.skeleton, 1, axis, 4.0 * (turn + 1), 2, 0.01).steps.back();
+        const DeltaMushOptions wide{.unsmoothed_share = 0.01};
+        ASSERT_EQ(inverted(PlainDelta::applied(thin, pose, {.iterations = 0})), 0) << "LBS inverts none";
+        EXPECT_EQ(inverted(PlainDelta::applied(thin, pose, wide)), 0) << 4.0 * (turn + 1) << " degrees about " << axis.transpose();
+        EXPECT_EQ(inverted(Delta<float, true>::applied(thin, pose, wide)), 0) << 4.0 * (turn + 1) << " degrees about " << axis.transpose();
+        as_published += inverted(PlainDelta::applied(thin, pose, {}));
+    }
+    EXPECT_GT(as_published, 0) << "a limb that the published frames leave whole proves nothing";
 }
 
 using PlainDirect = Direct<double, false>;

@@ -1,0 +1,107 @@
+// Deformers that follow a far motion from rest, instead of beginning each frame at a blend of its pose.
+#include "experiments/deformers/deformer_kind.hpp"
+#include "pbs/geometry/cost.hpp"
+#include "pbs/skinning/blend.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace experiments {
+namespace {
+
+constexpr double far_turn_deg = 90.0;      // of a joint in the first pose: twice what a step may turn
+constexpr double largest_turn_deg = 45.0;  // of a bone in a step, as for the reference
+
+// Of any bone relative to the one that it is joined to; a body that turns as a whole is not far from its bind pose.
+double largest_joint_turn_deg(const pbs::Skeleton& skeleton, const pbs::Pose& pose)
+{
+    double largest = 0.0;
+    for (std::size_t j = 0; j < pose.size(); ++j) {
+        const int parent = skeleton.bones[j].parent;
+        if (parent < 0) continue;
+        const Eigen::Quaterniond own(pose[j].linear()), other(pose[static_cast<std::size_t>(parent)].linear());
+        largest = std::max(largest, own.angularDistance(other));
+    }
+    return largest * 180.0 / std::numbers::pi;
+}
+
+class FollowingDeformer : public Deformer {
+public:
+    explicit FollowingDeformer(std::unique_ptr<Deformer> deformer) : deformer_(std::move(deformer)) {}
+
+    void reset(const pbs::Character& character) override
+    {
+        character_ = &character;
+        reached_ = pbs::Pose(character.skeleton.bones.size(), Eigen::Isometry3d::Identity());
+        follows_ = has_start_ = false;
+        deformer_->reset(character);
+    }
+    void foresee(const std::vector<pbs::Pose>& poses) override
+    {
+        const bool is_far = !poses.empty() && largest_joint_turn_deg(character_->skeleton, poses.front()) > far_turn_deg;
+        follows_ = character_->artist && is_far && !deformer_->has_memory();
+        if (!follows_) deformer_->foresee(poses);
+    }
+    pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override
+    {
+        if (follows_ && !std::exchange(has_start_, false)) return follow(pose, dt_s);
+        reached_ = pose;
+        return deformer_->advance(pose, dt_s);
+    }
+    void start_from(const pbs::Positions& shape) override
+    {
+        has_start_ = true;
+        deformer_->start_from(shape);
+    }
+    const pbs::Positions& positions() const override { return deformer_->positions(); }
+    bool has_memory() const override { return deformer_->has_memory(); }  // frames suffice: steps between them are made here
+    nlohmann::json record() const override
+    {
+        nlohmann::json record = deformer_->record();
+        if (follows_) record["follows_from_rest"] = true;
+        return record;
+    }
+
+private:
+    pbs::StepSummary follow(const pbs::Pose& pose, double dt_s)
+    {
+        const pbs::Stopwatch stopwatch;
+        const pbs::PosePath way(character_->skeleton, reached_, pose);
+        const int steps = std::max(1, static_cast<int>(std::ceil(way.largest_turn_deg() / largest_turn_deg)));
+        pbs::FrameStep all;
+        pbs::StepSummary sum;
+        for (int step = 1; step <= steps; ++step) {
+            const pbs::Pose next = way.at(static_cast<double>(step) / steps);
+            pbs::Pose moved = next;  // the motion of each bone
+            for (std::size_t j = 0; j < next.size(); ++j) moved[j] = next[j] * reached_[j].inverse();
+            pbs::dual_quaternion_skinning(deformer_->positions(), character_->weights, moved, carried_);
+            deformer_->start_from(carried_);
+            all.add(deformer_->advance(next, dt_s), static_cast<std::size_t>(step));
+            sum.iterations += all.summary().iterations;
+            sum.work += all.summary().work;
+            reached_ = next;
+        }
+        pbs::StepSummary summary = all.summary();
+        summary.iterations = sum.iterations;
+        summary.work = sum.work;
+        summary.seconds = stopwatch.seconds();
+        return summary;
+    }
+
+    std::unique_ptr<Deformer> deformer_;
+    const pbs::Character* character_ = nullptr;
+    bool follows_ = false, has_start_ = false;
+    pbs::Pose reached_;       // of the last positions
+    pbs::Positions carried_;  // [m], #V x 3
+};
+
+}  // namespace
+
+std::unique_ptr<Deformer> following(std::unique_ptr<Deformer> deformer)
+{
+    return std::make_unique<FollowingDeformer>(std::move(deformer));
+}
+
+}  // namespace experiments
