@@ -12,6 +12,7 @@
 #include "pbs/rig/rig_reader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -76,13 +77,15 @@ bool is_own_frame(const fs::path& file)
 
 }  // namespace
 
-RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const std::string& folder)
+RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const std::string& folder, int frames)
     : scene_(scene),
       folder_(folder),
       metrics_(metric_columns_of(scene).names()),
       iterations_(iteration_columns.names()),
-      regions_(character)
+      regions_(character),
+      size_m_((character.mesh.rest.colwise().maxCoeff() - character.mesh.rest.colwise().minCoeff()).norm())
 {
+    for (int frame = 0; frame < frames; ++frame) written_frames_ += scene.output.writes(frame);
     std::error_code error;
     fs::create_directories(fs::path(folder) / "frames", error);
     if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
@@ -151,9 +154,14 @@ void RunFolder::write_artist_skin(int frame, double time_s, const pbs::Character
     const pbs::RiggedModel& model = *character.artist->model;
     const pbs::Positions points = motion.of_model ? pbs::artist_frame(model.rig, model.body, *model.animation, sampling_of(motion), frame)
                                                   : pbs::artist_points(model.body, pose);
-    const std::string file = frame_file("artist", frame, ".vtp");
-    pbs::write_vtp((fs::path(folder_) / "skin" / file).string(), points, model.body.triangles);
-    artist_frames_.emplace_back(time_s, file);
+    if (skins_++ % skin_every_ == 0) {
+        const std::string name = frame_file("artist", frame, ".vtp"), file = (fs::path(folder_) / "skin" / name).string();
+        pbs::write_vtp(file, points, model.body.triangles);
+        artist_frames_.emplace_back(time_s, name);
+        if (skins_ == 1)
+            skin_every_ += static_cast<int>(static_cast<double>(written_frames_) * static_cast<double>(fs::file_size(file)) /
+                                            scene_.output.most_skin_bytes);
+    }
     const bool has_own_weights = character.weight_kind == pbs::WeightKind::artist;
     if (!has_own_weights || lbs_surface_.rows() != points.rows() || !lbs_surface_.allFinite()) return;
     // The artist's surface by the same rigid bones: scale in an animation is not an error of the tets.
@@ -179,8 +187,26 @@ void RunFolder::write_tables(bool with_moving_surfaces)
     if (!bones_.empty()) table_of(posed_bone_columns, bones_).write((folder / "bones.csv").string());
     for (const auto& [name, frames] : collections_) pbs::write_pvd((folder / "frames" / (name + ".pvd")).string(), frames);
     if (!artist_frames_.empty()) pbs::write_pvd((folder / "skin" / "artist.pvd").string(), artist_frames_);
-    if (with_moving_surfaces)
-        for (auto& [name, surface] : surfaces_) surface.write();
+    if (with_moving_surfaces) write_moving_surfaces();
+}
+
+std::string RunFolder::write_moving_surfaces()
+{
+    const double most_bytes = scene_.output.most_glb_bytes / static_cast<double>(surfaces_.size());
+    pbs::GlbWriter::Kept least{.frames = written_frames_, .largest_error_m = 0.0};
+    for (auto& [name, surface] : surfaces_) {
+        const pbs::GlbWriter::Kept kept = surface.write(most_bytes);
+        least = {.frames = std::min(least.frames, kept.frames), .largest_error_m = std::max(least.largest_error_m, kept.largest_error_m)};
+    }
+    std::vector<std::string> words;
+    if (skin_every_ > 1) words.push_back(fmt::format("skin/ has one of {} frames", skin_every_));
+    if (least.largest_error_m > 0.0)
+        words.push_back(
+            fmt::format("the .glb files have {} or more of {} frames, and move in straight lines between them, at most {:.2g} % "
+                        "of the body's size away from the frames that are left out",
+                        least.frames, written_frames_, 100.0 * least.largest_error_m / size_m_));
+    if (words.empty()) return "";
+    return fmt::format("{}: to save space, {}; --paraview of `pbskin try` keeps all frames", scene_.file, fmt::join(words, ", and "));
 }
 
 void RunFolder::write_what_frames_depend_on(const pbs::Character& character) const
@@ -195,7 +221,7 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
                        const nlohmann::json& outcome, CostRecord& cost, const nlohmann::json& reference_error_method)
 {
     cost.time("records", [&] {
-        write_tables(true);
+        write_tables(false);
         if (!bones_.empty()) write_what_frames_depend_on(character);
     });
     analysis::Provenance provenance = run_provenance(std::ranges::max(scene_.deformers, {}, &DeformerSpec::threads).threads);
