@@ -41,7 +41,7 @@ std::string python_that_draws()
 }
 
 constexpr std::uintmax_t largest_page_bytes = std::uintmax_t{4} << 30;
-constexpr double most_glb_bytes = 30e6, most_skin_bytes = 15e6;  // with the page and the tables, a trial takes at most 60 MB
+constexpr double most_glb_bytes = 33e6, most_skin_bytes = 12e6;  // with the page and the tables, a trial takes at most 60 MB
 
 // Runs the scene that was just written. If it is refused before the run has written anything, the folder is left as it was.
 RunResult run_new_scene(const std::string& scene_file, const std::string& earlier_scene, const TrialOptions& options, bool folder_is_new,

@@ -410,7 +410,7 @@ private:
         if (error_bar_) outcome["frames_below_reference_error"] = frames_below_reference_error_;
         warn_of_overlap();
         if (const nlohmann::json followed = record_followed_skin(); !followed.is_null()) outcome["from_artist"] = followed;
-        if (const std::string words = folder_.write_moving_surfaces(); !words.empty()) remarks_.add(pbs::Gravity::information, {words});
+        if (const std::string words = folder_.words_on_left_out_frames(); !words.empty()) remarks_.add(pbs::Gravity::information, {words});
         remarks_.say_all();
         outcome["warnings"] = remarks_.warnings();
         outcome["notes"] = remarks_.notes();

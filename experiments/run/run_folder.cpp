@@ -82,8 +82,7 @@ RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const 
       folder_(folder),
       metrics_(metric_columns_of(scene).names()),
       iterations_(iteration_columns.names()),
-      regions_(character),
-      size_m_((character.mesh.rest.colwise().maxCoeff() - character.mesh.rest.colwise().minCoeff()).norm())
+      regions_(character)
 {
     for (int frame = 0; frame < frames; ++frame) written_frames_ += scene.output.writes(frame);
     std::error_code error;
@@ -137,14 +136,23 @@ void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, 
             pbs::write_vtp((frames / frame_file(name + "_surface", frame, ".vtp")).string(), rendered, character.surface->triangles);
         distances_.add(frame, time_s, name, "rendered surface", rendered);
         if (name == "lbs") lbs_surface_ = rendered;
-        if (scene_.output.glb && rendered.allFinite()) {  // a frame that broke down has no place in it
+        const bool is_in_glb = collections_[name].size() % static_cast<std::size_t>(glb_every_) == 0;
+        if (scene_.output.glb && is_in_glb && rendered.allFinite()) {  // a frame that broke down has no place in it
+            const bool is_first = surfaces_.empty();
             surfaces_.try_emplace(name, (frames / (name + ".glb")).string(), name, character.surface->triangles, look_, materials_);
             surfaces_.at(name).add_frame(time_s, rendered);
+            if (is_first) leave_frames_out(surfaces_.at(name));
         }
     } else {
         distances_.add(frame, time_s, name, "mesh", positions);
     }
     collections_[name].emplace_back(time_s, frame_file(name, frame, ".vtu"));
+}
+
+void RunFolder::leave_frames_out(const pbs::GlbWriter& surface)
+{
+    const auto bytes = [&] { return surface.bytes(1 + (written_frames_ - 1) / glb_every_) * static_cast<double>(scene_.deformers.size()); };
+    while (bytes() > scene_.output.most_glb_bytes && glb_every_ < written_frames_ - 1) ++glb_every_;
 }
 
 void RunFolder::write_artist_skin(int frame, double time_s, const pbs::Character& character, const MotionSpec& motion,
@@ -187,26 +195,18 @@ void RunFolder::write_tables(bool with_moving_surfaces)
     if (!bones_.empty()) table_of(posed_bone_columns, bones_).write((folder / "bones.csv").string());
     for (const auto& [name, frames] : collections_) pbs::write_pvd((folder / "frames" / (name + ".pvd")).string(), frames);
     if (!artist_frames_.empty()) pbs::write_pvd((folder / "skin" / "artist.pvd").string(), artist_frames_);
-    if (with_moving_surfaces) write_moving_surfaces();
+    if (with_moving_surfaces)
+        for (auto& [name, surface] : surfaces_) surface.write();
 }
 
-std::string RunFolder::write_moving_surfaces()
+std::string RunFolder::words_on_left_out_frames() const
 {
-    const double most_bytes = scene_.output.most_glb_bytes / static_cast<double>(surfaces_.size());
-    pbs::GlbWriter::Kept least{.frames = written_frames_, .largest_error_m = 0.0};
-    for (auto& [name, surface] : surfaces_) {
-        const pbs::GlbWriter::Kept kept = surface.write(most_bytes);
-        least = {.frames = std::min(least.frames, kept.frames), .largest_error_m = std::max(least.largest_error_m, kept.largest_error_m)};
-    }
     std::vector<std::string> words;
-    if (skin_every_ > 1) words.push_back(fmt::format("skin/ has one of {} frames", skin_every_));
-    if (least.largest_error_m > 0.0)
-        words.push_back(
-            fmt::format("the .glb files have {} or more of {} frames, and move in straight lines between them, at most {:.2g} % "
-                        "of the body's size away from the frames that are left out",
-                        least.frames, written_frames_, 100.0 * least.largest_error_m / size_m_));
+    if (glb_every_ > 1) words.push_back(fmt::format("the .glb files have one of {} frames", glb_every_));
+    if (skin_every_ > 1) words.push_back(fmt::format("skin/ has one of {}", skin_every_));
     if (words.empty()) return "";
-    return fmt::format("{}: to save space, {}; --paraview of `pbskin try` keeps all frames", scene_.file, fmt::join(words, ", and "));
+    return fmt::format("{}: to save space, {}; those that they have are exact, and --paraview of `pbskin try` keeps all", scene_.file,
+                       fmt::join(words, " and "));
 }
 
 void RunFolder::write_what_frames_depend_on(const pbs::Character& character) const
@@ -221,7 +221,7 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
                        const nlohmann::json& outcome, CostRecord& cost, const nlohmann::json& reference_error_method)
 {
     cost.time("records", [&] {
-        write_tables(false);
+        write_tables(true);
         if (!bones_.empty()) write_what_frames_depend_on(character);
     });
     analysis::Provenance provenance = run_provenance(std::ranges::max(scene_.deformers, {}, &DeformerSpec::threads).threads);

@@ -68,20 +68,23 @@ std::string nearer_words(const nlohmann::json& facts)
     return text;
 }
 
+std::string tets(const nlohmann::json& count)
+{
+    return fmt::format("{} {}", count.get<long long>(), count.get<long long>() == 1 ? "tet" : "tets");
+}
+
 // Methods with more inverted tets than LBS are not compared, and PBS is not praised if it has any.
 std::string inverting_words(const nlohmann::json& facts)
 {
     const nlohmann::json &inverting = facts.at("inverting"), &volume = facts.at("volume");
-    const auto tets = [](long long count) { return fmt::format("{} {}", count, count == 1 ? "tet" : "tets"); };
-    std::vector<std::string> words;
-    for (const auto& [deformer, of] : inverting.items())
-        words.push_back(
-            fmt::format("{} turns up to {} inside out", shown_name(deformer), tets(of.at("most_inverted_tets").get<long long>())));
     std::string text;
-    if (!words.empty())
-        text = fmt::format("{}, more than LBS in the same frame: {} called nearest or best. ", fmt::join(words, ", "),
-                           words.size() == 1 ? "it is not" : "none of them is");
-    const auto of_pbs = volume.at("pbs").at("most_inverted_tets").get<long long>();
+    for (const auto& [deformer, of] : inverting.items())
+        text += fmt::format(fmt::runtime(text.empty() ? "{} turns up to {} inside out" : ", {} up to {}"), shown_name(deformer),
+                            tets(of.at("most_inverted_tets")));
+    if (!text.empty())
+        text += fmt::format(", {}more than LBS in the same frame: {} called nearest or best. ", inverting.size() == 1 ? "" : "each ",
+                            inverting.size() == 1 ? "it is not" : "none of them is");
+    const nlohmann::json& of_pbs = volume.at("pbs").at("most_inverted_tets");
     if (of_pbs > 0 && !inverting.contains("pbs"))
         text += fmt::format("PBS turns up to {} inside out, and LBS up to {}. ", tets(of_pbs),
                             volume.at("lbs").at("most_inverted_tets").get<long long>());

@@ -319,7 +319,8 @@ def viewer_of(found):
         data = data or page_of_viewer.data_of([recorded_frames.Frames(found.folder)])
         return Markup(f"{data}\n{page_of_viewer.program()}"), []
     except (ImportError, records.RecordsMissing) as error:
-        return data and Markup(data), [f"viewer: {str(error).replace(f'{found.folder}/', '')}"]
+        remedy = "; then `pbskin report` adds it to this page" if data else ""
+        return data and Markup(data), [f"viewer: {str(error).replace(f'{found.folder}/', '')}{remedy}"]
 
 
 def page(folder):

@@ -4,12 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
-#include <numeric>
 #include <string_view>
 
 namespace pbs {
@@ -17,8 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double most_glb_bytes = 4.2e9;        // its lengths have 32 bits; some room for the description
-constexpr std::size_t description_bytes = 500;  // of a frame in JSON, about
+constexpr double most_glb_bytes = 4.2e9;  // its lengths have 32 bits; some room for the description
 constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8, bytes_per_number = 4;
 constexpr int of_indices = 5125, of_floats = 5126;                             // component types: unsigned int, float
@@ -129,15 +126,12 @@ void add_animation(const std::vector<double>& times_s, GlbDocument& glb)
                                    {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
 }
 
-void copy(std::ifstream& data, std::size_t first, std::size_t count, AtomicFile& file)
+void copy(const std::string& from, AtomicFile& file)
 {
-    std::vector<char> piece(std::min<std::size_t>(count, 1 << 20));
-    data.seekg(static_cast<std::streamoff>(first));
-    for (; count > 0; count -= piece.size()) {
-        piece.resize(std::min(piece.size(), count));
-        data.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-        file.write({piece.data(), piece.size()});
-    }
+    std::ifstream data(from, std::ios::binary);
+    std::vector<char> piece(1 << 20);
+    while (data.read(piece.data(), static_cast<std::streamsize>(piece.size())) || data.gcount() > 0)
+        file.write({piece.data(), static_cast<std::size_t>(data.gcount())});
 }
 
 }  // namespace
@@ -189,14 +183,19 @@ void GlbWriter::write_rows(const Positions& rows)
     data_.write({reinterpret_cast<const char*>(single.data()), sizeof(float) * static_cast<std::size_t>(single.size())});
 }
 
+double GlbWriter::bytes(int frames) const
+{
+    const auto numbers = static_cast<double>((has_normals_ ? 2 : 1) * first_frame_.size());
+    return data_bytes_ + static_cast<double>(bytes_per_number) * frames * (numbers + frames);  // with a weight per frame and target
+}
+
 void GlbWriter::add_frame(double time_s, const Positions& points)
 {
     const bool is_first = times_s_.empty();
-    const auto count = static_cast<double>(times_s_.size() + 1), numbers = static_cast<double>((has_normals_ ? 2 : 1) * points.size());
-    if (data_bytes_ + bytes_per_number * count * (numbers + count) > most_glb_bytes)  // with a weight per frame and target
+    if (is_first) first_frame_ = points;
+    if (bytes(static_cast<int>(times_s_.size()) + 1) > most_glb_bytes)
         throw InputError(path_, 0, "frames", std::to_string(times_s_.size() + 1),
                          "expected fewer: a .glb file is limited to 4 GiB (output.frames_every writes fewer frames)");
-    if (is_first) first_frame_ = points;
     const Positions stored = is_first ? points : Positions(points - first_frame_);
     write_rows(stored);
     Extent extent;
@@ -214,66 +213,8 @@ void GlbWriter::add_frame(double time_s, const Positions& points)
     times_s_.push_back(time_s);
 }
 
-std::size_t GlbWriter::frame_bytes() const
+void GlbWriter::write()
 {
-    return bytes_per_number * static_cast<std::size_t>((has_normals_ ? 2 : 1) * first_frame_.size());
-}
-
-// Its points, or from the second frame on their differences from the first one, [m].
-Positions GlbWriter::frame(std::ifstream& data, std::size_t number) const
-{
-    Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> rows(first_frame_.rows(), 3);
-    data.seekg(static_cast<std::streamoff>(static_cast<std::size_t>(data_bytes_) + number * frame_bytes()));
-    data.read(reinterpret_cast<char*>(rows.data()), static_cast<std::streamsize>(sizeof(float) * static_cast<std::size_t>(rows.size())));
-    return rows.cast<double>();
-}
-
-GlbWriter::Way GlbWriter::way(std::ifstream& data, std::size_t from, std::size_t to) const
-{
-    const auto difference = [&](std::size_t f) { return f == 0 ? Positions::Zero(first_frame_.rows(), 3).eval() : frame(data, f); };
-    const Positions start = difference(from), end = difference(to);
-    Way way{.from = from, .to = to};
-    for (std::size_t f = from + 1; f < to; ++f) {
-        const double share = (times_s_[f] - times_s_[from]) / (times_s_[to] - times_s_[from]);
-        const double error_m = (difference(f) - (1.0 - share) * start - share * end).rowwise().norm().maxCoeff();
-        if (error_m > way.error_m || f == from + 1) way.farthest = f, way.error_m = error_m;
-    }
-    return way;
-}
-
-// In the order of time.
-std::vector<std::size_t> GlbWriter::chosen_frames(double most_bytes, double& largest_error_m) const
-{
-    const auto bytes = [&](std::size_t count) {  // with a weight per frame and target, and the description
-        return data_bytes_ + double(count) * (double(frame_bytes() + description_bytes) + double(bytes_per_number * count));
-    };
-    std::vector<std::size_t> chosen(times_s_.size());
-    std::iota(chosen.begin(), chosen.end(), std::size_t{0});
-    largest_error_m = 0.0;
-    if (chosen.size() <= 2 || bytes(chosen.size()) <= most_bytes) return chosen;
-    std::ifstream data(data_.temporary(), std::ios::binary);
-    const std::size_t last = chosen.back();
-    chosen = {0, last};
-    std::vector<Way> ways = {way(data, 0, last)};
-    const auto farthest = [&] { return std::ranges::max_element(ways, {}, &Way::error_m); };
-    while (farthest()->error_m > 0.0 && bytes(chosen.size() + 1) <= most_bytes) {
-        const Way longest = *farthest();
-        *farthest() = way(data, longest.from, longest.farthest);
-        ways.push_back(way(data, longest.farthest, longest.to));
-        chosen.push_back(longest.farthest);
-    }
-    largest_error_m = farthest()->error_m;
-    std::ranges::sort(chosen);
-    return chosen;
-}
-
-GlbWriter::Kept GlbWriter::write(double most_bytes)
-{
-    Kept kept;
-    const std::vector<std::size_t> chosen = chosen_frames(most_bytes, kept.largest_error_m);
-    kept.frames = static_cast<int>(chosen.size());
-    std::vector<double> times_s;
-    for (const std::size_t f : chosen) times_s.push_back(times_s_[f]);
     GlbDocument glb;
     if (!materials_.document.empty()) glb.document.update(json::parse(materials_.document));
     const auto points = static_cast<std::size_t>(first_frame_.rows());
@@ -286,7 +227,7 @@ GlbWriter::Kept GlbWriter::write(double most_bytes)
         all["attributes"]["TEXCOORD_" + std::to_string(set)] = glb.add(points, of_floats, vec2, for_vertices);
     for (std::size_t i = 0; i < materials_.images.size(); ++i)
         glb.document["images"][i]["bufferView"] = glb.add_view(materials_.images[i].size(), 0);
-    for (const std::size_t f : chosen) {
+    for (std::size_t f = 0; f < times_s_.size(); ++f) {
         json frame = {{"POSITION", glb.add(points, of_floats, vec3, for_vertices)}};
         glb.bound(frame["POSITION"], extents_[f].smallest, extents_[f].largest);
         if (has_normals_) frame["NORMAL"] = glb.add(points, of_floats, vec3, for_vertices);
@@ -296,24 +237,21 @@ GlbWriter::Kept GlbWriter::write(double most_bytes)
             all["targets"].push_back(frame);
     }
     for (json& primitive : mesh["primitives"]) primitive.update(all);
-    if (chosen.size() > 1) mesh["weights"] = std::vector<double>(chosen.size() - 1, 0.0);
+    if (times_s_.size() > 1) mesh["weights"] = std::vector<double>(times_s_.size() - 1, 0.0);
     glb.document["meshes"] = json::array({mesh});
     glb.document["nodes"] = {{{"mesh", 0}, {"name", name_}}};
-    if (chosen.size() > 1) add_animation(times_s, glb);
+    if (times_s_.size() > 1) add_animation(times_s_, glb);
 
     const std::string text = glb.text();
     const auto json_bytes = static_cast<std::uint32_t>(text.size()), data_bytes = static_cast<std::uint32_t>(glb.bytes);
     const auto all_bytes = static_cast<std::uint32_t>(header_bytes + 2 * chunk_header_bytes) + json_bytes + data_bytes;
     AtomicFile file(path_);
     file.write("glTF" + words({2, all_bytes, json_bytes, json_chunk}) + text + words({data_bytes, binary_chunk}));
-    std::ifstream data(data_.temporary(), std::ios::binary);
-    copy(data, 0, static_cast<std::size_t>(data_bytes_), file);
-    for (const std::size_t f : chosen) copy(data, static_cast<std::size_t>(data_bytes_) + f * frame_bytes(), frame_bytes(), file);
-    if (chosen.size() > 1) file.write(bytes_of(single(times_s)));
-    if (chosen.size() > 1)
-        for (std::size_t f = 0; f < chosen.size(); ++f) file.write(bytes_of(weights_in(f, chosen.size())));
+    copy(data_.temporary(), file);
+    if (times_s_.size() > 1) file.write(bytes_of(single(times_s_)));
+    if (times_s_.size() > 1)
+        for (std::size_t f = 0; f < times_s_.size(); ++f) file.write(bytes_of(weights_in(f, times_s_.size())));
     file.finish();
-    return kept;
 }
 
 }  // namespace pbs

@@ -9,8 +9,6 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/rig/rig.hpp"
 
-#include <iosfwd>
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -28,31 +26,18 @@ public:
     // precision, as glTF defines. An InputError where the file would be larger than 4 GiB or the disk is full.
     void add_frame(double time_s, const Positions& points);
 
-    // The file with the frames so far, 1 or more; whole or not at all, with the InputErrors of write_atomically. A file that would be
-    // larger than most_bytes has fewer frames: the first, the last, and one by one those in which the straight way between the others is
-    // farthest away, as in the simplification of lines (D. Douglas and T. Peucker, Cartographica 10, 1973).
-    struct Kept {
-        int frames = 0;
-        double largest_error_m = 0.0;  // of a point of a frame that is left out; frames that are kept are exact
-    };
-    Kept write(double most_bytes = std::numeric_limits<double>::infinity());
+    // The size of a file with so many frames of the points that were added, without its description.
+    double bytes(int frames) const;
+
+    // The file with the frames so far, 1 or more; whole or not at all, with the InputErrors of write_atomically.
+    void write();
 
 private:
     struct Extent {
         std::vector<double> smallest, largest;
     };
 
-    // The straight way between two frames, and the frame between them that is farthest from it.
-    struct Way {
-        std::size_t from = 0, to = 0, farthest = 0;
-        double error_m = 0.0;
-    };
-
     void write_rows(const Positions& rows);
-    std::size_t frame_bytes() const;
-    Positions frame(std::ifstream& data, std::size_t number) const;  // from the temporary file
-    Way way(std::ifstream& data, std::size_t from, std::size_t to) const;
-    std::vector<std::size_t> chosen_frames(double most_bytes, double& largest_error_m) const;
     Positions normals_of(const Positions& points) const;
 
     std::string path_, name_;

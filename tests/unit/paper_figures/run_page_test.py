@@ -207,7 +207,8 @@ class RunPage(ResultsTest):
                 self.assertIn(kept, text)
                 self.assertEqual(text.count("// a viewer"), is_built)
                 self.assertEqual(missing, [] if is_built else
-                                 ["viewer: viewer.js is not built: npm ci && npm run build, in paper_figures/viewer"])
+                                 ["viewer: viewer.js is not built: npm ci && npm run build, in paper_figures/viewer; then `pbskin report` "
+                                  "adds it to this page"])
 
     def test_notes_are_apart_from_warnings(self):
         self.write(outcome={"notes": ["nothing is wrong"]})
