@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -130,7 +131,9 @@ std::string decisive_sentence(const nlohmann::json& facts)
     std::string text =
         fmt::format("On {}, PBS {}", std::filesystem::path(facts.at("model").at("file").get<std::string>()).filename().string(),
                     fmt::join(parts, ", "));
-    if (skin.is_null() && !facts.at("frame_ms").contains("nh_p1")) text += "; which of the two is closer to elastic flesh was not measured";
+    const bool is_compared = std::ranges::any_of(facts.at("nearer"), [](const auto& place) { return !place.is_null(); });
+    if (skin.is_null() && !is_compared && !facts.at("frame_ms").contains("nh_p1"))
+        text += "; which of the two is closer to elastic flesh was not measured";
     return text + (widest.is_null() ? "." : fmt::format("; look at frame {}, where the two differ most.", widest.get<int>()));
 }
 

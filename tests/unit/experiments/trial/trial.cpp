@@ -298,7 +298,7 @@ TEST_F(TrialSummary, WhereBonesAreStretchedVolumeIsNotJudged)
     EXPECT_EQ(facts().at("motion").at("stretched_bones").at(0).at("bone"), "top");
     EXPECT_EQ(trial_sentence(facts()),
               "At the joints, PBS is nearer to FEM than LBS in 1 of 2 frames. PBS turns up to 1 tet inside out, and LBS up to 3. On "
-              "slime.glb, PBS takes 2 ms per frame instead of 0.25 ms; which of the two is closer to elastic flesh was not measured.");
+              "slime.glb, PBS takes 2 ms per frame instead of 0.25 ms.");
 }
 
 // By hand: the root of (3^2 + 5^2) / 2 and of (3^2 + 4^2) / 2 mm, in the frames that both have.
@@ -343,7 +343,7 @@ TEST_F(TrialSummary, WithoutAJointErrorsAreThoseOfTheBodyAndWhereNothingDeformsN
         "deformer,frame,volume_change_pct,inverted_tets,step_ms,error_joint_pct,error_l2_pct,volume_abs_change_pct\n";
     folder.file("metrics.csv", header + "lbs,0,-1,0,1,nan,3,2\npbs,0,-2,0,1,nan,2,2\n");
     EXPECT_EQ(facts().at("nearer").at("body").at("frames"), 1);
-    EXPECT_TRUE(trial_sentence(facts()).starts_with("Over the body, PBS is nearer to FEM than LBS in 1 of 1 frames. "));
+    EXPECT_NE(trial_sentence(facts()).find(" Over the body, PBS is nearer to FEM than LBS in 1 of 1 frames. "), std::string::npos);
     folder.file("metrics.csv", header + "lbs,0,0,0,1,nan,1e-9,1e-9\npbs,0,0,0,1,nan,1e-8,0.009\n");
     EXPECT_TRUE(facts().at("nearer").at("body").is_null());
     EXPECT_EQ(trial_sentence(facts()), "No flesh deforms: it rests or moves rigidly in every frame, so that there is nothing to compare.");
