@@ -270,7 +270,7 @@ std::string words_on_stretch(const std::vector<StretchedBone>& stretched)
     std::vector<std::string> words;
     for (const StretchedBone& of : stretched) words.push_back(fmt::format("{} by {:+.0f} % in frame {}", of.bone, of.change_pct, of.frame));
     return fmt::format(
-        "{} its distance from its parent by more than {:.0f} %, most in these frames: {}; the artist changes the volume with "
+        "{} its distance from its parent by more than {:.0f} %, most: {}; the artist changes the volume with "
         "it, so that no method is judged by its volume",
         words.size() == 1 ? "one bone changes" : fmt::format("each of {} bones changes", words.size()), 100.0 * large_stretch,
         pbs::name_list(words));

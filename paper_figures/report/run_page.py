@@ -200,6 +200,7 @@ of_model = ("File: {file}; {meshes_in_file}: {meshes}.", "Largest extent: {exten
             "Joints dropped: {dropped}.", "Containers, which only contribute their transform: {containers}.",
             "From the bind pose to the file's rest pose, bones turn by up to {bind_pose_deg}\u00b0.", "Animations: {animations}.",
             "The tets carry {weights_transferred_pct} % of the artist's weights.",
+            "Bones whose distance from their parent changes by more than 10 %: {stretched}.",
             "The surface that LBS carries with the tets is up to {largest_pct} % of the model's size from the artist's, in frame {frame}.",
             "{matched_joints} of the clip's {clip_joints} moving joints match, without fingers and the like.")
 animation_columns = ["animation", "duration [s]", "largest rotation of a joint [degrees]", "shown here"]
@@ -212,6 +213,8 @@ def model(found):
         return ""
     values = record | outcome.get("motion", {}) | outcome.get("from_artist", {})
     values["dropped"] = [f"{joint['name']} ({joint['reason']})" for joint in values.pop("joints_dropped")]
+    if bones := values.pop("stretched_bones", None):
+        values["stretched"] = [f"{of['bone']} by {of['change_pct']:+.0f} % in frame {of['frame']}" for of in bones]
     values["meshes_in_file"] = counted(len(record["meshes"]), "mesh", "meshes")
     played = None if "clip_joints" in values else record.get("animation")
     rows = [[one["name"], figure(one["duration_s"]), figure(one["largest_rotation_deg"]), "yes" if one["name"] == played else ""]

@@ -172,13 +172,14 @@ class RunPage(ResultsTest):
 
     def test_where_bones_are_stretched_volume_is_not_judged(self):
         """A warning states why, so that the page only leaves it out."""
-        self.write(outcome={"motion": {"stretched_bones": [{"bone": "top", "change_pct": 53.0, "frame": 2}]}})
+        self.write(outcome={"motion": {"stretched_bones": [{"bone": "top", "change_pct": 53.0, "frame": 2}]}}, model=MODEL)
         write_table(self.results / "regions.csv", [{"deformer": "lbs", "kind": "joint", "bone": "hips", "second_bone": "knee",
                                                     "own_change_pct": -3.5}])
         text = self.page()
         self.assertEqual(tables_of(text)["Over all frames"][0], ["method", "error [%]", "ms per frame", "inverted tets"])
         self.assertIn("<p>PBS is nearest to FEM in 3 of 5 frames, 2 %, before mine, 2.5 %.</p>", text)
         self.assertIn("Joints move apart, so that volume is not judged.", text)
+        self.assertIn("Bones whose distance from their parent changes by more than 10 %: top by +53 % in frame 2.", text)
         self.assertNotIn('id="joints"', text)
         self.assertNotIn("volume change [%]", text)
 
