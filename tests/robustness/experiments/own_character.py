@@ -217,6 +217,18 @@ class OwnCharacter(TrialTest):
         places = [page.index(text) for text in (*facts["warnings"], *facts["notes"])]
         self.assertEqual(places, sorted(places))
 
+    def test_bones_that_move_apart(self):
+        """Squash and stretch: the elbow goes half as far again from the root. Neither the sentence nor the page judges the volume."""
+        away = numpy.array([rig_files.PLACES[1], 1.5 * numpy.array(rig_files.PLACES[1])]) - rig_files.PLACES[0]
+        model = self.rig(animations=(), extra=[("Stretch", [(1, "translation", [0.0, 1.0], away, "LINEAR")])])
+        facts, printed = self.tried(model)
+        (bone,) = facts["motion"]["stretched_bones"]
+        self.assertEqual((bone["bone"], bone["frame"]), ("elbow", FRAMES - 1))
+        self.assertAlmostEqual(bone["change_pct"], 50.0, delta=1e-3)
+        self.remarked(facts, printed, "elbow by +50 % in frame 2; the artist changes the volume with it")
+        self.assertNotIn("volume", facts["summary"])
+        self.assertNotIn("Volume at the joints", self.read("out", "report.html"))
+
     def test_without_the_program_of_the_viewer_the_page_keeps_what_it_shows(self):
         """All frames, so that the large files are removed, and `pbskin report` adds the program as soon as it is built."""
         _, printed = self.tried(self.rig(), PBS_VIEWER_BUILD=self.path("nowhere"))
