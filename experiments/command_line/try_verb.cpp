@@ -41,6 +41,7 @@ std::string python_that_draws()
 }
 
 constexpr std::uintmax_t largest_page_bytes = std::uintmax_t{4} << 30;
+constexpr double most_glb_bytes = 33e6, most_skin_bytes = 12e6;  // with the page and the tables, a trial takes at most 60 MB
 
 // Runs the scene that was just written. If it is refused before the run has written anything, the folder is left as it was.
 RunResult run_new_scene(const std::string& scene_file, const std::string& earlier_scene, const TrialOptions& options, bool folder_is_new,
@@ -50,6 +51,10 @@ RunResult run_new_scene(const std::string& scene_file, const std::string& earlie
         Scene scene = read_scene(scene_file, {});
         for (DeformerSpec& spec : scene.deformers) spec.threads = threads;
         scene.output.surface_files = options.paraview;
+        if (!options.paraview) {
+            scene.output.most_glb_bytes = most_glb_bytes;
+            scene.output.most_skin_bytes = most_skin_bytes;
+        }
         return run_scene(scene, options.folder, remarks, WhenInterrupted::finish_early);
     } catch (const pbs::InputError&) {
         std::error_code code;

@@ -7,6 +7,7 @@
 #include "experiments/run/parts_of_one_bone.hpp"
 #include "experiments/run/reference_error_bar.hpp"
 #include "experiments/run/run_folder.hpp"
+#include "experiments/run/run_remarks.hpp"
 #include "experiments/run/spread_reference.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/body_cache.hpp"
@@ -123,49 +124,24 @@ constexpr double many_inverted_pct = 1.0;    // of the tets, in the first frame
 constexpr double far_from_artist_pct = 2.0;  // of the model's size
 constexpr double much_lag_deg = 5.0;         // of a part that one bone alone moves
 
-// Warnings and notes of a run reach the terminal at once and run.json at its end, each once. Records name files without folders of the
-// machine: "folder/hero.glb: two joints ..." -> "hero.glb: two joints ...".
-void add_remarks(const std::vector<std::string>& remarks, std::vector<std::string>& recorded, const char* kind)
-{
-    for (const std::string& remark : remarks) {
-        const std::size_t end = remark.find(": ");
-        const std::string text = end == std::string::npos ? remark : pbs::file_name(remark.substr(0, end)) + remark.substr(end);
-        if (std::ranges::count(recorded, text) > 0) continue;
-        spdlog::warn("pbskin: {}: {}", kind, remark);
-        recorded.push_back(text);
-    }
-}
-
-void add_warnings(const std::vector<std::string>& remarks, std::vector<std::string>& warnings)
-{
-    add_remarks(remarks, warnings, "warning");
-}
-
-std::vector<std::string> printed(const std::vector<std::string>& remarks, const char* kind)
-{
-    std::vector<std::string> recorded;
-    add_remarks(remarks, recorded, kind);
-    return recorded;
-}
-
 // The rendered surface is needed if it is measured or written.
-pbs::Character character_with_warnings(const Scene& scene, std::vector<std::string>& warnings)
+pbs::Character character_with_remarks(const Scene& scene, RunRemarks& remarks)
 {
     pbs::CharacterSource source = scene.character;
     source.surface = scene.output.surface || scene.output.frames_every > 0 || !scene.output.frames.empty();
-    std::vector<std::string> remarks;
-    pbs::Character character = pbs::make_character(source, remarks);
-    add_warnings(remarks, warnings);
+    pbs::RemarkList found;
+    pbs::Character character = pbs::make_character(source, found);
+    remarks.add(found);
     return character;
 }
 
 // Reads the motion, and adds the hashes of its clip to the character's inputs; a sweep has no clip.
-CaseMotion read_motion(const Scene& scene, pbs::Character& character, std::vector<std::string>& warnings, std::vector<std::string>& notes)
+CaseMotion read_motion(const Scene& scene, pbs::Character& character, RunRemarks& remarks)
 {
     const pbs::InputFile clip(scene.motion.clip);
     CaseMotion motion = make_case_motion(scene.motion, character, scene.file);
-    add_warnings(motion.remarks, warnings);
-    add_remarks(motion.notes, notes, "note");
+    remarks.add(motion.remarks);
+    remarks.add(pbs::Gravity::information, motion.notes);
     if (scene.motion.clip.empty()) return motion;
     for (const auto& hashed : clip.hashed()) character.inputs.push_back(hashed);
     return motion;
@@ -179,20 +155,19 @@ public:
     SceneRun(const Scene& scene, const std::string& folder, const Remarks& remarks, WhenInterrupted when_interrupted)
         : scene_(scene),
           when_interrupted_(when_interrupted),
-          warnings_(printed(remarks.warnings, "warning")),
-          notes_(printed(remarks.notes, "note")),
-          character_(cost_.time("character", [&] { return character_with_warnings(scene, warnings_); })),
-          motion_case_(cost_.time("motion", [&] { return read_motion(scene, character_, warnings_, notes_); })),
+          remarks_(remarks),
+          character_(cost_.time("character", [&] { return character_with_remarks(scene, remarks_); })),
+          motion_case_(cost_.time("motion", [&] { return read_motion(scene, character_, remarks_); })),
           motion_(motion_case_.motion),
           runners_(make_runners(scene, character_, cost_, folder, when_interrupted)),
           measurer_(
               cost_.time("metrics_set_up", [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
-          folder_((refuse_frames_beyond(motion_, scene), scene), character_, folder)
+          folder_((refuse_frames_beyond(motion_, scene), scene), character_, folder, motion_.frames())
     {
-        add_warnings(folder_.remarks(), warnings_);
+        remarks_.add(pbs::Gravity::part_left_out, folder_.remarks());
         if (scene.output.surface && character_.surface && !measurer_.measures_surface_volume())
-            add_remarks({scene.file + ": surface_volume_change_pct is empty: the rendered surface is open or encloses no volume"}, notes_,
-                        "note");
+            remarks_.add(pbs::Gravity::information,
+                         {scene.file + ": surface_volume_change_pct is empty: the rendered surface is open or encloses no volume"});
         warn_of_bones_without_flesh();
         if (scene.error_bar != ErrorBar::none)
             cost_.time("error_bar_set_up", [&] { error_bar_.emplace(runners_.front().spec, character_); });
@@ -221,9 +196,9 @@ private:
             for (const nlohmann::json& grip : record.at(bones))
                 if (grip.value("tets_gripped", 1) == 0) without.push_back(grip.at("bone").get<std::string>());
             if (!without.empty())
-                add_warnings({fmt::format("{}: {} leaves out {} of {} bones, whose middle lies outside the flesh: {}", scene_.file,
-                                          runner.spec.label, without.size(), character_.skeleton.bones.size(), pbs::name_list(without))},
-                             warnings_);
+                remarks_.add(pbs::Gravity::part_left_out,
+                             {fmt::format("{}: {} leaves out {} of {} bones, whose middle lies outside the flesh: {}", scene_.file,
+                                          runner.spec.label, without.size(), character_.skeleton.bones.size(), pbs::name_list(without))});
         }
     }
 
@@ -313,9 +288,10 @@ private:
         const std::string text =
             fmt::format("{}: {} inverted tets in the first frame, of {}", scene_.file, fmt::join(counts, " and "), tets);
         if (most > many_inverted_pct / 100.0 * static_cast<double>(tets))
-            add_warnings({text + ": its pose is far from the bind pose, or the weights do not fit the joints"}, warnings_);
+            remarks_.add(pbs::Gravity::results_wrong,
+                         {text + ": its pose is far from the bind pose, or the weights do not fit the joints"});
         else
-            add_remarks({text}, notes_, "note");
+            remarks_.add(pbs::Gravity::information, {text});
     }
 
     // Which deformers follow a far motion from rest, and what stays caught: how many tets, and the bone that moves most of them.
@@ -324,10 +300,10 @@ private:
         if (!scene_.character.body.empty()) return;
         for (const Runner& runner : runners_) {
             if (const nlohmann::json record = runner.deformer->record(); record.is_object() && record.contains("follows_from_rest"))
-                add_remarks({fmt::format("{}: the first frame turns a joint by more than 90 degrees from the bind pose: {} follows the "
-                                         "motion from there, and each frame begins at the last one",
-                                         scene_.file, runner.spec.label)},
-                            notes_, "note");
+                remarks_.add(pbs::Gravity::information,
+                             {fmt::format("{}: the first frame turns a joint by more than 90 degrees from the bind pose: {} follows the "
+                                          "motion from there, and each frame begins at the last one",
+                                          scene_.file, runner.spec.label)});
             if (!runner.traits.iterations || runner.traits.solves_equations || runner.most_inverted == 0) continue;
             const Eigen::VectorXd ratios = measurer_.volume_ratios(runner.deformer->positions());
             std::vector<double> share(character_.skeleton.bones.size());
@@ -336,10 +312,10 @@ private:
                     for (int e = character_.weights.first[v]; ratios(tet) <= 0.0 && e < character_.weights.first[v + 1]; ++e)
                         share[character_.weights.bone[e]] += character_.weights.weight[e];
             const auto most = std::ranges::max_element(share) - share.begin();
-            add_remarks(
+            remarks_.add(
+                pbs::Gravity::information,
                 {fmt::format("{}: {} begins with {} inverted tets, most of them at {}: what is caught in the first frame may stay so",
-                             scene_.file, runner.spec.label, runner.most_inverted, character_.skeleton.bones[most].name)},
-                notes_, "note");
+                             scene_.file, runner.spec.label, runner.most_inverted, character_.skeleton.bones[most].name)});
         }
     }
 
@@ -357,11 +333,11 @@ private:
         if (lag_.bone < 0) return nullptr;
         const std::string& bone = character_.skeleton.bones[static_cast<std::size_t>(lag_.bone)].name;
         if (lag_.turn_deg > much_lag_deg)
-            add_warnings(
+            remarks_.add(
+                pbs::Gravity::comparison_wrong,
                 {fmt::format("{}: in the reference, the flesh that {} alone moves is turned by up to {:.0f} degrees against it, in "
                              "frame {}; attachment = \"held\" of [[fem]] ties such flesh to its bone",
-                             scene_.file, bone, lag_.turn_deg, lag_.frame)},
-                warnings_);
+                             scene_.file, bone, lag_.turn_deg, lag_.frame)});
         return {{"largest_deg", lag_.turn_deg}, {"bone", bone}, {"frame", lag_.frame}};
     }
 
@@ -382,27 +358,27 @@ private:
         for (const SpreadReference::NotReached& frame : solved.not_reached)
             not_reached.push_back({{"frame", frame.frame}, {"cpu_seconds", frame.seconds}, {"bone", frame.bone}});
         if (solved.with_contact)
-            add_warnings(
+            remarks_.add(
+                pbs::Gravity::comparison_wrong,
                 {fmt::format("{}: the reference has no contact, for with it frame {} was not reached within {:.0f} s: the flesh of {} "
                              "holds it up; --reference-seconds 0 (reference.seconds) takes the time",
-                             scene_.file, solved.with_contact->frame, solved.with_contact->seconds, solved.with_contact->bone)},
-                warnings_);
+                             scene_.file, solved.with_contact->frame, solved.with_contact->seconds, solved.with_contact->bone)});
         if (!solved.not_reached.empty()) {
             const SpreadReference::NotReached& first = solved.not_reached.front();
-            add_warnings({fmt::format("{}: the reference did not reach {} of {} frames, first frame {} within {:.0f} s: the flesh of {} "
+            remarks_.add(pbs::Gravity::comparison_wrong,
+                         {fmt::format("{}: the reference did not reach {} of {} frames, first frame {} within {:.0f} s: the flesh of {} "
                                       "holds it up; these frames have no errors",
-                                      scene_.file, solved.not_reached.size(), solved.frames, first.frame, first.seconds, first.bone)},
-                         warnings_);
+                                      scene_.file, solved.not_reached.size(), solved.frames, first.frame, first.seconds, first.bone)});
         }
         if (const auto tried = solved.solved + static_cast<int>(solved.not_reached.size()); tried < solved.frames)
-            add_remarks(
+            remarks_.add(
+                pbs::Gravity::information,
                 {fmt::format("{}: the reference has {} of {} frames, and only they have errors: {}", scene_.file, solved.solved,
                              solved.frames,
                              solved.was_interrupted ? "it was interrupted"
                                                     : fmt::format("they are spread over the motion as evenly as {:.0f} s of processor "
                                                                   "time allow (--reference-seconds, reference.seconds)",
-                                                                  solved.seconds))},
-                notes_, "note");
+                                                                  solved.seconds))});
         return {{"frames", solved.frames},
                 {"solved", solved.solved},
                 {"kept", solved.kept},
@@ -415,10 +391,10 @@ private:
     void warn_of_overlap()
     {
         if (frames_with_overlap_ > 0)
-            add_warnings({fmt::format("{}: the reference passes through itself in {} of {} frames, first in frame {}, and has no contact: "
+            remarks_.add(pbs::Gravity::comparison_wrong,
+                         {fmt::format("{}: the reference passes through itself in {} of {} frames, first in frame {}, and has no contact: "
                                       "errors compare with that",
-                                      scene_.file, frames_with_overlap_, frames_, first_frame_with_overlap_)},
-                         warnings_);
+                                      scene_.file, frames_with_overlap_, frames_, first_frame_with_overlap_)});
     }
 
     // How well the tets carry the artist's surface. Parts that they weld together follow the wrong bone.
@@ -427,7 +403,7 @@ private:
         const RunFolder::FollowedSkin& followed = folder_.followed_skin();
         if (followed.frame < 0) return nullptr;
         const pbs::Positions& rest = character_.artist->model->body.surface;
-        const double pct = 100.0 * followed.largest_m / (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
+        const double size_m = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm(), pct = 100.0 * followed.largest_m / size_m;
         const pbs::Carrier carrier = pbs::carrier_of(character_, followed.vertex);
         const auto& bones = character_.skeleton.bones;
         const auto name = [&](int bone) { return bones[static_cast<std::size_t>(bone)].name; };
@@ -435,16 +411,16 @@ private:
         const bool at_a_joint =
             carrier.bone == carrier.of_flesh || parent(carrier.bone) == carrier.of_flesh || parent(carrier.of_flesh) == carrier.bone;
         if (pct > far_from_artist_pct && !motion_case_.is_far_from_clip())
-            add_warnings(
+            remarks_.add(
+                pbs::Gravity::results_wrong,
                 {fmt::format("{}: the surface that LBS carries with the tets is up to {:.1f} % of the model's size away from the "
                              "artist's, in frame {}: ",
                              scene_.file, pct, followed.frame) +
                  (at_a_joint ? fmt::format("the tets at {} are too coarse for its weights; --vertices (character.vertices in a scene) asks "
                                            "for more",
                                            name(carrier.bone))
-                             : fmt::format("there the flesh of {} carries the surface of {}, with a gap of {:.3g} mm at rest",
-                                           name(carrier.of_flesh), name(carrier.bone), 1e3 * carrier.gap_m))},
-                warnings_);
+                             : fmt::format("there the flesh of {} carries the surface of {}, with a gap of {:.2g} % of that size at rest",
+                                           name(carrier.of_flesh), name(carrier.bone), 100.0 * carrier.gap_m / size_m))});
         return {{"largest_pct", pct},
                 {"frame", followed.frame},
                 {"bone", name(carrier.bone)},
@@ -541,13 +517,16 @@ private:
         warn_of_overlap();
         if (const nlohmann::json followed = record_followed_skin(); !followed.is_null()) outcome["from_artist"] = followed;
         if (was_interrupted_) outcome["interrupted"] = true;
-        outcome["warnings"] = warnings_;
-        outcome["notes"] = notes_;
+        if (const std::string words = folder_.words_on_left_out_frames(); !words.empty()) remarks_.add(pbs::Gravity::information, {words});
+        remarks_.say_all();
+        outcome["warnings"] = remarks_.warnings();
+        outcome["notes"] = remarks_.notes();
         outcome["motion"] = {{"largest_rotation_deg", motion_case_.largest_rotation_deg},
                              {"time_zero", motion_case_.time_zero},
                              {"time_zero_s", motion_case_.time_zero_s}};
         if (motion_case_.clip_joints > 0)
             outcome["motion"].update({{"clip_joints", motion_case_.clip_joints}, {"matched_joints", motion_case_.matched_joints}});
+        if (!motion_case_.stretched.empty()) outcome["motion"]["stretched_bones"] = motion_case_.stretched;
         for (const pbs::PartAngle& angle : motion_case_.angles) outcome["motion"]["angles_to_clip_deg"][angle.part] = angle.largest_deg;
         outcome.update(run_end(stopwatch_.seconds()));
         folder_.finish(character_, records, outcome, cost_, error_bar_ ? error_bar_->method() : nlohmann::json());
@@ -568,7 +547,7 @@ private:
     const Scene& scene_;
     WhenInterrupted when_interrupted_;
     bool was_interrupted_ = false;
-    std::vector<std::string> warnings_, notes_;
+    RunRemarks remarks_;
     CostRecord cost_;
     pbs::Stopwatch stopwatch_;
     pbs::Character character_;

@@ -12,6 +12,7 @@
 #include "pbs/rig/rig_reader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -76,13 +77,14 @@ bool is_own_frame(const fs::path& file)
 
 }  // namespace
 
-RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const std::string& folder)
+RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const std::string& folder, int frames)
     : scene_(scene),
       folder_(folder),
       metrics_(metric_columns_of(scene).names()),
       iterations_(iteration_columns.names()),
       regions_(character)
 {
+    for (int frame = 0; frame < frames; ++frame) written_frames_ += scene.output.writes(frame);
     std::error_code error;
     fs::create_directories(fs::path(folder) / "frames", error);
     if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
@@ -134,14 +136,23 @@ void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, 
             pbs::write_vtp((frames / frame_file(name + "_surface", frame, ".vtp")).string(), rendered, character.surface->triangles);
         distances_.add(frame, time_s, name, "rendered surface", rendered);
         if (name == "lbs") lbs_surface_ = rendered;
-        if (scene_.output.glb && rendered.allFinite()) {  // a frame that broke down has no place in it
+        const bool is_in_glb = collections_[name].size() % static_cast<std::size_t>(glb_every_) == 0;
+        if (scene_.output.glb && is_in_glb && rendered.allFinite()) {  // a frame that broke down has no place in it
+            const bool is_first = surfaces_.empty();
             surfaces_.try_emplace(name, (frames / (name + ".glb")).string(), name, character.surface->triangles, look_, materials_);
             surfaces_.at(name).add_frame(time_s, rendered);
+            if (is_first) leave_frames_out(surfaces_.at(name));
         }
     } else {
         distances_.add(frame, time_s, name, "mesh", positions);
     }
     collections_[name].emplace_back(time_s, frame_file(name, frame, ".vtu"));
+}
+
+void RunFolder::leave_frames_out(const pbs::GlbWriter& surface)
+{
+    const auto bytes = [&] { return surface.bytes(1 + (written_frames_ - 1) / glb_every_) * static_cast<double>(scene_.deformers.size()); };
+    while (bytes() > scene_.output.most_glb_bytes && glb_every_ < written_frames_ - 1) ++glb_every_;
 }
 
 void RunFolder::write_artist_skin(int frame, double time_s, const pbs::Character& character, const MotionSpec& motion,
@@ -151,9 +162,14 @@ void RunFolder::write_artist_skin(int frame, double time_s, const pbs::Character
     const pbs::RiggedModel& model = *character.artist->model;
     const pbs::Positions points = motion.of_model ? pbs::artist_frame(model.rig, model.body, *model.animation, sampling_of(motion), frame)
                                                   : pbs::artist_points(model.body, pose);
-    const std::string file = frame_file("artist", frame, ".vtp");
-    pbs::write_vtp((fs::path(folder_) / "skin" / file).string(), points, model.body.triangles);
-    artist_frames_.emplace_back(time_s, file);
+    if (skins_++ % skin_every_ == 0) {
+        const std::string name = frame_file("artist", frame, ".vtp"), file = (fs::path(folder_) / "skin" / name).string();
+        pbs::write_vtp(file, points, model.body.triangles);
+        artist_frames_.emplace_back(time_s, name);
+        if (skins_ == 1)
+            skin_every_ += static_cast<int>(static_cast<double>(written_frames_) * static_cast<double>(fs::file_size(file)) /
+                                            scene_.output.most_skin_bytes);
+    }
     const bool has_own_weights = character.weight_kind == pbs::WeightKind::artist;
     if (!has_own_weights || lbs_surface_.rows() != points.rows() || !lbs_surface_.allFinite()) return;
     // The artist's surface by the same rigid bones: scale in an animation is not an error of the tets.
@@ -181,6 +197,16 @@ void RunFolder::write_tables(bool with_moving_surfaces)
     if (!artist_frames_.empty()) pbs::write_pvd((folder / "skin" / "artist.pvd").string(), artist_frames_);
     if (with_moving_surfaces)
         for (auto& [name, surface] : surfaces_) surface.write();
+}
+
+std::string RunFolder::words_on_left_out_frames() const
+{
+    std::vector<std::string> words;
+    if (glb_every_ > 1) words.push_back(fmt::format("the .glb files have one of {} frames", glb_every_));
+    if (skin_every_ > 1) words.push_back(fmt::format("skin/ has one of {}", skin_every_));
+    if (words.empty()) return "";
+    return fmt::format("{}: to save space, {}; those that they have are exact, and --paraview of `pbskin try` keeps all", scene_.file,
+                       fmt::join(words, " and "));
 }
 
 void RunFolder::write_what_frames_depend_on(const pbs::Character& character) const

@@ -200,8 +200,8 @@ void write_surface(const pbs::EmbeddedSurface& surface, const pbs::TetMesh& mesh
 
 class RunFolder {
 public:
-    // Removes the records of an earlier run.
-    RunFolder(const Scene& scene, const pbs::Character& character, const std::string& folder);
+    // Removes the records of an earlier run. frames: of the motion.
+    RunFolder(const Scene& scene, const pbs::Character& character, const std::string& folder, int frames);
 
     void add_frame(const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured, const pbs::StepSummary& step);
     void write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Character& character, const pbs::Positions& positions,
@@ -234,11 +234,15 @@ public:
     // need to be written once.
     void write_tables(bool with_moving_surfaces);
 
+    // A sentence on the frames that are left out to stay within the sizes of OutputSpec; empty: none.
+    std::string words_on_left_out_frames() const;
+
     // Writes the tables and, last, run.json with the cost. A method of the reference's error bar that is null is left out.
     void finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
                 const nlohmann::json& outcome, CostRecord& cost, const nlohmann::json& reference_error_method = nullptr);
 
 private:
+    void leave_frames_out(const pbs::GlbWriter& surface);  // which is like those of the other deformers
     void write_what_frames_depend_on(const pbs::Character& character) const;
 
     const Scene& scene_;
@@ -250,7 +254,10 @@ private:
     std::map<std::string, analysis::StateHash> hashes_;
     std::map<std::string, std::vector<std::pair<double, std::string>>> collections_;  // label -> time and file of each frame, for its .pvd
     std::vector<std::pair<double, std::string>> artist_frames_;
-    pbs::Positions lbs_surface_;  // of the frame that was written last
+    int written_frames_ = 0;              // of the motion, in all
+    int skins_ = 0;                       // frames with an artist's surface so far
+    int skin_every_ = 1, glb_every_ = 1;  // every n-th frame has a file of the artist's surface, and is in the .glb files
+    pbs::Positions lbs_surface_;          // of the frame that was written last
     FollowedSkin followed_;
     pbs::RigLook look_;  // of the model's surface
     pbs::RigMaterials materials_;

@@ -203,6 +203,8 @@ constexpr double noted_angle_deg = 10.0;  // between a part of the body and of t
 constexpr double still_deg = 0.1;         // no one sees less
 constexpr double still_share = 1e-3;      // over the size of the body, likewise
 constexpr double rigid_stretch = 1e-3;    // rounding of exporters
+constexpr double large_stretch = 0.1;     // of the distance of a bone from its parent, from which on volume is not judged
+constexpr double visible_stretch = 0.01;  // over the size of the body: less is a blink or a breath
 
 pbs::ClipSampling clip_sampling(const MotionSpec& spec)
 {
@@ -218,13 +220,13 @@ std::string share_of(const pbs::ClipMatch& match)
 }
 
 // Of a clip that leaves anything out; nothing otherwise.
-std::vector<std::string> remarks_on_match(const pbs::ClipMatch& match, const std::string& clip)
+pbs::RemarkList remarks_on_match(const pbs::ClipMatch& match, const std::string& clip)
 {
     if (match.unmatched.empty() && match.bones_without_joint.empty()) return {};
     std::string text = fmt::format("{}: {} of the clip match a bone", clip, share_of(match));
     if (!match.unmatched.empty()) text += "; without a bone: " + pbs::name_list(match.unmatched);
     if (!match.bones_without_joint.empty()) text += "; bones without a motion of their own: " + pbs::name_list(match.bones_without_joint);
-    return {text};
+    return {{pbs::Gravity::part_left_out, text}};
 }
 
 // Names the parts of the body that point in other directions than those of the clip, over the whole motion.
@@ -252,13 +254,41 @@ CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& characte
                              ": the names of its hips, legs or neck are unknown, so that its directions are not compared with the "
                              "body's; look at the first frame");
     for (const std::string& note : notes_on_angles(made.angles, spec.clip))
-        (made.is_far_from_clip() ? made.remarks : made.notes).push_back(note);
+        if (made.is_far_from_clip())
+            made.remarks.push_back({pbs::Gravity::results_wrong, note});
+        else
+            made.notes.push_back(note);
     made.time_zero = "start of the clip after its first frame, a T pose, plus motion.start_s";
     made.time_zero_s = clip.frame_time_s + spec.start_s;
     made.clip_joints = match.moving - match.small;
     made.matched_joints = match.matched;
-    for (const std::string& remark : remarks_on_match(match, spec.clip)) made.remarks.push_back(remark);
+    for (const pbs::Remark& remark : remarks_on_match(match, spec.clip)) made.remarks.push_back(remark);
     return made;
+}
+
+// Bones that the animation moves away from their parents or towards them, as squash and stretch does.
+std::vector<StretchedBone> stretched_bones(const pbs::RigMotion& motion, const pbs::RiggedBody& body)
+{
+    const double size_m = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).norm();
+    std::vector<StretchedBone> stretched;
+    for (std::size_t b = 0; b < motion.distances.size(); ++b) {
+        const pbs::DistanceChange& change = motion.distances[b];
+        if (std::abs(change.relative) > large_stretch && std::abs(change.change_m) > visible_stretch * size_m)
+            stretched.push_back({body.skeleton.bones[b].name, 100.0 * change.relative, change.frame});
+    }
+    std::ranges::stable_sort(stretched, std::ranges::greater(), [](const StretchedBone& bone) { return std::abs(bone.change_pct); });
+    return stretched;
+}
+
+std::string words_on_stretch(const std::vector<StretchedBone>& stretched)
+{
+    std::vector<std::string> words;
+    for (const StretchedBone& of : stretched) words.push_back(fmt::format("{} by {:+.0f} % in frame {}", of.bone, of.change_pct, of.frame));
+    return fmt::format(
+        "{} its distance from its parent by more than {:.0f} %, most: {}; the artist changes the volume with "
+        "it, so that no method is judged by its volume",
+        words.size() == 1 ? "one bone changes" : fmt::format("each of {} bones changes", words.size()), 100.0 * large_stretch,
+        pbs::name_list(words));
 }
 
 // The largest rotation of a bone from the rest pose [deg] where the motion is a single frame, such as an animation of one key; else 0.
@@ -279,10 +309,15 @@ CaseMotion motion_of_model(const MotionSpec& spec, const pbs::Character& charact
     made.motion = std::move(rig.motion);
     made.time_zero = "first key of the animation plus motion.start_s";
     made.time_zero_s = model.animation->start_s + spec.start_s;
+    made.stretched = stretched_bones(rig, model.body);
+    if (!made.stretched.empty())
+        made.remarks.push_back({pbs::Gravity::comparison_wrong, fmt::format("{}: in the animation {}, {}", model.rig.file,
+                                                                            model.animation->name, words_on_stretch(made.stretched))});
     if (rig.stretch > rigid_stretch)
         made.remarks.push_back(
-            fmt::format("{}: the animation {} scales or shears bones by up to {:.1f} %; the deformers move bones rigidly", model.rig.file,
-                        model.animation->name, 100.0 * rig.stretch));
+            {pbs::Gravity::part_left_out,
+             fmt::format("{}: the animation {} scales or shears bones by up to {:.1f} %; the deformers move bones rigidly", model.rig.file,
+                         model.animation->name, 100.0 * rig.stretch)});
     return made;
 }
 
@@ -397,12 +432,15 @@ CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& charac
     const double size_m = rest.rows() > 0 ? (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm() : 0.0;
     if (const double posed_deg = pose_deg(made.motion); posed_deg >= still_deg)
         made.remarks.push_back(
-            fmt::format("{}: the motion is one pose, in which the bones are turned by up to {:.3g} degrees from the rest "
-                        "pose; nothing moves after it",
-                        scene_file, posed_deg));
+            {pbs::Gravity::results_wrong,
+             fmt::format("{}: the motion is one pose, in which the bones are turned by up to {:.3g} degrees from the rest "
+                         "pose; nothing moves after it",
+                         scene_file, posed_deg)});
     else if (made.largest_rotation_deg < still_deg && displacement_m <= still_share * size_m)
-        made.remarks.push_back(fmt::format("{}: no joint moves: the bones turn by at most {:.2g} degrees and move by at most {:.2g} m",
-                                           scene_file, made.largest_rotation_deg, displacement_m));
+        made.remarks.push_back(
+            {pbs::Gravity::results_wrong,
+             fmt::format("{}: no joint moves: the bones turn by at most {:.2g} degrees and move by at most {:.2g} % of the body's size",
+                         scene_file, made.largest_rotation_deg, size_m > 0.0 ? 100.0 * displacement_m / size_m : 0.0)});
     return made;
 }
 

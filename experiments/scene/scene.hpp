@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,8 @@ struct OutputSpec {
     bool errors = true, sections = true, surface = true;  // groups of metrics
     bool glb = false;                                     // the surface of each deformer in the written frames, as one .glb file
     bool surface_files = true;                            // and as a .vtp file per frame; no key of a scene
+    double most_glb_bytes = std::numeric_limits<double>::infinity();   // of all .glb files together, which then have fewer frames; no key
+    double most_skin_bytes = std::numeric_limits<double>::infinity();  // of the files of the artist's surface; no key
 
     bool writes(int frame) const;
 };
@@ -107,15 +110,23 @@ std::vector<std::string> joints_of(const std::string& movement);
 bool is_twist(const std::string& movement);  // about the bones' own axes alone
 
 // Any motion, with what looks wrong about it, a sentence each: a motion in which no bone turns, bones that the animation scales,
-// joints and bones that a clip leaves out. An InputError where accepted_match throws one.
+// joints that move apart, joints and bones that a clip leaves out. An InputError where accepted_match throws one.
+struct StretchedBone {
+    std::string bone;
+    double change_pct = 0.0;  // of its distance from its parent, where it changes most
+    int frame = 0;
+};
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StretchedBone, bone, change_pct, frame)
+
 struct CaseMotion {
     pbs::Motion motion;
-    std::vector<std::string> remarks;
-    std::vector<std::string> notes;           // what the reader of a clip chose, and parts that point elsewhere by more than 10 degrees
-    std::vector<pbs::PartAngle> angles = {};  // between the body and a clip
-    int clip_joints = 0, matched_joints = 0;  // of a clip: its joints that move, and those of them that move a bone
-    double largest_rotation_deg = 0.0;        // of a bone, from the first frame to another one
-    bool is_far_from_clip() const             // some part of the body points elsewhere by more than 30 degrees
+    pbs::RemarkList remarks;
+    std::vector<std::string> notes;             // what the reader of a clip chose, and parts that point elsewhere by more than 10 degrees
+    std::vector<pbs::PartAngle> angles = {};    // between the body and a clip
+    std::vector<StretchedBone> stretched = {};  // by more than 10 %, the most stretched first: squash and stretch
+    int clip_joints = 0, matched_joints = 0;    // of a clip: its joints that move, and those of them that move a bone
+    double largest_rotation_deg = 0.0;          // of a bone, from the first frame to another one
+    bool is_far_from_clip() const               // some part of the body points elsewhere by more than 30 degrees
     {
         return std::ranges::any_of(angles, [](const pbs::PartAngle& angle) { return angle.largest_deg > 30.0; });
     }

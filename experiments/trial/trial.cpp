@@ -292,23 +292,41 @@ bool deforms(const CsvTable& metrics)
     return false;
 }
 
-// By frame and deformer, in frames in which somebody has a visible error: at the joints, or over the body where no frame has one there.
+// By frame and deformer, in frames in which somebody has a visible error.
 using FrameErrors = std::map<long long, std::map<std::string, double>>;
 
-FrameErrors errors_of(const CsvTable& metrics)
+FrameErrors errors_of(const CsvTable& metrics, const std::string& column)
 {
     FrameErrors errors;
-    for (const char* column : {"error_joint_pct", "error_l2_pct"}) {
-        if (!errors.empty() || !metrics.has_column(column)) continue;
-        for (int row = 0; row < metrics.rows(); ++row)
-            if (const auto error = finite(metrics, row, column))
-                if (const std::string& of = metrics.text_at(row, "deformer"); of != reference_name)
-                    errors[metrics.integer(row, "frame")][of] = *error;
-    }
+    if (!metrics.has_column(column)) return errors;
+    for (int row = 0; row < metrics.rows(); ++row)
+        if (const auto error = finite(metrics, row, column))
+            if (const std::string& of = metrics.text_at(row, "deformer"); of != reference_name)
+                errors[metrics.integer(row, "frame")][of] = *error;
     std::erase_if(errors, [](const auto& frame) {
         return std::ranges::all_of(frame.second, [](const auto& of) { return of.second < least_visible_pct; });
     });
     return errors;
+}
+
+// Methods with more inverted tets than lbs has in the same frame: the number of such frames, and the most inverted tets in one of them.
+nlohmann::json inverting_methods(const CsvTable& metrics)
+{
+    std::map<long long, long long> of_lbs;
+    for (int row = 0; row < metrics.rows(); ++row)
+        if (metrics.text_at(row, "deformer") == "lbs") of_lbs[metrics.integer(row, "frame")] = metrics.integer(row, "inverted_tets");
+    nlohmann::json methods = nlohmann::json::object();
+    for (int row = 0; row < metrics.rows(); ++row) {
+        const std::string& name = metrics.text_at(row, "deformer");
+        const auto lbs = of_lbs.find(metrics.integer(row, "frame"));
+        const auto inverted = metrics.integer(row, "inverted_tets");
+        if (name == reference_name || lbs == of_lbs.end() || inverted <= lbs->second) continue;
+        nlohmann::json& method = methods[name];
+        if (method.is_null()) method = {{"frames", 0}, {"most_inverted_tets", 0}};
+        method["frames"] = method["frames"].get<int>() + 1;
+        method["most_inverted_tets"] = std::max(method["most_inverted_tets"].get<long long>(), inverted);
+    }
+    return methods;
 }
 
 // Frames in which both have an error, and those of them in which that of pbs is smaller; null without such frames.
@@ -324,10 +342,10 @@ nlohmann::json nearer_than(const std::string& other, const FrameErrors& errors)
     return {{"deformer", other}, {"frames", nearer}, {"of", compared}};
 }
 
-// pbs against lbs, and against the one of the others whose median error is smallest.
-nlohmann::json nearer_frames(const CsvTable& metrics)
+// pbs against lbs, and against the one of the others whose median error is smallest. A method that turns tets inside out is not compared.
+nlohmann::json nearer_frames(const FrameErrors& errors, const nlohmann::json& inverting)
 {
-    const FrameErrors errors = errors_of(metrics);
+    if (inverting.contains("pbs")) return nullptr;
     nlohmann::json nearer = nearer_than("lbs", errors);
     if (nearer.is_null()) return nullptr;
     // A method that fails in the hard frames would look best by the others: only frames in which all have an error count.
@@ -335,10 +353,20 @@ nlohmann::json nearer_frames(const CsvTable& metrics)
     std::map<std::string, std::vector<double>> others;
     for (const auto& [frame, of] : errors)
         for (const auto& [deformer, error] : of)
-            if (of.size() == most->second.size() && deformer != "pbs" && deformer != "lbs") others[deformer].push_back(error);
+            if (of.size() == most->second.size() && deformer != "pbs" && deformer != "lbs" && !inverting.contains(deformer))
+                others[deformer].push_back(error);
     const auto best = std::ranges::min_element(others, {}, [](const auto& other) { return analysis::median(other.second); });
     nearer["best_other"] = best == others.end() ? nlohmann::json() : nearer_than(best->first, errors);
     return nearer;
+}
+
+// At the joints, or over the body where no frame has an error there, and over the skin.
+nlohmann::json nearer_facts(const CsvTable& metrics, const nlohmann::json& inverting)
+{
+    const FrameErrors at_joints = errors_of(metrics, "error_joint_pct");
+    return {{at_joints.empty() ? "body" : "joints",
+             nearer_frames(at_joints.empty() ? errors_of(metrics, "error_l2_pct") : at_joints, inverting)},
+            {"skin", nearer_frames(errors_of(metrics, "skin_rms_pct"), inverting)}};
 }
 
 // The skin's distance from the reference under lbs and pbs, rms over the frames in which both have one.
@@ -484,6 +512,7 @@ nlohmann::json trial_facts(const std::string& folder)
     const CsvTable metrics = analysis::read_csv(folder + "/metrics.csv"), regions = analysis::read_csv(folder + "/regions.csv"),
                    bones = analysis::read_csv(folder + "/bones_rest.csv");
     const std::string distances = folder + "/distances.csv";
+    const nlohmann::json inverting = inverting_methods(metrics);
     const nlohmann::json &outcome = run.at("outcome"), &character = run.at("character");
     return {{"schema", 1},
             {"model", run.at(character, "model")},
@@ -497,7 +526,8 @@ nlohmann::json trial_facts(const std::string& folder)
             {"deforms", deforms(metrics)},
             {"volume", volume_facts(metrics)},
             {"joints", joint_facts(regions, bones)},
-            {"nearer", nearer_frames(metrics)},
+            {"nearer", nearer_facts(metrics, inverting)},
+            {"inverting", inverting},
             {"skin", skin_facts(metrics)},
             {"widest_frame", fs::exists(distances) ? widest_frame(analysis::read_csv(distances)) : nullptr},
             {"frame_ms", frame_ms(metrics)},

@@ -50,14 +50,20 @@ std::string earlier_trial_scene(const TrialOptions& options);
 // The results of a trial, computed from the records of its run.
 
 // The facts of try.json: the model as the run read it (joints, dropped joints with reasons, containers, bind pose, unit, weights), the
-// motion with its matched joints and what time_s = 0 of the records is (time_zero), the run's warnings, and
+// motion with its matched joints, what time_s = 0 of the records is (time_zero) and the bones that move away from their parents by more
+// than 10 % or towards them (stretched_bones: bone, change_pct, frame; then volume is not judged), the run's
+// warnings, the gravest first, and
 //   volume        per deformer the lowest and highest change of the volume over the frames [%], and the most inverted tets in a frame
-//   notes         of the run, where nothing is wrong
+//   notes         of the run: warnings beyond the third one, and where nothing is wrong
 //   deforms       whether some flesh changes its shape in some frame
 //   joints        the two joints (of a bone and its parent) at which lbs loses most volume, with the mean change there of lbs and pbs
 //                 [% of the joints' volume]
-//   nearer        number of frames in which pbs is nearer to the reference than lbs, of how many that can be compared because an error is
-//                 at least 0.01 %; best_other: the same against the one of the other deformers whose median error is smallest
+//   nearer        at the joints (over the body where there is none) and over the skin, each: the number of frames in which pbs is nearer to
+//                 the reference than lbs, of how many that can be compared because an error is at least 0.01 %; best_other: the same
+//                 against the one of the other deformers whose median error is smallest. Null without a reference, and where pbs
+//                 is inverting
+//   inverting     the deformers that have more inverted tets than lbs in some frame, with the number of such frames and the most inverted
+//                 tets in one of them: none of them is called nearest or best
 //   skin          distance of the skin from the reference on a body whose largest extent is 1.7 m, rms over the frames, under lbs (lbs_mm)
 //                 and pbs (pbs_mm); the share of lbs's that pbs removes (removed_pct); null without a reference, and where lbs's is below
 //                 0.01 % of the body's diagonal
@@ -77,8 +83,10 @@ std::string earlier_trial_scene(const TrialOptions& options);
 // An InputError where the run's records are missing or damaged.
 nlohmann::json trial_facts(const std::string& folder);
 
-// Compares PBS with LBS and with the best other method. The error of FEM itself is stated where it was estimated. The last sentence is that
-// for whoever decides: what PBS changes on this model, by how much, at what cost, and which frame to look at.
+// Compares PBS with LBS and with the best other method, at the joints and over the skin, and names the methods that turn tets inside out
+// instead of comparing them. Where bones are stretched it leaves out the volume, for a warning says why. The error of FEM itself is stated
+// where it was estimated. The last sentence is that for whoever decides: what PBS changes on this model, by how much, at what cost, and
+// which frame to look at.
 std::string trial_sentence(const nlohmann::json& facts);
 
 }  // namespace experiments

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -46,17 +47,49 @@ std::string time_of(const std::string& deformer, const nlohmann::json& facts)
     return ms < 10.0 ? fmt::format("{:.2g} ms", ms) : fmt::format("{:.0f} ms", ms);
 }
 
-std::string nearer_words(const nlohmann::json& facts)
+// In one place: "At the joints, PBS is nearer ...".
+std::string nearer_words(const std::string& place, const nlohmann::json& nearer, const nlohmann::json& facts)
 {
     const auto frames = [](const nlohmann::json& of) {
         return fmt::format("{} of {} frames", of.at("frames").get<int>(), of.at("of").get<int>());
     };
-    const nlohmann::json& nearer = facts.at("nearer");
-    std::string text = "PBS is nearer to FEM than LBS in " + frames(nearer);
+    std::string text = fmt::format("{}, PBS is nearer to FEM than LBS in {}", place, frames(nearer));
     if (const nlohmann::json& best = nearer.at("best_other"); !best.is_null())
         text += fmt::format(", and than {}, the best of the other methods ({} per frame), in {}", shown_name(best.at("deformer")),
                             time_of(best.at("deformer"), facts), frames(best));
     return text + ". ";
+}
+
+std::string nearer_words(const nlohmann::json& facts)
+{
+    std::string text;
+    for (const auto& [key, place] : {std::pair("joints", "At the joints"), {"body", "Over the body"}, {"skin", "Over the skin"}})
+        if (const nlohmann::json nearer = facts.at("nearer").value(key, nlohmann::json()); !nearer.is_null())
+            text += nearer_words(place, nearer, facts);
+    return text;
+}
+
+std::string tets(const nlohmann::json& count)
+{
+    return fmt::format("{} {}", count.get<long long>(), count.get<long long>() == 1 ? "tet" : "tets");
+}
+
+// Methods with more inverted tets than LBS are not compared, and PBS is not praised if it has any.
+std::string inverting_words(const nlohmann::json& facts)
+{
+    const nlohmann::json &inverting = facts.at("inverting"), &volume = facts.at("volume");
+    std::string text;
+    for (const auto& [deformer, of] : inverting.items())
+        text += fmt::format(fmt::runtime(text.empty() ? "{} turns up to {} inside out" : ", {} up to {}"), shown_name(deformer),
+                            tets(of.at("most_inverted_tets")));
+    if (!text.empty())
+        text += fmt::format(", {}more than LBS in the same frame: {} called nearest or best. ", inverting.size() == 1 ? "" : "each ",
+                            inverting.size() == 1 ? "it is not" : "none of them is");
+    const nlohmann::json& of_pbs = volume.at("pbs").at("most_inverted_tets");
+    if (of_pbs > 0 && !inverting.contains("pbs"))
+        text += fmt::format("PBS turns up to {} inside out, and LBS up to {}. ", tets(of_pbs),
+                            volume.at("lbs").at("most_inverted_tets").get<long long>());
+    return text;
 }
 
 std::string error_bar_words(const nlohmann::json& bar)
@@ -74,19 +107,32 @@ std::string skin_words(const nlohmann::json& skin)
     const std::string change = removed_pct > 0.0   ? fmt::format("removes {:.0f} % of {}", removed_pct, distance)
                                : removed_pct < 0.0 ? fmt::format("adds {:.0f} % to {}", -removed_pct, distance)
                                                    : "changes " + distance + " by less than 1 %";
-    return fmt::format(", {} (FEM; {:.2g} mm instead of {:.2g} mm over the skin of a body of 1.7 m)", change,
-                       skin.at("pbs_mm").get<double>(), skin.at("lbs_mm").get<double>());
+    return fmt::format("{} (FEM; {:.2g} mm instead of {:.2g} mm over the skin of a body of 1.7 m)", change, skin.at("pbs_mm").get<double>(),
+                       skin.at("lbs_mm").get<double>());
+}
+
+// Where joints move apart, the artist changes the volume.
+bool judges_volume(const nlohmann::json& facts)
+{
+    return !facts.at("motion").contains("stretched_bones");
 }
 
 // States what PBS changes on this model, by how much, at what cost, and in which frame it is seen best.
 std::string decisive_sentence(const nlohmann::json& facts)
 {
     const nlohmann::json &volume = facts.at("volume"), &skin = facts.at("skin"), &widest = facts.at("widest_frame");
-    std::string text = fmt::format("On {}, PBS changes the volume {}, where LBS changes it {}{}, and takes {} per frame instead of {}",
-                                   std::filesystem::path(facts.at("model").at("file").get<std::string>()).filename().string(),
-                                   volume_range(volume.at("pbs")), volume_range(volume.at("lbs")), skin.is_null() ? "" : skin_words(skin),
-                                   time_of("pbs", facts), time_of("lbs", facts));
-    if (skin.is_null() && facts.at("nearer").is_null() && !facts.at("frame_ms").contains("nh_p1"))
+    std::vector<std::string> parts;
+    if (judges_volume(facts))
+        parts.push_back(
+            fmt::format("changes the volume {}, where LBS changes it {}", volume_range(volume.at("pbs")), volume_range(volume.at("lbs"))));
+    if (!skin.is_null() && !facts.at("inverting").contains("pbs")) parts.push_back(skin_words(skin));
+    parts.push_back(
+        fmt::format("{}takes {} per frame instead of {}", parts.empty() ? "" : "and ", time_of("pbs", facts), time_of("lbs", facts)));
+    std::string text =
+        fmt::format("On {}, PBS {}", std::filesystem::path(facts.at("model").at("file").get<std::string>()).filename().string(),
+                    fmt::join(parts, ", "));
+    const bool is_compared = std::ranges::any_of(facts.at("nearer"), [](const auto& place) { return !place.is_null(); });
+    if (skin.is_null() && !is_compared && !facts.at("frame_ms").contains("nh_p1"))
         text += "; which of the two is closer to elastic flesh was not measured";
     return text + (widest.is_null() ? "." : fmt::format("; look at frame {}, where the two differ most.", widest.get<int>()));
 }
@@ -99,7 +145,7 @@ std::string trial_sentence(const nlohmann::json& facts)
     if (!volume.contains("pbs") || !volume.contains("lbs")) return "PBS or LBS broke down in every frame.";
     if (!facts.at("deforms").get<bool>())
         return "No flesh deforms: it rests or moves rigidly in every frame, so that there is nothing to compare.";
-    return (joints.is_null() ? "" : joint_words(joints)) + (facts.at("nearer").is_null() ? "" : nearer_words(facts)) +
+    return (joints.is_null() || !judges_volume(facts) ? "" : joint_words(joints)) + nearer_words(facts) + inverting_words(facts) +
            (bar.is_null() ? "" : error_bar_words(bar)) + decisive_sentence(facts);
 }
 

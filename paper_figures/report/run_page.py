@@ -22,7 +22,8 @@ from words.number_words import counted, figure, listed, span_of_thousandths
 moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "notes?": [shapes.text], "bad_frame?": shapes.text,
          "breakdown?": shapes.text,
          "from_artist?": {"largest_pct": shapes.number, "frame": shapes.whole},
-         "motion?": {"largest_rotation_deg?": shapes.number, "clip_joints?": shapes.whole, "matched_joints?": shapes.whole}}
+         "motion?": {"largest_rotation_deg?": shapes.number, "clip_joints?": shapes.whole, "matched_joints?": shapes.whole,
+                     "stretched_bones?": [{"bone": shapes.text, "change_pct": shapes.number, "frame": shapes.whole}]}}
 shape = shapes.run | {"scene": shapes.scene | {"name": shapes.text}, "outcome": moved}
 animation = {"name": shapes.text, "duration_s": shapes.number, "largest_rotation_deg": shapes.number}
 trial = {"summary": shapes.text, "warnings": [shapes.text], "notes?": [shapes.text], "animations?": [animation]}
@@ -43,6 +44,10 @@ class RunRecords:
         """A rigged model is known by its file."""
         model = self.record.get("character", {}).get("model")
         return model["file"] if model else self.record["scene"]["name"]
+
+    def judges_volume(self):
+        """Not where bones move away from their parents, for the artist changes the volume there. A warning says so."""
+        return not self.record["outcome"].get("motion", {}).get("stretched_bones")
 
     def labels(self):
         return [deformer["label"] for deformer in self.record["scene"].get("runs", [])]
@@ -74,16 +79,26 @@ def errors_of(found):
 least_visible_pct = 0.01  # an error below it is no difference between two methods, as in experiments/trial/trial.cpp
 
 
+def inverting(found):
+    """The deformers that have more inverted tets than LBS in some frame: none of them is called nearest."""
+    of_lbs = {row["frame"]: number(row, "inverted_tets") for row in (found.rows("lbs") if "lbs" in found.labels() else [])}
+    return {label for label in found.labels() for row in found.rows(label)
+            if (number(row, "inverted_tets") or 0) > of_lbs.get(row["frame"], math.inf)}
+
+
 def methods_of(found):
     """What the first card has of each deformer, the nearest one first and the reference last; without errors in their own order."""
-    errors, methods = errors_of(found), []
+    errors, methods, not_compared = errors_of(found), [], inverting(found)
     frames = {frame for of in errors.values() for frame, error in of.items() if error >= least_visible_pct}
-    nearest = [min((of[frame], label) for label, of in errors.items() if frame in of)[1] for frame in frames]
+    compared = {label: of for label, of in errors.items() if label not in not_compared}
+    nearest = [min((of[frame], label) for label, of in compared.items() if frame in of)[1] for frame in frames
+               if any(frame in of for of in compared.values())]
     for label in found.labels():
         rows, own = found.rows(label), [error for frame, error in errors.get(label, {}).items() if frame in frames]
         change, step = (known(rows, column) for column in ("volume_change_pct", "step_ms"))
         methods.append({"name": looks.of(label).name, "is_reference": label not in errors, "change": span_of_thousandths(change),
-                        "volume_pct": max(change, key=abs, default=None), "inverted": max(known(rows, "inverted_tets"), default=0),
+                        "volume_pct": max(change, key=abs, default=None) if found.judges_volume() else None,
+                        "is_compared": label not in not_compared, "inverted": max(known(rows, "inverted_tets"), default=0),
                         "error_pct": statistics.median(own) if own else None, "largest_pct": max(own, default=None),
                         "step_ms": statistics.median(step) if step else None, "nearest_in": nearest.count(label)})
     return sorted(methods, key=lambda of: (of["is_reference"], math.inf if of["error_pct"] is None else of["error_pct"]))
@@ -108,8 +123,9 @@ def lines(found):
     def rms(values):
         return figure(math.sqrt(statistics.fmean(value * value for value in values)))
 
-    volume = each("{} % with {}", "volume_change_pct", span_of_thousandths)
-    changed = f"The volume changes by {volume}." if volume else "No volume is known."
+    volume = each("{} % with {}", "volume_change_pct", span_of_thousandths) if found.judges_volume() else ""
+    changed = f"The volume changes by {volume}." if volume else "No volume is known." if found.judges_volume() else (
+        "Joints move apart, so that volume is not judged.")
     away = each("{} mm with {}", "skin_rms_mm", rms) if has_errors(found) else ""
     far = f"The skin is {away} from the finite elements (rms over skin and frames, on a body of 1.7 m)." if away else ""
     cost = each("{} ms with {}", "step_ms", lambda values: figure(statistics.median(values)))
@@ -118,25 +134,28 @@ def lines(found):
             answers.answer("At what cost?", f"A frame takes {cost} (median)." if cost else "No time is known.")]
 
 
-note_of_card = ("Error at the joints: its median and, in brackets, its largest value. Volume: the range of its change. Time: the median. "
+note_of_card = ("Error at the joints: its median and, in brackets, its largest value. {}Time: the median. "
                 "Inverted tets: the most in a frame.")
+note_on_volume = "Volume: the range of its change. "
 
 
 def summary(found):
     """The first card: the nearest method in one sentence, and one row per method."""
-    methods, errors = methods_of(found), has_errors(found)
-    header = ["method", *(["error [%]"] if errors else []), "volume [%]", "ms per frame", "inverted tets"]
+    methods, errors, volume = methods_of(found), has_errors(found), found.judges_volume()
+    header = ["method", *(["error [%]"] if errors else []), *(["volume [%]"] if volume else []), "ms per frame", "inverted tets"]
 
     def row(of):
         error = "the reference" if of["is_reference"] else (
             "\u2013" if of["error_pct"] is None else f"{figure(of['error_pct'])} ({figure(of['largest_pct'])})")
         name = "FEM" if of["is_reference"] else of["name"]
-        return [name, *([error] if errors else []), of["change"], figure(of["step_ms"]), f"{of['inverted']:.0f}"]
+        shown = [*([error] if errors else []), *([of["change"]] if volume else [])]
+        return [name, *shown, figure(of["step_ms"]), f"{of['inverted']:.0f}"]
 
     sentence = sentences.nearest_method(methods)
     shown = [element("p", f"{sentence[:1].upper()}{sentence[1:]}")] if sentence else []
-    return answers.card("summary", "Which method is nearest?" if errors else "The methods", [
-        *shown, table("Over all frames", header, map(row, methods)), element("p", note_of_card, class_="under")])
+    note = element("p", note_of_card.format(note_on_volume if volume else ""), class_="under")
+    return answers.card("summary", "Which method is nearest?" if errors else "The methods",
+                        [*shown, table("Over all frames", header, map(row, methods)), note])
 
 
 def joints(found):
@@ -181,6 +200,7 @@ of_model = ("File: {file}; {meshes_in_file}: {meshes}.", "Largest extent: {exten
             "Joints dropped: {dropped}.", "Containers, which only contribute their transform: {containers}.",
             "From the bind pose to the file's rest pose, bones turn by up to {bind_pose_deg}\u00b0.", "Animations: {animations}.",
             "The tets carry {weights_transferred_pct} % of the artist's weights.",
+            "Bones whose distance from their parent changes by more than 10 %: {stretched}.",
             "The surface that LBS carries with the tets is up to {largest_pct} % of the model's size from the artist's, in frame {frame}.",
             "{matched_joints} of the clip's {clip_joints} moving joints match, without fingers and the like.")
 animation_columns = ["animation", "duration [s]", "largest rotation of a joint [degrees]", "shown here"]
@@ -193,6 +213,8 @@ def model(found):
         return ""
     values = record | outcome.get("motion", {}) | outcome.get("from_artist", {})
     values["dropped"] = [f"{joint['name']} ({joint['reason']})" for joint in values.pop("joints_dropped")]
+    if bones := values.pop("stretched_bones", None):
+        values["stretched"] = [f"{of['bone']} by {of['change_pct']:+.0f} % in frame {of['frame']}" for of in bones]
     values["meshes_in_file"] = counted(len(record["meshes"]), "mesh", "meshes")
     played = None if "clip_joints" in values else record.get("animation")
     rows = [[one["name"], figure(one["duration_s"]), figure(one["largest_rotation_deg"]), "yes" if one["name"] == played else ""]
@@ -222,8 +244,8 @@ def abscissa(rows):
 
 def over_frames(found):
     rows = {label: found.rows(label) for label in found.labels()}
-    shown = [(column, name) for column, name in measures
-             if any(value for of in rows.values() for value in known(of, column))] or measures[:1]
+    judged = measures if found.judges_volume() else measures[1:]
+    shown = [(column, name) for column, name in judged if any(value for of in rows.values() for value in known(of, column))] or judged[:1]
     figure, axes = style.panels(len(shown), 1, height_in=1.7, sharex=True)
     for panel, (column, name) in zip(axes[:, 0], shown):
         for label, of in rows.items():
@@ -271,7 +293,8 @@ def drawn(found, name, figure, title, caption):
 def figures_section(found):
     methods = [of for of in methods_of(found) if not of["is_reference"]]
     caption = "The numbers of metrics.csv over the frames."
-    parts = [drawn(found, "over-frames", over_frames(found), sentences.largest_change(methods), caption)]
+    title = sentences.largest_change(methods) if found.judges_volume() else "Errors and inverted tets over the frames"
+    parts = [drawn(found, "over-frames", over_frames(found), title, caption)]
     against_time, message = error_against_time(found), sentences.error_and_time(methods)
     if against_time and message:
         caption = "The median over the frames of the error at the joints and of the time of a step."
@@ -281,18 +304,26 @@ def figures_section(found):
 
 
 def viewer_of(found):
-    """The viewer, and why there is none. A trial removes its frames after it has made its page; then the viewer of that page is kept."""
+    """The viewer, and what is missing of it. A trial removes its frames after it has made its page; then the viewer of that page is kept,
+    or what it would show if its program were built."""
+    kept = None
     if not any((found.folder / "frames").glob("*.vtu")):
         page = found.folder / "report.html"
-        if page.is_file() and (kept := re.search(r'<div id="frame-viewer">.*?(<script.*?</script>\s*){3}', page.read_text(), re.DOTALL)):
-            return Markup(kept[0].strip()), []
-        return None, ["viewer: frames/*.vtu: do not exist: `pbskin try --paraview` keeps them" if found.trial else
-                      "viewer: no frames/*.vtu; run the scene again with `--set output.frames_every=1`"]
+        viewer = r'<div id="frame-viewer">.*?id="viewer-block">.*?</script>(\s*<script type="module">.*?</script>)?'
+        kept = page.is_file() and re.search(viewer, page.read_text(), re.DOTALL)
+        if not kept:
+            return None, ["viewer: frames/*.vtu: do not exist: `pbskin try --paraview` keeps them" if found.trial else
+                          "viewer: no frames/*.vtu; run the scene again with `--set output.frames_every=1`"]
+        if kept[1]:
+            return Markup(kept[0]), []
+    data = kept[0] if kept else None
     try:
         recorded_frames, page_of_viewer = map(importlib.import_module, ("records.recorded_frames", "viewer.page"))
-        return Markup(page_of_viewer.fragment_of([recorded_frames.Frames(found.folder)])), []
+        data = data or page_of_viewer.data_of([recorded_frames.Frames(found.folder)])
+        return Markup(f"{data}\n{page_of_viewer.program()}"), []
     except (ImportError, records.RecordsMissing) as error:
-        return None, [f"viewer: {str(error).replace(f'{found.folder}/', '')}"]
+        remedy = "; then `pbskin report` adds it to this page" if data else ""
+        return data and Markup(data), [f"viewer: {str(error).replace(f'{found.folder}/', '')}{remedy}"]
 
 
 def page(folder):
@@ -300,18 +331,19 @@ def page(folder):
     found = RunRecords(folder)
     outcome = found.record["outcome"]
     remarks = found.trial or outcome
-    warnings = [*remarks.get("warnings", []), *filter(None, (outcome.get("breakdown"), outcome.get("bad_frame")))]
+    warnings = [*filter(None, (outcome.get("breakdown"), outcome.get("bad_frame"))), *remarks.get("warnings", [])]
     viewer, missing = viewer_of(found)
     unseen = joined(element("p", inline(f"The moving model is missing: {reason}."), class_="missing") for reason in missing)
     as_set = types.SimpleNamespace(results=folder, runs={found.name: found.record}, left_out=lambda: [])
-    first = [summary(found), answers.first_screen(viewer or unseen, lines(found))]
+    first = [summary(found), answers.first_screen(joined(filter(None, (viewer, unseen)), "\n"), lines(found))]
     sections = [("warnings", "Warnings", items(warnings, "missing") if warnings else ""),
                 ("notes", "Notes", items(remarks["notes"]) if remarks.get("notes") else ""),
                 ("frames", "Over the frames", figures_section(found)),
-                ("joints", "Volume at the joints", joints(found)), ("distances", "Distances between the deformers", distances(found)),
+                ("joints", "Volume at the joints", joints(found) if found.judges_volume() else ""),
+                ("distances", "Distances between the deformers", distances(found)),
                 ("model", "What was taken from the model", model(found)),
                 ("glossary", "Glossary", glossary_section()),
-                ("origin", "Where the records come from", origin.section(as_set, with_viewer=viewer is not None))]
+                ("origin", "Where the records come from", origin.section(as_set, with_viewer=not missing))]
     sections = [section for section in sections if section[-1]]
     names = [looks.of(label).name for label in found.labels()]
     lead = element("p", f"{found.name}, {outcome.get('frames', 0)} frames, moved by {listed(names)}.", class_="lead")

@@ -76,19 +76,28 @@ def fragment(results):
 
 def fragment_of(recorded, claims=None):
     """The HTML of the viewer for these runs."""
+    bundle = program()
+    return f"{data_of(recorded, claims)}\n{bundle}"
+
+
+def program():
+    """The script that shows the data of a page."""
     records.need(bundle_file().is_file(), f"{bundle_file().name} is not built: {how_to_build}")
+    return f'<script type="module">{bundle_file().read_text().replace("</script", "<" + chr(92) + "/script")}</script>'
+
+
+def data_of(recorded, claims=None):
+    """The place of the viewer in the page and what it shows, without the program."""
     header, block = pack(recorded)
     header.update(colours=colours(), first=first_run, poses=poses_of(header["runs"]), claims=claims or {})
     words = json.dumps(header, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
-    program = bundle_file().read_text().replace("</script", "<\\/script")
     broken = [f"{run['title']}: {of['title']} is not shown, for a position in frame {of['frame']} is not finite."
               for run in header["runs"] for of in run["left_out"]]
     return "\n".join((
         '<div id="frame-viewer"><noscript>The viewer needs JavaScript.</noscript></div>',
         *(f'<p class="missing">{html.escape(words)}</p>' for words in broken),
         f'<script type="application/json" id="viewer-header">{words}</script>',
-        f'<script type="application/octet-stream;base64" id="viewer-block">{block}</script>',
-        f'<script type="module">{program}</script>'))
+        f'<script type="application/octet-stream;base64" id="viewer-block">{block}</script>'))
 
 
 # The recorded frame that shows a claim best: the one in which a recorded number of a deformer is at its extreme, opened by a link such as

@@ -10,7 +10,7 @@ import math
 
 from records import shapes
 from words import case_words
-from words.number_words import counted, figure
+from words.number_words import counted, figure, listed
 
 names = case_words.tables["verdict"]
 kinds = {"holds": ("holds", "hold"), "fails": ("fails", "fail"), "mixed": ("is mixed", "are mixed"),
@@ -444,10 +444,14 @@ def two_digits(value):
 
 def nearest_method(methods):
     """delta mush is nearest to FEM in all 19 frames, 15 %, before PBS, 28 %; it loses 3.7 % of the volume, PBS 1.1 %. methods: dicts of
-    name, error_pct (median over the frames; None without one), volume_pct (of the frame in which it changes most); nearest_in."""
-    ranked = sorted((of for of in methods if of["error_pct"] is not None), key=lambda of: of["error_pct"])
+    name, error_pct (median over the frames; None without one), volume_pct (of the frame in which it changes most, None where it is not
+    judged), nearest_in, is_compared (False: it turns more tets inside out than LBS), inverted."""
+    known = [of for of in methods if of["error_pct"] is not None]
+    ranked = sorted((of for of in known if of["is_compared"]), key=lambda of: of["error_pct"])
     if not ranked:
         return ""
+    aside = [f"{of['name']} turns up to {counted(int(of['inverted']), 'tet')} inside out" for of in known if not of["is_compared"]]
+    aside = f" {listed(aside)}, more than LBS in the same frame, and {'is' if len(aside) == 1 else 'are'} not compared." if aside else ""
     best = ranked[0]
     other = next((of for of in ranked[1:] if of["name"] == "PBS"), next(iter(ranked[1:]), None))  # PBS is what is examined
     frames = sum(of["nearest_in"] for of in methods)
@@ -459,7 +463,7 @@ def nearest_method(methods):
     if len(words) == 2:
         is_same = (changes[0][1] < 0) == (changes[1][1] < 0)
         words[1] = f"{other['name']} {words[1].removesuffix(' of the volume').split(' ', 1)[1] if is_same else words[1]}"
-    return f"{text}; it {', '.join(words)}." if words else f"{text}."
+    return (f"{text}; it {', '.join(words)}." if words else f"{text}.") + aside
 
 
 def largest_change(methods):
@@ -474,7 +478,7 @@ def largest_change(methods):
 def error_and_time(methods):
     """delta mush has the least error, 10.8 %, and takes 0.37 ms per frame; LBS is the fastest, with 31.2 % and 0.009 ms.
     Empty if no method has an error, since the reference reached no pose."""
-    known = [of for of in methods if of["error_pct"] is not None and of["step_ms"] is not None]
+    known = [of for of in methods if of["error_pct"] is not None and of["step_ms"] is not None and of["is_compared"]]
     if not known:
         return ""
     best, fastest = (min(known, key=lambda of: of[name]) for name in ("error_pct", "step_ms"))

@@ -113,7 +113,7 @@ void require_bones_of_the_meshs_size(const Character& character, const std::stri
                      "expected 1/25 to 25: mesh and skeleton in different units (skeleton_scale)?");
 }
 
-Character make_from_files(const CharacterSource& source, std::vector<std::string>& remarks)
+Character make_from_files(const CharacterSource& source, RemarkList& remarks)
 {
     if (source.mesh_file.empty()) throw InputError("", 0, "character.mesh", "", "missing: expected a body, or a mesh and a skeleton");
     if (source.skeleton_file.empty()) throw InputError("", 0, "character.skeleton", "", "missing: a mesh from a file needs a skeleton");
@@ -121,7 +121,7 @@ Character make_from_files(const CharacterSource& source, std::vector<std::string
     character.name = file_name(source.mesh_file);
     const InputFile mesh_file(source.mesh_file);
     MeshReading reading = read_tet_mesh(source.mesh_file);
-    remarks = remarks_on(source.mesh_file, reading);
+    for (const std::string& remark : remarks_on(source.mesh_file, reading)) remarks.push_back({Gravity::part_left_out, remark});
     character.mesh = std::move(reading.mesh);
     character.file_vertex = std::move(reading.file_vertex);
     character.file_vertices = reading.file_vertices;
@@ -132,7 +132,7 @@ Character make_from_files(const CharacterSource& source, std::vector<std::string
     return character;
 }
 
-Character make_from_model(const CharacterSource& source, std::vector<std::string>& remarks)
+Character make_from_model(const CharacterSource& source, RemarkList& remarks)
 {
     ModelSource model{.file = source.model_file, .animation = source.animation, .scale = source.model_scale, .vertices = source.vertices};
     Character skeleton_only;
@@ -145,7 +145,7 @@ Character make_from_model(const CharacterSource& source, std::vector<std::string
     return character;
 }
 
-Character make_body(const CharacterSource& source, std::vector<std::string>& remarks)
+Character make_body(const CharacterSource& source, RemarkList& remarks)
 {
     if (!source.model_file.empty()) return make_from_model(source, remarks);
     if (source.body.empty()) return make_from_files(source, remarks);
@@ -207,11 +207,11 @@ bool body_is_installed(const std::string& body)
 
 Character make_character(const CharacterSource& source)
 {
-    std::vector<std::string> remarks;
+    RemarkList remarks;
     return make_character(source, remarks);
 }
 
-Character make_character(const CharacterSource& source, std::vector<std::string>& remarks)
+Character make_character(const CharacterSource& source, RemarkList& remarks)
 {
     if (source.vertices < 0) throw InputError("", 0, "character.vertices", std::to_string(source.vertices), "expected 0 or more");
     Character character = make_body(source, remarks);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pbs/character/character.hpp"
+#include "pbs/character/remark.hpp"
 #include "pbs/geometry/meshing.hpp"
 
 #include <string>
@@ -50,10 +51,10 @@ bool body_is_installed(const std::string& body);  // whether require_body throws
 Character make_character(const CharacterSource& source);
 
 // make_character with what was accepted in a mesh from a file although its author may not have meant it (mesh_io.hpp).
-//   std::vector<std::string> remarks;
+//   RemarkList remarks;
 //   const Character arm = make_character({.mesh_file = "arm.msh", .skeleton_file = "arm.skeleton.toml"}, remarks);
 // One line each: turned tets, parts, an extent that speaks for other units than metres; none of a body by name.
-Character make_character(const CharacterSource& source, std::vector<std::string>& remarks);
+Character make_character(const CharacterSource& source, RemarkList& remarks);
 
 // The flesh within the same skin on other tets (mesh_anew), whose InputErrors reach the caller: what finite elements are solved on to learn
 // how much the character's own tets matter. It has the character's bones with their sizes, Eq. 2's weights, and no surface to be rendered.

@@ -24,7 +24,7 @@ constexpr int most_poses = 24;                         // of an animation, evenl
 constexpr const char* open_surface = "; the surface is open, and the tets fill a layer along it: close it where it should enclose flesh";
 
 // Parts of the tets through which no bone passes would be held by nothing.
-void leave_out_parts_without_bone(Character& character, const std::string& file, std::vector<std::string>& remarks)
+void leave_out_parts_without_bone(Character& character, const std::string& file, RemarkList& remarks)
 {
     const std::vector<int> part = parts_of(character.mesh.tets);
     const std::vector<bool> has_bone = has_bone_inside(character.mesh, part, character.skeleton);
@@ -35,8 +35,9 @@ void leave_out_parts_without_bone(Character& character, const std::string& file,
     const double whole_m3 = tet_volumes(character.mesh.rest, character.mesh.tets).sum();
     character.mesh = kept_tets(character.mesh, kept);
     const double lost_pct = 100.0 * (1.0 - tet_volumes(character.mesh.rest, character.mesh.tets).sum() / whole_m3);
-    remarks.push_back(file + ": " + std::to_string(without) + " of " + std::to_string(parts) +
-                      " separate parts have no bone inside; they are left out, with " + number_text(lost_pct, 3) + " % of the volume");
+    remarks.push_back({Gravity::part_left_out, file + ": " + std::to_string(without) + " of " + std::to_string(parts) +
+                                                   " separate parts have no bone inside; they are left out, with " +
+                                                   number_text(lost_pct, 3) + " % of the volume"});
 }
 
 // Parts move apart in the poses of the animation.
@@ -50,9 +51,39 @@ std::vector<Pose> sampled_poses(const RiggedModel& model)
     return poses;
 }
 
+// One bone ends where the other one, its child, begins.
+bool are_in_a_chain(int one, int other, const Skeleton& skeleton)
+{
+    const int parent = std::min(one, other), child = std::max(one, other);  // parents come first
+    return skeleton.bones[static_cast<std::size_t>(child)].parent == parent &&
+           std::ranges::count(bones_meeting(skeleton, parent, BoneEnd::tail), child) > 0;
+}
+
+// In a chain a joint holds both bones together: the flesh is not cut between them, but open there.
+std::string words_on_cuts(const std::vector<Cut>& cuts, const Skeleton& skeleton)
+{
+    std::vector<std::string> between, at_joints;
+    for (const auto& [first, second, area_m2] : cuts) {
+        const bool in_a_chain = are_in_a_chain(first, second, skeleton);
+        (in_a_chain ? at_joints : between)
+            .push_back(skeleton.bones[static_cast<std::size_t>(first)].name + (in_a_chain ? " - " : " and ") +
+                       skeleton.bones[static_cast<std::size_t>(second)].name);
+    }
+    std::string words = "parts that touch or nearly touch at rest move apart; the flesh is ";
+    if (!between.empty()) words += "cut between " + name_list(between);
+    if (!at_joints.empty()) words += (between.empty() ? "open at the joint " : ", and open at the joint ") + name_list(at_joints);
+    return words;
+}
+
+// The size of a body by which lengths are stated: the diagonal of its bounding box [m].
+double body_diagonal_m(const RiggedBody& body)
+{
+    return (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).norm();
+}
+
 // Cuts the flesh between parts that the skeleton moves apart. Surface and weights follow; without a cut they are those of the nearest
 // points.
-void add_skin(const RiggedModel& model, const std::string& file, Character& character, std::vector<std::string>& remarks)
+void add_skin(const RiggedModel& model, const std::string& file, Character& character, RemarkList& remarks)
 {
     const RiggedBody& body = model.body;
     const SkinParts parts(body, sampled_poses(model));
@@ -64,11 +95,7 @@ void add_skin(const RiggedModel& model, const std::string& file, Character& char
     if (!flesh.cuts.empty()) {
         may_carry = [&](Eigen::Index point, int tet) { return !parts.are_apart(parts.at_vertex(point), skin_of(tet)); };
         may_move = [&](Eigen::Index v, const SurfacePoint& point) { return !parts.are_apart(skin_of(flesh.tet_at(v)), point); };
-        std::vector<std::string> between;
-        for (const auto& [first, second, area_m2] : flesh.cuts)
-            between.push_back(body.skeleton.bones[static_cast<std::size_t>(first)].name + " and " +
-                              body.skeleton.bones[static_cast<std::size_t>(second)].name);
-        remarks.push_back(file + ": parts that touch or nearly touch at rest move apart; the flesh is cut between " + name_list(between));
+        remarks.push_back({Gravity::information, file + ": " + words_on_cuts(flesh.cuts, body.skeleton)});
     }
     character.surface = embed(body.surface, body.triangles, character.mesh, may_carry);
     const TransferredWeights transferred =
@@ -78,20 +105,21 @@ void add_skin(const RiggedModel& model, const std::string& file, Character& char
     character.artist->is_cut = !flesh.cuts.empty();
 }
 
-void add_size(const RiggedBody& body, const std::string& file, std::vector<std::string>& remarks)
+void add_size(const RiggedBody& body, const std::string& file, RemarkList& remarks)
 {
     const double size_m = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).maxCoeff();
     if (size_m >= smallest_m && size_m <= largest_m) return;
-    remarks.push_back(file + ": unlikely units: the body's largest extent is " + number_text(size_m, 4) +
-                      " m; --scale (character.scale in a scene) corrects it");
+    remarks.push_back({Gravity::part_left_out, file + ": unlikely units: the body's largest extent is " + number_text(size_m, 4) +
+                                                   " m; --scale (character.scale in a scene) corrects it"});
 }
 
-void add_sheet(const RiggedBody& body, const std::string& file, std::vector<std::string>& remarks)
+void add_sheet(const RiggedBody& body, const std::string& file, RemarkList& remarks)
 {
     const double offset_m = sheet_offset_m({body.surface, body.triangles});
     if (offset_m > 0.0)
-        remarks.push_back(file + ": the surface encloses no volume; the tets fill a layer of " + number_text(offset_m, 3) +
-                          " m on both sides of it");
+        remarks.push_back({Gravity::results_wrong, file + ": the surface encloses no volume; the tets fill a layer on both sides of it, " +
+                                                       number_text(100.0 * offset_m / body_diagonal_m(body), 3) +
+                                                       " % of the body's size thick"});
 }
 
 // The number of handles of a watertight surface, by V - E + F = 2 (parts - handles). It is 0 for an open surface.
@@ -116,24 +144,28 @@ int handles_of(const Triangles& triangles)
 }
 
 // What the verb `mesh` refuses: tets of another volume or another shape than the surface. A surface without volume has its own remark.
-void add_shape(const RiggedBody& body, const TetMesh& mesh, const std::string& file, std::vector<std::string>& remarks)
+void add_shape(const RiggedBody& body, const TetMesh& mesh, const std::string& file, RemarkList& remarks)
 {
     if (sheet_offset_m({body.surface, body.triangles}) > 0.0) return;
     const double ratio = tet_volumes(mesh.rest, mesh.tets).sum() / std::abs(fan_volume(body.surface, body.triangles));
     if (ratio < 0.5 || ratio > 2.0)
-        remarks.push_back(file + ": the tets hold " + number_text(ratio, 3) +
-                          " times the volume that the surface seems to enclose: it is open, or its triangles are not oriented one way; "
-                          "close the surface or orient its triangles outward in the program that made it");
+        remarks.push_back(
+            {Gravity::results_wrong,
+             file + ": the tets hold " + number_text(ratio, 3) +
+                 " times the volume that the surface seems to enclose: it is open, or its triangles are not oriented one way; "
+                 "close the surface or orient its triangles outward in the program that made it"});
     const Topology shape = topology_of(mesh.tets, mesh.rest.rows());
     const int handles = shape.boundary_components - shape.boundary_euler / 2,
               own = handles_of(joined_triangles(body.surface, body.triangles));
     if (handles > own)
-        remarks.push_back(file + ": the boundary of the tets has the Euler number " + std::to_string(shape.boundary_euler) + ", " +
-                          std::to_string(handles) + " handles, and the model has " + std::to_string(own) +
-                          ": parts that nearly touch have grown together; --vertices (character.vertices in a scene) asks for finer tets");
+        remarks.push_back(
+            {Gravity::results_wrong,
+             file + ": the boundary of the tets has the Euler number " + std::to_string(shape.boundary_euler) + ", " +
+                 std::to_string(handles) + " handles, and the model has " + std::to_string(own) +
+                 ": parts that nearly touch have grown together; --vertices (character.vertices in a scene) asks for finer tets"});
 }
 
-void add_bones_outside(const RiggedBody& body, const TetMesh& mesh, const std::string& file, std::vector<std::string>& remarks)
+void add_bones_outside(const RiggedBody& body, const TetMesh& mesh, const std::string& file, RemarkList& remarks)
 {
     std::vector<std::string> outside;
     std::vector<bool> is_inside(body.skeleton.bones.size(), false);
@@ -142,20 +174,19 @@ void add_bones_outside(const RiggedBody& body, const TetMesh& mesh, const std::s
         if (!is_inside[b]) outside.push_back(body.skeleton.bones[b].name);
     const bool is_layer = outside.size() == body.skeleton.bones.size() && !is_watertight(joined_triangles(body.surface, body.triangles));
     if (!outside.empty())
-        remarks.push_back(file + ": " + std::to_string(outside.size()) + " of " + std::to_string(body.skeleton.bones.size()) +
-                          " bones lie outside the body: " + name_list(outside) + (is_layer ? open_surface : ""));
+        remarks.push_back(
+            {Gravity::part_left_out, file + ": " + std::to_string(outside.size()) + " of " + std::to_string(body.skeleton.bones.size()) +
+                                         " bones lie outside the body: " + name_list(outside) + (is_layer ? open_surface : "")});
 }
 
-void add_distance(const RiggedBody& body, double distance_m, const std::string& file, std::vector<std::string>& remarks)
+void add_distance(const RiggedBody& body, double distance_m, const std::string& file, RemarkList& remarks)
 {
-    const double diagonal_m = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).norm();
-    if (distance_m > far_from_tets * diagonal_m)
-        remarks.push_back(file + ": the boundary of the tets lies up to " + number_text(distance_m, 3) +
-                          " m from the surface of the model");
+    if (const double share = distance_m / body_diagonal_m(body); share > far_from_tets)
+        remarks.push_back({Gravity::part_left_out, file + ": the boundary of the tets lies up to " + number_text(100.0 * share, 3) +
+                                                       " % of the body's size from the surface of the model"});
 }
 
-void add_joints_without_flesh(const RiggedBody& body, const Character& character, const std::string& file,
-                              std::vector<std::string>& remarks)
+void add_joints_without_flesh(const RiggedBody& body, const Character& character, const std::string& file, RemarkList& remarks)
 {
     const std::vector<Bone>& bones = body.skeleton.bones;
     const CarriedWeight weight =
@@ -164,8 +195,9 @@ void add_joints_without_flesh(const RiggedBody& body, const Character& character
     for (std::size_t b = 0; b < bones.size(); ++b)
         if (weight.carried[b] <= 0.5 * weight.of_artist[b]) without.push_back(bones[b].name);
     if (!without.empty())
-        remarks.push_back(file + ": " + std::to_string(without.size()) + " of " + std::to_string(bones.size()) +
-                          " joints are without flesh: the tets are too coarse for what they move: " + name_list(without));
+        remarks.push_back(
+            {Gravity::part_left_out, file + ": " + std::to_string(without.size()) + " of " + std::to_string(bones.size()) +
+                                         " joints are without flesh: the tets are too coarse for what they move: " + name_list(without)});
 }
 
 // The mesher does not know the name of the file.
@@ -190,7 +222,7 @@ std::shared_ptr<const RiggedModel> read_model(const std::string& file, const std
     return model;
 }
 
-Character make_model_character(const ModelSource& source, std::vector<std::string>& remarks)
+Character make_model_character(const ModelSource& source, RemarkList& remarks)
 {
     const InputFile input(source.file);
     const std::shared_ptr<const RiggedModel> model = read_model(source.file, source.animation, source.scale);
@@ -228,15 +260,16 @@ Character make_model_character(const ModelSource& source, std::vector<std::strin
     else
         character.surface = embed(body.surface, body.triangles, character.mesh);
     add_shape(body, character.mesh, source.file, remarks);
-    const auto found = remarks_on_model(body, character, source.file);
+    const RemarkList found = remarks_on_model(body, character, source.file);
     remarks.insert(remarks.end(), found.begin(), found.end());
     return character;
 }
 
-std::vector<std::string> remarks_on_model(const RiggedBody& body, const Character& character, const std::string& file)
+RemarkList remarks_on_model(const RiggedBody& body, const Character& character, const std::string& file)
 {
-    std::vector<std::string> remarks;
-    for (const std::string& remark : body.remarks) remarks.push_back(file + ": " + remark);
+    RemarkList remarks;
+    for (const std::string& remark : body.remarks) remarks.push_back({Gravity::part_left_out, file + ": " + remark});
+    for (const std::string& note : body.notes) remarks.push_back({Gravity::information, file + ": " + note});
     add_size(body, file, remarks);
     add_sheet(body, file, remarks);
     if (body.skeleton.bones.empty()) return remarks;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "pbs/character/character.hpp"
+#include "pbs/character/remark.hpp"
 #include "pbs/rig/rigged_body.hpp"
 
 #include <string>
@@ -31,11 +32,11 @@ std::shared_ptr<const RiggedModel> read_model(const std::string& file, const std
 
 // Binding and `weights` are left for make_character. `remarks` gets everything that was dropped, guessed or looks wrong. InputErrors are
 // those of read_rig and mesh_surface, and a file without joints if there is no other skeleton.
-Character make_model_character(const ModelSource& source, std::vector<std::string>& remarks);
+Character make_model_character(const ModelSource& source, RemarkList& remarks);
 
-// Warnings about a character from a rigged model that is probably wrong, one sentence each: an unlikely size, a surface without volume or
-// far from the tets, bones outside the body, joints without flesh. The character is made of the body and has its surface and its artist's
-// weights.
-std::vector<std::string> remarks_on_model(const RiggedBody& body, const Character& character, const std::string& file);
+// Remarks on a character from a rigged model: what the reader left out or corrected, and what is probably wrong: an unlikely size, a
+// surface without volume or far from the tets, bones outside the body, joints without flesh. The character is made of the body and has its
+// surface and its artist's weights.
+RemarkList remarks_on_model(const RiggedBody& body, const Character& character, const std::string& file);
 
 }  // namespace pbs

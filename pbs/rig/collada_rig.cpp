@@ -155,7 +155,7 @@ Weights skin_of(const aiMesh& mesh, const RigMesh& own, Rig& rig)
                                  std::to_string(weight.mVertexId), "expected a vertex of the mesh");
             points[weight.mVertexId].push_back({static_cast<int>(joint), weight.mWeight});
         }
-    return normalised_skin(with_weights_of_neighbours(points, own, rig.file, rig.remarks), rig.file, own.name, rig.remarks);
+    return normalised_skin(with_weights_of_neighbours(points, own, rig.file, rig.remarks), rig.file, own.name, rig.remarks, rig.notes);
 }
 
 RigMesh mesh_of(const aiMesh& source, int node, const Nodes& nodes, Rig& rig)

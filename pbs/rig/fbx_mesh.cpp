@@ -195,7 +195,8 @@ private:
         std::vector<std::vector<JointShare>> shares;
         for (const int control : control_of_point_) shares.push_back(control_shares[static_cast<std::size_t>(control)]);
         Rig& rig = reading_.rig;
-        mesh_.skin = normalised_skin(with_weights_of_neighbours(shares, mesh_, rig.file, rig.remarks), rig.file, mesh_.name, rig.remarks);
+        mesh_.skin =
+            normalised_skin(with_weights_of_neighbours(shares, mesh_, rig.file, rig.remarks), rig.file, mesh_.name, rig.remarks, rig.notes);
         set_kind_of_skinning(*used);
     }
 

@@ -183,14 +183,19 @@ void GlbWriter::write_rows(const Positions& rows)
     data_.write({reinterpret_cast<const char*>(single.data()), sizeof(float) * static_cast<std::size_t>(single.size())});
 }
 
+double GlbWriter::bytes(int frames) const
+{
+    const auto numbers = static_cast<double>((has_normals_ ? 2 : 1) * first_frame_.size());
+    return data_bytes_ + static_cast<double>(bytes_per_number) * frames * (numbers + frames);  // with a weight per frame and target
+}
+
 void GlbWriter::add_frame(double time_s, const Positions& points)
 {
     const bool is_first = times_s_.empty();
-    const auto count = static_cast<double>(times_s_.size() + 1), numbers = static_cast<double>((has_normals_ ? 2 : 1) * points.size());
-    if (data_bytes_ + bytes_per_number * count * (numbers + count) > most_glb_bytes)  // with a weight per frame and target
+    if (is_first) first_frame_ = points;
+    if (bytes(static_cast<int>(times_s_.size()) + 1) > most_glb_bytes)
         throw InputError(path_, 0, "frames", std::to_string(times_s_.size() + 1),
                          "expected fewer: a .glb file is limited to 4 GiB (output.frames_every writes fewer frames)");
-    if (is_first) first_frame_ = points;
     const Positions stored = is_first ? points : Positions(points - first_frame_);
     write_rows(stored);
     Extent extent;

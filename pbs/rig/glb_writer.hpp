@@ -26,6 +26,9 @@ public:
     // precision, as glTF defines. An InputError where the file would be larger than 4 GiB or the disk is full.
     void add_frame(double time_s, const Positions& points);
 
+    // The size of a file with so many frames of the points that were added, without its description.
+    double bytes(int frames) const;
+
     // The file with the frames so far, 1 or more; whole or not at all, with the InputErrors of write_atomically.
     void write();
 

@@ -33,8 +33,8 @@ public:
         mesh_.points = Eigen::Map<const Positions>(points_.data(), static_cast<Eigen::Index>(points_.size() / 3), 3);
         mesh_.triangles = Eigen::Map<const Triangles>(triangles_.data(), static_cast<Eigen::Index>(triangles_.size() / 3), 3);
         if (joints > 0)
-            mesh_.skin =
-                normalised_skin(with_weights_of_neighbours(shares_, mesh_, rig_.file, rig_.remarks), rig_.file, mesh_.name, rig_.remarks);
+            mesh_.skin = normalised_skin(with_weights_of_neighbours(shares_, mesh_, rig_.file, rig_.remarks), rig_.file, mesh_.name,
+                                         rig_.remarks, rig_.notes);
         return mesh_;
     }
 

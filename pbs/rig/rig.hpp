@@ -99,7 +99,8 @@ struct Rig {
     std::vector<RigNode> nodes;
     std::vector<RigMesh> meshes;
     std::vector<RigAnimation> animations;
-    std::vector<std::string> remarks;  // what the reader left out or corrected
+    std::vector<std::string> remarks;  // what the reader left out
+    std::vector<std::string> notes;    // what it put right by the format's rules, so that nothing is missing
 };
 
 // The animation of this name; the first one where the name is empty, null where the file has none. An InputError lists the names.

@@ -201,7 +201,7 @@ Rig checked(Rig rig)
 }
 
 Weights normalised_skin(const std::vector<std::vector<JointShare>>& points, const std::string& file, const std::string& mesh,
-                        std::vector<std::string>& remarks)
+                        std::vector<std::string>& remarks, std::vector<std::string>& notes)
 {
     Weights skin;
     skin.first.push_back(0);
@@ -231,7 +231,7 @@ Weights normalised_skin(const std::vector<std::vector<JointShare>>& points, cons
     if (without_weight > 0)
         remarks.push_back(std::to_string(without_weight) + of_mesh + " have no weight; they follow the first joint of the skin");
     if (other_sums > 0)
-        remarks.push_back("the weights of " + std::to_string(other_sums) + of_mesh + " do not sum to one; they were divided by their sum");
+        notes.push_back("the weights of " + std::to_string(other_sums) + of_mesh + " do not sum to one; they were divided by their sum");
     return skin;
 }
 

@@ -48,9 +48,9 @@ std::vector<std::vector<JointShare>> with_weights_of_neighbours(std::vector<std:
 void leave_out_second_sides_and_unused_points(Rig& rig);
 
 // The skin weights of a mesh, with sums of one. points: the shares of each point; one joint may occur several times, and its weights are
-// added. Points whose weights are all zero follow joint 0, and sums that are not one within 1e-3 are counted: both are remarks. An
-// InputError names a weight that is negative or not finite.
+// added. Points whose weights are all zero follow joint 0, which is a remark, and sums that are not one within 1e-3 are counted, which is a
+// note. An InputError names a weight that is negative or not finite.
 Weights normalised_skin(const std::vector<std::vector<JointShare>>& points, const std::string& file, const std::string& mesh,
-                        std::vector<std::string>& remarks);
+                        std::vector<std::string>& remarks, std::vector<std::string>& notes);
 
 }  // namespace pbs

@@ -34,6 +34,11 @@ void GlbWriter::add_frame(double, const Positions&)
 {
 }
 
+double GlbWriter::bytes(int) const
+{
+    return 0.0;
+}
+
 void GlbWriter::write()
 {
 }

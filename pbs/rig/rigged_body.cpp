@@ -179,7 +179,7 @@ std::map<int, int> add_bones(const Rig& rig, RiggedBody& body)
             continue;
         }
         const std::string name = unused_name(name_of(rig, node), body.skeleton);
-        if (name != name_of(rig, node)) body.remarks.push_back("two joints are named " + name_of(rig, node) + "; one is called " + name);
+        if (name != name_of(rig, node)) body.notes.push_back("two joints are named " + name_of(rig, node) + "; one is called " + name);
         const Vec3 head = body.binding.bind.at(node).translation();
         const int parent = bone_above(node, rig, bone_of_node);
         bone_of_node[node] = static_cast<int>(body.skeleton.bones.size());
@@ -203,7 +203,7 @@ void turn_outward(RiggedBody& body)
 {
     if (!is_inside_out(body.surface, body.triangles)) return;
     body.triangles.col(1).swap(body.triangles.col(2));
-    body.remarks.push_back("the surface is inside out; it is taken as the body that it encloses");
+    body.notes.push_back("the surface is inside out; it is taken as the body that it encloses");
 }
 
 void add_surface(const std::map<int, int>& bone_of_node, RiggedBody& body)
@@ -257,6 +257,44 @@ std::vector<Eigen::Affine3d> bone_transforms(const RiggedBody& body, const std::
     return transforms;
 }
 
+// The way from each bone's parent to it along the joints between them [m], #bones; 0 of a root.
+Eigen::VectorXd ways_from_parents(const Rig& rig, const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms)
+{
+    Eigen::VectorXd ways = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(body.node.size()));
+    for (std::size_t b = 0; b < body.node.size(); ++b) {
+        const int parent = body.skeleton.bones[b].parent;
+        if (parent < 0) continue;
+        for (int node = body.node[b]; node != body.node[static_cast<std::size_t>(parent)]; node = rig.nodes[node].parent)
+            ways(static_cast<Eigen::Index>(b)) +=
+                body.binding.metres_per_unit *
+                (node_transforms[node].translation() - node_transforms[rig.nodes[node].parent].translation()).norm();
+    }
+    return ways;
+}
+
+// As the motion is compared: with the bind pose, and where joints are between a bone and its parent, with the file's rest pose.
+Eigen::VectorXd ways_at_rest(const Rig& rig, const RiggedBody& body)
+{
+    Eigen::VectorXd ways = ways_from_parents(rig, body, node_transforms(rig, nullptr, 0.0));
+    for (std::size_t b = 0; b < body.node.size(); ++b) {
+        const Bone& bone = body.skeleton.bones[b];
+        if (bone.parent >= 0 && rig.nodes[body.node[b]].parent == body.node[static_cast<std::size_t>(bone.parent)])
+            ways(static_cast<Eigen::Index>(b)) = (bone.head - body.skeleton.bones[static_cast<std::size_t>(bone.parent)].head).norm();
+    }
+    return ways;
+}
+
+// A bone that begins where its parent does has no length that could change.
+void add_frame(const Eigen::VectorXd& ways, const Eigen::VectorXd& at_rest, int frame, std::vector<DistanceChange>& distances)
+{
+    for (std::size_t b = 0; b < distances.size(); ++b) {
+        const auto row = static_cast<Eigen::Index>(b);
+        const double change_m = ways(row) - at_rest(row);
+        if (at_rest(row) > 0.0 && std::abs(change_m) > std::abs(distances[b].change_m))
+            distances[b] = {.relative = change_m / at_rest(row), .change_m = change_m, .frame = frame};
+    }
+}
+
 }  // namespace
 
 RiggedBody make_rigged_body(const Rig& rig, const RigAnimation* animation, double scale)
@@ -264,6 +302,7 @@ RiggedBody make_rigged_body(const Rig& rig, const RigAnimation* animation, doubl
     RiggedBody body;
     body.binding = bind_rig(rig, animation, scale);
     body.remarks = rig.remarks;
+    body.notes = rig.notes;
     body.remarks.insert(body.remarks.end(), body.binding.remarks.begin(), body.binding.remarks.end());
     const std::map<int, int> bone_of_node = add_bones(rig, body);
     add_surface(bone_of_node, body);
@@ -321,13 +360,18 @@ Pose rigid_pose(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node
 RigMotion rig_motion(const Rig& rig, const RiggedBody& body, const RigAnimation& animation, const MotionSampling& sampling)
 {
     RigMotion made;
+    made.distances.resize(body.node.size());
+    const Eigen::VectorXd at_rest = ways_at_rest(rig, body);
     made.motion.time_step_s = sampling.time_step_s;
     made.motion.steps_per_frame = steps_per_frame(sampling);
     constexpr double slack_s = 1e-6;  // times given in decimal are not refused for their last digit
     const int frames = frames_after_the_first(sampling, animation.end_s - animation.start_s, slack_s, rig.file);
     for (int step = 0; step <= frames * made.motion.steps_per_frame; ++step) {
         const double time_s = animation.start_s + sampling.start_s + step * sampling.time_step_s;
-        made.motion.steps.push_back(rigid_pose(body, node_transforms(rig, &animation, time_s), &made.stretch));
+        const std::vector<Eigen::Affine3d> transforms = node_transforms(rig, &animation, time_s);
+        made.motion.steps.push_back(rigid_pose(body, transforms, &made.stretch));
+        if (step % made.motion.steps_per_frame == 0)
+            add_frame(ways_from_parents(rig, body, transforms), at_rest, step / made.motion.steps_per_frame, made.distances);
     }
     return made;
 }

@@ -59,6 +59,7 @@ struct RiggedBody {
     std::vector<std::string> containers;  // nodes above joints that are no joints: they contribute their transforms
     double bind_pose_deg = 0.0;           // the largest rotation of a bone from the bind pose to the file's rest pose
     std::vector<std::string> remarks;     // of the reader and of what was made of the rig
+    std::vector<std::string> notes;       // of both, where nothing is missing
 };
 
 // A joint that moves points is a bone, from the joint to where the joints below it are (Tails in rigged_body.cpp); its parent is the next
@@ -74,10 +75,19 @@ Positions artist_points(const RiggedBody& body, const Pose& pose);
 // The rigid part of every bone's motion from rest. stretch: the largest relative change of a length that is lost with the rest, if wanted.
 Pose rigid_pose(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms, double* stretch = nullptr);
 
+// Where an animation moves a bone farthest from its parent, or closest to it, in comparison with the bind pose. The distance is measured
+// along the joints between the two, so that no rotation changes it.
+struct DistanceChange {
+    double relative = 0.0;  // 0.5: half as far again as in the bind pose
+    double change_m = 0.0;
+    int frame = 0;
+};
+
 // An animation of a rig as a motion of its bones.
 struct RigMotion {
     Motion motion;
-    double stretch = 0.0;  // the largest relative change of a length in a bone's transform, which is left out
+    double stretch = 0.0;                        // the largest relative change of a length in a bone's transform, which is left out
+    std::vector<DistanceChange> distances = {};  // of each bone from its parent, #bones; zero of a root
 };
 
 // sampling.start_s is after the first key of the animation. InputErrors are those of pose.hpp.

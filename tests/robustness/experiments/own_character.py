@@ -203,6 +203,43 @@ class OwnCharacter(TrialTest):
                 if "surface" in options:  # which has no volume to be measured
                     self.remarked(facts, printed, "surface_volume_change_pct is empty", "note")
 
+    def test_at_most_three_warnings_the_gravest_first(self):
+        """A rig of centimetres, whose animation begins far from its bind pose, with a tip that the tets do not carry and bones above the
+        body: what makes results wrong comes first, and what is beyond three warnings is a note."""
+        facts, printed = self.tried(self.rig("centimetres", first_deg=170.0, tiny_tip=True, shifted_m=(0.0, 300.0, 0.0)))
+        kinds = ["warning", "warning", "warning", "note"]
+        self.assertEqual(len(facts["warnings"]), 3)
+        self.assertIn("inverted tets in the first frame", facts["warnings"][0])
+        said = re.findall("pbskin: (warning|note): ", printed)
+        self.assertEqual(said[:4], kinds, printed)
+        self.assertEqual(said.count("warning"), 3, printed)
+        page = html.unescape(self.read("out", "report.html"))
+        places = [page.index(text) for text in (*facts["warnings"], *facts["notes"])]
+        self.assertEqual(places, sorted(places))
+
+    def test_bones_that_move_apart(self):
+        """Squash and stretch: the elbow goes half as far again from the root. Neither the sentence nor the page judges the volume."""
+        away = numpy.array([rig_files.PLACES[1], 1.5 * numpy.array(rig_files.PLACES[1])]) - rig_files.PLACES[0]
+        model = self.rig(animations=(), extra=[("Stretch", [(1, "translation", [0.0, 1.0], away, "LINEAR")])])
+        facts, printed = self.tried(model)
+        (bone,) = facts["motion"]["stretched_bones"]
+        self.assertEqual((bone["bone"], bone["frame"]), ("elbow", FRAMES - 1))
+        self.assertAlmostEqual(bone["change_pct"], 50.0, delta=1e-3)
+        self.remarked(facts, printed, "elbow by +50 % in frame 2; the artist changes the volume with it")
+        self.assertNotIn("volume", facts["summary"])
+        self.assertNotIn("Volume at the joints", self.read("out", "report.html"))
+
+    def test_without_the_program_of_the_viewer_the_page_keeps_what_it_shows(self):
+        """All frames, so that the large files are removed, and `pbskin report` adds the program as soon as it is built."""
+        _, printed = self.tried(self.rig(), PBS_VIEWER_BUILD=self.path("nowhere"))
+        self.assertIn("viewer.js is not built", printed)
+        self.assertEqual(glob.glob(self.path("out", "frames", "*.vtu")), [])
+        self.assertEqual(len(self.shown()["frames"]), FRAMES)
+        self.assertNotIn("// a viewer", self.read("out", "report.html"))
+        self.succeeds("report", self.path("out"), env={**os.environ, "PBS_VIEWER_BUILD": self.folder})
+        self.assertIn("// a viewer", self.read("out", "report.html"))
+        self.assertEqual(len(self.shown()["frames"]), FRAMES)
+
     def test_a_body_with_a_handle(self):
         """A ring has one of its own, and parts that grow together make one more."""
         self.assertNotIn("handle", self.tried(block_rigs.write_ring(self.path("ring.glb")), into="ring")[1])
@@ -215,8 +252,10 @@ class OwnCharacter(TrialTest):
         self.assertEqual([followed[name] for name in ("bone_of_flesh", "bone", "frame")], ["leg.L", "leg.R", FRAMES - 1])
         # The difference of two coordinates of up to 0.15 m in single precision, [mm]
         self.assertAlmostEqual(followed["gap_mm"], 1e3 * block_rigs.SHOES_GAP, delta=1e3 * 2 * 0.15 * 2.0 ** -24)
+        size_m = numpy.linalg.norm(numpy.ptp(skin_formula.Model(self.path("shoes.glb")).points(None, None), axis=0))
         self.remarked(facts, printed, f"the surface that LBS carries with the tets is up to {followed['largest_pct']:.1f} % of the model's "
-                      "size away from the artist's, in frame 2: there the flesh of leg.L carries the surface of leg.R, with a gap of 4 mm")
+                      "size away from the artist's, in frame 2: there the flesh of leg.L carries the surface of leg.R, with a gap of "
+                      f"{100 * block_rigs.SHOES_GAP / size_m:.2g} % of that size")
         self.assertEqual(self.json("out", "run.json")["outcome"]["from_artist"], followed)
 
     def test_a_clip_of_which_some_joints_do_not_match(self):

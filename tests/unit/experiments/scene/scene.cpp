@@ -189,7 +189,9 @@ TEST_F(MotionCase, ASweepTurnsItsJointAndOneInWhichNothingTurnsIsRemarkedOn)
     sweep.angle_deg = 0.05;
     sweep.frames = 2;  // about the axis of the bone
     EXPECT_EQ(made(sweep).remarks,
-              std::vector<std::string>{"scene.toml: no joint moves: the bones turn by at most 0.05 degrees and move by at most 0 m"});
+              (pbs::RemarkList{{pbs::Gravity::results_wrong,
+                                "scene.toml: no joint moves: the bones turn by at most 0.05 degrees and move by at most 0 % of the body's "
+                                "size"}}));
     sweep.angle_deg = 0.2;
     EXPECT_TRUE(made(sweep).remarks.empty());
     sweep.joint = "tail";
@@ -221,8 +223,32 @@ TEST_F(MotionCase, AClipThatMatchesLessThanHalfIsRefusedUnlessItIsAllowed)
     EXPECT_EQ(made(clip({"upper", "forearm", "a", "b"})).matched_joints, 2);  // one half is enough
     walk = clip({"upper", "a"});
     EXPECT_EQ(made(walk).remarks,
-              std::vector<std::string>{walk.clip + ": 1 of 2 moving joints of the clip match a bone; without a bone: a; "
-                                                   "bones without a motion of their own: forearm"});
+              (pbs::RemarkList{{pbs::Gravity::part_left_out, walk.clip + ": 1 of 2 moving joints of the clip match a bone; without a bone: "
+                                                                         "a; bones without a motion of their own: forearm"}}));
+}
+
+// The elbow is 2 m from the root in the file, and moved to another distance within a second.
+TEST_F(MotionCase, BonesThatMoveApartAreNamedWithTheirFrame)
+{
+    MotionSpec spec;
+    spec.of_model = true;
+    spec.rate_hz = 10.0;
+    for (const auto& [distance_m, change_pct] : {std::pair(3.2f, 60.0), {1.2f, -40.0}, {2.16f, 0.0}}) {
+        test_support::GltfDocument gltf = test_support::two_joint_document();
+        const int ways = gltf.put<float>("VEC3", {0, 2, 0, 0, distance_m, 0});
+        gltf.json["animations"][0]["samplers"][0]["output"] = ways;
+        gltf.json["animations"][0]["channels"][0]["target"]["path"] = "translation";
+        character.artist = pbs::ArtistSkin{{}, pbs::read_model(folder.file("slime.gltf", gltf.text()), "", 1.0)};
+        const CaseMotion motion = made(spec);
+        ASSERT_EQ(motion.stretched.size(), change_pct != 0.0) << distance_m;
+        if (motion.stretched.empty()) continue;
+        EXPECT_EQ(motion.stretched[0].bone, "elbow");
+        EXPECT_EQ(motion.stretched[0].frame, 10) << "the last one";
+        EXPECT_NEAR(motion.stretched[0].change_pct, change_pct, 1e-4);  // glTF's numbers are single precision
+        EXPECT_EQ(motion.remarks.at(0).gravity, pbs::Gravity::comparison_wrong);
+        const std::string words = change_pct > 0.0 ? "elbow by +60 % in frame 10; " : "elbow by -40 % in frame 10; ";
+        EXPECT_NE(motion.remarks[0].text.find(words), std::string::npos) << motion.remarks[0].text;
+    }
 }
 
 TEST_F(MotionCase, AnAnimationOfTheModelAndARefusalOfAModelWithoutOne)

@@ -209,16 +209,18 @@ TEST_F(TrialSummary, TakesTheFactsFromTheRecordsAndSaysThemInOneSentence)
     EXPECT_EQ(joints.at("pbs_pct"), 0.0);
     EXPECT_EQ(
         trial_sentence(found),
-        "At the joints chest - arm and hips - knee, PBS changes the volume by +0.0 % on average, LBS by -5.0 %. PBS is nearer to FEM than "
-        "LBS in 1 of 2 frames. On hero.glb, PBS changes the volume by -0.5 to +0.3 %, where LBS changes it by -4.0 to +1.5 %, and takes "
+        "At the joints chest - arm and hips - knee, PBS changes the volume by +0.0 % on average, LBS by -5.0 %. At the joints, PBS is "
+        "nearer to FEM than LBS in 1 of 2 frames. PBS turns up to 1 tet inside out, and LBS up to 3. On hero.glb, PBS changes the volume "
+        "by -0.5 to +0.3 %, where LBS changes it by -4.0 to +1.5 %, and takes "
         "2 ms per frame instead of 0.25 ms.");
 }
 
 TEST_F(TrialSummary, CountsTheFramesThatCanBeComparedAndLeavesOutWhatTheRecordsDoNotHold)
 {
-    EXPECT_EQ(facts().at("nearer"), (nlohmann::json{{"deformer", "lbs"}, {"frames", 1}, {"of", 2}, {"best_other", nullptr}}));
+    EXPECT_EQ(facts().at("nearer").at("joints"), (nlohmann::json{{"deformer", "lbs"}, {"frames", 1}, {"of", 2}, {"best_other", nullptr}}));
+    EXPECT_TRUE(facts().at("nearer").at("skin").is_null()) << "no column has its errors";
     folder.file("metrics.csv", metrics_header + "lbs,0,0,0,1,\npbs,0,0,0,1,\n");
-    EXPECT_TRUE(facts().at("nearer").is_null());
+    EXPECT_EQ(facts().at("nearer"), (nlohmann::json{{"body", nullptr}, {"skin", nullptr}}));
     folder.file("metrics.csv", "deformer,frame,volume_change_pct,inverted_tets,step_ms\nlbs,0,-0.001,0,1\npbs,0,0.001,0,0.5\n");
     folder.file("regions.csv", regions_header);
     EXPECT_EQ(
@@ -236,11 +238,67 @@ TEST_F(TrialSummary, ComparesPbsWithTheBestOtherMethodToo)
                                    "nh_p1,1,0,0,900,0\nlbs,1,-4,0,1,8\npbs,1,-0.4,0,2,2\ndelta_mush,1,0,0,1.5,1\ndqs,1,0,0,1,3\n" +
                                    "nh_p1,2,0,0,900,0\nlbs,2,0,0,1,6\npbs,2,0,0,2,3\ndelta_mush,2,0,0,1.5,2\ndqs,2,0,0,1,9\n");
     const nlohmann::json best = {{"deformer", "delta_mush"}, {"frames", 0}, {"of", 2}};
-    EXPECT_EQ(facts().at("nearer"), (nlohmann::json{{"deformer", "lbs"}, {"frames", 2}, {"of", 2}, {"best_other", best}}));
+    EXPECT_EQ(facts().at("nearer").at("joints"), (nlohmann::json{{"deformer", "lbs"}, {"frames", 2}, {"of", 2}, {"best_other", best}}));
     EXPECT_EQ(trial_sentence(facts()),
-              "PBS is nearer to FEM than LBS in 2 of 2 frames, and than delta mush, the best of the other methods (1.5 ms per frame), in 0 "
+              "At the joints, PBS is nearer to FEM than LBS in 2 of 2 frames, and than delta mush, the best of the other methods (1.5 ms "
+              "per frame), in 0 "
               "of 2 frames. On hero.glb, PBS changes the volume by at most -0.4 %, where LBS changes it by at most -4.0 %, and takes 2 ms "
               "per frame instead of 1 ms.");
+}
+
+const std::string both_header = "deformer,frame,volume_change_pct,inverted_tets,step_ms,error_joint_pct,skin_rms_mm,skin_rms_pct\n";
+
+// At the joints delta mush is nearest, and over the skin PBS is, before DQS.
+TEST_F(TrialSummary, CountsTheJointsAndTheSkin)
+{
+    folder.file("regions.csv", regions_header);
+    folder.file("metrics.csv", both_header + "lbs,0,-4,0,1,8,4,4\npbs,0,-1,0,2,3,1,1\ndelta_mush,0,0,0,1.5,1,3,3\ndqs,0,2,0,1,5,2,2\n");
+    const nlohmann::json nearer = facts().at("nearer");
+    EXPECT_EQ(nearer.at("joints").at("best_other"), (nlohmann::json{{"deformer", "delta_mush"}, {"frames", 0}, {"of", 1}}));
+    EXPECT_EQ(nearer.at("skin").at("best_other"), (nlohmann::json{{"deformer", "dqs"}, {"frames", 1}, {"of", 1}}));
+    EXPECT_TRUE(trial_sentence(facts()).starts_with(
+        "At the joints, PBS is nearer to FEM than LBS in 1 of 1 frames, and than delta mush, the best of the other methods (1.5 ms per "
+        "frame), in 0 of 1 frames. Over the skin, PBS is nearer to FEM than LBS in 1 of 1 frames, and than DQS, the best of the other "
+        "methods (1 ms per frame), in 1 of 1 frames. On hero.glb, "))
+        << trial_sentence(facts());
+}
+
+// In frame 1 delta mush has 89 inverted tets and LBS 3; in frame 0 both have 5.
+TEST_F(TrialSummary, AMethodThatTurnsMoreTetsInsideOutThanLbsIsNamedAndNotCompared)
+{
+    const auto write = [&](const std::string& of_pbs) {
+        folder.file("regions.csv", regions_header);
+        folder.file("metrics.csv", both_header + "lbs,0,-4,5,1,8,4,4\npbs,0,-1,0,2,3,1,1\ndelta_mush,0,0,5,1.5,1,3,3\ndqs,0,2,0,1,5,2,2\n" +
+                                       "lbs,1,-4,3,1,8,4,4\npbs,1,-1," + of_pbs +
+                                       ",2,3,1,1\ndelta_mush,1,0,89,1.5,1,3,3\ndqs,1,2,3,1,5,2,2\n");
+    };
+    write("0");
+    EXPECT_EQ(facts().at("inverting"), (nlohmann::json{{"delta_mush", {{"frames", 1}, {"most_inverted_tets", 89}}}}));
+    EXPECT_EQ(facts().at("nearer").at("joints").at("best_other").at("deformer"), "dqs") << "the next best one";
+    EXPECT_NE(trial_sentence(facts()).find("delta mush turns up to 89 tets inside out, more than LBS in the same frame: it is not called "
+                                           "nearest or best. On hero.glb"),
+              std::string::npos)
+        << trial_sentence(facts());
+    write("4");
+    EXPECT_EQ(facts().at("nearer"), (nlohmann::json{{"joints", nullptr}, {"skin", nullptr}}));
+    const std::string of_both = trial_sentence(facts());
+    EXPECT_TRUE(
+        of_both.starts_with("delta mush turns up to 89 tets inside out, PBS up to 4 tets, each more than LBS in the same "
+                            "frame: none of them is called nearest or best. On hero.glb, PBS changes the volume"))
+        << of_both;
+    EXPECT_EQ(of_both.find("nearer"), std::string::npos) << of_both;
+    EXPECT_EQ(of_both.find("removes"), std::string::npos) << of_both;
+}
+
+TEST_F(TrialSummary, WhereBonesAreStretchedVolumeIsNotJudged)
+{
+    folder.file("run.json", R"({"character": {"model": {"file": "slime.glb"}, "tets": 7, "vertices": 5},
+                                "outcome": {"motion": {"stretched_bones": [{"bone": "top", "change_pct": 53.0, "frame": 7}]},
+                                            "frames": 3, "warnings": [], "notes": []}})");
+    EXPECT_EQ(facts().at("motion").at("stretched_bones").at(0).at("bone"), "top");
+    EXPECT_EQ(trial_sentence(facts()),
+              "At the joints, PBS is nearer to FEM than LBS in 1 of 2 frames. PBS turns up to 1 tet inside out, and LBS up to 3. On "
+              "slime.glb, PBS takes 2 ms per frame instead of 0.25 ms.");
 }
 
 // By hand: the root of (3^2 + 5^2) / 2 and of (3^2 + 4^2) / 2 mm, in the frames that both have.
@@ -284,9 +342,10 @@ TEST_F(TrialSummary, WithoutAJointErrorsAreThoseOfTheBodyAndWhereNothingDeformsN
     const std::string header =
         "deformer,frame,volume_change_pct,inverted_tets,step_ms,error_joint_pct,error_l2_pct,volume_abs_change_pct\n";
     folder.file("metrics.csv", header + "lbs,0,-1,0,1,nan,3,2\npbs,0,-2,0,1,nan,2,2\n");
-    EXPECT_EQ(facts().at("nearer").at("frames"), 1);
+    EXPECT_EQ(facts().at("nearer").at("body").at("frames"), 1);
+    EXPECT_NE(trial_sentence(facts()).find(" Over the body, PBS is nearer to FEM than LBS in 1 of 1 frames. "), std::string::npos);
     folder.file("metrics.csv", header + "lbs,0,0,0,1,nan,1e-9,1e-9\npbs,0,0,0,1,nan,1e-8,0.009\n");
-    EXPECT_TRUE(facts().at("nearer").is_null());
+    EXPECT_TRUE(facts().at("nearer").at("body").is_null());
     EXPECT_EQ(trial_sentence(facts()), "No flesh deforms: it rests or moves rigidly in every frame, so that there is nothing to compare.");
 }
 
@@ -295,7 +354,7 @@ TEST_F(TrialSummary, FramesThatBrokeDownAreLeftOut)
     for (const std::string broken : {"", "nan"}) {
         folder.file("metrics.csv", metrics_header + "lbs,0,-1,0,1,\npbs,0,-2,0,1,\npbs,1," + broken + ",0,3," + broken + "\n");
         EXPECT_EQ(facts().at("volume").at("pbs").at("lowest_pct"), -2.0) << broken;
-        EXPECT_TRUE(facts().at("nearer").is_null()) << broken;
+        EXPECT_TRUE(facts().at("nearer").at("body").is_null()) << broken;
     }
     folder.file("metrics.csv", metrics_header + "lbs,0,-1,0,1,\npbs,0,nan,0,1,\n");
     EXPECT_EQ(trial_sentence(facts()), "PBS or LBS broke down in every frame.");

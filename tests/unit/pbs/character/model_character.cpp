@@ -29,7 +29,7 @@ struct BoxModel {
         }
         body.skin = artist;
     }
-    std::vector<std::string> remarks(double distance_m = 0.0) const
+    RemarkList all_remarks(double distance_m = 0.0) const
     {
         Character character;
         character.mesh = mesh;
@@ -37,14 +37,22 @@ struct BoxModel {
         character.artist = ArtistSkin{.weights = artist, .model = nullptr, .largest_distance_m = distance_m};
         return remarks_on_model(body, character, "a.glb");
     }
+    std::vector<std::string> remarks(double distance_m = 0.0) const
+    {
+        std::vector<std::string> texts;
+        for (const Remark& remark : all_remarks(distance_m)) texts.push_back(remark.text);
+        return texts;
+    }
 };
 
 TEST(ModelRemarks, ThoseOfTheReaderComeFirstWithTheFileAndASoundModelHasNone)
 {
     BoxModel box;
     EXPECT_TRUE(box.remarks().empty());
-    box.body.remarks = {"two joints are named a; one is called a 2"};
-    EXPECT_EQ(box.remarks(), std::vector<std::string>{"a.glb: two joints are named a; one is called a 2"});
+    box.body.remarks = {"mesh hat is moved by no joint; it is left out"};
+    box.body.notes = {"two joints are named a; one is called a 2"};
+    EXPECT_EQ(box.all_remarks(), (RemarkList{{Gravity::part_left_out, "a.glb: mesh hat is moved by no joint; it is left out"},
+                                             {Gravity::information, "a.glb: two joints are named a; one is called a 2"}}));
 }
 
 TEST(ModelRemarks, AnExtentBelowFiveCentimetresOrAboveTwentyMetresSpeaksForOtherUnits)
@@ -87,10 +95,11 @@ TEST(ModelRemarks, AJointThatTheTetsDoNotCarryIsWithoutFlesh)
 
 TEST(ModelRemarks, TetsFarFromTheSurface)
 {
-    const BoxModel box;  // with a diagonal of 1.73 m
+    const BoxModel box;  // with a diagonal of 1.732 m, of which 0.018 m are 1.04 %
     EXPECT_TRUE(box.remarks(0.017).empty());
-    EXPECT_EQ(box.remarks(0.018),
-              std::vector<std::string>{"a.glb: the boundary of the tets lies up to 0.018 m from the surface of the model"});
+    EXPECT_EQ(
+        box.remarks(0.018),
+        std::vector<std::string>{"a.glb: the boundary of the tets lies up to 1.04 % of the body's size from the surface of the model"});
 }
 
 TEST(ModelRemarks, ASurfaceWithoutVolumeIsALayer)
@@ -99,9 +108,10 @@ TEST(ModelRemarks, ASurfaceWithoutVolumeIsALayer)
     box.body.surface = (Positions(4, 3) << 0, 0, 0.5, 1, 0, 0.5, 1, 1, 0.5, 0, 1, 0.5).finished();
     box.body.triangles = (Triangles(2, 3) << 0, 1, 2, 0, 2, 3).finished();
     box.body.skin = {.first = {0, 1, 2, 3, 4}, .bone = {0, 1, 1, 0}, .weight = {1, 1, 1, 1}};
-    const std::vector<std::string> remarks = box.remarks();
+    const RemarkList remarks = box.all_remarks();
     ASSERT_EQ(remarks.size(), 1u);
-    EXPECT_NE(remarks[0].find("a.glb: the surface encloses no volume"), std::string::npos) << remarks[0];
+    EXPECT_EQ(remarks[0].gravity, Gravity::results_wrong);
+    EXPECT_NE(remarks[0].text.find("a.glb: the surface encloses no volume"), std::string::npos) << remarks[0].text;
 }
 
 TEST(ModelRemarks, OfAFileWithoutJointsConcernItsSizeAlone)

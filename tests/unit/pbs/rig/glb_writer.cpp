@@ -206,6 +206,19 @@ TEST_F(GlbWriter, WritesTheFramesSoFarAndLeavesNoOtherFile)
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()), 2);
 }
 
+TEST_F(GlbWriter, ItsSizeIsKnownAfterTheFirstFrame)
+{
+    for (const std::size_t count : {1, 2, 40}) {
+        pbs::GlbWriter writer(folder / "a.glb", "hero", one_triangle);
+        writer.add_frame(0.0, first_frame);
+        const double expected = writer.bytes(static_cast<int>(count));
+        for (std::size_t f = 1; f < count; ++f) writer.add_frame(static_cast<double>(f), first_frame);
+        writer.write();
+        EXPECT_EQ(expected + (count == 1 ? -4.0 : 0.0), parts_of(read_text_file(folder / "a.glb")).bytes.size())
+            << "a file of one frame has no animation";
+    }
+}
+
 TEST_F(GlbWriter, AFolderThatDoesNotExistIsRefusedByName)
 {
     expect_input_error([] { pbs::GlbWriter("/no/such/folder/a.glb", "hero", one_triangle); }, "/no/such/folder/a.glb", "");

@@ -257,7 +257,7 @@ TEST_F(GltfMeshes, ASecondSetOfJointsAddsItsWeights)
     const Rig rig = read();
     EXPECT_EQ(rig.meshes.at(0).skin.bone, (std::vector<int>{0, 1, 0, 1, 1, 0, 1}));
     EXPECT_EQ(rig.meshes.at(0).skin.weight, (std::vector<double>{0.5, 0.5, 0.5, 0.5, 1.0, 0.25, 0.75}));
-    EXPECT_EQ(rig.remarks.size(), 1u) << "1 + 1 is not one";
+    EXPECT_EQ(rig.notes.size(), 1u) << "1 + 1 is not one";
 }
 
 TEST_F(GltfMeshes, NormalisedBytesAsWeightsAndAnyJointOfAWeightOfZero)

@@ -145,9 +145,10 @@ TEST_F(RigReader, TheNameOfAGltfDoesNotMatterAndRemarksReachTheCaller)
 
 // Reference: the definition. The weights of a point are those of its joints divided by their sum.
 
-Weights weights_of_one_point(const std::vector<JointShare>& shares, std::vector<std::string>& remarks)
+Weights weights_of_one_point(const std::vector<JointShare>& shares, std::vector<std::string>& notes)
 {
-    return normalised_skin({shares}, "a.glb", "arm", remarks);
+    std::vector<std::string> remarks;
+    return normalised_skin({shares}, "a.glb", "arm", remarks, notes);
 }
 
 TEST(SkinWeights, SumToOneAfterThoseOfAJointWereAddedAndZerosLeftOut)
@@ -158,13 +159,13 @@ TEST(SkinWeights, SumToOneAfterThoseOfAJointWereAddedAndZerosLeftOut)
           {{{0, 0.5}, {1, 0.5009}}, {0, 1}, {0.5 / 1.0009, 0.5009 / 1.0009}, true},  // within a thousandth of one
           {{{3, 0.25}, {1, 0.5}, {3, 0.25}}, {3, 1}, {0.5, 0.5}, true},
           {{{0, 0.0}, {1, 1.0}}, {1}, {1.0}, true}}) {
-        std::vector<std::string> remarks;
-        const Weights made = weights_of_one_point(shares, remarks);
+        std::vector<std::string> notes;
+        const Weights made = weights_of_one_point(shares, notes);
         EXPECT_EQ(made.bone, bones);
         for (std::size_t w = 0; w < weights.size(); ++w) EXPECT_DOUBLE_EQ(made.weight.at(w), weights[w]);
-        ASSERT_EQ(remarks.size(), is_sum ? 0u : 1u);
+        ASSERT_EQ(notes.size(), is_sum ? 0u : 1u);
         if (!is_sum) {
-            EXPECT_NE(remarks[0].find("1 of the 1 points of mesh arm do not sum to one"), std::string::npos) << remarks[0];
+            EXPECT_NE(notes[0].find("1 of the 1 points of mesh arm do not sum to one"), std::string::npos) << notes[0];
         }
     }
 }
@@ -172,8 +173,8 @@ TEST(SkinWeights, SumToOneAfterThoseOfAJointWereAddedAndZerosLeftOut)
 TEST(SkinWeights, APointWithoutAnyFollowsTheFirstJointWithARemark)
 {
     for (const std::vector<JointShare>& shares : {std::vector<JointShare>{}, {{1, 0.0}, {2, 0.0}}}) {
-        std::vector<std::string> remarks;
-        const Weights weights = normalised_skin({{{2, 1.0}}, shares}, "a.glb", "arm", remarks);
+        std::vector<std::string> remarks, notes;
+        const Weights weights = normalised_skin({{{2, 1.0}}, shares}, "a.glb", "arm", remarks, notes);
         EXPECT_EQ(weights.bone, (std::vector<int>{2, 0}));
         EXPECT_EQ(weights.weight, (std::vector<double>{1.0, 1.0}));
         ASSERT_EQ(remarks.size(), 1u);
@@ -189,8 +190,7 @@ TEST(SkinWeights, ThatAreNegativeNotFiniteOrNoneAreRefused)
     constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [weight, text] : {std::pair(-0.5, "-0.5"), std::pair(nan, "nan"), std::pair(infinity, "inf")}) {
         const std::vector<std::vector<JointShare>> points = {{{0, 1.0}}, {{0, 1.0}, {1, weight}}};
-        std::vector<std::string> remarks;
-        expect_input_error([&] { normalised_skin(points, "a.glb", "arm", remarks); },
+        expect_input_error([&] { normalised_skin(points, "a.glb", "arm", none, none); },
                            std::string("a.glb: mesh arm, weight of point 1 = ") + text + ": ", "expected a finite number of 0 or more");
     }
 }

@@ -89,13 +89,13 @@ TEST(RiggedBody, TheParentOfABoneIsTheNextBoneAbove)
     EXPECT_EQ(body.containers, std::vector<std::string>{"between"});
 }
 
-TEST(RiggedBody, TwoJointsOfOneNameGetNumbersAndARemarkAndAFileWithoutJointsHasNoBones)
+TEST(RiggedBody, TwoJointsOfOneNameGetNumbersAndANoteAndAFileWithoutJointsHasNoBones)
 {
     Rig rig = two_joint_rig(), without_joints = rig;
     rig.nodes[1].name = "root";
     const RiggedBody body = make_rigged_body(rig, nullptr, 1.0);
     EXPECT_EQ(body.skeleton.bones[1].name, "root 2");
-    EXPECT_EQ(body.remarks, std::vector<std::string>{"two joints are named root; one is called root 2"});
+    EXPECT_EQ(body.notes, std::vector<std::string>{"two joints are named root; one is called root 2"});
     without_joints.animations.clear();
     without_joints.meshes[0].joints.clear();
     const RiggedBody statue = make_rigged_body(without_joints, nullptr, 1.0);
@@ -103,17 +103,17 @@ TEST(RiggedBody, TwoJointsOfOneNameGetNumbersAndARemarkAndAFileWithoutJointsHasN
     EXPECT_EQ(statue.surface, without_joints.meshes[0].points);
 }
 
-TEST(RiggedBody, AClosedSurfaceInsideOutIsTurnedWithARemark)
+TEST(RiggedBody, AClosedSurfaceInsideOutIsTurnedWithANote)
 {
     const Triangles outward = (Triangles(4, 3) << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3).finished();  // of the unit tet
     Rig rig = two_joint_rig();
     rig.meshes[0].points << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
     rig.meshes[0].triangles = outward;
-    EXPECT_TRUE(make_rigged_body(rig, nullptr, 1.0).remarks.empty());
+    EXPECT_TRUE(make_rigged_body(rig, nullptr, 1.0).notes.empty());
     rig.meshes[0].triangles.col(1).swap(rig.meshes[0].triangles.col(2));
     const RiggedBody body = make_rigged_body(rig, nullptr, 1.0);
     EXPECT_EQ(body.triangles, outward);
-    EXPECT_EQ(body.remarks, std::vector<std::string>{"the surface is inside out; it is taken as the body that it encloses"});
+    EXPECT_EQ(body.notes, std::vector<std::string>{"the surface is inside out; it is taken as the body that it encloses"});
 }
 
 TEST(RiggedBody, TheAngleFromTheBindPoseToTheRestPoseIsReported)
@@ -155,6 +155,29 @@ Rig rig_with(const std::vector<PlacedJoint>& joints, const std::vector<Vec3>& po
     mesh.skin = test_support::one_joint_each(joint_of_point);
     rig.meshes = {mesh};
     return rig;
+}
+
+// A chain a - helper - b whose helper moves no point. Rotations of all three change no distance, and translations of b and the helper add
+// up.
+TEST(RiggedBody, TheDistanceOfABoneFromItsParentIsAlongTheJointsBetweenThem)
+{
+    Rig rig = rig_with({{"a", -1, {0, 0, 0}}, {"helper", 0, {0, 2, 0}}, {"b", 1, {0, 3, 0}}}, {{0, 0, 1}, {0, 4, 0}, {1, 3, 0}}, {0, 2, 2});
+    RigAnimation animation{"Move", 0.0, 1.0, {}};
+    const Vec3 axis = Vec3(1, 2, 3).normalized() * std::sin(0.5);
+    const Eigen::Vector4d rest(0, 0, 0, 1), turned(axis.x(), axis.y(), axis.z(), std::cos(0.5));
+    for (const int node : {0, 1, 2})
+        animation.nodes.push_back({.node = node, .rotation = KeyTrack{.times_s = {0.0, 1.0}, .values = {rest, turned}}});
+    const MotionSampling sampling{.rate_hz = 2.0, .time_step_s = 0.25};
+    const auto distances = [&] {
+        const RiggedBody body = make_rigged_body(rig, nullptr, 1.0);
+        return rig_motion(rig, body, animation, sampling).distances;
+    };
+    EXPECT_EQ(distances().at(0).change_m, 0.0) << "a root";
+    EXPECT_LE(std::abs(distances().at(1).change_m), body_rounding) << "only rotations";
+    animation.nodes[1].translation = KeyTrack{.times_s = {0.0, 1.0}, .values = {{0, 2, 0, 0}, {0, 5, 0, 0}}};
+    EXPECT_NEAR(distances().at(1).change_m, 3.0, body_rounding);
+    EXPECT_NEAR(distances().at(1).relative, 1.0, body_rounding) << "from 3 to 6";
+    EXPECT_EQ(distances().at(1).frame, 2);
 }
 
 Vec3 tail_of(const std::string& name, const Rig& rig)

@@ -59,7 +59,7 @@ test_support::GltfDocument ellipsoid_document(int balls, bool with_skin)
     return gltf;
 }
 
-Character made_from(const test_support::ScratchFolder& folder, const test_support::GltfDocument& gltf, std::vector<std::string>& remarks)
+Character made_from(const test_support::ScratchFolder& folder, const test_support::GltfDocument& gltf, RemarkList& remarks)
 {
     const std::string path = folder.file("hero.gltf", gltf.text());
     return make_model_character({.file = path, .animation = {}, .vertices = 150}, remarks);
@@ -72,7 +72,7 @@ protected:
     void TearDown() override { ::unsetenv("PBSKIN_CACHE"); }
 
     const test_support::ScratchFolder folder;
-    std::vector<std::string> remarks;
+    RemarkList remarks;
 };
 
 TEST_F(ModelCharacter, HasTheVolumeTheBonesTheWeightsAndTheSurfaceOfItsModel)
@@ -102,7 +102,7 @@ TEST_F(ModelCharacter, PartsWithoutABoneAreLeftOutWithARemark)
 {
     const Character hero = made_from(folder, ellipsoid_document(1, true), remarks);
     ASSERT_EQ(remarks.size(), 1u);
-    EXPECT_NE(remarks[0].find("1 of 2 separate parts have no bone inside; they are left out"), std::string::npos) << remarks[0];
+    EXPECT_NE(remarks[0].text.find("1 of 2 separate parts have no bone inside; they are left out"), std::string::npos) << remarks[0].text;
     EXPECT_LT(hero.mesh.rest.col(0).maxCoeff(), 0.5);
 }
 
