@@ -6,7 +6,7 @@ if(PBS_WITH_MESH_IO)
 else()
     list(APPEND left_out pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/medit_files pbs/geometry/mesh_checks
         pbs/geometry/mesh_io pbs/geometry/mesh_repairs pbs/geometry/msh_files pbs/geometry/surface_obj pbs/geometry/surface_polygons
-        pbs/geometry/surface_reader pbs/geometry/text_words pbs/geometry/vtk_files pbs/character/bodies pbs/character/body_cache)
+        pbs/geometry/text_words pbs/geometry/vtk_files pbs/rig/surface_reader pbs/character/bodies pbs/character/body_cache)
 endif()
 if(PBS_WITH_CGAL)
     list(APPEND left_out pbs/geometry/meshing_unavailable)
@@ -24,11 +24,11 @@ pbs_tests(unit pbs_files
     FILES pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/medit_files pbs/geometry/mesh_checks pbs/geometry/mesh_io
         pbs/geometry/mesh_io_unavailable pbs/geometry/mesh_repairs pbs/geometry/meshing pbs/geometry/meshing_unavailable
         pbs/geometry/msh_files pbs/geometry/self_intersection pbs/geometry/surface_obj pbs/geometry/surface_polygons
-        pbs/geometry/surface_reader pbs/geometry/text_words pbs/geometry/vtk_files
+        pbs/geometry/text_words pbs/geometry/vtk_files
     EXCEPT ${left_out}
-    ALONE pbs/geometry/msh_files pbs/geometry/surface_obj pbs/geometry/surface_reader pbs/geometry/vtk_files
-    LIBRARIES pbs_mesh_io pbs_meshing pbs_module)
-pbs_tests(unit pbs_rig FOLDERS pbs/rig EXCEPT ${left_out} LIBRARIES pbs_rig pbs_mesh_io)
+    ALONE pbs/geometry/msh_files pbs/geometry/surface_obj pbs/geometry/vtk_files
+    LIBRARIES pbs_rig pbs_mesh_io pbs_meshing pbs_module)
+pbs_tests(unit pbs_rig FOLDERS pbs/rig EXCEPT ${left_out} ALONE pbs/rig/surface_reader LIBRARIES pbs_rig pbs_mesh_io)
 pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out}
     ALONE pbs/character/bone_capsules pbs/character/character pbs/character/retarget
     LIBRARIES pbs_character pbs_mesh_io)
@@ -47,7 +47,7 @@ if(PBS_WITH_MESH_IO)
     find_path(GMSH_INCLUDE_DIR gmsh.h REQUIRED)
     find_library(GMSH_LIBRARY gmsh REQUIRED)
     require_known_header(gmsh ${GMSH_INCLUDE_DIR}/gmsh.h GMSH_API_VERSION_MAJOR GMSH_API_VERSION_MINOR)
-    pbs_tests(robustness pbs_geometry FOLDERS pbs/geometry LIBRARIES pbs_mesh_io)
+    pbs_tests(robustness pbs_geometry FOLDERS pbs/geometry LIBRARIES pbs_rig pbs_mesh_io)
     pbs_tests(verification pbs_geometry FOLDERS pbs/geometry LIBRARIES pbs_mesh_io ${GMSH_LIBRARY})  # Gmsh's library, VTK's Python
 endif()
 if(PBS_WITH_CGAL)

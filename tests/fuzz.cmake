@@ -76,11 +76,11 @@ fuzz_target(fuzz/assimp.cpp pbs_rig
     pbs/geometry/content_format.cpp
     pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
 fuzz_libraries(assimp assimp::assimp pugixml::pugixml ${MINIZIP_LIBRARY} ZLIB::ZLIB)
-fuzz_target(fuzz/content.cpp pbs_mesh_io
+fuzz_target(fuzz/content.cpp pbs_rig
     pbs/geometry/content_format.cpp pbs/geometry/mesh_io.cpp pbs/geometry/mesh_checks.cpp pbs/geometry/mesh_repairs.cpp
-    pbs/geometry/msh_files.cpp pbs/geometry/files.cpp pbs/geometry/vtk_files.cpp pbs/geometry/surface_reader.cpp
+    pbs/geometry/msh_files.cpp pbs/geometry/files.cpp pbs/geometry/vtk_files.cpp pbs/rig/surface_reader.cpp
     pbs/geometry/tet_mesh.cpp pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
-fuzz_libraries(content assimp::assimp ${VTK_LIBRARIES})
+fuzz_libraries(content pbs_mesh_io ${VTK_LIBRARIES})
 if(PBS_WITH_FUZZ)
     set(settings PBS_SOURCE=${PROJECT_SOURCE_DIR} PBS_FUZZ_PROGRAMS=${CMAKE_BINARY_DIR}/tests PBS_FUZZ_FOLDER=${CMAKE_BINARY_DIR}/fuzz
         PYTHONPATH=${CMAKE_CURRENT_SOURCE_DIR}/support)

@@ -9,7 +9,7 @@ pbs_tests(unit pbs_geometry FOLDERS pbs/geometry
     EXCEPT pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/medit_files pbs/geometry/mesh_checks pbs/geometry/mesh_io
         pbs/geometry/mesh_io_unavailable pbs/geometry/mesh_repairs pbs/geometry/meshing pbs/geometry/meshing_unavailable
         pbs/geometry/msh_files pbs/geometry/self_intersection pbs/geometry/surface_obj pbs/geometry/surface_polygons
-        pbs/geometry/surface_reader pbs/geometry/text_words pbs/geometry/vtk_files
+        pbs/geometry/text_words pbs/geometry/vtk_files
     ALONE pbs/geometry/topology
     LIBRARIES pbs_method)
 pbs_tests(unit pbs_skinning FOLDERS pbs/skinning pbs/constraints

@@ -1,6 +1,7 @@
 #include "analysis/metrics/closed_shells.hpp"
 
 #include "analysis/metrics/frame_metrics.hpp"
+#include "pbs/geometry/winding_number.hpp"
 
 #include <Eigen/Geometry>
 
@@ -8,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <set>
 
@@ -230,20 +230,6 @@ std::vector<Shell> shells_of(const pbs::Positions& points, const pbs::Triangles&
     return shells;
 }
 
-// The winding number of a closed shell around a point: the sum of the solid angles of its triangles over 4 pi. A. Van Oosterom, J.
-// Strackee, The solid angle of a plane triangle, IEEE Transactions on Biomedical Engineering 30 (1983), Eq. 8.
-double winding_number(const pbs::Positions& points, const pbs::Triangles& triangles, const pbs::Vec3& around)
-{
-    double half_angles = 0.0;
-    for (const auto& triangle : triangles.rowwise()) {
-        const pbs::Vec3 a = points.row(triangle(0)).transpose() - around, b = points.row(triangle(1)).transpose() - around,
-                        c = points.row(triangle(2)).transpose() - around;
-        const double la = a.norm(), lb = b.norm(), lc = c.norm();
-        half_angles += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-    }
-    return half_angles / (2.0 * std::numbers::pi);
-}
-
 Eigen::AlignedBox3d box_of(const pbs::Positions& points, const pbs::Triangles& triangles)
 {
     Eigen::AlignedBox3d box;
@@ -274,7 +260,7 @@ void set_roles(const pbs::Positions& points, std::vector<Shell>& shells, std::ve
         for (std::size_t o = boxes.size(); o-- > 0 && shell.inside < 0;) {
             const Shell& other = shells[closed[o]];
             if (is_copy(shell, box, other, boxes[o])) shell.role = ShellRole::copy;
-            if (boxes[o].contains(box) && std::abs(winding_number(points, other.triangles, within)) > 0.5) shell.inside = closed[o];
+            if (boxes[o].contains(box) && std::abs(pbs::winding_number(points, other.triangles, within)) > 0.5) shell.inside = closed[o];
         }
         boxes.push_back(box);
         if (shell.role == ShellRole::copy) continue;

@@ -13,6 +13,7 @@
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
+#include "pbs/rig/surface_reader.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

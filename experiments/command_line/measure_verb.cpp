@@ -10,8 +10,8 @@
 #include "experiments/command_line/measure/measured_frames.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io.hpp"
 #include "pbs/rig/rig_reader.hpp"
+#include "pbs/rig/surface_reader.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -43,7 +43,7 @@ int measure(MeasureArguments& arguments, bool quiet)
     if (is_rig && !pbs::is_rig_file(arguments.rest))
         throw pbs::InputError(
             arguments.rest, 0, "frames", "",
-            "expected deformed frames behind the rest mesh; only a rigged model (.glb .gltf .fbx .dae) brings its own motion");
+            "expected deformed frames behind the rest mesh; only a rigged model (.glb .gltf .fbx .dae .zae) brings its own motion");
     require_effect(arguments, is_rig, is_surface ? analysis::Measured::surface : analysis::Measured::tets);
     for (const std::string& file : {arguments.csv, arguments.shells})
         if (!file.empty()) analysis::require_writable(file);
@@ -61,15 +61,17 @@ void add_measure_verb(CommandLine& line)
                               [&common = line.common, arguments] { return measure(*arguments, common.quiet); });
     verb->add_option(
             "rest", arguments->rest,
-            "rest mesh: tets (.msh .vtu .pvtu .vtk .mesh .tobj .ele) or a surface (.obj .ply .stl .off .vtp .glb .gltf .fbx .dae); "
+            "rest mesh: tets (.msh .vtu .pvtu .vtk .mesh .tobj .ele) or a surface (.obj .ply .stl .off .vtp .glb .gltf .fbx .dae .zae); "
             "without frames: a rigged model, along its animation")
         ->required();
     verb->add_option(
         "frame", arguments->frames,
         "deformed frames, the same vertices in the same order: files, a .pvd, 'frame_%04d.vtu', 'frame_*.vtu' or a folder with one "
         "sequence");
-    verb->add_option("--displacement", arguments->displacement,
-                     "vector of the points, such as u, that deforms the frames of finite element programs; none: frames are at rest")
+    verb->add_option(
+            "--displacement", arguments->displacement,
+            "vector of the points, such as u (also of ux, uy, uz), that deforms the frames of finite element programs; none: frames "
+            "are at rest")
         ->type_name("NAME");
     verb->add_flag("--any-step", arguments->any_step, "accepts a sequence in which numbers are missing, or whose steps differ");
     verb->add_option("--animation", arguments->animation, "of a rigged model; by default the one that `try` takes")->type_name("NAME");

@@ -162,8 +162,8 @@ void add_try_verb(CommandLine& line)
     verb->add_option("model", options->model, ".glb .gltf .fbx .dae .zae")->required();
     verb->add_option(
         "--animation", options->animation,
-        "an animation of the model by name, the second of equal names being NAME (2), or a clip (.bvh .gltf .glb .fbx .dae); by "
-        "default the model's first one that turns a joint by more than 5 degrees");
+        "an animation of the model by name, the second of equal names being NAME (2), or a clip FILE (.bvh .gltf .glb .fbx .dae .zae), or "
+        "an animation of one, FILE:NAME; by default the model's first one that turns a joint by more than 5 degrees");
     verb->add_option("-o,--output", options->folder,
                      "folder of the records; by default results/NAME; an earlier trial of the same model there is replaced");
     verb->add_option("--frames", options->frames, "largest number of frames, distributed over the motion")

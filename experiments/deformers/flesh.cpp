@@ -85,7 +85,10 @@ public:
     nlohmann::json record() const override
     {
         if (!flesh_) return nullptr;
-        return {{"springs_outside_the_tets", flesh_->hold().left_out()}, {"entries_of_factor", flesh_->factor().value.size()}};
+        nlohmann::json record = {{"springs_outside_the_tets", flesh_->hold().left_out()},
+                                 {"entries_of_factor", flesh_->factor().value.size()}};
+        if (flesh_->energy().slivers() > 0) record["weakened_slivers"] = flesh_->energy().slivers();
+        return record;
     }
 
 protected:
@@ -203,7 +206,9 @@ public:
     nlohmann::json record() const override
     {
         nlohmann::json record = FleshDeformer::record();
-        if (constraints_) record["linear_constraints_of_the_bones"] = 3 * constraints_->hold.modes().size();
+        if (!constraints_) return record;
+        record["linear_constraints_of_the_bones"] = 3 * constraints_->hold.modes().size();
+        record.erase("weakened_slivers");  // the constraints of all tets keep their stiffness
         return record;
     }
 

@@ -162,6 +162,8 @@ const std::vector<MetricText>& metric_texts()
             analysis::TomlKeys keys(*table, file, "metric");
             keys.required("name", text.name);
             keys.required("formula", text.formula);
+            keys.optional("unit", text.unit);
+            keys.optional("meaning", text.meaning);
             keys.optional("source", text.source);
             keys.optional("cost", text.cost);
             keys.optional("symbols", text.symbols);
@@ -174,7 +176,13 @@ const std::vector<MetricText>& metric_texts()
                 texts.push_back(found->second);
                 texts.back().unit = column.unit;
                 texts.back().meaning = column.meaning;
+                formulae.erase(found);
             }
+        for (auto& [name, text] : formulae) {
+            if (text.meaning.empty()) continue;
+            text.is_of_measure_alone = true;
+            texts.push_back(text);
+        }
         return texts;
     }();
     return all;

@@ -36,6 +36,7 @@ analysis::Columns<MetricRow> metric_columns_of(const Scene& scene);       // wit
 struct MetricText {
     std::string name, unit, formula, meaning, source, cost;
     std::vector<std::string> symbols;  // of the formula, each as "name: meaning"
+    bool is_of_measure_alone = false;  // otherwise a column of metrics.csv
 };
 const std::vector<MetricText>& metric_texts();
 const MetricText* find_metric(const std::string& name);  // null: no metric has this name

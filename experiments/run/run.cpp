@@ -15,6 +15,7 @@
 #include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_io.hpp"
 #include "pbs/solver/step_summary.hpp"
 
 #include <fmt/chrono.h>
@@ -119,7 +120,6 @@ OutputSpec measured_output(const Scene& scene)
     return output;
 }
 
-constexpr double farthest_m = 1e9;           // of a vertex from the origin
 constexpr double many_inverted_pct = 1.0;    // of the tets, in the first frame
 constexpr double far_from_artist_pct = 2.0;  // of the model's size
 constexpr double much_lag_deg = 5.0;         // of a part that one bone alone moves
@@ -169,6 +169,7 @@ public:
             remarks_.add(pbs::Gravity::information,
                          {scene.file + ": surface_volume_change_pct is empty: the rendered surface is open or encloses no volume"});
         warn_of_bones_without_flesh();
+        warn_of_weakened_slivers();
         if (scene.error_bar != ErrorBar::none)
             cost_.time("error_bar_set_up", [&] { error_bar_.emplace(runners_.front().spec, character_); });
     }
@@ -200,6 +201,23 @@ private:
                              {fmt::format("{}: {} leaves out {} of {} bones, whose middle lies outside the flesh: {}", scene_.file,
                                           runner.spec.label, without.size(), character_.skeleton.bones.size(), pbs::name_list(without))});
         }
+    }
+
+    void warn_of_weakened_slivers()
+    {
+        std::vector<std::string> labels;
+        int slivers = 0;
+        for (const Runner& runner : runners_) {
+            const nlohmann::json record = runner.deformer->record();
+            if (!record.contains("weakened_slivers")) continue;
+            slivers = record.at("weakened_slivers").get<int>();
+            labels.push_back(runner.spec.label);
+        }
+        if (!labels.empty())
+            add_warnings({fmt::format("{}: {} of {} tets are slivers, whose volume is below 1e-5 of their longest edge cubed: {} could not "
+                                      "turn them, and take them as soft as regular tets; remesh the body, or leave these tets out",
+                                      scene_.file, slivers, character_.mesh.tets.rows(), fmt::join(labels, ", "))},
+                         warnings_);
     }
 
     void play()
@@ -437,7 +455,7 @@ private:
         if (is_elsewhere) context.reference = nullptr;
         const FrameMeasurement measured = cost_.time("metrics", [&] { return measurer_.measure(positions, context); });
         // As readers refuse: products of such lengths may leave the range of a double.
-        const bool has_volume = std::isfinite(measured.metrics.volume_change_pct) && positions.cwiseAbs().maxCoeff() <= farthest_m;
+        const bool has_volume = std::isfinite(measured.metrics.volume_change_pct) && positions.cwiseAbs().maxCoeff() <= pbs::farthest_m;
         if (!has_volume) step.outcome = pbs::Outcome::not_finite;
         cost_.time("records", [&] {
             folder_.add_frame(runner.spec, frame, time_s, measured, step);

@@ -50,7 +50,7 @@ void check_character(const SceneValues& values, const pbs::CharacterSource& sour
 pbs::CharacterSource read_character(const SceneValues& values, const std::string& folder)
 {
     pbs::CharacterSource source = character_fields().read(values, "character");
-    source.animation = values.text("motion.animation");
+    if (values.text("motion.clip").empty()) source.animation = values.text("motion.animation");
     const bool has_named_skeleton = !source.model_file.empty() && source.skeleton_file == "human";
     for (std::string* file : {&source.model_file, &source.mesh_file, &source.skeleton_file})
         if (file != &source.skeleton_file || !has_named_skeleton) *file = in_folder(folder, *file);
@@ -86,8 +86,9 @@ MotionSpec read_motion(const SceneValues& values, const std::string& folder)
     MotionSpec motion = motion_fields().read(values, "motion");
     motion.time_step_s = values.number("pbs.time_step_s");
     const bool has_model = !values.text("character.model").empty();
-    if (!motion.animation.empty() && !has_model) values.refuse("motion.animation", "expected a character.model, which has animations");
-    const int motions = !motion.joint.empty() + !motion.clip.empty() + !motion.animation.empty() + !motion.movements.empty();
+    const bool is_of_model = !motion.animation.empty() && motion.clip.empty();  // otherwise of the clip
+    if (is_of_model && !has_model) values.refuse("motion.animation", "expected a motion.clip or a character.model, which have animations");
+    const int motions = !motion.joint.empty() + !motion.clip.empty() + is_of_model + !motion.movements.empty();
     if (motions > 1 || (motions == 0 && !has_model))
         values.refuse("motion.joint", "expected either a joint (a sweep), movements, a clip, or an animation of character.model");
     motion.of_model = has_model && motion.joint.empty() && motion.clip.empty() && motion.movements.empty();
@@ -244,7 +245,7 @@ std::vector<std::string> notes_on_angles(const std::vector<pbs::PartAngle>& angl
 
 CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& character)
 {
-    const pbs::Clip clip = pbs::read_clip(spec.clip);
+    const pbs::Clip clip = pbs::read_clip(spec.clip, spec.animation);
     const pbs::ClipMatch match = accepted_match(spec, clip, character.skeleton);
     CaseMotion made;
     made.motion = pbs::retarget(clip, character.skeleton, clip_sampling(spec), &made.angles);
@@ -412,7 +413,7 @@ pbs::Motion make_motion(const MotionSpec& spec, const pbs::Skeleton& skeleton, c
             throw pbs::InputError(scene_file, 0, "motion.joint", spec.joint, fmt::format("expected one of {}", fmt::join(names, ", ")));
         return pbs::joint_sweep(skeleton, joint, spec.axis.normalized(), spec.angle_deg, spec.frames, spec.time_step_s);
     }
-    return pbs::retarget(pbs::read_clip(spec.clip), skeleton, clip_sampling(spec));
+    return pbs::retarget(pbs::read_clip(spec.clip, spec.animation), skeleton, clip_sampling(spec));
 }
 
 CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& character, const std::string& scene_file)

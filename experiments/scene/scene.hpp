@@ -30,7 +30,7 @@ struct MotionSpec {
     int frames = 18;                      // of a sweep; of each movement, after the rest pose
     std::string clip;                     // or a clip: its path
     bool of_model = false;                // or an animation of the character's model, which may have none
-    std::string animation;                // its name; empty: the first one
+    std::string animation;                // its name, or of the clip's file; empty: the first one, of a clip the first that moves
     bool allow_partial = false;           // of a clip: fewer than half of its moving joints may match
     double start_s = 0.0, duration_s = 0.0, rate_hz = 100.0;
     double time_step_s = 0.01;

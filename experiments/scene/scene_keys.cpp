@@ -31,9 +31,10 @@ const OptionFields<pbs::CharacterSource>& character_fields()
                  {.range = {1e-6, 1e6}, .meaning = "factor by which a model is enlarged, for files that state a wrong unit"})
             .add("mesh", &Source::mesh_file, {.meaning = "tet mesh file, relative to the scene: .msh .vtu .vtk .mesh .ele"})
             .add("skeleton", &Source::skeleton_file,
-                 {.meaning = "skeleton file, relative to the scene: .toml with [[joint]] tables, or the joints of a clip or a rig "
-                             "(.bvh .gltf .glb .fbx .dae); with a model, only for one without joints: such a file, or human, the skeleton "
-                             "of that body"})
+                 {.meaning =
+                      "skeleton file, relative to the scene: .toml with [[joint]] tables, or the joints of a clip or a rig "
+                      "(.bvh .gltf .glb .fbx .dae .zae); with a model, only for one without joints: such a file, or human, the skeleton "
+                      "of that body"})
             .add(
                 "skeleton_scale", &Source::skeleton_scale,
                 {.unit = "m", .range = {above_zero, 1e6}, .meaning = "metres per unit of the skeleton file; for CMU's clips 0.0254 / 0.45"})
@@ -63,13 +64,15 @@ const OptionFields<MotionSpec>& motion_fields()
                              "(`pbskin list movements`)"})
             .add("clip", &MotionSpec::clip,
                  {.meaning =
-                      "motion capture clip (.bvh .glb .gltf .fbx .dae): relative to the scene, or by name from Debian's assimp-testmodels "
+                      "motion capture clip (.bvh .glb .gltf .fbx .dae .zae): relative to the scene, or by name from Debian's "
+                      "assimp-testmodels "
                       "(01_01.bvh); a bone follows the joint of the same name, or of the same part of the body in the names of CMU (BVH, "
                       "ASF/AMC), Mixamo, Rigify, Unreal, VRM and VRoid, Rokoko, Poser and Daz, Biped, Character Creator, OptiTrack, Xsens, "
                       "SMPL and Bandai-Namco; it may be z up or face another way, and its rest pose is its T or A pose"})
             .add("animation", &MotionSpec::animation,
                  {.meaning =
-                      "an animation of character.model by name, the second of equal names being NAME (2); without this key, a joint or a "
+                      "an animation of the clip's file, or without a clip of character.model, by name, the second of equal names being "
+                      "NAME (2); without this key the clip's first one that turns a joint by more than 5 degrees, or without a joint and a "
                       "clip the model's first one"})
             .add("allow_partial", &MotionSpec::allow_partial,
                  {.meaning = "accepts a clip of which fewer than half of the moving joints match a bone, or one half of a limb alone does; "

@@ -57,17 +57,25 @@ std::string sampled(double duration_s, const TrialOptions& options, const std::s
     return fmt::format("rate_hz = {}\n", nlohmann::json(trial_rate_hz(duration_s, options.frames, file)).dump());
 }
 
+// What --animation names, if it is no animation of the model.
+struct NamedClip {
+    std::string given, file;     // as it was given; its path
+    std::string animation = "";  // empty: the one that read_clip takes
+};
+
 // A clip of another skeleton is refused before any tets are made, which takes seconds.
-std::string clip_motion(const TrialOptions& options, const std::string& clip_file, const pbs::Skeleton& joints_of_the_model)
+std::string clip_motion(const TrialOptions& options, const NamedClip& named, const pbs::Skeleton& joints_of_the_model)
 {
-    const pbs::Clip clip = pbs::read_clip(clip_file);
+    const pbs::Clip clip = pbs::read_clip(named.file, named.animation);
     MotionSpec spec;
-    spec.clip = clip_file;
+    spec.clip = named.file;
     spec.allow_partial = options.allow_partial;
     if (!joints_of_the_model.bones.empty()) accepted_match(spec, clip, joints_of_the_model);
-    const std::string name = fs::exists(options.animation) ? from_folder(clip_file, options.folder) : options.animation;
-    return fmt::format("clip = {}\n{}", quoted(name), options.allow_partial ? "allow_partial = true\n" : "") +
-           sampled((clip.frames() - 2) * clip.frame_time_s, options, clip_file);  // the first frame is a T pose
+    const std::string name = fs::exists(named.given) ? from_folder(named.file, options.folder) : named.given;
+    return fmt::format("clip = {}\n", quoted(name)) +
+           (named.animation.empty() ? "" : fmt::format("animation = {}\n", quoted(named.animation))) +
+           (options.allow_partial ? "allow_partial = true\n" : "") +
+           sampled((clip.frames() - 2) * clip.frame_time_s, options, named.file);  // the first frame is a T pose
 }
 
 // The bone with a parent that moves most of the skin together with all bones below it.
@@ -100,15 +108,23 @@ std::string bending(const TrialOptions& options, const pbs::RiggedBody& body, st
                        axis.z(), bend_deg, options.frames);
 }
 
-// The file of --animation, which is no animation of the model. Where it is no clip either, the error lists the animations.
-std::string clip_file(const TrialOptions& options, const pbs::Rig& rig)
+// FILE or FILE:NAME, either of which may have colons. Where there is no such file, the error lists the animations of the model.
+NamedClip named_clip(const TrialOptions& options, const pbs::Rig& rig)
 {
-    try {
-        return pbs::find_clip(options.animation, "");
-    } catch (const pbs::InputError&) {
-        if (!fs::exists(options.animation)) pbs::find_animation(rig, options.animation);
-        throw;
+    const std::string& given = options.animation;
+    for (std::size_t colon = given.size(); colon != std::string::npos && colon > 0; colon = given.rfind(':', colon - 1)) {
+        NamedClip clip{.given = given.substr(0, colon), .file = ""};
+        try {
+            clip.file = pbs::find_clip(clip.given, "");
+        } catch (const pbs::InputError&) {
+            if (fs::exists(clip.given)) throw;
+            continue;
+        }
+        if (colon + 1 < given.size()) clip.animation = given.substr(colon + 1);
+        return clip;
     }
+    if (!rig.animations.empty()) pbs::find_animation(rig, given);  // whose error lists them
+    throw pbs::InputError(options.model, 0, "animation", given, "the file has no animation: expected a clip FILE, or FILE:NAME");
 }
 
 // The largest rotation of a bone against its parent from the first frame [deg]: the root's turns the whole body. A single bone counts
@@ -187,7 +203,7 @@ std::string motion(const TrialOptions& options, TrialScene& made)
     if (named != rig.animations.end())
         taken = &*named;
     else if (!options.animation.empty())
-        return clip_motion(options, clip_file(options, rig), body.skeleton);
+        return clip_motion(options, named_clip(options, rig), body.skeleton);
     if (taken) return fmt::format("animation = {}\n", quoted(taken->name)) + sampled(taken->end_s - taken->start_s, options, options.model);
     if (body.skeleton.bones.empty())
         throw pbs::InputError(options.model, 0, "skins", "0",

@@ -13,7 +13,7 @@ namespace experiments {
 
 struct TrialOptions {
     std::string model;      // the file, relative to the working folder
-    std::string animation;  // one of the model's by name, or a clip's file; empty: the first one that moves
+    std::string animation;  // one of the model's by name, a clip's FILE, or FILE:NAME; empty: the first one that moves
     std::string skeleton;   // of a model without joints: a file, or human
     std::string folder;     // where scene.toml will be
     int frames = 60;        // at most, distributed over the motion

@@ -23,12 +23,6 @@ constexpr int deepest_nesting = 500;
 constexpr float farthest_number = 1e9F;  // of angles too, for assimp's functions count whole turns one by one
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf", blanks = " \t\r\n\v\f";
 
-std::string lower_case(std::string text)
-{
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
-
 std::string trimmed(const std::string& text)
 {
     const std::size_t first = text.find_first_not_of(blanks);
@@ -73,9 +67,9 @@ public:
 
     BvhMotion motion(std::vector<std::string>& remarks)
     {
-        if (lower_case(word()) != "hierarchy") refuse("", "", "no clip in BVH: expected HIERARCHY as the first word");
-        std::string keyword = lower_case(word());
-        for (; keyword == "root"; keyword = lower_case(word())) joint(-1, false, 0);
+        if (in_lower_case(word()) != "hierarchy") refuse("", "", "no clip in BVH: expected HIERARCHY as the first word");
+        std::string keyword = in_lower_case(word());
+        for (; keyword == "root"; keyword = in_lower_case(word())) joint(-1, false, 0);
         if (keyword != "motion") refuse("hierarchy", keyword, "expected ROOT or MOTION");
         if (motion_.channels == 0) refuse("CHANNELS", "0", "holds no motion");
         const double frames = labelled_number("Frames");
@@ -166,7 +160,7 @@ private:
         const int index = static_cast<int>(motion_.joints.size());
         motion_.joints.push_back(read);
         for (;;) {
-            const std::string keyword = lower_case(word());
+            const std::string keyword = in_lower_case(word());
             if (keyword == "}") return;
             if (keyword.empty()) refuse("JOINT", read.name, "the file ends inside this joint");
             if (keyword == "offset")
@@ -187,7 +181,7 @@ private:
         if (!joint.channels.empty()) refuse("CHANNELS", joint.name, "expected them once per joint");
         joint.first_channel = motion_.channels;
         for (int c = 0; c < static_cast<int>(count); ++c) {
-            const std::string channel = word(), lower = lower_case(channel);
+            const std::string channel = word(), lower = in_lower_case(channel);
             const bool turns = lower.ends_with("rotation"), moves = lower.ends_with("position");
             if (lower.size() != 9 || lower[0] < 'x' || lower[0] > 'z' || !(turns || moves))
                 refuse("CHANNELS", channel, "expected Xposition to Zposition or Xrotation to Zrotation, as many as CHANNELS states");
@@ -201,9 +195,9 @@ private:
     {
         at_ = std::min(text_.find_first_not_of(blanks, at_), text_.size());
         const std::size_t end = std::min(text_.find_first_of("\n\r", at_), text_.size()), colon = text_.find(':', at_);
-        std::string key = colon < end ? lower_case(trimmed(text_.substr(at_, colon - at_))) : "";
+        std::string key = colon < end ? in_lower_case(trimmed(text_.substr(at_, colon - at_))) : "";
         std::erase_if(key, [](unsigned char c) { return std::isspace(c) > 0; });
-        std::string wanted = lower_case(label);
+        std::string wanted = in_lower_case(label);
         std::erase(wanted, ' ');
         if (key != wanted) refuse(label, trimmed(text_.substr(at_, end - at_)), "expected '" + label + ": ' and a number");
         label_value_ = trimmed(text_.substr(colon + 1, end - colon - 1));
@@ -349,7 +343,8 @@ bool is_bvh(const std::string& text, const std::string& path)
 {
     constexpr std::string_view first_word = "hierarchy";
     const std::size_t word = text.find_first_not_of(blanks, text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
-    return lower_extension(path) == ".bvh" || (word != std::string::npos && lower_case(text.substr(word, first_word.size())) == first_word);
+    return lower_extension(path) == ".bvh" ||
+           (word != std::string::npos && in_lower_case(text.substr(word, first_word.size())) == first_word);
 }
 
 Clip read_bvh(const std::string& text, const std::string& path)

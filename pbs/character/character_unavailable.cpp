@@ -27,7 +27,7 @@ constexpr const char* left_out = "left out of this build (PBS_WITH_RIG_IMPORT is
 
 }  // namespace
 
-PBS_REFUSE(refuse_file(path, "clips"), Clip read_clip(const std::string& path))
+PBS_REFUSE(refuse_file(path, "clips"), Clip read_clip(const std::string& path, const std::string&))
 PBS_REFUSE(refuse_file(name, "skeleton files"), Skeleton parse_skeleton(const std::string&, const std::string& name))
 PBS_REFUSE(refuse_body("human"), Skeleton human_skeleton())
 PBS_REFUSE(refuse_body(name), std::vector<std::string> human_files(const std::string& name))

@@ -122,9 +122,8 @@ double largest_turn_deg(const Rig& rig, const RigAnimation& animation)
     return largest * 180.0 / M_PI;
 }
 
-const RigAnimation& moving_animation(const Rig& rig, Clip& clip)
+const RigAnimation& moving_animation_of_clip(const Rig& rig, Clip& clip)
 {
-    if (rig.animations.empty()) throw InputError(rig.file, 0, "animations", "0", "holds no motion");
     const RigAnimation* taken = nullptr;
     double largest_deg = -1.0;
     std::vector<std::string> others;
@@ -140,9 +139,10 @@ const RigAnimation& moving_animation(const Rig& rig, Clip& clip)
     const std::string why = largest_deg > least_turn_deg ? "the first one that turns a joint by more than "
                                                          : "since it turns a joint most, although by no more than ";
     if (!others.empty())
-        clip.remarks.push_back(rig.file + ": it has " + std::to_string(rig.animations.size()) + " animations; " + taken->name +
-                               " is taken, " + why + number_text(least_turn_deg) +
-                               " degrees (export another one alone to take it: " + name_list(others) + ")");
+        clip.remarks.push_back(
+            rig.file + ": it has " + std::to_string(rig.animations.size()) + " animations; " + taken->name + " is taken, " + why +
+            number_text(least_turn_deg) +
+            " degrees (motion.animation = NAME of a scene, or --animation FILE:NAME of try, takes another one: " + name_list(others) + ")");
     return *taken;
 }
 
@@ -188,12 +188,13 @@ bool holds(const NodeTracks& tracks)
     return is_step(tracks.rotation) || is_step(tracks.translation) || std::ranges::any_of(fbx_curves(tracks), is_constant);
 }
 
-Clip clip_of_rig(const std::string& path)
+Clip clip_of_rig(const std::string& path, const std::string& name)
 {
     const Rig rig = read_any_rig(path);
     Clip clip;
     clip.name = path;
-    const RigAnimation& animation = moving_animation(rig, clip);
+    if (rig.animations.empty()) throw InputError(path, 0, "animations", "0", "holds no motion");
+    const RigAnimation& animation = name.empty() ? moving_animation_of_clip(rig, clip) : *find_animation(rig, name);
     const std::set<int> moved = moved_nodes(animation);
     if (moved.empty()) throw InputError(path, 0, "animation", animation.name, "its motion moves none of its joints");
     add_joints(rig, moved, clip);
@@ -234,17 +235,18 @@ void check_clip(const Clip& clip)
         throw InputError(clip.name, 0, "frame time", std::to_string(clip.frame_time_s), "expected 1e-6 to 1000 s");
 }
 
-Clip read_clip(const std::string& path)
+Clip read_clip(const std::string& path, const std::string& animation)
 {
     if (!is_rig_file(path)) {
         const std::string text = read_text_file(path);
         if (!is_bvh(text, path))
-            throw InputError(path, 0, "", "", "no clip: expected BVH, glTF (.glb, .gltf), FBX (.fbx) or COLLADA (.dae)");
+            throw InputError(path, 0, "", "", "no clip: expected BVH, glTF (.glb, .gltf), FBX (.fbx) or COLLADA (.dae, .zae)");
+        if (!animation.empty()) throw InputError(path, 0, "animation", animation, "expected no name: a BVH file holds one motion");
         Clip clip = read_bvh(text, path);
         check_clip(clip);
         return clip;
     }
-    Clip clip = clip_of_rig(path);
+    Clip clip = clip_of_rig(path, animation);
     check_clip(clip);
     return clip;
 }

@@ -26,11 +26,12 @@ struct Clip {
     int frames() const { return static_cast<int>(local.size()); }
 };
 
-// The motion in the file. BVH keeps its frames. Of a rig (glTF, FBX, COLLADA) the first animation that turns a joint by more than 5 degrees
-// is taken, or else the one that turns one most; it is sampled at 120 Hz, and its zero pose is the bind pose of the skin, or where there is
-// none the pose of the nodes without an animation. Unreadable, empty and non-finite clips are InputErrors, and so are two joints of one
-// name, a motion that moves none of the joints, files over 256 MiB, and every clip in a build without rig import (PBS_WITH_RIG_IMPORT).
-Clip read_clip(const std::string& path);
+// The motion in the file. BVH keeps its frames. Of a rig (glTF, FBX, COLLADA) the animation of that name is taken; if the name is empty,
+// the first one that turns a joint by more than 5 degrees, or else the one that turns one most. It is sampled at 120 Hz, and its zero pose
+// is the bind pose of the skin, or where there is none the pose of the nodes without an animation. Unreadable, empty and non-finite clips
+// are InputErrors, and so are two joints of one name, a motion that moves none of the joints, files over 256 MiB, and every clip in a build
+// without rig import (PBS_WITH_RIG_IMPORT).
+Clip read_clip(const std::string& path, const std::string& animation = "");
 
 // The parts of read_clip. Dialects of BVH: keywords in any case, names with spaces, any white space and line breaks, several roots, a row
 // more or less than Frames states, numbers without a blank before a minus sign, positions in the channels in place of offsets. An
@@ -124,7 +125,7 @@ double largest_rotation_deg(const Motion& motion);
 // The largest displacement of an end of a bone from the first pose to another one [m].
 double largest_displacement_m(const Motion& motion, const Skeleton& skeleton);
 
-// The skeleton that a clip's file (BVH, glTF, FBX) carries: its joints in the clip's rest pose.
+// The skeleton that a clip's file (BVH, glTF, FBX, COLLADA) carries: its joints in the clip's rest pose.
 //   const Skeleton skeleton = skeleton_from_clip(read_clip("01_01.bvh"), 0.0254 / 0.45);   // CMU's unit in metres
 // A bone runs from each joint to its first child that lies elsewhere; joints without one (ends, and joints that coincide with their child)
 // have none, and what is attached to them is attached to the next bone above. scale: metres per unit of the clip. InputError where no bone

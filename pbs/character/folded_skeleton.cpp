@@ -1,5 +1,6 @@
 #include "pbs/character/skeleton_file.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_io.hpp"
 
 #include <Eigen/Geometry>
 
@@ -12,7 +13,6 @@ namespace {
 
 constexpr double shortest_bone = 1e-9;  // of the diagonal of the skeleton's bounding box
 constexpr std::size_t most_joints = 2000;
-constexpr double farthest_m = 1e9;
 
 std::map<std::string, int> index_of_names(const std::vector<NamedJoint>& joints, const std::string& file)
 {

@@ -124,7 +124,7 @@ struct JointKey {
 };
 
 // In lower case, at separators and at capitals: LHipJoint -> l, hip, joint. A namespace ends with a colon.
-std::vector<std::string> words_of(const std::string& name)
+std::vector<std::string> words_in_name(const std::string& name)
 {
     const auto byte = [&](std::size_t at) -> unsigned char { return at < name.size() ? name[at] : '\0'; };
     std::vector<std::string> words(1);
@@ -143,16 +143,22 @@ bool is_small_part(const std::string& word)
     return small_parts.count(word.substr(0, word.find_last_not_of("0123456789") + 1)) > 0;
 }
 
-// Whether a scheme has this name for the part.
-bool is_called(const BodyPart& part, int scheme, std::string_view stem)
+// The names that a scheme has for the part.
+std::vector<std::string_view> names_of(const BodyPart& part, int scheme)
 {
-    std::string_view names = part.names[scheme];
-    while (!stem.empty() && !names.empty()) {
+    std::vector<std::string_view> list;
+    for (std::string_view names = part.names[scheme]; !names.empty();) {
         const std::size_t end = std::min(names.find(' '), names.size());
-        if (names.substr(0, end) == stem) return true;
+        list.push_back(names.substr(0, end));
         names.remove_prefix(std::min(end + 1, names.size()));
     }
-    return false;
+    return list;
+}
+
+bool is_called(const BodyPart& part, int scheme, std::string_view stem)
+{
+    const std::vector<std::string_view> names = names_of(part, scheme);
+    return std::ranges::find(names, stem) != names.end();
 }
 
 bool has_two_sides(const std::string& stem)
@@ -201,7 +207,7 @@ std::vector<JointKey> keys_of(const std::vector<std::string>& names)
 {
     using Words = std::vector<std::string>;
     std::vector<Words> words;
-    for (const std::string& name : names) words.push_back(words_of(name));
+    for (const std::string& name : names) words.push_back(words_in_name(name));
     const auto is_common = [&](auto has) {
         std::size_t with = 0, all = 0;
         for (std::size_t n = 0; n < names.size(); ++n) {
@@ -267,11 +273,8 @@ int joint_with(const std::vector<JointKey>& keys, std::string_view stem, char si
 int joint_of_part(const std::vector<JointKey>& keys, int row, int scheme, char side)
 {
     if (scheme < 0) return -1;
-    for (std::string_view names = body_parts[row].names[scheme]; !names.empty();) {
-        const std::size_t end = std::min(names.find(' '), names.size());
-        if (const int joint = joint_with(keys, names.substr(0, end), side); joint >= 0) return joint;
-        names.remove_prefix(std::min(end + 1, names.size()));
-    }
+    for (const std::string_view name : names_of(body_parts[row], scheme))
+        if (const int joint = joint_with(keys, name, side); joint >= 0) return joint;
     return -1;
 }
 

@@ -4,8 +4,8 @@
 #include "pbs/character/named_bodies.hpp"
 #include "pbs/character/skeleton_file.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/topology.hpp"
+#include "pbs/rig/surface_reader.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double decimetres_a_step = 1e-3, metres_a_unit = 0.1;
 constexpr const char* surface_file = "/usr/share/assimp/models/Collada/human.zae";
-constexpr const char* geometry = "human-base";
+constexpr const char* geometry = "human-baseObject";  // the id of its node
 
 // "asian-male-young" is the end of "caucasian-male-young": names are matched from a slash.
 std::size_t row_of(const JsonFile& list, const std::string& target)

@@ -11,17 +11,30 @@
 
 namespace pbs {
 
+double sliver_factor(const TetMesh& mesh, Eigen::Index tet)
+{
+    constexpr double sliver = 1e-5, regular = 0.1178511301977579;  // 1 / (6 sqrt 2)
+    double longest = 0.0;
+    for (const auto& [i, j] : edges_of_tet)
+        longest = std::max(longest, (mesh.rest.row(mesh.tets(tet, i)) - mesh.rest.row(mesh.tets(tet, j))).norm());
+    const double volume = tet_volumes(mesh.rest, mesh.tets.row(tet))(0);
+    const double flatness = volume / (longest * longest * longest);
+    return flatness < sliver ? flatness / regular : 1.0;
+}
+
 FleshEnergy::FleshEnergy(const TetMesh& mesh, const FleshMaterial& material, const BoneHold& hold) : hold_(hold.stiffness())
 {
     const Eigen::VectorXd volumes = positive_volumes(mesh.rest, mesh.tets);
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
         FleshTet tet{{mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)}, {}, 0.0, 0.0};
         const auto gradients = barycentric_gradients(mesh, t);
+        const double factor = sliver_factor(mesh, t);
+        slivers_ += factor < 1.0;
         for (int e = 0; e < 6; ++e) {
             const auto [i, j] = edges_of_tet[e];
-            tet.w[e] = -material.mu * volumes(t) * gradients.col(i).dot(gradients.col(j)) + hold.edge_stiffness()(t, e);
+            tet.w[e] = -material.mu * factor * volumes(t) * gradients.col(i).dot(gradients.col(j)) + hold.edge_stiffness()(t, e);
         }
-        tet.kappa = material.lambda / (36.0 * volumes(t));
+        tet.kappa = factor * material.lambda / (36.0 * volumes(t));
         tet.d = 6.0 * material.alpha * volumes(t);
         tets_.push_back(tet);
     }
@@ -75,9 +88,10 @@ Eigen::SparseMatrix<double> flesh_laplacian(const TetMesh& mesh, const FleshMate
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
         const FleshTet& tet = energy.tets()[t];
         const auto gradients = barycentric_gradients(mesh, t);
+        const double factor = sliver_factor(mesh, t);
         for (int e = 0; e < 6; ++e) {
             const auto [i, j] = edges_of_tet[e];
-            const double h = tet.w[e] - volume_share * material.lambda * volumes(t) * gradients.col(i).dot(gradients.col(j));
+            const double h = tet.w[e] - volume_share * material.lambda * factor * volumes(t) * gradients.col(i).dot(gradients.col(j));
             const auto [low, high] = std::minmax(tet.vertex[i], tet.vertex[j]);
             entries.emplace_back(high, low, -h);
             diagonal(low) += h;

@@ -33,6 +33,11 @@ struct FleshMaterial {
 // poisson: from 0 inclusive to 1/2 exclusive; an InputError otherwise.
 FleshMaterial flesh_material(double poisson);
 
+// The factor on the energy of a tet: 1, except for a sliver, whose volume is below 1e-5 of its longest edge cubed. Across its plane a tet
+// resists the more, the flatter it is, so that a minimiser could turn a sliver only in steps of its height. Its volume does not matter, and
+// it is taken as stiff as a regular tet with the same longest edge.
+double sliver_factor(const TetMesh& mesh, Eigen::Index tet);
+
 // The terms of one tet.
 struct FleshTet {
     std::array<int, 4> vertex;
@@ -52,10 +57,12 @@ public:
 
     const std::vector<FleshTet>& tets() const { return tets_; }
     const Eigen::VectorXd& hold() const { return hold_; }  // a_i, #V
+    int slivers() const { return slivers_; }               // tets whose sliver_factor is not 1
 
 private:
     std::vector<FleshTet> tets_;
     Eigen::VectorXd hold_;
+    int slivers_ = 0;
 };
 
 // The matrix H of sum_{i<j} h_ij / 2 |x_i - x_j|^2 + sum_i a_i / 2 |x_i|^2, its lower triangle over Young's modulus [m]: the energy without

@@ -76,7 +76,7 @@ ProjectiveEnergy::ProjectiveEnergy(const TetMesh& mesh, const ProjectiveWeights&
         ProjectiveTet tet{{mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)}, {}, 0.0, {}};
         Eigen::Matrix3d edges;
         for (int k = 0; k < 3; ++k) edges.col(k) = (mesh.rest.row(tet.vertex[k + 1]) - mesh.rest.row(tet.vertex[0])).transpose();
-        tet.volume = edges.determinant() / 6.0;
+        tet.volume = sliver_factor(mesh, t) * edges.determinant() / 6.0;
         tet.inverse_edges = edges.inverse();
         for (int e = 0; e < 6; ++e) tet.w[e] = hold.edge_stiffness()(t, e);
         tets_.push_back(tet);

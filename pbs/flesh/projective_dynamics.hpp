@@ -74,7 +74,7 @@ double volume_share_of_projective(double poisson, bool keeps_volume);
 struct ProjectiveTet {
     std::array<int, 4> vertex;
     Eigen::Matrix3d inverse_edges;  // of the matrix with the edges 01, 02, 03 at rest as columns [1/m]: F = edges * inverse_edges
-    double volume;                  // at rest [m^3]
+    double volume;                  // at rest, times sliver_factor [m^3]
     std::array<double, 6> w;        // of the springs on the edges 01 02 03 12 13 23 [m]
 };
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -18,12 +17,6 @@ namespace pbs {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower(std::string text)
-{
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
 
 bool holds(const std::string& beginning, const char* text)
 {
@@ -87,7 +80,7 @@ bool lies_below(const fs::path& file, const fs::path& folder)
 
 std::string lower_extension(const std::string& path)
 {
-    return lower(fs::path(path).extension().string());
+    return in_lower_case(fs::path(path).extension().string());
 }
 
 std::string beginning_of(const std::string& path)
@@ -114,7 +107,7 @@ std::string content_extension(const std::string& path)
     if (words.empty()) return "";
     if (words[0] == "MeshVersionFormatted") return ".mesh";
     if (is_off_keyword(words[0])) return ".off";
-    if (lower(words[0]) == "solid" && holds(lower(beginning), "facet")) return ".stl";
+    if (in_lower_case(words[0]) == "solid" && holds(in_lower_case(beginning), "facet")) return ".stl";
     return is_obj_keyword(words[0]) && words.size() > 1 ? ".obj" : "";
 }
 

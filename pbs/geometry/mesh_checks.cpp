@@ -4,6 +4,7 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
+#include "pbs/geometry/winding_number.hpp"
 
 #include <Eigen/Geometry>
 
@@ -14,7 +15,6 @@
 #include <fstream>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <sstream>
@@ -235,20 +235,6 @@ void add_open_and_joined_edges(const std::string& path, const SurfaceMesh& surfa
                                  listed(surface.points.row(first->first.second), 6) + "; the surface is wrapped"));
 }
 
-// How often the triangles go round a point (A. Van Oosterom, J. Strackee, IEEE Trans. Biomed. Eng. 30, 1983): 1 inside of a closed surface
-// that faces outwards, -1 of one that faces inwards, 0 outside.
-double winding_number(const Vec3& point, const Positions& points, const Triangles& triangles)
-{
-    double angle = 0.0;
-    for (const auto& triangle : triangles.rowwise()) {
-        const Vec3 a = points.row(triangle(0)).transpose() - point, b = points.row(triangle(1)).transpose() - point,
-                   c = points.row(triangle(2)).transpose() - point;
-        const double of_a = a.norm(), of_b = b.norm(), of_c = c.norm();
-        angle += 2.0 * std::atan2(a.dot(b.cross(c)), of_a * of_b * of_c + a.dot(b) * of_c + b.dot(c) * of_a + c.dot(a) * of_b);
-    }
-    return angle / (4.0 * std::numbers::pi);
-}
-
 // The parts of a surface that no point joins and that are closed.
 std::vector<Triangles> closed_shells(const SurfaceMesh& surface)
 {
@@ -276,7 +262,7 @@ void add_cavities(const std::string& path, const SurfaceMesh& surface, std::vect
         const double of_inner = fan_volume(surface.points, inner);
         const Vec3 point = surface.points.row(inner(0, 0));
         const bool is_cavity = std::ranges::any_of(shells, [&](const Triangles& outer) {
-            return of_inner * fan_volume(surface.points, outer) < 0.0 && std::abs(winding_number(point, surface.points, outer)) > 0.5;
+            return of_inner * fan_volume(surface.points, outer) < 0.0 && std::abs(winding_number(surface.points, outer, point)) > 0.5;
         });
         if (!is_cavity) continue;
         ++cavities;

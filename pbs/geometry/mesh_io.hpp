@@ -1,6 +1,6 @@
-// Reading and writing meshes. Libraries read .vtu, .pvtu and .vtk (VTK) and most surfaces (assimp and CGAL). Gmsh's .msh, MEDIT's .mesh,
+// Reading and writing meshes. Libraries read .vtu, .pvtu, .vtk and .vtp (VTK) and .ply, .off and .stl (CGAL). Gmsh's .msh, MEDIT's .mesh,
 // TetGen's .node/.ele, .tobj and .obj are read here: their libraries drop or guess without a word what a file holds. Bad files are
-// InputErrors, and in a build without PBS_WITH_MESH_IO everything is.
+// InputErrors, and in a build without PBS_WITH_MESH_IO everything is. Surfaces are read by pbs/rig/surface_reader.hpp.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -11,6 +11,8 @@
 #include <vector>
 
 namespace pbs {
+
+inline constexpr double farthest_m = 1e9;  // of a point from the origin: beyond, products of three lengths leave the range of a double
 
 // The result of read_tet_mesh.
 struct MeshReading {
@@ -46,10 +48,10 @@ MeshReading read_tet_mesh(const std::string& path, bool for_computing = true);
 // InputError where there is no tet, an index out of range, or a coordinate that is not finite or beyond 1e9 m.
 TetMesh read_tet_frame(const std::string& path);
 
-// The vectors of the points of a .vtu, .vtk or .vtp, such as a displacement: each array with three components by its name, #P x 3 in the
-// file's order. name: that array alone, so that damage in others does no harm; empty: all. None of a file of another format. InputError for
-// arrays that VTK cannot read.
-std::map<std::string, Positions> read_point_vectors(const std::string& path, const std::string& name = "");
+// The arrays of the points of a .vtu, .vtk, .vtp or .msh ($NodeData) with one or three components, such as a displacement, by their names:
+// #P x 1 or #P x 3, in the order of read_tet_frame. name: that array alone, so that damage in others does no harm; empty: all. None of a
+// file of another format. InputError for arrays that cannot be read.
+std::map<std::string, Eigen::MatrixXd> read_point_arrays(const std::string& path, const std::string& name = "");
 
 // By extension: .msh (4.1 ASCII), .vtu, .mesh. Written to a temporary file and renamed. The format alone can be checked before the work.
 void require_tet_mesh_format(const std::string& path);
@@ -62,19 +64,6 @@ struct SurfaceMesh {
     Positions points;     // [m], #S x 3
     Triangles triangles;  // #F x 3
 };
-
-// .obj, .ply, .off, .stl, .vtp, .gltf, .glb, .dae, .zae, .fbx, by content where it shows the format and otherwise by extension. Polygons
-// are triangulated, points split at texture seams are joined (equal coordinates, to the bit), nodes' transforms and the file's unit
-// applied. mesh_name: the mesh or node of that name alone. InputError where there is none of that name, no triangle, or a coordinate that
-// is not finite or beyond 1e9 m; a surface may be open.
-SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name = "");
-
-// Points and triangles as they are in the file, in its order and with its seams; each corner of a .stl is a point of its own. Frames of a
-// surface have the same points in the same order. How a polygon is triangulated may depend on the frame. InputErrors as of read_surface.
-SurfaceMesh read_surface_frame(const std::string& path);
-
-// Whether the content of a file, or else its extension, is that of a surface that read_surface takes.
-bool is_surface_file(const std::string& path);
 
 // One deformed frame as VTK XML: Float64, compressed, atomic. Fields have one entry per point (or 3, or one per cell).
 struct FrameFields {
@@ -102,15 +91,12 @@ void write_pvd(const std::string& path, const std::vector<std::pair<double, std:
 // parts that no face joins, and a size that speaks for other units than metres (under 1 mm or above 100 m).
 std::vector<std::string> remarks_on(const std::string& path, const MeshReading& reading);
 
-// read_surface of a file that a user names, with its remarks: a name that does not fit the content, points that no triangle uses, triangles
-// that are a line or a point, holes, edges in three triangles or more, triangles that cross (checked in builds with CGAL), closed
-// cavities, a surface inside out, and the size as above.
-SurfaceMesh read_surface(const std::string& path, std::vector<std::string>& remarks, double scale = 1.0);
-
 // On a file whose content has the format of files with another extension.
 std::string remark_on_name(const std::string& path, const std::string& content_extension);
 
-// For readers: remarks on a surface after its points were joined, and on what was left out of it.
+// For readers: remarks on a surface after its points were joined, and on what was left out of it: points that no triangle uses, triangles
+// that are a line or a point, holes, edges in three triangles or more, triangles that cross (checked in builds with CGAL), closed
+// cavities, a surface inside out, and the size as above.
 std::vector<std::string> remarks_on(const std::string& path, const SurfaceMesh& surface, int unused_points, int triangles_without_area);
 
 }  // namespace pbs

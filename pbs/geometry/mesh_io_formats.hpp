@@ -7,11 +7,10 @@
 #include "pbs/geometry/mesh_io.hpp"
 
 #include <array>
+#include <map>
 #include <vector>
 
 namespace pbs {
-
-inline constexpr double farthest_m = 1e9;  // of a point from the origin: beyond, products of three lengths leave the range of a double
 
 struct TetFile {
     TetMesh mesh;                     // in the order of their tags where nodes and elements have any, else as listed
@@ -19,17 +18,18 @@ struct TetFile {
     int repeated_tets = 0;
 };
 
-TetMesh read_vtk(const std::string& path);     // .vtu, .pvtu, .vtk, by VTK
-TetFile read_msh(const std::string& path);     // Gmsh's .msh
-TetMesh read_medit(const std::string& path);   // .mesh
-TetMesh read_tobj(const std::string& path);    // .tobj
+TetMesh read_vtk(const std::string& path);  // .vtu, .pvtu, .vtk, by VTK
+TetFile read_msh(const std::string& path);  // Gmsh's .msh
+std::map<std::string, Eigen::MatrixXd> read_msh_point_arrays(const std::string& path, const std::string& name);  // as read_point_arrays
+TetMesh read_medit(const std::string& path);                                                                     // .mesh
+TetMesh read_tobj(const std::string& path);                                                                      // .tobj
 TetMesh read_tetgen(const std::string& path);  // .node or .ele; the other file is in the same folder
 
 SurfaceMesh read_polygons(const std::string& path);  // .ply, .off, .stl, by CGAL
 // InputError for a word of such a text that is no number where the format has one, and for words behind what its counts state. STL: in
 // lower case.
 void check_polygon_text(const std::string& path, const std::string& text, const std::string& extension);
-SurfaceMesh read_vtp(const std::string& path);       // .vtp and .vtk with a surface, by VTK
+SurfaceMesh read_vtp(const std::string& path);  // .vtp and .vtk with a surface, by VTK
 
 // .obj; mesh_name as in read_surface. Polygons are triangulated by CGAL, in a build without it by fans, where these are right.
 SurfaceMesh read_obj(const std::string& path, const std::string& mesh_name);

@@ -1,6 +1,6 @@
 // Tet meshes of the built-in bodies and of surfaces, by CGAL (Mesh_3, alpha_wrap_3).
 //   TetMesh limb = mesh_limb(1775);
-//   TetMesh body = mesh_surface(read_surface("body.obj"), {.vertices = 2000});
+//   TetMesh body = mesh_surface(read_surface("body.obj"), {.vertices = 2000});  // pbs/rig/surface_reader.hpp
 // The same call gives the same mesh to the bit: seeds are fixed and no limit depends on time.
 #pragma once
 

@@ -14,6 +14,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <string>
 #include <string_view>
@@ -93,6 +94,23 @@ public:
         words_.go_to(place_of(section));
         words_.skip_line();
     }
+    // The same for the next section of this name after the last one; false: there is none.
+    bool enter_next(const std::string& section)
+    {
+        const std::size_t place = place_of(section, searched_);
+        if (place == std::string::npos) return false;
+        searched_ = place + section.size();
+        words_.go_to(place);
+        words_.skip_line();
+        return true;
+    }
+    std::string word(const char* field) { return std::string(words_.next(field)); }
+    // A number that is a word in binary files, too.
+    long long whole_word(const char* field) { return words_.whole(field, 0, std::numeric_limits<std::int32_t>::max()); }
+    void begin_data()
+    {
+        if (is_binary_) words_.skip_line();
+    }
     // The section ends here, or its count is wrong.
     void leave(const std::string& end, const char* field, long long count)
     {
@@ -144,11 +162,11 @@ private:
     }
 
     // The place of the line that begins with a keyword; npos: there is no such line.
-    std::size_t place_of(const std::string& keyword) const
+    std::size_t place_of(const std::string& keyword, std::size_t from = 0) const
     {
         const std::string& text = words_.text();
-        const std::size_t before = text.find("\n" + keyword);
-        return text.starts_with(keyword) ? 0 : before == std::string::npos ? before : before + 1;
+        const std::size_t before = text.find("\n" + keyword, from);
+        return from == 0 && text.starts_with(keyword) ? 0 : before == std::string::npos ? before : before + 1;
     }
 
     void require_sections() const
@@ -175,6 +193,7 @@ private:
     TextWords words_;
     double version_ = 1.0;
     bool is_binary_ = false, is_swapped_ = false;
+    std::size_t searched_ = 0;
 };
 
 // As the file lists them.
@@ -309,7 +328,70 @@ std::vector<std::size_t> ascending(const std::vector<long long>& tags)
     return order;
 }
 
+// The head of a $NodeData: texts, of which the first is a name, real numbers, and whole numbers: a step, the components and the nodes.
+struct NodeData {
+    std::string name;
+    long long components = 0, nodes = 0;
+};
+
+NodeData read_head_of_data(const std::string& path, MshValues& values)
+{
+    NodeData data;
+    for (long long i = values.whole_word("texts of $NodeData"); i > 0; --i) {
+        const std::string text = values.word("text of $NodeData");
+        if (data.name.empty()) data.name = text.starts_with('"') && text.size() > 1 ? text.substr(1, text.size() - 2) : text;
+    }
+    for (long long i = values.whole_word("real numbers of $NodeData"); i > 0; --i) values.word("real number of $NodeData");
+    const long long count = values.whole_word("whole numbers of $NodeData");
+    for (long long i = 0; i < count; ++i) {
+        const long long number = values.whole_word("whole number of $NodeData");
+        if (i == 1) data.components = number;
+        if (i == 2) data.nodes = number;
+    }
+    if (data.components < 1 || data.components > 9)
+        throw InputError(path, 0, "components of $NodeData " + data.name, std::to_string(data.components), "expected 1, 3 or 9");
+    values.begin_data();
+    return data;
+}
+
+// #nodes x components, in the order of the nodes' tags.
+Eigen::MatrixXd read_node_data(const std::string& path, MshValues& values, const NodeData& data, const std::vector<long long>& tags)
+{
+    const auto nodes = static_cast<Eigen::Index>(tags.size());
+    const std::string field = "nodes of $NodeData " + data.name;
+    if (data.nodes != nodes) throw InputError(path, 0, field, std::to_string(data.nodes), "expected each of the " + std::to_string(nodes));
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(nodes, data.components);
+    std::vector<bool> is_known(tags.size());
+    for (Eigen::Index i = 0; i < nodes; ++i) {
+        const long long tag = values.whole<std::int32_t>("node of $NodeData");
+        const auto found = std::ranges::lower_bound(tags, tag);
+        const auto row = found - tags.begin();
+        if (found == tags.end() || *found != tag || is_known[static_cast<std::size_t>(row)])
+            throw InputError(path, 0, field, std::to_string(tag), "expected the tag of each node once");
+        is_known[static_cast<std::size_t>(row)] = true;
+        for (Eigen::Index c = 0; c < data.components; ++c) rows(row, c) = values.real("value of $NodeData");
+    }
+    values.leave("$EndNodeData", "nodes of $NodeData", data.nodes);
+    return rows;
+}
+
 }  // namespace
+
+std::map<std::string, Eigen::MatrixXd> read_msh_point_arrays(const std::string& path, const std::string& name)
+{
+    MshValues values(path);
+    MshContent content;
+    read_msh_nodes(path, values, content);
+    std::ranges::sort(content.node_tags);
+    std::map<std::string, Eigen::MatrixXd> arrays;
+    while (values.enter_next("$NodeData")) {
+        const NodeData data = read_head_of_data(path, values);
+        if ((data.components != 1 && data.components != 3) || (!name.empty() && name != data.name)) continue;
+        if (!arrays.emplace(data.name, read_node_data(path, values, data, content.node_tags)).second)
+            throw InputError(path, 0, "$NodeData", data.name, "expected one of each name: save each step in a file of its own");
+    }
+    return arrays;
+}
 
 TetFile read_msh(const std::string& path)
 {

@@ -68,13 +68,6 @@ std::string with_known_index_type(const std::string& path, std::string text)
     return text;
 }
 
-// CGAL expects lower case and a blank behind `solid`; the names of solids are not used.
-std::string in_lower_case(std::string text)
-{
-    for (char& c : text) c = c == '\t' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
-
 // Some programs leave out the number of edges, which CGAL expects behind those of points and faces.
 std::string with_number_of_edges(std::string text)
 {
@@ -101,8 +94,11 @@ bool read_soup(const std::string& path, std::vector<Point>& points, std::vector<
     }
     if (extension == ".stl") {
         const bool is_text = bytes.find('\0') == std::string::npos || as_utf8(bytes) != bytes;
-        const std::string text = is_text ? in_lower_case(as_utf8(bytes)) : bytes;
-        if (is_text) check_polygon_text(path, text, extension);
+        std::string text = is_text ? in_lower_case(as_utf8(bytes)) : bytes;
+        if (is_text) {
+            std::ranges::replace(text, '\t', ' ');  // CGAL expects lower case and a blank behind `solid`; names of solids are not used
+            check_polygon_text(path, text, extension);
+        }
         std::istringstream file(text);
         return CGAL::IO::read_STL(file, points, polygons);
     }

@@ -3,6 +3,7 @@
 #include "pbs/geometry/input_error.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdlib>
 #include <limits>
@@ -60,6 +61,12 @@ std::optional<double> number_in(std::string_view word)
     if (word.empty() || end != word.data() + word.size()) return std::nullopt;
     if (error == std::errc::result_out_of_range) return std::strtod(std::string(word).c_str(), nullptr);  // infinity, or next to zero
     return number;
+}
+
+std::string in_lower_case(std::string text)
+{
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
 }
 
 TextWords::TextWords(std::string path, std::string text, char comment) : path_(std::move(path)), text_(std::move(text)), comment_(comment)

@@ -16,6 +16,8 @@ std::string as_utf8(std::string bytes);
 // 1.#QNAN or 1,5.
 std::optional<double> number_in(std::string_view word);
 
+std::string in_lower_case(std::string text);
+
 class TextWords {
 public:
     // comment: begins a remark that ends with its line; '\0': there are none.

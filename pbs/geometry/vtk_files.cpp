@@ -70,7 +70,7 @@ private:
 vtkStandardNewMacro(CollectingWindow);
 
 // "ERROR: In x.cxx, line 12\nvtkReader (0x55): words\n\n" and "Generic Warning: In x.cxx, line 12\nwords\n\n" -> "words"
-std::string words_of(const std::string& message)
+std::string sentence_of(const std::string& message)
 {
     std::size_t begin = message.find("): ");
     const std::size_t first_line = message.find('\n');
@@ -99,7 +99,7 @@ void collect_messages()
 // An InputError with VTK's words, its file and line numbers taken off.
 void throw_if_any_message(const std::string& path)
 {
-    if (!collected.empty()) throw InputError(path, 0, "", "", "VTK: " + words_of(collected));
+    if (!collected.empty()) throw InputError(path, 0, "", "", "VTK: " + sentence_of(collected));
 }
 
 constexpr const char* ghosts = "vtkGhostType";  // VTK's own name
@@ -344,23 +344,25 @@ SurfaceMesh read_vtp(const std::string& path)
     return mesh;
 }
 
-std::map<std::string, Positions> read_point_vectors(const std::string& path, const std::string& name)
+std::map<std::string, Eigen::MatrixXd> read_point_arrays(const std::string& path, const std::string& name)
 {
     const std::string beginning = beginning_of(path);
+    if (content_extension(path) == ".msh") return read_msh_point_arrays(path, name);
     if (!beginning.starts_with("# vtk DataFile") && beginning.find("<VTKFile") == std::string::npos) return {};
     const vtkSmartPointer<vtkPointSet> data = vtkPointSet::SafeDownCast(read_data(path, name));
-    std::map<std::string, Positions> vectors;
-    if (!data) return vectors;
+    std::map<std::string, Eigen::MatrixXd> arrays;
+    if (!data) return arrays;
     vtkPointData* fields = data->GetPointData();
     for (int a = 0; a < fields->GetNumberOfArrays(); ++a) {
         vtkDataArray* array = fields->GetArray(a);
-        if (!array || !array->GetName() || array->GetNumberOfComponents() != 3) continue;
-        if (!name.empty() && name != array->GetName()) continue;
-        Positions& values = vectors[array->GetName()];
-        values.resize(array->GetNumberOfTuples(), 3);
-        for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) array->GetTuple(i, values.row(i).data());
+        const int components = array && array->GetName() ? array->GetNumberOfComponents() : 0;
+        if ((components != 1 && components != 3) || (!name.empty() && name != array->GetName())) continue;
+        Eigen::MatrixXd& values = arrays[array->GetName()];
+        values.resize(array->GetNumberOfTuples(), components);
+        for (vtkIdType i = 0; i < values.rows(); ++i)
+            for (int c = 0; c < components; ++c) values(i, c) = array->GetComponent(i, c);
     }
-    return vectors;
+    return arrays;
 }
 
 void write_vtu(const std::string& path, const Positions& points, const Tets& tets, const FrameFields& fields)

@@ -113,10 +113,17 @@ void check_skins(const pugi::xml_document& document, const std::string& path)
             if (used.contains("#" + id_of(controller))) check_skin(controller, path);
 }
 
-void check_document(const std::string& text, const std::string& path)
+// assimp takes a negative index of a polygon for 0 and goes on with a torn surface.
+void refuse_negative_indices(const std::string& text, const std::string& path)
 {
-    pugi::xml_document document;
-    if (document.load_buffer(text.data(), text.size())) check_skins(document, path);
+    for (std::size_t open = text.find("<p"); open != std::string::npos; open = text.find("<p", open + 1)) {
+        if (text.find_first_of("> \t\r\n", open) != open + 2) continue;  // <param, ...
+        const std::size_t begin = text.find('>', open), close = std::min(text.find('<', open + 1), text.size());
+        const std::size_t minus = text.find('-', begin);
+        if (minus >= close) continue;
+        throw InputError(path, line_at(text, minus), "p", text.substr(minus, text.find_first_of(" \t\r\n<", minus) - minus),
+                         "expected indices from 0");
+    }
 }
 
 // Appends a word to an array of a source, and counts it.
@@ -261,6 +268,43 @@ void use_one_controller_per_skeleton(ColladaXml& document)
     }
 }
 
+// No numbers where a word is none: the reader refuses the file.
+Positions rows_of_three(const pugi::xml_node& array)
+{
+    const std::vector<std::string_view> words = words_of(array.text().as_string());
+    Positions rows(static_cast<Eigen::Index>(words.size() / 3), 3);
+    for (Eigen::Index i = 0; i < rows.size(); ++i) {
+        const std::string_view word = words[static_cast<std::size_t>(i)];
+        if (std::from_chars(word.data(), word.data() + word.size(), rows(i / 3, i % 3)).ec != std::errc()) return {};
+    }
+    return rows;
+}
+
+void move_far_points_to_the_origin(ColladaXml& document, ColladaDocument& result)
+{
+    constexpr double far_away = 100.0;  // sizes; nearer, single precision has an error below 1e-5 of the size
+    for (const pugi::xpath_node& found : document.root().select_nodes("library_geometries/geometry[@id]/mesh")) {
+        const pugi::xml_node source = document.source(found.node().child("vertices"), "POSITION");
+        const pugi::xml_node accessor = source.child("technique_common").child("accessor");
+        const Positions points = rows_of_three(source.child("float_array"));
+        if (points.rows() == 0 || !points.allFinite() || number_of(accessor, "stride", 1) != 3 || number_of(accessor, "offset") != 0)
+            continue;
+        const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+        if (points.cwiseAbs().maxCoeff() <= far_away * size) continue;
+        std::string text;
+        const Positions near = points.rowwise() - points.row(0);
+        for (const double number : near.reshaped<Eigen::RowMajor>()) text += number_text(number, 17) + " ";
+        source.child("float_array").text() = text.c_str();
+        result.origins.emplace(id_of(found.node().parent()), points.row(0));
+    }
+    pugi::xml_attribute unit = document.root().child("asset").child("unit").attribute("meter");
+    if (result.origins.empty()) return;
+    document.is_changed = true;
+    if (!(unit.as_double() > 0.0)) return;
+    result.unit_m = unit.as_double();
+    unit = "1";
+}
+
 ColladaDocument prepared(pugi::xml_document& xml, const std::string& path)
 {
     ColladaXml document(xml, path);
@@ -276,7 +320,9 @@ ColladaDocument prepared(pugi::xml_document& xml, const std::string& path)
     use_one_controller_per_skeleton(document);
     make_curves_linear(document);
     check_skins(xml, path);
-    ColladaDocument result{"", document.remarks};
+    ColladaDocument result;
+    move_far_points_to_the_origin(document, result);
+    result.remarks = document.remarks;
     if (!document.is_changed) return result;
     std::ostringstream text;
     xml.save(text, "", pugi::format_raw);
@@ -288,19 +334,20 @@ ColladaDocument prepared(pugi::xml_document& xml, const std::string& path)
 
 ColladaDocument read_collada_document(const std::string& path)
 {
-    if (content_extension(path) == ".zae") {
-        for (const std::string& text : collada_files_in(path)) {
-            check_document(text, path);
-            pugi::xml_document document;
-            if (document.load_buffer(text.data(), text.size()) && !prepared(document, path).text.empty())
-                throw InputError(path, 0, "", "",
-                                 "has curves, skins or morphs that are not read from an archive: unpack it, and use the .dae");
-        }
-        return {};
+    const bool is_archive = content_extension(path) == ".zae";
+    const std::vector<std::string> texts = is_archive ? collada_files_in(path) : std::vector{read_text_file(path, most_mesh_bytes)};
+    ColladaDocument result;
+    for (const std::string& text : texts) {
+        refuse_negative_indices(text, path);
+        pugi::xml_document document;
+        result = document.load_buffer(text.data(), text.size()) ? prepared(document, path) : ColladaDocument{};
+        if (texts.size() > 1 && !result.text.empty())
+            throw InputError(
+                path, 0, "documents", std::to_string(texts.size()),
+                "expected one in an archive with curves, skins, morphs or places that assimp reads in another way: unpack it, and "
+                "use the .dae");
     }
-    const std::string text = read_text_file(path);
-    pugi::xml_document document;
-    return document.load_buffer(text.data(), text.size()) ? prepared(document, path) : ColladaDocument{};
+    return result;
 }
 
 }  // namespace pbs

@@ -1,7 +1,7 @@
 #include "pbs/rig/rig_formats.hpp"
 
-#include "pbs/geometry/assimp_files.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/rig/assimp_files.hpp"
 #include "pbs/rig/collada_document.hpp"
 #include "pbs/rig/rig_reader.hpp"
 
@@ -167,7 +167,9 @@ RigMesh mesh_of(const aiMesh& source, int node, const Nodes& nodes, Rig& rig)
     for (unsigned p = 0; p < source.mNumVertices; ++p)
         mesh.points.row(p) << source.mVertices[p].x, source.mVertices[p].y, source.mVertices[p].z;
     std::vector<int> corners;
-    add_triangles(source, 0, corners);
+    for (unsigned f = 0; f < source.mNumFaces; ++f)  // not of points and lines
+        for (unsigned c = 0; source.mFaces[f].mNumIndices == 3 && c < 3; ++c)
+            corners.push_back(static_cast<int>(source.mFaces[f].mIndices[c]));
     mesh.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
     mesh.look.material.assign(corners.size() / 3, static_cast<int>(source.mMaterialIndex));
     using Rows = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
@@ -213,14 +215,13 @@ void order_materials(aiScene& scene, const std::vector<std::string>& names)
 const aiScene& read_assimp_scene(Assimp::Importer& importer, const std::string& path, const std::string& text)
 {
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-    return read_scene(importer, path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices, "assimp: ", text);
+    return read_scene(importer, path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices, text);
 }
 
 Rig rig_of_scene(const aiScene& scene, const std::string& path)
 {
     Rig rig;
     rig.file = path;
-    rig.unit_m = metres_per_unit(scene);
     Nodes nodes;
     add_node(*scene.mRootNode, -1, nodes, rig);
     for (std::size_t n = 0; n < nodes.size(); ++n)
@@ -249,6 +250,10 @@ Rig read_collada_rig(const std::string& path)
     const ColladaDocument document = read_collada_document(path);
     Assimp::Importer importer;
     Rig rig = rig_of_scene(read_assimp_scene(importer, path, document.text), path);
+    rig.unit_m = document.unit_m;
+    for (RigMesh& mesh : rig.meshes)
+        if (const auto origin = document.origins.find(mesh.name); origin != document.origins.end())
+            mesh.points.rowwise() += origin->second.transpose();
     rig.remarks.insert(rig.remarks.end(), document.remarks.begin(), document.remarks.end());
     return rig;
 }

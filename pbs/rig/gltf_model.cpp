@@ -280,7 +280,8 @@ void read_gltf_model(const std::string& bytes, const std::string& path, tinygltf
         require_known_extensions(bytes, path);  // which may be why
         throw InputError(path, 0, "", "", "no glTF that tinygltf can read: " + one_line(error));
     }
-    if (model.asset.version.rfind("2.", 0) != 0) throw InputError(path, 0, "asset.version", model.asset.version, "expected 2.0");
+    if (model.asset.version.rfind("2.", 0) != 0)
+        throw InputError(path, 0, "asset.version", model.asset.version, "expected 2.0: convert the file (gltf-pipeline -i FILE)");
     if (!model.extensionsRequired.empty()) require_known_extensions(bytes, path);
 }
 

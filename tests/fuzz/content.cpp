@@ -7,6 +7,7 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/rig/surface_reader.hpp"
 #include "tests/fuzz/library_child.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/fuzz/token_mutator.hpp"

@@ -78,6 +78,14 @@ class ProgramTest(unittest.TestCase):
         """The rows of a table."""
         return list(csv.DictReader(io.StringIO(self.read(*parts))))
 
+    def explains_columns(self, *tables, labels):
+        """`pbskin explain` knows the columns of these tables that are no labels."""
+        columns = {name for table in tables for name in self.rows(table)[0]}
+        self.assertLessEqual(set(labels), columns)
+        for name in sorted(columns - set(labels)):
+            with self.subTest(name):
+                self.assertIn(f"{name} (metric)", self.succeeds("explain", name).stdout)
+
     def ends(self, status, *arguments, says="", **options):
         """The process of `pbskin ARGUMENTS`, which ends with this status and message."""
         process = run(*arguments, **options)

@@ -2,8 +2,6 @@
 
 #include "analysis/metrics/frame_metrics.hpp"
 #include "pbs/geometry/child_process.hpp"
-#include "pbs/geometry/content_format.hpp"
-#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 
@@ -12,7 +10,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <map>
 #include <regex>
 
 namespace experiments {
@@ -37,48 +37,94 @@ double rounding_m(const pbs::Positions& rest)
     return same_point * (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
 }
 
-std::map<std::string, pbs::Positions> vectors_of(const std::string& path, const std::string& name, const std::vector<int>& file_point)
+struct PointVector {
+    pbs::Positions values;           // #V x 3
+    std::string of_components = {};  // the names of the arrays, if each component is one of its own
+};
+using PointVectors = std::map<std::string, PointVector>;
+
+// The name of a vector whose first component is called so: u for ux, u_x, U1 and u:0, D for DX. Empty: it is none.
+std::string stem_of(const std::string& name)
 {
-    auto vectors = pbs::read_guarded(path, [&](const std::string& file) { return pbs::read_point_vectors(file, name); });
-    for (auto& [of, values] : vectors) {
-        if (values.rows() <= std::ranges::max(file_point))
-            throw pbs::InputError(path, 0, of, fmt::format("{} rows", values.rows()), "expected one for each point");
-        values = values(file_point, Eigen::all).eval();
+    if (name.size() < 2) return "";
+    const char last = static_cast<char>(std::tolower(static_cast<unsigned char>(name.back())));
+    if (last != 'x' && last != '1' && last != '0') return "";
+    std::string stem = name.substr(0, name.size() - 1);
+    while (!stem.empty() && std::string(" _.:-").find(stem.back()) != std::string::npos) stem.pop_back();
+    return stem;
+}
+
+// Three scalars that are named as the components of a vector which the file does not have itself.
+void add_vectors_of_components(const std::map<std::string, Eigen::MatrixXd>& arrays, PointVectors& vectors)
+{
+    for (const auto& [x, values] : arrays) {
+        const std::string stem = stem_of(x);
+        if (stem.empty() || values.cols() != 1) continue;
+        std::array components = {x, x, x};
+        for (std::size_t axis = 1; axis < 3; ++axis) components[axis].back() = static_cast<char>(x.back() + static_cast<char>(axis));
+        const auto y = arrays.find(components[1]), z = arrays.find(components[2]);
+        if (y == arrays.end() || z == arrays.end() || y->second.size() != values.size() || z->second.size() != values.size()) continue;
+        pbs::Positions rows(values.rows(), 3);
+        rows << values, y->second, z->second;
+        vectors.try_emplace(stem, PointVector{rows, fmt::format("{}", fmt::join(components, ", "))});
+    }
+}
+
+// name: that vector alone, if it is an array of the file.
+PointVectors vectors_of(const std::string& path, const std::string& name, const std::vector<int>& file_point)
+{
+    const auto arrays = pbs::read_guarded(path, [&](const std::string& file) { return pbs::read_point_arrays(file, name); });
+    PointVectors vectors;
+    for (const auto& [of, values] : arrays)
+        if (values.cols() == 3) vectors.emplace(of, PointVector{values});
+    add_vectors_of_components(arrays, vectors);
+    for (auto& [of, vector] : vectors) {
+        if (vector.values.rows() <= std::ranges::max(file_point))
+            throw pbs::InputError(path, 0, of, fmt::format("{} rows", vector.values.rows()), "expected one for each point");
+        vector.values = vector.values(file_point, Eigen::all).eval();
     }
     return vectors;
 }
 
-// A vector that moves the points: not zero, not the points themselves, and by its name no other quantity.
-bool may_be_displacement(const std::string& name, const pbs::Positions& values, const pbs::Positions& rest)
+bool is_named_displacement(const std::string& name)
+{
+    static const std::regex displacement("u|d|.*(disp|depl|deform|translation).*", std::regex::icase);
+    return std::regex_match(name, displacement);
+}
+
+// A vector that moves the points: not zero, not the points themselves, and by its name no other quantity. Scalars are compared with the
+// names of displacements, for programs write many quantities as scalars: forces RF1, rotations UR1, stresses S11.
+bool may_be_displacement(const std::string& name, const PointVector& vector, const pbs::Positions& rest)
 {
     static const std::regex other("veloc|accel|force|normal|position|coord", std::regex::icase);
-    return !std::regex_search(name, other) && !(values.cwiseAbs().maxCoeff() <= 2.0 * rounding_m(rest)) &&
-           !((values - rest).cwiseAbs().maxCoeff() <= rounding_m(rest));
+    return !std::regex_search(name, other) && (vector.of_components.empty() || is_named_displacement(name)) &&
+           !(vector.values.cwiseAbs().maxCoeff() <= 2.0 * rounding_m(rest)) &&
+           !((vector.values - rest).cwiseAbs().maxCoeff() <= rounding_m(rest));
 }
 
 void require_no_displacement(const std::string& path, const pbs::Positions& rest, const std::vector<int>& file_point)
 {
-    if (pbs::content_extension(path) == ".msh" && pbs::read_text_file(path, pbs::most_mesh_bytes).find("$NodeData") != std::string::npos)
-        throw pbs::InputError(
-            path, 0, "points", "those of the rest mesh",
-            "expected deformed points: the $NodeData of a .msh is not read; write the frame as .vtu, or add --displacement "
-            "none if it is at rest");
-    std::vector<std::string> names;
-    for (const auto& [name, values] : vectors_of(path, "", file_point))
-        if (may_be_displacement(name, values, rest)) names.push_back(name);
+    std::vector<std::string> names, texts;
+    for (const auto& [name, vector] : vectors_of(path, "", file_point)) {
+        if (!may_be_displacement(name, vector, rest)) continue;
+        const auto place = is_named_displacement(name) ? 0 : std::ssize(names);
+        names.insert(names.begin() + place, name);
+        texts.insert(texts.begin() + place, vector.of_components.empty() ? name : fmt::format("{} ({})", name, vector.of_components));
+    }
     if (names.empty()) return;
+    const std::string quote = names.front().find(' ') == std::string::npos ? "" : "'";
     throw pbs::InputError(
         path, 0, "points", "those of the rest mesh",
         fmt::format("expected deformed points, but the deformation seems to be in the points' vector {}: add --displacement "
                     "{}, or --displacement none if the frame is at rest",
-                    fmt::join(names, " or "), names.front()));
+                    fmt::join(texts, " or "), quote + names.front() + quote));
 }
 
-std::string known_vectors(const std::string& path, const std::vector<int>& file_point)
+std::string known_vectors(const PointVectors& vectors)
 {
     std::vector<std::string> names;
-    for (const auto& [name, values] : vectors_of(path, "", file_point)) names.push_back(name);
-    return names.empty() ? "it has none; .vtu, .vtk and .vtp can have them" : fmt::format("it has {}", fmt::join(names, ", "));
+    for (const auto& [name, vector] : vectors) names.push_back(name);
+    return names.empty() ? "it has none; .vtu, .vtk, .vtp and .msh can have them" : fmt::format("it has {}", fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -120,13 +166,13 @@ pbs::Positions shape_of_frame(const std::string& path, const pbs::Positions& poi
     if (!is_at_rest)
         throw pbs::InputError(path, 0, "points", "other than the rest mesh's",
                               "expected those of the rest mesh with --displacement: points that are deformed already need no such option");
-    const auto vectors = vectors_of(path, displacement, file_point);
+    PointVectors vectors = vectors_of(path, displacement, file_point);
+    if (!vectors.contains(displacement)) vectors = vectors_of(path, "", file_point);
     const auto found = vectors.find(displacement);
     if (found == vectors.end())
-        throw pbs::InputError(path, 0, "--displacement", displacement,
-                              "expected a vector of the points: " + known_vectors(path, file_point));
-    if (!found->second.allFinite()) throw pbs::InputError(path, 0, displacement, "", "expected finite numbers");
-    return rest + found->second;
+        throw pbs::InputError(path, 0, "--displacement", displacement, "expected a vector of the points: " + known_vectors(vectors));
+    if (!found->second.values.allFinite()) throw pbs::InputError(path, 0, displacement, "", "expected finite numbers");
+    return rest + found->second.values;
 }
 
 }  // namespace experiments

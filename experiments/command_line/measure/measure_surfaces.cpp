@@ -8,6 +8,7 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/rig/rig_reader.hpp"
 #include "pbs/rig/rigged_body.hpp"
+#include "pbs/rig/surface_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -201,7 +202,9 @@ int measure_surfaces(const MeasureArguments& arguments)
 {
     const std::vector<std::string> paths = frame_files(arguments.frames, {.any_step = arguments.any_step, .of_surfaces = true}),
                                    names = frame_names(paths);
-    const RestSurface rest(arguments.rest, pbs::read_surface_frame(arguments.rest));
+    std::vector<std::string> remarks;
+    const RestSurface rest(arguments.rest, pbs::read_surface_frame(arguments.rest, &remarks));
+    warn(remarks);
     SurfaceMeasurement measurement(arguments, rest);
     const MeasuredFrames measured = measure_each(arguments, paths, names, [&](std::size_t i) {
         return measurement.measure(names[i], rest.read_frame(paths[i], arguments.displacement));

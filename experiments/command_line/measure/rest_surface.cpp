@@ -4,6 +4,7 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
+#include "pbs/rig/surface_reader.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -34,8 +34,8 @@ further = {
         "A skeleton is a TOML file with one `[[joint]]` table per bone: `name`, `parent` (empty for a root), `head_m` and "
         "`tail_m`, the end points of the bone at rest in metres.",
         "Rest rotations are the identity, so axes are those of the world.",
-        "A clip (.bvh, .gltf, .glb, .fbx, .dae) can serve as skeleton, in its rest pose: the zero pose, or a T or A pose in the first "
-        "frame."),
+        "A clip (.bvh, .gltf, .glb, .fbx, .dae, .zae) can serve as skeleton, in its rest pose: the zero pose, or a T or A pose in the "
+        "first frame."),
     "Weight files": (
         "A CSV file with the columns `vertex`, `joint` and `weight`. The weights of a vertex add up to 1.",),
     "Rigged models": (

@@ -59,7 +59,7 @@ CheckRules rules_of(const CheckArguments& arguments)
 {
     std::vector<std::string> metrics;
     for (const MetricText& metric : metric_texts())
-        if (metric.name != "outcome") metrics.push_back(metric.name);
+        if (metric.name != "outcome" && !metric.is_of_measure_alone) metrics.push_back(metric.name);
     const CheckRules own = analysis::parse_check_rules(::claims::claims_toml, "experiments/verdicts/claims.toml", metrics);
     if (arguments.bounds.empty()) return own;
     CheckRules rules = analysis::parse_check_rules(analysis::read_text(arguments.bounds), arguments.bounds, metrics);

@@ -28,7 +28,7 @@ def write_vtk(path, points, tets, vectors=None):
     for name, rows in (vectors or {}).items():
         array = vtk.vtkDoubleArray()
         array.SetName(name)
-        array.SetNumberOfComponents(3)
+        array.SetNumberOfComponents(len(rows[0]))
         for row in rows:
             array.InsertNextTuple(row)
         grid.GetPointData().AddArray(array)
@@ -153,6 +153,11 @@ class ForeignFrames(program.ProgramTest):
         process = self.measure(1, "arm_0001.vtu", "--quiet", "--max-volume-change", "0.5", says="|volume_change_pct| = 0.9 > 0.5")
         self.assertEqual(process.stdout, "")
 
+    def test_every_column_is_explained(self):
+        self.frames({1: 0.9})
+        self.measure(0, "arm_0001.vtu", "--reference", "arm_0001.vtu", "--csv", "v.csv")
+        self.explains_columns("v.csv", labels=["frame", "reference"])
+
     def test_bounds_that_all_or_nothing_meets(self):
         self.frames({1: 0.1})
         not_negative = ("--max-volume-change", "--max-volume-abs-change", "--max-inverted", "--max-edge-strain", "--max-stretch-rms")
@@ -177,16 +182,59 @@ class ForeignFrames(program.ProgramTest):
             file.write(f"\nPOINT_DATA {len(POINTS)}\nSCALARS s double 1\nLOOKUP_TABLE default\n" + "0\n" * len(POINTS)
                        + "SCALARS u double 3\nLOOKUP_TABLE default\n" + "".join(f"{x} {y} {z}\n" for x, y, z in shift(-26.0)))
         self.refuses("the deformation seems to be in the points' vector u: add --displacement u", "scalars.vtk")
-        foreign_arm.write_msh(self.path("nodes.msh"), POINTS, TETS)
-        with open(self.path("nodes.msh"), "a", encoding="utf-8") as file:
-            file.write("$NodeData\n1\n\"u\"\n1\n0\n3\n0\n3\n0\n$EndNodeData\n")
-        self.refuses("the $NodeData of a .msh is not read", "nodes.msh")
-        self.measure(0, "nodes.msh", "--displacement", "none", says="nothing moves")
         write_vtk(self.path("rest.vtk"), POINTS, TETS, {"displacement": shift(0.0), "velocity": shift(1.0), "rest_position": POINTS})
         self.measure(0, "rest.vtk", "--max-volume-change", "0.001")
         write_vtk(self.path("moved.vtk"), stretched(1.0), TETS, {"displacement": shift(1.0)})
         self.measure(0, "moved.vtk", "--max-volume-change", "1.001")
         self.refuses("points that are deformed already need no such option", "moved.vtk", "--displacement", "displacement")
+
+    def expect_stretched(self, file, displacement):
+        self.measure(1, file, "--displacement", displacement, "--max-volume-change", "0.5", "--csv", "volume.csv")
+        self.assertAlmostEqual(float(self.rows("volume.csv")[0]["volume_change_pct"]), -26.0, places=5)
+
+    def test_three_scalars_that_are_the_components_of_a_displacement(self):
+        shift = [tuple(a - b for a, b in zip(moved, rest)) for moved, rest in zip(stretched(-26.0), POINTS)]
+        for stem, names in (("u", ("ux", "uy", "uz")), ("u", ("u_x", "u_y", "u_z")), ("U", ("U1", "U2", "U3")), ("D", ("DX", "DY", "DZ")),
+                            ("displacement", ("displacement_x", "displacement_y", "displacement_z")),
+                            ("disp", ("disp:0", "disp:1", "disp:2"))):
+            for file in ("scalars.vtu", "scalars.vtk"):
+                with self.subTest(names[0], file=file):
+                    scalars = {name: [(row[axis],) for row in shift] for axis, name in enumerate(names)}
+                    write_vtk(self.path(file), POINTS, TETS, scalars | {f"RF{k}": [(7.0,)] * len(POINTS) for k in (1, 2, 3)})
+                    self.refuses(f"seems to be in the points' vector {stem} ({', '.join(names)}): add --displacement {stem}", file)
+                    self.expect_stretched(file, stem)
+        self.refuses("--displacement = w: expected a vector of the points: it has RF, disp", file, "--displacement", "w")
+        write_vtk(self.path("forces.vtu"), POINTS, TETS, {f"RF{k}": [(7.0,)] * len(POINTS) for k in (1, 2, 3)})
+        self.measure(0, "forces.vtu", says="nothing moves")
+        write_vtk(self.path("forces.vtu"), POINTS, TETS, {"RF": [(7.0, 0.0, 0.0)] * len(POINTS), "u": shift})
+        self.refuses("the points' vector u or RF: add --displacement u", "forces.vtu")
+
+    def write_msh_with_node_data(self, data):
+        foreign_arm.write_msh(self.path("nodes.msh"), POINTS, TETS)
+        with open(self.path("nodes.msh"), "a", encoding="utf-8") as file:
+            for name, rows in data:
+                file.write(f"$NodeData\n1\n\"{name}\"\n1\n0\n3\n0\n{len(rows[0])}\n{len(rows)}\n")
+                for tag, row in reversed(list(enumerate(rows, 1))):
+                    file.write(f"{tag} {' '.join(map(repr, row))}\n")
+                file.write("$EndNodeData\n")
+
+    def test_node_data_of_gmsh(self):
+        shift = [tuple(a - b for a, b in zip(moved, rest)) for moved, rest in zip(stretched(-26.0), POINTS)]
+        self.write_msh_with_node_data([("step 1", shift), ("T", [(300.0,)] * len(POINTS))])
+        self.refuses("seems to be in the points' vector step 1: add --displacement 'step 1'", "nodes.msh")
+        self.measure(0, "nodes.msh", "--displacement", "none", says="nothing moves")
+        self.expect_stretched("nodes.msh", "step 1")
+        self.write_msh_with_node_data([(f"u{axis}", [(row[k],) for row in shift]) for k, axis in enumerate("xyz")])
+        self.expect_stretched("nodes.msh", "u")
+        self.write_msh_with_node_data([("u", shift[1:])])
+        self.refuses(f"nodes of $NodeData u = {len(POINTS) - 1}: expected each of the {len(POINTS)}", "nodes.msh")
+        self.write_msh_with_node_data([("u", shift), ("u", shift)])
+        self.refuses("$NodeData = u: expected one of each name", "nodes.msh")
+        with open(self.path("nodes.msh"), encoding="utf-8") as file:
+            text = file.read()
+        with open(self.path("nodes.msh"), "w", encoding="utf-8") as file:
+            file.write(text.replace(f"\n{len(POINTS)} ", "\n99999 "))
+        self.measure(2, "nodes.msh")
 
     def test_doubled_nodes_and_bodies_that_overlap(self):
         """A crack, bodies in contact and a body within another: each counts with its own tets."""

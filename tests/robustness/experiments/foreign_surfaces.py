@@ -174,6 +174,11 @@ class ForeignSurfaces(program.ProgramTest):
         self.write_surface("rest.obj", points, faces)
         self.measure(0, "rest.obj", "rest.obj", says="closed shells = 1 % of the surface's area")
 
+    def test_every_column_is_explained(self):
+        self.write_surface("rest.vtp", box(), QUADS)
+        self.measure(0, "rest.vtp", "rest.vtp", "--csv", "v.csv", "--shells", "shells.csv")
+        self.explains_columns("v.csv", "shells.csv", labels=["frame", "shell", "mesh", "role"])
+
     def test_self_intersections_are_counted_and_bounded(self):
         """One box moves into another, whose surface its own then crosses."""
         self.write_surface("rest.obj", *joined((box(), QUADS), (box((3, 0, 0)), QUADS)))

@@ -181,6 +181,20 @@ class OwnCharacter(TrialTest):
         self.assertNotIn("2 animations", printed)
         self.assertIn("expected one of Bend, Twist", self.refused("try", self.rig("two_animations"), "--animation", "Walk"))
 
+    def test_an_animation_of_a_clip_can_be_chosen_by_name(self):
+        clip = os.path.join(self.folder, "clip:of two.glb")
+        os.rename(self.rig("two_animations"), clip)
+        facts, printed = self.tried(self.rig(), "--animation", f"{clip}:Twist")
+        self.assertNotIn("2 animations", printed)
+        scene = self.read("out", "scene.toml")
+        self.assertIn('animation = "Twist"', scene)
+        self.assertIn("clip:of two.glb", scene)
+        facts, printed = self.tried(self.rig(), "--animation", clip)
+        self.remarked(facts, printed, "Bend is taken, the first one that turns a joint by more than 5 degrees", "note")
+        for model in ("plain", "no_animation"):
+            message = self.refused("try", self.rig(model), "--animation", f"{clip}:Walk")
+            self.assertIn("clip:of two.glb: animation = Walk: expected one of Bend, Twist", message)
+
     def test_a_clip_that_matches_too_few_joints_is_refused(self):
         walk = self.write("walk.bvh", clip(["root", "a", "b", "c", "d"]))
         message = self.refused("try", self.rig(), "--animation", walk, "-o", self.path("out"), "--no-reference")

@@ -1,7 +1,7 @@
 // Reference: the interface. The file of a surface may refer to files in and below its folder; no other file is opened, and the error names
 // it if it is needed.
-#include "pbs/geometry/mesh_io.hpp"
 
+#include "pbs/rig/surface_reader.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/scratch_folder.hpp"
 

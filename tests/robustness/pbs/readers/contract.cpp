@@ -9,10 +9,11 @@
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/rig/rig_reader.hpp"
 #include "pbs/rig/rigged_body.hpp"
+#include "pbs/rig/surface_reader.hpp"
 #include "tests/support/arm_in_formats.hpp"
-#include "tests/support/scratch_folder.hpp"
 #include "tests/support/gltf_document.hpp"
 #include "tests/support/refusal.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <sys/stat.h>

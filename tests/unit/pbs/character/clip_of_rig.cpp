@@ -18,10 +18,10 @@ using test_support::GltfDocument;
 // The file's quaternions are in single precision, and each has an angle of half a turn of its rotation.
 const double of_angles_deg = 2.0 * test_support::rounding_error_in<float>(8, 1.0) * 180.0 / M_PI;
 
-Clip read(const GltfDocument& gltf)
+Clip read(const GltfDocument& gltf, const std::string& animation = "")
 {
     const test_support::ScratchFolder folder;
-    return read_clip(folder.file("walk.gltf", gltf.text()));
+    return read_clip(folder.file("walk.gltf", gltf.text()), animation);
 }
 
 double elbow_deg(const Clip& clip, int frame)
@@ -54,6 +54,21 @@ TEST(ClipOfRig, AnAnimationThatStandsStillIsNotTheMotion)
     EXPECT_NE(clip.remarks[0].find("it has 2 animations; Bend is taken, the first one that turns a joint by more than 5 degrees"),
               std::string::npos)
         << clip.remarks[0];
+    const Clip still_one = read(gltf, "T-Pose");
+    EXPECT_NEAR(elbow_deg(still_one, 60), 0.0, of_angles_deg);
+    EXPECT_TRUE(still_one.remarks.empty()) << "it was chosen";
+    EXPECT_NEAR(elbow_deg(read(gltf, "Bend"), 60), 90.0, of_angles_deg);
+    expect_input_error([&] { read(gltf, "Walk"); }, "", "animation = Walk: expected one of T-Pose, Bend");
+}
+
+TEST(ClipOfRig, ABvhHasNoNames)
+{
+    const test_support::ScratchFolder folder;
+    const std::string path = folder.file("a.bvh",
+                                         "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\n"
+                                         "OFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0\n");
+    EXPECT_EQ(read_clip(path).frames(), 1);
+    expect_input_error([&] { read_clip(path, "Walk"); }, path + ": animation = Walk: ", "a BVH file holds one motion");
 }
 
 TEST(ClipOfRig, ItsZeroPoseIsTheBindPoseAndNotThatOfTheNodes)

@@ -2,6 +2,7 @@
 
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/mesh_io.hpp"
+#include "pbs/rig/surface_reader.hpp"
 #include "tests/support/arm_in_formats.hpp"
 #include "tests/support/gltf_document.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -91,11 +91,11 @@ TEST_F(Writing, TheVectorsOfAFramesPointsAreReadBackByNameToTheBit)
     const pbs::Positions shift = 2.0 * bar.rest;
     pbs::write_vtu(folder / "a.vtu", bar.rest, bar.tets,
                    {.point_vectors = {{"u", shift}, {"v", bar.rest}}, .point_flags = {}, .cell_scalars = {}});
-    EXPECT_EQ(pbs::read_point_vectors(folder / "a.vtu").size(), 2u);
-    EXPECT_EQ(pbs::read_point_vectors(folder / "a.vtu", "u"), (std::map<std::string, pbs::Positions>{{"u", shift}}));
-    EXPECT_TRUE(pbs::read_point_vectors(folder / "a.vtu", "w").empty());
+    EXPECT_EQ(pbs::read_point_arrays(folder / "a.vtu").size(), 2u);
+    EXPECT_EQ(pbs::read_point_arrays(folder / "a.vtu", "u"), (std::map<std::string, Eigen::MatrixXd>{{"u", shift}}));
+    EXPECT_TRUE(pbs::read_point_arrays(folder / "a.vtu", "w").empty());
     pbs::write_tet_mesh(folder / "a.mesh", bar);
-    EXPECT_TRUE(pbs::read_point_vectors(folder / "a.mesh").empty());
+    EXPECT_TRUE(pbs::read_point_arrays(folder / "a.mesh").empty());
 }
 
 TEST_F(Writing, IntoAMissingFolderIsRefusedAndNamesTheFile)

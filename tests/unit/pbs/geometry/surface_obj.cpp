@@ -2,6 +2,7 @@
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 
+#include "pbs/rig/surface_reader.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 

@@ -1,7 +1,7 @@
 // Reference: the tetrahedron of 1/6 m^3 with a corner at 0 and one on each axis, in the forms in which programs write .stl, .ply and .off.
-#include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 
+#include "pbs/rig/surface_reader.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 

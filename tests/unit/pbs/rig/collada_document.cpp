@@ -2,12 +2,16 @@
 // else is changed in a document is tested with the rig that is made of it.
 
 #include "pbs/rig/collada_document.hpp"
+#include "pbs/rig/rig_reader.hpp"
+#include "pbs/rig/rigged_body.hpp"
 #include "tests/support/arm_in_formats.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
 #include <minizip/zip.h>
+
+#include <algorithm>
 
 namespace {
 
@@ -77,17 +81,43 @@ TEST(ColladaWeights, TheirPlaceFollowsTheAccessor)
     expect_refused(text, "3 = -0.2");
 }
 
+void write_archive(const std::string& path, const std::vector<std::string>& texts)
+{
+    zipFile archive = zipOpen(path.c_str(), APPEND_STATUS_CREATE);
+    ASSERT_TRUE(archive);
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        const std::string name = std::to_string(i) + ".dae";
+        zipOpenNewFileInZip(archive, name.c_str(), nullptr, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED, Z_DEFAULT_COMPRESSION);
+        zipWriteInFileInZip(archive, texts[i].data(), static_cast<unsigned>(texts[i].size()));
+        zipCloseFileInZip(archive);
+    }
+    zipClose(archive, nullptr);
+}
+
 TEST(ColladaWeights, OfAnArchiveAreChecked)
 {
     const ScratchFolder folder;
-    const std::string path = folder / "arm.zae", text = arm_with_weights("1 0.5 0.25 -0.75");
-    zipFile archive = zipOpen(path.c_str(), APPEND_STATUS_CREATE);
-    ASSERT_TRUE(archive);
-    zipOpenNewFileInZip(archive, "arm.dae", nullptr, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED, Z_DEFAULT_COMPRESSION);
-    zipWriteInFileInZip(archive, text.data(), static_cast<unsigned>(text.size()));
-    zipCloseFileInZip(archive);
-    zipClose(archive, nullptr);
+    const std::string path = folder / "arm.zae";
+    write_archive(path, {arm_with_weights("1 0.5 0.25 -0.75")});
     expect_input_error([&] { pbs::read_collada_document(path); }, path + ": controller skin, weight of point 3 = -0.75: ", "");
+}
+
+TEST(ColladaArchive, IsReadAsTheOneDocumentThatItHas)
+{
+    const ScratchFolder folder;
+    const std::string path = folder / "arm.zae", stepped = arm_of_weights_with("LINEAR LINEAR", "STEP STEP");
+    write_archive(path, {stepped});
+    const pbs::ColladaDocument document = pbs::read_collada_document(path);
+    EXPECT_FALSE(document.text.empty());
+    EXPECT_EQ(document.text, pbs::read_collada_document(folder.file("arm.dae", stepped)).text);
+    const pbs::Rig rig = pbs::read_rig(path);
+    const auto elbow = std::ranges::find(rig.nodes, "elbow", &pbs::RigNode::name) - rig.nodes.begin();
+    for (const auto& [time_s, cosine] : {std::pair(0.9, 1.0), std::pair(1.0, 0.0)}) {  // it turns by 90 degrees at the second key
+        const auto nodes = pbs::node_transforms(rig, &rig.animations.at(0), time_s);
+        EXPECT_NEAR(nodes.at(static_cast<std::size_t>(elbow)).linear().col(0).normalized().x(), cosine, 1e-6) << time_s;
+    }
+    write_archive(path, {stepped, test_support::collada_arm()});
+    expect_input_error([&] { pbs::read_collada_document(path); }, path + ": documents = 2: ", "unpack it, and use the .dae");
 }
 
 }  // namespace

@@ -2,15 +2,18 @@
 // numbers with 17 digits and are read in double precision: at most 64 roundings of numbers of at most 8.
 
 #include "pbs/rig/rig_formats.hpp"
+#include "pbs/rig/rig_reader.hpp"
 #include "pbs/rig/rigged_body.hpp"
 #include "tests/support/fbx_file.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/weight_sums.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace {
 
@@ -410,6 +413,18 @@ TEST(FbxRig, NamesMorphTargetsAndShapesThatAreNoPolygons)
     file.add("Geometry", "sleeve", "NurbsSurface", file.body, {});
     expect_remark(rig_of(file), "mesh skin: 1 morph targets are left out");
     expect_remark(rig_of(file), "geometry sleeve of node body is left out: it is a NurbsSurface; convert it into a polygon mesh");
+}
+
+TEST(FbxRig, OfABinaryFileHasBonesWithWeights)
+{
+    const std::string path = "/usr/share/assimp/models/FBX/animation_with_skeleton.fbx";
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "assimp-testmodels is not installed";
+    const Rig rig = read_rig(path);
+    ASSERT_FALSE(rig.meshes.empty());
+    for (const RigMesh& mesh : rig.meshes)
+        for (int p = 0; p < mesh.skin.vertices(); ++p)
+            EXPECT_NEAR(test_support::sum_of_weights(mesh.skin, p), 1.0, 1e-12) << "point " << p << " of " << mesh.name;
+    EXPECT_TRUE(std::any_of(rig.meshes.begin(), rig.meshes.end(), [](const RigMesh& mesh) { return mesh.joints.size() > 1; }));
 }
 
 }  // namespace

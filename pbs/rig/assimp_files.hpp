@@ -1,5 +1,6 @@
-// assimp's one door, for surfaces, rigs and clips. It opens only files that content_format.hpp allows: the file itself and regular files
-// below its folder. It chooses its reader by the file's name, so that it is given a name whose extension fits the content.
+// assimp's one door, for COLLADA files and the materials of FBX files. It opens only files that content_format.hpp allows: the file itself
+// and regular files below its folder. It chooses its reader by the file's name, so that it is given a name whose extension fits the
+// content.
 //   Assimp::Importer importer;
 //   const aiScene& scene = read_scene(importer, path, aiProcess_Triangulate);
 #pragma once
@@ -17,14 +18,17 @@
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <vector>
 
 namespace pbs {
 
 class OwnFolder : public Assimp::DefaultIOSystem {
 public:
-    // path: the file that is read; it may lie anywhere. text: if not empty, in place of its content; it outlives the object.
-    explicit OwnFolder(const std::string& path, std::string_view text = {}) : path_(path), name_(path_by_content(path)), text_(text) {}
+    // path: the file that is read; it may lie anywhere. text: if not empty, a COLLADA document in place of its content; it outlives the
+    // object.
+    explicit OwnFolder(const std::string& path, std::string_view text = {})
+        : path_(path), name_(text.empty() ? path_by_content(path) : path + ".dae"), text_(text)
+    {
+    }
 
     // The path, or one of no file with another extension, in whose place the file is opened.
     const std::string& name_by_content() const { return name_; }
@@ -64,39 +68,16 @@ private:
     std::string_view text_;
 };
 
-// The scene, which the importer owns, with a root node. `refusal` begins the message of the InputError where assimp cannot read the file.
-// text: as that of OwnFolder.
-inline const aiScene& read_scene(Assimp::Importer& importer, const std::string& path, unsigned steps,
-                                 const std::string& refusal = "assimp: ", std::string_view text = {})
+// The scene, which the importer owns, with a root node. An InputError where assimp cannot read the file. text: as that of OwnFolder.
+inline const aiScene& read_scene(Assimp::Importer& importer, const std::string& path, unsigned steps, std::string_view text = {})
 {
     auto* files = new OwnFolder(path, text);
     importer.SetIOHandler(files);  // which owns it
     const aiScene* scene = importer.ReadFile(files->name_by_content(), steps);
     if (!scene) files->refuse_what_was_referred_to();
     if (importer.GetErrorString() == std::string("std::bad_alloc")) throw std::bad_alloc();  // which assimp catches
-    if (!scene || !scene->mRootNode) throw InputError(path, 0, "", "", refusal + importer.GetErrorString());
+    if (!scene || !scene->mRootNode) throw InputError(path, 0, "", "", std::string("assimp: ") + importer.GetErrorString());
     return *scene;
-}
-
-// The corners of a mesh's triangles, for whose points `first` is the number of the first one; points and lines are left out.
-inline void add_triangles(const aiMesh& mesh, int first, std::vector<int>& corners)
-{
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f)
-        for (unsigned c = 0; mesh.mFaces[f].mNumIndices == 3 && c < 3; ++c)
-            corners.push_back(first + static_cast<int>(mesh.mFaces[f].mIndices[c]));
-}
-
-// The unit of a file that assimp has read [m]. FBX states its unit in centimetres. COLLADA has it in the root's transform, and the other
-// formats have none.
-inline double metres_per_unit(const aiScene& scene)
-{
-    constexpr double metres_per_centimetre = 0.01;
-    double centimetres = 0.0;
-    float single = 0.0F;
-    if (!scene.mMetaData) return 1.0;
-    if (scene.mMetaData->Get("UnitScaleFactor", centimetres)) return metres_per_centimetre * centimetres;
-    if (scene.mMetaData->Get("UnitScaleFactor", single)) return metres_per_centimetre * static_cast<double>(single);
-    return 1.0;
 }
 
 }  // namespace pbs

@@ -1,8 +1,10 @@
 // Reference: a cube, counted by hand, in each format.
 
 #include "pbs/geometry/mesh_io.hpp"
+#include "pbs/rig/surface_reader.hpp"
 #include "tests/support/arm_in_formats.hpp"
 #include "tests/support/closed_surfaces.hpp"
+#include "tests/support/fbx_file.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
@@ -63,7 +65,7 @@ void expect_cube(const std::string& path, double edge)
     const pbs::SurfaceMesh cube = pbs::read_surface(path);
     EXPECT_EQ(cube.points.rows(), 8) << path;
     EXPECT_EQ(cube.triangles.rows(), 12) << path;
-    // Outward. assimp reads numbers in single precision: the digits, the power of ten and their product are rounded, for three edges.
+    // Outward. A .ply and an .stl may be in single precision: the digits, the power of ten and their product are rounded, for three edges.
     EXPECT_NEAR(test_support::enclosed_volume(cube.points, cube.triangles), edge * edge * edge,
                 test_support::rounding_error_in<float>(3 * 3, edge * edge * edge))
         << path;
@@ -185,11 +187,105 @@ TEST_F(SurfaceFormats, ColladaAndFbxAreInMetresAndTheTransformsOfNodesApplied)
     const std::string stated = "\"Number\", \"\",1\n}";
     metres.replace(metres.find(stated), stated.size(), "\"Number\", \"\",100\n}");
     expect_two_triangles(folder.file("metres.fbx", metres), {0, 0, 0}, 1.0);
+}
+
+// Reference: the format's formulas by hand, for a cube of 1 unit whose turns are quarter turns. Numbers have 12 digits, and are read in
+// double precision: at most 64 roundings of the largest coordinate.
+
+constexpr double far = 12345678.9012;
+
+// expected: of each corner of the cube in turn [m].
+template <typename Expected>
+void expect_corners(const std::string& path, const Expected& expected)
+{
+    const pbs::SurfaceMesh cube = pbs::read_surface(path);
+    ASSERT_EQ(cube.points.rows(), 8) << path;
+    EXPECT_EQ(cube.triangles.rows(), 12) << path;
+    for (const auto& corner : corners) {
+        const pbs::Vec3 place = expected(pbs::Vec3(corner[0], corner[1], corner[2]));
+        const double nearest = (cube.points.rowwise() - place.transpose()).rowwise().norm().minCoeff();
+        EXPECT_LE(nearest, test_support::rounding_error_in<double>(64, place.norm() + 1.0)) << path << ", " << place.transpose();
+    }
+}
+
+test_support::FbxFile fbx_cube(const test_support::FbxProperties& properties, const test_support::FbxProperties& of_parent)
+{
+    test_support::FbxFile file;
+    test_support::FbxNumbers points, polygons;
+    for (const auto& corner : corners) points.insert(points.end(), {double(corner[0]), double(corner[1]), double(corner[2])});
+    for (const auto& q : quads) polygons.insert(polygons.end(), {double(q[0]), double(q[1]), double(q[2]), -1.0 - q[3]});
+    file.mesh("cube", file.node("body", file.node("above", 0, "Null", of_parent), "Mesh", properties), points, polygons);
+    return file;
+}
+
+TEST_F(SurfaceFormats, AnFbxHasItsGeometricTransformItsPivotAndItsPostRotation)
+{
+    const test_support::FbxFile file = fbx_cube({{"GeometricTranslation", {0.5, 0, 0}},
+                                                 {"GeometricRotation", {0, 0, 90}},
+                                                 {"GeometricScaling", {2, 1, 1}},
+                                                 {"RotationActive", {1}},
+                                                 {"PostRotation", {0, 0, 90}},
+                                                 {"RotationPivot", {0, 3, 0}},
+                                                 {"Lcl Translation", {0, 0, far}}},
+                                                {{"Lcl Scaling", {1, 2, 1}}});
+    const auto expected = [](const pbs::Vec3& p) {
+        const pbs::Vec3 geometric(0.5 - p.y(), 2.0 * p.x(), p.z());
+        const pbs::Vec3 turned(geometric.y() - 3.0, 3.0 - geometric.x(), geometric.z() + far);  // by -90 degrees about the pivot
+        return pbs::Vec3(0.01 * turned.x(), 0.01 * 2.0 * turned.y(), 0.01 * turned.z());
+    };
+    expect_corners(folder.file("cube.fbx", file.text()), expected);
+    expect_corners(folder.file("binary.fbx", file.binary(true)), expected);
+}
+
+TEST_F(SurfaceFormats, OfInheritTypeRrsTheScaleOfTheParentMovesTheNodeAlone)
+{
+    const test_support::FbxFile file = fbx_cube({{"InheritType", {2}}, {"Lcl Translation", {1, 0, 0}}}, {{"Lcl Scaling", {3, 3, 3}}});
+    expect_corners(folder.file("cube.fbx", file.text()), [](const pbs::Vec3& p) -> pbs::Vec3 { return 0.01 * (p + pbs::Vec3(3, 0, 0)); });
+}
+
+// The cube as COLLADA in centimetres, at a place, in a node that moves it by another one.
+std::string collada_cube(double place, double of_node)
+{
+    std::ostringstream text;
+    text.precision(17);
+    text << "<?xml version=\"1.0\"?>\n<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">\n<asset><unit "
+            "name=\"centimeter\" meter=\"0.01\"/><up_axis>Y_UP</up_axis></asset>\n<library_geometries><geometry id=\"cube\" name=\"box\">"
+            "<mesh><source id=\"p\"><float_array id=\"pa\" count=\"24\">";
+    for (const auto& corner : corners) text << corner[0] + place << ' ' << corner[1] << ' ' << corner[2] << ' ';
+    text << "</float_array><technique_common><accessor source=\"#pa\" count=\"8\" stride=\"3\"><param name=\"X\" type=\"float\"/><param "
+            "name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor></technique_common></source><vertices id=\"v\"><input "
+            "semantic=\"POSITION\" source=\"#p\"/></vertices><polylist count=\"6\"><input semantic=\"VERTEX\" source=\"#v\" "
+            "offset=\"0\"/><vcount>4 4 4 4 4 4</vcount><p>";
+    for (const auto& q : quads)
+        for (const int v : q) text << v << ' ';
+    text << "</p></polylist></mesh></geometry></library_geometries>\n<library_visual_scenes><visual_scene id=\"s\"><node "
+            "id=\"body\"><translate>0 0 "
+         << of_node
+         << "</translate><instance_geometry url=\"#cube\"/></node></visual_scene></library_visual_scenes>\n<scene><instance_visual_scene "
+            "url=\"#s\"/></scene>\n</COLLADA>\n";
+    return text.str();
+}
+
+TEST_F(SurfaceFormats, ColladaFarFromTheOriginKeepsItsDigits)
+{
+    const std::string path = folder.file("cube.dae", collada_cube(far, 8.0));
+    expect_corners(path, [](const pbs::Vec3& p) -> pbs::Vec3 { return 0.01 * (p + pbs::Vec3(far, 0, 8)); });
+    EXPECT_EQ(pbs::read_surface(path, "cube").points, pbs::read_surface(path).points) << "by the id of its geometry";
+    EXPECT_EQ(pbs::read_surface(path, "body").points, pbs::read_surface(path).points) << "by that of its node";
+    expect_input_error([&] { pbs::read_surface(path, "lid"); }, path + ": mesh = lid: ", "expected one of the file's meshes: cube");
+    const std::string torn =
+        folder.file("torn.dae", test_support::collada_arm().replace(test_support::collada_arm().find("<p>0"), 4, "<p>-1"));
+    expect_input_error([&] { pbs::read_surface(torn); }, torn + ":6: p = -1: ", "expected indices from 0");
+}
+
+// What joints move is in the bind pose, wherever the node of the mesh is.
+TEST_F(SurfaceFormats, ASkinnedMeshIsInItsBindPose)
+{
     std::string text = test_support::fbx_arm();
     const std::string body = "\"Model::body\", \"Mesh\" {\nVersion: 232\n";
     text.replace(text.find(body), body.size(),
                  body + "Properties70: {\nP: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",0,0,300\n}\n");
-    expect_two_triangles(folder.file("moved.fbx", text), {0, 0, 3}, 0.01);
+    expect_two_triangles(folder.file("moved.fbx", text), {0, 0, 0}, 0.01);
 }
 
 TEST_F(SurfaceFormats, PackedColladaIsReadAsTheUnpackedOne)
