@@ -7,7 +7,9 @@
 // weights. DeltaMush is plain code in double; PackedDeltaMush computes the same in packed float.
 // Twenty iterations shrink a limb that is three tets thick to a thread of a hundredth of its width. The edges of a thread do not determine
 // the rotation about it, and the detail of neighbours turns in different ways, until the limb is inside out. `unsmoothed_share` adds the
-// edges before smoothing, which have the limb's full width: where smoothing leaves the body its width, they hardly count.
+// edges before smoothing, which have the limb's full width. On the human of 2,300 vertices in 12 poses of clip 01_01, whose arms are that
+// thin, a share of 0.01 lowers the distance from finite elements from 7.7 to 6.8 mm rms and from 70 to 36 mm at most; 0.1 gives 8.1 mm,
+// for the frames then inherit the creases of LBS.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
