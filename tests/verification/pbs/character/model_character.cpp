@@ -78,7 +78,7 @@ protected:
 TEST_F(ModelCharacter, HasTheVolumeTheBonesTheWeightsAndTheSurfaceOfItsModel)
 {
     const Character hero = made_from(folder, ellipsoid_document(0, true), remarks);
-    EXPECT_TRUE(remarks.empty()) << remarks.front();
+    EXPECT_TRUE(remarks.empty()) << remarks.front().text;
     // The facets of the surface cut off some percent of the ellipsoid, and the wrap adds a layer of some 2 mm.
     const double ellipsoid_m3 = 4.0 / 3.0 * M_PI * long_m * short_m * short_m;
     EXPECT_NEAR(tet_volumes(hero.mesh.rest, hero.mesh.tets).sum() / ellipsoid_m3, 1.0, 0.1);
