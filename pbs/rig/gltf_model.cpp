@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <limits>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 
 namespace pbs {
@@ -127,6 +128,7 @@ std::string with_encoded_names(const std::string& text)
 std::string one_line(std::string text)
 {
     std::replace(text.begin(), text.end(), '\n', ' ');
+    if (text.starts_with("[json.")) text.erase(0, text.find("] ") + 2);  // the name of an exception
     return text.substr(0, text.find_last_not_of(' ') + 1);
 }
 
@@ -259,6 +261,22 @@ void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& access
     }
 }
 
+// An InputError for a buffer in a file that is there and may not be opened.
+void refuse_buffers_elsewhere(const std::string& bytes, const std::string& path)
+{
+    const nlohmann::json document = document_in(bytes);
+    if (!document.is_object() || !document.contains("buffers")) return;
+    for (const nlohmann::json& buffer : document.at("buffers")) {
+        if (!buffer.is_object() || !buffer.contains("uri") || !buffer.at("uri").is_string()) continue;
+        const std::string uri = buffer.at("uri").get<std::string>();
+        if (uri.starts_with("data:")) continue;
+        const std::string file = (std::filesystem::path(path).parent_path() / tinygltf::dlib::urldecode(uri)).string();
+        std::error_code ignored;
+        if (std::filesystem::exists(file, ignored) && !may_be_opened_for(path, file))
+            throw InputError(path, 0, "referred file", file, "expected a regular file below the folder of the one that refers to it");
+    }
+}
+
 }  // namespace
 
 void read_gltf_model(const std::string& bytes, const std::string& path, tinygltf::Model& model)
@@ -270,6 +288,10 @@ void read_gltf_model(const std::string& bytes, const std::string& path, tinygltf
     loader.SetFsCallbacks(own_files<tinygltf::FsCallbacks>(own_path));
     bool read = false;
     if (bytes.starts_with("glTF")) {
+        constexpr std::size_t version_at = 4;
+        if (bytes.size() > version_at && bytes[version_at] != 2)  // little-endian; tinygltf does not ask
+            throw InputError(path, 0, "version of the container", std::to_string(static_cast<unsigned char>(bytes[version_at])),
+                             "expected 2: convert the file (gltf-pipeline -i FILE)");
         read = loader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
                                            static_cast<unsigned>(bytes.size()), folder);
     } else {
@@ -278,6 +300,7 @@ void read_gltf_model(const std::string& bytes, const std::string& path, tinygltf
     }
     if (!read) {
         require_known_extensions(bytes, path);  // which may be why
+        refuse_buffers_elsewhere(bytes, path);
         throw InputError(path, 0, "", "", "no glTF that tinygltf can read: " + one_line(error));
     }
     if (model.asset.version.rfind("2.", 0) != 0)

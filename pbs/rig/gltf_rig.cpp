@@ -101,6 +101,8 @@ private:
             for (int p = 0; p < points.count; ++p) corners.push_back(p);
         }
         const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES, fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
+        if (list && primitive.indices >= 0 && corners.size() % 3 != 0)
+            throw InputError(rig_.file, 0, field + "/indices", std::to_string(corners.size()) + " of triangles", "expected three for each");
         for (std::size_t c = 0; c + 2 < corners.size(); c += list ? 3 : 1) {
             // A strip's odd triangles run the other way round (glTF 2.0, Sec. 3.7.2.1).
             const bool odd = !list && !fan && c % 2 == 1;
