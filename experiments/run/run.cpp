@@ -214,10 +214,10 @@ private:
             labels.push_back(runner.spec.label);
         }
         if (!labels.empty())
-            add_warnings({fmt::format("{}: {} of {} tets are slivers, whose volume is below 1e-5 of their longest edge cubed: {} could not "
+            remarks_.add(pbs::Gravity::part_left_out,
+                         {fmt::format("{}: {} of {} tets are slivers, whose volume is below 1e-5 of their longest edge cubed: {} could not "
                                       "turn them, and take them as soft as regular tets; remesh the body, or leave these tets out",
-                                      scene_.file, slivers, character_.mesh.tets.rows(), fmt::join(labels, ", "))},
-                         warnings_);
+                                      scene_.file, slivers, character_.mesh.tets.rows(), fmt::join(labels, ", "))});
     }
 
     void play()
