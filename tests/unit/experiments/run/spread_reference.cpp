@@ -95,7 +95,7 @@ protected:
 
     const pbs::Character bar = test_support::bar_character({4, 1, 1});
     const test_support::ScratchFolder folder;
-    const std::string file = folder.path() + "/reference_frames.cbor";
+    const std::string file = folder / "reference_frames.cbor";
 };
 
 TEST(SpreadReference, GoesOnByAsManyFramesAsTheTimeThatIsLeftAsksFor)
