@@ -356,7 +356,7 @@ private:
                 {fmt::format("{}: in the reference, the flesh that {} alone moves is turned by up to {:.0f} degrees against it, in "
                              "frame {}; attachment = \"held\" of [[fem]] ties such flesh to its bone",
                              scene_.file, bone, lag_.turn_deg, lag_.frame)});
-        return {{"largest_deg", lag_.turn_deg}, {"bone", bone}, {"frame", lag_.frame}};
+        return {{"largest_turn_deg", lag_.turn_deg}, {"bone", bone}, {"frame", lag_.frame}};
     }
 
     // Null: the reference has no budget.

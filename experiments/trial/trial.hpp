@@ -51,8 +51,8 @@ std::string earlier_trial_scene(const TrialOptions& options);
 
 // The facts of try.json: the model as the run read it (joints, dropped joints with reasons, containers, bind pose, unit, weights), the
 // motion with its matched joints, what time_s = 0 of the records is (time_zero) and the bones that move away from their parents by more
-// than 10 % or towards them (stretched_bones: bone, change_pct, frame; then volume is not judged), the run's
-// warnings, the gravest first, and
+// than 10 % or towards them (stretched_bones: bone, change_pct, frame; then volume is not judged), the run's warnings, the gravest first,
+// and
 //   volume        per deformer the lowest and highest change of the volume over the frames [%], and the most inverted tets in a frame
 //   notes         of the run: warnings beyond the third one, and where nothing is wrong
 //   deforms       whether some flesh changes its shape in some frame
@@ -71,11 +71,10 @@ std::string earlier_trial_scene(const TrialOptions& options);
 //   frame_ms      median time of a frame, per deformer
 //   error_bar     of the reference: the number of frames in which its own error is bounded, of how many, the largest bound at the joints
 //                 [%] and the wall time of the further solutions [s]; null without an error bar
-//   reference_lag the largest angle between a bone and the flesh that it alone moves, in the reference (largest_deg), the bone and the
+//   reference_lag the largest angle between a bone and the flesh that it alone moves, in the reference (largest_turn_deg), the bone and the
 //                 frame; null without a reference, and where no bone moves a tet alone
 //   reference_frames  what the budget of time allowed: frames of the motion, solved, kept (solved by an earlier trial), cpu_seconds,
-//   budget_s,
-//                 not_reached [{frame, cpu_seconds, bone that held it up}]; null without a budget
+//                 budget_s, contact, not_reached [{frame, cpu_seconds, bone that held it up}]; null without a budget
 //   interrupted   whether the trial was interrupted and has only what was finished by then
 //   from_artist   where the surface carried by the tets under lbs is farthest from the artist's: largest_pct of the model's size, frame,
 //                 the bones of surface and flesh there, and the gap between them at rest; null: not compared
