@@ -102,11 +102,12 @@ class Block:
 
 
 def rows_of(recorded):
-    """For each label its rows of metrics.csv whose frames were written, in the order of the panels: in the order of looks.toml."""
+    """For each label its rows of metrics.csv in the frames that were written, in the order of the panels: in the order of looks.toml."""
     labels = looks.in_order(recorded.deformers)
     rows = {label: recorded.run.select(recorded.deformers[label][0], variant=recorded.deformers[label][1]) for label in labels}
-    rows = {label: [row for row in of if recorded.is_written(label, int(row["frame"]))] for label, of in rows.items()}
-    if not labels or not rows[labels[0]]:
+    written = {row["frame"] for label, of in rows.items() for row in of if recorded.is_written(label, int(row["frame"]))}
+    rows = {label: kept for label, of in rows.items() if (kept := [row for row in of if row["frame"] in written])}
+    if not rows:
         raise records.RecordsMissing(f"{recorded.folder / 'frames'}: no frames were written")
     return rows
 
@@ -149,6 +150,11 @@ def pack_surface(recorded, block):
             "corners": block.put(triangles.astype("<u4")), "tets": block.put(tets.astype("<u4")), "shares": block.put(shares.astype("<f4"))}
 
 
+def last_state(rows, frame):
+    """The frame itself, or the last one before it with a row, or the first one."""
+    return max((own for own in rows if own <= frame), default=min(rows))
+
+
 def finite(row, column):
     """None where the cell is empty, missing or not finite, as the errors at the joints of a body without a joint."""
     value = float(row[column]) if row.get(column) else math.nan
@@ -156,15 +162,18 @@ def finite(row, column):
 
 
 def facts_of(recorded, every):
-    """The facts from the run's tables, without its frames."""
-    rows = {label: kept[::every] for label, kept in rows_of(recorded).items()}
-    first = next(iter(rows.values()))
+    """The facts from the run's tables, without its frames. A deformer without a solution in a frame, as a reference whose budget left
+    it out, has not reached it."""
+    rows = {label: {int(row["frame"]): row for row in of} for label, of in rows_of(recorded).items()}
+    first = list(max(rows.values(), key=len).values())[::every]
+    frames = [int(row["frame"]) for row in first]
     shown = [{"label": label, "title": title_of(recorded, label), "colour": looks.of(label).color,
-              "figures": {column: [finite(row, column) for row in of] for column in figures},
-              "not_reached": [at for at, row in enumerate(of) if not records.is_reached(row)]} for label, of in rows.items()]
+              "figures": {column: [finite(of.get(frame, {}), column) for frame in frames] for column in figures},
+              "not_reached": [at for at, frame in enumerate(frames) if frame not in of or not records.is_reached(of[frame])],
+              "states": [last_state(of, frame) for frame in frames]} for label, of in rows.items()]
     return {"name": recorded.run.name, "title": titles.get(recorded.run.name, recorded.run.name),
             "reference": recorded.run.reference(needed=False),
-            "rights": "; ".join(entries.licences_of(recorded.run.record)), "frames": [int(row["frame"]) for row in first],
+            "rights": "; ".join(entries.licences_of(recorded.run.record)), "frames": frames,
             "times_s": [float(row["time_s"]) for row in first], "deformers": shown}
 
 
@@ -180,7 +189,7 @@ def without_broken(facts, positions):
 def pack_run(recorded, every, block):
     """The header of one run; its arrays are added to the block."""
     facts = facts_of(recorded, every)
-    read = {of["label"]: [read_frame(recorded.tets(of["label"], frame)) for frame in facts["frames"]] for of in facts["deformers"]}
+    read = {of["label"]: [read_frame(recorded.tets(of["label"], frame)) for frame in of.pop("states")] for of in facts["deformers"]}
     positions = {label: numpy.stack([one[0] for one in of]) for label, of in read.items()}
     _, tets, _, rest, _ = next(iter(read.values()))[0]
     facts = without_broken(facts, positions)

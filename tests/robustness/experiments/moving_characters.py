@@ -2,6 +2,8 @@
 within its range has room for all of its tets, so that no method needs to invert one."""
 import csv
 import os
+import signal
+import subprocess
 import unittest
 
 import character_rigs
@@ -40,6 +42,36 @@ class MovingCharacterTest(program.ProgramTest):
         self.succeeds("run", self.path("thin_walker", "scene.toml"), "-o", self.path("published"), "--set", "output.frames_every=0",
                       "--set", "delta_mush.unsmoothed_share=0")
         self.assertGreater(max(self.inverted("published")["delta_mush"]), 10)
+
+    @unittest.skipUnless(program.HAS_FEM, "built without the finite elements")
+    def test_an_interrupted_trial_ends_with_a_page_and_goes_on(self):
+        """An interruption ends the solving of the reference alone."""
+        self.write("viewer.js", "// a viewer")
+        words = ["try", character_rigs.WRITERS["slime"](self.path("slime.glb")), "-o", self.path("slime"), "--frames", "12", "--vertices",
+                 "400"]
+        environment = {**os.environ, "PBS_VIEWER_BUILD": self.folder}
+        for sent in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(sent), subprocess.Popen([program.PBSKIN, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                                                      env=environment) as trial:
+                printed = ""
+                while "solving the reference" not in printed:
+                    line = trial.stderr.readline()
+                    self.assertTrue(line, printed)
+                    printed += line
+                trial.send_signal(sent)
+                printed += trial.stderr.read()
+                self.assertEqual(trial.wait(), 130, printed)
+                self.assertIn("report.html has what was finished, and the same command goes on from there", printed)
+                facts = self.json("slime", "try.json")
+                self.assertTrue(facts["interrupted"])
+                self.assertEqual(facts["frames"], 12)  # of the methods
+                self.assertLess(facts["reference_frames"]["solved"], 12)
+                self.assertIn("<html", self.read("slime", "report.html"))
+        solved = facts["reference_frames"]["solved"]
+        self.succeeds(*words, env=environment)
+        facts = self.json("slime", "try.json")
+        self.assertFalse(facts["interrupted"])
+        self.assertEqual((facts["reference_frames"]["kept"], facts["reference_frames"]["solved"]), (solved, 12))
 
 
 if __name__ == "__main__":

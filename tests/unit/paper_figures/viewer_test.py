@@ -125,6 +125,19 @@ class Viewer(ResultsTest):
         found = [{deformer["label"]: deformer["not_reached"] for deformer in run["deformers"]} for run in runs]
         self.assertEqual(found, [{"lbs": [], "dqs": [], "pbs": [0], "nh_p1": [2, 3]}, {"lbs": [], "dqs": [], "pbs": [0], "nh_p1": [1]}])
 
+    def test_a_frame_without_a_solution_is_one_that_was_not_reached_and_shows_the_last_state(self):
+        file = self.run / "metrics.csv"
+        with open(file, newline="") as stream:
+            rows = [row for row in csv.DictReader(stream) if (row["deformer"], row["frame"]) != ("nh_p1", "2")]
+        synthetic_frames.write_table(file, rows)
+        (self.run / "frames" / "nh_p1_000002.vtu").unlink()
+        run, block = self.unpacked()
+        reference = next(of for of in run["deformers"] if of["label"] == "nh_p1")
+        self.assertEqual((run["frames"], reference["not_reached"]), ([0, 1, 2, 3], [2]))
+        self.assertIsNone(reference["figures"]["volume_change_pct"][2])
+        low, high = numpy.frombuffer(block, "u1", 2 * 4 * 15, reference["positions"]).reshape(2, 4, 15)
+        self.assertEqual((low[2].any(), high[2].any(), low[3].any()), (False, False, True))  # differences to the frame before
+
     def test_stills_say_under_a_pose_that_it_was_not_reached(self):
         row = {"inverted_tets": "1", "min_section_pct": "40", "volume_change_pct": "-2"}
         for words in (stills.moment_words, stills.artefacts):
