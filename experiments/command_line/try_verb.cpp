@@ -114,7 +114,8 @@ int try_model(TrialOptions options, const CommonOptions& common)
     leave_what_is_of_use(options, page == exit_finished);
     spdlog::info("{}", facts["summary"].get<std::string>());
     if (result.was_interrupted) {
-        spdlog::error("pbskin: interrupted; {}/report.html has what was finished, and the same command goes on from there", options.folder);
+        spdlog::error("pbskin: interrupted; {} has what was finished, and the same command goes on from there",
+                      page == exit_finished ? options.folder + "/report.html" : options.folder);
         return exit_interrupted;
     }
     if (page == exit_finished) say_next(fmt::format("xdg-open {}/report.html, or change {} and pbskin run it", options.folder, scene_file));
@@ -181,8 +182,7 @@ void add_try_verb(CommandLine& line)
         "also bounds the reference's own error, by three further solutions per frame, two of them on tets cut into eight. With 2,000 "
         "vertices each frame takes minutes, and the run needs 6 GB: choose a few --frames");
     verb->add_option("--reference-seconds", options->reference_seconds,
-                     "processor time for the finite elements, which solve evenly spread frames until it is spent; the same command goes on "
-                     "with the others. 0: all frames, whatever they take")
+                     "processor time for the finite elements, spent on evenly spread frames; 0: on all, whatever they take")
         ->check(CLI::Range(0.0, 1e7))
         ->capture_default_str()
         ->excludes(error_bar);

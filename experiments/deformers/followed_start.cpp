@@ -68,6 +68,9 @@ private:
     pbs::StepSummary follow(const pbs::Pose& pose, double dt_s)
     {
         const pbs::Stopwatch stopwatch;
+        const bool is_lost = !deformer_->positions().allFinite();  // the next frame begins at rest
+        if (is_lost) reached_ = pbs::Pose(pose.size(), Eigen::Isometry3d::Identity());
+        pbs::Positions last = is_lost ? character_->mesh.rest : deformer_->positions();
         const pbs::PosePath way(character_->skeleton, reached_, pose);
         const int steps = std::max(1, static_cast<int>(std::ceil(way.largest_turn_deg() / largest_turn_deg)));
         pbs::FrameStep all;
@@ -76,12 +79,13 @@ private:
             const pbs::Pose next = way.at(static_cast<double>(step) / steps);
             pbs::Pose moved = next;  // the motion of each bone
             for (std::size_t j = 0; j < next.size(); ++j) moved[j] = next[j] * reached_[j].inverse();
-            pbs::dual_quaternion_skinning(deformer_->positions(), character_->weights, moved, carried_);
+            pbs::dual_quaternion_skinning(last, character_->weights, moved, carried_);
             deformer_->start_from(carried_);
             all.add(deformer_->advance(next, dt_s), static_cast<std::size_t>(step));
             sum.iterations += all.summary().iterations;
             sum.work += all.summary().work;
             reached_ = next;
+            last = deformer_->positions();
         }
         pbs::StepSummary summary = all.summary();
         summary.iterations = sum.iterations;

@@ -44,6 +44,12 @@ void ReferenceErrorBar::advance(const pbs::Pose& pose, double dt_s)
     }
 }
 
+void ReferenceErrorBar::give_up_when(const std::function<bool()>& is_over)
+{
+    for (Solution& solution : solutions_)
+        if (solution.deformer) solution.deformer->give_up_when(is_over);
+}
+
 std::optional<analysis::ErrorNorms> ReferenceErrorBar::bound(const pbs::Positions& reference, const FrameMeasurer& measurer)
 {
     ++frames_;

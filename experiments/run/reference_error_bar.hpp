@@ -17,6 +17,7 @@
 
 #include <array>
 #include <memory>
+#include <functional>
 #include <optional>
 
 namespace experiments {
@@ -31,6 +32,8 @@ public:
     ReferenceErrorBar(ReferenceErrorBar&&) = delete;  // its solutions refer to its own refined character
 
     void advance(const pbs::Pose& pose, double dt_s);  // the further solutions; to be called whenever the reference advances
+
+    void give_up_when(const std::function<bool()>& is_over);  // as Deformer::give_up_when, for all of them
 
     // A bound of the reference's distance from the limit of ever finer tets, in each norm; nothing if a solution has not converged.
     std::optional<analysis::ErrorNorms> bound(const pbs::Positions& reference, const FrameMeasurer& measurer);

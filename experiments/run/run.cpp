@@ -64,7 +64,12 @@ std::string reference_key(const DeformerSpec& spec, const pbs::Character& charac
 {
     const nlohmann::json settings = {to_json(spec), pbs::hash_of_file(load_module_with_blas("pbskin_fem").path()),
                                      pbs::content_hash(character.mesh), pbs::hashes_by_name(character.inputs)};
-    return pbs::content_hash(settings.dump());
+    analysis::StateHash hash;
+    const auto add = [&](const auto* data, std::size_t size) { hash.add_bytes(data, size * sizeof *data); };
+    for (const pbs::Bone& bone : character.skeleton.bones) add(bone.head.data(), 3), add(bone.tail.data(), 3), add(&bone.parent, 1);
+    for (const pbs::Weights* weights : {&character.weights, character.artist ? &character.artist->weights : nullptr})
+        if (weights) add(weights->bone.data(), weights->bone.size()), add(weights->weight.data(), weights->weight.size());
+    return pbs::content_hash(settings.dump() + hash.hex());
 }
 
 std::unique_ptr<Deformer> deformer_of(const DeformerSpec& spec, const Scene& scene, const pbs::Character& character,
@@ -232,15 +237,15 @@ private:
                        [&] { runner.deformer->foresee(runner.deformer->has_memory() ? motion_.steps : frames); });
         if (const SpreadReference::Outcome* spread = spread_reference(); spread && spread->with_contact)
             options_of<FemOptions>(runners_.front().spec).contact = false;
+        const bool finishes_early = when_interrupted_ == WhenInterrupted::finish_early;
+        if (finishes_early) runners_.front().deformer->give_up_when(interrupted);
+        if (finishes_early && error_bar_) error_bar_->give_up_when(interrupted);
         Progress progress(scene_.name, static_cast<int>(motion_.steps.size()));
-        const pbs::Stage stage(fmt::format("moving {} through {} frames", scene_.name, frames.size()));
+        std::optional<pbs::Stage> stage;  // which would end the program within a second of an interruption
+        if (!finishes_early) stage.emplace(fmt::format("moving {} through {} frames", scene_.name, frames.size()));
         pbs::Stopwatch since_tables;
         for (std::size_t step = 0; step < motion_.steps.size(); ++step) {
-            if (frames_ > 0 && when_interrupted_ == WhenInterrupted::finish_early && take_interruption()) {
-                was_interrupted_ = true;
-                break;
-            }
-            stop_if_interrupted();
+            if (!finishes_early) stop_if_interrupted();
             const bool is_frame = step % motion_.steps_per_frame == 0;
             for (Runner& runner : runners_)
                 if (is_frame || runner.deformer->has_memory())
@@ -249,6 +254,11 @@ private:
                                      step);
             if (error_bar_ && (is_frame || runners_.front().deformer->has_memory()))
                 cost_.time("error_bar", [&] { error_bar_->advance(motion_.steps[step], motion_.time_step_s); });
+            const bool has_finished_frames = frames_ > 0;
+            if (finishes_early && has_finished_frames && take_interruption()) {  // this frame is not finished
+                was_interrupted_ = true;
+                return;
+            }
             if (is_frame) record_frame(static_cast<int>(step / motion_.steps_per_frame), step);
             if (since_tables.seconds() > longest_loss_s) {
                 folder_.write_tables(false);
@@ -256,6 +266,7 @@ private:
             }
             progress.advance_to(static_cast<int>(step) + 1);
         }
+        was_interrupted_ = finishes_early && take_interruption();
     }
 
     void record_frame(int frame, std::size_t step)
@@ -369,41 +380,13 @@ private:
     // What a budget left out, and what held the reference up.
     nlohmann::json record_reference_frames()
     {
-        if (!spread_reference()) return nullptr;
-        const SpreadReference::Outcome& solved = *spread_reference();
-        was_interrupted_ = was_interrupted_ || solved.was_interrupted;
-        nlohmann::json not_reached = nlohmann::json::array();
-        for (const SpreadReference::NotReached& frame : solved.not_reached)
-            not_reached.push_back({{"frame", frame.frame}, {"cpu_seconds", frame.seconds}, {"bone", frame.bone}});
-        if (solved.with_contact)
-            remarks_.add(
-                pbs::Gravity::comparison_wrong,
-                {fmt::format("{}: the reference has no contact, for with it frame {} was not reached within {:.0f} s: the flesh of {} "
-                             "holds it up; --reference-seconds 0 (reference.seconds) takes the time",
-                             scene_.file, solved.with_contact->frame, solved.with_contact->seconds, solved.with_contact->bone)});
-        if (!solved.not_reached.empty()) {
-            const SpreadReference::NotReached& first = solved.not_reached.front();
-            remarks_.add(pbs::Gravity::comparison_wrong,
-                         {fmt::format("{}: the reference did not reach {} of {} frames, first frame {} within {:.0f} s: the flesh of {} "
-                                      "holds it up; these frames have no errors",
-                                      scene_.file, solved.not_reached.size(), solved.frames, first.frame, first.seconds, first.bone)});
-        }
-        if (const auto tried = solved.solved + static_cast<int>(solved.not_reached.size()); tried < solved.frames)
-            remarks_.add(
-                pbs::Gravity::information,
-                {fmt::format("{}: the reference has {} of {} frames, and only they have errors: {}", scene_.file, solved.solved,
-                             solved.frames,
-                             solved.was_interrupted ? "it was interrupted"
-                                                    : fmt::format("they are spread over the motion as evenly as {:.0f} s of processor "
-                                                                  "time allow (--reference-seconds, reference.seconds)",
-                                                                  solved.seconds))});
-        return {{"frames", solved.frames},
-                {"solved", solved.solved},
-                {"kept", solved.kept},
-                {"cpu_seconds", solved.seconds},
-                {"budget_s", scene_.reference_seconds},
-                {"not_reached", not_reached},
-                {"contact", options_of<FemOptions>(runners_.front().spec).has_contact()}};
+        const SpreadReference::Outcome* outcome = spread_reference();
+        if (!outcome) return nullptr;
+        was_interrupted_ = was_interrupted_ || outcome->was_interrupted;
+        remarks_.add(remarks_on(*outcome, scene_.file));
+        nlohmann::json record = *outcome;
+        record["budget_s"] = scene_.reference_seconds;
+        return record;
     }
 
     void warn_of_overlap()

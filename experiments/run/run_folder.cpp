@@ -136,7 +136,7 @@ void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, 
             pbs::write_vtp((frames / frame_file(name + "_surface", frame, ".vtp")).string(), rendered, character.surface->triangles);
         distances_.add(frame, time_s, name, "rendered surface", rendered);
         if (name == "lbs") lbs_surface_ = rendered;
-        const bool is_in_glb = collections_[name].size() % static_cast<std::size_t>(glb_every_) == 0;
+        const bool is_in_glb = posed_frames_ % glb_every_ == 0;
         if (scene_.output.glb && is_in_glb && rendered.allFinite()) {  // a frame that broke down has no place in it
             const bool is_first = surfaces_.empty();
             surfaces_.try_emplace(name, (frames / (name + ".glb")).string(), name, character.surface->triangles, look_, materials_);

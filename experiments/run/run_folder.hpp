@@ -210,6 +210,7 @@ public:
     void write_pose(int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose)
     {
         add_bones(bones_, frame, time_s, skeleton, pose);
+        ++posed_frames_;
     }
     // skin/artist_000123.vtp: the model's surface by the skinning formula of its file, for its animation with scale and shear, for a clip
     // or a sweep with the bones' rigid pose; nothing for a model without joints.
@@ -256,6 +257,7 @@ private:
     std::vector<std::pair<double, std::string>> artist_frames_;
     int written_frames_ = 0;              // of the motion, in all
     int skins_ = 0;                       // frames with an artist's surface so far
+    int posed_frames_ = 0;                // that were written
     int skin_every_ = 1, glb_every_ = 1;  // every n-th frame has a file of the artist's surface, and is in the .glb files
     pbs::Positions lbs_surface_;          // of the frame that was written last
     FollowedSkin followed_;

@@ -24,7 +24,9 @@
 namespace experiments {
 namespace {
 
-constexpr int shares_of_what_is_left = 8, first_frames = 3;
+constexpr int shares_of_what_is_left = 8;
+constexpr int least_held_up = 2, held_up_of = 4;  // so many frames, and more than one of so many
+constexpr int few_frames = 5;                     // on which a comparison rests
 constexpr double between_writings_s = 1.0;
 
 std::string hash_of(const pbs::Pose& pose)
@@ -61,6 +63,7 @@ void SpreadReference::reset(const pbs::Character& character)
     frames_.clear();
     tried_ = 0;
     at_ = frame_ = -1;
+    spent_before_s_ = 0.0;
     outcome_ = {};
 }
 
@@ -75,10 +78,13 @@ void SpreadReference::foresee(const std::vector<pbs::Pose>& poses)
         if (!is_solved(number)) left.insert(number);
     try {
         while (!left.empty() && has_time_left()) pass(left);
-        std::vector<NotReached> again = std::exchange(outcome_.not_reached, {});
-        for (; !again.empty() && has_time_left(); again.erase(again.begin()))
-            solve(again.front().frame, share_of_frame(static_cast<int>(again.size()), budget_.seconds - outcome_.seconds));
-        outcome_.not_reached.insert(outcome_.not_reached.end(), again.begin(), again.end());
+        const std::vector<NotReached> again = std::exchange(outcome_.not_reached, {});
+        for (std::size_t k = 0; k < again.size(); ++k) {
+            const auto count = static_cast<int>(again.size() - k);
+            if (has_time_left()) solve(again[k].frame, share_of_frame(count, budget_.seconds - outcome_.seconds));
+            const auto is_same = [&](const NotReached& one) { return one.frame == again[k].frame; };
+            if (!is_solved(again[k].frame) && std::ranges::none_of(outcome_.not_reached, is_same)) outcome_.not_reached.push_back(again[k]);
+        }
     } catch (const Interrupted&) {
         keep();
         throw;
@@ -101,14 +107,17 @@ void SpreadReference::pass(std::set<int>& left)
         }
         next = left.erase(next);
         if (has_time_left())
-            std::advance(next, std::min(after(), stride(after(), outcome_.seconds / tried_, budget_.seconds - outcome_.seconds) - 1));
+            std::advance(
+                next,
+                std::min(after(), stride(after(), (outcome_.seconds - spent_before_s_) / tried_, budget_.seconds - outcome_.seconds) - 1));
     }
 }
 
 bool SpreadReference::is_held_up_by_contact() const
 {
-    return options_of<FemOptions>(spec_).has_contact() && outcome_.kept == 0 && tried_ == first_frames &&
-           2 * outcome_.not_reached.size() > static_cast<std::size_t>(first_frames);
+    const auto held_up = static_cast<int>(outcome_.not_reached.size());
+    return options_of<FemOptions>(spec_).has_contact() && !outcome_.was_interrupted &&
+           held_up >= std::min(least_held_up, outcome_.frames) && held_up_of * held_up > outcome_.kept + tried_;
 }
 
 void SpreadReference::do_without_contact()
@@ -116,7 +125,9 @@ void SpreadReference::do_without_contact()
     outcome_.with_contact = outcome_.not_reached.front();
     outcome_.not_reached.clear();
     outcome_.solved = outcome_.kept = tried_ = 0;
+    spent_before_s_ = outcome_.seconds;
     at_ = -1;
+    kept_frames_ = nlohmann::json::object();
     for (Frame& frame : frames_) frame.solution.reset();
     options_of<FemOptions>(spec_).contact = false;
     deformer_ = make_deformer(spec_);
@@ -132,14 +143,13 @@ void SpreadReference::solve(int number, double share_s)
 {
     Frame& frame = frames_[static_cast<std::size_t>(number)];
     ++tried_;
-    const double start_s = process_cpu_s();
-    const auto spent_s = [&] { return process_cpu_s() - start_s; };
+    const double start_s = budget_.clock_s();
+    const auto spent_s = [&] { return budget_.clock_s() - start_s; };
     deformer_->give_up_when([&] {
         progress_->advance_to(outcome_.solved, fmt::format("frames, {:.0f} of {:.0f} s", outcome_.seconds + spent_s(), budget_.seconds));
         return interrupted() || spent_s() > share_s;
     });
     continue_from_most_similar(number);
-    at_ = number;
     Solution solution{.step = deformer_->advance(frame.pose, 0.0)};
     const double seconds = spent_s();
     outcome_.seconds += seconds;
@@ -147,6 +157,7 @@ void SpreadReference::solve(int number, double share_s)
         solution.positions = deformer_->positions();
         if (const FemFacts* facts = deformer_->facts()) solution.lowest_det_f = facts->lowest_det_f, solution.tips = facts->tips;
         frame.solution = std::move(solution);
+        at_ = number;
         ++outcome_.solved;
         if (since_keeping_.seconds() > between_writings_s) keep();
     } else if (!interrupted()) {
@@ -160,8 +171,8 @@ void SpreadReference::solve(int number, double share_s)
 void SpreadReference::continue_from_most_similar(int number)
 {
     int before = number - 1, after = number + 1;
-    while (before >= 0 && before != at_ && !is_solved(before)) --before;
-    if (before == at_) return;  // where the deformer is
+    while (before >= 0 && !is_solved(before)) --before;
+    if (before >= 0 && before == std::exchange(at_, -1)) return;  // where the deformer is
     while (after < outcome_.frames && !is_solved(after)) ++after;
     pbs::Pose from(character_->skeleton.bones.size(), Eigen::Isometry3d::Identity());
     const pbs::Positions* positions = &character_->mesh.rest;
@@ -205,52 +216,58 @@ bool SpreadReference::has_state() const
     return frame_ >= 0 && frames_[static_cast<std::size_t>(frame_)].solution.has_value();
 }
 
-// The file: {key, with_contact, frames: {hash of the pose: {positions, seconds, iterations, lowest_det_f, tips}}} as CBOR.
+// The file: {key, budget_s, with_contact, frames: {hash of the pose: {positions, seconds, iterations, lowest_det_f, tips}}} as CBOR.
 
 void SpreadReference::find_kept()
 {
+    kept_frames_ = nlohmann::json::object();
     if (budget_.file.empty() || !std::filesystem::exists(budget_.file)) return;
+    std::vector<std::pair<Frame*, Solution>> found;
     try {
-        const nlohmann::json kept = nlohmann::json::from_cbor(analysis::read_text(budget_.file));
+        nlohmann::json kept = nlohmann::json::from_cbor(analysis::read_text(budget_.file));
         if (kept.at("key") != budget_.key) return;
         if (const nlohmann::json& frame = kept.at("with_contact"); !frame.is_null()) {
+            if (kept.at("budget_s").get<double>() < budget_.seconds) return;  // which may suffice for contact
             outcome_.not_reached = {{frame.at("frame"), frame.at("seconds"), frame.at("bone")}};
             do_without_contact();
         }
-        for (Frame& frame : frames_) {
-            const auto found = kept.at("frames").find(hash_of(frame.pose));
-            if (found == kept.at("frames").end()) continue;
-            Solution solution;
-            const std::vector<std::uint8_t>& bytes = found->at("positions").get_binary();
-            solution.positions.resize(character_->mesh.rest.rows(), 3);
-            if (bytes.size() != static_cast<std::size_t>(solution.positions.size()) * sizeof(double)) continue;
-            std::memcpy(solution.positions.data(), bytes.data(), bytes.size());
-            solution.step.seconds = found->at("seconds");
-            solution.step.iterations = found->at("iterations");
-            if (found->contains("lowest_det_f")) solution.lowest_det_f = found->at("lowest_det_f");
-            for (const std::array<double, 4>& tip : found->at("tips").get<std::vector<std::array<double, 4>>>())
-                solution.tips.push_back({{tip[0], tip[1], tip[2]}, tip[3]});
-            frame.solution = std::move(solution);
-            ++outcome_.kept;
-        }
+        for (Frame& frame : frames_)
+            if (const auto one = kept.at("frames").find(hash_of(frame.pose)); one != kept.at("frames").end())
+                found.emplace_back(&frame, solution_in(*one));
+        kept_frames_ = kept.at("frames");
     } catch (const nlohmann::json::exception&) {
-        warn({budget_.file + ": this file of solved frames is damaged: its frames are solved again"});
+        return warn({budget_.file + ": this file of solved frames is damaged: they are solved again"});
     }
-    outcome_.solved = outcome_.kept;
+    for (auto& [frame, solution] : found) frame->solution = std::move(solution);
+    outcome_.solved = outcome_.kept = static_cast<int>(found.size());
+}
+
+SpreadReference::Solution SpreadReference::solution_in(const nlohmann::json& kept) const
+{
+    Solution solution;
+    const std::vector<std::uint8_t>& bytes = kept.at("positions").get_binary();
+    solution.positions.resize(character_->mesh.rest.rows(), 3);
+    if (bytes.size() != static_cast<std::size_t>(solution.positions.size()) * sizeof(double))
+        throw nlohmann::json::other_error::create(0, "another number of positions", &kept);
+    std::memcpy(solution.positions.data(), bytes.data(), bytes.size());
+    solution.step.seconds = kept.at("seconds");
+    solution.step.iterations = kept.at("iterations");
+    if (kept.contains("lowest_det_f")) solution.lowest_det_f = kept.at("lowest_det_f");
+    for (const std::array<double, 4>& tip : kept.at("tips").get<std::vector<std::array<double, 4>>>())
+        solution.tips.push_back({{tip[0], tip[1], tip[2]}, tip[3]});
+    return solution;
 }
 
 void SpreadReference::keep()
 {
     since_keeping_ = {};
-    if (budget_.file.empty() || outcome_.solved == outcome_.kept) return;
-    nlohmann::json kept = {{"key", budget_.key}, {"frames", nlohmann::json::object()}, {"with_contact", nullptr}};
-    if (const auto& frame = outcome_.with_contact)
-        kept["with_contact"] = {{"frame", frame->frame}, {"seconds", frame->seconds}, {"bone", frame->bone}};
+    if (budget_.file.empty()) return;
     for (const Frame& frame : frames_) {
-        if (!frame.solution) continue;
+        const std::string hash = hash_of(frame.pose);
+        if (!frame.solution || kept_frames_.contains(hash)) continue;
         const pbs::Positions& positions = frame.solution->positions;
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(positions.data());
-        nlohmann::json& one = kept["frames"][hash_of(frame.pose)];
+        nlohmann::json& one = kept_frames_[hash];
         one = {{"seconds", frame.solution->step.seconds}, {"iterations", frame.solution->step.iterations}};
         one["positions"] = nlohmann::json::binary({bytes, bytes + static_cast<std::size_t>(positions.size()) * sizeof(double)});
         if (frame.solution->lowest_det_f) one["lowest_det_f"] = *frame.solution->lowest_det_f;
@@ -258,8 +275,50 @@ void SpreadReference::keep()
         for (const CreaseTip& tip : frame.solution->tips)
             one["tips"].push_back({tip.at_rest.x(), tip.at_rest.y(), tip.at_rest.z(), tip.radius_m});
     }
+    nlohmann::json kept = {{"key", budget_.key}, {"budget_s", budget_.seconds}, {"with_contact", nullptr}, {"frames", kept_frames_}};
+    if (outcome_.with_contact) kept["with_contact"] = *outcome_.with_contact;
     const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(kept);
     analysis::write_text_atomically(budget_.file, {bytes.begin(), bytes.end()});
+}
+
+void to_json(nlohmann::json& json, const SpreadReference::NotReached& frame)
+{
+    json = {{"frame", frame.frame}, {"cpu_seconds", frame.seconds}, {"bone", frame.bone}};
+}
+
+void to_json(nlohmann::json& json, const SpreadReference::Outcome& outcome)
+{
+    json = {{"frames", outcome.frames},       {"solved", outcome.solved},         {"kept", outcome.kept},
+            {"cpu_seconds", outcome.seconds}, {"contact", !outcome.with_contact}, {"not_reached", outcome.not_reached}};
+}
+
+pbs::RemarkList remarks_on(const SpreadReference::Outcome& outcome, const std::string& scene_file)
+{
+    pbs::RemarkList remarks;
+    const auto add = [&](pbs::Gravity gravity, const std::string& text) { remarks.push_back({gravity, scene_file + ": " + text}); };
+    const auto held_up_by = [](const SpreadReference::NotReached& frame) {
+        return frame.bone.empty() ? std::string() : fmt::format(": the flesh of {} holds it up", frame.bone);
+    };
+    if (const auto& frame = outcome.with_contact)
+        add(pbs::Gravity::comparison_wrong,
+            fmt::format("the reference has no contact, for with it frame {} was not reached in {:.0f} s{}; --reference-seconds "
+                        "(reference.seconds) with more time, or 0 for all of it, tries again",
+                        frame->frame, frame->seconds, held_up_by(*frame)));
+    if (!outcome.not_reached.empty()) {
+        const SpreadReference::NotReached& first = outcome.not_reached.front();
+        add(pbs::Gravity::comparison_wrong,
+            fmt::format("the reference did not reach {} of {} frames, which have no errors; frame {} took "
+                        "{:.0f} s{}",
+                        outcome.not_reached.size(), outcome.frames, first.frame, first.seconds, held_up_by(first)));
+    }
+    if (outcome.solved + static_cast<int>(outcome.not_reached.size()) == outcome.frames) return remarks;
+    add(outcome.solved < few_frames ? pbs::Gravity::comparison_wrong : pbs::Gravity::information,
+        fmt::format("the reference has {} of {} frames, and only they have errors: {}", outcome.solved, outcome.frames,
+                    outcome.was_interrupted ? "it was interrupted"
+                                            : fmt::format("they are spread over the motion as evenly as {:.0f} s of processor time allow "
+                                                          "(--reference-seconds, reference.seconds)",
+                                                          outcome.seconds)));
+    return remarks;
 }
 
 }  // namespace experiments

@@ -5,7 +5,8 @@
 // the same run goes on.
 //
 // Contact can make a frame ten times as expensive, since where two parts touch, the initial guess and each step of Newton's method end at
-// once for the whole body. Where only one or none of the first three frames is reached, all frames are solved without contact.
+// once for the whole body. As soon as two frames are not reached, and these are more than a quarter of those that were tried, all frames
+// are solved without contact. A larger budget tries it again.
 //   SpreadReference reference(spec, {.seconds = 120.0, .file = "DIR/reference_frames.cbor", .key = key});
 //   reference.reset(character);
 //   reference.foresee(poses);                                                     // solves
@@ -14,8 +15,11 @@
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
+#include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
+#include "pbs/character/remark.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -29,6 +33,7 @@ struct ReferenceBudget {
     std::string file = {};                  // where solved frames are kept and found again; empty: nowhere
     std::string key = {};                   // of all that the solutions depend on, except for the poses
     bool goes_on_without_the_rest = false;  // after an interruption, which then ends the solving alone
+    std::function<double()> clock_s = process_cpu_s;
 };
 
 // How many frames to go on, so that the last of frames_left is reached when the time is spent: 1 or more. mean_s: of a frame.
@@ -57,7 +62,7 @@ public:
     };
     struct Outcome {
         int frames = 0, solved = 0, kept = 0;         // of the motion; with a solution; those among them that an earlier run had solved
-        std::vector<NotReached> not_reached = {};     // that were tried in vain
+        std::vector<NotReached> not_reached = {};     // although they were tried
         double seconds = 0.0;                         // that were spent
         std::optional<NotReached> with_contact = {};  // the frame for which contact was given up
         bool was_interrupted = false;
@@ -81,6 +86,7 @@ private:
     bool is_held_up_by_contact() const;
     void do_without_contact();
     void find_kept();
+    Solution solution_in(const nlohmann::json& kept) const;  // nlohmann::json::exception where it is damaged
     void keep();
     bool has_time_left() const;
     void solve(int number, double share_s);
@@ -92,13 +98,20 @@ private:
     ReferenceBudget budget_;
     const pbs::Character* character_ = nullptr;
     std::vector<Frame> frames_;
-    int tried_ = 0;   // frames that were tried here
-    int at_ = -1;     // the frame whose pose, or a part of the way to it, the deformer has reached; -1: rest
-    int frame_ = -1;  // of the last call of advance
+    nlohmann::json kept_frames_;   // those of the file, of other poses too
+    int tried_ = 0;                // frames that were tried here, with contact or without it
+    double spent_before_s_ = 0.0;  // before the first of them
+    int at_ = -1;                  // the frame whose pose the deformer has; -1: that of none
+    int frame_ = -1;               // of the last call of advance
     pbs::Stopwatch since_keeping_;
     std::optional<Progress> progress_;
     FemFacts facts_;
     Outcome outcome_;
 };
+
+// What a user should know: that contact is missing, that frames were not reached or left out. scene_file: which they are about.
+pbs::RemarkList remarks_on(const SpreadReference::Outcome& outcome, const std::string& scene_file);
+void to_json(nlohmann::json& json, const SpreadReference::NotReached& frame);
+void to_json(nlohmann::json& json, const SpreadReference::Outcome& outcome);
 
 }  // namespace experiments

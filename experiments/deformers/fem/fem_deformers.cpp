@@ -327,8 +327,9 @@ FrameSolve ElasticFemDeformer::settle(const pbs::RootFrame& frame)
     const pbs::Vec3 gravity_m_s2 = frame.from_world(options_.gravity_m_s2);
     FrameSolve solve;
     follow(pbs::PosePath(skeleton, reached_pose_, frame.pose()), here, gravity_m_s2, solve);
+    if (was_given_up(solve)) return solve;
     failures_in_a_row_ = solve.converged() ? 0 : failures_in_a_row_ + 1;
-    if (failures_in_a_row_ != 2 || was_given_up(solve)) return solve;
+    if (failures_in_a_row_ != 2) return solve;
 
     solve.restarted = true;
     body_->start_from(character_->mesh.rest);

@@ -165,7 +165,72 @@ TEST_F(SpreadReferenceOfABar, DoesWithoutContactWhereItHoldsTheFirstFramesUp)
     EXPECT_EQ(reference.outcome().with_contact->frame, 0);
     EXPECT_FALSE(reference.outcome().with_contact->bone.empty());
     EXPECT_EQ(counts.made_without_contact, 1);
-    EXPECT_EQ(counts.advanced, 3 + 5);
+    EXPECT_EQ(counts.advanced, 2 + 5);
+}
+
+// Every question of the clock takes half a second: a frame asks twice.
+TEST_F(SpreadReferenceOfABar, SpreadsTheFramesThatTheTimeAllowsOverTheMotion)
+{
+    double now_s = 0.0;
+    SpreadReference reference(stand_in(), {.seconds = 20.0, .clock_s = [&] { return now_s += 0.5; }});
+    const std::vector<bool> have = played(reference, poses(60));
+    int largest_gap = 0, gap = 0;
+    for (const bool is_solved : have) {
+        gap = is_solved ? 0 : gap + 1;
+        largest_gap = std::max(largest_gap, gap);
+    }
+    EXPECT_NEAR(reference.outcome().solved, 20, 5);
+    EXPECT_LE(largest_gap, 5) << "60 frames, of which a third is solved";
+    EXPECT_LE(gap, 5) << "at the end of the motion, too";
+    EXPECT_NEAR(reference.outcome().seconds, 20.0, 2.0);
+}
+
+TEST_F(SpreadReferenceOfABar, DoesNotCountTheTimeWithContactForTheFramesWithoutIt)
+{
+    is_blocked_by_contact = true;
+    double now_s = 0.0;  // a frame with contact takes ten seconds
+    SpreadReference reference(stand_in(),
+                              {.seconds = 100.0, .clock_s = [&] { return now_s += counts.made_without_contact > 0 ? 0.5 : 5.0; }});
+    const std::vector<bool> have = played(reference, poses(60));
+    EXPECT_EQ(std::count(have.begin(), have.end(), true), 60);
+    EXPECT_TRUE(std::is_sorted(counts.from.begin() + 2, counts.from.end())) << "in order, since all fit into the rest of the time";
+}
+
+TEST_F(SpreadReferenceOfABar, TriesContactAgainWithALargerBudget)
+{
+    is_blocked_by_contact = true;
+    SpreadReference first(stand_in(), {.seconds = 1000.0, .file = file, .key = "1"});
+    played(first, poses(5));
+    ASSERT_TRUE(first.outcome().with_contact);
+    is_blocked_by_contact = false;
+    SpreadReference again(stand_in(), {.seconds = 2000.0, .file = file, .key = "1"});
+    played(again, poses(5));
+    EXPECT_FALSE(again.outcome().with_contact);
+    EXPECT_EQ(again.outcome().kept, 0);
+}
+
+TEST_F(SpreadReferenceOfABar, KeepsFramesOfOtherPosesInItsFile)
+{
+    const ReferenceBudget budget{.seconds = endless_s, .file = file, .key = "1"};
+    for (const int frames : {9, 4, 9}) {
+        SpreadReference reference(stand_in(), budget);
+        played(reference, poses(frames));
+        if (frames == 9 && counts.advanced > 9) EXPECT_EQ(reference.outcome().kept, 9);
+    }
+}
+
+TEST_F(SpreadReferenceOfABar, SaysWhatIsMissing)
+{
+    EXPECT_TRUE(remarks_on({.frames = 5, .solved = 5}, "a.toml").empty());
+    const auto few = remarks_on({.frames = 60, .solved = 2, .seconds = 7.0}, "a.toml");
+    ASSERT_EQ(few.size(), 1u);
+    EXPECT_EQ(few.front().gravity, pbs::Gravity::comparison_wrong);
+    EXPECT_EQ(remarks_on({.frames = 60, .solved = 30}, "a.toml").front().gravity, pbs::Gravity::information);
+    const auto missing =
+        remarks_on({.frames = 3, .solved = 2, .not_reached = {{1, 4.0, ""}}, .with_contact = {{0, 5.0, "head"}}}, "a.toml");
+    ASSERT_EQ(missing.size(), 2u);
+    EXPECT_NE(missing[0].text.find("the flesh of head holds it up"), std::string::npos);
+    EXPECT_EQ(missing[1].text.find("holds it up"), std::string::npos);
 }
 
 TEST_F(SpreadReferenceOfABar, GoesOnFromTheFramesOfItsFile)
