@@ -113,7 +113,7 @@ NamedClip named_clip(const TrialOptions& options, const pbs::Rig& rig)
 {
     const std::string& given = options.animation;
     for (std::size_t colon = given.size(); colon != std::string::npos && colon > 0; colon = given.rfind(':', colon - 1)) {
-        NamedClip clip{.given = given.substr(0, colon), .file = ""};
+        NamedClip clip{.given = std::string(given, 0, colon), .file = ""};
         try {
             clip.file = pbs::find_clip(clip.given, "");
         } catch (const pbs::InputError&) {
