@@ -25,6 +25,7 @@ namespace experiments {
 namespace {
 
 constexpr int shares_of_what_is_left = 8;
+constexpr double longest_over_mean = 3.0;
 constexpr int least_held_up = 2, held_up_of = 4;  // so many frames, and more than one of so many
 constexpr int few_frames = 5;                     // on which a comparison rests
 constexpr double between_writings_s = 1.0;
@@ -43,9 +44,10 @@ int stride(int frames_left, double mean_s, double seconds_left)
     return std::clamp(static_cast<int>(std::ceil(std::min(1e9, frames_left * mean_s / seconds_left))), 1, std::max(1, frames_left));
 }
 
-double share_of_frame(int frames_left, double seconds_left)
+double share_of_frame(int frames_left, double mean_reached_s, double seconds_left)
 {
-    return seconds_left / std::clamp(frames_left, 1, shares_of_what_is_left);
+    const double equal_s = seconds_left / std::clamp(frames_left, 1, shares_of_what_is_left);
+    return std::min(seconds_left, std::max(equal_s, longest_over_mean * mean_reached_s));
 }
 
 SpreadReference::SpreadReference(const DeformerSpec& spec, ReferenceBudget budget)
@@ -63,7 +65,7 @@ void SpreadReference::reset(const pbs::Character& character)
     frames_.clear();
     tried_ = 0;
     at_ = frame_ = -1;
-    spent_before_s_ = 0.0;
+    spent_before_s_ = reached_s_ = 0.0;
     outcome_ = {};
 }
 
@@ -81,7 +83,7 @@ void SpreadReference::foresee(const std::vector<pbs::Pose>& poses)
         const std::vector<NotReached> again = std::exchange(outcome_.not_reached, {});
         for (std::size_t k = 0; k < again.size(); ++k) {
             const auto count = static_cast<int>(again.size() - k);
-            if (has_time_left()) solve(again[k].frame, share_of_frame(count, budget_.seconds - outcome_.seconds));
+            if (has_time_left()) solve(again[k].frame, count);
             const auto is_same = [&](const NotReached& one) { return one.frame == again[k].frame; };
             if (!is_solved(again[k].frame) && std::ranges::none_of(outcome_.not_reached, is_same)) outcome_.not_reached.push_back(again[k]);
         }
@@ -98,7 +100,7 @@ void SpreadReference::pass(std::set<int>& left)
 {
     for (auto next = left.begin(); next != left.end() && has_time_left();) {
         const auto after = [&] { return static_cast<int>(std::distance(next, left.end())); };
-        solve(*next, share_of_frame(after(), budget_.seconds - outcome_.seconds));
+        solve(*next, after());
         if (is_held_up_by_contact()) {
             do_without_contact();
             for (int number = 0; number < outcome_.frames; ++number) left.insert(number);
@@ -116,7 +118,7 @@ void SpreadReference::pass(std::set<int>& left)
 bool SpreadReference::is_held_up_by_contact() const
 {
     const auto held_up = static_cast<int>(outcome_.not_reached.size());
-    return options_of<FemOptions>(spec_).has_contact() && !outcome_.was_interrupted &&
+    return options_of<FemOptions>(spec_).has_contact() && !outcome_.was_interrupted && 2.0 * outcome_.seconds < budget_.seconds &&
            held_up >= std::min(least_held_up, outcome_.frames) && held_up_of * held_up > outcome_.kept + tried_;
 }
 
@@ -126,6 +128,7 @@ void SpreadReference::do_without_contact()
     outcome_.not_reached.clear();
     outcome_.solved = outcome_.kept = tried_ = 0;
     spent_before_s_ = outcome_.seconds;
+    reached_s_ = 0.0;
     at_ = -1;
     kept_frames_ = nlohmann::json::object();
     for (Frame& frame : frames_) frame.solution.reset();
@@ -139,8 +142,10 @@ bool SpreadReference::has_time_left() const
     return !outcome_.was_interrupted && outcome_.seconds < budget_.seconds;
 }
 
-void SpreadReference::solve(int number, double share_s)
+void SpreadReference::solve(int number, int frames_left)
 {
+    const int reached = outcome_.solved - outcome_.kept;
+    const double share_s = share_of_frame(frames_left, reached > 0 ? reached_s_ / reached : 0.0, budget_.seconds - outcome_.seconds);
     Frame& frame = frames_[static_cast<std::size_t>(number)];
     ++tried_;
     const double start_s = budget_.clock_s();
@@ -158,6 +163,7 @@ void SpreadReference::solve(int number, double share_s)
         if (const FemFacts* facts = deformer_->facts()) solution.lowest_det_f = facts->lowest_det_f, solution.tips = facts->tips;
         frame.solution = std::move(solution);
         at_ = number;
+        reached_s_ += seconds;
         ++outcome_.solved;
         if (since_keeping_.seconds() > between_writings_s) keep();
     } else if (!interrupted()) {
@@ -228,7 +234,7 @@ void SpreadReference::find_kept()
         if (kept.at("key") != budget_.key) return;
         if (const nlohmann::json& frame = kept.at("with_contact"); !frame.is_null()) {
             if (kept.at("budget_s").get<double>() < budget_.seconds) return;  // which may suffice for contact
-            outcome_.not_reached = {{frame.at("frame"), frame.at("seconds"), frame.at("bone")}};
+            outcome_.not_reached = {{frame.at("frame"), frame.at("cpu_seconds"), frame.at("bone")}};
             do_without_contact();
         }
         for (Frame& frame : frames_)

@@ -5,8 +5,8 @@
 // the same run goes on.
 //
 // Contact can make a frame ten times as expensive, since where two parts touch, the initial guess and each step of Newton's method end at
-// once for the whole body. As soon as two frames are not reached, and these are more than a quarter of those that were tried, all frames
-// are solved without contact. A larger budget tries it again.
+// once for the whole body. As soon as two frames are not reached, these are more than a quarter of those that were tried, and half of the
+// time is left, all frames are solved without contact. A larger budget tries it again.
 //   SpreadReference reference(spec, {.seconds = 120.0, .file = "DIR/reference_frames.cbor", .key = key});
 //   reference.reset(character);
 //   reference.foresee(poses);                                                     // solves
@@ -39,8 +39,9 @@ struct ReferenceBudget {
 // How many frames to go on, so that the last of frames_left is reached when the time is spent: 1 or more. mean_s: of a frame.
 int stride(int frames_left, double mean_s, double seconds_left);
 
-// The processor time that a frame may take [s]: an eighth of what is left, more if fewer frames are left.
-double share_of_frame(int frames_left, double seconds_left);
+// The processor time that a frame may take [s]: an eighth of what is left, more if fewer frames are left, and three times the mean of those
+// that were reached if there is as much.
+double share_of_frame(int frames_left, double mean_reached_s, double seconds_left);
 
 class SpreadReference : public Deformer {
 public:
@@ -89,7 +90,7 @@ private:
     Solution solution_in(const nlohmann::json& kept) const;  // nlohmann::json::exception where it is damaged
     void keep();
     bool has_time_left() const;
-    void solve(int number, double share_s);
+    void solve(int number, int frames_left);
     void continue_from_most_similar(int number);
     std::string most_distorted_bone() const;
 
@@ -100,6 +101,7 @@ private:
     std::vector<Frame> frames_;
     nlohmann::json kept_frames_;   // those of the file, of other poses too
     int tried_ = 0;                // frames that were tried here, with contact or without it
+    double reached_s_ = 0.0;       // that those took which were reached
     double spent_before_s_ = 0.0;  // before the first of them
     int at_ = -1;                  // the frame whose pose the deformer has; -1: that of none
     int frame_ = -1;               // of the last call of advance
