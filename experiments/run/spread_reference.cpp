@@ -319,7 +319,8 @@ pbs::RemarkList remarks_on(const SpreadReference::Outcome& outcome, const std::s
     }
     if (outcome.solved + static_cast<int>(outcome.not_reached.size()) == outcome.frames) return remarks;
     add(outcome.solved < few_frames ? pbs::Gravity::comparison_wrong : pbs::Gravity::information,
-        fmt::format("the reference has {} of {} frames, and only they have errors: {}", outcome.solved, outcome.frames,
+        fmt::format("the reference has {} of {} frames{}: {}", outcome.solved, outcome.frames,
+                    outcome.solved > 0 ? ", and only they have errors" : ", so that no method has an error",
                     outcome.was_interrupted ? "it was interrupted"
                                             : fmt::format("they are spread over the motion as evenly as {:.0f} s of processor time allow "
                                                           "(--reference-seconds, reference.seconds)",

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -82,6 +83,7 @@ std::string inverting_words(const nlohmann::json& facts)
     for (const auto& [deformer, of] : inverting.items())
         text += fmt::format(fmt::runtime(text.empty() ? "{} turns up to {} inside out" : ", {} up to {}"), shown_name(deformer),
                             tets(of.at("most_inverted_tets")));
+    if (!text.empty()) text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
     if (!text.empty())
         text += fmt::format(", {}more than LBS in the same frame: {} called nearest or best. ", inverting.size() == 1 ? "" : "each ",
                             inverting.size() == 1 ? "it is not" : "none of them is");

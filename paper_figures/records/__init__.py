@@ -39,6 +39,10 @@ class Run:
         need(rows, f"{self.folder / 'metrics.csv'}: no rows of {in_words(deformer, variant, iterations)}")
         return sorted(rows, key=lambda row: int(float(row["frame"])))
 
+    def has(self, deformer, variant="default"):
+        """Whether the deformer has a row; a reference whose budget of time was spent before its first frame has none."""
+        return any(is_of(row, deformer, variant, None) for row in self.rows)
+
     def statistics(self, deformer, iterations=None, variant="default"):
         """Order statistics of the deformer over the frames: a row of frame_statistics.csv."""
         rows = frame_statistics(self.folder, deformer, variant, iterations)

@@ -50,7 +50,8 @@ class RunRecords:
         return not self.record["outcome"].get("motion", {}).get("stretched_bones")
 
     def labels(self):
-        return [deformer["label"] for deformer in self.record["scene"].get("runs", [])]
+        return [deformer["label"] for deformer in self.record["scene"].get("runs", [])
+                if self.run.has(deformer["name"], deformer["variant"])]
 
     def rows(self, label):
         deformer = next(one for one in self.record["scene"]["runs"] if one["label"] == label)

@@ -103,7 +103,7 @@ class Block:
 
 def rows_of(recorded):
     """For each label its rows of metrics.csv in the frames that were written, in the order of the panels: in the order of looks.toml."""
-    labels = looks.in_order(recorded.deformers)
+    labels = [label for label in looks.in_order(recorded.deformers) if recorded.run.has(*recorded.deformers[label])]
     rows = {label: recorded.run.select(recorded.deformers[label][0], variant=recorded.deformers[label][1]) for label in labels}
     written = {row["frame"] for label, of in rows.items() for row in of if recorded.is_written(label, int(row["frame"]))}
     rows = {label: kept for label, of in rows.items() if (kept := [row for row in of if row["frame"] in written])}

@@ -51,8 +51,8 @@ class MovingCharacterTest(program.ProgramTest):
                  "400"]
         environment = {**os.environ, "PBS_VIEWER_BUILD": self.folder}
         for sent in (signal.SIGINT, signal.SIGTERM):
-            with self.subTest(sent), subprocess.Popen([program.PBSKIN, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                                                      env=environment) as trial:
+            with self.subTest(sent), subprocess.Popen([program.PBSKIN, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                                      text=True, env=environment) as trial:
                 printed = ""
                 while "solving the reference" not in printed:
                     line = trial.stderr.readline()
