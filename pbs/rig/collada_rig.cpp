@@ -255,9 +255,9 @@ Rig read_collada_rig(const std::string& path)
         if (document.origins.empty()) break;
         const auto origin = document.origins.find(mesh.name);
         if (origin == document.origins.end())
-            throw InputError(path, 0, "mesh", mesh.name,
-                             "expected the id of a geometry, since one of the file is far from the origin and read in parts: give each "
-                             "geometry a short id of its own, or export glTF 2.0 (.glb)");
+            throw InputError(path, 0, "mesh of node " + rig.nodes[mesh.node].name, mesh.name,
+                             "expected the id of a geometry, by which its distance from the origin is known, since the file has points far "
+                             "from it: give each geometry a short id of its own, or export glTF 2.0 (.glb)");
         mesh.points.rowwise() += origin->second.transpose();
     }
     rig.remarks.insert(rig.remarks.end(), document.remarks.begin(), document.remarks.end());
