@@ -209,13 +209,13 @@ std::vector<JointKey> keys_of(const std::vector<std::string>& names)
     std::vector<Words> words;
     for (const std::string& name : names) words.push_back(words_in_name(name));
     const auto is_common = [&](auto has) {
-        std::size_t with = 0, all = 0;
+        std::size_t with = 0, joints = 0;
         for (std::size_t n = 0; n < names.size(); ++n) {
             if (names[n].starts_with("EndSite_")) continue;
-            ++all;
+            ++joints;
             with += words[n].size() > 1 && has(words[n]);
         }
-        return with >= 4 && 3 * with >= 2 * all;
+        return with >= 4 && 3 * with >= 2 * joints;
     };
     const auto ends_with_number = [](const Words& name) { return is_number(name.back()); };
     if (is_common(ends_with_number)) {

@@ -20,9 +20,10 @@ struct TetFile {
 
 TetMesh read_vtk(const std::string& path);  // .vtu, .pvtu, .vtk, by VTK
 TetFile read_msh(const std::string& path);  // Gmsh's .msh
-std::map<std::string, Eigen::MatrixXd> read_msh_point_arrays(const std::string& path, const std::string& name);  // as read_point_arrays
-TetMesh read_medit(const std::string& path);                                                                     // .mesh
-TetMesh read_tobj(const std::string& path);                                                                      // .tobj
+// As read_point_arrays. Without a name, a view that does not cover all nodes, or has several steps, has no rows; by its name it is refused.
+std::map<std::string, Eigen::MatrixXd> read_msh_point_arrays(const std::string& path, const std::string& name);
+TetMesh read_medit(const std::string& path);   // .mesh
+TetMesh read_tobj(const std::string& path);    // .tobj
 TetMesh read_tetgen(const std::string& path);  // .node or .ele; the other file is in the same folder
 
 SurfaceMesh read_polygons(const std::string& path);  // .ply, .off, .stl, by CGAL

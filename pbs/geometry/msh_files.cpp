@@ -105,6 +105,18 @@ public:
         return true;
     }
     std::string word(const char* field) { return std::string(words_.next(field)); }
+    // The line that begins with the next word, without the quotation marks around it: a text may have blanks.
+    std::string text_line(const char* field)
+    {
+        const std::string& text = words_.text();
+        const auto begin = static_cast<std::size_t>(words_.next(field).data() - text.data());
+        const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
+        words_.go_to(end);
+        const std::string line = text.substr(begin, end - begin);
+        const std::size_t last = line.find_last_not_of(" \t\"");
+        if (!line.starts_with('"')) return line.substr(0, line.find_last_not_of(" \t") + 1);
+        return last == std::string::npos ? "" : line.substr(1, last);
+    }
     // A number that is a word in binary files, too.
     long long whole_word(const char* field) { return words_.whole(field, 0, std::numeric_limits<std::int32_t>::max()); }
     void begin_data()
@@ -334,12 +346,12 @@ struct NodeData {
     long long components = 0, nodes = 0;
 };
 
-NodeData read_head_of_data(const std::string& path, MshValues& values)
+NodeData read_head_of_data(MshValues& values)
 {
     NodeData data;
     for (long long i = values.whole_word("texts of $NodeData"); i > 0; --i) {
-        const std::string text = values.word("text of $NodeData");
-        if (data.name.empty()) data.name = text.starts_with('"') && text.size() > 1 ? text.substr(1, text.size() - 2) : text;
+        const std::string text = values.text_line("text of $NodeData");
+        if (data.name.empty()) data.name = text;
     }
     for (long long i = values.whole_word("real numbers of $NodeData"); i > 0; --i) values.word("real number of $NodeData");
     const long long count = values.whole_word("whole numbers of $NodeData");
@@ -348,8 +360,6 @@ NodeData read_head_of_data(const std::string& path, MshValues& values)
         if (i == 1) data.components = number;
         if (i == 2) data.nodes = number;
     }
-    if (data.components < 1 || data.components > 9)
-        throw InputError(path, 0, "components of $NodeData " + data.name, std::to_string(data.components), "expected 1, 3 or 9");
     values.begin_data();
     return data;
 }
@@ -385,10 +395,15 @@ std::map<std::string, Eigen::MatrixXd> read_msh_point_arrays(const std::string& 
     std::ranges::sort(content.node_tags);
     std::map<std::string, Eigen::MatrixXd> arrays;
     while (values.enter_next("$NodeData")) {
-        const NodeData data = read_head_of_data(path, values);
+        const NodeData data = read_head_of_data(values);
         if ((data.components != 1 && data.components != 3) || (!name.empty() && name != data.name)) continue;
-        if (!arrays.emplace(data.name, read_node_data(path, values, data, content.node_tags)).second)
+        const bool has_steps = arrays.contains(data.name), is_partial = data.nodes != std::ssize(content.node_tags);
+        if (has_steps && !name.empty())
             throw InputError(path, 0, "$NodeData", data.name, "expected one of each name: save each step in a file of its own");
+        if (name.empty() && (has_steps || is_partial))
+            arrays[data.name].resize(0, data.components);
+        else
+            arrays.emplace(data.name, read_node_data(path, values, data, content.node_tags));
     }
     return arrays;
 }

@@ -268,14 +268,15 @@ void use_one_controller_per_skeleton(ColladaXml& document)
     }
 }
 
-// No numbers where a word is none: the reader refuses the file.
+// No numbers where a word is none, as 2,5: the document stays as it is for the reader, which refuses it.
 Positions rows_of_three(const pugi::xml_node& array)
 {
     const std::vector<std::string_view> words = words_of(array.text().as_string());
     Positions rows(static_cast<Eigen::Index>(words.size() / 3), 3);
     for (Eigen::Index i = 0; i < rows.size(); ++i) {
         const std::string_view word = words[static_cast<std::size_t>(i)];
-        if (std::from_chars(word.data(), word.data() + word.size(), rows(i / 3, i % 3)).ec != std::errc()) return {};
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), rows(i / 3, i % 3));
+        if (error != std::errc() || end != word.data() + word.size()) return {};
     }
     return rows;
 }
@@ -283,7 +284,9 @@ Positions rows_of_three(const pugi::xml_node& array)
 void move_far_points_to_the_origin(ColladaXml& document, ColladaDocument& result)
 {
     constexpr double far_away = 100.0;  // sizes; nearer, single precision has an error below 1e-5 of the size
+    bool has_far = false;
     for (const pugi::xpath_node& found : document.root().select_nodes("library_geometries/geometry[@id]/mesh")) {
+        Vec3& origin = result.origins.try_emplace(id_of(found.node().parent()), Vec3::Zero()).first->second;
         const pugi::xml_node source = document.source(found.node().child("vertices"), "POSITION");
         const pugi::xml_node accessor = source.child("technique_common").child("accessor");
         const Positions points = rows_of_three(source.child("float_array"));
@@ -295,10 +298,11 @@ void move_far_points_to_the_origin(ColladaXml& document, ColladaDocument& result
         const Positions near = points.rowwise() - points.row(0);
         for (const double number : near.reshaped<Eigen::RowMajor>()) text += number_text(number, 17) + " ";
         source.child("float_array").text() = text.c_str();
-        result.origins.emplace(id_of(found.node().parent()), points.row(0));
+        origin = points.row(0);
+        has_far = true;
     }
     pugi::xml_attribute unit = document.root().child("asset").child("unit").attribute("meter");
-    if (result.origins.empty()) return;
+    if (!has_far) return result.origins.clear();
     document.is_changed = true;
     if (!(unit.as_double() > 0.0)) return;
     result.unit_m = unit.as_double();

@@ -14,8 +14,8 @@ namespace pbs {
 struct ColladaDocument {
     std::string text;                       // the document in place of the file's; empty: the file is read as it is
     std::vector<std::string> remarks = {};  // what it leaves out
-    // Of geometries that are farther from the origin than a hundred times their size, by their ids: what is to be added to their points
-    // [file's units], since assimp reads in single precision. The document then states no unit.
+    // Where a geometry is farther from the origin than a hundred times its size: what is to be added to the points of each geometry [file's
+    // units], by its id, since assimp reads in single precision; 0 for those that are near. The document then states no unit.
     std::map<std::string, Vec3> origins = {};
     double unit_m = 1.0;  // of the points and nodes that assimp returns
 };

@@ -251,9 +251,15 @@ Rig read_collada_rig(const std::string& path)
     Assimp::Importer importer;
     Rig rig = rig_of_scene(read_assimp_scene(importer, path, document.text), path);
     rig.unit_m = document.unit_m;
-    for (RigMesh& mesh : rig.meshes)
-        if (const auto origin = document.origins.find(mesh.name); origin != document.origins.end())
-            mesh.points.rowwise() += origin->second.transpose();
+    for (RigMesh& mesh : rig.meshes) {
+        if (document.origins.empty()) break;
+        const auto origin = document.origins.find(mesh.name);
+        if (origin == document.origins.end())
+            throw InputError(path, 0, "mesh of node " + rig.nodes[mesh.node].name, mesh.name,
+                             "expected the id of a geometry, by which its distance from the origin is known, since the file has points far "
+                             "from it: give each geometry a short id of its own, or export glTF 2.0 (.glb)");
+        mesh.points.rowwise() += origin->second.transpose();
+    }
     rig.remarks.insert(rig.remarks.end(), document.remarks.begin(), document.remarks.end());
     return rig;
 }

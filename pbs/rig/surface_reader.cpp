@@ -19,12 +19,6 @@ namespace {
 
 constexpr std::array<std::string_view, 5> extensions = {".obj", ".ply", ".off", ".stl", ".vtp"};  // in pbs/geometry
 
-// A surface as a file has it, and what its reader left out.
-struct RawSurface {
-    SurfaceMesh mesh;
-    std::vector<std::string> remarks = {};
-};
-
 void append(const Positions& points, const Triangles& triangles, SurfaceMesh& surface)
 {
     const Eigen::Index first = surface.points.rows(), first_triangle = surface.triangles.rows();
@@ -44,12 +38,13 @@ void keep_meshes_named(const std::string& name, Rig& rig)
 }
 
 // The scene as it stands. If it has a mesh with a skin: what joints move, in the bind pose, as `pbskin measure hero.glb` has it.
-RawSurface surface_of_rig(const std::string& path, const std::string& mesh_name)
+SurfaceReading surface_of_rig(const std::string& path, const std::string& mesh_name)
 {
     Rig rig = read_rig(path);
     if (!mesh_name.empty()) keep_meshes_named(mesh_name, rig);
-    RawSurface surface;
-    if (std::ranges::any_of(rig.meshes, [](const RigMesh& mesh) { return !mesh.joints.empty(); })) {
+    SurfaceReading surface;
+    surface.has_skin = std::ranges::any_of(rig.meshes, [](const RigMesh& mesh) { return !mesh.joints.empty(); });
+    if (surface.has_skin) {
         const RigBinding binding = bind_rig(rig, nullptr, 1.0);
         for (const RigMesh& mesh : binding.meshes) append(rest_points(mesh, binding), mesh.triangles, surface.mesh);
         rig.remarks.insert(rig.remarks.end(), binding.remarks.begin(), binding.remarks.end());
@@ -57,7 +52,7 @@ RawSurface surface_of_rig(const std::string& path, const std::string& mesh_name)
         const std::vector<Eigen::Affine3d> nodes = node_transforms(rig, nullptr, 0.0);
         for (const RigMesh& mesh : rig.meshes) append(rig.unit_m * skinned_points(mesh, nodes), mesh.triangles, surface.mesh);
     }
-    for (const std::string& remark : rig.remarks) surface.remarks.push_back(path + ": " + remark);
+    surface.remarks = rig.remarks;
     return surface;
 }
 
@@ -128,14 +123,14 @@ SurfaceMesh joined(const std::string& path, const SurfaceMesh& mesh)
     return surface;
 }
 
-RawSurface checked_surface(const std::string& path, const std::string& mesh_name)
+SurfaceReading checked_surface(const std::string& path, const std::string& mesh_name)
 {
     require_readable(path, most_mesh_bytes);
     const std::string content = content_extension(path), extension = format_extension(path);
     if (!is_surface_file(path))
         throw InputError(path, 0, content.empty() ? "extension" : "format of the content", extension,
                          "expected a surface: .obj, .ply, .off, .stl, .vtp, .gltf, .glb, .dae, .zae or .fbx");
-    RawSurface surface;
+    SurfaceReading surface;
     if (is_rig_extension(extension))
         surface = surface_of_rig(path, mesh_name);
     else
@@ -153,16 +148,15 @@ bool is_surface_file(const std::string& path)
     return is_rig_extension(extension) || std::ranges::find(extensions, extension) != extensions.end();
 }
 
-SurfaceMesh read_surface_frame(const std::string& path, std::vector<std::string>* remarks)
+SurfaceReading read_surface_frame(const std::string& path)
 {
-    RawSurface read = checked_surface(path, "");
-    if (remarks) *remarks = read.remarks;
-    SurfaceMesh& surface = read.mesh;
-    if (format_extension(path) != ".stl") return surface;
+    SurfaceReading reading = checked_surface(path, "");
+    SurfaceMesh& surface = reading.mesh;
+    if (format_extension(path) != ".stl") return reading;
     surface.points = surface.points(surface.triangles.reshaped<Eigen::RowMajor>(), Eigen::all).eval();
     surface.triangles = Eigen::VectorXi::LinSpaced(surface.points.rows(), 0, static_cast<int>(surface.points.rows()) - 1)
                             .reshaped<Eigen::RowMajor>(surface.triangles.rows(), 3);
-    return surface;
+    return reading;
 }
 
 SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name)
@@ -172,11 +166,15 @@ SurfaceMesh read_surface(const std::string& path, const std::string& mesh_name)
 
 SurfaceMesh read_surface(const std::string& path, std::vector<std::string>& remarks, double scale)
 {
-    const auto [read, left_out] = checked_surface(path, "");
+    remarks.clear();
+    const SurfaceReading reading = checked_surface(path, "");
+    const SurfaceMesh& read = reading.mesh;
     SurfaceMesh surface = joined(path, read);
     surface.points *= scale;
-    remarks = remarks_on(path, surface, unused_points(read), static_cast<int>(read.triangles.rows() - surface.triangles.rows()));
-    remarks.insert(remarks.begin(), left_out.begin(), left_out.end());
+    for (const std::string& remark : reading.remarks) remarks.push_back(path + ": " + remark);
+    const auto of_surface =
+        remarks_on(path, surface, unused_points(read), static_cast<int>(read.triangles.rows() - surface.triangles.rows()));
+    remarks.insert(remarks.end(), of_surface.begin(), of_surface.end());
     if (const std::string content = content_extension(path); !content.empty() && content != lower_extension(path))
         remarks.insert(remarks.begin(), remark_on_name(path, content));
     return surface;

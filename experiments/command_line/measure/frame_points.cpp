@@ -43,7 +43,7 @@ struct PointVector {
 };
 using PointVectors = std::map<std::string, PointVector>;
 
-// The name of a vector whose first component is called so: u for ux, u_x, U1 and u:0, D for DX. Empty: it is none.
+// The name of a vector whose first component is called so: u for ux, u_x and u:0, U for U1, D for DX. Empty: it is none.
 std::string stem_of(const std::string& name)
 {
     if (name.size() < 2) return "";
@@ -70,7 +70,14 @@ void add_vectors_of_components(const std::map<std::string, Eigen::MatrixXd>& arr
     }
 }
 
-// name: that vector alone, if it is an array of the file.
+bool is_named_displacement(const std::string& name)
+{
+    static const std::regex displacement("u|d|.*(disp|depl|deform|translation).*", std::regex::icase);
+    return std::regex_match(name, displacement);
+}
+
+// name: that vector alone, if it is an array of the file. Without a name, views of a .msh that do not state one value of each point have no
+// rows.
 PointVectors vectors_of(const std::string& path, const std::string& name, const std::vector<int>& file_point)
 {
     const auto arrays = pbs::read_guarded(path, [&](const std::string& file) { return pbs::read_point_arrays(file, name); });
@@ -79,6 +86,7 @@ PointVectors vectors_of(const std::string& path, const std::string& name, const 
         if (values.cols() == 3) vectors.emplace(of, PointVector{values});
     add_vectors_of_components(arrays, vectors);
     for (auto& [of, vector] : vectors) {
+        if (name.empty() && vector.values.rows() == 0) continue;
         if (vector.values.rows() <= std::ranges::max(file_point))
             throw pbs::InputError(path, 0, of, fmt::format("{} rows", vector.values.rows()), "expected one for each point");
         vector.values = vector.values(file_point, Eigen::all).eval();
@@ -86,10 +94,11 @@ PointVectors vectors_of(const std::string& path, const std::string& name, const 
     return vectors;
 }
 
-bool is_named_displacement(const std::string& name)
+// For a vector without rows, whose array is read by its name for the reason.
+[[noreturn]] void refuse(const std::string& path, const std::string& name, const PointVector& vector, const std::vector<int>& file_point)
 {
-    static const std::regex displacement("u|d|.*(disp|depl|deform|translation).*", std::regex::icase);
-    return std::regex_match(name, displacement);
+    vectors_of(path, name, file_point);
+    throw pbs::InputError(path, 0, name, vector.of_components, "expected one value of each point");
 }
 
 // A vector that moves the points: not zero, not the points themselves, and by its name no other quantity. Scalars are compared with the
@@ -106,7 +115,8 @@ void require_no_displacement(const std::string& path, const pbs::Positions& rest
 {
     std::vector<std::string> names, texts;
     for (const auto& [name, vector] : vectors_of(path, "", file_point)) {
-        if (!may_be_displacement(name, vector, rest)) continue;
+        if (vector.values.rows() == 0 && is_named_displacement(name)) refuse(path, name, vector, file_point);
+        if (vector.values.rows() == 0 || !may_be_displacement(name, vector, rest)) continue;
         const auto place = is_named_displacement(name) ? 0 : std::ssize(names);
         names.insert(names.begin() + place, name);
         texts.insert(texts.begin() + place, vector.of_components.empty() ? name : fmt::format("{} ({})", name, vector.of_components));
@@ -171,6 +181,7 @@ pbs::Positions shape_of_frame(const std::string& path, const pbs::Positions& poi
     const auto found = vectors.find(displacement);
     if (found == vectors.end())
         throw pbs::InputError(path, 0, "--displacement", displacement, "expected a vector of the points: " + known_vectors(vectors));
+    if (found->second.values.rows() == 0) refuse(path, displacement, found->second, file_point);
     if (!found->second.values.allFinite()) throw pbs::InputError(path, 0, displacement, "", "expected finite numbers");
     return rest + found->second.values;
 }

@@ -21,8 +21,9 @@ bool are_at_rest(const pbs::Positions& points, const pbs::Positions& rest);
 // which ParaView warps them.
 // - displacement empty: the points. InputError where they are those of the rest mesh while a vector of the points is not zero.
 // - `none`: the points.
-// - a name: rest + that vector, or three scalars that are named as its components (ux, u_x, U1 or DX for u, U or D). InputError where the
-// file lacks it, or where its points are not those of the rest mesh. points, rest: #V x 3; file_point: the file's number of each, #V.
+// - a name: rest + that vector, or three scalars that are named as its components (ux, u_x or u:0 for u, U1 for U, DX for D). InputError
+// where the file lacks it, or where its points are not those of the rest mesh. points, rest: #V x 3; file_point: the file's number of each,
+// #V.
 pbs::Positions shape_of_frame(const std::string& path, const pbs::Positions& points, const pbs::Positions& rest,
                               const std::vector<int>& file_point, const std::string& displacement);
 

@@ -16,6 +16,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
+#include <utility>
 
 namespace experiments {
 namespace {
@@ -202,12 +204,20 @@ int measure_surfaces(const MeasureArguments& arguments)
 {
     const std::vector<std::string> paths = frame_files(arguments.frames, {.any_step = arguments.any_step, .of_surfaces = true}),
                                    names = frame_names(paths);
-    std::vector<std::string> remarks;
-    const RestSurface rest(arguments.rest, pbs::read_surface_frame(arguments.rest, &remarks));
-    warn(remarks);
+    std::set<std::string> shown;  // remarks, which most frames share
+    const auto warn_once = [&](const std::string& path, const std::vector<std::string>& remarks) {
+        for (const std::string& remark : remarks)
+            if (shown.insert(remark).second) warn({path + ": " + remark});
+    };
+    pbs::SurfaceReading reading = pbs::read_surface_frame(arguments.rest);
+    warn_once(arguments.rest, reading.remarks);
+    const RestSurface rest(arguments.rest, std::move(reading.mesh));
     SurfaceMeasurement measurement(arguments, rest);
     const MeasuredFrames measured = measure_each(arguments, paths, names, [&](std::size_t i) {
-        return measurement.measure(names[i], rest.read_frame(paths[i], arguments.displacement));
+        std::vector<std::string> remarks;
+        const pbs::Positions points = rest.read_frame(paths[i], arguments.displacement, remarks);
+        warn_once(paths[i], remarks);
+        return measurement.measure(names[i], points);
     });
     measurement.finish(false);
     return reported(arguments, measured, explanation);

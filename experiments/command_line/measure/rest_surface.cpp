@@ -114,9 +114,15 @@ RestSurface::RestSurface(std::string path, pbs::SurfaceMesh surface, std::vector
     throw pbs::InputError(path_, 0, "closed shells", fmt::format("0 of {}", all.size()), rule);
 }
 
-pbs::Positions RestSurface::read_frame(const std::string& path, const std::string& displacement) const
+pbs::Positions RestSurface::read_frame(const std::string& path, const std::string& displacement, std::vector<std::string>& remarks) const
 {
-    const pbs::SurfaceMesh frame = pbs::read_surface_frame(path);
+    const pbs::SurfaceReading reading = pbs::read_surface_frame(path);
+    if (reading.has_skin)
+        throw pbs::InputError(path, 0, "skin", "",
+                              "expected a frame without a skin, since a mesh with one is read in its bind pose: measure the rigged model "
+                              "along its animation (pbskin measure MODEL), or export the posed points without a skin, as .obj");
+    const pbs::SurfaceMesh& frame = reading.mesh;
+    remarks = reading.remarks;
     require_as_many_points(path, frame.points.rows(), surface_.points.rows());
     require_same_polygons(path, surface_.triangles, frame.triangles);
     std::vector<int> file_point(static_cast<std::size_t>(frame.points.rows()));

@@ -1,6 +1,6 @@
 // A surface at rest and its frames from files. They have the points of the surface at rest, in the same order and in the same unit.
-//   const RestSurface rest("rest.obj", pbs::read_surface_frame("rest.obj"));
-//   const pbs::Positions points = rest.read_frame("frame_0001.obj", "");
+//   const RestSurface rest("rest.obj", pbs::read_surface_frame("rest.obj").mesh);
+//   const pbs::Positions points = rest.read_frame("frame_0001.obj", "", remarks);
 #pragma once
 
 #include "analysis/metrics/closed_shells.hpp"
@@ -24,8 +24,9 @@ public:
     RestSurface(std::string path, pbs::SurfaceMesh surface, std::vector<NamedPoints> meshes = {});
 
     // [m], #P x 3. InputErrors: another number of points, other triangles except where a polygon is cut into triangles in another way,
-    // another unit, and those of shape_of_frame (frame_points.hpp).
-    pbs::Positions read_frame(const std::string& path, const std::string& displacement) const;
+    // another unit, a skin, since the surface would be that of the bind pose, and those of shape_of_frame (frame_points.hpp). remarks: what
+    // the reader left out, without the file's name.
+    pbs::Positions read_frame(const std::string& path, const std::string& displacement, std::vector<std::string>& remarks) const;
 
     const pbs::Positions& points() const { return surface_.points; }  // [m], #P x 3
     const analysis::ClosedShells& shells() const { return shells_; }

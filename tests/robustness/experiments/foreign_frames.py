@@ -209,11 +209,11 @@ class ForeignFrames(program.ProgramTest):
         write_vtk(self.path("forces.vtu"), POINTS, TETS, {"RF": [(7.0, 0.0, 0.0)] * len(POINTS), "u": shift})
         self.refuses("the points' vector u or RF: add --displacement u", "forces.vtu")
 
-    def write_msh_with_node_data(self, data):
+    def write_msh_with_node_data(self, data, quote='"'):
         foreign_arm.write_msh(self.path("nodes.msh"), POINTS, TETS)
         with open(self.path("nodes.msh"), "a", encoding="utf-8") as file:
             for name, rows in data:
-                file.write(f"$NodeData\n1\n\"{name}\"\n1\n0\n3\n0\n{len(rows[0])}\n{len(rows)}\n")
+                file.write(f"$NodeData\n1\n{quote}{name}{quote}\n1\n0\n3\n0\n{len(rows[0])}\n{len(rows)}\n")
                 for tag, row in reversed(list(enumerate(rows, 1))):
                     file.write(f"{tag} {' '.join(map(repr, row))}\n")
                 file.write("$EndNodeData\n")
@@ -230,6 +230,24 @@ class ForeignFrames(program.ProgramTest):
         self.refuses(f"nodes of $NodeData u = {len(POINTS) - 1}: expected each of the {len(POINTS)}", "nodes.msh")
         self.write_msh_with_node_data([("u", shift), ("u", shift)])
         self.refuses("$NodeData = u: expected one of each name", "nodes.msh")
+        # Unrelated views.
+        unrelated = [("von Mises", [(1.0,)]), ("von Mises", [(2.0,)] * len(POINTS)), ("velocity", [(1.0, 0.0, 0.0)] * 2),
+                     ("sum", [(1.0, 2.0)])]
+        self.write_msh_with_node_data(unrelated + [("u", shift)])
+        self.refuses("seems to be in the points' vector u: add --displacement u", "nodes.msh")
+        self.expect_stretched("nodes.msh", "u")
+        self.refuses(f"nodes of $NodeData velocity = 2: expected each of the {len(POINTS)}", "nodes.msh", "--displacement", "velocity")
+        self.write_msh_with_node_data(unrelated)
+        self.measure(0, "nodes.msh", says="nothing moves")
+        self.write_msh_with_node_data([("disp", shift[1:])] + [(f"u{axis}", [(row[k],) for row in shift]) for k, axis in enumerate("xyz")])
+        self.expect_stretched("nodes.msh", "u")
+        self.write_msh_with_node_data([(f"u{axis}", [(row[k],) for row in shift[1:]]) for k, axis in enumerate("xyz")])
+        for arguments in ((), ("--displacement", "u")):
+            self.refuses("u = ux, uy, uz: expected one value of each point", "nodes.msh", *arguments)
+        # Some programs write names without quotation marks.
+        self.write_msh_with_node_data([("displacement field", shift)], quote="")
+        self.expect_stretched("nodes.msh", "displacement field")
+        self.write_msh_with_node_data([("u", shift), ("u", shift)])
         with open(self.path("nodes.msh"), encoding="utf-8") as file:
             text = file.read()
         with open(self.path("nodes.msh"), "w", encoding="utf-8") as file:

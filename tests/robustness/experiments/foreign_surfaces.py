@@ -8,6 +8,7 @@ import numpy
 import vtk
 
 import program
+import rig_files
 import run_records
 
 # The six faces of a box, outward; corner 4 x + 2 y + z.
@@ -83,6 +84,16 @@ def stl(points, faces):
     corners = lambda face: "".join("vertex %.9g %.9g %.9g\n" % tuple(points[index]) for index in face)
     return "solid box\n" + "".join(f"facet normal 0 0 0\nouter loop\n{corners(face)}endloop\nendfacet\n"
                                    for face in triangles_of(faces)) + "endsolid box\n"
+
+
+def write_glb_with_morph_target(path, points, faces):
+    gltf = rig_files.Gltf()
+    place = gltf.put(points, "VEC3", rig_files.FLOAT)
+    indices = gltf.put(numpy.array(faces).reshape(-1, 1), "SCALAR", rig_files.UNSIGNED_INT)
+    primitive = {"attributes": {"POSITION": place}, "indices": indices, "targets": [{"POSITION": place}]}
+    gltf.document["meshes"].append({"primitives": [primitive]})
+    gltf.node(mesh=0)
+    rig_files.write_glb(path, *gltf.written())
 
 
 TEXTS = {".obj": obj, ".off": off, ".ply": ply, ".stl": stl}
@@ -211,6 +222,19 @@ class ForeignSurfaces(program.ProgramTest):
         self.assertAlmostEqual(self.changes("rest.vtp", "frame.vtp", "--displacement", "u")[0], 7.0, places=9)
         self.measure(0, "rest.vtp", "frame.vtp", "--displacement", "none", says="nothing moves")
         self.measure(2, "rest.vtp", "frame.vtp", "--displacement", "v", says="expected a vector of the points: it has u")
+
+    def test_a_frame_with_a_skin_is_refused(self):
+        """Its points are those of the bind pose, whatever its nodes' pose."""
+        rig_files.write("plain", self.path("hero.glb"))
+        rig_files.write("plain", self.path("posed.glb"), rest_deg=40.0)
+        self.measure(2, "hero.glb", "posed.glb", says="(pbskin measure MODEL), or export the posed points")
+
+    def test_a_remark_that_frames_share_is_shown_once(self):
+        self.write_surface("rest.obj", box(), triangles_of(QUADS))
+        for number in range(3):
+            write_glb_with_morph_target(self.path(f"f_{number}.glb"), stretched(box(), number), triangles_of(QUADS))
+        process = self.measure(0, "rest.obj", "f_%d.glb")
+        self.assertEqual(process.stderr.count("morph targets"), 1)
 
 
 if __name__ == "__main__":

@@ -81,6 +81,18 @@ TEST(ColladaWeights, TheirPlaceFollowsTheAccessor)
     expect_refused(text, "3 = -0.2");
 }
 
+// Points near the origin replace those of a geometry that is far from it.
+TEST(ColladaFarFromTheOrigin, IsLeftAsItIsWhereAWordIsNoNumber)
+{
+    const ScratchFolder folder;
+    const auto text_of_arm_that_ends_at = [&](const std::string& word) {
+        const std::string far = "1e7 0 0 1e7 2 0 1e7 4 0 1e7 2 " + word;
+        return pbs::read_collada_document(folder.file("arm.dae", arm_of_weights_with("1 0 0 1 2 0 1 4 0 2 2 0", far))).text;
+    };
+    EXPECT_FALSE(text_of_arm_that_ends_at("1.5").empty());
+    for (const std::string word : {"1,5", "1.5abc", "1.5-2", "half"}) EXPECT_TRUE(text_of_arm_that_ends_at(word).empty()) << word;
+}
+
 void write_archive(const std::string& path, const std::vector<std::string>& texts)
 {
     zipFile archive = zipOpen(path.c_str(), APPEND_STATUS_CREATE);

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -94,19 +95,19 @@ TEST_F(Surface, AFrameKeepsThePointsOfTheFileAndAVtpIsReadToTheBit)
     pbs::SurfaceMesh cube = pbs::read_surface(folder.file("cube.obj", points("v ", 1.0) + faces("f", 1)));
     cube.points /= 3.0;
     pbs::write_vtp(folder / "cube.vtp", cube.points, cube.triangles);
-    const pbs::SurfaceMesh vtp = pbs::read_surface_frame(folder / "cube.vtp");
+    const pbs::SurfaceMesh vtp = pbs::read_surface_frame(folder / "cube.vtp").mesh;
     EXPECT_EQ(vtp.points, cube.points);
     EXPECT_EQ(vtp.triangles, cube.triangles);
     expect_cube(folder / "cube.vtp", 1.0 / 3.0);
     EXPECT_TRUE(pbs::is_surface_file(folder / "cube.vtp"));
     EXPECT_FALSE(pbs::is_surface_file(folder / "cube.vtu"));
 #ifdef PBS_WITH_CGAL
-    const pbs::SurfaceMesh corners = pbs::read_surface_frame(folder.file("cube.stl", stl(2.0)));
+    const pbs::SurfaceMesh corners = pbs::read_surface_frame(folder.file("cube.stl", stl(2.0))).mesh;
     EXPECT_EQ(corners.points.rows(), 36);
     EXPECT_EQ(corners.triangles.row(11), (pbs::Triangles(1, 3) << 33, 34, 35).finished());
     EXPECT_EQ(corners.points.row(35), (pbs::Positions(1, 3) << 0, 2, 2).finished());  // the last corner of the last quad
     const pbs::SurfaceMesh own =
-        pbs::read_surface_frame(folder.file("seam.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 0\n0 1 0\n-1 0 0\n3 0 1 2\n3 3 4 5\n"));
+        pbs::read_surface_frame(folder.file("seam.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 0\n0 1 0\n-1 0 0\n3 0 1 2\n3 3 4 5\n")).mesh;
     EXPECT_EQ(own.points.rows(), 6) << "seams are kept";
 #endif
 }
@@ -278,6 +279,28 @@ TEST_F(SurfaceFormats, ColladaFarFromTheOriginKeepsItsDigits)
     expect_input_error([&] { pbs::read_surface(torn); }, torn + ":6: p = -1: ", "expected indices from 0");
 }
 
+// assimp drops names of more than 1023 letters, so that the place of such a mesh is not known.
+TEST_F(SurfaceFormats, ColladaFarFromTheOriginRefusesANameThatTheReaderChanges)
+{
+    const std::string id(1100, 'c');
+    const auto with_id = [&](double place) {
+        std::string text = collada_cube(place, 8.0);
+        for (const std::string quoted : {"\"cube\"", "\"#cube\""}) text.replace(text.find(quoted) + quoted.size() - 5, 4, id);
+        return text;
+    };
+    const std::string path = folder.file("cube.dae", with_id(far));
+    expect_input_error([&] { pbs::read_surface(path); }, path + ": mesh of node body: ", "expected the id of a geometry");
+    EXPECT_EQ(pbs::read_surface(folder.file("near.dae", with_id(0.0))).points.rows(), 8);
+}
+
+TEST_F(SurfaceFormats, ColladaFarFromTheOriginMayHaveAGeometryThatNoNodeUses)
+{
+    std::string text = collada_cube(far, 8.0);
+    const std::size_t begin = text.find("<geometry "), end = text.find("</library_geometries>");
+    text.insert(end, std::regex_replace(text.substr(begin, end - begin), std::regex("\"(#?)(cube|pa?|v)\""), "\"$1other-$2\""));
+    expect_corners(folder.file("cube.dae", text), [](const pbs::Vec3& p) -> pbs::Vec3 { return 0.01 * (p + pbs::Vec3(far, 0, 8)); });
+}
+
 // What joints move is in the bind pose, wherever the node of the mesh is.
 TEST_F(SurfaceFormats, ASkinnedMeshIsInItsBindPose)
 {
@@ -286,6 +309,8 @@ TEST_F(SurfaceFormats, ASkinnedMeshIsInItsBindPose)
     text.replace(text.find(body), body.size(),
                  body + "Properties70: {\nP: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",0,0,300\n}\n");
     expect_two_triangles(folder.file("moved.fbx", text), {0, 0, 0}, 0.01);
+    EXPECT_TRUE(pbs::read_surface_frame(folder / "moved.fbx").has_skin);
+    EXPECT_FALSE(pbs::read_surface_frame(folder.file("cube.dae", collada_cube(0.0, 0.0))).has_skin);
 }
 
 TEST_F(SurfaceFormats, PackedColladaIsReadAsTheUnpackedOne)
