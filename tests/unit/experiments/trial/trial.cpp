@@ -275,7 +275,7 @@ TEST_F(TrialSummary, AMethodThatTurnsMoreTetsInsideOutThanLbsIsNamedAndNotCompar
     write("0");
     EXPECT_EQ(facts().at("inverting"), (nlohmann::json{{"delta_mush", {{"frames", 1}, {"most_inverted_tets", 89}}}}));
     EXPECT_EQ(facts().at("nearer").at("joints").at("best_other").at("deformer"), "dqs") << "the next best one";
-    EXPECT_NE(trial_sentence(facts()).find("delta mush turns up to 89 tets inside out, more than LBS in the same frame: it is not called "
+    EXPECT_NE(trial_sentence(facts()).find("Delta mush turns up to 89 tets inside out, more than LBS in the same frame: it is not called "
                                            "nearest or best. On hero.glb"),
               std::string::npos)
         << trial_sentence(facts());
@@ -283,7 +283,7 @@ TEST_F(TrialSummary, AMethodThatTurnsMoreTetsInsideOutThanLbsIsNamedAndNotCompar
     EXPECT_EQ(facts().at("nearer"), (nlohmann::json{{"joints", nullptr}, {"skin", nullptr}}));
     const std::string of_both = trial_sentence(facts());
     EXPECT_TRUE(
-        of_both.starts_with("delta mush turns up to 89 tets inside out, PBS up to 4 tets, each more than LBS in the same "
+        of_both.starts_with("Delta mush turns up to 89 tets inside out, PBS up to 4 tets, each more than LBS in the same "
                             "frame: none of them is called nearest or best. On hero.glb, PBS changes the volume"))
         << of_both;
     EXPECT_EQ(of_both.find("nearer"), std::string::npos) << of_both;
