@@ -1,4 +1,5 @@
-// Deformers that follow a far motion from rest, instead of beginning each frame at a blend of its pose.
+// Deformers that go to each frame of a far motion in steps from rest, instead of beginning it at a blend of its pose. The last frame is no
+// better beginning: what the iterations leave of one frame would add up over the motion.
 #include "experiments/deformers/deformer_kind.hpp"
 #include "pbs/geometry/cost.hpp"
 #include "pbs/skinning/blend.hpp"
@@ -34,7 +35,6 @@ public:
     void reset(const pbs::Character& character) override
     {
         character_ = &character;
-        reached_ = pbs::Pose(character.skeleton.bones.size(), Eigen::Isometry3d::Identity());
         follows_ = has_start_ = false;
         deformer_->reset(character);
     }
@@ -47,7 +47,6 @@ public:
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override
     {
         if (follows_ && !std::exchange(has_start_, false)) return follow(pose, dt_s);
-        reached_ = pose;
         return deformer_->advance(pose, dt_s);
     }
     void start_from(const pbs::Positions& shape) override
@@ -68,24 +67,23 @@ private:
     pbs::StepSummary follow(const pbs::Pose& pose, double dt_s)
     {
         const pbs::Stopwatch stopwatch;
-        const bool is_lost = !deformer_->positions().allFinite();  // the next frame begins at rest
-        if (is_lost) reached_ = pbs::Pose(pose.size(), Eigen::Isometry3d::Identity());
-        pbs::Positions last = is_lost ? character_->mesh.rest : deformer_->positions();
-        const pbs::PosePath way(character_->skeleton, reached_, pose);
+        pbs::Pose reached(pose.size(), Eigen::Isometry3d::Identity());
+        pbs::Positions carried, last = character_->mesh.rest;
+        const pbs::PosePath way(character_->skeleton, reached, pose);
         const int steps = std::max(1, static_cast<int>(std::ceil(way.largest_turn_deg() / largest_turn_deg)));
         pbs::FrameStep all;
         pbs::StepSummary sum;
         for (int step = 1; step <= steps; ++step) {
             const pbs::Pose next = way.at(static_cast<double>(step) / steps);
             pbs::Pose moved = next;  // the motion of each bone
-            for (std::size_t j = 0; j < next.size(); ++j) moved[j] = next[j] * reached_[j].inverse();
-            pbs::dual_quaternion_skinning(last, character_->weights, moved, carried_);
-            deformer_->start_from(carried_);
+            for (std::size_t j = 0; j < next.size(); ++j) moved[j] = next[j] * reached[j].inverse();
+            pbs::dual_quaternion_skinning(last, character_->weights, moved, carried);
+            deformer_->start_from(carried);
             all.add(deformer_->advance(next, dt_s), static_cast<std::size_t>(step));
             sum.iterations += all.summary().iterations;
             sum.work += all.summary().work;
-            reached_ = next;
             last = deformer_->positions();
+            reached = next;
         }
         pbs::StepSummary summary = all.summary();
         summary.iterations = sum.iterations;
@@ -97,8 +95,6 @@ private:
     std::unique_ptr<Deformer> deformer_;
     const pbs::Character* character_ = nullptr;
     bool follows_ = false, has_start_ = false;
-    pbs::Pose reached_;       // of the last positions
-    pbs::Positions carried_;  // [m], #V x 3
 };
 
 }  // namespace

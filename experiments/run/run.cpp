@@ -330,8 +330,8 @@ private:
         for (const Runner& runner : runners_) {
             if (const nlohmann::json record = runner.deformer->record(); record.is_object() && record.contains("follows_from_rest"))
                 remarks_.add(pbs::Gravity::information,
-                             {fmt::format("{}: the first frame turns a joint by more than 90 degrees from the bind pose: {} follows the "
-                                          "motion from there, and each frame begins at the last one",
+                             {fmt::format("{}: the first frame turns a joint by more than 90 degrees from the bind pose: {} goes to "
+                                          "each frame in steps from there",
                                           scene_.file, runner.spec.label)});
             if (!runner.traits.iterations || runner.traits.solves_equations || runner.most_inverted == 0) continue;
             const Eigen::VectorXd ratios = measurer_.volume_ratios(runner.deformer->positions());

@@ -32,7 +32,7 @@ class MovingCharacterTest(program.ProgramTest):
         inverted, printed = self.tried("far_first_pose")
         self.assertGreater(min(inverted["lbs"]), 20)
         self.assertEqual(inverted["pbs"], [0] * FRAMES)
-        self.assertIn("pbs follows the motion from there", printed)
+        self.assertIn("pbs goes to each frame in steps from there", printed)
         self.assertNotIn("pbs begins with", printed)
 
     def test_legs_three_tets_thick(self):
