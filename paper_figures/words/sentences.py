@@ -445,15 +445,18 @@ def two_digits(value):
 def nearest_method(methods):
     """delta mush is nearest to FEM in all 19 frames, 15 %, before PBS, 28 %; it loses 3.7 % of the volume, PBS 1.1 %. methods: dicts of
     name, error_pct (median over the frames; None without one), volume_pct (of the frame in which it changes most, None where it is not
-    judged), nearest_in, is_compared (False: it turns more tets inside out than LBS), inverted."""
-    known = [of for of in methods if of["error_pct"] is not None]
-    ranked = sorted((of for of in known if of["is_compared"]), key=lambda of: of["error_pct"])
-    if not ranked:
-        return ""
-    aside = [f"{of['name']} turns up to {counted(int(of['inverted']), 'tet')} inside out" for of in known if not of["is_compared"]]
-    aside = f" {listed(aside)}, more than LBS in the same frame, and {'is' if len(aside) == 1 else 'are'} not compared." if aside else ""
-    best = ranked[0]
-    other = next((of for of in ranked[1:] if of["name"] == "PBS"), next(iter(ranked[1:]), None))  # PBS is what is examined
+    judged), nearest_in, is_compared (False: it turns more tets inside out than LBS), inverted. A method that turns a tet inside out in some
+    frame is not called nearest."""
+    known = sorted((of for of in methods if of["error_pct"] is not None), key=lambda of: of["error_pct"])
+    best = next((of for of in known if of["is_compared"] and not of["inverted"]), None)
+    least_pct = best["error_pct"] if best else math.inf
+    aside = [f"{of['name']} turns up to {counted(int(of['inverted']), 'tet')} inside out" for of in known
+             if of["inverted"] and (of["error_pct"] < least_pct or not of["is_compared"])]
+    if not best:
+        return f"No method is called nearest to FEM: {listed(aside)}." if aside else ""
+    aside = f" {listed(aside)}, and {'is' if len(aside) == 1 else 'are'} not called nearest." if aside else ""
+    others = [of for of in known if of["is_compared"] and of is not best and of["error_pct"] >= least_pct]
+    other = next((of for of in others if of["name"] == "PBS"), next(iter(others), None))  # PBS is what is examined
     frames = sum(of["nearest_in"] for of in methods)
     extent = f"all {counted(frames, 'frame')}" if best["nearest_in"] == frames else f"{best['nearest_in']} of {counted(frames, 'frame')}"
     text = f"{best['name']} is nearest to FEM in {extent}, {two_digits(best['error_pct'])} %"

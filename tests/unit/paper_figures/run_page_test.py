@@ -191,8 +191,18 @@ class RunPage(ResultsTest):
         self.write()
         text = self.page()
         self.assertIn("<p>PBS is nearest to FEM in all 5 frames, 2 %, before LBS, 7 %; it loses 1 % of the volume, LBS 8 %. mine turns "
-                      "up to 8 tets inside out, more than LBS in the same frame, and is not compared.</p>", text)
+                      "up to 8 tets inside out, and is not called nearest.</p>", text)
         self.assertNotIn("mine has the least error", text)
+
+    def test_no_method_is_called_nearest_where_each_turns_tets_inside_out(self):
+        self.addCleanup(numbers.update, dict(numbers))
+        for label in ("lbs", "pbs", "mine"):
+            numbers[label] = lambda i, of=numbers[label]: (of(i)[0], i, *of(i)[2:])
+        self.write()
+        text = self.page()
+        self.assertIn("<p>No method is called nearest to FEM: PBS turns up to 4 tets inside out, mine turns up to 4 tets inside out, LBS "
+                      "turns up to 4 tets inside out.</p>", text)
+        self.assertNotIn("is nearest to FEM", text)
 
     def test_what_the_viewer_would_show_is_kept_until_its_program_is_built(self):
         self.write()
