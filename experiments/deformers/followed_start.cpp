@@ -15,7 +15,7 @@ namespace {
 constexpr double far_turn_deg = 90.0;      // of a joint in the first pose: twice what a step may turn
 constexpr double largest_turn_deg = 45.0;  // of a bone in a step, as for the reference
 
-// Of any bone relative to the one that it is joined to; a body that turns as a whole is not far from its bind pose.
+// The largest angle of a bone against its parent. A body that turns as a whole is not far from its bind pose.
 double largest_joint_turn_deg(const pbs::Skeleton& skeleton, const pbs::Pose& pose)
 {
     double largest = 0.0;

@@ -377,7 +377,7 @@ private:
         return reference ? &reference->outcome() : nullptr;
     }
 
-    // What a budget left out, and what held the reference up.
+    // Records which frames the reference solved within its budget, and remarks on those that it did not.
     nlohmann::json record_reference_frames()
     {
         const SpreadReference::Outcome* outcome = spread_reference();

@@ -1,4 +1,4 @@
-// What a run has to say, on the terminal and in run.json: at most three warnings, the gravest first, and the rest as notes.
+// The remarks of a run, on the terminal and in run.json: at most three warnings, the gravest first, and the rest as notes.
 //   RunRemarks remarks(of_the_caller);
 //   remarks.add(pbs::Gravity::part_left_out, {"hero.glb: ..."});
 //   remarks.say_all();   outcome["warnings"] = remarks.warnings();   outcome["notes"] = remarks.notes();

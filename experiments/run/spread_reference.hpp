@@ -111,7 +111,7 @@ private:
     Outcome outcome_;
 };
 
-// What a user should know: that contact is missing, that frames were not reached or left out. scene_file: which they are about.
+// Remarks for the user, where contact is missing, and where frames were not reached or left out. scene_file: begins each remark.
 pbs::RemarkList remarks_on(const SpreadReference::Outcome& outcome, const std::string& scene_file);
 void to_json(nlohmann::json& json, const SpreadReference::NotReached& frame);
 void to_json(nlohmann::json& json, const SpreadReference::Outcome& outcome);

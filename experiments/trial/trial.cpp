@@ -57,7 +57,7 @@ std::string sampled(double duration_s, const TrialOptions& options, const std::s
     return fmt::format("rate_hz = {}\n", nlohmann::json(trial_rate_hz(duration_s, options.frames, file)).dump());
 }
 
-// What --animation names, if it is no animation of the model.
+// The clip that --animation names, if it is no animation of the model.
 struct NamedClip {
     std::string given, file;     // as it was given; its path
     std::string animation = "";  // empty: the one that read_clip takes

@@ -1,4 +1,4 @@
-// What the user of a result should know about it, and how grave that is.
+// A remark for the user of a result, and how grave it is.
 #pragma once
 
 #include <string>

@@ -77,7 +77,7 @@ void check_ply(TextWords words)
     require_end(words, "element");
 }
 
-// Of a header with normals, colours or texture coordinates CGAL decides alone.
+// CGAL alone reads a file whose header announces normals, colours or texture coordinates.
 void check_off(TextWords words)
 {
     if (words.peek() == "OFF") words.next("OFF");

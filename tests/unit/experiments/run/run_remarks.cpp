@@ -1,4 +1,4 @@
-// What a run says. Reference: the rule of remark.hpp, by hand.
+// The remarks of a run. Reference: the rule of remark.hpp, by hand.
 #include "experiments/run/run_remarks.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ using namespace experiments;
 using pbs::Gravity;
 using Texts = std::vector<std::string>;
 
-// What is printed since the last call, without the time that comes before each line.
+// The text that was printed since the last call, without the time that comes before each line.
 std::string printed()
 {
     const std::string text = std::regex_replace(testing::internal::GetCapturedStdout(), std::regex("[^\\n]*pbskin: "), "");
