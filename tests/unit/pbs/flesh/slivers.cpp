@@ -39,7 +39,7 @@ test_support::HeldBar with_sliver(double flatness)
     return test_support::HeldBar(limb, bar_of_slivers.springs);
 }
 
-// The largest difference at the vertices that the two bars share, divided by the displacement from rest.
+// The norm of the difference at the vertices that the two bars share, divided by that of the displacement from rest.
 double difference(const pbs::Positions& with, const pbs::Positions& without)
 {
     return (with.topRows(without.rows()) - without).norm() / (without - bar_of_slivers.bent.mesh.rest).norm();
