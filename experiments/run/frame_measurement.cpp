@@ -1,7 +1,6 @@
 #include "experiments/run/frame_measurement.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -102,24 +101,6 @@ LimbStation station_at(const pbs::Character& character, std::string name, const 
 {
     std::vector<int> tets = tets_of(character, along_limb(character.skeleton, carriers));
     return {std::move(name), point, normal.normalized(), std::move(carriers), std::move(tets)};
-}
-
-void find_vertices(BrokenFrame& broken, const pbs::Positions& positions)
-{
-    for (Eigen::Index v = 0; v < positions.rows(); ++v) {
-        if (positions.row(v).allFinite()) continue;
-        if (broken.vertex < 0) broken.vertex = static_cast<int>(v);
-        ++broken.vertices;
-    }
-}
-
-void find_tet(BrokenFrame& broken, const Eigen::VectorXd& volume_ratios)
-{
-    if (volume_ratios.size() == 0) return;
-    Eigen::Index tet = 0;
-    broken.volume_ratio = volume_ratios.minCoeff(&tet);
-    broken.tet = static_cast<int>(tet);
-    broken.inverted_tets = static_cast<int>((volume_ratios.array() <= 0.0).count());
 }
 
 }  // namespace
@@ -261,58 +242,6 @@ double FrameMeasurer::min_section_pct(const pbs::Positions& positions, const pbs
     for (std::size_t i = 0; i < stations_.size(); ++i)
         sections_[i].posed = {posed_point(stations_[i], pose), posed_normal(stations_[i], pose)};
     return 100.0 * analysis::section_extremes(character_.mesh.rest, positions, character_.mesh.tets, sections_).smallest_ratio;
-}
-
-BrokenFrame broken_frame(int frame, pbs::Outcome outcome, const pbs::Positions& positions, const Eigen::VectorXd& volume_ratios)
-{
-    BrokenFrame broken{.frame = frame, .what = outcome == pbs::Outcome::finished ? "inverted" : pbs::to_string(outcome)};
-    find_vertices(broken, positions);
-    if (broken.vertices == 0) find_tet(broken, volume_ratios);
-    return broken;
-}
-
-std::string worst_element(const BrokenFrame& broken)
-{
-    if (broken.vertices > 0) return fmt::format("first at vertex {}, {} not finite", broken.vertex, broken.vertices);
-    return fmt::format("worst tet {} of volume ratio {:.3g}, {} inverted", broken.tet, broken.volume_ratio, broken.inverted_tets);
-}
-
-std::string what_of(const BrokenFrame& broken)
-{
-    std::string what = broken.what;
-    std::replace(what.begin(), what.end(), '_', ' ');
-    return what;
-}
-
-std::string text_of(const BrokenFrame& broken)
-{
-    const std::string step = broken.step < 0 ? "" : fmt::format(" (in step {}, before it)", broken.step);
-    return fmt::format("{} in frame {}{}: {}", what_of(broken), broken.frame, step, worst_element(broken));
-}
-
-void to_json(nlohmann::json& json, const BrokenFrame& broken)
-{
-    json = {{"frame", broken.frame}, {"what", broken.what}};
-    if (broken.step >= 0) json["step"] = broken.step;
-    if (broken.vertices > 0)
-        json.update({{"first_vertex", broken.vertex}, {"vertices_not_finite", broken.vertices}});
-    else
-        json.update({{"worst_tet", broken.tet}, {"volume_ratio", broken.volume_ratio}, {"inverted_tets", broken.inverted_tets}});
-}
-
-void from_json(const nlohmann::json& json, BrokenFrame& broken)
-{
-    json.at("frame").get_to(broken.frame);
-    json.at("what").get_to(broken.what);
-    broken.step = json.value("step", -1);
-    if (json.contains("first_vertex")) {
-        json.at("first_vertex").get_to(broken.vertex);
-        json.at("vertices_not_finite").get_to(broken.vertices);
-    } else {
-        json.at("worst_tet").get_to(broken.tet);
-        json.at("volume_ratio").get_to(broken.volume_ratio);
-        json.at("inverted_tets").get_to(broken.inverted_tets);
-    }
 }
 
 }  // namespace experiments

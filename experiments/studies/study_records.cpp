@@ -2,7 +2,7 @@
 
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/measurement.hpp"
-#include "experiments/run/frame_measurement.hpp"
+#include "experiments/run/broken_frames.hpp"
 #include "experiments/run/run.hpp"
 #include "pbs/character/json_file.hpp"
 

@@ -1,6 +1,7 @@
 #include "experiments/studies/shared/posed_character.hpp"
 
 #include "experiments/process/terminal.hpp"
+#include "experiments/run/broken_frames.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/input_error.hpp"
