@@ -62,10 +62,10 @@ SparseMatrix saddle_point(const SparseMatrix& shear, const SparseMatrix& diverge
     const SparseMatrix transposed = divergence.transpose();
     SparseMatrix whole(dofs + pressures, dofs + pressures);
     whole.reserve(shear.nonZeros() + 2 * divergence.nonZeros() + compliance.nonZeros());
-    const auto stack = [&](Eigen::Index column, const SparseMatrix& upper, const SparseMatrix& lower, Eigen::Index of) {
+    const auto stack = [&](Eigen::Index column, const SparseMatrix& upper, const SparseMatrix& lower, Eigen::Index source) {
         whole.startVec(column);
-        for (SparseMatrix::InnerIterator entry(upper, of); entry; ++entry) whole.insertBack(entry.row(), column) = entry.value();
-        for (SparseMatrix::InnerIterator entry(lower, of); entry; ++entry) whole.insertBack(dofs + entry.row(), column) = entry.value();
+        for (SparseMatrix::InnerIterator entry(upper, source); entry; ++entry) whole.insertBack(entry.row(), column) = entry.value();
+        for (SparseMatrix::InnerIterator entry(lower, source); entry; ++entry) whole.insertBack(dofs + entry.row(), column) = entry.value();
     };
     for (Eigen::Index dof = 0; dof < dofs; ++dof) stack(dof, shear, transposed, dof);
     for (Eigen::Index v = 0; v < pressures; ++v) stack(dofs + v, divergence, compliance, v);

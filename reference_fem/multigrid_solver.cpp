@@ -68,9 +68,9 @@ namespace {
 void init_leaving_the_environment()
 {
     const auto names = [] {
-        std::set<std::string> found;
-        for (char** variable = environ; *variable; ++variable) found.emplace(*variable, std::strcspn(*variable, "="));
-        return found;
+        std::set<std::string> names;
+        for (char** variable = environ; *variable; ++variable) names.emplace(*variable, std::strcspn(*variable, "="));
+        return names;
     };
     const std::set<std::string> before = names();
     MPI_Init(nullptr, nullptr);

@@ -12,11 +12,11 @@ namespace analysis {
 
 int count(const std::vector<CheckSuite>& suites, CheckState state)
 {
-    int found = 0;
+    int count = 0;
     for (const CheckSuite& suite : suites)
-        found += static_cast<int>(
+        count += static_cast<int>(
             std::count_if(suite.cases.begin(), suite.cases.end(), [&](const CheckCase& check) { return check.state == state; }));
-    return found;
+    return count;
 }
 
 const char* to_string(CheckState state)

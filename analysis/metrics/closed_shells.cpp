@@ -112,11 +112,11 @@ pbs::Triangles picked(const pbs::Triangles& triangles, const std::vector<int>& r
 // By joined points, without those that are a line or a point.
 pbs::Triangles with_area(const pbs::Triangles& triangles, const std::vector<int>& joined)
 {
-    const pbs::Triangles all = renamed(triangles, joined);
+    const pbs::Triangles corners = renamed(triangles, joined);
     std::vector<int> kept;
-    for (int f = 0; f < all.rows(); ++f)
-        if (all(f, 0) != all(f, 1) && all(f, 1) != all(f, 2) && all(f, 2) != all(f, 0)) kept.push_back(f);
-    return picked(all, kept);
+    for (int f = 0; f < corners.rows(); ++f)
+        if (corners(f, 0) != corners(f, 1) && corners(f, 1) != corners(f, 2) && corners(f, 2) != corners(f, 0)) kept.push_back(f);
+    return picked(corners, kept);
 }
 
 void turn(pbs::Triangles& triangles, int f)

@@ -257,15 +257,15 @@ public:
     // The columns of this list, followed by those of another.
     Columns operator+(const Columns& more) const
     {
-        Columns all = *this;
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
+        Columns joined = *this;
+        joined.insert(joined.end(), more.begin(), more.end());
+        return joined;
     }
     Columns in_group(const std::string& group) const
     {
-        Columns all = *this;
-        for (Column<Row>& column : all) column.group = group;
-        return all;
+        Columns joined = *this;
+        for (Column<Row>& column : joined) column.group = group;
+        return joined;
     }
     Columns without(const std::string& group) const
     {
@@ -281,9 +281,9 @@ public:
     }
     std::vector<std::string> names() const
     {
-        std::vector<std::string> all;
-        for (const Column<Row>& column : *this) all.push_back(column.name);
-        return all;
+        std::vector<std::string> names;
+        for (const Column<Row>& column : *this) names.push_back(column.name);
+        return names;
     }
 };
 
@@ -294,9 +294,9 @@ public:
 template <typename Row, typename Member, typename Part>
 Columns<Row> within(Member Row::*part, const Columns<Part>& columns)
 {
-    Columns<Row> all;
-    for (const Column<Part>& column : columns) all.emplace_back(column, part);
-    return all;
+    Columns<Row> columns_of_row;
+    for (const Column<Part>& column : columns) columns_of_row.emplace_back(column, part);
+    return columns_of_row;
 }
 
 template <typename Row>

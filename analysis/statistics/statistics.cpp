@@ -174,12 +174,12 @@ Interval bootstrap_share(const std::vector<bool>& holds, const BootstrapOptions&
     return interval;
 }
 
-Interval share_interval(int counted, int all, double level)
+Interval share_interval(int counted, int cases, double level)
 {
     const double tail = (1.0 - level) / 2.0;
-    Interval share{.estimate = double(counted) / all, .low = 0.0, .high = 1.0, .level = level, .n = all};
-    if (counted > 0) share.low = gsl_cdf_beta_Pinv(tail, counted, all - counted + 1.0);
-    if (counted < all) share.high = gsl_cdf_beta_Pinv(1.0 - tail, counted + 1.0, all - counted);
+    Interval share{.estimate = double(counted) / cases, .low = 0.0, .high = 1.0, .level = level, .n = cases};
+    if (counted > 0) share.low = gsl_cdf_beta_Pinv(tail, counted, cases - counted + 1.0);
+    if (counted < cases) share.high = gsl_cdf_beta_Pinv(1.0 - tail, counted + 1.0, cases - counted);
     return share;
 }
 
@@ -216,9 +216,9 @@ Interval bootstrap_share_of_groups(const std::vector<std::string>& groups, const
     return share;
 }
 
-double binomial_tail(int counted, int all, double q)
+double binomial_tail(int counted, int cases, double q)
 {
-    return counted <= 0 ? 1.0 : gsl_cdf_binomial_Q(static_cast<unsigned>(counted - 1), q, static_cast<unsigned>(all));
+    return counted <= 0 ? 1.0 : gsl_cdf_binomial_Q(static_cast<unsigned>(counted - 1), q, static_cast<unsigned>(cases));
 }
 
 CsvTable frame_statistics(const CsvTable& metrics)

@@ -61,10 +61,10 @@ Interval bootstrap_mean(const std::vector<double>& series, const BootstrapOption
 Interval bootstrap_share(const std::vector<bool>& holds, const BootstrapOptions& options = {});
 
 // The interval of Clopper and Pearson for a share of independent cases: it contains each share p under which `counted` or fewer, and
-// `counted` or more, of `all` cases have at least the probability (1 - level) / 2. Its coverage is never below `level`.
+// `counted` or more, of `cases` have at least the probability (1 - level) / 2. Its coverage is never below `level`.
 //   const Interval share = share_interval(3, 18);   // 3 / 18, between 0.036 and 0.41
-// 0 <= counted <= all, all > 0.
-Interval share_interval(int counted, int all, double level = 0.95);
+// 0 <= counted <= cases, cases > 0.
+Interval share_interval(int counted, int cases, double level = 0.95);
 
 // A share of cases that belong to groups, such as bodies, whose cases are alike: the bootstrap draws whole groups (percentile interval,
 // with the resamples and the seed of `options`). NaN bounds for fewer than two groups.
@@ -73,8 +73,8 @@ Interval share_interval(int counted, int all, double level = 0.95);
 Interval bootstrap_share_of_groups(const std::vector<std::string>& groups, const std::vector<bool>& holds,
                                    const BootstrapOptions& options = {});
 
-// The probability that at least `counted` of `all` independent cases hold if each does with probability q (GSL's binomial distribution).
-double binomial_tail(int counted, int all, double q);
+// The probability that at least `counted` of so many independent cases hold if each does with probability q (GSL's binomial distribution).
+double binomial_tail(int counted, int cases, double q);
 
 // Order statistics over the frames of a table of metrics. One row per deformer and setting:
 //   scene, deformer, variant, order, precision, iterations, frames

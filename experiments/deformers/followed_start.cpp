@@ -71,7 +71,7 @@ private:
         pbs::Positions carried, last = character_->mesh.rest;
         const pbs::PosePath way(character_->skeleton, reached, pose);
         const int steps = std::max(1, static_cast<int>(std::ceil(way.largest_turn_deg() / largest_turn_deg)));
-        pbs::FrameStep all;
+        pbs::FrameStep all_steps;
         pbs::StepSummary sum;
         for (int step = 1; step <= steps; ++step) {
             const pbs::Pose next = way.at(static_cast<double>(step) / steps);
@@ -79,13 +79,13 @@ private:
             for (std::size_t j = 0; j < next.size(); ++j) moved[j] = next[j] * reached[j].inverse();
             pbs::dual_quaternion_skinning(last, character_->weights, moved, carried);
             deformer_->start_from(carried);
-            all.add(deformer_->advance(next, dt_s), static_cast<std::size_t>(step));
-            sum.iterations += all.summary().iterations;
-            sum.work += all.summary().work;
+            all_steps.add(deformer_->advance(next, dt_s), static_cast<std::size_t>(step));
+            sum.iterations += all_steps.summary().iterations;
+            sum.work += all_steps.summary().work;
             last = deformer_->positions();
             reached = next;
         }
-        pbs::StepSummary summary = all.summary();
+        pbs::StepSummary summary = all_steps.summary();
         summary.iterations = sum.iterations;
         summary.work = sum.work;
         summary.seconds = stopwatch.seconds();

@@ -227,9 +227,9 @@ std::vector<int> FrameMeasurer::contact_depths_um(const pbs::Positions& position
     std::vector<int> depths_um(positions.rows(), 0);
     contact_->forget();
     contact_->find(moved.data());
-    for (const pbs::DepthConstraint<double>& one : contact_->constraints()) {
-        const double depth_m = -value(one, contact_->points(one, moved.data())) - touching_m;
-        int& depth_um = depths_um[one.vertex[0]];
+    for (const pbs::DepthConstraint<double>& constraint : contact_->constraints()) {
+        const double depth_m = -value(constraint, contact_->points(constraint, moved.data())) - touching_m;
+        int& depth_um = depths_um[constraint.vertex[0]];
         depth_um = depth_m > 0.0   ? std::max(depth_um, static_cast<int>(std::min(std::ceil(1e6 * depth_m), 1e9)))
                    : depth_um == 0 ? -1
                                    : depth_um;

@@ -153,7 +153,7 @@ analysis::Columns<MetricRow> metric_columns_of(const Scene& scene)
 
 const std::vector<MetricText>& metric_texts()
 {
-    static const std::vector<MetricText> all = [] {
+    static const std::vector<MetricText> known_texts = [] {
         const std::string file = "experiments/run/metrics.toml";
         const toml::table document = analysis::parse_toml_document(::metrics::metrics_toml, file, {"metric"});
         std::map<std::string, MetricText> formulae;
@@ -185,7 +185,7 @@ const std::vector<MetricText>& metric_texts()
         }
         return texts;
     }();
-    return all;
+    return known_texts;
 }
 
 const MetricText* find_metric(const std::string& name)

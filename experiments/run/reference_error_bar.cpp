@@ -61,7 +61,7 @@ std::optional<analysis::ErrorNorms> ReferenceErrorBar::bound(const pbs::Position
         }
         positions.push_back(solution.deformer ? solution.deformer->positions().topRows(reference.rows()) : reference);
     }
-    const auto from_finest = [&](const pbs::Positions& one) { return measurer.difference(one, positions.front()); };
+    const auto from_finest = [&](const pbs::Positions& coarser) { return measurer.difference(coarser, positions.front()); };
     const analysis::ErrorNorms own = from_finest(reference), quadratic = from_finest(positions[1]),
                                linear_refined = from_finest(positions[2]), linear = from_finest(positions[3]);
     const analysis::NestedOrder order =

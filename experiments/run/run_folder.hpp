@@ -116,7 +116,7 @@ extern const analysis::Columns<DeformerDistance> distance_columns;
 class DistanceRecord {
 public:
     // points [m]: #P x 3, with the same #P for all deformers of a frame. of: what the points belong to.
-    void add(int frame, double time_s, const std::string& label, const std::string& of, const pbs::Positions& points);
+    void add(int frame, double time_s, const std::string& label, const std::string& owner, const pbs::Positions& points);
 
     analysis::CsvTable table() const { return table_of(distance_columns, distances_); }
 

@@ -125,13 +125,13 @@ nlohmann::json CostRecord::json() const
 const analysis::Columns<DeformerDistance> distance_columns =
     MEMBER_COLUMNS(DeformerDistance, frame, time_s, deformer, other, of, points, rms_mm, largest_mm);
 
-void DistanceRecord::add(int frame, double time_s, const std::string& label, const std::string& of, const pbs::Positions& points)
+void DistanceRecord::add(int frame, double time_s, const std::string& label, const std::string& owner, const pbs::Positions& points)
 {
     if (frame != frame_) before_.clear();
     frame_ = frame;
     for (const auto& [other, there] : before_) {
         const Eigen::VectorXd squares = (points - there).rowwise().squaredNorm();
-        distances_.push_back({frame, time_s, label, other, of, static_cast<int>(points.rows()), 1e3 * std::sqrt(squares.mean()),
+        distances_.push_back({frame, time_s, label, other, owner, static_cast<int>(points.rows()), 1e3 * std::sqrt(squares.mean()),
                               1e3 * std::sqrt(squares.maxCoeff())});
     }
     before_.emplace_back(label, points);

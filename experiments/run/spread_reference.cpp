@@ -84,7 +84,7 @@ void SpreadReference::foresee(const std::vector<pbs::Pose>& poses)
         for (std::size_t k = 0; k < again.size(); ++k) {
             const auto count = static_cast<int>(again.size() - k);
             if (has_time_left()) solve(again[k].frame, count);
-            const auto is_same = [&](const NotReached& one) { return one.frame == again[k].frame; };
+            const auto is_same = [&](const NotReached& not_reached) { return not_reached.frame == again[k].frame; };
             if (!is_solved(again[k].frame) && std::ranges::none_of(outcome_.not_reached, is_same)) outcome_.not_reached.push_back(again[k]);
         }
     } catch (const Interrupted&) {
@@ -238,8 +238,8 @@ void SpreadReference::find_kept()
             do_without_contact();
         }
         for (Frame& frame : frames_)
-            if (const auto one = kept.at("frames").find(hash_of(frame.pose)); one != kept.at("frames").end())
-                found.emplace_back(&frame, solution_in(*one));
+            if (const auto solution = kept.at("frames").find(hash_of(frame.pose)); solution != kept.at("frames").end())
+                found.emplace_back(&frame, solution_in(*solution));
         kept_frames_ = kept.at("frames");
     } catch (const nlohmann::json::exception&) {
         return warn({budget_.file + ": this file of solved frames is damaged: they are solved again"});
@@ -273,13 +273,13 @@ void SpreadReference::keep()
         if (!frame.solution || kept_frames_.contains(hash)) continue;
         const pbs::Positions& positions = frame.solution->positions;
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(positions.data());
-        nlohmann::json& one = kept_frames_[hash];
-        one = {{"seconds", frame.solution->step.seconds}, {"iterations", frame.solution->step.iterations}};
-        one["positions"] = nlohmann::json::binary({bytes, bytes + static_cast<std::size_t>(positions.size()) * sizeof(double)});
-        if (frame.solution->lowest_det_f) one["lowest_det_f"] = *frame.solution->lowest_det_f;
-        one["tips"] = nlohmann::json::array();
+        nlohmann::json& entry = kept_frames_[hash];
+        entry = {{"seconds", frame.solution->step.seconds}, {"iterations", frame.solution->step.iterations}};
+        entry["positions"] = nlohmann::json::binary({bytes, bytes + static_cast<std::size_t>(positions.size()) * sizeof(double)});
+        if (frame.solution->lowest_det_f) entry["lowest_det_f"] = *frame.solution->lowest_det_f;
+        entry["tips"] = nlohmann::json::array();
         for (const CreaseTip& tip : frame.solution->tips)
-            one["tips"].push_back({tip.at_rest.x(), tip.at_rest.y(), tip.at_rest.z(), tip.radius_m});
+            entry["tips"].push_back({tip.at_rest.x(), tip.at_rest.y(), tip.at_rest.z(), tip.radius_m});
     }
     nlohmann::json kept = {{"key", budget_.key}, {"budget_s", budget_.seconds}, {"with_contact", nullptr}, {"frames", kept_frames_}};
     if (outcome_.with_contact) kept["with_contact"] = *outcome_.with_contact;

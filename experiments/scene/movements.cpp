@@ -57,18 +57,20 @@ Movement read_movement(const toml::table& table, const std::string& file)
 const MovementTable& table()
 {
     static const MovementTable read = [] {
-        MovementTable all;
+        MovementTable read_tables;
         const std::string file = file_name;
         const toml::table document = analysis::parse_toml_document(movements::movements_toml, file, {"movement", "pair"});
-        for (const toml::table* one : analysis::toml_tables(document, "movement", file)) all.movements.push_back(read_movement(*one, file));
-        for (const toml::table* one : analysis::toml_tables(document, "pair", file)) {
-            analysis::TomlKeys keys(*one, file, "pair");
-            keys.required("of", all.pairs.emplace_back());
+        for (const toml::table* entry : analysis::toml_tables(document, "movement", file))
+            read_tables.movements.push_back(read_movement(*entry, file));
+        for (const toml::table* entry : analysis::toml_tables(document, "pair", file)) {
+            analysis::TomlKeys keys(*entry, file, "pair");
+            keys.required("of", read_tables.pairs.emplace_back());
             keys.require_nothing_unknown();
-            for (const std::string& name : all.pairs.back())
-                if (std::ranges::count(all.movements, name, &Movement::name) == 0) keys.refuse("of", "expected movements of this file");
+            for (const std::string& name : read_tables.pairs.back())
+                if (std::ranges::count(read_tables.movements, name, &Movement::name) == 0)
+                    keys.refuse("of", "expected movements of this file");
         }
-        return all;
+        return read_tables;
     }();
     return read;
 }
@@ -138,16 +140,16 @@ std::vector<const Movement*> parts_of(const std::string& name, const std::string
     std::vector<const Movement*> parts;
     for (std::size_t from = 0, plus = 0; plus != std::string::npos; from = plus + 1) {
         plus = name.find('+', from);
-        const std::string one = name.substr(from, plus - from);
-        const auto found = std::ranges::find(table().movements, one, &Movement::name);
+        const std::string single = name.substr(from, plus - from);
+        const auto found = std::ranges::find(table().movements, single, &Movement::name);
         if (found != table().movements.end()) {
             parts.push_back(&*found);
             continue;
         }
         std::vector<std::string> names;
         for (const Movement& known : table().movements) names.push_back(known.name);
-        throw pbs::InputError(scene_file, 0, "motion.movements", one,
-                              "no such movement; the nearest is '" + pbs::nearest_name(one, names) + "' (`pbskin list movements`)");
+        throw pbs::InputError(scene_file, 0, "motion.movements", single,
+                              "no such movement; the nearest is '" + pbs::nearest_name(single, names) + "' (`pbskin list movements`)");
     }
     return parts;
 }
@@ -169,8 +171,9 @@ std::vector<Turn> turns_of(const std::string& name, const pbs::Skeleton& skeleto
 std::vector<std::pair<std::string, std::string>> listed_movements()
 {
     std::vector<std::pair<std::string, std::string>> listed;
-    for (const Movement& one : table().movements)
-        listed.emplace_back(one.name, fmt::format("{} to {} degrees (source: {})", fmt::join(one.joints, ", "), one.to_deg, one.source));
+    for (const Movement& movement : table().movements)
+        listed.emplace_back(movement.name, fmt::format("{} to {} degrees (source: {})", fmt::join(movement.joints, ", "), movement.to_deg,
+                                                       movement.source));
     for (const auto& pair : table().pairs) listed.emplace_back(fmt::format("{}", fmt::join(pair, "+")), "both at once");
     return listed;
 }
@@ -190,8 +193,8 @@ bool is_twist(const std::string& movement)
 std::vector<std::string> movements_of(const pbs::Skeleton& skeleton)
 {
     std::vector<std::string> names;
-    for (const Movement& one : table().movements)
-        if (has_joints(skeleton, one)) names.push_back(one.name);
+    for (const Movement& movement : table().movements)
+        if (has_joints(skeleton, movement)) names.push_back(movement.name);
     for (const auto& pair : table().pairs)
         if (std::ranges::all_of(pair, [&](const std::string& name) { return std::ranges::count(names, name) > 0; }))
             names.push_back(fmt::format("{}", fmt::join(pair, "+")));

@@ -284,7 +284,8 @@ std::vector<StretchedBone> stretched_bones(const pbs::RigMotion& motion, const p
 std::string words_on_stretch(const std::vector<StretchedBone>& stretched)
 {
     std::vector<std::string> words;
-    for (const StretchedBone& of : stretched) words.push_back(fmt::format("{} by {:+.0f} % in frame {}", of.bone, of.change_pct, of.frame));
+    for (const StretchedBone& bone : stretched)
+        words.push_back(fmt::format("{} by {:+.0f} % in frame {}", bone.bone, bone.change_pct, bone.frame));
     return fmt::format(
         "{} its distance from its parent by more than {:.0f} %, most: {}; the artist changes the volume with "
         "it, so that no method is judged by its volume",

@@ -200,9 +200,9 @@ public:
             const bool is_list = scene_.schema_.is_list(path);
             if (is_list && node.is_array_of_tables()) {
                 for (const auto& element : *node.as_array()) {
-                    const std::string one = joined(path, std::to_string(scene_.lists_[path]++));
-                    scene_.tables_.emplace(one, static_cast<int>(element.source().begin.line));
-                    take_table(*element.as_table(), one);
+                    const std::string table_path = joined(path, std::to_string(scene_.lists_[path]++));
+                    scene_.tables_.emplace(table_path, static_cast<int>(element.source().begin.line));
+                    take_table(*element.as_table(), table_path);
                 }
             } else if (is_list) {
                 throw pbs::InputError(scene_.file_, line, path, "", "expected [[" + path + "]] tables");

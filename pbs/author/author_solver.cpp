@@ -39,9 +39,9 @@ AuthorStiffness stiffness_of(const AuthorOptions& options)
             smallest_gradient2 * unit2_m2 * unit2_m2};
 }
 
-bool is_same_pose(const Pose& one, const Pose& other)
+bool is_same_pose(const Pose& pose, const Pose& other)
 {
-    return std::equal(one.begin(), one.end(), other.begin(), other.end(),
+    return std::equal(pose.begin(), pose.end(), other.begin(), other.end(),
                       [](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) { return a.matrix() == b.matrix(); });
 }
 
@@ -59,7 +59,10 @@ struct FirstFit {
             return std::none_of(constrained.begin(), constrained.end(), [&](int vertex) { return has[vertex]; });
         };
         const std::size_t group = std::find_if(has_vertex.begin(), has_vertex.end(), is_free) - has_vertex.begin();
-        if (group == groups.size()) groups.emplace_back(), has_vertex.emplace_back(vertices, false);
+        if (group == groups.size()) {
+            groups.emplace_back();
+            has_vertex.emplace_back(vertices, false);
+        }
         for (const int vertex : constrained) has_vertex[group][vertex] = true;
         return groups[group];
     }

@@ -128,10 +128,19 @@ Vec3 nearest_unit_product(const Vec3& s)
         return Vec3(larger_root(s(0), kappa), larger_root(s(1), kappa), y);
     };
     double low = std::max(s(2), 0.0), high = low;
-    if (at(low).prod() < 1.0)  // volume must grow: y > s_3
-        for (high = std::max(2.0 * low, 1.0); at(high).prod() < 1.0;) low = high, high *= 2.0;
-    else
-        for (low = 0.5 * high; at(low).prod() > 1.0;) high = low, low *= 0.5;
+    if (at(low).prod() < 1.0) {  // volume must grow: y > s_3
+        high = std::max(2.0 * low, 1.0);
+        while (at(high).prod() < 1.0) {
+            low = high;
+            high *= 2.0;
+        }
+    } else {
+        low = 0.5 * high;
+        while (at(low).prod() > 1.0) {
+            high = low;
+            low *= 0.5;
+        }
+    }
     double y = high;
     for (int step = 0; step < 100; ++step) {
         const Vec3 now = at(y);

@@ -33,8 +33,10 @@ QuasiNewtonSummary QuasiNewton<Scalar>::minimise(const Positions& centres, Posit
     summary.energy = value_and_gradient(x_, gradient_);
     summary.evaluations = 1;
     while (summary.iterations < options_.iterations && !summary.converged) {
-        if (searches_left > 0 && 2 * summary.iterations >= (2 - searches_left) * options_.iterations)
-            --searches_left, seek_contacts(summary);
+        if (searches_left > 0 && 2 * summary.iterations >= (2 - searches_left) * options_.iterations) {
+            --searches_left;
+            seek_contacts(summary);
+        }
         const double slope = set_direction();
         ++summary.solves;
         summary.steps.push_back(std::sqrt(system_->dot(direction_, direction_)));
@@ -43,7 +45,10 @@ QuasiNewtonSummary QuasiNewton<Scalar>::minimise(const Positions& centres, Posit
         const bool is_below = options_.stop_gradient > 0.0 && summary.steps.back() <= smallest;
         summary.converged = is_below || !search(slope, summary);
         if (!summary.converged) ++summary.iterations;
-        if (summary.converged && searches_left > 0) --searches_left, summary.converged = !seek_contacts(summary);
+        if (summary.converged && searches_left > 0) {
+            --searches_left;
+            summary.converged = !seek_contacts(summary);
+        }
     }
     system_->store(x_, x);
     return summary;

@@ -79,7 +79,9 @@ std::vector<int> projection_sequence(const std::vector<ConstraintGroup>& groups,
             if (shared[neighbour] >= 3) by_face.take(neighbour, g);
             shared[neighbour] = 0;
         }
-        by_vertex.choose(g), by_edge.choose(g), by_face.choose(g);
+        by_vertex.choose(g);
+        by_edge.choose(g);
+        by_face.choose(g);
     }
 
     std::vector<int> sorted(groups.size()), place(groups.size());

@@ -49,9 +49,9 @@ PBS_INLINE Transform blended(const BlendRows<Scalar>& rows, int row, const Trans
         const auto* transform = reinterpret_cast<const Part*>(transforms[rows.transform[k]].numbers);
         for (int part = 0; part < parts; ++part) sum[part] += rows.weight[k] * transform[part];
     }
-    Transform all;
-    for (int part = 0; part < parts; ++part) reinterpret_cast<Part*>(all.numbers)[part] = sum[part];
-    return all;
+    Transform blended;
+    for (int part = 0; part < parts; ++part) reinterpret_cast<Part*>(blended.numbers)[part] = sum[part];
+    return blended;
 }
 
 // v' = v + 2 r x (r x v + r_w v) + 2 (r_w d - d_w r + r x d) for the unit dual quaternion (Kavan 2007, Algorithm 1). A blended one is

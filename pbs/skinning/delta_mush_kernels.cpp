@@ -140,14 +140,14 @@ void move_by_moments(const MomentRows<Scalar>& rows, const PaddedMatrix<Scalar>*
         const Four<Scalar> origin = moved(bones[rows.moments[rows.first[vertex]].bone].numbers);
         Four<Scalar> columns[3] = {}, centre = origin;
         for (int k = rows.first[vertex]; k < rows.first[vertex + 1]; ++k) {
-            const BoneMoments<Scalar>& of = rows.moments[k];
-            const Scalar* matrix = bones[of.bone].numbers;
+            const BoneMoments<Scalar>& moments = rows.moments[k];
+            const Scalar* matrix = bones[moments.bone].numbers;
             const Four<Scalar> x = load_four(matrix), y = load_four(matrix + 4), z = load_four(matrix + 8), to = moved(matrix) - origin;
-            const Scalar *p = of.second, *m = of.first, *share = of.share;
+            const Scalar *p = moments.second, *m = moments.first, *share = moments.share;
             columns[0] += (x * p[0] + y * p[1]) + (z * p[2] + to * m[0]);
             columns[1] += (x * p[1] + y * p[3]) + (z * p[4] + to * m[1]);
             columns[2] += (x * p[2] + y * p[4]) + (z * p[5] + to * m[2]);
-            centre += (to * of.weight + x * share[0]) + (y * share[1] + z * share[2]);
+            centre += (to * moments.weight + x * share[0]) + (y * share[1] + z * share[2]);
         }
         waiting.set(place, columns, rows.detail + 4L * vertex, centre);
     });

@@ -134,17 +134,17 @@ DirectDeltaMush::Moments centred(const RawMoments& raw, double scale, const Vec3
 }
 
 template <class Scalar>
-BoneMoments<Scalar> packed(const DirectDeltaMush::Moments& of, double alpha)
+BoneMoments<Scalar> packed(const DirectDeltaMush::Moments& moments, double alpha)
 {
     BoneMoments<Scalar> result = {};
     int entry = 0;
     for (int a = 0; a < 3; ++a) {
-        result.first[a] = static_cast<Scalar>(of.first(a));
-        result.share[a] = static_cast<Scalar>((1.0 - alpha) * of.first(a));
-        for (int b = a; b < 3; ++b) result.second[entry++] = static_cast<Scalar>(of.second(a, b));
+        result.first[a] = static_cast<Scalar>(moments.first(a));
+        result.share[a] = static_cast<Scalar>((1.0 - alpha) * moments.first(a));
+        for (int b = a; b < 3; ++b) result.second[entry++] = static_cast<Scalar>(moments.second(a, b));
     }
-    result.weight = static_cast<Scalar>(of.weight);
-    result.bone = of.bone;
+    result.weight = static_cast<Scalar>(moments.weight);
+    result.bone = moments.bone;
     return result;
 }
 
@@ -183,10 +183,10 @@ void DirectDeltaMush::apply(const Pose& pose, Positions& posed) const
         Vec3 q = origin;
         Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
         for (int k = first_[v]; k < first_[v + 1]; ++k) {
-            const Moments& of = moments_[k];
-            const Vec3 moved = pose[of.bone] * centre - origin;
-            q += of.weight * moved + (1.0 - options_.alpha) * (pose[of.bone].linear() * of.first);
-            covariance += pose[of.bone].linear() * of.second + moved * of.first.transpose();
+            const Moments& moments = moments_[k];
+            const Vec3 moved = pose[moments.bone] * centre - origin;
+            q += moments.weight * moved + (1.0 - options_.alpha) * (pose[moments.bone].linear() * moments.first);
+            covariance += pose[moments.bone].linear() * moments.second + moved * moments.first.transpose();
         }
         posed.row(v) = (q + nearest_rotation(covariance) * detail_.row(v).transpose()).transpose();
     }
@@ -199,9 +199,9 @@ PackedDirectMush<Scalar>::PackedDirectMush(const TetMesh& mesh, const Weights& w
     const DirectDeltaMush plain(mesh, weights, options);
     first_ = plain.first();
     int bones = 0;
-    for (const DirectDeltaMush::Moments& of : plain.moments()) {
-        moments_.push_back(packed<Scalar>(of, options.alpha));
-        bones = std::max(bones, of.bone + 1);
+    for (const DirectDeltaMush::Moments& moments : plain.moments()) {
+        moments_.push_back(packed<Scalar>(moments, options.alpha));
+        bones = std::max(bones, moments.bone + 1);
     }
     bones_.resize(bones);
     centre_ = padded_rows<Scalar>(plain.centre(), middle_, 1);

@@ -38,10 +38,10 @@ void check_volume_of(const PbsOptions& options)
 {
     require(options.region_tets >= 1, "region_tets", options.region_tets, "expected 1 or more");
     if (options.volume_of == VolumeOf::tets) return;
-    const char* of = options.volume_of == VolumeOf::regions ? "regions" : "tets_and_regions";
-    if (options.sleep) throw InputError("pbs", 0, "volume_of", of, "expected tets with sleep = true: regions do not sleep");
+    const char* owners = options.volume_of == VolumeOf::regions ? "regions" : "tets_and_regions";
+    if (options.sleep) throw InputError("pbs", 0, "volume_of", owners, "expected tets with sleep = true: regions do not sleep");
     if (options.volume_form != VolumeForm::derived)
-        throw InputError("pbs", 0, "volume_of", of, "expected tets with a volume_form other than derived");
+        throw InputError("pbs", 0, "volume_of", owners, "expected tets with a volume_form other than derived");
 }
 
 void check_mesh(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,

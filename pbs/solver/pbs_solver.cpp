@@ -69,9 +69,9 @@ PbsOptions of_any(const std::vector<PbsOptions>& options)
 }
 
 template <typename T>
-const T& of_pose(const std::vector<T>& all, std::size_t pose)
+const T& of_pose(const std::vector<T>& values, std::size_t pose)
 {
-    return all.size() == 1 ? all.front() : all[pose];
+    return values.size() == 1 ? values.front() : values[pose];
 }
 
 void check_count(const char* field, std::size_t count, std::size_t poses)

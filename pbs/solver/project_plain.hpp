@@ -70,10 +70,10 @@ double rms_of_regions(const std::vector<RegionVolumeConstraint<Scalar>>& regions
 }
 
 // The root mean square over two classes together, from that of each and their sizes. Without regions it is that of the first, to the bit.
-inline double joint_rms(double one, std::size_t ones, double other, std::size_t others)
+inline double joint_rms(double first, std::size_t ones, double other, std::size_t others)
 {
-    if (others == 0) return one;
-    return std::sqrt((one * one * double(ones) + other * other * double(others)) / double(ones + others));
+    if (others == 0) return first;
+    return std::sqrt((first * first * double(ones) + other * other * double(others)) / double(ones + others));
 }
 
 }  // namespace pbs

@@ -178,13 +178,13 @@ private:
 
     // Eq. 18 of Macklin 2016 for the value C and its gradients by these vertices; zero if nothing can move.
     template <typename Constraint, std::size_t n>
-    void project(Multiplied<Constraint>& of, Scalar C, const std::array<Point, n>& gradient, const std::array<int, n>& vertex)
+    void project(Multiplied<Constraint>& multiplied, Scalar C, const std::array<Point, n>& gradient, const std::array<int, n>& vertex)
     {
         Scalar w_gradient2 = Scalar(0);
         for (std::size_t i = 0; i < n; ++i) w_gradient2 += w_[vertex[i]] * gradient[i].squaredNorm();
-        const Scalar compliance_per_dt2 = of.compliance / Scalar(dt2_s2_), denominator = w_gradient2 + compliance_per_dt2;
-        const Scalar step = w_gradient2 > Scalar(0) ? (-C - compliance_per_dt2 * of.multiplier) / denominator : Scalar(0);
-        of.multiplier += step;
+        const Scalar compliance_per_dt2 = multiplied.compliance / Scalar(dt2_s2_), denominator = w_gradient2 + compliance_per_dt2;
+        const Scalar step = w_gradient2 > Scalar(0) ? (-C - compliance_per_dt2 * multiplied.multiplier) / denominator : Scalar(0);
+        multiplied.multiplier += step;
         for (std::size_t i = 0; i < n; ++i) x_[vertex[i]] += w_[vertex[i]] * step * gradient[i];
     }
 

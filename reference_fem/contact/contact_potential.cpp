@@ -65,10 +65,10 @@ void ContactPotential::add_terms_of_node(const std::vector<Term>& touched, const
     const auto add = [&](Term term) {
         if (!(term.closest.distance_m < term.range_m)) return;
         const auto is_the_same = [&](const Term& other) {
-            const auto nodes_used = [](const Term& of) {
+            const auto nodes_used = [](const Term& term) {
                 std::array<int, 3> used{-1, -1, -1};
                 for (int i = 1; i < 4; ++i)
-                    if (of.closest.weights(i) != 0.0) used[i - 1] = of.nodes[i];
+                    if (term.closest.weights(i) != 0.0) used[i - 1] = term.nodes[i];
                 std::ranges::sort(used);
                 return used;
             };
@@ -82,22 +82,22 @@ void ContactPotential::add_terms_of_node(const std::vector<Term>& touched, const
     };
     std::map<int, std::pair<int, double>> corners;  // of the triangles: how many have it, and their smallest range
     for (std::size_t i = 0; i < touched.size(); ++i) {
-        const Term& one = touched[i];
-        add(one);
+        const Term& term = touched[i];
+        add(term);
         for (int k = 1; k < 4; ++k) {
-            auto& [triangles, range_m] = corners.try_emplace(one.nodes[k], 0, one.range_m).first->second;
+            auto& [triangles, range_m] = corners.try_emplace(term.nodes[k], 0, term.range_m).first->second;
             ++triangles;
-            range_m = std::min(range_m, one.range_m);
+            range_m = std::min(range_m, term.range_m);
         }
         for (std::size_t j = 0; j < i; ++j) {
             std::vector<int> common;
             for (int k = 1; k < 4; ++k)
-                if (std::find(touched[j].nodes.begin() + 1, touched[j].nodes.end(), one.nodes[k]) != touched[j].nodes.end())
-                    common.push_back(one.nodes[k]);
+                if (std::find(touched[j].nodes.begin() + 1, touched[j].nodes.end(), term.nodes[k]) != touched[j].nodes.end())
+                    common.push_back(term.nodes[k]);
             if (common.size() != 2) continue;
-            const std::array<int, 4> nodes{one.nodes[0], common[0], common[1], common[1]};
-            add({one.kind, nodes, closest_on_edge(near_.points_of(nodes, displacement)), std::min(one.range_m, touched[j].range_m),
-                 -one.weight_n_m});
+            const std::array<int, 4> nodes{term.nodes[0], common[0], common[1], common[1]};
+            add({term.kind, nodes, closest_on_edge(near_.points_of(nodes, displacement)), std::min(term.range_m, touched[j].range_m),
+                 -term.weight_n_m});
         }
     }
     for (const auto& [node, of] : corners) {
@@ -206,9 +206,9 @@ std::vector<NodePair> ContactPotential::couplings(const Eigen::VectorXd& displac
         const double coupled_m = coupling_in_ranges * pair.range_m;
         if (near_.may_be_within(pair, nodes, displacement, coupled_m) &&
             closest_points(pair.kind, near_.points_of(nodes, displacement)).distance_m < coupled_m)
-            for (const int one : nodes)
+            for (const int node : nodes)
                 for (const int other : nodes)
-                    if (one != other) pairs.push_back({one, other});
+                    if (node != other) pairs.push_back({node, other});
     }
     return pairs;
 }

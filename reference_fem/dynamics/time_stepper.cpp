@@ -289,11 +289,11 @@ void TimeStepper::set_centres(const Motion& now, const Motion& end, double step_
 
 Terms TimeStepper::with_inertia(const Terms& terms) const
 {
-    Terms all = terms;
-    all.push_back(&inertia_);
-    if (options_.rayleigh_mass_1_s > 0.0) all.push_back(&mass_damping_);
-    if (stiffness_damping_) all.push_back(stiffness_damping_.get());
-    return all;
+    Terms with_inertia = terms;
+    with_inertia.push_back(&inertia_);
+    if (options_.rayleigh_mass_1_s > 0.0) with_inertia.push_back(&mass_damping_);
+    if (stiffness_damping_) with_inertia.push_back(stiffness_damping_.get());
+    return with_inertia;
 }
 
 void TimeStepper::accept_step(const Motion& now, const Motion& end, const Eigen::VectorXd& w, double step_s)

@@ -25,9 +25,9 @@ bool is_far_from_convex(const NewtonSummary& summary, const NewtonOptions& optio
 // Contact allows almost nothing of the steps, one after the other.
 bool is_blocked(const NewtonSummary& summary)
 {
-    const auto& all = summary.iterations;
-    return static_cast<int>(all.size()) > most_blocked_in_a_row &&
-           std::all_of(all.end() - 1 - most_blocked_in_a_row, all.end() - 1,
+    const auto& iterations = summary.iterations;
+    return static_cast<int>(iterations.size()) > most_blocked_in_a_row &&
+           std::all_of(iterations.end() - 1 - most_blocked_in_a_row, iterations.end() - 1,
                        [](const auto& it) { return it.allowed_step < blocked_share; });
 }
 

@@ -50,16 +50,16 @@ std::optional<double> difference_pct(const VerificationRow& row)
 std::optional<bool> holds(const VerificationRow& row)
 {
     if (!row.low && !row.high && !row.expected_order) return std::nullopt;
-    bool all = std::isfinite(row.value);
-    if (row.low) all &= row.value >= *row.low;
-    if (row.high) all &= row.value <= *row.high;
-    if (row.expected_order) all &= row.observed_order && std::abs(*row.observed_order - *row.expected_order) <= order_tolerance;
-    return all;
+    bool holds = std::isfinite(row.value);
+    if (row.low) holds &= row.value >= *row.low;
+    if (row.high) holds &= row.value <= *row.high;
+    if (row.expected_order) holds &= row.observed_order && std::abs(*row.observed_order - *row.expected_order) <= order_tolerance;
+    return holds;
 }
 
 const Columns<VerificationRow>& verification_columns()
 {
-    static const Columns<VerificationRow> all =
+    static const Columns<VerificationRow> columns =
         Columns<VerificationRow>{{"problem", &VerificationRow::problem, "", "name of the problem"}} +
         within(&VerificationRow::quantity, quantity_columns) + within(&VerificationRow::elements, element_columns) +
         within(&VerificationRow::material, material_columns) +
@@ -72,7 +72,7 @@ const Columns<VerificationRow>& verification_columns()
                                  {"source", &VerificationRow::source, "", "where the reference is from"},
                                  {"difference_pct", difference_pct, "%", "difference of the value from the reference"}} +
         bound_columns + Columns<VerificationRow>{{"holds", verdict_of, "", "yes, no, or empty where the row has no bounds"}};
-    return all;
+    return columns;
 }
 
 }  // namespace reference_fem

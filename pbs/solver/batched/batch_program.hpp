@@ -100,9 +100,9 @@ struct BatchedConstraints {
 // The vertices of the constraints of a class and, as Batch has them, their values.
 template <typename Scalar, std::size_t vertices>
 struct ConstraintClassData : ConstraintValues<Scalar> {
-    void add(const std::array<int, vertices>& of, Scalar rest, Scalar stiffness)
+    void add(const std::array<int, vertices>& indices, Scalar rest, Scalar stiffness)
     {
-        vertex.push_back(of);
+        vertex.push_back(indices);
         this->rest.push_back(rest);
         this->stiffness.push_back(stiffness);
     }

@@ -218,8 +218,8 @@ double BatchedProjection<Scalar>::sleeping_share() const
             for (const BatchRun& run : slab) batches += run.count;
         return batches;
     };
-    const int all = batched_.stretch.batches() + batched_.volume.batches();
-    return all == 0 ? 0.0 : 1.0 - double(count(stretch_runs_) + count(volume_runs_)) / all;
+    const int batches = batched_.stretch.batches() + batched_.volume.batches();
+    return batches == 0 ? 0.0 : 1.0 - double(count(stretch_runs_) + count(volume_runs_)) / batches;
 }
 
 template class BatchedProjection<float>;

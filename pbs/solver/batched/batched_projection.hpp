@@ -101,9 +101,9 @@ struct ProjectionLayout {
 struct BodySize {
     double vertices = 0.0, edges = 0.0, tets = 0.0;
 
-    double constraints(ConstraintClass of) const
+    double constraints(ConstraintClass constraint_class) const
     {
-        return of == ConstraintClass::stretch ? edges : of == ConstraintClass::volume ? tets : vertices;
+        return constraint_class == ConstraintClass::stretch ? edges : constraint_class == ConstraintClass::volume ? tets : vertices;
     }
 };
 

@@ -180,10 +180,10 @@ template <typename Scalar, GroupKind kind>
     using Shape = GroupShape<kind>;
     for (int i = 0; i < count * Part<Scalar, kind>::a_batch; ++i) {
         Vertices<Scalar> p[Shape::vertices];
-        const auto of = part(batches, i);
-        of.gather_from(vertices, p);
-        of.project_compliant(Lanes<Scalar>(dt2), multipliers + i / of.a_batch * Shape::constraints * batch_size, p);
-        of.scatter_to(vertices, p);
+        const auto constraint = part(batches, i);
+        constraint.gather_from(vertices, p);
+        constraint.project_compliant(Lanes<Scalar>(dt2), multipliers + i / constraint.a_batch * Shape::constraints * batch_size, p);
+        constraint.scatter_to(vertices, p);
     }
 }
 
@@ -209,12 +209,12 @@ template <typename Scalar, typename Constraint, typename Project>
                                                     Scalar* poses, const Project& project)
 {
     constexpr int n = sizeof(Constraint::vertex) / sizeof(std::uint32_t);
-    for (const Constraint* of = constraints; of < constraints + count; ++of)
+    for (const Constraint* constraint = constraints; constraint < constraints + count; ++constraint)
         for (int first = 0; first < poses_a_block; first += lanes<Scalar>) {
             Vertices<Scalar> p[n];
-            for (int i = 0; i < n; ++i) p[i] = vertex(static_cast<const Scalar*>(poses), of->vertex[i], first, of->w[i]);
-            project(*of, load(stiffness + poses_a_block * static_cast<int>(of->stiffness) + first), p);
-            for (int i = 0; i < n; ++i) store(p[i], poses, of->vertex[i], first);
+            for (int i = 0; i < n; ++i) p[i] = vertex(static_cast<const Scalar*>(poses), constraint->vertex[i], first, constraint->w[i]);
+            project(*constraint, load(stiffness + poses_a_block * static_cast<int>(constraint->stiffness) + first), p);
+            for (int i = 0; i < n; ++i) store(p[i], poses, constraint->vertex[i], first);
         }
 }
 
@@ -255,11 +255,11 @@ double sum_squared_errors(GroupKind kind, const void* batches, int count, const 
         Lanes<Scalar> sum = Scalar(0);
         double total = 0.0;
         for (int i = 0; i < parts; ++i) {
-            const auto of = part(static_cast<const Batch<Scalar, of_kind()>*>(batches), i);
+            const auto constraint = part(static_cast<const Batch<Scalar, of_kind()>*>(batches), i);
             Vertices<Scalar> p[Shape::vertices];
-            of.gather_from(vertices, p);
+            constraint.gather_from(vertices, p);
             for (int c = 0; c < Shape::constraints; ++c) {
-                const Lanes<Scalar> error = relative_error(of, p, c);
+                const Lanes<Scalar> error = relative_error(constraint, p, c);
                 sum += error * error;
             }
             if (i % parts_in_scalar != parts_in_scalar - 1 && i + 1 != parts) continue;
@@ -276,12 +276,12 @@ void largest_errors(GroupKind kind, const void* batches, int count, const Scalar
     with_kind(kind, [&](auto of_kind) {
         using Shape = GroupShape<of_kind()>;
         for (int i = 0; i < count * Part<Scalar, of_kind()>::a_batch; ++i) {
-            const auto of = part(static_cast<const Batch<Scalar, of_kind()>*>(batches), i);
+            const auto constraint = part(static_cast<const Batch<Scalar, of_kind()>*>(batches), i);
             Vertices<Scalar> p[Shape::vertices];
-            of.gather_from(vertices, p);
+            constraint.gather_from(vertices, p);
             Lanes<Scalar> largest = Scalar(0);
             for (int c = 0; c < Shape::constraints; ++c) {
-                const Lanes<Scalar> error = abs(relative_error(of, p, c));
+                const Lanes<Scalar> error = abs(relative_error(constraint, p, c));
                 where(largest == largest && !(error <= largest), largest) = error;  // not a number stays
             }
             largest.copy_to(errors + i * lanes<Scalar>, std::experimental::element_aligned);

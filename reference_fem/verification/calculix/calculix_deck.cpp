@@ -64,14 +64,14 @@ public:
     {
         const Eigen::Vector4d homogeneous(1.0, point(0), point(1), point(2));
         double deepest = -1e-10;  // a point this far outside is on the face except for rounding
-        std::pair<int, Eigen::Vector4d> found{-1, Eigen::Vector4d::Zero()};
+        std::pair<int, Eigen::Vector4d> containing{-1, Eigen::Vector4d::Zero()};
         for (std::size_t t = 0; t < of_point_.size(); ++t) {
             const Eigen::Vector4d barycentric = of_point_[t] * homogeneous;
             if (barycentric.minCoeff() < deepest) continue;
             deepest = barycentric.minCoeff();
-            found = {static_cast<int>(t), barycentric};
+            containing = {static_cast<int>(t), barycentric};
         }
-        return found;
+        return containing;
     }
 
 private:

@@ -215,17 +215,17 @@ std::optional<pbs::Positions> find_in_restart(const std::string& restart, const 
         std::memcpy(&length, restart.data() + at, sizeof length);
         return length;
     };
-    std::optional<pbs::Positions> found;
+    std::optional<pbs::Positions> displacements;
     for (std::size_t at = 0; at < restart.size();) {
         const std::int32_t length = length_at(at);
         if (length < 0) return std::nullopt;
         const std::size_t begin = at + sizeof length;
         if (length_at(begin + length) != length) throw pbs::InputError(restart_name, 0, "record", std::to_string(length), "damaged");
         const auto candidate = displacements_in(restart, begin, length, printed.rows());
-        if (!found && candidate && agrees(*candidate, printed)) found = candidate;
+        if (!displacements && candidate && agrees(*candidate, printed)) displacements = candidate;
         at = begin + length + sizeof length;
     }
-    return found;
+    return displacements;
 }
 
 }  // namespace
