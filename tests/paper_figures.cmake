@@ -10,7 +10,7 @@ figures_test(/listed listed_figures drawing)
 figures_test(/plots plots drawing xvfb-run -a)
 figures_test(/report report drawing)
 figures_test(/run_page run_page drawing)
-foreach(name glossary readme_part viewer words)
+foreach(name captions compared_methods glossary looks readme_part viewer words)
     figures_test(/${name} ${name} unit)
 endforeach()
 

@@ -16,7 +16,7 @@ from report.figures import inline_svg
 from report.markup import Markup, details, element, inline, items, joined, table
 from report.page import glossary_section, navigation, whole, written
 from report.record_set import number
-from words import looks, sentences
+from words import looks, methods_of_run
 from words.number_words import counted, figure, listed, span_of_thousandths
 
 moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "notes?": [shapes.text], "bad_frame?": shapes.text,
@@ -152,7 +152,7 @@ def summary(found):
         shown = [*([error] if errors else []), *([of["change"]] if volume else [])]
         return [name, *shown, figure(of["step_ms"]), f"{of['inverted']:.0f}"]
 
-    sentence = sentences.nearest_method(methods)
+    sentence = methods_of_run.nearest_method(methods)
     shown = [element("p", f"{sentence[:1].upper()}{sentence[1:]}")] if sentence else []
     note = element("p", note_of_card.format(note_on_volume if volume else ""), class_="under")
     return answers.card("summary", "Which method is nearest?" if errors else "The methods",
@@ -294,9 +294,9 @@ def drawn(found, name, figure, title, caption):
 def figures_section(found):
     methods = [of for of in methods_of(found) if not of["is_reference"]]
     caption = "The numbers of metrics.csv over the frames."
-    title = sentences.largest_change(methods) if found.judges_volume() else "Errors and inverted tets over the frames"
+    title = methods_of_run.largest_change(methods) if found.judges_volume() else "Errors and inverted tets over the frames"
     parts = [drawn(found, "over-frames", over_frames(found), title, caption)]
-    against_time, message = error_against_time(found), sentences.error_and_time(methods)
+    against_time, message = error_against_time(found), methods_of_run.error_and_time(methods)
     if against_time and message:
         caption = "The median over the frames of the error at the joints and of the time of a step."
         parts.append(drawn(found, "error-against-time", against_time, message, caption))

@@ -10,7 +10,7 @@ import math
 
 from records import shapes
 from words import case_words
-from words.number_words import counted, figure, listed
+from words.number_words import counted, figure
 
 names = case_words.tables["verdict"]
 kinds = {"holds": ("holds", "hold"), "fails": ("fails", "fail"), "mixed": ("is mixed", "are mixed"),
@@ -434,57 +434,3 @@ def disagreements(claim):
             sentences.append(f"{other['name'][:1].upper()}{other['name'][1:]} and the claim's own reading disagree: in the {len(pairs)} "
                              f"cases that both have, the threshold holds {extent_of_other} in the one, {extent_of_own} in the other.")
     return sentences
-
-
-# A single run: which method is nearest to the reference.
-
-def two_digits(value):
-    return f"{value:.0f}" if value >= 99.5 else f"{value:.2g}"
-
-
-def nearest_method(methods):
-    """delta mush is nearest to FEM in all 19 frames, 15 %, before PBS, 28 %; it loses 3.7 % of the volume, PBS 1.1 %. methods: dicts of
-    name, error_pct (median over the frames; None without one), volume_pct (of the frame in which it changes most, None where it is not
-    judged), nearest_in, is_compared (False: it turns more tets inside out than LBS), inverted. A method that turns a tet inside out in some
-    frame is not called nearest."""
-    known = sorted((of for of in methods if of["error_pct"] is not None), key=lambda of: of["error_pct"])
-    best = next((of for of in known if of["is_compared"] and not of["inverted"]), None)
-    least_pct = best["error_pct"] if best else math.inf
-    aside = [f"{of['name']} turns up to {counted(int(of['inverted']), 'tet')} inside out" for of in known
-             if of["inverted"] and (of["error_pct"] < least_pct or not of["is_compared"])]
-    if not best:
-        return f"No method is called nearest to FEM: {listed(aside)}." if aside else ""
-    aside = f" {listed(aside)}, and {'is' if len(aside) == 1 else 'are'} not called nearest." if aside else ""
-    others = [of for of in known if of["is_compared"] and of is not best and of["error_pct"] >= least_pct]
-    other = next((of for of in others if of["name"] == "PBS"), next(iter(others), None))  # PBS is what is examined
-    frames = sum(of["nearest_in"] for of in methods)
-    extent = f"all {counted(frames, 'frame')}" if best["nearest_in"] == frames else f"{best['nearest_in']} of {counted(frames, 'frame')}"
-    text = f"{best['name']} is nearest to FEM in {extent}, {two_digits(best['error_pct'])} %"
-    text += f", before {other['name']}, {two_digits(other['error_pct'])} %" if other else ""
-    changes = [(of, of["volume_pct"]) for of in (best, other) if of and of["volume_pct"] is not None]
-    words = [f"{'loses' if change < 0 else 'gains'} {two_digits(abs(change))} % of the volume" for _, change in changes]
-    if len(words) == 2:
-        is_same = (changes[0][1] < 0) == (changes[1][1] < 0)
-        words[1] = f"{other['name']} {words[1].removesuffix(' of the volume').split(' ', 1)[1] if is_same else words[1]}"
-    return (f"{text}; it {', '.join(words)}." if words else f"{text}.") + aside
-
-
-def largest_change(methods):
-    """The volume changes most under LBS, by -3 %, and least under DQS, by -0.2 %. methods: as above, without the reference."""
-    ranked = sorted((of for of in methods if of["volume_pct"] is not None), key=lambda of: abs(of["volume_pct"]))
-    if len(ranked) < 2:
-        return "The volume over the frames"
-    most, least = (f"under {of['name']}, by {figure(round(of['volume_pct'], 3) + 0.0)} %" for of in (ranked[-1], ranked[0]))
-    return f"The volume changes most {most}, and least {least}"
-
-
-def error_and_time(methods):
-    """delta mush has the least error, 10.8 %, and takes 0.37 ms per frame; LBS is the fastest, with 31.2 % and 0.009 ms.
-    Empty if no method has an error, since the reference reached no pose."""
-    known = [of for of in methods if of["error_pct"] is not None and of["step_ms"] is not None and of["is_compared"]]
-    if not known:
-        return ""
-    best, fastest = (min(known, key=lambda of: of[name]) for name in ("error_pct", "step_ms"))
-    text = f"{best['name']} has the least error, {figure(best['error_pct'])} %, and takes {figure(best['step_ms'])} ms per frame"
-    return text if fastest is best else (
-        f"{text}; {fastest['name']} is the fastest, with {figure(fastest['error_pct'])} % and {figure(fastest['step_ms'])} ms")
