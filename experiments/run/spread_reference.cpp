@@ -3,10 +3,9 @@
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
 #include "analysis/statistics/statistics.hpp"
-#include "experiments/process/machine.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/run/run_folder.hpp"
+#include "experiments/process/machine.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/pose.hpp"
 

@@ -8,7 +8,7 @@
 // README.md describes the runs, deformers and records. Besides the scene's own order of projection PBS has each other order and precision,
 // so that the report can say whether the verdict depends on it.
 #include "experiments/deformers/deformer_options.hpp"
-#include "experiments/run/run_folder.hpp"
+#include "experiments/run/region_record.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // The kept records, read as rows and written again, have the same columns and cells. Reference: the files, which earlier versions wrote.
 #include "analysis/records/record_files.hpp"
 #include "experiments/run/metrics_table.hpp"
-#include "experiments/run/run_folder.hpp"
+#include "experiments/run/region_record.hpp"
 #include "experiments/studies/ambiguity/readings.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"

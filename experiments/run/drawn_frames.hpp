@@ -1,0 +1,81 @@
+// What programs that draw a run's frames need besides the frames: its bones and what binds the vertices to them (bones.csv, bones_rest.csv,
+// binding.csv), the surface that the tets carry (surface_rest.vtp, embedding.csv), and how far apart the deformers are (distances.csv).
+#pragma once
+
+#include "analysis/records/tables.hpp"
+#include "pbs/character/character.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/skinning/pose.hpp"
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace experiments {
+
+// The bones of a run's frames and what binds the vertices to them, for programs that draw the frames: bones.csv, bones_rest.csv and
+// binding.csv. The columns explain their contents.
+struct BonePlace {
+    std::string bone, parent;
+    pbs::Vec3 head, tail;  // [m]
+};
+struct PosedBone {
+    int frame = 0;
+    double time_s = 0.0;
+    BonePlace place;
+};
+struct BoundVertex {
+    int vertex = 0;
+    std::string bone;
+    double parameter = 0.0, rest_distance_m = 0.0;
+    bool blended = false, jiggles = false;
+};
+
+extern const analysis::Columns<BonePlace> bone_columns;            // bones_rest.csv
+extern const analysis::Columns<PosedBone> posed_bone_columns;      // bones.csv: every bone in each frame that is written
+extern const analysis::Columns<BoundVertex> bound_vertex_columns;  // binding.csv
+
+std::vector<BonePlace> bones_at_rest(const pbs::Skeleton& skeleton);
+void add_bones(std::vector<PosedBone>& bones, int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose);
+std::vector<BoundVertex> bound_vertices(const pbs::Character& character);
+
+// The rendered surface of a run's frames and the tets that carry it, for programs that move the surface with the tets:
+//   surface_rest.vtp   the surface at rest [m]
+//   embedding.csv      the tet that carries each of its points, with the point's barycentric coordinates
+struct EmbeddedPoint {
+    int point = 0, tet = 0;
+    std::array<double, 4> barycentric = {};  // their sum is one; for a point outside its tet some are negative
+};
+extern const analysis::Columns<EmbeddedPoint> embedding_columns;
+
+analysis::CsvTable embedding_table(const pbs::EmbeddedSurface& surface);
+
+// Writes both files into the folder of a run.
+void write_surface(const pbs::EmbeddedSurface& surface, const pbs::TetMesh& mesh, const std::string& folder);
+
+// distances.csv: the distances between the points that two deformers give. One row per written frame and pair of deformers.
+//   DistanceRecord record;   record.add(frame, time_s, "pbs", "mesh", positions);   record.table().write("distances.csv");
+struct DeformerDistance {
+    int frame = 0;
+    double time_s = 0.0;
+    std::string deformer, other, of;
+    int points = 0;
+    double rms_mm = 0.0, largest_mm = 0.0;
+};
+extern const analysis::Columns<DeformerDistance> distance_columns;
+
+class DistanceRecord {
+public:
+    // points [m]: #P x 3, with the same #P for all deformers of a frame. of: what the points belong to.
+    void add(int frame, double time_s, const std::string& label, const std::string& owner, const pbs::Positions& points);
+
+    analysis::CsvTable table() const { return table_of(distance_columns, distances_); }
+
+private:
+    int frame_ = -1;
+    std::vector<std::pair<std::string, pbs::Positions>> before_;  // of this frame
+    std::vector<DeformerDistance> distances_;
+};
+
+}  // namespace experiments
