@@ -4,6 +4,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/metrics_table.hpp"
+#include "experiments/scene/movements.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/study.hpp"
 #include "generated/pages_texts.hpp"

@@ -1,6 +1,6 @@
 // The movements of scenes/movements.toml, and the motion that carries a body through them.
 #include "analysis/records/toml_keys.hpp"
-#include "experiments/scene/scene.hpp"
+#include "experiments/scene/movements.hpp"
 #include "generated/movements_texts.hpp"
 #include "pbs/geometry/input_error.hpp"
 

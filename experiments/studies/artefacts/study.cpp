@@ -5,6 +5,7 @@
 //   limb_twist     30 ... 180 deg    o=======o~~~~~~~o
 //   limb_bend      30 ... 150 deg    o=======o
 #include "analysis/records/record_files.hpp"
+#include "experiments/scene/movements.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"

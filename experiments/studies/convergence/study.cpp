@@ -9,6 +9,7 @@
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/process/terminal.hpp"
+#include "experiments/scene/movements.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"

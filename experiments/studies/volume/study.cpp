@@ -9,6 +9,7 @@
 // so that the report can say whether the verdict depends on it.
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/run/region_record.hpp"
+#include "experiments/scene/movements.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>

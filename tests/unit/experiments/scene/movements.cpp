@@ -1,5 +1,5 @@
 // Reference: the angles of experiments/scenes/movements.toml, measured between the bones at the end of each movement.
-#include "experiments/scene/scene.hpp"
+#include "experiments/scene/movements.hpp"
 
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 

@@ -2,6 +2,7 @@
 
 #include "analysis/records/record_files.hpp"
 #include "experiments/run/run.hpp"
+#include "experiments/scene/movements.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
