@@ -9,9 +9,11 @@
 
 #include <any>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace experiments {
@@ -109,6 +111,30 @@ private:
     virtual pbs::StepSummary deform(const pbs::Pose& pose, double dt_s, pbs::Positions& x) = 0;
 
     pbs::Positions positions_;
+};
+
+// The base class of deformers that have another one do the work: each call is passed on.
+class WrappingDeformer : public Deformer {
+public:
+    explicit WrappingDeformer(std::unique_ptr<Deformer> deformer) : deformer_(std::move(deformer)) {}
+
+    void reset(const pbs::Character& character) override { deformer_->reset(character); }
+    pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override { return deformer_->advance(pose, dt_s); }
+    const pbs::Positions& positions() const override { return deformer_->positions(); }
+    void foresee(const std::vector<pbs::Pose>& poses) override { deformer_->foresee(poses); }
+    void start_from(const pbs::Positions& shape) override { deformer_->start_from(shape); }
+    void continue_from(const pbs::Pose& pose, const pbs::Positions& positions) override { deformer_->continue_from(pose, positions); }
+    void give_up_when(std::function<bool()> is_over) override { deformer_->give_up_when(std::move(is_over)); }
+    bool has_state() const override { return deformer_->has_state(); }
+    bool has_memory() const override { return deformer_->has_memory(); }
+    const FemFacts* facts() const override { return deformer_->facts(); }
+    nlohmann::json record() const override { return deformer_->record(); }
+
+protected:
+    Deformer& wrapped() const { return *deformer_; }
+
+private:
+    std::unique_ptr<Deformer> deformer_;
 };
 
 // A deformer to be made: its kind, its options, and its name in the records.

@@ -28,37 +28,35 @@ double largest_joint_turn_deg(const pbs::Skeleton& skeleton, const pbs::Pose& po
     return largest * 180.0 / std::numbers::pi;
 }
 
-class FollowingDeformer : public Deformer {
+class FollowingDeformer : public WrappingDeformer {
 public:
-    explicit FollowingDeformer(std::unique_ptr<Deformer> deformer) : deformer_(std::move(deformer)) {}
+    using WrappingDeformer::WrappingDeformer;
 
     void reset(const pbs::Character& character) override
     {
         character_ = &character;
         follows_ = has_start_ = false;
-        deformer_->reset(character);
+        wrapped().reset(character);
     }
     void foresee(const std::vector<pbs::Pose>& poses) override
     {
         const bool is_far = !poses.empty() && largest_joint_turn_deg(character_->skeleton, poses.front()) > far_turn_deg;
-        follows_ = character_->artist && is_far && !deformer_->has_memory();
-        if (!follows_) deformer_->foresee(poses);
+        follows_ = character_->artist && is_far && !wrapped().has_memory();
+        if (!follows_) wrapped().foresee(poses);
     }
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override
     {
         if (follows_ && !std::exchange(has_start_, false)) return follow(pose, dt_s);
-        return deformer_->advance(pose, dt_s);
+        return wrapped().advance(pose, dt_s);
     }
     void start_from(const pbs::Positions& shape) override
     {
         has_start_ = true;
-        deformer_->start_from(shape);
+        wrapped().start_from(shape);
     }
-    const pbs::Positions& positions() const override { return deformer_->positions(); }
-    bool has_memory() const override { return deformer_->has_memory(); }  // frames suffice: steps between them are made here
     nlohmann::json record() const override
     {
-        nlohmann::json record = deformer_->record();
+        nlohmann::json record = wrapped().record();
         if (follows_) record["follows_from_rest"] = true;
         return record;
     }
@@ -78,11 +76,11 @@ private:
             pbs::Pose moved = next;  // the motion of each bone
             for (std::size_t j = 0; j < next.size(); ++j) moved[j] = next[j] * reached[j].inverse();
             pbs::dual_quaternion_skinning(last, character_->weights, moved, carried);
-            deformer_->start_from(carried);
-            all_steps.add(deformer_->advance(next, dt_s), static_cast<std::size_t>(step));
+            wrapped().start_from(carried);
+            all_steps.add(wrapped().advance(next, dt_s), static_cast<std::size_t>(step));
             sum.iterations += all_steps.summary().iterations;
             sum.work += all_steps.summary().work;
-            last = deformer_->positions();
+            last = wrapped().positions();
             reached = next;
         }
         pbs::StepSummary summary = all_steps.summary();
@@ -92,7 +90,6 @@ private:
         return summary;
     }
 
-    std::unique_ptr<Deformer> deformer_;
     const pbs::Character* character_ = nullptr;
     bool follows_ = false, has_start_ = false;
 };

@@ -39,25 +39,19 @@ const DeformerKind& kind_named(const std::string& name)
 }
 
 // A deformer on a character whose skinning weights follow another rule.
-class WeightedDeformer : public Deformer {
+class WeightedDeformer : public WrappingDeformer {
 public:
-    WeightedDeformer(std::unique_ptr<Deformer> deformer, pbs::WeightKind weights) : deformer_(std::move(deformer)), weights_(weights) {}
+    WeightedDeformer(std::unique_ptr<Deformer> deformer, pbs::WeightKind weights) : WrappingDeformer(std::move(deformer)), weights_(weights)
+    {
+    }
 
     void reset(const pbs::Character& character) override
     {
         character_ = pbs::with_weights(weights_, character);
-        deformer_->reset(character_);
+        wrapped().reset(character_);
     }
-    pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override { return deformer_->advance(pose, dt_s); }
-    const pbs::Positions& positions() const override { return deformer_->positions(); }
-    void foresee(const std::vector<pbs::Pose>& poses) override { deformer_->foresee(poses); }
-    void start_from(const pbs::Positions& shape) override { deformer_->start_from(shape); }
-    bool has_memory() const override { return deformer_->has_memory(); }
-    const FemFacts* facts() const override { return deformer_->facts(); }
-    nlohmann::json record() const override { return deformer_->record(); }
 
 private:
-    std::unique_ptr<Deformer> deformer_;
     pbs::WeightKind weights_;
     pbs::Character character_;
 };
