@@ -209,12 +209,6 @@ TEST(ChebyshevWeights, AreRatiosOfChebyshevPolynomials)
     }
 }
 
-TEST(ChebyshevWeights, ARadiusOfZeroAcceleratesNothing)
-{
-    for (const double weight : pbs::chebyshev_weights(0.0, 10)) EXPECT_EQ(weight, 1.0);
-    EXPECT_TRUE(pbs::chebyshev_weights(0.9, 0).empty());
-}
-
 // x_{k+1} = omega_{k+1} (sweep(x_k) - x_{k-1}) + x_{k-1}, the weights from their closed form. The error of a sweep's roundings is magnified
 // by at most 1 + 2 (omega - 1) < 3 per sweep in this norm; positions are below 2 m.
 TEST(VertexBlockDescent, ChebyshevFollowsItsRecurrence)
