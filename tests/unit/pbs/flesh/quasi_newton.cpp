@@ -4,10 +4,12 @@
 #include "pbs/flesh/flesh_system.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/held_bar.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/weight_sums.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -40,6 +42,17 @@ TEST(QuasiNewton, ReportsItsEnergyAndCountsItsWork)
         EXPECT_EQ(summary.solves, iterations);
         EXPECT_GE(summary.evaluations, iterations + 1);
     }
+}
+
+// The first direction has no pairs yet. The search begins with the whole of it and halves it until the energy is low enough.
+TEST(QuasiNewton, TheFirstStepIsThePreconditionedGradientHalvedAsOftenAsTheEnergyWasEvaluatedAgain)
+{
+    Positions x = bent.lbs;
+    const auto summary = minimise<double>({.iterations = 1, .packed = false}, x);
+    const Positions step = pbs::solve_plainly(flesh().factor(), bar.gradient(bent.lbs));
+    EXPECT_LT((x - (bent.lbs - std::ldexp(1.0, 2 - summary.evaluations) * step)).cwiseAbs().maxCoeff(),
+              test_support::rounding_error(4, 2.0));
+    EXPECT_GT(step.norm(), 1e-3);
 }
 
 // L-BFGS with pairs converges faster than linearly preconditioned descent: a history that is not used, or used in the wrong order, fails.
