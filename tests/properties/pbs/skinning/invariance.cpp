@@ -1,4 +1,5 @@
-// Reference: binding, weights and blends are geometry, so they commute with rigid motions, renumbering, mirrors and changes of unit.
+// Reference: binding and weights are geometry, so they commute with rigid motions, renumbering, mirrors and changes of unit. The same of
+// the skinners: tests/unit/pbs/skinning/contract.cpp.
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/two_bone_limb.hpp"
@@ -18,15 +19,6 @@ using pbs::Vec3;
 constexpr double farthest = 1.1, translation = 1.8;  // of the limb, and of a random motion, whose three coordinates are up to 1 m
 
 const TwoBoneLimb limb = two_bone_limb({12, 3, 3}, Vec3(0.3, 0.2, 1.0), 80.0);
-
-Positions blended(decltype(pbs::linear_blend_skinning) blend, const Positions& rest, const pbs::Weights& weights, const pbs::Pose& pose)
-{
-    Positions posed;
-    blend(rest, weights, pose, posed);
-    return posed;
-}
-
-const auto blends = {pbs::linear_blend_skinning, pbs::dual_quaternion_skinning};
 
 pbs::Skeleton mapped(pbs::Skeleton skeleton, const Eigen::Affine3d& map)
 {
@@ -88,63 +80,6 @@ TEST(SkinningInvariance, WeightsUnderAMirror)
     EXPECT_EQ(weights.first, limb.weights.first);
     EXPECT_EQ(weights.bone, limb.weights.bone);
     EXPECT_EQ(weights.weight, limb.weights.weight);
-}
-
-TEST(SkinningInvariance, BlendsOfOneRigidMotionAreThatMotion)
-{
-    RandomPoints random(52);
-    for (int trial = 0; trial < 20; ++trial) {
-        const Eigen::Isometry3d motion = random.rigid_motion(1.0);
-        const Positions expected = transformed(limb.mesh.rest, motion);
-        for (const auto blend : blends)
-            EXPECT_LT((blended(blend, limb.mesh.rest, limb.weights, {motion, motion}) - expected).cwiseAbs().maxCoeff(),
-                      motion_error(1 + 1, farthest + translation));  // the expected motion and the blended one
-    }
-}
-
-TEST(SkinningInvariance, BlendsAreCarriedByAMotionOfTheWholeBody)
-{
-    RandomPoints random(53);
-    for (int trial = 0; trial < 20; ++trial) {
-        const Eigen::Isometry3d motion = random.rigid_motion(1.0);
-        pbs::Pose carried;
-        for (const Eigen::Isometry3d& bone : limb.pose) carried.push_back(motion * bone);
-        for (const auto blend : blends) {
-            const Positions expected = transformed(blended(blend, limb.mesh.rest, limb.weights, limb.pose), motion);
-            EXPECT_LT(
-                (blended(blend, limb.mesh.rest, limb.weights, carried) - expected).cwiseAbs().maxCoeff(),
-                motion_error(2 + 2, farthest + 1.0 + translation));  // the pose, which moves by up to 1 m, and the motion, on both sides
-        }
-    }
-}
-
-// The limb's blends against blends of the same limb after a map and in other bones' order. Two blends of its pose, which moves by up to 1
-// m.
-void expect_mapped(const Eigen::Matrix3d& map, const pbs::Weights& weights)
-{
-    pbs::Pose mapped = limb.pose;
-    for (Eigen::Isometry3d& bone : mapped) {
-        bone.linear() = (map * bone.linear() * map.inverse()).eval();
-        bone.translation() = (map * bone.translation()).eval();
-    }
-    const double of_blends = motion_error(1 + 1, farthest + 1.0);
-    for (const auto blend : blends) {
-        const Positions expected = blended(blend, limb.mesh.rest, limb.weights, limb.pose),
-                        found = blended(blend, limb.mesh.rest * map, weights, mapped) * map.inverse();
-        EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), of_blends);
-    }
-}
-
-TEST(SkinningInvariance, BlendsUnderAMirrorInAnotherUnitAndInAnyOrderOfTheBones)
-{
-    pbs::Weights swapped = limb.weights;
-    for (int i = 0; i < swapped.vertices(); ++i) {
-        std::reverse(swapped.bone.begin() + swapped.first[i], swapped.bone.begin() + swapped.first[i + 1]);
-        std::reverse(swapped.weight.begin() + swapped.first[i], swapped.weight.begin() + swapped.first[i + 1]);
-    }
-    expect_mapped(Vec3(1, -1, 1).asDiagonal(), limb.weights);
-    for (const double size : {1e-6, 1e6}) expect_mapped(size * Eigen::Matrix3d::Identity(), limb.weights);
-    expect_mapped(Eigen::Matrix3d::Identity(), swapped);
 }
 
 // Reference: the plain blends, which follow the paper line by line; in any number of vertices and bones, far from the origin and in any
@@ -269,16 +204,6 @@ TYPED_TEST(PackedBlends, AreThePlainOnesInAntipodalAndFarPosesAndInAnyUnit)
         scaled.rest *= size;
         for (Eigen::Isometry3d& bone : scaled.pose) bone.translation() *= size;
         expect_as_plain<TypeParam>(scaled, size * tolerance<TypeParam>(6));
-    }
-}
-
-TYPED_TEST(PackedBlends, AreThePlainOnesInOneRigidMotion)
-{
-    RandomBody body = random_body(62, 300, 5);
-    RandomPoints random(63);
-    for (int trial = 0; trial < 20; ++trial) {
-        body.pose.assign(bones, random.rigid_motion(1.0));
-        expect_as_plain<TypeParam>(body, tolerance<TypeParam>(1));
     }
 }
 

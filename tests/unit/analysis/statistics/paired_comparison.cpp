@@ -203,46 +203,41 @@ const MemberComparison first_nearer = member(30, 5, 5, 0.001, 1.3, 1.9), second_
                        close_below = member(5, 5, 30, 0.001, 0.92, 0.99), tied = member(8, 32, 0, 0.01, 0.9, 1.5),
                        not_quite_tied = member(9, 31, 0, 0.06, 0.9, 1.5), unusable = MemberComparison{};
 
+// Whether methods are level does not depend on which one is first: the reciprocal of 0.905 is 1.105, which is above 1.1.
 TEST(Decision, FollowsTheFirstRuleThatApplies)
 {
+    using enum MethodDecision;
     struct Case {
         const char* name;
         std::vector<MemberComparison> members;
         MethodDecision decision;
+        PairRule rule = {};
     };
-    for (const auto& [name, members, decision] :
-         std::vector<Case>{{"all members agree", {first_nearer, first_nearer}, MethodDecision::first_is_nearer},
-                           {"all members agree on the second", {second_nearer, second_nearer}, MethodDecision::second_is_nearer},
-                           {"one does not show it", {first_nearer, not_shown}, MethodDecision::open},
-                           {"two contradict each other", {first_nearer, not_shown, second_nearer}, MethodDecision::depends},
-                           {"nearer by less than a tenth", {close, close}, MethodDecision::level},
-                           {"level on one member, nearer on another", {close, first_nearer}, MethodDecision::first_is_nearer},
-                           {"close on both sides of 1", {close, close_below}, MethodDecision::level},
-                           {"four of five poses are ties", {tied, close}, MethodDecision::level},
-                           {"three of four poses are ties", {not_quite_tied, close}, MethodDecision::open},
-                           {"p is the threshold itself", {member(20, 0, 9, 0.05, 1.1, 1.5)}, MethodDecision::open},
-                           {"a member without a pose has no say", {unusable, first_nearer}, MethodDecision::first_is_nearer},
-                           {"nothing is known", {unusable, unusable}, MethodDecision::open},
-                           {"no member", {}, MethodDecision::open}})
-        EXPECT_EQ(recorded_name(decision_of(members)), recorded_name(decision)) << name;
-}
-
-// The reciprocal of 0.905 is 1.105, which is above 1.1: whether the methods are level must not depend on which one is first.
-TEST(Decision, OnCloseRatiosHoldsForTheReciprocalsToo)
-{
-    for (const auto& [low, high, decision] :
-         {std::tuple{0.905, 0.99, MethodDecision::open}, std::tuple{1.0 / 0.99, 1.0 / 0.905, MethodDecision::open},
-          std::tuple{0.915, 1.09, MethodDecision::level}, std::tuple{1.0 / 1.09, 1.0 / 0.915, MethodDecision::level},
-          std::tuple{0.915, 1.12, MethodDecision::open}})
-        EXPECT_EQ(decision_of({member(20, 0, 20, 1.0, low, high)}), decision) << low << " to " << high;
-}
-
-TEST(Decision, HasItsThresholdsFromTheRule)
-{
-    EXPECT_EQ(decision_of({first_nearer}, {.significance = 0.0005}), MethodDecision::open);
-    EXPECT_EQ(decision_of({not_quite_tied}, {.tied_share = 0.75}), MethodDecision::level);
-    EXPECT_EQ(decision_of({close}, {.level_ratio = 1.05}), MethodDecision::first_is_nearer);
-    EXPECT_EQ(decision_of({close_below}, {.level_ratio = 1.05}), MethodDecision::second_is_nearer);
+    const auto ratio_from = [](double low, double high) { return std::vector{member(20, 0, 20, 1.0, low, high)}; };
+    for (const auto& [name, members, decision, rule] :
+         std::vector<Case>{{"all members agree", {first_nearer, first_nearer}, first_is_nearer},
+                           {"all members agree on the second", {second_nearer, second_nearer}, second_is_nearer},
+                           {"one does not show it", {first_nearer, not_shown}, open},
+                           {"two contradict each other", {first_nearer, not_shown, second_nearer}, depends},
+                           {"nearer by less than a tenth", {close, close}, level},
+                           {"level on one member, nearer on another", {close, first_nearer}, first_is_nearer},
+                           {"close on both sides of 1", {close, close_below}, level},
+                           {"four of five poses are ties", {tied, close}, level},
+                           {"three of four poses are ties", {not_quite_tied, close}, open},
+                           {"p is the threshold itself", {member(20, 0, 9, 0.05, 1.1, 1.5)}, open},
+                           {"a member without a pose has no say", {unusable, first_nearer}, first_is_nearer},
+                           {"nothing is known", {unusable, unusable}, open},
+                           {"no member", {}, open},
+                           {"close, but not to the reciprocal", ratio_from(0.905, 0.99), open},
+                           {"its reciprocal", ratio_from(1.0 / 0.99, 1.0 / 0.905), open},
+                           {"close", ratio_from(0.915, 1.09), level},
+                           {"the reciprocal", ratio_from(1.0 / 1.09, 1.0 / 0.915), level},
+                           {"close on one side", ratio_from(0.915, 1.12), open},
+                           {"another significance", {first_nearer}, open, {.significance = 0.0005}},
+                           {"another share of ties", {not_quite_tied}, level, {.tied_share = 0.75}},
+                           {"another ratio", {close}, first_is_nearer, {.level_ratio = 1.05}},
+                           {"another ratio below 1", {close_below}, second_is_nearer, {.level_ratio = 1.05}}})
+        EXPECT_EQ(recorded_name(decision_of(members, rule)), recorded_name(decision)) << name;
 }
 
 TEST(CompareMethods, DecidesByTheErrorsOfAllMembers)

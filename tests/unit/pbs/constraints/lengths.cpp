@@ -71,18 +71,6 @@ TEST(BindConstraint, ProjectionRestoresTheDistance)
         }
 }
 
-TEST(BindConstraint, VertexOnTheBoneIsPutOnItsMaterialPoint)
-{
-    const BindConstraint<double> on_the_bone{0, 0.0, 1.0};
-    Vec3 p(0.4, -0.3, 0.2);
-    const double rounding_m = rounding_of(on_the_bone, q, p).step;
-    project(on_the_bone, 1.0, q, p);
-    EXPECT_LT((p - q).norm(), rounding_m);
-    p = q;
-    project(on_the_bone, 1.0, q, p);
-    EXPECT_EQ(p, q);
-}
-
 // Momentum is not conserved: that of the vertex equals what the bone would receive as the heavy end of a rod between them (Eq. 8-9 at both
 // ends), with 1e8 times the vertex's mass. The two differ by that share of the momentum, and by the rounding of the vertex and of the bone,
 // whose step of 1e-8 is rounded with its position. It is along the line from the vertex to q and has no moment about q.

@@ -42,24 +42,6 @@ TEST(VolumeConstraint, ValueIsSigned)
     EXPECT_DOUBLE_EQ(value_at(corner_tet, {at_rest[0], at_rest[2], at_rest[1], at_rest[3]}), -1.0 / 3.0);
 }
 
-// A possible error is to omit the factor 1/6 from the gradients but not from C, so that a projection at k = 1 removes only a sixth of the
-// error. Our projection removes all of the linearised error. C is a cubic polynomial, so that the rest is d^T H d / 2 and the volume of the
-// four displacements d, where |d| = |C| / |g|. The Hessian H of the volume consists of blocks of norm |edge| / 6, three in each row, and
-// the differences of the displacements are at most sqrt 2 |d| long. The rest, relative to C, falls with the size of C.
-TEST(VolumeConstraint, ProjectionLeavesASecondOrderErrorOnly)
-{
-    RandomPoints random(6);
-    const Corners<double> shape = noisy_corner(random, 1.0);
-    for (const double size : {1e-1, 1e-2, 1e-3, 1e-4}) {
-        Corners<double> p = at_rest;
-        for (int i = 0; i < 4; ++i) p[i] += size * shape[i];
-        const double error = std::abs(value_at(corner_tet, p)), slope = stacked(gradient_at(corner_tet, p)).norm(), moved = error / slope;
-        const double of_hessian = 3.0 * longest_edge(p) / 6.0 * moved * moved / 2.0, of_cubic = std::pow(std::sqrt(2.0) * moved, 3) / 6.0;
-        EXPECT_LT(std::abs(value_at(corner_tet, projected(corner_tet, unit, p))), of_hessian + of_cubic + converged_error(p));
-        EXPECT_LT(of_hessian + of_cubic, 4.0 * size * error) << "a bound that would let a part of the first order pass proves nothing";
-    }
-}
-
 // C is linear in one corner, so one projection is exact.
 TEST(VolumeConstraint, OneFreeCornerMeetsItAtOnce)
 {

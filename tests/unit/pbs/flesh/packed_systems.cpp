@@ -359,34 +359,6 @@ TEST(PackedProjective, EqualsPlainInAnyState)
     }
 }
 
-// The limit is the minimum of the same energy; steps fall linearly, by a factor below 0.99 in this case.
-TEST(PackedProjective, EveryArithmeticEndsAtOneMinimum)
-{
-    const ProjectiveEvaluation flesh(HeldBar({6, 2, 2}));
-    const Positions& lbs = flesh.bar.bent.lbs;
-    const auto minimum = [&]<typename Scalar>(Scalar, bool packed) {
-        pbs::ProjectiveDynamics<Scalar> solver(flesh.bar.bent.mesh, flesh.energy, flesh.flesh.factor(),
-                                               {.iterations = 1000, .stop_step = 1e-11, .packed = packed});
-        Positions x = lbs;
-        solver.minimise(flesh.bar.centres, x);
-        return x;
-    };
-    const Positions plain = minimum(0.0, false);
-    EXPECT_LT((minimum(0.0, true) - plain).cwiseAbs().maxCoeff(), 1e-9);
-    EXPECT_LT((minimum(0.0f, true) - plain).cwiseAbs().maxCoeff(), 1e-4);
-    EXPECT_GT((lbs - plain).cwiseAbs().maxCoeff(), 0.01);
-}
-
-TEST(PackedProjective, NotFiniteIsAnOutcome)
-{
-    const ProjectiveEvaluation flesh(HeldBar({4, 2, 2}));
-    pbs::ProjectiveDynamics<float> solver(flesh.bar.bent.mesh, flesh.energy, flesh.flesh.factor(), {.iterations = 10});
-    Positions x = flesh.bar.bent.lbs;
-    x(3, 1) = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(solver.minimise(flesh.bar.centres, x).iterations, 0);
-    EXPECT_FALSE(x.allFinite());
-}
-
 TEST(PackedVertexSweep, EqualsPlainFromLbsAndOnInvertedTets)
 {
     const VertexSweeps sweeps(bent_bar);

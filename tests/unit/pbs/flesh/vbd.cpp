@@ -133,8 +133,6 @@ TEST(VertexBlock, CoincidentVerticesLeaveTheDiagonal)
 
 using pbs::Acceleration;
 
-const Positions collapsed = Positions::Zero(bent.mesh.rest.rows(), 3);
-
 template <typename Scalar>
 Positions minimised(const pbs::VertexBlockOptions& options, Positions x)
 {
@@ -156,23 +154,7 @@ Positions swept(double omega, Positions x)
     return x;
 }
 
-// Theory: along a vertex the energy is exactly quadratic, so that omega times the way to its minimum lowers it by omega (2 - omega) / 2
-// g . H^-1 g, which is positive for 0 < omega < 2. An energy has some 40 roundings per tet of positive terms.
-TEST(VertexBlockDescent, NoSweepIncreasesTheEnergy)
-{
-    for (const Positions& start : {bent.lbs, mirrored, test_support::jittered(bent.lbs, 0.2), collapsed})
-        for (const double omega : {0.1, 1.0, 1.5, 1.85, 1.99}) {
-            Positions x = start;
-            double last = energy.value(x, centres);
-            for (int sweep = 0; sweep < 12; ++sweep) {
-                x = minimised<double>({.iterations = 1, .omega = omega}, x);
-                const double now = energy.value(x, centres);
-                EXPECT_LE(now, last + test_support::rounding_error(40.0 * tets, last)) << "omega " << omega << ", sweep " << sweep;
-                last = now;
-            }
-        }
-}
-
+// Theory: omega times the way to the minimum along a vertex lowers the energy by omega (2 - omega) / 2 g . H^-1 g.
 TEST(VertexBlockDescent, ASweepLowersTheEnergyAsTheoryStates)
 {
     const std::vector<pbs::VertexStar> stars = pbs::vertex_stars(energy);
@@ -193,7 +175,8 @@ TEST(VertexBlockDescent, ASweepLowersTheEnergyAsTheoryStates)
     }
 }
 
-// With the neighbours at rest in their own positions, omega = 2 leaves the energy and more increases it: the test above can fail.
+// With the neighbours at rest in their own positions, omega = 2 leaves the energy and more increases it: the contract's
+// NoIterationIncreasesTheEnergy can fail.
 TEST(VertexBlockDescent, BeyondTwoTheEnergyIncreases)
 {
     const double before = energy.value(bent.lbs, centres);
@@ -201,12 +184,10 @@ TEST(VertexBlockDescent, BeyondTwoTheEnergyIncreases)
     EXPECT_GT(energy.value(swept(2.2, bent.lbs), centres), 1.01 * before);
 }
 
-TEST(VertexBlockDescent, TheMinimumDependsNeitherOnTheStartNorOnOmegaNorOnTheAcceleration)
+TEST(VertexBlockDescent, TheMinimumDependsNeitherOnOmegaNorOnTheAcceleration)
 {
     const double size = (bent.lbs - bent.mesh.rest).norm();
     const Positions expected = minimised<double>({.iterations = 800}, bent.lbs);
-    const Positions jittered = test_support::jittered(bent.lbs, 0.05);
-    EXPECT_LT((minimised<double>({.iterations = 800}, jittered) - expected).norm(), 1e-6 * size);
     const pbs::VertexBlockOptions slow{.iterations = 2000, .omega = 1.5};
     for (const Positions& start : {bent.lbs, bent.mesh.rest}) EXPECT_LT((minimised<double>(slow, start) - expected).norm(), 1e-6 * size);
     const pbs::VertexBlockOptions chebyshev{.iterations = 3000, .acceleration = Acceleration::chebyshev, .rho = 0.95};
@@ -226,12 +207,6 @@ TEST(ChebyshevWeights, AreRatiosOfChebyshevPolynomials)
             EXPECT_NEAR(weights[k], expected, test_support::rounding_error(20.0 * k, expected)) << "rho " << rho << ", k " << k;
         }
     }
-}
-
-TEST(ChebyshevWeights, ARadiusOfZeroAcceleratesNothing)
-{
-    for (const double weight : pbs::chebyshev_weights(0.0, 10)) EXPECT_EQ(weight, 1.0);
-    EXPECT_TRUE(pbs::chebyshev_weights(0.9, 0).empty());
 }
 
 // x_{k+1} = omega_{k+1} (sweep(x_k) - x_{k-1}) + x_{k-1}, the weights from their closed form. The error of a sweep's roundings is magnified
@@ -269,15 +244,6 @@ TEST(VertexBlockDescent, ARadiusOfZeroIsPlainGaussSeidel)
     EXPECT_EQ(minimised<float>(chebyshev, bent.lbs), minimised<float>({.iterations = 7, .omega = 1.0}, bent.lbs));
     chebyshev.iterations = 0;
     EXPECT_EQ(minimised<double>(chebyshev, bent.lbs), minimised<double>({.iterations = 0}, bent.lbs));
-}
-
-TEST(VertexBlockDescent, ReportsWhetherPositionsAreNumbers)
-{
-    Positions x = bent.lbs;
-    pbs::VertexBlockDescent<float> solver(bent.mesh, energy, {.iterations = 3});
-    EXPECT_TRUE(solver.minimise(centres, x).is_finite);
-    x(3, 1) = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_FALSE(solver.minimise(centres, x).is_finite);
 }
 
 TEST(VertexBlockDescent, RefusesFactorsThatCannotConverge)

@@ -83,17 +83,15 @@ TEST(ColladaRig, AnArmAsColladaAndFbx)
 
 // Reference: the format's rules for what assimp drops or applies otherwise, on the same arm.
 
-std::string arm_with(const std::string& part, const std::string& other)
-{
-    std::string text = test_support::collada_arm();
-    EXPECT_NE(text.find(part), std::string::npos) << part;
-    return text.replace(text.find(part), part.size(), other);
-}
-
 std::string replaced(std::string text, const std::string& part, const std::string& other)
 {
     EXPECT_NE(text.find(part), std::string::npos) << part;
     return text.replace(text.find(part), part.size(), other);
+}
+
+std::string arm_with(const std::string& part, const std::string& other)
+{
+    return replaced(test_support::collada_arm(), part, other);
 }
 
 // The place [cm] of the point that is at (1, 4, 0) at rest and follows the elbow, and the angle by which it has turned.

@@ -123,36 +123,6 @@ TEST(FbxTransform, InheritsScalesAsItsTypeStates)
     }
 }
 
-// What each property means, by places that are known without any formula.
-TEST(FbxTransform, KeepsItsPivotsAndAddsItsOffsets)
-{
-    FbxTransform node;
-    node.rotation_pivot = {1, 2, 3};
-    node.lcl[1] = {10, 20, 30};
-    EXPECT_LE((placed_below({}, node).world * node.rotation_pivot - node.rotation_pivot).norm(), formula_rounding);
-    node.rotation_offset = {5, 0, 0};
-    EXPECT_LE((placed_below({}, node).world * node.rotation_pivot - Vec3(6, 2, 3)).norm(), formula_rounding);
-    node = {};
-    node.scaling_pivot = {1, 2, 3};
-    node.lcl[2] = {2, 3, 4};
-    EXPECT_LE((placed_below({}, node).world * node.scaling_pivot - node.scaling_pivot).norm(), formula_rounding);
-    EXPECT_LE((placed_below({}, node).world * Vec3(2, 3, 4) - Vec3(3, 5, 7)).norm(), formula_rounding);
-    node.scaling_offset = {0, 0, 1};
-    EXPECT_LE((placed_below({}, node).world * node.scaling_pivot - Vec3(1, 2, 4)).norm(), formula_rounding);
-}
-
-TEST(FbxTransform, TurnsBeforeAndAfterItsOwnRotation)
-{
-    FbxTransform node;
-    node.pre_rotation_deg = {0, 0, 90};
-    node.lcl[1] = {90, 0, 0};
-    EXPECT_LE((placed_below({}, node).world * Vec3(0, 1, 0) - Vec3(0, 0, 1)).norm(),
-              formula_rounding);  // y to z about x, then z stays about z
-    node = {};
-    node.post_rotation_deg = node.lcl[1] = {25, 40, -70};
-    EXPECT_LE((placed_below({}, node).world.matrix() - Matrix::Identity()).norm(), formula_rounding) << "the rotation and its inverse";
-}
-
 TEST(FbxTransform, ASegmentWithScaleCompensationKeepsItsSize)
 {
     FbxTransform elbow, hand;
@@ -184,29 +154,20 @@ TEST(FbxCurve, IsConstantOrLinearBetweenItsKeysAndConstantBeyond)
     }
 }
 
-// With tangents of a third of the time, time is the parameter of the Bezier curve, which is then Hermite's cubic polynomial.
-TEST(FbxCurve, IsHermitesPolynomialWhereItIsCubic)
+// With tangents of a third of the time, time is the parameter, and the curve is Hermite's cubic polynomial.
+TEST(FbxCurve, IsABezierCurveInTimeAndValueWhereItIsCubic)
 {
-    for (double share = 0.0; share <= 1.0; share += 0.125) {
-        const double t2 = share * share, t3 = t2 * share, hermite = 10.0 + 20.0 * (3.0 * t2 - 2.0 * t3);
-        EXPECT_NEAR(value_at(curve(FbxInterpolation::cubic), 1.0 + 2.0 * share), hermite, 1e-12);
-        const double slopes = 2.0 * (7.0 * (t3 - 2.0 * t2 + share) - 4.0 * (t3 - t2));  // 7 and -4 per second for 2 s
-        EXPECT_NEAR(value_at(curve(FbxInterpolation::cubic, 7.0, -4.0), 1.0 + 2.0 * share), hermite + slopes, 1e-11);
-    }
-}
-
-TEST(FbxCurve, WithWeightsIsABezierCurveInTimeAndValue)
-{
-    FbxCurve keys = curve(FbxInterpolation::cubic, 7.0, -4.0);
-    keys[0].weight = 0.9;
-    keys[0].next_weight = 0.2;
-    for (double t = 0.0; t <= 1.0; t += 0.125) {
-        const auto bezier = [&](double a, double b, double c, double d) {
-            const double u = 1.0 - t;
-            return u * u * u * a + 3.0 * u * u * t * b + 3.0 * u * t * t * c + t * t * t * d;
-        };
-        const double time_s = bezier(1.0, 1.0 + 0.9 * 2.0, 3.0 - 0.2 * 2.0, 3.0);
-        EXPECT_NEAR(value_at(keys, time_s), bezier(10.0, 10.0 + 7.0 * 1.8, 30.0 + 4.0 * 0.4, 30.0), 1e-10);
+    for (const auto& [weight, next_weight] : {std::pair(1.0 / 3.0, 1.0 / 3.0), std::pair(0.9, 0.2)}) {
+        FbxCurve keys = curve(FbxInterpolation::cubic, 7.0, -4.0);
+        if (weight > 0.5) keys[0].weight = weight, keys[0].next_weight = next_weight;  // a third is the default
+        for (double t = 0.0; t <= 1.0; t += 0.125) {
+            const auto bezier = [&](double a, double b, double c, double d) {
+                const double u = 1.0 - t;
+                return u * u * u * a + 3.0 * u * u * t * b + 3.0 * u * t * t * c + t * t * t * d;
+            };
+            const double time_s = bezier(1.0, 1.0 + weight * 2.0, 3.0 - next_weight * 2.0, 3.0);
+            EXPECT_NEAR(value_at(keys, time_s), bezier(10.0, 10.0 + 7.0 * 2.0 * weight, 30.0 + 4.0 * 2.0 * next_weight, 30.0), 1e-10);
+        }
     }
 }
 

@@ -143,14 +143,6 @@ TEST(PaperWeights, AreSharedByTheBonesAtTheJoint)
     }
 }
 
-TEST(PaperWeights, SumToOne)
-{
-    for (double x = -0.5; x < 2.5; x += 0.01) {
-        const pbs::Weights weights = pbs::paper_weights(bind_one({x, 0.02, 0.01}, palm()), palm());
-        EXPECT_NEAR(test_support::sum_of_weights(weights, 0), 1.0, test_support::mean_error(weights.weight.size(), 1.0));
-    }
-}
-
 TEST(RigidWeights, AreTheNearestBoneAlone)
 {
     const pbs::Positions rest{{0.95, 0, 0}, {1.9, 0, 0}};
