@@ -86,7 +86,7 @@ nlohmann::json cases_document(const std::string& study)
     const toml::table document =
         analysis::parse_toml_document(*::cases::by_name.at(study), study + "/cases.toml",
                                       {"case", "baseline", "place", "untouched", "method", "start", "budgets_ms", "tables_ms",
-                                       "training_members", "start_poses", "sweep", "cells", "without_start", "tuned"});
+                                       "training_members", "start_poses", "scene", "sweep", "cells", "without_start", "tuned"});
     std::ostringstream json;
     json << toml::json_formatter{document};
     return nlohmann::json::parse(json.str());

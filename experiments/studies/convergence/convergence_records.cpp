@@ -53,7 +53,7 @@ RateRow rate_row(const ConvergencePaths& of, std::size_t start, double floor)
     RateRow row;
     row.of = case_of(of.of, start);
     row.outcome = path.finite ? "finished" : "not_finite";
-    row.paper = look_at(path, 24);
+    row.paper = look_at(path, paper_iterations);
     row.nearest = nearest_to_reference(path);
     row.last = path.looks.back();
     row.iterations = row.last.iteration;
@@ -192,7 +192,8 @@ void add_starts(std::vector<analysis::Measurement>& to, const Group& group)
         for (const Tolerance& tolerance : tolerances)
             add(to, {"C03", "iterations_over_lbs_guess" + in_a_twist, tolerance.name, guess}, group, over_lbs(tolerance, path_of));
         add(to, {"C03", "error_after_24_iterations_over_lbs_guess", "", guess}, group, [path_of](const ConvergencePaths& of) {
-            return PathValue{look_at(path_of(of), 24).error_joint_pct / look_at(of.paths[0], 24).error_joint_pct};
+            return PathValue{look_at(path_of(of), paper_iterations).error_joint_pct /
+                             look_at(of.paths[0], paper_iterations).error_joint_pct};
         });
     };
     for (std::size_t start = 1; start < group.front()->paths.size(); ++start)

@@ -8,6 +8,7 @@
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 #include "pbs/character/bone_capsules.hpp"
 #include "pbs/solver/options.hpp"
 
@@ -22,7 +23,7 @@ namespace experiments {
 struct JiggleSetting {
     double k_stretch = 0.1;  // in the zone; 1 elsewhere
     double time_step_s = 0.01;
-    int iterations = 24;
+    int iterations = paper_iterations;
     double k_bind = 1.0;  // in the zone; 1 elsewhere
     pbs::Masses masses = pbs::Masses::unit;
     pbs::Order order = pbs::Order::plain;  // the paper's solver, by which C09 is judged

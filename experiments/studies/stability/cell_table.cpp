@@ -8,6 +8,7 @@
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
+#include "experiments/settings/scene_values.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/options.hpp"
 
@@ -99,6 +100,19 @@ std::string yes_or_no(bool value)
     return value ? "yes" : "no";
 }
 
+// The deformer with so many iterations and all its other options. The numbers, texts and truth values of JSON are spelled as in TOML.
+DeformerSpec with_iterations(const DeformerSpec& spec, int iterations)
+{
+    const DeformerKind& kind = *find_deformer_kind(spec.kind);
+    nlohmann::json options = kind.options_json(spec);
+    options["iterations"] = iterations;
+    std::vector<std::string> overrides;
+    for (const auto& [name, setting] : options.items()) overrides.push_back(spec.kind + "." + name + "=" + setting.dump());
+    DeformerSpec changed = spec;
+    kind.read(SceneValues("schema = 1\n", "stability", overrides, scene_schema()), spec.kind, changed);
+    return changed;
+}
+
 // The result of so many iterations from the broken shape of the cell, or from the deformer's own initial guess [m], #V x 3.
 pbs::Positions result_of(StabilityCell cell, int iterations, bool is_broken)
 {
@@ -106,7 +120,7 @@ pbs::Positions result_of(StabilityCell cell, int iterations, bool is_broken)
     if (!is_broken) cell.disturbance.start = Start::none;
     cell.disturbance.stays = true;
     StabilityBody body(cell);
-    const std::unique_ptr<Deformer> deformer = make_deformer(with_option(cell.spec, "iterations", iterations));
+    const std::unique_ptr<Deformer> deformer = make_deformer(with_iterations(cell.spec, iterations));
     deformer->reset(body.character());
     const Drive drive = body.drive(0);
     if (is_broken) deformer->start_from(drive.blended);

@@ -75,7 +75,7 @@ std::string start_and_record(const BrokenStartsCase& of, const std::string& fold
 StudyPlan plan(bool full)
 {
     return plan_of_cases("stability", full, [](const StudyCase& of, StudyPlan& plan) {
-        const Cells cells = stability_cells(of.value<std::string>("cells"), of.full, of.value<std::string>("body", "limb"));
+        const Cells cells = stability_cells(of.value<std::string>("cells"), of.value<std::string>("body", "limb"));
         if (of.has("most_iterations"))
             plan.runs.push_back(
                 work_run<BrokenStartsCase>(of.name, {cells, of.value<int>("most_iterations")}, of.cost_s, start_and_record));

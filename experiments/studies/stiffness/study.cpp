@@ -137,7 +137,7 @@ std::optional<analysis::Measurement> ratio_of(const analysis::CaseKey& of, const
 StudyPlan plan(bool full)
 {
     return plan_of_cases("stiffness", full, [](const StudyCase& of, StudyPlan& plan) {
-        const StiffnessSweep sweep{option_of<Varied>(of.value<std::string>("varied")), of.value<std::string>("body"), of.full,
+        const StiffnessSweep sweep{option_of<Varied>(of.value<std::string>("varied")), of.value<std::string>("body"),
                                    of.value<std::vector<int>>("vertices", {0})};
         plan.runs.push_back(work_run(of.name, sweep, of.cost_s, record_stiffness));
     });

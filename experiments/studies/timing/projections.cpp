@@ -145,7 +145,7 @@ void project_step(const StepLoops& loops, double (*lap_clock)(), std::vector<dou
         seconds[of] += now - before;
         before = now;
     };
-    for (int iteration = 0; iteration < iterations_per_step; ++iteration) {
+    for (int iteration = 0; iteration < paper_iterations; ++iteration) {
         loops.bind(), lap(bind_laps_s);
         loops.stretch(), lap(stretch_laps_s);
         loops.volume(), lap(volume_laps_s);
@@ -159,7 +159,7 @@ std::vector<double> time_step(const ProjectionVariant& variant)
     loops.load();
     const double warm_up = wall_s();  // brings the data into the caches after another variant's turn
     loops.iterate();
-    const bool by_cpu = variant.threads == 1 && (wall_s() - warm_up) * iterations_per_step > long_step_s;
+    const bool by_cpu = variant.threads == 1 && (wall_s() - warm_up) * paper_iterations > long_step_s;
 
     std::vector<double> seconds(samples, 0.0);
     const double load = wall_s();
@@ -195,9 +195,9 @@ nlohmann::json entry_of(const ProjectionVariant& variant, const Samples& own, co
     using enum pbs::ConstraintClass;
     for (const auto& [name, of, sample] : {std::tuple("ns_stretch", stretch, stretch_laps_s),
                                            std::tuple("ns_volume", volume, volume_laps_s), std::tuple("ns_bind", bind, bind_laps_s)})
-        put_spread(entry, name, scaled(spread_of(own[sample]), 1e9 / (iterations_per_step * variant.poses * size.constraints(of))));
+        put_spread(entry, name, scaled(spread_of(own[sample]), 1e9 / (paper_iterations * variant.poses * size.constraints(of))));
     put_spread(entry, "ms_step", scaled(spread_of(own[step_s]), 1e3 / variant.poses));
-    const double step_bytes = iterations_per_step * pbs::bytes_per_iteration(layout, size) / variant.poses;
+    const double step_bytes = paper_iterations * pbs::bytes_per_iteration(layout, size) / variant.poses;
     if (variant.threads == 1) entry["ms_floor"] = 1e-6 * step_bytes / bandwidth_at(memory, working_set_bytes);
     if (variant.loops.stretch_fill) entry["fill"] = {{"stretch", *variant.loops.stretch_fill}, {"volume", *variant.loops.volume_fill}};
     return entry;

@@ -25,7 +25,7 @@ namespace experiments {
 // between, so that the clock is read twice per class. Its work does not depend on its values, but small meshes stay in the cache, so the
 // parts need not add up.
 
-inline constexpr int paper_iterations = 24, usual_frames_per_turn = 2;
+inline constexpr int usual_frames_per_turn = 2;
 
 struct FrameTiming {
     std::string variant = {}, precision = {};  // plain, ordered; f32, f64

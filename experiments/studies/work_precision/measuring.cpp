@@ -10,6 +10,7 @@
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/settings/option_fields.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/studies/shared/kept_references.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/character/bodies.hpp"
@@ -88,7 +89,9 @@ public:
                                                                       .kept = read_references(pose.name, character_, bones)});
             for (int f = std::max(0, pose.frame - frames_of_memory); f < pose.frame; ++f) compared.way.push_back(frame(f));
         }
-        const ComparedMethod pbs{.name = "pbs", .kind = "pbs", .overrides = {"pbs.iterations=24", "pbs.order=plain", "pbs.precision=f64"}};
+        const ComparedMethod pbs{.name = "pbs",
+                                 .kind = "pbs",
+                                 .overrides = {fmt::format("pbs.iterations={}", paper_iterations), "pbs.order=plain", "pbs.precision=f64"}};
         baseline_ = make_deformer(spec_of({&pbs}, scene_, character_, family().front()));
         baseline_->reset(character_);
     }
