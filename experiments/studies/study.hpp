@@ -52,7 +52,8 @@ using StudyWork = std::function<std::string(const std::string& folder)>;
 struct StudyRun {
     std::string name;  // of its folder in the folder of the study
     Scene scene = {};
-    double cost_s = 0.0;  // expected, on one core
+    std::string motion = {};  // of a scene whose motion is a sweep, e.g. twist; a clip and movements have names of their own
+    double cost_s = 0.0;      // expected, on one core
     StudyWork work = {};
     bool beside = false;  // it decides nothing, for another run decides for its body and motion
     // For a scene that goes on until its reference breaks down: bad frames are recorded, listed below the claims, and left out of claims
@@ -70,6 +71,8 @@ StudyRun work_run(const std::string& name, const Case& of, double cost_s, std::s
     run.settings = to_json(of);
     return run;
 }
+
+using Overrides = std::vector<std::string>;  // KEY=VALUE of a scene
 
 enum class Extent { none, quick, full };
 
@@ -107,10 +110,13 @@ public:
     {
         return has(key) ? at(key).get<T>() : otherwise;
     }
-    Scene scene(const std::vector<std::string>& further_overrides = {}) const;  // of `scene` and `overrides`
-    pbs::Vec3 direction(const std::string& key) const;                          // of a jolt; upwards if the case does not state it
-    analysis::CaseKey key() const;                                              // body, motion, pose, angle_deg
-    const nlohmann::json& values() const;                                       // all keys, which then count as read
+    Scene scene(const Overrides& further_overrides = {}) const;  // of `scene` and `overrides`
+    // PBS of that scene as a table states it: label, and where they differ name, variant and overrides.
+    DeformerSpec further_pbs(const nlohmann::json& table, const Overrides& further_overrides = {}) const;
+    StudyRun scene_run(const std::string& run_name, const Overrides& further_overrides = {}) const;  // of that scene, with `motion`
+    pbs::Vec3 direction(const std::string& key) const;  // of a jolt; upwards if the case does not state it
+    analysis::CaseKey key() const;                      // body, motion, pose, angle_deg
+    const nlohmann::json& values() const;               // all keys, which then count as read
     void require_nothing_unread() const;
 
 private:
@@ -138,7 +144,6 @@ struct ReadingValues {
     };
     std::vector<LeftOut> left_out = {};
 };
-using Overrides = std::vector<std::string>;  // KEY=VALUE of the scene
 
 // The quantities that the claim is judged by and that are not among those measured.
 std::vector<ReadingValues::LeftOut> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason);
@@ -177,7 +182,7 @@ Study jiggle_study();
 Study stiffness_study();
 Study setup_study();
 Study ambiguity_study();
-Study frames_study();  // study_cases.cpp: scenes alone
+Study frames_study();
 Study timing_study();
 Study verification_study();
 Study fit_study();

@@ -1,5 +1,4 @@
 #include "analysis/records/toml_keys.hpp"
-#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/studies/study.hpp"
 #include "generated/cases_texts.hpp"
 #include "pbs/character/bodies.hpp"
@@ -54,31 +53,6 @@ void add_differences(const nlohmann::json& a, const nlohmann::json& b, const std
                         differing);
 }
 
-// The column "jiggling" of Table 1 is k_stretch in the zone. Outside the zone k_stretch is 1.
-void add_pbs(Scene& scene, const nlohmann::json& other)
-{
-    DeformerSpec& spec = scene.deformers.emplace_back(*find_deformer_with<pbs::PbsOptions>(scene));
-    spec.label = other.at("label");
-    spec.variant = other.at("variant");
-    auto& options = options_of<pbs::PbsOptions>(spec);
-    options.k_stretch = other.value("k_stretch", options.k_stretch);
-    options.contact = other.value("contact", options.contact);
-    if (other.contains("k_in_zone")) options.jiggle = pbs::Jiggle{other.at("k_in_zone").get<double>()};
-    if (other.contains("lbs_entry")) options.lbs_entry = option_of<pbs::LbsEntry>(other.at("lbs_entry").get<std::string>());
-}
-
-StudyPlan plan(bool full)
-{
-    return plan_of_cases("frames", full, [](const StudyCase& of, StudyPlan& plan) {
-        StudyRun run{.name = of.name, .cost_s = of.cost_s};
-        run.scene = of.scene({"output.frames=[]", "output.frame_names=[]", "output.frames_every=1"});
-        run.scene.name = of.name;
-        run.bad_frames_are_results = !run.scene.reference.empty();  // the sweeps go beyond the last pose that flesh reaches
-        for (const nlohmann::json& other : of.value<nlohmann::json>("pbs", nlohmann::json::array())) add_pbs(run.scene, other);
-        plan.runs.push_back(run);
-    });
-}
-
 }  // namespace
 
 nlohmann::json cases_document(const std::string& study)
@@ -86,7 +60,7 @@ nlohmann::json cases_document(const std::string& study)
     const toml::table document =
         analysis::parse_toml_document(*::cases::by_name.at(study), study + "/cases.toml",
                                       {"case", "baseline", "place", "untouched", "method", "start", "budgets_ms", "tables_ms",
-                                       "training_members", "start_poses", "scene", "sweep", "cells", "without_start", "tuned"});
+                                       "training_members", "start_poses", "added", "scene", "sweep", "cells", "without_start", "tuned"});
     std::ostringstream json;
     json << toml::json_formatter{document};
     return nlohmann::json::parse(json.str());
@@ -122,11 +96,30 @@ bool StudyCase::has(const std::string& key) const
     return values_.contains(key);
 }
 
-Scene StudyCase::scene(const std::vector<std::string>& further) const
+Scene StudyCase::scene(const Overrides& further) const
 {
-    auto overrides = value<std::vector<std::string>>("overrides", {});
+    auto overrides = value<Overrides>("overrides", {});
     overrides.insert(overrides.end(), further.begin(), further.end());
     return read_scene(value<std::string>("scene"), overrides);
+}
+
+DeformerSpec StudyCase::further_pbs(const nlohmann::json& table, const Overrides& further) const
+{
+    Overrides overrides = {R"(deformers.use=["pbs"])", R"(reference.name="")"};
+    for (const Overrides& own : {table.value("overrides", Overrides()), further}) overrides.insert(overrides.end(), own.begin(), own.end());
+    DeformerSpec spec = scene(overrides).deformers.front();
+    spec.label = table.at("label");
+    spec.name = table.value("name", spec.name);
+    spec.variant = table.value("variant", spec.variant);
+    return spec;
+}
+
+StudyRun StudyCase::scene_run(const std::string& run_name, const Overrides& further) const
+{
+    StudyRun run{.name = run_name, .scene = scene(further), .cost_s = cost_s};
+    run.scene.name = run_name;
+    run.motion = value<std::string>("motion", "");
+    return run;
 }
 
 pbs::Vec3 StudyCase::direction(const std::string& key) const
@@ -185,14 +178,6 @@ StudyPlan plan_of_cases(const std::string& study, bool full, const std::function
             for (std::size_t one = first; one < last; ++one) add_case(cases[one], body);
     }
     return plan;
-}
-
-// The study `frames`: the frames that figures and the report's viewer show (frames/cases.toml). No claim is judged by them. It writes
-// DIR/frames/RUN/frames/*.vtu and .vtp, and in DIR/frames/RUN the records of a scene.
-
-Study frames_study()
-{
-    return {"frames", plan};
 }
 
 }  // namespace experiments

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace experiments {
 
@@ -278,6 +277,67 @@ void add_half_step(std::vector<Measurement>& measurements, const std::string& bo
     measurements.push_back(half);
 }
 
+// The vertices of a stop's bone in the jiggling zone.
+std::vector<int> probe_of(const StopCase& stop, const pbs::Character& character)
+{
+    const std::vector<bool> zone = pbs::jiggle_zone(character.binding);
+    const int bone = pbs::find_bone(character.skeleton, stop.bone);
+    std::vector<int> probe;
+    for (std::size_t v = 0; v < zone.size(); ++v)
+        if (zone[v] && character.binding.bone[v] == bone) probe.push_back(static_cast<int>(v));
+    if (probe.empty())
+        throw pbs::InputError("jiggle/cases.toml", 0, "stops", stop.bone, "expected a bone with vertices in the jiggling zone");
+    return probe;
+}
+
+// A deformer that stops, with the columns of stop.csv that describe it, and its steps for each step of PBS.
+struct StoppedDeformer {
+    DeformerSpec spec;
+    StopRow described;
+    int finer = 1;
+};
+
+// PBS with each stiffness, XPBD with the material of the reference, and the reference in time with each damping.
+std::vector<StoppedDeformer> stopped_deformers(const StopCase& stop)
+{
+    constexpr double none = analysis::not_known;
+    std::vector<StoppedDeformer> deformers;
+    for (const double k : stop.k_stretch)
+        deformers.push_back({jiggling(spec_of(stop.scene, "pbs"), {.k_stretch = k}), {"pbs", k, none, none}});
+    DeformerSpec flesh = spec_of(stop.scene, stop.scene.reference), xpbd = spec_of(stop.scene, "xpbd");
+    auto& fem = options_of<FemOptions>(flesh);
+    auto& own = options_of<pbs::XpbdOptions>(xpbd);
+    own.young_pa = fem.young_pa;
+    own.poisson = fem.poisson;
+    own.density_kg_m3 = fem.density_kg_m3;
+    own.jiggle = true;
+    for (const int finer : {1, stop.finer_steps}) deformers.push_back({xpbd, {"xpbd", none, own.young_pa, none}, finer});
+    fem.dynamics = reference_fem::Dynamics::generalized_alpha;
+    fem.contact = false;  // generalised alpha has none
+    for (const double damping_s : stop.rayleigh_stiffness_s) {
+        fem.rayleigh_stiffness_s = damping_s;
+        deformers.push_back({flesh, {flesh.label, none, fem.young_pa, damping_s}, stop.finer_steps});
+    }
+    return deformers;
+}
+
+// The response of a deformer. Nothing is fitted where it does not swing.
+StopRow stop_row(const StopCase& stop, const pbs::Character& character, const std::vector<int>& probe, const StoppedDeformer& deformer)
+{
+    MotionSpec motion = stop.scene.motion;
+    motion.frames *= deformer.finer;
+    motion.rate_hz *= deformer.finer;
+    motion.time_step_s /= deformer.finer;
+    const int still_steps = static_cast<int>(std::lround(stop.still_s / motion.time_step_s));
+    StopRow row = deformer.described;
+    row.response = stop_response(character, deformer.spec, probe, make_motion(motion, character.skeleton, stop.scene.file), still_steps);
+    row.time_step_ms = 1e3 * motion.time_step_s;
+    DampedOscillation& swing = row.response.swing;
+    row.outcome = name_of(swing.outcome);
+    if (!swing.found()) swing.frequency_hz = swing.damping_ratio = {analysis::not_known, analysis::not_known, analysis::not_known};
+    return row;
+}
+
 }  // namespace
 
 const Columns<ResponseRow> response_columns =
@@ -340,45 +400,15 @@ RECORD_SETTINGS_AND(StopCase,
                         .constant("settled_share", settled_share),
                     scene, bone, k_stretch, rayleigh_stiffness_s, finer_steps, still_s)
 
-std::string record_stop(const StopCase& of, const std::string& folder)
+std::string record_stop(const StopCase& stop, const std::string& folder)
 {
-    const pbs::Character character = pbs::make_character(of.scene.character);
-    const std::vector<bool> zone = pbs::jiggle_zone(character.binding);
-    const int bone = pbs::find_bone(character.skeleton, of.bone);
-    std::vector<int> probe;
-    for (std::size_t v = 0; v < zone.size(); ++v)
-        if (zone[v] && character.binding.bone[v] == bone) probe.push_back(static_cast<int>(v));
-    if (probe.empty())
-        throw pbs::InputError("jiggle/cases.toml", 0, "stops", of.bone, "expected a bone with vertices in the jiggling zone");
-    constexpr double none = analysis::not_known;
+    const pbs::Character character = pbs::make_character(stop.scene.character);
+    const std::vector<int> probe = probe_of(stop, character);
     std::vector<StopRow> rows;
     std::string breakdown;
-    const auto add = [&](const DeformerSpec& spec, StopRow row, int finer) {
-        MotionSpec motion = of.scene.motion;
-        motion.frames *= finer;
-        motion.rate_hz *= finer;
-        motion.time_step_s /= finer;
-        const int still_steps = static_cast<int>(std::lround(of.still_s / motion.time_step_s));
-        row.response = stop_response(character, spec, probe, make_motion(motion, character.skeleton, of.scene.file), still_steps);
-        row.time_step_ms = 1e3 * motion.time_step_s;
-        row.outcome = name_of(row.response.swing.outcome);
-        if (analysis::DampedOscillation& swing = row.response.swing; !swing.found())
-            for (Interval* of_fit : {&swing.frequency_hz, &swing.damping_ratio}) of_fit->estimate = of_fit->low = of_fit->high = none;
+    for (const StoppedDeformer& deformer : stopped_deformers(stop)) {
+        const StopRow& row = rows.emplace_back(stop_row(stop, character, probe, deformer));
         if (!row.response.finished) breakdown += fmt::format("{} in steps of {} ms. ", row.deformer, row.time_step_ms);
-        rows.push_back(std::move(row));
-    };
-    for (const double k : of.k_stretch) add(jiggling(spec_of(of.scene, "pbs"), {.k_stretch = k}), {"pbs", k, none, none}, 1);
-    DeformerSpec flesh = spec_of(of.scene, of.scene.reference), xpbd = spec_of(of.scene, "xpbd");
-    auto& fem = options_of<FemOptions>(flesh);
-    auto& own = options_of<pbs::XpbdOptions>(xpbd);
-    std::tie(own.young_pa, own.poisson, own.density_kg_m3) = std::tuple(fem.young_pa, fem.poisson, fem.density_kg_m3);
-    own.jiggle = true;
-    for (const int finer : {1, of.finer_steps}) add(xpbd, {"xpbd", none, own.young_pa, none}, finer);
-    fem.dynamics = reference_fem::Dynamics::generalized_alpha;
-    fem.contact = false;  // generalised alpha has none
-    for (const double damping_s : of.rayleigh_stiffness_s) {
-        fem.rayleigh_stiffness_s = damping_s;
-        add(flesh, {flesh.label, none, fem.young_pa, damping_s}, of.finer_steps);
     }
     table_of(stop_columns, rows).write(analysis::path_in(folder, "stop.csv"));
     return breakdown;

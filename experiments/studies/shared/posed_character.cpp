@@ -125,26 +125,9 @@ const DeformerSpec& spec_of(const Scene& scene, const std::string& name)
     return *found;
 }
 
-std::string case_name(const analysis::CaseKey& of)
+const analysis::Columns<analysis::CaseKey>& pose_columns()
 {
-    return of.angle_deg ? fmt::format("{}_{}_{:g}", of.body, of.motion, *of.angle_deg) : of.body + "_" + of.pose;
-}
-
-using analysis::CaseKey;
-using analysis::Columns;
-using analysis::FrameMetrics;
-
-const Columns<CaseKey>& pose_columns()
-{
-    static const Columns<CaseKey> columns = MEMBER_COLUMNS(CaseKey, body, motion, pose, angle_deg);
-    return columns;
-}
-
-const Columns<FrameMetrics>& volume_columns()
-{
-    static const Columns<FrameMetrics> columns = {{"volume_change_pct", &FrameMetrics::volume_change_pct},
-                                                  {"volume_abs_change_pct", &FrameMetrics::volume_abs_change_pct},
-                                                  {"inverted", &FrameMetrics::inverted_tets}};
+    static const analysis::Columns<analysis::CaseKey> columns = MEMBER_COLUMNS(analysis::CaseKey, body, motion, pose, angle_deg);
     return columns;
 }
 
