@@ -27,8 +27,8 @@ std::string range_text(const analysis::Verdict& verdict)
 {
     std::vector<double> values;
     std::string unit;
-    for (const analysis::JudgedCase& of : verdict.own.cases)
-        if (std::isfinite(of.value)) values.push_back(of.value), unit = of.unit;
+    for (const analysis::JudgedCase& judged_case : verdict.own.cases)
+        if (std::isfinite(judged_case.value)) values.push_back(judged_case.value), unit = judged_case.unit;
     if (values.empty()) return "";
     const auto [least, most] = std::ranges::minmax(values);
     return fmt::format("{:.3g} to {:.3g}{}", least, most, unit.empty() || unit == "1" ? "" : " " + unit);
@@ -143,7 +143,7 @@ void write_verdicts(const std::vector<analysis::Verdict>& verdicts, const std::s
 
 bool show_last_screen(LastScreen screen)
 {
-    std::ranges::stable_sort(screen.here, {}, [](const analysis::Verdict& of) { return of.claim.id; });
+    std::ranges::stable_sort(screen.here, {}, [](const analysis::Verdict& verdict) { return verdict.claim.id; });
     const std::string records = records_folder();
     const std::size_t width = std::min<std::size_t>(terminal_width(), 100);
     const bool has_record = fs::exists(fs::path(records) / "provenance.json");

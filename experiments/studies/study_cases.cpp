@@ -13,12 +13,15 @@
 namespace experiments {
 namespace {
 
-// The keys of a form or a body replace those that all have in common.
+// The keys of a form or a body replace those that all have in common, except the overrides, which follow the common ones.
 void select(nlohmann::json& values, const std::vector<std::string>& tables, const std::string& selected)
 {
     const nlohmann::json chosen = values.value(selected, nlohmann::json::object());
     for (const std::string& table : tables) values.erase(table);
+    nlohmann::json overrides = values.value("overrides", nlohmann::json::array());
+    for (const nlohmann::json& further : chosen.value("overrides", nlohmann::json::array())) overrides.push_back(further);
     values.update(chosen);
+    if (values.contains("overrides")) values["overrides"] = overrides;
 }
 
 // The case of one body and one form. A case without a table `quick` is measured in the default form as in the full one.
@@ -31,9 +34,7 @@ nlohmann::json resolved(nlohmann::json values, const std::string& body, bool ful
         values["body"] = body;
     }
     select(values, bodies, body);
-    const bool is_short = !full && values.contains("quick");
-    select(values, {"quick", "full"}, is_short ? "quick" : "full");
-    if (is_short) values["is_short"] = true;
+    select(values, {"quick", "full"}, !full && values.contains("quick") ? "quick" : "full");
     std::string text = values.dump();
     for (std::size_t at = 0; (at = text.find("{body}", at)) != std::string::npos;) text.replace(at, 6, body);
     return nlohmann::json::parse(text);
@@ -76,10 +77,9 @@ std::vector<std::string> differing_paths(const nlohmann::json& a, const nlohmann
 StudyCase::StudyCase(const std::string& study, const nlohmann::json& values, bool is_full)
     : name(values.at("name").get<std::string>()),
       cost_s(values.at(is_full ? "full_s" : "quick_s").get<double>()),
-      full(!values.contains("is_short")),
       where_(study + "/cases.toml: case " + name),
       values_(values),
-      read_({"name", "body", "quick_s", "full_s", "is_short"})
+      read_({"name", "body", "quick_s", "full_s"})
 {
 }
 
@@ -148,7 +148,7 @@ void StudyCase::require_nothing_unread() const
         if (!read_.contains(key)) throw std::logic_error(fmt::format("{}: nothing reads the key {}", where_, key));
 }
 
-StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& of, StudyPlan& plan)>& add)
+StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& study_case, StudyPlan& plan)>& add)
 {
     StudyPlan plan;
     const nlohmann::json cases = cases_document(study).at("case");
@@ -160,9 +160,9 @@ StudyPlan plan_of_cases(const std::string& study, bool full, const std::function
         if (!own.contains(full ? "full_s" : "quick_s") || is_left_out(body)) return;
         try {
             if (values.contains("bodies")) pbs::require_body(body);
-            const StudyCase of(study, own, full);
-            add(of, plan);
-            of.require_nothing_unread();
+            const StudyCase study_case(study, own, full);
+            add(study_case, plan);
+            study_case.require_nothing_unread();
         } catch (const pbs::InputError& error) {
             if (body.empty()) throw;
             plan.left_out.push_back({body, error.what()});

@@ -60,10 +60,10 @@ double distance_m(const ReadMotion& a, const ReadMotion& b, const std::vector<bo
 // One reading's way through the motion, one frame per turn, in the order and precision that are judged.
 class TimedReading {
 public:
-    TimedReading(const StudyCase& of, const pbs::Character& base, const pbs::Motion& motion, const Overrides& reading)
+    TimedReading(const StudyCase& study_case, const pbs::Character& base, const pbs::Motion& motion, const Overrides& reading)
         : motion_(motion), dt_s_(motion.time_step_s)
     {
-        const Scene scene = of.scene(reading);
+        const Scene scene = study_case.scene(reading);
         DeformerSpec spec = spec_of(scene, "pbs");
         options_of<pbs::PbsOptions>(spec).order = pbs::Order::plain;
         options_of<pbs::PbsOptions>(spec).precision = pbs::Precision::f64;
@@ -140,25 +140,25 @@ std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading
     return rows;
 }
 
-std::vector<JudgedReading> values_of_frames(const StudyCase& of, const std::vector<Overrides>& readings)
+std::vector<JudgedReading> values_of_frames(const StudyCase& study_case, const std::vector<Overrides>& readings)
 {
-    const Scene scene = of.scene();
+    const Scene scene = study_case.scene();
     const pbs::Character character = pbs::make_character(scene.character);
     const pbs::Motion motion = make_motion(scene.motion, character.skeleton, scene.file);
     std::vector<std::unique_ptr<TimedReading>> timed;
     std::vector<TimedVariant> turns;
     for (const Overrides& reading : readings) {
-        timed.push_back(std::make_unique<TimedReading>(of, character, motion, reading));
+        timed.push_back(std::make_unique<TimedReading>(study_case, character, motion, reading));
         turns.push_back([one = timed.back().get()] { return one->turn(); });
     }
-    const auto seconds = take_turns(turns, {.seconds = of.value<double>("timing_s")});
-    std::vector<JudgedReading> all;
+    const auto seconds = take_turns(turns, {.seconds = study_case.value<double>("timing_s")});
+    std::vector<JudgedReading> judged_readings;
     for (std::size_t i = 0; i < timed.size(); ++i) {
         const double per_s = 1.0 / spread_of(seconds[i][0]).median;
         const analysis::CaseKey of_frame = {.body = scene.character.body, .deformer = "pbs"};
-        all.push_back({judged({{"C10", "frames_per_s", of_frame, per_s, per_s, per_s, "1/s"}}), !timed[i]->finite()});
+        judged_readings.push_back({judged({{"C10", "frames_per_s", of_frame, per_s, per_s, per_s, "1/s"}}), !timed[i]->finite()});
     }
-    return all;
+    return judged_readings;
 }
 
 }  // namespace experiments

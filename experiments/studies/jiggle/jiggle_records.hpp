@@ -146,12 +146,12 @@ extern const analysis::Columns<ZoneRow> zone_columns;
 
 // Everything that a run's result depends on.
 nlohmann::json to_json(const Jolt& jolt);
-nlohmann::json to_json(const JoltCase& of);
-nlohmann::json to_json(const StopCase& of);
+nlohmann::json to_json(const JoltCase& jolt_case);
+nlohmann::json to_json(const StopCase& stop);
 
 // Both return what broke down, if anything.
-std::string record_jolts(const JoltCase& of, const std::string& folder);
-std::string record_stop(const StopCase& of, const std::string& folder);  // stop.csv
+std::string record_jolts(const JoltCase& jolt_case, const std::string& folder);
+std::string record_stop(const StopCase& stop, const std::string& folder);  // stop.csv
 
 // The values of C09 from the responses of one body at all settings.
 //   for (const analysis::Measurement& measurement : jiggle_values("limb", measured)) ...

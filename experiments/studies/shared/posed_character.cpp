@@ -110,12 +110,12 @@ std::vector<Shapes> PosedCharacter::shapes(const std::vector<pbs::PbsOptions>& o
     return all;
 }
 
-analysis::ErrorNorms PosedCharacter::distance(const Shape& one, const Shape& other) const
+analysis::ErrorNorms PosedCharacter::distance(const Shape& shape, const Shape& other) const
 {
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-    if (!one.finished || !other.finished) return {nothing, nothing, nothing};
+    if (!shape.finished || !other.finished) return {nothing, nothing, nothing};
     const Eigen::Index vertices = character_.mesh.rest.rows();
-    return error_metrics_.measure(one.positions.topRows(vertices), other.positions.topRows(vertices));
+    return error_metrics_.measure(shape.positions.topRows(vertices), other.positions.topRows(vertices));
 }
 
 const DeformerSpec& spec_of(const Scene& scene, const std::string& name)

@@ -57,7 +57,7 @@ public:
 
     // Between two shapes, on this character's vertices, which are the first ones of a refined character; by the metrics of every record.
     // Not a number where one of them did not finish.
-    analysis::ErrorNorms distance(const Shape& one, const Shape& other) const;
+    analysis::ErrorNorms distance(const Shape& shape, const Shape& other) const;
 
     const pbs::Character& character() const { return character_; }
     void set_weights(pbs::Weights weights) { character_.weights = std::move(weights); }  // that all deformers blend with from now on

@@ -89,9 +89,9 @@ bool is_at_rest(const CellResult& result)
 }
 
 template <typename Predicate>
-analysis::Interval share(const Group& cells, Predicate of)
+analysis::Interval share(const Group& cells, Predicate predicate)
 {
-    const auto counted = std::ranges::count_if(cells, [&](const MeasuredCell* measured) { return of(measured->result); });
+    const auto counted = std::ranges::count_if(cells, [&](const MeasuredCell* measured) { return predicate(measured->result); });
     return analysis::share_interval(static_cast<int>(counted), static_cast<int>(cells.size()));
 }
 
@@ -128,10 +128,10 @@ pbs::Positions result_of(StabilityCell cell, int iterations, bool is_broken)
     return deformer->positions();
 }
 
-std::optional<double> joint_pct(const StabilityCell& cell, const pbs::Positions& one, const pbs::Positions& other)
+std::optional<double> joint_pct(const StabilityCell& cell, const pbs::Positions& positions, const pbs::Positions& other)
 {
-    if (!one.allFinite() || !other.allFinite()) return std::nullopt;
-    return analysis::ErrorMetrics(error_domain(stability_character(cell), {})).measure(one, other).joint_pct;
+    if (!positions.allFinite() || !other.allFinite()) return std::nullopt;
+    return analysis::ErrorMetrics(error_domain(stability_character(cell), {})).measure(positions, other).joint_pct;
 }
 
 int inverted(const StabilityCell& cell, const pbs::Positions& positions)
@@ -139,11 +139,11 @@ int inverted(const StabilityCell& cell, const pbs::Positions& positions)
     return static_cast<int>((pbs::tet_volumes(positions, stability_character(cell).mesh.tets).array() <= 0.0).count());
 }
 
-bool is_far(const StabilityCell& cell, const pbs::Positions& one, const pbs::Positions& other)
+bool is_far(const StabilityCell& cell, const pbs::Positions& positions, const pbs::Positions& other)
 {
     const pbs::Positions& rest = stability_character(cell).mesh.rest;
     const double diagonal_m = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
-    return (one - other).rowwise().norm().maxCoeff() > analysis::StabilityBounds{}.farthest * diagonal_m;
+    return (positions - other).rowwise().norm().maxCoeff() > analysis::StabilityBounds{}.farthest * diagonal_m;
 }
 
 // The least number of iterations from which on all distances are within the bound. pct: by increasing number of iterations.
@@ -218,23 +218,26 @@ CellRow cell_row(const MeasuredCell& measured)
 CsvTable stability_measurements(const std::vector<MeasuredCell>& cells)
 {
     std::vector<analysis::Measurement> rows;
-    for (const auto& [sweep, of] : by_sweep(cells)) {
+    for (const auto& [sweep, group] : by_sweep(cells)) {
         const auto add = [&, key = sweep](const std::string& quantity, const Group& among, const analysis::Interval& share) {
             rows.push_back({"C08", quantity, key, share.estimate, share.low, share.high, "1"});
             rows.back().n = static_cast<int>(among.size());
         };
-        const auto add_at_rest = [&, all = of](const std::string& quantity, double least_s, double most_s) {
-            Group among = all;
-            std::erase_if(among, [&](const auto* one) { return one->cell.time_step_s < least_s || one->cell.time_step_s > most_s; });
+        const auto add_at_rest = [&, whole = group](const std::string& quantity, double least_s, double most_s) {
+            Group among = whole;
+            std::erase_if(
+                among, [&](const auto* measured) { return measured->cell.time_step_s < least_s || measured->cell.time_step_s > most_s; });
             if (among.empty()) return;
             const double at_rest = share(among, is_at_rest).estimate;
             add(quantity, among, {at_rest, at_rest, at_rest});
         };
-        const double away = share(of, ran_away).estimate;
-        add("share_of_cells_diverged", of, {away, away, away});
-        add("share_of_cells_inverted", of, share(of, [](const CellResult& result) { return is(result, StabilityOutcome::inverted); }));
-        add("share_of_cells_in_motion", of, share(of, never_rests));
-        add("share_of_cells_at_rest", of, share(of, [](const CellResult& result) { return is(result, StabilityOutcome::converged); }));
+        const double away = share(group, ran_away).estimate;
+        add("share_of_cells_diverged", group, {away, away, away});
+        add("share_of_cells_inverted", group,
+            share(group, [](const CellResult& result) { return is(result, StabilityOutcome::inverted); }));
+        add("share_of_cells_in_motion", group, share(group, never_rests));
+        add("share_of_cells_at_rest", group,
+            share(group, [](const CellResult& result) { return is(result, StabilityOutcome::converged); }));
         add_at_rest("share_of_cells_at_rest_in_small_steps", 0.0, 0.1);
         add_at_rest("share_of_cells_at_rest_in_large_steps", 0.05, std::numeric_limits<double>::infinity());
     }

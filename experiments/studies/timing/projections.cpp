@@ -140,9 +140,9 @@ double wall_s()
 void project_step(const StepLoops& loops, double (*lap_clock)(), std::vector<double>& seconds)
 {
     double before = lap_clock();
-    const auto lap = [&](Sample of) {
+    const auto lap = [&](Sample sample) {
         const double now = lap_clock();
-        seconds[of] += now - before;
+        seconds[sample] += now - before;
         before = now;
     };
     for (int iteration = 0; iteration < paper_iterations; ++iteration) {
@@ -172,7 +172,7 @@ std::vector<double> time_step(const ProjectionVariant& variant)
     seconds[step_wall_s] = wall_end - wall;
     seconds[step_s] = variant.threads == 1 ? cpu_end - cpu : wall_end - wall;
     const double laps = seconds[stretch_laps_s] + seconds[volume_laps_s] + seconds[bind_laps_s];
-    for (const Sample of : {stretch_laps_s, volume_laps_s, bind_laps_s}) seconds[of] *= seconds[step_s] / laps;
+    for (const Sample sample : {stretch_laps_s, volume_laps_s, bind_laps_s}) seconds[sample] *= seconds[step_s] / laps;
     return seconds;
 }
 
@@ -314,7 +314,7 @@ nlohmann::json time_projections(const BenchBody& body, const std::vector<int>& t
     const std::vector<ProjectionVariant> variants = projection_variants(body, threads);
     std::vector<TimedVariant> turns;
     for (const ProjectionVariant& variant : variants) turns.push_back([&variant] { return time_step(variant); });
-    const std::vector<Samples> all = take_turns(turns, rounds);
+    const std::vector<Samples> sampleses = take_turns(turns, rounds);
     // On one thread. std::out_of_range by at() where there is no such variant.
     const auto place_of = [&](const std::string& variant, const std::string& precision) {
         const auto found = std::ranges::find_if(variants, [&](const ProjectionVariant& one) {
@@ -328,11 +328,11 @@ nlohmann::json time_projections(const BenchBody& body, const std::vector<int>& t
     nlohmann::json entries = nlohmann::json::array();
     for (std::size_t i = 0; i < variants.size(); ++i) {
         const ProjectionVariant& variant = variants[i];
-        nlohmann::json entry = entry_of(variant, all[i], size, memory);
+        nlohmann::json entry = entry_of(variant, sampleses[i], size, memory);
         const Sample clock = variant.threads == 1 ? step_s : step_wall_s;
         for (const std::string baseline : {"plain_spread", "plain", "plain_native"}) {
             const std::size_t place = place_of(baseline, variant.precision);
-            put_spread(entry, "ratio_to_" + baseline, spread_of_ratios(all.at(place)[clock], all[i][clock], variant.poses));
+            put_spread(entry, "ratio_to_" + baseline, spread_of_ratios(sampleses.at(place)[clock], sampleses[i][clock], variant.poses));
             if (baseline == "plain_native") continue;  // the same answer as plain
             const AnswerRatio answer = answer_ratio(variant.loops.residuals(), variants[place].loops.residuals(), mean_distance_m);
             entry["residual_to_" + baseline] = answer.residual;
@@ -340,7 +340,7 @@ nlohmann::json time_projections(const BenchBody& body, const std::vector<int>& t
         }
         if (variant.threads > 1) {
             const std::size_t alone = place_of(variant.variant, variant.precision);
-            const std::vector<double>&alone_s = all.at(alone)[step_wall_s], &together_s = all[i][step_wall_s];
+            const std::vector<double>&alone_s = sampleses.at(alone)[step_wall_s], &together_s = sampleses[i][step_wall_s];
             const double times_the_poses = double(variant.poses) / variants[alone].poses;
             put_spread(entry, "speedup_by_threads", spread_of_ratios(alone_s, together_s, times_the_poses));
             // Of the fastest rounds, which were disturbed least.
