@@ -13,15 +13,33 @@
 namespace experiments {
 namespace {
 
-// The keys of a form or a body replace those that all have in common, except the overrides, which follow the common ones.
+// The keys of a form, a body or an entry of `each` replace those that all have in common, except the overrides, which follow the common
+// ones.
+void add_keys(nlohmann::json& values, const nlohmann::json& own)
+{
+    nlohmann::json overrides = values.value("overrides", nlohmann::json::array());
+    for (const nlohmann::json& override : own.value("overrides", nlohmann::json::array())) overrides.push_back(override);
+    values.merge_patch(own);
+    if (values.contains("overrides")) values["overrides"] = overrides;
+}
+
 void select(nlohmann::json& values, const std::vector<std::string>& tables, const std::string& selected)
 {
     const nlohmann::json chosen = values.value(selected, nlohmann::json::object());
     for (const std::string& table : tables) values.erase(table);
-    nlohmann::json overrides = values.value("overrides", nlohmann::json::array());
-    for (const nlohmann::json& further : chosen.value("overrides", nlohmann::json::array())) overrides.push_back(further);
-    values.update(chosen);
-    if (values.contains("overrides")) values["overrides"] = overrides;
+    add_keys(values, chosen);
+}
+
+// A case with a list `each` stands for one case per entry, which has the keys of both.
+nlohmann::json each_of(const nlohmann::json& cases)
+{
+    nlohmann::json expanded = nlohmann::json::array();
+    for (nlohmann::json common : cases) {
+        const nlohmann::json entries = common.value("each", nlohmann::json::array({nlohmann::json::object()}));
+        common.erase("each");
+        for (const nlohmann::json& entry : entries) add_keys(expanded.emplace_back(common), entry);
+    }
+    return expanded;
 }
 
 // The case of one body and one form. A case without a table `quick` is measured in the default form as in the full one.
@@ -151,7 +169,7 @@ void StudyCase::require_nothing_unread() const
 StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& study_case, StudyPlan& plan)>& add)
 {
     StudyPlan plan;
-    const nlohmann::json cases = cases_document(study).at("case");
+    const nlohmann::json cases = each_of(cases_document(study).at("case"));
     const auto is_left_out = [&](const std::string& body) {
         return std::ranges::count(plan.left_out, body, &analysis::LeftOut::scene) > 0;
     };
