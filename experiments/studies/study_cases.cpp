@@ -82,7 +82,9 @@ nlohmann::json cases_document(const std::string& study)
                                        "training_members", "start_poses", "added", "scene", "sweep", "cells", "without_start", "tuned"});
     std::ostringstream json;
     json << toml::json_formatter{document};
-    return nlohmann::json::parse(json.str());
+    nlohmann::json tables = nlohmann::json::parse(json.str());
+    tables["case"] = each_of(tables.at("case"));
+    return tables;
 }
 
 std::vector<std::string> differing_paths(const nlohmann::json& a, const nlohmann::json& b)
@@ -169,7 +171,7 @@ void StudyCase::require_nothing_unread() const
 StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& study_case, StudyPlan& plan)>& add)
 {
     StudyPlan plan;
-    const nlohmann::json cases = each_of(cases_document(study).at("case"));
+    const nlohmann::json cases = cases_document(study).at("case");
     const auto is_left_out = [&](const std::string& body) {
         return std::ranges::count(plan.left_out, body, &analysis::LeftOut::scene) > 0;
     };
