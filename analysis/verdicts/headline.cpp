@@ -126,7 +126,8 @@ std::string headline_fault(const Claim& claim)
     }
     if (text.find_first_of("{}") != std::string::npos || claim.headline.find("{}") != std::string::npos)
         return "expected each { with its } and a fact between them";
-    if (std::ranges::any_of(text, [](unsigned char one) { return std::isdigit(one); })) return "expected numbers only as {placeholders}";
+    if (std::ranges::any_of(text, [](unsigned char letter) { return std::isdigit(letter); }))
+        return "expected numbers only as {placeholders}";
     if (claim.headline.empty() || characters(text) > most_headline_characters)
         return fmt::format("expected 1 to {} characters besides the placeholders", most_headline_characters);
     return "";

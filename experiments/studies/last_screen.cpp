@@ -63,8 +63,9 @@ void write_repeated(const ResultComparison& compared, const std::map<std::string
 {
     nlohmann::json claims = nlohmann::json::object();
     for (const auto& [id, text] : here) {
-        const ComparedClaim of = compared_claim(compared, claim_named(id));
-        const int all = of.frames > 0 ? of.frames : of.numbers, differing = of.frames > 0 ? of.frames_differing : of.differing;
+        const ComparedClaim counted = compared_claim(compared, claim_named(id));
+        const int all = counted.frames > 0 ? counted.frames : counted.numbers,
+                  differing = counted.frames > 0 ? counted.frames_differing : counted.differing;
         claims[id] = {{"compared", all}, {"agree", all - differing}, {"text", text}};
     }
     nlohmann::json repeated = to_json(compared);

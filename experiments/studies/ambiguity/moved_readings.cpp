@@ -37,12 +37,6 @@ analysis::CaseRecord record_of(const Scene& scene, const pbs::Motion& motion, co
     return record;
 }
 
-double share_within(const std::vector<double>& change_pct)
-{
-    const auto holds = [](double change) { return std::abs(change) <= analysis::kept_volume_pct; };
-    return double(std::ranges::count_if(change_pct, holds)) / double(change_pct.size());
-}
-
 // Root mean square over frames and vertices of the zone, or all where it is empty [m].
 double distance_m(const ReadMotion& a, const ReadMotion& b, const std::vector<bool>& zone)
 {
@@ -126,7 +120,8 @@ std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading
     add("mean_volume_change_pct", mean(a.pbs.volume_change_pct), mean(b.pbs.volume_change_pct));
     add("mean_volume_abs_change_pct", mean(a.pbs.volume_abs_change_pct), mean(b.pbs.volume_abs_change_pct));
     add("mean_volume_change_of_lbs_pct", mean(a.lbs.volume_change_pct), mean(b.lbs.volume_change_pct));
-    add("share_of_frames_within_printed", share_within(a.pbs.volume_change_pct), share_within(b.pbs.volume_change_pct));
+    add("share_of_frames_within_printed", analysis::share_of_kept_frames(a.pbs.volume_change_pct),
+        analysis::share_of_kept_frames(b.pbs.volume_change_pct));
     add("mean_inverted_tets", mean(a.pbs.inverted_tets), mean(b.pbs.inverted_tets));
     for (std::size_t frame = 0; frame < a.pbs.angle_deg.size(); ++frame) {
         const double angle = a.pbs.angle_deg[frame];
@@ -149,7 +144,7 @@ std::vector<JudgedReading> values_of_frames(const StudyCase& study_case, const s
     std::vector<TimedVariant> turns;
     for (const Overrides& reading : readings) {
         timed.push_back(std::make_unique<TimedReading>(study_case, character, motion, reading));
-        turns.push_back([one = timed.back().get()] { return one->turn(); });
+        turns.push_back([turning = timed.back().get()] { return turning->turn(); });
     }
     const auto seconds = take_turns(turns, {.seconds = study_case.value<double>("timing_s")});
     std::vector<JudgedReading> judged_readings;

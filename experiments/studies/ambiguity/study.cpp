@@ -113,9 +113,9 @@ std::string flips(const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
 // Either may be null.
 ClaimChange compared(ClaimChange row, const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
 {
-    const JudgedValue* one = a ? a : b;
-    if (!one) return row;
-    row.quantity = one->quantity, row.of = one->of, row.unit = one->unit, row.bound = one->bound;
+    const JudgedValue* either = a ? a : b;
+    if (!either) return row;
+    row.quantity = either->quantity, row.of = either->of, row.unit = either->unit, row.bound = either->bound;
     if (a) row.a = a->value, row.holds_a = a->holds ? "yes" : "no";
     if (b) row.b = b->value, row.holds_b = b->holds ? "yes" : "no";
     if (a && b) row.change = b->value - a->value;
@@ -270,8 +270,9 @@ void ReadingComparison::measure(const std::vector<std::string>& claims, const Me
         for (const std::string& claim : claims) {
             pairs.push_back({reading, baseline, claim, is_left_out ? without_jiggle : untouched_because(claim, reading, baseline)});
             if (!pairs.back().untouched_because.empty()) continue;
-            for (const Reading* one : {&baseline, &reading})
-                if (std::ranges::find(measured, one->name, &Reading::name) == measured.end()) measured.push_back(*one);
+            for (const Reading* compared_reading : {&baseline, &reading})
+                if (std::ranges::find(measured, compared_reading->name, &Reading::name) == measured.end())
+                    measured.push_back(*compared_reading);
         }
     }
     const std::vector<JudgedReading> values = measure(measured);

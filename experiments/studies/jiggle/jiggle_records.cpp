@@ -184,8 +184,8 @@ Trend trend_of(const std::vector<MeasuredJiggle>& measured, double (*value)(cons
 
 double correlation_without(Trend trend, std::size_t left_out)
 {
-    for (std::vector<double>* of : {&trend.stiffness, &trend.value})
-        if (left_out < of->size()) of->erase(of->begin() + static_cast<std::ptrdiff_t>(left_out));
+    for (std::vector<double>* numbers : {&trend.stiffness, &trend.value})
+        if (left_out < numbers->size()) numbers->erase(numbers->begin() + static_cast<std::ptrdiff_t>(left_out));
     return analysis::rank_correlation(trend.stiffness, trend.value);
 }
 

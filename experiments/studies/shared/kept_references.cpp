@@ -161,10 +161,10 @@ std::string packed(const KeptReferences& references, const pbs::Character& chara
         table["bones"].push_back(std::vector<double>(bone.data(), bone.data() + bone.matrix().size()));
     pbs::Positions predicted = rigid_shape(character, references.bones);
     for (const KeptReference& reference : references.members) {
-        json& one = table["members"].emplace_back(json_of(reference));
+        json& entry = table["members"].emplace_back(json_of(reference));
         if (!reference.is_reached()) continue;
         const std::vector<std::int32_t> values = residual(reference.positions, predicted);
-        one["shape"] = json::binary(planes_of(values));
+        entry["shape"] = json::binary(planes_of(values));
         predicted = predicted_plus(predicted, values, kept_quantum_m);
     }
     return deflated(json::to_cbor(table));
@@ -195,10 +195,10 @@ KeptReferences unpacked(const std::string& text, const std::string& file, const 
         if (references.bones.size() != character.skeleton.bones.size()) throw std::runtime_error("another number of bones");
         pbs::Positions predicted = rigid_shape(character, references.bones);
         const double quantum_m = table.at("quantum_m");
-        for (const json& one : table.at("members")) {
-            KeptReference& reference = references.members.emplace_back(reference_of(one, predicted.rows()));
+        for (const json& entry : table.at("members")) {
+            KeptReference& reference = references.members.emplace_back(reference_of(entry, predicted.rows()));
             if (!reference.is_reached()) continue;
-            const std::vector<std::int32_t> values = values_in(one.at("shape").get_binary());
+            const std::vector<std::int32_t> values = values_in(entry.at("shape").get_binary());
             if (static_cast<Eigen::Index>(values.size()) != predicted.size()) throw std::runtime_error("a shape of another size");
             reference.positions = predicted = predicted_plus(predicted, values, quantum_m);
         }

@@ -71,10 +71,10 @@ std::string text_of(const std::vector<NestedSolution>& solutions)
 {
     nlohmann::json table = nlohmann::json::array();
     for (const NestedSolution& solution : solutions) {
-        nlohmann::json& one = table.emplace_back();
-        for_each_field(solution, [&](const char* name, const auto& value) { one[name] = value; });
-        if (solution.lowest_det_f) one["lowest_det_f"] = *solution.lowest_det_f;
-        one["positions"] = std::vector<double>(solution.positions.data(), solution.positions.data() + solution.positions.size());
+        nlohmann::json& entry = table.emplace_back();
+        for_each_field(solution, [&](const char* name, const auto& value) { entry[name] = value; });
+        if (solution.lowest_det_f) entry["lowest_det_f"] = *solution.lowest_det_f;
+        entry["positions"] = std::vector<double>(solution.positions.data(), solution.positions.data() + solution.positions.size());
     }
     const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(table);  // which has numbers that are not finite, too
     return {bytes.begin(), bytes.end()};
