@@ -176,7 +176,7 @@ Draft base_of(const nlohmann::json& entry, const std::string& body)
     cell.model = entry.value("model", "");
     cell.still_steps = entry.at("still_steps");
     cell.nudge_m = entry.value("nudge_m", 0.0);
-    cell.as_published = entry.value("as_published", cell.spec.kind == "pbs");
+    cell.as_published = entry.value("as_published", options_if<pbs::PbsOptions>(cell.spec) != nullptr);
     if (entry.value("twisted", false)) cell.disturbance.axis = pbs::Vec3::UnitX();
     return {cell, entry.value("overrides", Overrides())};
 }
