@@ -9,8 +9,6 @@
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 
