@@ -130,10 +130,10 @@ void require_judgeable(const Claim& claim, const TomlKeys& reader)
     for (const std::string& field : claim.case_fields)
         if (!is_field_of_a_case(field)) reader.refuse("case_fields", field + ": expected fields of a key, as body or joint, or quantity");
     if (!(claim.no_effect >= 0.0 && claim.no_effect < 1.0)) reader.refuse("no_effect", "expected 0 <= no_effect < 1");
-    const auto is_negative = [](const Selection& one) { return one.role == Role::negative_control; };
+    const auto is_negative = [](const Selection& selection) { return selection.role == Role::negative_control; };
     if (by_cases && claim.no_effect == 0.0 && std::ranges::none_of(claim.others, is_negative))
         reader.refuse("controls", "expected a negative control, or no_effect");
-    const auto is_selecting = [&](const Selection& one) { return one.name == claim.selected_by && is_negative(one); };
+    const auto is_selecting = [&](const Selection& selection) { return selection.name == claim.selected_by && is_negative(selection); };
     if (!claim.selected_by.empty() && std::ranges::none_of(claim.others, is_selecting))
         reader.refuse("selected_by", "expected the name of a negative control");
     if (const std::string fault = short_name_fault(claim); !fault.empty()) reader.refuse("short", fault);
@@ -204,7 +204,7 @@ std::vector<Quantity> named_by(const Claim& claim, const std::vector<Quantity>& 
     std::set<std::string> names(claim.own.quantities.begin(), claim.own.quantities.end());
     for (const Selection& other : claim.others) names.insert(other.quantities.begin(), other.quantities.end());
     std::vector<Quantity> named;
-    std::ranges::copy_if(quantities, std::back_inserter(named), [&](const Quantity& one) { return names.contains(one.name); });
+    std::ranges::copy_if(quantities, std::back_inserter(named), [&](const Quantity& quantity) { return names.contains(quantity.name); });
     return named;
 }
 

@@ -147,8 +147,12 @@ json to_json_of(const Judged& judged)
 json difference_of(const Verdict& verdict)
 {
     if (!verdict.differs) return nullptr;
-    const Difference& of = *verdict.differs;
-    return {{"field", of.field}, {"least_at", of.least_at}, {"least", of.least}, {"most_at", of.most_at}, {"most", of.most}};
+    const Difference& difference = *verdict.differs;
+    return {{"field", difference.field},
+            {"least_at", difference.least_at},
+            {"least", difference.least},
+            {"most_at", difference.most_at},
+            {"most", difference.most}};
 }
 
 json claim_object(const Verdict& verdict)

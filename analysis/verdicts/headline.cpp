@@ -55,11 +55,11 @@ bool is_number(const std::string& fact)
 
 std::string fault_of(const Claim& claim, const std::string& text)
 {
-    const Placeholder of = placeholder_of(text);
-    if (std::ranges::count(facts, of.fact) == 0) return fmt::format("{{{}}}: expected {}", text, fmt::join(facts, ", "));
-    if (!of.name.empty() && std::ranges::count(claim.others, of.name, &Selection::name) == 0)
+    const Placeholder placeholder = placeholder_of(text);
+    if (std::ranges::count(facts, placeholder.fact) == 0) return fmt::format("{{{}}}: expected {}", text, fmt::join(facts, ", "));
+    if (!placeholder.name.empty() && std::ranges::count(claim.others, placeholder.name, &Selection::name) == 0)
         return fmt::format("{{{}}}: expected the name of a control or comparison of the claim", text);
-    if (!of.field.empty() && !case_key_field(of.field)) return fmt::format("{{{}}}: expected a field of a key", text);
+    if (!placeholder.field.empty() && !case_key_field(placeholder.field)) return fmt::format("{{{}}}: expected a field of a key", text);
     return "";
 }
 
@@ -71,36 +71,37 @@ std::string rounded(double value)
     return text;
 }
 
-bool has_value(const JudgedCase& tested, const Placeholder& of)
+bool has_value(const JudgedCase& tested, const Placeholder& placeholder)
 {
     if (!tested.counts() || !std::isfinite(tested.value)) return false;
-    const CaseKeyField* field = of.field.empty() ? nullptr : case_key_field(of.field);
-    return !field || value_text(*field, tested.of) == of.value;
+    const CaseKeyField* field = placeholder.field.empty() ? nullptr : case_key_field(placeholder.field);
+    return !field || value_text(*field, tested.of) == placeholder.value;
 }
 
 // Empty if it is not known.
-std::string end_text(const Judged& judged, const Placeholder& of)
+std::string end_text(const Judged& judged, const Placeholder& placeholder)
 {
     static constexpr std::array signs = {"", ">= ", "<= ", "> "};
     std::vector<JudgedCase> cases;
-    std::ranges::copy_if(judged.cases, std::back_inserter(cases), [&](const JudgedCase& tested) { return has_value(tested, of); });
+    std::ranges::copy_if(judged.cases, std::back_inserter(cases), [&](const JudgedCase& tested) { return has_value(tested, placeholder); });
     if (cases.empty()) return "";
     const auto [least, most] = std::ranges::minmax_element(cases, {}, &JudgedCase::value);
-    const JudgedCase& end = of.fact.starts_with("least") ? *least : *most;
-    return signs[static_cast<std::size_t>(end.limit)] + rounded((of.fact.ends_with("_pct") ? 100.0 : 1.0) * end.value);
+    const JudgedCase& end = placeholder.fact.starts_with("least") ? *least : *most;
+    return signs[static_cast<std::size_t>(end.limit)] + rounded((placeholder.fact.ends_with("_pct") ? 100.0 : 1.0) * end.value);
 }
 
-std::string text_of(const Verdict& verdict, const Placeholder& of)
+std::string text_of(const Verdict& verdict, const Placeholder& placeholder)
 {
-    const auto named = std::ranges::find(verdict.others, of.name, [](const Judged& one) { return one.selection.name; });
-    if (!of.name.empty() && named == verdict.others.end()) return "";
-    const Judged& judged = of.name.empty() ? verdict.own : *named;
-    if (is_number(of.fact)) return end_text(judged, of);
-    if (of.fact == "unit") return judged.cases.empty() ? "" : judged.cases.front().unit;
+    const auto named =
+        std::ranges::find(verdict.others, placeholder.name, [](const Judged& judged_selection) { return judged_selection.selection.name; });
+    if (!placeholder.name.empty() && named == verdict.others.end()) return "";
+    const Judged& judged = placeholder.name.empty() ? verdict.own : *named;
+    if (is_number(placeholder.fact)) return end_text(judged, placeholder);
+    if (placeholder.fact == "unit") return judged.cases.empty() ? "" : judged.cases.front().unit;
     if (!verdict.printed.empty())
-        return of.fact == "n" ? std::to_string(verdict.printed.size())
-                              : std::to_string(std::ranges::count_if(verdict.printed, &PrintedValue::is_consistent));
-    return judged.n == 0 ? "" : std::to_string(of.fact == "n" ? judged.n : judged.held);
+        return placeholder.fact == "n" ? std::to_string(verdict.printed.size())
+                                       : std::to_string(std::ranges::count_if(verdict.printed, &PrintedValue::is_consistent));
+    return judged.n == 0 ? "" : std::to_string(placeholder.fact == "n" ? judged.n : judged.held);
 }
 
 }  // namespace
@@ -125,7 +126,8 @@ std::string headline_fault(const Claim& claim)
     }
     if (text.find_first_of("{}") != std::string::npos || claim.headline.find("{}") != std::string::npos)
         return "expected each { with its } and a fact between them";
-    if (std::ranges::any_of(text, [](unsigned char one) { return std::isdigit(one); })) return "expected numbers only as {placeholders}";
+    if (std::ranges::any_of(text, [](unsigned char letter) { return std::isdigit(letter); }))
+        return "expected numbers only as {placeholders}";
     if (claim.headline.empty() || characters(text) > most_headline_characters)
         return fmt::format("expected 1 to {} characters besides the placeholders", most_headline_characters);
     return "";
@@ -149,10 +151,10 @@ std::string asked_text(const Claim& claim)
     if (claim.rule == ClaimRule::printed) return "all";
     bool has_numbers = false, in_percent = false, has_unit = false;
     for (const Part& part : parts_of(claim.headline)) {
-        const Placeholder of = placeholder_of(part.placeholder);
-        has_numbers |= is_number(of.fact) && of.name.empty();
-        in_percent |= of.fact.ends_with("_pct");
-        has_unit |= of.fact == "unit";
+        const Placeholder placeholder = placeholder_of(part.placeholder);
+        has_numbers |= is_number(placeholder.fact) && placeholder.name.empty();
+        in_percent |= placeholder.fact.ends_with("_pct");
+        has_unit |= placeholder.fact == "unit";
     }
     if (claim.rule == ClaimRule::cases && !has_numbers) return fmt::format("{:.0f} %", 100.0 * holding_share);
     std::vector<std::string> texts;

@@ -51,9 +51,7 @@ void add_values(const CaseRecord& record, const CaseKey& key, const std::vector<
     add(mean_of + "volume_loss_pct", loss, "%");
     add(mean_of + "volume_abs_change_pct", absolute, "%");
     if (record.is_sweep()) return;  // its frames are no sample of a motion
-    const auto is_kept = [](double change) { return std::abs(change) <= kept_volume_pct; };
-    const double share = static_cast<double>(std::ranges::count_if(loss, is_kept)) / static_cast<double>(loss.size());
-    add("share_of_frames_within_half_pct", {share}, "1");
+    add("share_of_frames_within_half_pct", {share_of_kept_frames(loss)}, "1");
     to.back().n = static_cast<int>(loss.size());
 }
 
@@ -67,6 +65,12 @@ std::vector<Measurement> measurements(const std::string& csv)
 CsvTable measurement_table(const std::vector<Measurement>& measurements)
 {
     return table_of(used_columns(measurement_columns(), measurements), measurements);
+}
+
+double share_of_kept_frames(const std::vector<double>& volume_change_pct)
+{
+    const auto is_kept = [](double change_pct) { return std::abs(change_pct) <= kept_volume_pct; };
+    return static_cast<double>(std::ranges::count_if(volume_change_pct, is_kept)) / static_cast<double>(volume_change_pct.size());
 }
 
 std::vector<Measurement> frame_measurements(const CaseRecord& record)

@@ -16,6 +16,7 @@ std::vector<Measurement> measurements(const std::string& csv);
 CsvTable measurement_table(const std::vector<Measurement>& measurements);  // the table that measurements() reads; run is not part of it
 
 inline constexpr double kept_volume_pct = 0.5;  // the paper's Sec. 4: "the volume is preserved within 0.5 %"
+double share_of_kept_frames(const std::vector<double>& volume_change_pct);
 
 // What the frames of a scene and deformer give, with body, motion, deformer, variant, order and precision as key:
 //   mean_volume_loss_pct            mean of -volume_change_pct (the paper's E = V0 - V'); its range is that of the frames

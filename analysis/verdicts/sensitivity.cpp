@@ -17,7 +17,8 @@ std::vector<BodyExcluded> without_each_body(const Claim& claim, const std::vecto
     std::vector<BodyExcluded> verdicts;
     for (const std::string& body : bodies) {
         std::vector<Measurement> others;
-        std::ranges::copy_if(measured, std::back_inserter(others), [&](const Measurement& one) { return one.of.body != body; });
+        std::ranges::copy_if(measured, std::back_inserter(others),
+                             [&](const Measurement& measurement) { return measurement.of.body != body; });
         verdicts.push_back({body, kind_on(claim, others, measured)});
     }
     return verdicts;

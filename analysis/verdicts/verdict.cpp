@@ -8,15 +8,16 @@
 namespace analysis {
 namespace {
 
-bool is_selected(const Selection& selection, const CaseKey& of, const Measurement& measured)
+bool is_selected(const Selection& selection, const CaseKey& key, const Measurement& measured)
 {
-    return std::ranges::count(selection.quantities, measured.quantity) > 0 && matches(measured.of, of);
+    return std::ranges::count(selection.quantities, measured.quantity) > 0 && matches(measured.of, key);
 }
 
-std::vector<Measurement> selected(const Selection& selection, const CaseKey& of, const std::vector<Measurement>& measured)
+std::vector<Measurement> selected(const Selection& selection, const CaseKey& key, const std::vector<Measurement>& measured)
 {
     std::vector<Measurement> found;
-    std::ranges::copy_if(measured, std::back_inserter(found), [&](const Measurement& one) { return is_selected(selection, of, one); });
+    std::ranges::copy_if(measured, std::back_inserter(found),
+                         [&](const Measurement& measurement) { return is_selected(selection, key, measurement); });
     return found;
 }
 
@@ -38,16 +39,17 @@ JudgedCase case_of(const Claim& claim, const Measurement& measured)
 double mean_of(Mean mean_kind, const std::vector<double>& values)
 {
     if (mean_kind == Mean::arithmetic) return mean(values);
-    if (std::ranges::count(values, 0.0) > 0) return std::ranges::all_of(values, [](double one) { return one >= 0.0; }) ? 0.0 : not_known;
+    if (std::ranges::count(values, 0.0) > 0)
+        return std::ranges::all_of(values, [](double value) { return value >= 0.0; }) ? 0.0 : not_known;
     std::vector<double> logarithms;
     for (const double value : values) logarithms.push_back(std::log(value));  // NaN for a value below 0, as for one that is not known
     return std::exp(mean(logarithms));
 }
 
-Threshold threshold_of(const Selection& selection, const std::string& quantity, const CaseKey& of)
+Threshold threshold_of(const Selection& selection, const std::string& quantity, const CaseKey& key)
 {
     const auto applies = [&](const Threshold& threshold) {
-        return (threshold.quantity.empty() || threshold.quantity == quantity) && matches(of, threshold.of);
+        return (threshold.quantity.empty() || threshold.quantity == quantity) && matches(key, threshold.of);
     };
     const auto found = std::ranges::find_if(selection.thresholds, applies);
     return found == selection.thresholds.end() ? Threshold{} : *found;
@@ -67,14 +69,15 @@ using Values = std::vector<const Measurement*>;
 double mean_of(Mean mean_kind, const Values& values)
 {
     std::vector<double> numbers;
-    for (const Measurement* one : values) numbers.push_back(one->value);
+    for (const Measurement* measurement : values) numbers.push_back(measurement->value);
     return mean_of(mean_kind, numbers);
 }
 
 Values of_quantity(const Values& values, const std::string& quantity)
 {
     Values found;
-    std::ranges::copy_if(values, std::back_inserter(found), [&](const Measurement* one) { return one->quantity == quantity; });
+    std::ranges::copy_if(values, std::back_inserter(found),
+                         [&](const Measurement* measurement) { return measurement->quantity == quantity; });
     return found;
 }
 
@@ -84,12 +87,12 @@ JudgedCase compared(const Claim& claim, const Selection& selection, JudgedCase t
     tested.value = mean_of(claim.mean, values);
     tested.low = tested.high = values.front()->value;
     bool has_least = false, has_most = false;  // of a mean with a number of each kind nothing is known
-    for (const Measurement* one : values) {
-        tested.low = std::min({tested.low, one->value, one->low});
-        tested.high = std::max({tested.high, one->value, one->high});
-        if (one->limit == Limit::none) continue;
-        tested.limit = one->limit;
-        (one->limit == Limit::at_most ? has_most : has_least) = true;
+    for (const Measurement* measurement : values) {
+        tested.low = std::min({tested.low, measurement->value, measurement->low});
+        tested.high = std::max({tested.high, measurement->value, measurement->high});
+        if (measurement->limit == Limit::none) continue;
+        tested.limit = measurement->limit;
+        (measurement->limit == Limit::at_most ? has_most : has_least) = true;
     }
     tested.n = static_cast<int>(values.size());
     tested.unit = values.front()->unit;
@@ -112,8 +115,8 @@ JudgedCase compared(const Claim& claim, const Selection& selection, JudgedCase t
 // Runs beside the study's own count only in cases of which no other run has values.
 void drop_those_beside(Values& values)
 {
-    if (std::ranges::any_of(values, [](const Measurement* one) { return !one->beside; }))
-        std::erase_if(values, [](const Measurement* one) { return one->beside; });
+    if (std::ranges::any_of(values, [](const Measurement* measurement) { return !measurement->beside; }))
+        std::erase_if(values, [](const Measurement* measurement) { return measurement->beside; });
 }
 
 // A case without one of the quantities does not hold, since nothing shows that it does.
@@ -128,13 +131,13 @@ JudgedCase whole_case(const Claim& claim, const Selection& selection, const Judg
         part.quantity = quantity;
         parts.push_back(part);
     }
-    JudgedCase all = parts.front();
-    all.quantity = "";
-    all.holds = std::ranges::all_of(parts, &JudgedCase::holds);
+    JudgedCase judged_case = parts.front();
+    judged_case.quantity = "";
+    judged_case.holds = std::ranges::all_of(parts, &JudgedCase::holds);
     for (const JudgedCase& part : parts)
-        if (all.counts()) all.excluded = part.excluded;
-    if (parts.size() > 1) all.parts = std::move(parts);
-    return all;
+        if (judged_case.counts()) judged_case.excluded = part.excluded;
+    if (parts.size() > 1) judged_case.parts = std::move(parts);
+    return judged_case;
 }
 
 void count(Judged& judged)
@@ -154,7 +157,7 @@ void count(Judged& judged)
 void exclude_unseen(const Judged& control, Judged& own)
 {
     for (JudgedCase& tested : own.cases) {
-        const auto same = std::ranges::find_if(control.cases, [&](const JudgedCase& one) { return one.is_same(tested); });
+        const auto same = std::ranges::find_if(control.cases, [&](const JudgedCase& judged_case) { return judged_case.is_same(tested); });
         if (same == control.cases.end() || !same->counts())
             tested.excluded = Excluded::no_control;
         else if (same->holds)
@@ -223,8 +226,8 @@ std::vector<Judged> readings_of(const Claim& claim, const std::vector<Measuremen
     Selection any = claim.own;
     any.of.order = any.of.precision = "";
     std::set<std::pair<std::string, std::string>> found;
-    for (const Measurement& one : measured)
-        if (is_selected(any, any.of, one)) found.insert({one.of.order, one.of.precision});
+    for (const Measurement& measurement : measured)
+        if (is_selected(any, any.of, measurement)) found.insert({measurement.of.order, measurement.of.precision});
     for (const auto& [order, precision] : found) {
         any.of.order = order;
         any.of.precision = precision;
@@ -256,7 +259,8 @@ VerdictKind kind_of(const Verdict& verdict)
 void decide(Verdict& verdict)
 {
     const Claim& claim = verdict.claim;
-    const auto unseen = std::ranges::find(verdict.others, claim.selected_by, [](const Judged& one) { return one.selection.name; });
+    const auto unseen = std::ranges::find(verdict.others, claim.selected_by,
+                                          [](const Judged& judged_selection) { return judged_selection.selection.name; });
     if (!claim.selected_by.empty()) {
         exclude_unseen(*unseen, verdict.own);
         unseen->behaves = unseen->n - unseen->held >= least_cases;  // it selects the cases, so that its share says nothing
@@ -312,8 +316,8 @@ void judge_values(const std::vector<Measurement>& measured, const Verdict* other
     }
     verdict.readings = readings_of(claim, measured);
     std::set<std::string> runs;
-    for (const Measurement& one : selected(claim.own, claim.own.of, measured))
-        if (!one.run.empty()) runs.insert(one.run);
+    for (const Measurement& measurement : selected(claim.own, claim.own.of, measured))
+        if (!measurement.run.empty()) runs.insert(measurement.run);
     verdict.runs.assign(runs.begin(), runs.end());
     if (claim.rule == ClaimRule::single)
         judge_single(verdict);
@@ -324,10 +328,10 @@ void judge_values(const std::vector<Measurement>& measured, const Verdict* other
 // The claim's values, and the held-out ones.
 std::pair<std::vector<Measurement>, std::vector<Measurement>> measurements_of(const Claim& claim, const Records& records)
 {
-    std::vector<Measurement> all = records.measurements, measured, apart;
-    for (const CaseRecord& record : records.cases) std::ranges::move(frame_measurements(record), std::back_inserter(all));
-    std::ranges::partition_copy(all, std::back_inserter(apart), std::back_inserter(measured), [&](const Measurement& one) {
-        return std::ranges::any_of(claim.held_out, [&](const CaseKey& key) { return matches(one.of, key); });
+    std::vector<Measurement> measurements = records.measurements, measured, apart;
+    for (const CaseRecord& record : records.cases) std::ranges::move(frame_measurements(record), std::back_inserter(measurements));
+    std::ranges::partition_copy(measurements, std::back_inserter(apart), std::back_inserter(measured), [&](const Measurement& measurement) {
+        return std::ranges::any_of(claim.held_out, [&](const CaseKey& key) { return matches(measurement.of, key); });
     });
     return {measured, apart};
 }
@@ -353,21 +357,21 @@ Judged judged(const Claim& claim, const Selection& selection, const std::vector<
     const std::vector<Measurement> own = selected(selection, selection.of, measured), over = selected(selection, selection.over, measured);
     std::vector<JudgedCase> cases;
     std::vector<Values> values, base;
-    const auto place_of = [&](const Measurement& one) {
-        const JudgedCase tested = case_of(claim, one);
+    const auto place_of = [&](const Measurement& measurement) {
+        const JudgedCase tested = case_of(claim, measurement);
         return std::ranges::find_if(cases, [&](const JudgedCase& other) { return other.is_same(tested); }) - cases.begin();
     };
-    for (const Measurement& one : own) {
-        const auto place = static_cast<std::size_t>(place_of(one));
+    for (const Measurement& measurement : own) {
+        const auto place = static_cast<std::size_t>(place_of(measurement));
         if (place == cases.size()) {
-            cases.push_back(case_of(claim, one));
+            cases.push_back(case_of(claim, measurement));
             values.emplace_back();
         }
-        values[place].push_back(&one);
+        values[place].push_back(&measurement);
     }
     base.resize(cases.size());
-    for (const Measurement& one : over)
-        if (const auto place = static_cast<std::size_t>(place_of(one)); place < cases.size()) base[place].push_back(&one);
+    for (const Measurement& measurement : over)
+        if (const auto place = static_cast<std::size_t>(place_of(measurement)); place < cases.size()) base[place].push_back(&measurement);
     for (auto* lists : {&values, &base})
         for (Values& of_case : *lists) drop_those_beside(of_case);
     Judged result{.selection = selection};
@@ -392,11 +396,13 @@ std::vector<std::string> missing_from(const Records& records)
 std::vector<Measurement> own_measurements(const Claim& claim, const Records& records)
 {
     std::vector<Measurement> measured = measurements_of(claim, records).first;
-    const auto reads = [](const Selection& of, const Measurement& one) {
-        return is_selected(of, of.of, one) || (of.over != CaseKey{} && is_selected(of, of.over, one));
+    const auto reads = [](const Selection& selection, const Measurement& measurement) {
+        return is_selected(selection, selection.of, measurement) ||
+               (selection.over != CaseKey{} && is_selected(selection, selection.over, measurement));
     };
-    std::erase_if(measured, [&](const Measurement& one) {
-        return !reads(claim.own, one) && std::ranges::none_of(claim.others, [&](const Selection& of) { return reads(of, one); });
+    std::erase_if(measured, [&](const Measurement& measurement) {
+        return !reads(claim.own, measurement) &&
+               std::ranges::none_of(claim.others, [&](const Selection& selection) { return reads(selection, measurement); });
     });
     return measured;
 }
@@ -406,10 +412,11 @@ VerdictKind kind_on(const Claim& claim, const std::vector<Measurement>& measured
     Verdict verdict{.claim = claim};
     verdict.own = judged(claim, claim.own, measured);
     for (const Selection& other : claim.others) {
-        Judged of{.selection = other};
-        if (other.role != Role::comparison) of = judged(claim, other, measured);
-        if (other.role != Role::comparison && of.cases.empty() && other.name != claim.selected_by) of = judged(claim, other, otherwise);
-        verdict.others.push_back(std::move(of));
+        Judged judged_selection{.selection = other};
+        if (other.role != Role::comparison) judged_selection = judged(claim, other, measured);
+        if (other.role != Role::comparison && judged_selection.cases.empty() && other.name != claim.selected_by)
+            judged_selection = judged(claim, other, otherwise);
+        verdict.others.push_back(std::move(judged_selection));
     }
     decide(verdict);
     return verdict.kind;

@@ -204,17 +204,17 @@ void compare_settings(const Results& first, const Results& second, ResultCompari
 {
     for (const std::string& run : first.runs) {
         if (!second.runs.contains(run)) continue;
-        const auto settings_in = [&](const Results& of) {
-            const std::string file = (of.root / run / "run.json").string();
+        const auto settings_in = [&](const Results& results) {
+            const std::string file = (results.root / run / "run.json").string();
             const nlohmann::json record = analysis::read_record(file);
             if (!record.is_object()) analysis::refuse_record(file);
             return record.value("scene", record.value("work", nlohmann::json()));
         };
-        const nlohmann::json one = settings_in(first), other = settings_in(second);
-        if (one.is_null() || other.is_null()) continue;  // kept records have none
-        for (const std::string& path : differing_paths(one, other))
+        const nlohmann::json table = settings_in(first), other = settings_in(second);
+        if (table.is_null() || other.is_null()) continue;  // kept records have none
+        for (const std::string& path : differing_paths(table, other))
             to.other_settings.push_back(
-                fmt::format("{}{}{} = {} | {}", run, run.empty() ? "" : ": ", path, value_at(one, path), value_at(other, path)));
+                fmt::format("{}{}{} = {} | {}", run, run.empty() ? "" : ": ", path, value_at(table, path), value_at(other, path)));
     }
 }
 
@@ -232,14 +232,14 @@ std::map<std::string, analysis::Verdict> verdicts_in(const Results& results)
 }
 
 // A verdict is compared where both were computed from the same cases and controls.
-bool has_the_same_cases(const analysis::Verdict& one, const analysis::Verdict& other)
+bool has_the_same_cases(const analysis::Verdict& verdict, const analysis::Verdict& other)
 {
-    const auto counts = [](const analysis::Verdict& of) {
-        std::vector<std::size_t> sizes = {of.own.cases.size(), of.printed.size()};
-        for (const analysis::Judged& control : of.others) sizes.push_back(control.cases.size());
+    const auto counts = [](const analysis::Verdict& verdict) {
+        std::vector<std::size_t> sizes = {verdict.own.cases.size(), verdict.printed.size()};
+        for (const analysis::Judged& control : verdict.others) sizes.push_back(control.cases.size());
         return sizes;
     };
-    return counts(one) == counts(other);
+    return counts(verdict) == counts(other);
 }
 
 // The verdicts that kept records state, which have to be those of their tables.
@@ -289,8 +289,9 @@ std::vector<std::string> differences_in(const ResultComparison& compared)
 {
     std::vector<std::string> texts;
     for (const ComparedTable& table : compared.tables)
-        for (const analysis::CellDifference& of : table.rows.differing)
-            texts.push_back(fmt::format("{}: {}: {} = {} | {}", table.name, of.row, of.column, of.first, of.second));
+        for (const analysis::CellDifference& difference : table.rows.differing)
+            texts.push_back(
+                fmt::format("{}: {}: {} = {} | {}", table.name, difference.row, difference.column, difference.first, difference.second));
     return texts;
 }
 
@@ -384,8 +385,9 @@ nlohmann::json to_json(const ResultComparison& compared)
     nlohmann::json tables = nlohmann::json::array(), claims = nlohmann::json::object();
     for (const ComparedTable& table : compared.tables) {
         nlohmann::json differing = nlohmann::json::array();
-        for (const analysis::CellDifference& of : table.rows.differing)
-            differing.push_back({{"row", of.row}, {"column", of.column}, {"first", of.first}, {"second", of.second}});
+        for (const analysis::CellDifference& difference : table.rows.differing)
+            differing.push_back(
+                {{"row", difference.row}, {"column", difference.column}, {"first", difference.first}, {"second", difference.second}});
         tables.push_back({{"table", table.name},
                           {"rows", table.rows.rows.size()},
                           {"numbers", table.rows.numbers()},
@@ -423,8 +425,9 @@ std::vector<analysis::CheckSuite> suites_of(const ResultComparison& compared)
         const std::size_t count = table.rows.differing.size();
         std::string message = fmt::format("{} of {} numbers agree", table.rows.numbers() - static_cast<int>(count), table.rows.numbers());
         if (count > 0) {
-            const analysis::CellDifference& of = table.rows.differing.front();
-            message += fmt::format("; the first that differs: {}: {} = {} | {}", of.row, of.column, of.first, of.second);
+            const analysis::CellDifference& difference = table.rows.differing.front();
+            message += fmt::format("; the first that differs: {}: {} = {} | {}", difference.row, difference.column, difference.first,
+                                   difference.second);
         }
         add(study_of(table.name), table.name, count == 0, message);
     }

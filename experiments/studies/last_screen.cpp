@@ -27,8 +27,8 @@ std::string range_text(const analysis::Verdict& verdict)
 {
     std::vector<double> values;
     std::string unit;
-    for (const analysis::JudgedCase& of : verdict.own.cases)
-        if (std::isfinite(of.value)) values.push_back(of.value), unit = of.unit;
+    for (const analysis::JudgedCase& judged_case : verdict.own.cases)
+        if (std::isfinite(judged_case.value)) values.push_back(judged_case.value), unit = judged_case.unit;
     if (values.empty()) return "";
     const auto [least, most] = std::ranges::minmax(values);
     return fmt::format("{:.3g} to {:.3g}{}", least, most, unit.empty() || unit == "1" ? "" : " " + unit);
@@ -63,8 +63,9 @@ void write_repeated(const ResultComparison& compared, const std::map<std::string
 {
     nlohmann::json claims = nlohmann::json::object();
     for (const auto& [id, text] : here) {
-        const ComparedClaim of = compared_claim(compared, claim_named(id));
-        const int all = of.frames > 0 ? of.frames : of.numbers, differing = of.frames > 0 ? of.frames_differing : of.differing;
+        const ComparedClaim counted = compared_claim(compared, claim_named(id));
+        const int all = counted.frames > 0 ? counted.frames : counted.numbers,
+                  differing = counted.frames > 0 ? counted.frames_differing : counted.differing;
         claims[id] = {{"compared", all}, {"agree", all - differing}, {"text", text}};
     }
     nlohmann::json repeated = to_json(compared);
@@ -143,7 +144,7 @@ void write_verdicts(const std::vector<analysis::Verdict>& verdicts, const std::s
 
 bool show_last_screen(LastScreen screen)
 {
-    std::ranges::stable_sort(screen.here, {}, [](const analysis::Verdict& of) { return of.claim.id; });
+    std::ranges::stable_sort(screen.here, {}, [](const analysis::Verdict& verdict) { return verdict.claim.id; });
     const std::string records = records_folder();
     const std::size_t width = std::min<std::size_t>(terminal_width(), 100);
     const bool has_record = fs::exists(fs::path(records) / "provenance.json");

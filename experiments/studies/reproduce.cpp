@@ -63,11 +63,11 @@ bool is_among(const std::string& name, const std::vector<std::string>& names)
 void refuse_unknown_runs(const std::vector<std::string>& only, const std::vector<PlannedStudy>& planned)
 {
     std::vector<std::string> known, listed;
-    for (const PlannedStudy& of : planned) {
+    for (const PlannedStudy& planned_study : planned) {
         std::vector<std::string> of_study;
-        for (const StudyRun& run : of.plan.runs) of_study.push_back(run.name);
+        for (const StudyRun& run : planned_study.plan.runs) of_study.push_back(run.name);
         known.insert(known.end(), of_study.begin(), of_study.end());
-        listed.push_back(fmt::format("{} ({})", fmt::join(of_study, ", "), of.study->name));
+        listed.push_back(fmt::format("{} ({})", fmt::join(of_study, ", "), planned_study.study->name));
     }
     for (const std::string& name : only)
         if (!is_among(name, known))
@@ -77,7 +77,7 @@ void refuse_unknown_runs(const std::vector<std::string>& only, const std::vector
 // Deformers of the user's own need a study that compares them, and a run of it.
 void refuse_unused(const std::string& external, const std::vector<PlannedStudy>& planned)
 {
-    if (std::ranges::any_of(planned, [](const PlannedStudy& one) { return one.study->plan_with != nullptr; })) return;
+    if (std::ranges::any_of(planned, [](const PlannedStudy& planned_study) { return planned_study.study->plan_with != nullptr; })) return;
     std::vector<std::string> taking;
     for (const Study& study : studies())
         if (study.plan_with) taking.push_back(study.name);
@@ -124,12 +124,12 @@ std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments)
         planned.back().plan.extent = extent;
     }
     refuse_unknown_runs(arguments.only, planned);
-    const auto has_none = [&](const PlannedStudy& of) {
-        return std::ranges::none_of(of.plan.runs, [&](const StudyRun& run) { return is_among(run.name, arguments.only); });
+    const auto has_none = [&](const PlannedStudy& planned_study) {
+        return std::ranges::none_of(planned_study.plan.runs, [&](const StudyRun& run) { return is_among(run.name, arguments.only); });
     };
     if (!arguments.only.empty()) std::erase_if(planned, has_none);
     if (arguments.external) refuse_unused(*arguments.external, planned);
-    for (PlannedStudy& of : planned) choose_runs(of, arguments.only, arguments.resume);
+    for (PlannedStudy& planned_study : planned) choose_runs(planned_study, arguments.only, arguments.resume);
     return planned;
 }
 
@@ -188,17 +188,17 @@ StudyOutcome outcome_of(const PlannedStudy& planned, std::span<const PooledResul
 void run_together(const std::vector<const PlannedStudy*>& planned, int jobs, double then_s, std::map<const Study*, StudyOutcome>& outcomes)
 {
     std::vector<PooledWork> work;
-    for (const PlannedStudy* one : planned) {
-        begin(*one);
-        for (const StudyRun& run : one->to_do)
-            work.push_back({planned.size() > 1 ? one->study->name + "/" + run.name : run.name, run.cost_s,
-                            [&run, folder = (fs::path(one->folder) / run.name).string()] { return carry_out(run, folder); }});
+    for (const PlannedStudy* planned_study : planned) {
+        begin(*planned_study);
+        for (const StudyRun& run : planned_study->to_do)
+            work.push_back({planned.size() > 1 ? planned_study->study->name + "/" + run.name : run.name, run.cost_s,
+                            [&run, folder = (fs::path(planned_study->folder) / run.name).string()] { return carry_out(run, folder); }});
     }
     const std::vector<PooledResult> results = run_in_pool(work, jobs, then_s);
     std::span<const PooledResult> left = results;
-    for (const PlannedStudy* one : planned) {
-        outcomes.emplace(one->study, outcome_of(*one, left.first(one->to_do.size())));
-        left = left.subspan(one->to_do.size());
+    for (const PlannedStudy* planned_study : planned) {
+        outcomes.emplace(planned_study->study, outcome_of(*planned_study, left.first(planned_study->to_do.size())));
+        left = left.subspan(planned_study->to_do.size());
     }
 }
 
@@ -208,14 +208,14 @@ std::map<const Study*, StudyOutcome> run_all(const std::vector<PlannedStudy>& pl
     std::map<const Study*, StudyOutcome> outcomes;
     std::vector<const PlannedStudy*> sharing, alone;
     double then_s = 0.0;
-    for (const PlannedStudy& of : planned) {
-        (of.study->alone ? alone : sharing).push_back(&of);
-        if (of.study->alone) then_s += expected_cost(*of.study, of.to_do, jobs).wall_s;
+    for (const PlannedStudy& planned_study : planned) {
+        (planned_study.study->alone ? alone : sharing).push_back(&planned_study);
+        if (planned_study.study->alone) then_s += expected_cost(*planned_study.study, planned_study.to_do, jobs).wall_s;
     }
     run_together(sharing, jobs, then_s, outcomes);
-    for (const PlannedStudy* one : alone) {
-        then_s -= expected_cost(*one->study, one->to_do, jobs).wall_s;
-        run_together({one}, 1, then_s, outcomes);
+    for (const PlannedStudy* planned_study : alone) {
+        then_s -= expected_cost(*planned_study->study, planned_study->to_do, jobs).wall_s;
+        run_together({planned_study}, 1, then_s, outcomes);
     }
     return outcomes;
 }
@@ -234,22 +234,23 @@ std::vector<analysis::Verdict> verdicts_of(const Study& study, const std::string
 
 bool all_computable(const std::vector<analysis::Verdict>& verdicts)
 {
-    return std::ranges::none_of(verdicts, [](const auto& of) { return of.kind == analysis::VerdictKind::not_computable; });
+    return std::ranges::none_of(verdicts,
+                                [](const analysis::Verdict& verdict) { return verdict.kind == analysis::VerdictKind::not_computable; });
 }
 
 // Names each body that is not installed once, with the command that brings it.
 void name_left_out(const std::vector<PlannedStudy>& planned)
 {
     std::set<std::string> reasons;
-    for (const PlannedStudy& of : planned)
-        for (const analysis::LeftOut& left_out : of.plan.left_out)
+    for (const PlannedStudy& planned_study : planned)
+        for (const analysis::LeftOut& left_out : planned_study.plan.left_out)
             if (reasons.insert(left_out.reason).second) spdlog::info("excluded: {}", left_out.reason);
 }
 
 bool has_run_of(const std::vector<PlannedStudy>& planned, const std::string& body)
 {
-    return std::ranges::any_of(planned, [&](const PlannedStudy& of) {
-        return std::ranges::any_of(of.plan.runs, [&](const StudyRun& run) { return is_run_of(run.name, body); });
+    return std::ranges::any_of(planned, [&](const PlannedStudy& planned_study) {
+        return std::ranges::any_of(planned_study.plan.runs, [&](const StudyRun& run) { return is_run_of(run.name, body); });
     });
 }
 
@@ -277,10 +278,11 @@ int reproduce(const ReproduceArguments& arguments)
     refuse_unknown(arguments.names);
     const std::vector<PlannedStudy> planned = plan_studies(arguments);
     std::vector<ExpectedCost> expected;
-    for (const PlannedStudy& of : planned) expected.push_back(expected_cost(*of.study, of.to_do, arguments.jobs));
+    for (const PlannedStudy& planned_study : planned)
+        expected.push_back(expected_cost(*planned_study.study, planned_study.to_do, arguments.jobs));
     if (arguments.cost_only) return fmt::print("{}", expected_cost_table(expected)), exit_finished;
     double wall_s = 0.0;
-    for (const ExpectedCost& of : expected) wall_s += of.wall_s;
+    for (const ExpectedCost& expected_cost : expected) wall_s += expected_cost.wall_s;
     if (planned.size() > 1) spdlog::info("{} studies, about {:.0f} min", planned.size(), std::ceil(wall_s / 60.0));
     name_left_out(planned);
     const std::vector<std::string> other_tets = name_other_tets(planned);
@@ -291,17 +293,18 @@ int reproduce(const ReproduceArguments& arguments)
     LastScreen screen{.folder = arguments.folder, .other_tets = other_tets, .full = arguments.full};
     bool broke_down = false, refused = false, all_hold = true;
     const std::map<const Study*, StudyOutcome> outcomes = run_all(planned, arguments.jobs);
-    for (const PlannedStudy& of : planned) {
-        const StudyOutcome& outcome = outcomes.at(of.study);
+    for (const PlannedStudy& planned_study : planned) {
+        const StudyOutcome& outcome = outcomes.at(planned_study.study);
         broke_down |= outcome.broke_down;
         refused |= outcome.refused;
         all_hold &= !outcome.failed;
         std::istringstream marked(marked_frames(outcome.finished.folders));
-        for (std::string line; std::getline(marked >> std::ws, line);) warnings.add(of.study->name + "/" + line);
-        for (auto& verdict : verdicts_of(*of.study, of.folder, arguments.folder)) screen.here.push_back(std::move(verdict));
-        if (of.study->conclude) all_hold &= of.study->conclude(outcome.finished);
-        const bool has_own_deformers = of.study->plan_with && arguments.external;  // which no record has
-        if (!has_own_deformers) screen.studies.push_back(of.study->name);
+        for (std::string line; std::getline(marked >> std::ws, line);) warnings.add(planned_study.study->name + "/" + line);
+        for (auto& verdict : verdicts_of(*planned_study.study, planned_study.folder, arguments.folder))
+            screen.here.push_back(std::move(verdict));
+        if (planned_study.study->conclude) all_hold &= planned_study.study->conclude(outcome.finished);
+        const bool has_own_deformers = planned_study.study->plan_with && arguments.external;  // which no record has
+        if (!has_own_deformers) screen.studies.push_back(planned_study.study->name);
     }
     const bool repeats = show_last_screen(screen);
     fmt::print("{}", warnings.summary());
@@ -324,7 +327,7 @@ int judge_again(const ReproduceArguments& arguments)
     if (verdicts.empty())
         throw pbs::InputError(arguments.folder, 0, "reproduce --judge", "",
                               "no records of a study in this folder: expected one that reproduce wrote");
-    std::ranges::stable_sort(verdicts, {}, [](const analysis::Verdict& of) { return of.claim.id; });
+    std::ranges::stable_sort(verdicts, {}, [](const analysis::Verdict& verdict) { return verdict.claim.id; });
     write_verdicts(verdicts, arguments.folder);
     analysis::remove_record(fs::path(arguments.folder) / "repeated.json");  // of a run, beside which other verdicts stood
     fmt::print("{}", analysis::claims_table(verdicts, terminal_width(), terminal_has_colours()));

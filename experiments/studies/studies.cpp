@@ -23,11 +23,11 @@ namespace fs = std::filesystem;
 
 const std::vector<Study>& studies()
 {
-    static const std::vector<Study> all = {
+    static const std::vector<Study> studies = {
         volume_study(),       audit_study(),     momentum_study(),   convergence_study(),    stability_study(), artefacts_study(),
         jiggle_study(),       stiffness_study(), setup_study(),      ambiguity_study(),      frames_study(),    timing_study(),
         verification_study(), fit_study(),       references_study(), work_precision_study(), ensemble_study(),  temporal_study()};
-    return all;
+    return studies;
 }
 
 namespace {
@@ -133,8 +133,8 @@ void FinishedRuns::write(const std::string& file, const analysis::CsvTable& tabl
 
 const std::vector<analysis::Claim>& claims()
 {
-    static const std::vector<analysis::Claim> all = analysis::parse_claims(::claims::claims_toml, "claims.toml");
-    return all;
+    static const std::vector<analysis::Claim> claims = analysis::parse_claims(::claims::claims_toml, "claims.toml");
+    return claims;
 }
 
 bool is_asked_for(const analysis::Claim& claim, const std::string& name)

@@ -28,10 +28,10 @@ struct FinishedRuns {
     template <typename Row>
     std::vector<Row> rows(const analysis::Columns<Row>& columns, const std::string& file) const
     {
-        std::vector<Row> all;
+        std::vector<Row> rows;
         for (const std::string& path : files(file))
-            for (Row& row : rows_of(columns, analysis::read_csv(path))) all.push_back(std::move(row));
-        return all;
+            for (Row& row : rows_of(columns, analysis::read_csv(path))) rows.push_back(std::move(row));
+        return rows;
     }
 
     // Writes a record of the study. InputError if it cannot be written.
@@ -52,7 +52,8 @@ using StudyWork = std::function<std::string(const std::string& folder)>;
 struct StudyRun {
     std::string name;  // of its folder in the folder of the study
     Scene scene = {};
-    double cost_s = 0.0;  // expected, on one core
+    std::string motion = {};  // of a scene whose motion is a sweep, e.g. twist; a clip and movements have names of their own
+    double cost_s = 0.0;      // expected, on one core
     StudyWork work = {};
     bool beside = false;  // it decides nothing, for another run decides for its body and motion
     // For a scene that goes on until its reference breaks down: bad frames are recorded, listed below the claims, and left out of claims
@@ -61,15 +62,18 @@ struct StudyRun {
     nlohmann::json settings = {};  // all that the result of the work depends on; recorded, and compared by --resume
 };
 
-// A run whose work depends only on a case. The to_json of the case records all its members.
-template <typename Case>
-StudyRun work_run(const std::string& name, const Case& of, double cost_s, std::string (*work)(const Case& of, const std::string& folder))
+// A run whose work depends only on a struct of settings, whose to_json records all its members.
+template <typename Settings>
+StudyRun work_run(const std::string& name, const Settings& settings, double cost_s,
+                  std::string (*work)(const Settings& settings, const std::string& folder))
 {
     StudyRun run{.name = name, .cost_s = cost_s};
-    run.work = [of, work](const std::string& folder) { return work(of, folder); };
-    run.settings = to_json(of);
+    run.work = [settings, work](const std::string& folder) { return work(settings, folder); };
+    run.settings = to_json(settings);
     return run;
 }
+
+using Overrides = std::vector<std::string>;  // KEY=VALUE of a scene
 
 enum class Extent { none, quick, full };
 
@@ -86,7 +90,9 @@ struct StudyPlan {
 //   scene = "human_01_01"            # and overrides = ["motion.duration_s=2.5"], as `pbskin run SCENE --set KEY=VALUE`
 //   quick_s = 1.5                    # expected cost; a case without quick_s is no part of the default form, without full_s not of --full
 //   full_s = 4.0
-//   quick = { k_stretch = [0.1] }    # keys for one form, or for one of the bodies: fewer rows, each measured as in the full form
+//   each = [{ name = "a" }, ...]     # a case for each entry, with these keys and those of the case
+//   quick = { k_stretch = [0.1] }    # keys for one form, or for one of the bodies: fewer rows, each measured as in the full form.
+//                                    # They replace the case's keys; only `overrides` are added to those of the case, as in `each`.
 // The further keys are the study's own. A key that nothing reads is an error.
 class StudyCase {
 public:
@@ -94,7 +100,6 @@ public:
 
     std::string name;
     double cost_s = 0.0;
-    bool full = false;  // as in the full form: in that form, and in the default one unless the case has a table `quick`
 
     bool has(const std::string& key) const;
     template <typename T>
@@ -107,10 +112,13 @@ public:
     {
         return has(key) ? at(key).get<T>() : otherwise;
     }
-    Scene scene(const std::vector<std::string>& further_overrides = {}) const;  // of `scene` and `overrides`
-    pbs::Vec3 direction(const std::string& key) const;                          // of a jolt; upwards if the case does not state it
-    analysis::CaseKey key() const;                                              // body, motion, pose, angle_deg
-    const nlohmann::json& values() const;                                       // all keys, which then count as read
+    Scene scene(const Overrides& further_overrides = {}) const;  // of `scene` and `overrides`
+    // PBS of that scene as a table states it: label, and where they differ name, variant and overrides.
+    DeformerSpec further_pbs(const nlohmann::json& table, const Overrides& further_overrides = {}) const;
+    StudyRun scene_run(const std::string& run_name, const Overrides& further_overrides = {}) const;  // of that scene, with `motion`
+    pbs::Vec3 direction(const std::string& key) const;  // of a jolt; upwards if the case does not state it
+    analysis::CaseKey key() const;                      // body, motion, pose, angle_deg
+    const nlohmann::json& values() const;               // all keys, which then count as read
     void require_nothing_unread() const;
 
 private:
@@ -126,7 +134,7 @@ nlohmann::json cases_document(const std::string& study);
 
 // The plan of a study whose cases are data: `add` makes the run of each case of this form. A body that is not installed, or that `add`
 // refuses by InputError, for example because a clip is missing, is left out with all of its further cases.
-StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& of, StudyPlan& plan)>& add);
+StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& study_case, StudyPlan& plan)>& add);
 
 // What a study measures of a case in which the scene has further overrides: another reading of the paper (the study `ambiguity`).
 struct ReadingValues {
@@ -138,7 +146,6 @@ struct ReadingValues {
     };
     std::vector<LeftOut> left_out = {};
 };
-using Overrides = std::vector<std::string>;  // KEY=VALUE of the scene
 
 // The quantities that the claim is judged by and that are not among those measured.
 std::vector<ReadingValues::LeftOut> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason);
@@ -162,7 +169,7 @@ struct Study {
     // The plan with deformers of the user's own from the [[external]] tables of a file. Null: the study has a fixed list of deformers.
     StudyPlan (*plan_with)(bool full, const std::string& external_file) = nullptr;
     // The values of the study's claims for a case of `ambiguity`, by each of the readings. Null: it has none.
-    std::vector<ReadingValues> (*read)(const StudyCase& of, const std::vector<Overrides>& readings) = nullptr;
+    std::vector<ReadingValues> (*read)(const StudyCase& study_case, const std::vector<Overrides>& readings) = nullptr;
 };
 const std::vector<Study>& studies();
 
@@ -177,7 +184,7 @@ Study jiggle_study();
 Study stiffness_study();
 Study setup_study();
 Study ambiguity_study();
-Study frames_study();  // study_cases.cpp: scenes alone
+Study frames_study();
 Study timing_study();
 Study verification_study();
 Study fit_study();

@@ -1,5 +1,4 @@
 #include "analysis/records/toml_keys.hpp"
-#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/studies/study.hpp"
 #include "generated/cases_texts.hpp"
 #include "pbs/character/bodies.hpp"
@@ -14,12 +13,33 @@
 namespace experiments {
 namespace {
 
-// The keys of a form or a body replace those that all have in common.
+// The keys of a form, a body or an entry of `each` replace those that all have in common, except the overrides, which follow the common
+// ones.
+void add_keys(nlohmann::json& values, const nlohmann::json& own)
+{
+    nlohmann::json overrides = values.value("overrides", nlohmann::json::array());
+    for (const nlohmann::json& override : own.value("overrides", nlohmann::json::array())) overrides.push_back(override);
+    values.merge_patch(own);
+    if (values.contains("overrides")) values["overrides"] = overrides;
+}
+
 void select(nlohmann::json& values, const std::vector<std::string>& tables, const std::string& selected)
 {
     const nlohmann::json chosen = values.value(selected, nlohmann::json::object());
     for (const std::string& table : tables) values.erase(table);
-    values.update(chosen);
+    add_keys(values, chosen);
+}
+
+// A case with a list `each` stands for one case per entry, which has the keys of both.
+nlohmann::json each_of(const nlohmann::json& cases)
+{
+    nlohmann::json expanded = nlohmann::json::array();
+    for (nlohmann::json common : cases) {
+        const nlohmann::json entries = common.value("each", nlohmann::json::array({nlohmann::json::object()}));
+        common.erase("each");
+        for (const nlohmann::json& entry : entries) add_keys(expanded.emplace_back(common), entry);
+    }
+    return expanded;
 }
 
 // The case of one body and one form. A case without a table `quick` is measured in the default form as in the full one.
@@ -32,9 +52,7 @@ nlohmann::json resolved(nlohmann::json values, const std::string& body, bool ful
         values["body"] = body;
     }
     select(values, bodies, body);
-    const bool is_short = !full && values.contains("quick");
-    select(values, {"quick", "full"}, is_short ? "quick" : "full");
-    if (is_short) values["is_short"] = true;
+    select(values, {"quick", "full"}, !full && values.contains("quick") ? "quick" : "full");
     std::string text = values.dump();
     for (std::size_t at = 0; (at = text.find("{body}", at)) != std::string::npos;) text.replace(at, 6, body);
     return nlohmann::json::parse(text);
@@ -54,31 +72,6 @@ void add_differences(const nlohmann::json& a, const nlohmann::json& b, const std
                         differing);
 }
 
-// The column "jiggling" of Table 1 is k_stretch in the zone. Outside the zone k_stretch is 1.
-void add_pbs(Scene& scene, const nlohmann::json& other)
-{
-    DeformerSpec& spec = scene.deformers.emplace_back(*find_deformer_with<pbs::PbsOptions>(scene));
-    spec.label = other.at("label");
-    spec.variant = other.at("variant");
-    auto& options = options_of<pbs::PbsOptions>(spec);
-    options.k_stretch = other.value("k_stretch", options.k_stretch);
-    options.contact = other.value("contact", options.contact);
-    if (other.contains("k_in_zone")) options.jiggle = pbs::Jiggle{other.at("k_in_zone").get<double>()};
-    if (other.contains("lbs_entry")) options.lbs_entry = option_of<pbs::LbsEntry>(other.at("lbs_entry").get<std::string>());
-}
-
-StudyPlan plan(bool full)
-{
-    return plan_of_cases("frames", full, [](const StudyCase& of, StudyPlan& plan) {
-        StudyRun run{.name = of.name, .cost_s = of.cost_s};
-        run.scene = of.scene({"output.frames=[]", "output.frame_names=[]", "output.frames_every=1"});
-        run.scene.name = of.name;
-        run.bad_frames_are_results = !run.scene.reference.empty();  // the sweeps go beyond the last pose that flesh reaches
-        for (const nlohmann::json& other : of.value<nlohmann::json>("pbs", nlohmann::json::array())) add_pbs(run.scene, other);
-        plan.runs.push_back(run);
-    });
-}
-
 }  // namespace
 
 nlohmann::json cases_document(const std::string& study)
@@ -86,10 +79,12 @@ nlohmann::json cases_document(const std::string& study)
     const toml::table document =
         analysis::parse_toml_document(*::cases::by_name.at(study), study + "/cases.toml",
                                       {"case", "baseline", "place", "untouched", "method", "start", "budgets_ms", "tables_ms",
-                                       "training_members", "start_poses", "sweep", "cells", "without_start", "tuned"});
+                                       "training_members", "start_poses", "added", "scene", "sweep", "cells", "without_start", "tuned"});
     std::ostringstream json;
     json << toml::json_formatter{document};
-    return nlohmann::json::parse(json.str());
+    nlohmann::json tables = nlohmann::json::parse(json.str());
+    tables["case"] = each_of(tables.at("case"));
+    return tables;
 }
 
 std::vector<std::string> differing_paths(const nlohmann::json& a, const nlohmann::json& b)
@@ -102,10 +97,9 @@ std::vector<std::string> differing_paths(const nlohmann::json& a, const nlohmann
 StudyCase::StudyCase(const std::string& study, const nlohmann::json& values, bool is_full)
     : name(values.at("name").get<std::string>()),
       cost_s(values.at(is_full ? "full_s" : "quick_s").get<double>()),
-      full(!values.contains("is_short")),
       where_(study + "/cases.toml: case " + name),
       values_(values),
-      read_({"name", "body", "quick_s", "full_s", "is_short"})
+      read_({"name", "body", "quick_s", "full_s"})
 {
 }
 
@@ -122,11 +116,30 @@ bool StudyCase::has(const std::string& key) const
     return values_.contains(key);
 }
 
-Scene StudyCase::scene(const std::vector<std::string>& further) const
+Scene StudyCase::scene(const Overrides& further) const
 {
-    auto overrides = value<std::vector<std::string>>("overrides", {});
+    auto overrides = value<Overrides>("overrides", {});
     overrides.insert(overrides.end(), further.begin(), further.end());
     return read_scene(value<std::string>("scene"), overrides);
+}
+
+DeformerSpec StudyCase::further_pbs(const nlohmann::json& table, const Overrides& further) const
+{
+    Overrides overrides = {R"(deformers.use=["pbs"])", R"(reference.name="")"};
+    for (const Overrides& own : {table.value("overrides", Overrides()), further}) overrides.insert(overrides.end(), own.begin(), own.end());
+    DeformerSpec spec = scene(overrides).deformers.front();
+    spec.label = table.at("label");
+    spec.name = table.value("name", spec.name);
+    spec.variant = table.value("variant", spec.variant);
+    return spec;
+}
+
+StudyRun StudyCase::scene_run(const std::string& run_name, const Overrides& further) const
+{
+    StudyRun run{.name = run_name, .scene = scene(further), .cost_s = cost_s};
+    run.scene.name = run_name;
+    run.motion = value<std::string>("motion", "");
+    return run;
 }
 
 pbs::Vec3 StudyCase::direction(const std::string& key) const
@@ -155,7 +168,7 @@ void StudyCase::require_nothing_unread() const
         if (!read_.contains(key)) throw std::logic_error(fmt::format("{}: nothing reads the key {}", where_, key));
 }
 
-StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& of, StudyPlan& plan)>& add)
+StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& study_case, StudyPlan& plan)>& add)
 {
     StudyPlan plan;
     const nlohmann::json cases = cases_document(study).at("case");
@@ -167,9 +180,9 @@ StudyPlan plan_of_cases(const std::string& study, bool full, const std::function
         if (!own.contains(full ? "full_s" : "quick_s") || is_left_out(body)) return;
         try {
             if (values.contains("bodies")) pbs::require_body(body);
-            const StudyCase of(study, own, full);
-            add(of, plan);
-            of.require_nothing_unread();
+            const StudyCase study_case(study, own, full);
+            add(study_case, plan);
+            study_case.require_nothing_unread();
         } catch (const pbs::InputError& error) {
             if (body.empty()) throw;
             plan.left_out.push_back({body, error.what()});
@@ -185,14 +198,6 @@ StudyPlan plan_of_cases(const std::string& study, bool full, const std::function
             for (std::size_t one = first; one < last; ++one) add_case(cases[one], body);
     }
     return plan;
-}
-
-// The study `frames`: the frames that figures and the report's viewer show (frames/cases.toml). No claim is judged by them. It writes
-// DIR/frames/RUN/frames/*.vtu and .vtp, and in DIR/frames/RUN the records of a scene.
-
-Study frames_study()
-{
-    return {"frames", plan};
 }
 
 }  // namespace experiments

@@ -16,7 +16,7 @@
 #include <fstream>
 #include <map>
 #include <memory>
-#include <sstream>
+#include <stdexcept>
 
 namespace experiments {
 namespace {
@@ -51,22 +51,16 @@ std::string text_in(const pbs::JsonFile& plan, const nlohmann::json& part, const
     return value;
 }
 
-// The limb's bones lie along x.
-std::string name_of_sweep(const Scene& scene)
+// The body and the motion of a run of a scene.
+analysis::CaseKey key_of(const StudyRun& run)
 {
-    if (scene.character.body != "limb") return "turn";
-    return scene.motion.axis.normalized().cwiseAbs().x() > 0.5 ? "twist" : "bend";
-}
-
-analysis::CaseKey key_of(const Scene& scene)
-{
-    analysis::CaseKey key = {.body = scene.character.body, .joint = scene.motion.joint};
-    key.motion = scene.motion.clip.empty() ? name_of_sweep(scene) : fs::path(scene.motion.clip).stem().string();
-    if (!scene.motion.movements.empty()) {
-        key.motion = "range_of_motion";
-        if (scene.motion.movements.size() == 1) key.pose = scene.motion.movements.front();
-    }
-    if (scene.character.vertices > 0) key.vertices = scene.character.vertices;
+    const MotionSpec& motion = run.scene.motion;
+    analysis::CaseKey key = {.body = run.scene.character.body, .motion = run.motion, .joint = motion.joint};
+    if (!motion.clip.empty()) key.motion = fs::path(motion.clip).stem().string();
+    if (!motion.movements.empty()) key.motion = "range_of_motion";
+    if (motion.movements.size() == 1) key.pose = motion.movements.front();
+    if (key.motion.empty()) throw std::logic_error("run " + run.name + ": a sweep needs a name, the key motion of its case");
+    if (run.scene.character.vertices > 0) key.vertices = run.scene.character.vertices;
     return key;
 }
 
@@ -98,21 +92,21 @@ void write_scratch(const fs::path& file, const std::string& text)
 // The first column of a table names the run of each row. A row without further cells states that the run's table has no rows.
 void write_tables_of_runs(const fs::path& merged, const fs::path& study)
 {
-    std::istringstream text(kept_text(merged.string()));
-    std::string head, line;
-    std::getline(text, head);
-    std::map<std::string, std::string> tables;
-    while (std::getline(text, line)) {
-        const std::size_t comma = std::min(line.find(','), line.size());
-        std::string& table = tables[line.substr(0, comma)];
-        if (table.empty()) table = head.substr(head.find(',') + 1) + '\n';
-        if (line.find_first_not_of(',', comma) != std::string::npos) table += line.substr(comma + 1) + '\n';
+    const analysis::CsvTable rows = analysis::parse_csv(kept_text(merged.string()), merged.string());
+    const std::string& run_column = rows.columns().front();
+    const std::vector<std::string> columns(rows.columns().begin() + 1, rows.columns().end());
+    std::map<std::string, analysis::CsvTable> tables;
+    for (int row = 0; row < rows.rows(); ++row) {
+        analysis::CsvTable& table = tables.try_emplace(rows.text_at(row, run_column), columns).first->second;
+        std::vector<analysis::CsvTable::Cell> cells;
+        for (const std::string& column : columns) cells.emplace_back(rows.text_at(row, column));
+        if (std::ranges::any_of(cells, [](const auto& cell) { return !cell.text.empty(); })) table.add_row(cells);
     }
     const fs::path name = merged.extension() == ".gz" ? merged.stem() : merged.filename();
     for (const auto& [run, table] : tables) {
         require_below(run, merged.string());
         fs::create_directories(study / run);
-        write_scratch(study / run / name, table);
+        write_scratch(study / run / name, table.text());
     }
 }
 
@@ -200,7 +194,7 @@ void write_study_plan(const std::string& folder, const StudyPlan& plan)
         nlohmann::json entry = {{"name", run.name}, {"cost_s", run.cost_s}};
         if (!run.work) {
             entry["scene"] = run.scene.name;
-            entry["of"] = to_json_of(key_of(run.scene));
+            entry["of"] = to_json_of(key_of(run));
         }
         if (run.beside) entry["beside"] = true;
         runs.push_back(entry);

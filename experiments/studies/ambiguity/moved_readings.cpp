@@ -37,12 +37,6 @@ analysis::CaseRecord record_of(const Scene& scene, const pbs::Motion& motion, co
     return record;
 }
 
-double share_within(const std::vector<double>& change_pct)
-{
-    const auto holds = [](double change) { return std::abs(change) <= analysis::kept_volume_pct; };
-    return double(std::ranges::count_if(change_pct, holds)) / double(change_pct.size());
-}
-
 // Root mean square over frames and vertices of the zone, or all where it is empty [m].
 double distance_m(const ReadMotion& a, const ReadMotion& b, const std::vector<bool>& zone)
 {
@@ -60,10 +54,10 @@ double distance_m(const ReadMotion& a, const ReadMotion& b, const std::vector<bo
 // One reading's way through the motion, one frame per turn, in the order and precision that are judged.
 class TimedReading {
 public:
-    TimedReading(const StudyCase& of, const pbs::Character& base, const pbs::Motion& motion, const Overrides& reading)
+    TimedReading(const StudyCase& study_case, const pbs::Character& base, const pbs::Motion& motion, const Overrides& reading)
         : motion_(motion), dt_s_(motion.time_step_s)
     {
-        const Scene scene = of.scene(reading);
+        const Scene scene = study_case.scene(reading);
         DeformerSpec spec = spec_of(scene, "pbs");
         options_of<pbs::PbsOptions>(spec).order = pbs::Order::plain;
         options_of<pbs::PbsOptions>(spec).precision = pbs::Precision::f64;
@@ -126,7 +120,8 @@ std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading
     add("mean_volume_change_pct", mean(a.pbs.volume_change_pct), mean(b.pbs.volume_change_pct));
     add("mean_volume_abs_change_pct", mean(a.pbs.volume_abs_change_pct), mean(b.pbs.volume_abs_change_pct));
     add("mean_volume_change_of_lbs_pct", mean(a.lbs.volume_change_pct), mean(b.lbs.volume_change_pct));
-    add("share_of_frames_within_printed", share_within(a.pbs.volume_change_pct), share_within(b.pbs.volume_change_pct));
+    add("share_of_frames_within_printed", analysis::share_of_kept_frames(a.pbs.volume_change_pct),
+        analysis::share_of_kept_frames(b.pbs.volume_change_pct));
     add("mean_inverted_tets", mean(a.pbs.inverted_tets), mean(b.pbs.inverted_tets));
     for (std::size_t frame = 0; frame < a.pbs.angle_deg.size(); ++frame) {
         const double angle = a.pbs.angle_deg[frame];
@@ -140,25 +135,25 @@ std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading
     return rows;
 }
 
-std::vector<JudgedReading> values_of_frames(const StudyCase& of, const std::vector<Overrides>& readings)
+std::vector<JudgedReading> values_of_frames(const StudyCase& study_case, const std::vector<Overrides>& readings)
 {
-    const Scene scene = of.scene();
+    const Scene scene = study_case.scene();
     const pbs::Character character = pbs::make_character(scene.character);
     const pbs::Motion motion = make_motion(scene.motion, character.skeleton, scene.file);
     std::vector<std::unique_ptr<TimedReading>> timed;
     std::vector<TimedVariant> turns;
     for (const Overrides& reading : readings) {
-        timed.push_back(std::make_unique<TimedReading>(of, character, motion, reading));
-        turns.push_back([one = timed.back().get()] { return one->turn(); });
+        timed.push_back(std::make_unique<TimedReading>(study_case, character, motion, reading));
+        turns.push_back([turning = timed.back().get()] { return turning->turn(); });
     }
-    const auto seconds = take_turns(turns, {.seconds = of.value<double>("timing_s")});
-    std::vector<JudgedReading> all;
+    const auto seconds = take_turns(turns, {.seconds = study_case.value<double>("timing_s")});
+    std::vector<JudgedReading> judged_readings;
     for (std::size_t i = 0; i < timed.size(); ++i) {
         const double per_s = 1.0 / spread_of(seconds[i][0]).median;
         const analysis::CaseKey of_frame = {.body = scene.character.body, .deformer = "pbs"};
-        all.push_back({judged({{"C10", "frames_per_s", of_frame, per_s, per_s, per_s, "1/s"}}), !timed[i]->finite()});
+        judged_readings.push_back({judged({{"C10", "frames_per_s", of_frame, per_s, per_s, per_s, "1/s"}}), !timed[i]->finite()});
     }
-    return all;
+    return judged_readings;
 }
 
 }  // namespace experiments

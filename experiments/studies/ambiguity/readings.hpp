@@ -37,7 +37,7 @@ struct Reading {
 
 // The baselines and readings of cases.toml, each baseline before its readings. which: all, of_a_step, of_motion. The latter are those whose
 // steps depend on the last one, since particles are integrated.
-std::vector<Reading> readings_of(const StudyCase& of, const std::string& which);
+std::vector<Reading> readings_of(const StudyCase& study_case, const std::string& which);
 
 // Why a reading cannot change a claim, from how the claim's values are measured and not from the results; empty where it can.
 std::string untouched_because(const std::string& claim, const Reading& reading, const Reading& baseline);
@@ -122,6 +122,6 @@ std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading
 
 // C10a: frames per second of processor time, including LBS, of all readings in turns, in the order and precision that are judged (plain,
 // f64).
-std::vector<JudgedReading> values_of_frames(const StudyCase& of, const std::vector<Overrides>& readings);
+std::vector<JudgedReading> values_of_frames(const StudyCase& study_case, const std::vector<Overrides>& readings);
 
 }  // namespace experiments

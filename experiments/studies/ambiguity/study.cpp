@@ -20,12 +20,12 @@
 
 namespace experiments {
 
-std::vector<Reading> readings_of(const StudyCase& of, const std::string& which)
+std::vector<Reading> readings_of(const StudyCase& study_case, const std::string& which)
 {
     const nlohmann::json document = cases_document("ambiguity");
     std::vector<Reading> readings;
     const auto add = [&](const std::string& place, const std::string& name, const std::string& baseline, const Overrides& overrides) {
-        const Scene scene = of.scene(overrides);
+        const Scene scene = study_case.scene(overrides);
         nlohmann::json settings = to_json(spec_of(scene, "pbs")).at("options");
         settings["weights"] = scene.resolved.at("skinning").at("weights");
         settings["time_step_s"] = scene.motion.time_step_s;
@@ -35,7 +35,7 @@ std::vector<Reading> readings_of(const StudyCase& of, const std::string& which)
         if (which != "all" && (which == "of_motion") != place.value("motion", false)) continue;
         const std::string baseline = place.value("baseline", own_reading);
         const auto& baselines = document.at("baseline");
-        const auto named = std::ranges::find_if(baselines, [&](const nlohmann::json& one) { return one.at("name") == baseline; });
+        const auto named = std::ranges::find_if(baselines, [&](const nlohmann::json& table) { return table.at("name") == baseline; });
         const Overrides common = named->at("overrides");
         if (std::ranges::find(readings, baseline, &Reading::name) == readings.end()) add("", baseline, baseline, common);
         for (const Overrides reading : place.at("readings")) {
@@ -84,20 +84,20 @@ const analysis::Columns<ClaimChange>& claim_change_columns()
 
 namespace {
 
-const JudgedValue* find(const JudgedReading& of, const JudgedValue& wanted)
+const JudgedValue* find(const JudgedReading& judged_reading, const JudgedValue& wanted)
 {
-    const auto found = std::ranges::find_if(of.values, [&](const JudgedValue& one) {
-        return one.claim == wanted.claim && one.quantity == wanted.quantity && one.of == wanted.of;
+    const auto found = std::ranges::find_if(judged_reading.values, [&](const JudgedValue& value) {
+        return value.claim == wanted.claim && value.quantity == wanted.quantity && value.of == wanted.of;
     });
-    return found == of.values.end() ? nullptr : &*found;
+    return found == judged_reading.values.end() ? nullptr : &*found;
 }
 
 std::string why(const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
 {
     if (b_broke_down) return "B breaks down";
     if (!a || !b) return std::string(a ? "B" : "A") + " has no such value";
-    const auto limit = [](const char* which, const JudgedValue& of) {
-        return of.limit == analysis::Limit::none ? "" : std::string(which) + ": " + analysis::recorded_name(of.limit);
+    const auto limit = [](const char* which, const JudgedValue& value) {
+        return value.limit == analysis::Limit::none ? "" : std::string(which) + ": " + analysis::recorded_name(value.limit);
     };
     const std::string of_a = limit("A", *a), of_b = limit("B", *b);
     return of_a + (of_a.empty() || of_b.empty() ? "" : "; ") + of_b;
@@ -113,9 +113,9 @@ std::string flips(const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
 // Either may be null.
 ClaimChange compared(ClaimChange row, const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
 {
-    const JudgedValue* one = a ? a : b;
-    if (!one) return row;
-    row.quantity = one->quantity, row.of = one->of, row.unit = one->unit, row.bound = one->bound;
+    const JudgedValue* either = a ? a : b;
+    if (!either) return row;
+    row.quantity = either->quantity, row.of = either->of, row.unit = either->unit, row.bound = either->bound;
     if (a) row.a = a->value, row.holds_a = a->holds ? "yes" : "no";
     if (b) row.b = b->value, row.holds_b = b->holds ? "yes" : "no";
     if (a && b) row.change = b->value - a->value;
@@ -137,20 +137,21 @@ ClaimChange row_of(const std::string& body, const std::string& claim, const Read
 }
 
 // The values by each reading, measured by the study of the claims, which has `read`, or as above.
-std::vector<JudgedReading> values_of(const Study& study, const StudyCase& of, const std::vector<Reading>& readings)
+std::vector<JudgedReading> values_of(const Study& study, const StudyCase& study_case, const std::vector<Reading>& readings)
 {
     std::vector<Overrides> overrides;
     for (const Reading& reading : readings) overrides.push_back(reading.overrides);
-    if (!study.read) return values_of_frames(of, overrides);
-    std::vector<JudgedReading> all;
-    for (const ReadingValues& read : study.read(of, overrides)) all.push_back({judged(read.values), read.broke_down, read.left_out});
-    return all;
+    if (!study.read) return values_of_frames(study_case, overrides);
+    std::vector<JudgedReading> judged_readings;
+    for (const ReadingValues& read : study.read(study_case, overrides))
+        judged_readings.push_back({judged(read.values), read.broke_down, read.left_out});
+    return judged_readings;
 }
 
 // Moves the body of a case by each reading in turn, and writes figures.csv.
-std::string measure_volume(const StudyCase& of, ReadingComparison& comparison, const std::string& folder)
+std::string measure_volume(const StudyCase& study_case, ReadingComparison& comparison, const std::string& folder)
 {
-    const Scene scene = of.scene();
+    const Scene scene = study_case.scene();
     const pbs::Character character = pbs::make_character(scene.character);
     const std::vector<bool> zone = pbs::jiggle_zone(character.binding);
     if (scene.motion.clip.empty()) comparison.without_jiggle = "a sweep has no speed of its own";
@@ -159,61 +160,63 @@ std::string measure_volume(const StudyCase& of, ReadingComparison& comparison, c
     std::string breakdown;
     for (const Reading& reading : comparison.readings) {
         if (reading.jiggles() && !comparison.without_jiggle.empty()) continue;
-        Scene read = of.scene(reading.overrides);
-        read.name = of.name;
+        Scene read = study_case.scene(reading.overrides);
+        read.name = study_case.name;
         const ReadMotion& b = moved.emplace(reading.name, move(reweighted(character, read), read)).first->second;
         if (!b.finite) breakdown += reading.name + " is not finite. ";
         if (!reading.place.empty())
-            std::ranges::copy(volume_changes(of.name, reading, moved.at(reading.baseline), b, moved.at(own_reading), zone),
+            std::ranges::copy(volume_changes(study_case.name, reading, moved.at(reading.baseline), b, moved.at(own_reading), zone),
                               std::back_inserter(volumes));
     }
-    comparison.measure(of.value<std::vector<std::string>>("claims"), [&](const std::vector<Reading>& readings) {
-        std::vector<JudgedReading> all;
+    comparison.measure(study_case.value<std::vector<std::string>>("claims"), [&](const std::vector<Reading>& readings) {
+        std::vector<JudgedReading> judged_readings;
         for (const Reading& reading : readings) {
             const ReadMotion& of_reading = moved.at(reading.name);
             std::vector<analysis::Measurement> measured = frame_measurements(of_reading.pbs);
             std::ranges::move(frame_measurements(of_reading.lbs), std::back_inserter(measured));
-            all.push_back({judged(measured), !of_reading.finite});
+            judged_readings.push_back({judged(measured), !of_reading.finite});
         }
-        return all;
+        return judged_readings;
     });
     table_of(volume_change_columns, volumes).write(analysis::path_in(folder, "figures.csv"));
     return breakdown;
 }
 
 // Claims of one study are measured together.
-std::string measure_claims(const StudyCase& of, ReadingComparison& comparison)
+std::string measure_claims(const StudyCase& study_case, ReadingComparison& comparison)
 {
-    const auto claims = of.value<std::vector<std::string>>("claims");
+    const auto claims = study_case.value<std::vector<std::string>>("claims");
     for (const Study& study : studies()) {
         std::vector<std::string> own;
         std::ranges::copy_if(claims, std::back_inserter(own), [&](const std::string& id) { return claim_named(id).study == study.name; });
-        if (!own.empty()) comparison.measure(own, [&](const std::vector<Reading>& touching) { return values_of(study, of, touching); });
+        if (!own.empty())
+            comparison.measure(own, [&](const std::vector<Reading>& touching) { return values_of(study, study_case, touching); });
     }
     return comparison.breakdown;
 }
 
 // A run repeats when its case, a reading or a bound of its claims changes.
-nlohmann::json settings_of(const StudyCase& of, const std::vector<Reading>& readings)
+nlohmann::json settings_of(const StudyCase& study_case, const std::vector<Reading>& readings)
 {
     std::vector<analysis::Claim> judging;
-    for (const std::string& claim : of.value<std::vector<std::string>>("claims")) judging.push_back(claim_named(claim));
+    for (const std::string& claim : study_case.value<std::vector<std::string>>("claims")) judging.push_back(claim_named(claim));
     nlohmann::json recorded = nlohmann::json::array();
     for (const Reading& reading : readings)
         recorded.push_back({{"name", reading.name}, {"baseline", reading.baseline}, {"settings", reading.settings}});
-    return {{"case", of.values()}, {"scene", to_json(of.scene())}, {"readings", recorded}, {"bounds", digest_of(judging)}};
+    return {{"case", study_case.values()}, {"scene", to_json(study_case.scene())}, {"readings", recorded}, {"bounds", digest_of(judging)}};
 }
 
 StudyPlan plan(bool full)
 {
-    return plan_of_cases("ambiguity", full, [](const StudyCase& of, StudyPlan& plan) {
-        const bool is_moved = of.has("readings");
-        const std::vector<Reading> readings = readings_of(of, of.value<std::string>("readings", "all"));
-        StudyRun run{.name = of.name, .cost_s = of.cost_s};
-        run.settings = settings_of(of, readings);
+    return plan_of_cases("ambiguity", full, [](const StudyCase& study_case, StudyPlan& plan) {
+        const bool is_moved = study_case.has("readings");
+        const std::vector<Reading> readings = readings_of(study_case, study_case.value<std::string>("readings", "all"));
+        StudyRun run{.name = study_case.name, .cost_s = study_case.cost_s};
+        run.settings = settings_of(study_case, readings);
         run.work = [=](const std::string& folder) {
-            ReadingComparison comparison{of.value<std::string>("body"), readings};
-            const std::string breakdown = is_moved ? measure_volume(of, comparison, folder) : measure_claims(of, comparison);
+            ReadingComparison comparison{study_case.value<std::string>("body"), readings};
+            const std::string breakdown =
+                is_moved ? measure_volume(study_case, comparison, folder) : measure_claims(study_case, comparison);
             table_of(used_columns(claim_change_columns(), comparison.changes), comparison.changes)
                 .write(analysis::path_in(folder, "ambiguity.csv"));
             return breakdown;
@@ -241,8 +244,8 @@ std::vector<ClaimChange> claim_changes(const std::string& body, const std::strin
         if (of_a.claim == claim) changes.push_back(compared(row, &of_a, find(b, of_a), b.broke_down));
     for (const JudgedValue& of_b : b.values)
         if (of_b.claim == claim && !find(a, of_b)) changes.push_back(compared(row, nullptr, &of_b, b.broke_down));
-    for (const ReadingValues::LeftOut& one : b.left_out)
-        if (one.claim == claim) changes.push_back(without_value(row, "no_value", one.reason, one.quantity));
+    for (const ReadingValues::LeftOut& left_out : b.left_out)
+        if (left_out.claim == claim) changes.push_back(without_value(row, "no_value", left_out.reason, left_out.quantity));
     if (changes.empty()) changes.push_back(without_value(row, "no_value", b.broke_down ? "B breaks down" : "neither reading has a value"));
     return changes;
 }
@@ -267,8 +270,9 @@ void ReadingComparison::measure(const std::vector<std::string>& claims, const Me
         for (const std::string& claim : claims) {
             pairs.push_back({reading, baseline, claim, is_left_out ? without_jiggle : untouched_because(claim, reading, baseline)});
             if (!pairs.back().untouched_because.empty()) continue;
-            for (const Reading* one : {&baseline, &reading})
-                if (std::ranges::find(measured, one->name, &Reading::name) == measured.end()) measured.push_back(*one);
+            for (const Reading* compared_reading : {&baseline, &reading})
+                if (std::ranges::find(measured, compared_reading->name, &Reading::name) == measured.end())
+                    measured.push_back(*compared_reading);
         }
     }
     const std::vector<JudgedReading> values = measure(measured);
@@ -287,13 +291,14 @@ void ReadingComparison::measure(const std::vector<std::string>& claims, const Me
 
 std::string digest_of(const std::vector<analysis::Claim>& claims)
 {
-    nlohmann::json all = nlohmann::json::array();
+    nlohmann::json table = nlohmann::json::array();
     for (const analysis::Claim& claim : claims) {
-        all.push_back({claim.id, static_cast<int>(claim.rule), claim.own.quantities, to_json_of(claim.own.of), to_json_of(claim.own.over),
-                       claim.case_fields, static_cast<int>(claim.mean)});
-        for (const analysis::Threshold& one : claim.own.thresholds) all.push_back({one.quantity, one.low, one.high, to_json_of(one.of)});
+        table.push_back({claim.id, static_cast<int>(claim.rule), claim.own.quantities, to_json_of(claim.own.of), to_json_of(claim.own.over),
+                         claim.case_fields, static_cast<int>(claim.mean)});
+        for (const analysis::Threshold& threshold : claim.own.thresholds)
+            table.push_back({threshold.quantity, threshold.low, threshold.high, to_json_of(threshold.of)});
     }
-    return pbs::content_hash(all.dump());
+    return pbs::content_hash(table.dump());
 }
 
 std::vector<JudgedValue> judged(const std::vector<analysis::Measurement>& measured)
@@ -306,8 +311,9 @@ std::vector<JudgedValue> judged(const std::vector<analysis::Measurement>& measur
             own.of.order = own.of.precision = own.of.variant = own.of.masses = "";  // a reading sets what it is
             own.of.iterations.reset();
             if (own.of.deformer.starts_with("pbs")) own.of.deformer = "pbs";
-            for (const analysis::JudgedCase& of : analysis::judged(claim, own, measured).cases)
-                values.push_back({claim.id, quantity, of.of, of.unit, threshold_text(of.threshold), of.value, of.holds, of.limit});
+            for (const analysis::JudgedCase& judged_case : analysis::judged(claim, own, measured).cases)
+                values.push_back({claim.id, quantity, judged_case.of, judged_case.unit, threshold_text(judged_case.threshold),
+                                  judged_case.value, judged_case.holds, judged_case.limit});
         }
     return values;
 }

@@ -42,10 +42,10 @@ ArtefactDeformer recorded(const DeformerSpec& spec)
 
 namespace {
 
-ArtefactPlace place_of(const ArtefactCase& of, const ArtefactBody& body, std::size_t pose)
+ArtefactPlace place_of(const ArtefactCase& artefact_case, const ArtefactBody& body, std::size_t pose)
 {
     const pbs::Character& character = body.posed.character();
-    return {character.name, static_cast<int>(character.mesh.rest.rows()), of.poses[pose].name};
+    return {character.name, static_cast<int>(character.mesh.rest.rows()), artefact_case.poses[pose].name};
 }
 
 Scene with_vertices(Scene scene, int vertices)
@@ -54,10 +54,10 @@ Scene with_vertices(Scene scene, int vertices)
     return scene;
 }
 
-std::vector<int> frames_of(const ArtefactCase& of)
+std::vector<int> frames_of(const ArtefactCase& artefact_case)
 {
     std::vector<int> frames;
-    for (const ArtefactPose& pose : of.poses) frames.push_back(pose.frame);
+    for (const ArtefactPose& pose : artefact_case.poses) frames.push_back(pose.frame);
     return frames;
 }
 
@@ -84,7 +84,7 @@ bool is_on_other_meshes(const DeformerSpec& spec)
 
 class Search {
 public:
-    explicit Search(const ArtefactCase& of) : of_(of) {}
+    explicit Search(const ArtefactCase& artefact_case) : of_(artefact_case) {}
 
     void look_at(const ArtefactBody& body, const DeformerSpec& spec, bool with_intersections)
     {
@@ -246,10 +246,11 @@ std::vector<DeformerSpec> other_orders(const DeformerSpec& pbs)
     return others;
 }
 
-ArtefactBody::ArtefactBody(const ArtefactCase& of, int vertices) : posed(with_vertices(of.scene, vertices), frames_of(of))
+ArtefactBody::ArtefactBody(const ArtefactCase& artefact_case, int vertices)
+    : posed(with_vertices(artefact_case.scene, vertices), frames_of(artefact_case))
 {
     for (const LimbJoint& joint : limb_joints(posed.character()))
-        if (of.joint.empty() || of.joint == joint.name) joints.push_back(joint);
+        if (artefact_case.joint.empty() || artefact_case.joint == joint.name) joints.push_back(joint);
     for (const LimbJoint& joint : joints) sections.emplace_back(posed.character(), joint);
 }
 
@@ -259,17 +260,17 @@ bool is_turned(const ArtefactPose& pose, const ArtefactBody& body, std::size_t j
     return pose.turned.empty() || std::ranges::count(pose.turned, child) > 0;
 }
 
-ArtefactRecords find_artefacts(const ArtefactCase& of, const ArtefactBody& body)
+ArtefactRecords find_artefacts(const ArtefactCase& artefact_case, const ArtefactBody& body)
 {
-    Search search(of);
-    const std::vector<DeformerSpec> orders = other_orders(spec_of(of.scene, "pbs"));
+    Search search(artefact_case);
+    const std::vector<DeformerSpec> orders = other_orders(spec_of(artefact_case.scene, "pbs"));
     const auto look_at = [&](const ArtefactBody& mesh, bool is_own) {
-        for (const DeformerSpec& spec : of.scene.deformers)
+        for (const DeformerSpec& spec : artefact_case.scene.deformers)
             if (is_own || is_on_other_meshes(spec)) search.look_at(mesh, spec, is_own);
         for (const DeformerSpec& spec : orders) search.look_at(mesh, spec, false);
     };
     look_at(body, true);
-    for (const int vertices : of.vertices) look_at(ArtefactBody(of, vertices), false);
+    for (const int vertices : artefact_case.vertices) look_at(ArtefactBody(artefact_case, vertices), false);
     return std::move(search).records();
 }
 

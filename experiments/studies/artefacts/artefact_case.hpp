@@ -125,7 +125,7 @@ inline constexpr NameTable<ArtefactCase::Claim, 2> option_names<ArtefactCase::Cl
 
 // The body on one mesh.
 struct ArtefactBody {
-    explicit ArtefactBody(const ArtefactCase& of, int vertices = 0);  // 0: those of the scene
+    explicit ArtefactBody(const ArtefactCase& artefact_case, int vertices = 0);  // 0: those of the scene
 
     PosedCharacter posed;
     std::vector<LimbJoint> joints;
@@ -182,6 +182,6 @@ struct ArtefactRecords {
 // PBS with the same options in every other order and precision.
 std::vector<DeformerSpec> other_orders(const DeformerSpec& pbs);
 
-ArtefactRecords find_artefacts(const ArtefactCase& of, const ArtefactBody& body);
+ArtefactRecords find_artefacts(const ArtefactCase& artefact_case, const ArtefactBody& body);
 
 }  // namespace experiments

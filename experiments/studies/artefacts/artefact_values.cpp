@@ -72,10 +72,10 @@ std::string remark_on_width(const std::vector<ArtefactSample>& samples, std::siz
     return fmt::format("{}", fmt::join(remarks, "; "));
 }
 
-analysis::CaseKey key_of(const ArtefactCase& of, const ArtefactBody& body, std::size_t pose, const std::string& joint,
+analysis::CaseKey key_of(const ArtefactCase& artefact_case, const ArtefactBody& body, std::size_t pose, const std::string& joint,
                          const std::string& deformer)
 {
-    analysis::CaseKey key = of.poses[pose].key;
+    analysis::CaseKey key = artefact_case.poses[pose].key;
     key.body = body.posed.character().name;
     key.joint = joint;
     key.deformer = deformer;
@@ -88,10 +88,10 @@ std::string reference_name(const std::vector<ArtefactSample>& samples, std::size
     return reference.empty() ? "" : fmt::format("nh_p{}", reference.front().element_order);
 }
 
-nlohmann::json joints_by_hand_of(const ArtefactCase& of)
+nlohmann::json joints_by_hand_of(const ArtefactCase& artefact_case)
 {
     nlohmann::json joints = nlohmann::json::object();
-    for (const JointByHand& joint : joints_by_hand(of.scene.character.body))
+    for (const JointByHand& joint : joints_by_hand(artefact_case.scene.character.body))
         joints[name_of(joint)] = {joint.reach_parent, joint.reach_child, joint.no_section};
     return joints;
 }
@@ -122,7 +122,7 @@ pbs::Weights exchanged_weights(const ArtefactBody& body)
 
 class Comparison {
 public:
-    explicit Comparison(const ArtefactCase& of) : of_(of) {}
+    explicit Comparison(const ArtefactCase& artefact_case) : of_(artefact_case) {}
 
     // weights: those of `body`: paper, or a control's.
     void compare(const ArtefactBody& body, const ArtefactBody& rigid, const DeformerSpec& spec, const std::string& weights = "paper")
@@ -196,24 +196,24 @@ private:
 
 }  // namespace
 
-std::vector<analysis::Measurement> section_values(const ArtefactCase& of, const ArtefactBody& body,
+std::vector<analysis::Measurement> section_values(const ArtefactCase& artefact_case, const ArtefactBody& body,
                                                   const std::vector<ArtefactSample>& samples)
 {
-    const bool is_bulge = of.claim == ArtefactCase::Claim::bulge;
+    const bool is_bulge = artefact_case.claim == ArtefactCase::Claim::bulge;
     const Extreme extreme = is_bulge ? &SectionExtremesOverRest::largest_radius : &SectionExtremesOverRest::smallest_radius;
     const char* quantity = is_bulge ? "largest_section_radius_over_reference" : "smallest_section_radius_over_rest";
     std::vector<analysis::Measurement> measurements;
-    for (const auto& [pose, joint, reference_name, outcome, remark] : section_outcomes(of, body, samples)) {
+    for (const auto& [pose, joint, reference_name, outcome, remark] : section_outcomes(artefact_case, body, samples)) {
         if (outcome != SectionOutcome::measured && outcome != SectionOutcome::pbs_did_not_finish) continue;
         const std::vector<double> base = is_bulge ? sizes(chosen(samples, "reference", pose, joint), extreme) : std::vector{1.0};
         for (const std::string group : {"pbs", "lbs", "dqs", "pbs_author", "reference", nearly_incompressible}) {
             if (is_bulge && group == "reference") continue;
             for (const auto& [order, own] : by_order(chosen(samples, group, pose, joint))) {
                 const std::vector<double> values = sizes(own, extreme);
-                analysis::CaseKey key = key_of(of, body, pose, body.joints[joint].name, group);
+                analysis::CaseKey key = key_of(artefact_case, body, pose, body.joints[joint].name, group);
                 std::tie(key.order, key.precision) = order;
                 if (is_bulge || group == "reference") key.reference = reference_name;
-                measurements.push_back({name_of(of.claim), quantity, key, values.front() / base.front(),
+                measurements.push_back({name_of(artefact_case.claim), quantity, key, values.front() / base.front(),
                                         std::ranges::min(values) / std::ranges::max(base),
                                         std::ranges::max(values) / std::ranges::min(base), "1"});
             }
@@ -229,13 +229,14 @@ const char* name_of(SectionOutcome outcome)
     return names[static_cast<int>(outcome)];
 }
 
-std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const ArtefactBody& body, const std::vector<ArtefactSample>& samples)
+std::vector<JudgedSection> section_outcomes(const ArtefactCase& artefact_case, const ArtefactBody& body,
+                                            const std::vector<ArtefactSample>& samples)
 {
-    const bool over_reference = of.claim == ArtefactCase::Claim::bulge;
+    const bool over_reference = artefact_case.claim == ArtefactCase::Claim::bulge;
     std::vector<JudgedSection> sections;
-    for (std::size_t pose = 0; pose < of.poses.size(); ++pose)
+    for (std::size_t pose = 0; pose < artefact_case.poses.size(); ++pose)
         for (std::size_t joint = 0; joint < body.joints.size(); ++joint) {
-            if (!is_turned(of.poses[pose], body, joint)) continue;
+            if (!is_turned(artefact_case.poses[pose], body, joint)) continue;
             JudgedSection section{pose, joint, reference_name(samples, pose, joint)};
             if (over_reference && body.sections[joint].bend_deg(body.posed.pose(pose)) > deepest_bend_deg)
                 section.outcome = SectionOutcome::bent_too_far;
@@ -262,20 +263,22 @@ RECORD_SETTINGS_AND(ArtefactCase,
 
 const analysis::Columns<SectionRow> section_columns = MEMBER_COLUMNS(SectionRow, claim, body, pose, joint, reference, outcome, remark);
 
-std::vector<SectionRow> section_rows(const ArtefactCase& of, const ArtefactBody& body, const std::vector<JudgedSection>& sections)
+std::vector<SectionRow> section_rows(const ArtefactCase& artefact_case, const ArtefactBody& body,
+                                     const std::vector<JudgedSection>& sections)
 {
     std::vector<SectionRow> rows;
     const auto add = [&](std::size_t pose, const std::string& joint, const std::string& reference, const std::string& outcome,
                          const std::string& remark) {
-        rows.push_back({name_of(of.claim), body.posed.character().name, of.poses[pose].name, joint, reference, outcome, remark});
+        rows.push_back(
+            {name_of(artefact_case.claim), body.posed.character().name, artefact_case.poses[pose].name, joint, reference, outcome, remark});
     };
     for (const JudgedSection& section : sections)
         add(section.pose, body.joints[section.joint].name, section.reference, name_of(section.outcome), section.remark);
     for (const JointByHand& joint : joints_by_hand(body.posed.character().name)) {
         const std::string why = why_left_out(body.posed.character(), joint);
-        if (why.empty() || !(of.joint.empty() || of.joint == name_of(joint))) continue;
-        for (std::size_t pose = 0; pose < of.poses.size(); ++pose)
-            if (of.poses[pose].turned.empty() || std::ranges::count(of.poses[pose].turned, joint.child) > 0)
+        if (why.empty() || !(artefact_case.joint.empty() || artefact_case.joint == name_of(joint))) continue;
+        for (std::size_t pose = 0; pose < artefact_case.poses.size(); ++pose)
+            if (artefact_case.poses[pose].turned.empty() || std::ranges::count(artefact_case.poses[pose].turned, joint.child) > 0)
                 add(pose, name_of(joint), "", why, "");
     }
     return rows;
@@ -286,19 +289,19 @@ const Columns<SmoothnessRow> smoothness_columns =
     within(&SmoothnessRow::smoothness, MEMBER_COLUMNS(Smoothness, strain_jump_rms, bending_rms_rad)) +
     Columns<SmoothnessRow>{{"volume_abs_change_pct", &SmoothnessRow::volume_abs_change_pct}};
 
-WeightsComparison compare_weights(const ArtefactCase& of)
+WeightsComparison compare_weights(const ArtefactCase& artefact_case)
 {
-    Comparison comparison(of);
-    const DeformerSpec pbs = spec_of(of.scene, "pbs");
+    Comparison comparison(artefact_case);
+    const DeformerSpec pbs = spec_of(artefact_case.scene, "pbs");
     DeformerSpec plain = pbs;
     options_of<pbs::PbsOptions>(plain).order = pbs::Order::plain;
     options_of<pbs::PbsOptions>(plain).precision = pbs::Precision::f64;
     std::vector<DeformerSpec> specs = other_orders(pbs);
-    specs.insert(specs.begin(), {spec_of(of.scene, "lbs"), pbs});
-    ArtefactCase by_eq_2 = of;
+    specs.insert(specs.begin(), {spec_of(artefact_case.scene, "lbs"), pbs});
+    ArtefactCase by_eq_2 = artefact_case;
     by_eq_2.scene.character.weights = pbs::WeightKind::paper;
     std::vector<int> meshes = {0};
-    meshes.insert(meshes.end(), of.vertices.begin(), of.vertices.end());
+    meshes.insert(meshes.end(), artefact_case.vertices.begin(), artefact_case.vertices.end());
     for (const int vertices : meshes) {
         const ArtefactBody paper(by_eq_2, vertices);
         const ArtefactBody rigid = with_weights(paper, pbs::weights_by(pbs::WeightKind::rigid, paper.posed.character()));

@@ -13,11 +13,11 @@ namespace experiments {
 
 // Everything that a run of the study depends on.
 nlohmann::json to_json(const ArtefactPose& pose);
-nlohmann::json to_json(const ArtefactCase& of);
+nlohmann::json to_json(const ArtefactCase& artefact_case);
 
 // Of the case's claim. C04: the narrowest section over rest, also of the reference, by whose value the verdict divides the others. C05: the
 // widest section over the reference's; a value requires that flesh has a section there. A group without samples has no value.
-std::vector<analysis::Measurement> section_values(const ArtefactCase& of, const ArtefactBody& body,
+std::vector<analysis::Measurement> section_values(const ArtefactCase& artefact_case, const ArtefactBody& body,
                                                   const std::vector<ArtefactSample>& samples);
 
 inline constexpr double deepest_bend_deg = 110.0;  // including the bend at rest
@@ -40,13 +40,15 @@ struct JudgedSection {
 };
 
 // One per pose and joint, for the case's claim. Values of C04 need no reference here.
-std::vector<JudgedSection> section_outcomes(const ArtefactCase& of, const ArtefactBody& body, const std::vector<ArtefactSample>& samples);
+std::vector<JudgedSection> section_outcomes(const ArtefactCase& artefact_case, const ArtefactBody& body,
+                                            const std::vector<ArtefactSample>& samples);
 // One row for each of them, and one per pose for a joint by hand without section, whose outcome is the reason (why_left_out).
 struct SectionRow {
     std::string claim, body, pose, joint, reference, outcome, remark;
 };
 extern const analysis::Columns<SectionRow> section_columns;  // sections.csv
-std::vector<SectionRow> section_rows(const ArtefactCase& of, const ArtefactBody& body, const std::vector<JudgedSection>& sections);
+std::vector<SectionRow> section_rows(const ArtefactCase& artefact_case, const ArtefactBody& body,
+                                     const std::vector<JudgedSection>& sections);
 
 // C06: the same poses with the weights of Eq. 2, or of the scene's weights file in their place, and with rigid weights, which bind every
 // vertex to its nearest bone alone.
@@ -72,6 +74,6 @@ struct WeightsComparison {
     std::vector<SmoothnessRow> smoothness;  // the terms of the ratios
 };
 
-WeightsComparison compare_weights(const ArtefactCase& of);
+WeightsComparison compare_weights(const ArtefactCase& artefact_case);
 
 }  // namespace experiments

@@ -19,15 +19,16 @@
 namespace experiments {
 namespace {
 
-std::string look_and_record(const ArtefactCase& of, const std::string& folder)
+std::string look_and_record(const ArtefactCase& artefact_case, const std::string& folder)
 {
-    const ArtefactBody body(of);
-    const ArtefactRecords records = find_artefacts(of, body);
-    WeightsComparison weights = compare_weights(of);
-    std::vector<analysis::Measurement> measurements = section_values(of, body, records.samples);
+    const ArtefactBody body(artefact_case);
+    const ArtefactRecords records = find_artefacts(artefact_case, body);
+    WeightsComparison weights = compare_weights(artefact_case);
+    std::vector<analysis::Measurement> measurements = section_values(artefact_case, body, records.samples);
     measurements.insert(measurements.end(), weights.measurements.begin(), weights.measurements.end());
     const auto path = [&](const char* name) { return analysis::path_in(folder, name); };
-    table_of(section_columns, section_rows(of, body, section_outcomes(of, body, records.samples))).write(path("sections.csv"));
+    table_of(section_columns, section_rows(artefact_case, body, section_outcomes(artefact_case, body, records.samples)))
+        .write(path("sections.csv"));
     table_of(profile_columns, records.profiles).write(path("profiles.csv"));
     table_of(intersection_columns, records.intersections).write(path("intersections.csv"));
     table_of(smoothness_columns, weights.smoothness).write(path("smoothness.csv"));
@@ -37,27 +38,30 @@ std::string look_and_record(const ArtefactCase& of, const std::string& folder)
 
 // A joint that turns by step_deg from pose to pose, without the rest pose, one pose of a clip, or a movement halfway and
 // at its end.
-ArtefactCase case_of(const StudyCase& of, const std::string& movement = "")
+ArtefactCase case_of(const StudyCase& study_case, const std::string& movement = "")
 {
     ArtefactCase made;
-    made.joint = of.value<std::string>("joint", "");
-    made.vertices = of.value<std::vector<int>>("vertices", {});
-    made.second_order_poses = of.value("second_order_poses", 0);
-    const double finer = of.value("finer", 0.0);  // a further mesh, by its size over that of the body's own
+    made.joint = study_case.value<std::string>("joint", "");
+    made.vertices = study_case.value<std::vector<int>>("vertices", {});
+    made.second_order_poses = study_case.value("second_order_poses", 0);
+    const double finer = study_case.value("finer", 0.0);  // a further mesh, by its size over that of the body's own
     std::optional<pbs::Character> character;
-    if (finer > 0.0 || !made.joint.empty()) character = pbs::make_character(of.scene().character);
+    if (finer > 0.0 || !made.joint.empty()) character = pbs::make_character(study_case.scene().character);
     if (finer > 0.0) made.vertices.push_back(static_cast<int>(finer * static_cast<double>(character->mesh.rest.rows())));
     Overrides overrides;
-    if (of.has("frame"))
-        made.poses = {{of.value<int>("frame"), of.key().motion + "_" + of.key().pose, {.motion = of.key().motion, .pose = of.key().pose}}};
+    if (study_case.has("frame"))
+        made.poses = {{study_case.value<int>("frame"),
+                       study_case.key().motion + "_" + study_case.key().pose,
+                       {.motion = study_case.key().motion, .pose = study_case.key().pose}}};
     else if (!movement.empty()) {
-        made.claim = option_of<ArtefactCase::Claim>(of.value<std::string>("claim"));
+        made.claim = option_of<ArtefactCase::Claim>(study_case.value<std::string>("claim"));
         overrides = {fmt::format("motion.movements=['{}']", movement), "motion.frames=2"};
         for (const auto& [frame, name] : {std::pair{1, "halfway_to_" + movement}, {2, movement}})
             made.poses.push_back({frame, name, {.motion = "range_of_motion", .pose = name}, joints_of(movement)});
     } else {
-        const auto what = of.value<std::string>("what");
-        const int step_deg = of.value<int>("step_deg"), poses = of.value<int>("poses"), frame_deg = of.value("frame_deg", step_deg);
+        const auto what = study_case.value<std::string>("what");
+        const int step_deg = study_case.value<int>("step_deg"), poses = study_case.value<int>("poses"),
+                  frame_deg = study_case.value("frame_deg", step_deg);
         made.claim = what == "twist" ? ArtefactCase::Claim::candy_wrapper : ArtefactCase::Claim::bulge;
         overrides.push_back(fmt::format("motion.angle_deg={}", step_deg * poses));
         overrides.push_back(fmt::format("motion.frames={}", step_deg * poses / frame_deg + 1));
@@ -75,14 +79,14 @@ ArtefactCase case_of(const StudyCase& of, const std::string& movement = "")
             overrides.push_back(fmt::format("motion.axis=[{:.9f},{:.9f},{:.9f}]", axis.x(), axis.y(), axis.z()));
         }
     }
-    made.scene = of.scene(overrides);
+    made.scene = study_case.scene(overrides);
     return made;
 }
 
 // C04 or C05 of readings: sections in the poses of a sweep all steps of which are taken, and one reference.
-std::vector<ReadingValues> read_sections(const StudyCase& of, const std::vector<Overrides>& readings)
+std::vector<ReadingValues> read_sections(const StudyCase& study_case, const std::vector<Overrides>& readings)
 {
-    const ArtefactCase base = case_of(of);
+    const ArtefactCase base = case_of(study_case);
     const ArtefactBody body(base);
     const pbs::Character& character = body.posed.character();
     const pbs::Motion motion = make_motion(base.scene.motion, character.skeleton, base.scene.file);
@@ -95,26 +99,28 @@ std::vector<ReadingValues> read_sections(const StudyCase& of, const std::vector<
     const Shapes flesh = body.posed.shapes(spec_of(base.scene, base.scene.reference));
     for (std::size_t pose = 0; pose < flesh.size(); ++pose)
         if (flesh[pose].finished) add(reference, "reference", pose, flesh[pose].positions);
-    std::vector<ReadingValues> all;
+    std::vector<ReadingValues> values_of_readings;
     for (const Overrides& reading : readings) {
-        const Scene scene = of.scene(reading);
+        const Scene scene = study_case.scene(reading);
         const std::vector<pbs::Positions> shapes = shapes_in_motion(reweighted(character, scene), motion, spec_of(scene, "pbs"));
         std::vector<ArtefactSample> samples = reference;
         for (std::size_t pose = 0; pose < base.poses.size(); ++pose)
             if (const pbs::Positions& shape = shapes.at(static_cast<std::size_t>(base.poses[pose].frame)); shape.allFinite())
                 add(samples, "pbs", pose, shape);
         const bool finite = std::ranges::all_of(shapes, [](const pbs::Positions& shape) { return shape.allFinite(); });
-        all.push_back({section_values(base, body, samples), !finite});
+        values_of_readings.push_back({section_values(base, body, samples), !finite});
     }
-    return all;
+    return values_of_readings;
 }
 
 StudyPlan plan(bool full)
 {
-    return plan_of_cases("artefacts", full, [](const StudyCase& of, StudyPlan& plan) {
-        if (!of.has("movements")) plan.runs.push_back(work_run(of.name, case_of(of), of.cost_s, look_and_record));
-        for (const auto& movement : of.value<std::vector<std::string>>("movements", {}))
-            plan.runs.push_back(work_run(of.name + "_" + movement, case_of(of, movement), of.cost_s, look_and_record));
+    return plan_of_cases("artefacts", full, [](const StudyCase& study_case, StudyPlan& plan) {
+        if (!study_case.has("movements"))
+            plan.runs.push_back(work_run(study_case.name, case_of(study_case), study_case.cost_s, look_and_record));
+        for (const auto& movement : study_case.value<std::vector<std::string>>("movements", {}))
+            plan.runs.push_back(
+                work_run(study_case.name + "_" + movement, case_of(study_case, movement), study_case.cost_s, look_and_record));
     });
 }
 

@@ -25,12 +25,12 @@ struct AuditCase {
 
 RECORD_SETTINGS(AuditCase, tets, seed)
 
-std::string audit_print(const AuditCase& of, const std::string& folder)
+std::string audit_print(const AuditCase& audit_case, const std::string& folder)
 {
-    std::vector<analysis::PrintedValue> all;
-    for (const auto& values : {mesh_size_values(), table_1_values(), equation_values(of.tets, of.seed)})
-        all.insert(all.end(), values.begin(), values.end());
-    analysis::printed_table(all).write(analysis::path_in(folder, "printed.csv"));
+    std::vector<analysis::PrintedValue> printed_values;
+    for (const auto& values : {mesh_size_values(), table_1_values(), equation_values(audit_case.tets, audit_case.seed)})
+        printed_values.insert(printed_values.end(), values.begin(), values.end());
+    analysis::printed_table(printed_values).write(analysis::path_in(folder, "printed.csv"));
     return {};
 }
 
@@ -116,12 +116,12 @@ std::vector<PrintedValue> table_1_values()
     const double infinite = std::numeric_limits<double>::infinity();
     std::vector<PrintedValue> values;
     for (const TableOneRow& row : table_1()) {
-        const analysis::CaseKey of = {.model = row.model};
+        const analysis::CaseKey key = {.model = row.model};
         values.push_back(
-            {"C14", "stretch_constraints", of, double(row.stretch), double(row.vertices + row.tets + 1), double(6 * row.tets)});
-        values.push_back({"C14", "bind_constraints", of, double(row.bind), double(row.vertices), double(row.vertices)});
-        values.push_back({"C14", "ct_total_ms", of, row.total_ms, row.stretch_ms + row.volume_ms - 3.0 * half_a_digit_ms, infinite});
-        values.push_back({"C14", "ct_total_of_1_s_ms", of, row.total_ms,
+            {"C14", "stretch_constraints", key, double(row.stretch), double(row.vertices + row.tets + 1), double(6 * row.tets)});
+        values.push_back({"C14", "bind_constraints", key, double(row.bind), double(row.vertices), double(row.vertices)});
+        values.push_back({"C14", "ct_total_ms", key, row.total_ms, row.stretch_ms + row.volume_ms - 3.0 * half_a_digit_ms, infinite});
+        values.push_back({"C14", "ct_total_of_1_s_ms", key, row.total_ms,
                           steps_in_1_s * 1e3 / (row.frames_per_s + half_a_digit_fps) - half_a_digit_ms,
                           steps_in_1_s * 1e3 / (row.frames_per_s - half_a_digit_fps) + half_a_digit_ms});
     }
@@ -138,8 +138,8 @@ std::vector<PrintedValue> equation_values(int tets, unsigned seed)
             const Point quotient = difference_quotient(tet, p, corner);
             return (gradient(tet, p[0], p[1], p[2], p[3])[corner] - quotient).norm() / quotient.norm();
         });
-        const analysis::CaseKey of = {.equation = equations[corner], .gradient_of = "p" + std::to_string(corner + 1), .reading = reading};
-        values.push_back({"C15", "gradient_error", of, largest, 0.0, rounding});
+        const analysis::CaseKey key = {.equation = equations[corner], .gradient_of = "p" + std::to_string(corner + 1), .reading = reading};
+        values.push_back({"C15", "gradient_error", key, largest, 0.0, rounding});
     };
     for (int corner = 0; corner < 4; ++corner)
         add_gradient(corner, "as_printed", [](const auto&... of) { return pbs::gradient_printed<Printed::labels_absolute>(of...); });

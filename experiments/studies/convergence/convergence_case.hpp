@@ -77,7 +77,7 @@ struct ConvergenceCase {
 
 nlohmann::json to_json(const NamedFrame& frame);
 nlohmann::json to_json(const ProjectionSetting& setting);
-nlohmann::json to_json(const ConvergenceCase& of);  // everything that a run of the study depends on
+nlohmann::json to_json(const ConvergenceCase& convergence_case);  // everything that a run of the study depends on
 
 // The quality of a path's reference. Empty where there is none. The bound needs all of its nested solutions.
 struct ReferenceQuality {
@@ -115,7 +115,7 @@ struct ConvergenceResult {
 };
 
 // solutions: the folder in which the solutions of the references are kept (solutions_of_run); "": none.
-ConvergenceResult measure_convergence(const ConvergenceCase& of, const std::string& solutions = "");
+ConvergenceResult measure_convergence(const ConvergenceCase& convergence_case, const std::string& solutions = "");
 
 // The records of convergence: residuals by iteration, one row per path, and the error to the reference by iteration.
 

@@ -19,10 +19,10 @@ using analysis::within;
 
 const Columns<PathCase> case_columns = MEMBER_COLUMNS(PathCase, body, pose, vertices, tets, own_mesh, order, precision, k_stretch, start);
 
-PathCase case_of(PathCase of, std::size_t start)
+PathCase case_of(PathCase path_case, std::size_t start)
 {
-    of.start = name_of(all_starts[start]);
-    return of;
+    path_case.start = name_of(all_starts[start]);
+    return path_case;
 }
 
 // Six digits are enough for drawing. All digits would double the size of the record.
@@ -47,13 +47,13 @@ std::vector<Look> thinned(const IterationPath& path)
     return kept;
 }
 
-RateRow rate_row(const ConvergencePaths& of, std::size_t start, double floor)
+RateRow rate_row(const ConvergencePaths& paths, std::size_t start, double floor)
 {
-    const IterationPath& path = of.paths[start];
+    const IterationPath& path = paths.paths[start];
     RateRow row;
-    row.of = case_of(of.of, start);
+    row.of = case_of(paths.of, start);
     row.outcome = path.finite ? "finished" : "not_finite";
-    row.paper = look_at(path, 24);
+    row.paper = look_at(path, paper_iterations);
     row.nearest = nearest_to_reference(path);
     row.last = path.looks.back();
     row.iterations = row.last.iteration;
@@ -61,8 +61,8 @@ RateRow rate_row(const ConvergencePaths& of, std::size_t start, double floor)
     row.rate = rate_of(path, floor);
     row.residual = reached_residual(path, floor);
     row.volume = reached_volume(path);
-    row.reference = of.reference;
-    row.quality = of.quality;
+    row.reference = paths.reference;
+    row.quality = paths.quality;
     return row;
 }
 
@@ -100,15 +100,15 @@ std::vector<Group> groups_of(const ConvergenceResult& result)
     return groups;
 }
 
-analysis::CaseKey key_of(const ConvergencePaths& of)
+analysis::CaseKey key_of(const ConvergencePaths& paths)
 {
-    analysis::CaseKey key = of.key;
-    key.body = of.of.body;
+    analysis::CaseKey key = paths.key;
+    key.body = paths.of.body;
     key.deformer = "pbs";
-    key.order = of.of.order;
-    key.precision = of.of.precision;
-    key.vertices = of.of.vertices;
-    key.k_stretch = of.of.k_stretch;
+    key.order = paths.of.order;
+    key.precision = paths.of.precision;
+    key.vertices = paths.of.vertices;
+    key.k_stretch = paths.of.k_stretch;
     return key;
 }
 
@@ -145,10 +145,10 @@ void add(std::vector<analysis::Measurement>& to, const What& what, const Group& 
 
 struct Tolerance {
     const char* name;  // in a key
-    Reached (*reached)(const ConvergencePaths& of, const IterationPath& path);
+    Reached (*reached)(const ConvergencePaths& paths, const IterationPath& path);
 };
 const Tolerance tolerances[] = {
-    {"residual", [](const ConvergencePaths& of, const IterationPath& path) { return reached_residual(path, floor_of(of.paths)); }},
+    {"residual", [](const ConvergencePaths& paths, const IterationPath& path) { return reached_residual(path, floor_of(paths.paths)); }},
     {"volume", [](const ConvergencePaths&, const IterationPath& path) { return reached_volume(path); }}};
 
 PathValue iterations_of(const Reached& reached)
@@ -158,7 +158,7 @@ PathValue iterations_of(const Reached& reached)
 
 ValueOf iterations_to(const Tolerance& tolerance)
 {
-    return [&tolerance](const ConvergencePaths& of) { return iterations_of(tolerance.reached(of, of.paths[0])); };
+    return [&tolerance](const ConvergencePaths& paths) { return iterations_of(tolerance.reached(paths, paths.paths[0])); };
 }
 
 // One of a case's paths.
@@ -167,8 +167,8 @@ using PathOf = std::function<const IterationPath&(const ConvergencePaths&)>;
 // An initial guess that fulfils the tolerance counts as one iteration.
 ValueOf over_lbs(const Tolerance& tolerance, const PathOf& path_of)
 {
-    return [&tolerance, path_of](const ConvergencePaths& of) -> std::optional<PathValue> {
-        const Reached other = tolerance.reached(of, path_of(of)), lbs = tolerance.reached(of, of.paths[0]);
+    return [&tolerance, path_of](const ConvergencePaths& paths) -> std::optional<PathValue> {
+        const Reached other = tolerance.reached(paths, path_of(paths)), lbs = tolerance.reached(paths, paths.paths[0]);
         if (!other.within && !lbs.within) return {};
         return PathValue{std::max(other.iterations, 1) / double(std::max(lbs.iterations, 1)), !other.within ? analysis::Limit::at_least
                                                                                               : !lbs.within ? analysis::Limit::at_most
@@ -180,7 +180,7 @@ ValueOf over_lbs(const Tolerance& tolerance, const PathOf& path_of)
 void add_author(std::vector<analysis::Measurement>& to, const Group& group)
 {
     add(to, {"C12", "iterations_to_tolerance", "residual"}, group,
-        [](const ConvergencePaths& of) { return iterations_of(reached_residual(*of.author, of.author->looks.back().combined)); });
+        [](const ConvergencePaths& paths) { return iterations_of(reached_residual(*paths.author, paths.author->looks.back().combined)); });
     to.back().of.deformer = "pbs_author";
     to.back().of.order = "first_fit";
 }
@@ -191,15 +191,17 @@ void add_starts(std::vector<analysis::Measurement>& to, const Group& group)
     const auto add_guess = [&](const char* guess, const PathOf& path_of) {
         for (const Tolerance& tolerance : tolerances)
             add(to, {"C03", "iterations_over_lbs_guess" + in_a_twist, tolerance.name, guess}, group, over_lbs(tolerance, path_of));
-        add(to, {"C03", "error_after_24_iterations_over_lbs_guess", "", guess}, group, [path_of](const ConvergencePaths& of) {
-            return PathValue{look_at(path_of(of), 24).error_joint_pct / look_at(of.paths[0], 24).error_joint_pct};
+        add(to, {"C03", "error_after_24_iterations_over_lbs_guess", "", guess}, group, [path_of](const ConvergencePaths& paths) {
+            return PathValue{look_at(path_of(paths), paper_iterations).error_joint_pct /
+                             look_at(paths.paths[0], paper_iterations).error_joint_pct};
         });
     };
     for (std::size_t start = 1; start < group.front()->paths.size(); ++start)
-        add_guess(name_of(all_starts[start]), [start](const ConvergencePaths& of) -> const IterationPath& { return of.paths[start]; });
+        add_guess(name_of(all_starts[start]),
+                  [start](const ConvergencePaths& paths) -> const IterationPath& { return paths.paths[start]; });
     if (group.front()->controls.empty()) return;
-    add_guess("lbs", [](const ConvergencePaths& of) -> const IterationPath& { return of.controls[0]; });
-    add_guess("random", [](const ConvergencePaths& of) -> const IterationPath& { return of.controls[1]; });
+    add_guess("lbs", [](const ConvergencePaths& paths) -> const IterationPath& { return paths.controls[0]; });
+    add_guess("random", [](const ConvergencePaths& paths) -> const IterationPath& { return paths.controls[1]; });
 }
 
 constexpr double exponent_level = 0.99;  // sizes in any other order than their own lie beyond it in less than 1 % of all cases
@@ -208,7 +210,9 @@ constexpr double exponent_level = 0.99;  // sizes in any other order than their 
 void add_exponents(std::vector<analysis::Measurement>& to, const ConvergenceResult& result)
 {
     for (const ConvergencePaths& first : result.all) {
-        const auto ladder_of = [](const PathCase& of) { return std::tie(of.pose, of.k_stretch, of.order, of.precision); };
+        const auto ladder_of = [](const PathCase& path_case) {
+            return std::tie(path_case.pose, path_case.k_stretch, path_case.order, path_case.precision);
+        };
         const auto same = [&](const ConvergencePaths& other) { return ladder_of(other.of) == ladder_of(first.of); };
         if (&*std::find_if(result.all.begin(), result.all.end(), same) != &first) continue;
         for (const Tolerance& tolerance : tolerances) {

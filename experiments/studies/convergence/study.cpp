@@ -84,15 +84,15 @@ Scene at_size(Scene scene, int vertices)
 // One mesh of the body.
 class Mesh {
 public:
-    Mesh(const ConvergenceCase& of, const Scene& scene, bool own, const std::string& solutions)
-        : of_(of),
+    Mesh(const ConvergenceCase& convergence_case, const Scene& scene, bool own, const std::string& solutions)
+        : of_(convergence_case),
           solutions_(solutions),
           own_(own),
-          settings_(own || scene.character.vertices <= of.every_setting_to ? of.settings.size() : 1),
-          posed_(scene, frame_numbers(of.frames)),
+          settings_(own || scene.character.vertices <= convergence_case.every_setting_to ? convergence_case.settings.size() : 1),
+          posed_(scene, frame_numbers(convergence_case.frames)),
           motion_(make_motion(scene.motion, posed_.character().skeleton, scene.file))
     {
-        for (std::size_t frame = 0; frame < of.frames.size(); ++frame) references_.push_back(reference_in(frame));
+        for (std::size_t frame = 0; frame < convergence_case.frames.size(); ++frame) references_.push_back(reference_in(frame));
     }
 
     void add_to(ConvergenceResult& result) const
@@ -183,9 +183,9 @@ private:
     std::vector<FrameReference> references_;  // one per frame
 };
 
-std::string measure_and_record(const ConvergenceCase& of, const std::string& folder)
+std::string measure_and_record(const ConvergenceCase& convergence_case, const std::string& folder)
 {
-    const ConvergenceResult result = measure_convergence(of, solutions_of_run(folder));
+    const ConvergenceResult result = measure_convergence(convergence_case, solutions_of_run(folder));
     const auto path = [&](const char* name) { return analysis::path_in(folder, name); };
     const std::vector<LookRow> looks = look_rows(result);
     table_of(residual_columns, looks).write(path("residuals.csv"));
@@ -224,50 +224,52 @@ ProjectionSetting setting_of(const std::string& text)
 
 StudyPlan plan(bool full)
 {
-    return plan_of_cases("convergence", full, [full](const StudyCase& in_file, StudyPlan& plan) {
-        ConvergenceCase of{.scene = in_file.scene()};
+    return plan_of_cases("convergence", full, [](const StudyCase& in_file, StudyPlan& plan) {
+        ConvergenceCase convergence_case{.scene = in_file.scene()};
         if (in_file.value("through_movements", false)) {
-            const auto movements = movements_of(pbs::make_character(of.scene.character).skeleton);
-            of.scene = in_file.scene({fmt::format("motion.movements=['{}']", fmt::join(movements, "','"))});
-            of.frames = ends_of(movements, of.scene.motion.frames);
+            const auto movements = movements_of(pbs::make_character(convergence_case.scene.character).skeleton);
+            convergence_case.scene = in_file.scene({fmt::format("motion.movements=['{}']", fmt::join(movements, "','"))});
+            convergence_case.frames = ends_of(movements, convergence_case.scene.motion.frames);
         } else {
             const auto motion = in_file.value<std::string>("motion");
-            for (const nlohmann::json& frame : in_file.value<nlohmann::json>("frames")) of.frames.push_back(frame_of(motion, frame));
+            for (const nlohmann::json& frame : in_file.value<nlohmann::json>("frames"))
+                convergence_case.frames.push_back(frame_of(motion, frame));
         }
-        of.k_stretch = in_file.value<std::vector<double>>("k_stretch");
-        for (const auto& setting : in_file.value<std::vector<std::string>>("settings")) of.settings.push_back(setting_of(setting));
-        of.other_vertices = in_file.value<std::vector<int>>("other_vertices", {});
-        of.every_setting_to = in_file.value("every_setting_to", 0);
-        of.ladder = in_file.value("ladder", false);
-        of.exponents = of.ladder && in_file.value("exponents", true);
-        of.from_lbs_alone = in_file.value("from_lbs_alone", false);
-        of.reference = reference_flesh(of.scene);
-        of.reference_to = in_file.value("reference_to", of.reference_to);
-        plan.runs.push_back(work_run(in_file.name, of, in_file.cost_s, measure_and_record));
+        convergence_case.k_stretch = in_file.value<std::vector<double>>("k_stretch");
+        for (const auto& setting : in_file.value<std::vector<std::string>>("settings"))
+            convergence_case.settings.push_back(setting_of(setting));
+        convergence_case.other_vertices = in_file.value<std::vector<int>>("other_vertices", {});
+        convergence_case.every_setting_to = in_file.value("every_setting_to", 0);
+        convergence_case.ladder = in_file.value("ladder", false);
+        convergence_case.exponents = convergence_case.ladder && in_file.value("exponents", true);
+        convergence_case.from_lbs_alone = in_file.value("from_lbs_alone", false);
+        convergence_case.reference = reference_flesh(convergence_case.scene);
+        convergence_case.reference_to = in_file.value("reference_to", convergence_case.reference_to);
+        plan.runs.push_back(work_run(in_file.name, convergence_case, in_file.cost_s, measure_and_record));
     });
 }
 
 // C03, C12: the paths in one pose, on the scene's mesh and in its order. C12 is judged on characters alone. The first reading's k_stretch
 // names the case of all of them.
-std::vector<ReadingValues> read_paths(const StudyCase& of, const std::vector<Overrides>& readings)
+std::vector<ReadingValues> read_paths(const StudyCase& study_case, const std::vector<Overrides>& readings)
 {
-    std::vector<ReadingValues> all;
+    std::vector<ReadingValues> values_of_readings;
     std::optional<double> k_stretch;
     for (const Overrides& reading : readings) {
         ConvergenceCase read;
-        read.scene = of.scene(reading);
-        read.frames = {{of.value<int>("frame"), of.name, of.key()}};
-        read.most_iterations = of.value<int>("iterations");
+        read.scene = study_case.scene(reading);
+        read.frames = {{study_case.value<int>("frame"), study_case.name, study_case.key()}};
+        read.most_iterations = study_case.value<int>("iterations");
         const auto& options = options_of<pbs::PbsOptions>(spec_of(read.scene, "pbs"));
         read.k_stretch = {options.k_stretch};
         read.settings = {{options.order, options.precision}};
         ConvergenceResult result = measure_convergence(read);
         if (!k_stretch) k_stretch = options.k_stretch;
         result.all.front().of.k_stretch = *k_stretch;
-        all.push_back({convergence_values(result), !result.breakdown.empty()});
-        if (!result.all.front().character) all.back().left_out = all_but("C12a", {}, "judged on characters alone");
+        values_of_readings.push_back({convergence_values(result), !result.breakdown.empty()});
+        if (!result.all.front().character) values_of_readings.back().left_out = all_but("C12a", {}, "judged on characters alone");
     }
-    return all;
+    return values_of_readings;
 }
 
 }  // namespace
@@ -283,16 +285,16 @@ std::vector<FrameStarts> starts_of(const pbs::Character& character, const pbs::M
 {
     const pbs::Character rigid = pbs::with_weights(pbs::WeightKind::rigid, character);
     WarmStarted warm(character, motion, options);
-    std::vector<FrameStarts> all;
+    std::vector<FrameStarts> starts;
     for (const int frame : frames) {
         const std::size_t step = static_cast<std::size_t>(frame) * motion.steps_per_frame;
         const pbs::Pose& pose = motion.steps.at(step);
         const pbs::Positions lbs = blended(character, pose);
-        all.push_back({bind_points_of(options, character, pose, lbs),
-                       {lbs, warm.before(step), character.mesh.rest, blended(rigid, pose)},
-                       random_positions(lbs)});
+        starts.push_back({bind_points_of(options, character, pose, lbs),
+                          {lbs, warm.before(step), character.mesh.rest, blended(rigid, pose)},
+                          random_positions(lbs)});
     }
-    return all;
+    return starts;
 }
 
 IterationPath author_path(const pbs::Character& character, const pbs::Pose& pose, int most, const IterationMetrics& iteration_metrics)
@@ -314,21 +316,23 @@ IterationPath author_path(const pbs::Character& character, const pbs::Pose& pose
 
 RECORD_SETTINGS(NamedFrame, frame, name, key, twist, compared)
 RECORD_SETTINGS(ProjectionSetting, order, precision)
-RECORD_SETTINGS_AND(ConvergenceCase,
-                    .derived("looks", [](const ConvergenceCase& of) -> nlohmann::json { return looked_at(of.most_iterations); })
-                        .constant("residual_tolerance", residual_tolerance)
-                        .constant("satisfied_residual", satisfied_residual)
-                        .constant("volume_tolerance_pct", volume_tolerance_pct),
-                    scene, frames, k_stretch, settings, other_vertices, every_setting_to, ladder, exponents, from_lbs_alone,
-                    most_iterations, reference, effort, reference_to)
+RECORD_SETTINGS_AND(
+    ConvergenceCase,
+    .derived("looks", [](const ConvergenceCase& convergence_case) -> nlohmann::json { return looked_at(convergence_case.most_iterations); })
+        .constant("residual_tolerance", residual_tolerance)
+        .constant("satisfied_residual", satisfied_residual)
+        .constant("volume_tolerance_pct", volume_tolerance_pct),
+    scene, frames, k_stretch, settings, other_vertices, every_setting_to, ladder, exponents, from_lbs_alone, most_iterations, reference,
+    effort, reference_to)
 
-ConvergenceResult measure_convergence(const ConvergenceCase& of, const std::string& solutions)
+ConvergenceResult measure_convergence(const ConvergenceCase& convergence_case, const std::string& solutions)
 {
     ConvergenceResult result;
-    result.ladder = of.ladder;
-    result.exponents = of.exponents;
-    Mesh(of, of.scene, true, solutions).add_to(result);
-    for (const int vertices : of.other_vertices) Mesh(of, at_size(of.scene, vertices), false, solutions).add_to(result);
+    result.ladder = convergence_case.ladder;
+    result.exponents = convergence_case.exponents;
+    Mesh(convergence_case, convergence_case.scene, true, solutions).add_to(result);
+    for (const int vertices : convergence_case.other_vertices)
+        Mesh(convergence_case, at_size(convergence_case.scene, vertices), false, solutions).add_to(result);
     return result;
 }
 

@@ -31,7 +31,7 @@ struct EnsembleCase {
     std::vector<int> iterations = {};
     int converged_iterations = 8000;  // of x_inf; compared with the shape after half of them
 };
-nlohmann::json to_json(const EnsembleCase& of);
+nlohmann::json to_json(const EnsembleCase& ensemble_case);
 
 // The flesh with quadratic elements on the character's own tets, held in other ways: by stiffer springs, thinner bones, embedded bones or
 // the paper's bind constraint; and the linear model, held by smooth springs and by embedded bones.
@@ -72,6 +72,6 @@ struct EnsembleRecords {
 };
 
 // solutions: the folder in which the solutions of the references are kept (solutions_of_run); "": none.
-EnsembleRecords measure_ensemble(const EnsembleCase& of, const std::string& solutions = "");
+EnsembleRecords measure_ensemble(const EnsembleCase& ensemble_case, const std::string& solutions = "");
 
 }  // namespace experiments

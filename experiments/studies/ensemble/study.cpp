@@ -65,9 +65,9 @@ std::vector<DeformerSpec> other_attachments(const DeformerSpec& reference)
 
 namespace {
 
-OwnTetsRow own_tets_row(const EnsembleCase& of, const PosedReference& reference)
+OwnTetsRow own_tets_row(const EnsembleCase& ensemble_case, const PosedReference& reference)
 {
-    OwnTetsRow row{.of = of.of};
+    OwnTetsRow row{.of = ensemble_case.of};
     if (const double bound_pct = reference.bound_on_own_tets().joint_pct; std::isfinite(bound_pct)) row.bound_pct = bound_pct;
     const NestedSolution *linear = nullptr, *quadratic = nullptr;
     for (const NestedSolution& solution : reference.solutions())
@@ -90,8 +90,8 @@ pbs::PbsOptions in_double(const DeformerSpec& spec, double k_stretch, int iterat
 // The parts of PBS's error relative to one reference.
 class Splitting {
 public:
-    Splitting(const EnsembleCase& of, const PosedCharacter& base, const PosedReference& reference)
-        : of_(of), base_(base), reference_(reference), reference_shape_{reference.reference().positions, true}
+    Splitting(const EnsembleCase& ensemble_case, const PosedCharacter& base, const PosedReference& reference)
+        : of_(ensemble_case), base_(base), reference_(reference), reference_shape_{reference.reference().positions, true}
     {
     }
 
@@ -101,14 +101,14 @@ public:
         for (const DeformerSpec& other : of_.other_flesh) others.push_back(base_.shapes(other).front());
         for (const double k_stretch : of_.k_stretch) {
             const pbs::PbsOptions whole = in_double(of_.pbs, k_stretch, of_.converged_iterations);
-            std::vector<pbs::PbsOptions> all = {whole, in_double(of_.pbs, k_stretch, of_.converged_iterations / 2)};
-            for (const int iterations : of_.iterations) all.push_back(in_double(of_.pbs, k_stretch, iterations));
-            const std::vector<Shapes> shapes = base_.shapes(all);
+            std::vector<pbs::PbsOptions> options_of_runs = {whole, in_double(of_.pbs, k_stretch, of_.converged_iterations / 2)};
+            for (const int iterations : of_.iterations) options_of_runs.push_back(in_double(of_.pbs, k_stretch, iterations));
+            const std::vector<Shapes> shapes = base_.shapes(options_of_runs);
             const Shape &converged = shapes[0].front(), &half_way = shapes[1].front();
             for (std::size_t n = 2; n < shapes.size(); ++n) {
                 PartsRow row = parts_of(shapes[n].front(), converged);
                 row.k_stretch = k_stretch;
-                row.iterations = all[n].iterations;
+                row.iterations = options_of_runs[n].iterations;
                 row.not_converged_pct = distance(converged, half_way).joint_pct;
                 records.parts.push_back(row);
             }
@@ -151,11 +151,11 @@ private:
     }
 
     // Outside the tips of creases. Not a number where one of them did not finish.
-    analysis::ErrorNorms distance(const Shape& one, const Shape& other) const
+    analysis::ErrorNorms distance(const Shape& shape, const Shape& other) const
     {
         constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-        if (!one.finished || !other.finished) return {nothing, nothing, nothing};
-        return reference_.distance(one.positions, other.positions);
+        if (!shape.finished || !other.finished) return {nothing, nothing, nothing};
+        return reference_.distance(shape.positions, other.positions);
     }
 
     const EnsembleCase& of_;
@@ -164,9 +164,9 @@ private:
     Shape reference_shape_;
 };
 
-std::string measure_and_record(const EnsembleCase& of, const std::string& folder)
+std::string measure_and_record(const EnsembleCase& ensemble_case, const std::string& folder)
 {
-    const EnsembleRecords records = measure_ensemble(of, solutions_of_run(folder));
+    const EnsembleRecords records = measure_ensemble(ensemble_case, solutions_of_run(folder));
     const auto path = [&](const char* name) { return analysis::path_in(folder, name); };
     table_of(own_tets_columns, records.own_tets).write(path("own_tets.csv"));
     table_of(part_columns, records.parts).write(path("parts.csv"));
@@ -177,15 +177,15 @@ std::string measure_and_record(const EnsembleCase& of, const std::string& folder
 StudyPlan plan(bool full)
 {
     return plan_of_cases("ensemble", full, [&](const StudyCase& in_file, StudyPlan& plan) {
-        EnsembleCase of{.of = in_file.key(), .scene = in_file.scene(), .frame = in_file.value<int>("frame")};
-        of.flesh = reference_flesh(of.scene);
-        of.pbs = spec_of(of.scene, "pbs");
-        options_of<pbs::PbsOptions>(of.pbs).jiggle.reset();
-        of.other_flesh = other_attachments(of.flesh);
-        of.k_stretch = {0.05, 0.2, 0.9};
-        of.iterations = {1, 4, 24, 96, 384};
-        of.converged_iterations = full ? 32000 : 8000;
-        plan.runs.push_back(work_run(in_file.name, of, in_file.cost_s, measure_and_record));
+        EnsembleCase ensemble_case{.of = in_file.key(), .scene = in_file.scene(), .frame = in_file.value<int>("frame")};
+        ensemble_case.flesh = reference_flesh(ensemble_case.scene);
+        ensemble_case.pbs = spec_of(ensemble_case.scene, "pbs");
+        options_of<pbs::PbsOptions>(ensemble_case.pbs).jiggle.reset();
+        ensemble_case.other_flesh = other_attachments(ensemble_case.flesh);
+        ensemble_case.k_stretch = {0.05, 0.2, 0.9};
+        ensemble_case.iterations = {1, 4, 24, 96, 384};
+        ensemble_case.converged_iterations = full ? 32000 : 8000;
+        plan.runs.push_back(work_run(in_file.name, ensemble_case, in_file.cost_s, measure_and_record));
     });
 }
 
@@ -198,14 +198,15 @@ bool conclude(const FinishedRuns& finished)
 
 }  // namespace
 
-EnsembleRecords measure_ensemble(const EnsembleCase& of, const std::string& solutions)
+EnsembleRecords measure_ensemble(const EnsembleCase& ensemble_case, const std::string& solutions)
 {
-    const PosedCharacter body(of.scene, {of.frame});
-    const PosedReference reference(body.character(), of.flesh, body.pose(0), of.scene.motion.time_step_s, of.effort, solutions);
+    const PosedCharacter body(ensemble_case.scene, {ensemble_case.frame});
+    const PosedReference reference(body.character(), ensemble_case.flesh, body.pose(0), ensemble_case.scene.motion.time_step_s,
+                                   ensemble_case.effort, solutions);
     EnsembleRecords records;
     if (!reference.is_reached()) return records;
-    records.own_tets.push_back(own_tets_row(of, reference));
-    if (!of.k_stretch.empty()) Splitting(of, body, reference).add_to(records);
+    records.own_tets.push_back(own_tets_row(ensemble_case, reference));
+    if (!ensemble_case.k_stretch.empty()) Splitting(ensemble_case, body, reference).add_to(records);
     return records;
 }
 

@@ -51,7 +51,7 @@ struct SagCase {
     std::vector<double> k_stretch = {0.02, 0.05, 0.1, 0.2, 0.5, 0.9, 1.0}, k_volume = {0.0, 1.0};
     std::vector<int> iterations = {6, 24, 96};
 };
-nlohmann::json to_json(const SagCase& of);
+nlohmann::json to_json(const SagCase& sag_case);
 
 inline constexpr double sag_time_step_s = 0.01, sag_density_kg_m3 = 1000.0, sag_poisson = 0.45;
 

@@ -205,22 +205,23 @@ SagRow sag_row(const Rig& rig, const BarSetting& setting)
             .solver_steps = state.steps};
 }
 
-std::string record_sags(const SagCase& of, const std::string& folder)
+std::string record_sags(const SagCase& sag_case, const std::string& folder)
 {
-    const Rig rig = make_rig(of.vertices);
+    const Rig rig = make_rig(sag_case.vertices);
     const auto vertices = static_cast<int>(rig.cantilever.body.mesh.rest.rows());
     std::vector<SagRow> rows;
-    for (const double k_stretch : of.k_stretch)
-        for (const double k_volume : of.k_volume)
-            for (const int n : of.iterations) rows.push_back(sag_row(rig, {vertices, rig.cantilever.mean_edge_m, k_stretch, k_volume, n}));
+    for (const double k_stretch : sag_case.k_stretch)
+        for (const double k_volume : sag_case.k_volume)
+            for (const int n : sag_case.iterations)
+                rows.push_back(sag_row(rig, {vertices, rig.cantilever.mean_edge_m, k_stretch, k_volume, n}));
     table_of(sag_columns, rows).write(analysis::path_in(folder, "sag.csv"));
     return "";
 }
 
 StudyPlan plan(bool full)
 {
-    return plan_of_cases("fit", full, [](const StudyCase& of, StudyPlan& plan) {
-        plan.runs.push_back(work_run<SagCase>(of.name, {of.value<int>("vertices")}, of.cost_s, record_sags));
+    return plan_of_cases("fit", full, [](const StudyCase& study_case, StudyPlan& plan) {
+        plan.runs.push_back(work_run<SagCase>(study_case.name, {study_case.value<int>("vertices")}, study_case.cost_s, record_sags));
     });
 }
 

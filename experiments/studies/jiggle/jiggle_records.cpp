@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace experiments {
 
@@ -58,9 +57,9 @@ std::vector<ZoneRow> zone_rows(const pbs::ZoneContents& zone)
     return rows;
 }
 
-Jolt jolt_at(const JoltCase& of, const JiggleSetting& setting)
+Jolt jolt_at(const JoltCase& jolt_case, const JiggleSetting& setting)
 {
-    Jolt jolt = of.jolt;
+    Jolt jolt = jolt_case.jolt;
     jolt.time_step_s = setting.time_step_s;
     return jolt;
 }
@@ -70,14 +69,14 @@ struct JoltRecords {
     std::vector<analysis::Measurement> measurements = {};
 };
 
-Measurement measurement(const std::string& quantity, const analysis::CaseKey& of, const Interval& value, const std::string& unit)
+Measurement measurement(const std::string& quantity, const analysis::CaseKey& key, const Interval& value, const std::string& unit)
 {
-    return {"C09", quantity, of, value.estimate, value.low, value.high, unit};
+    return {"C09", quantity, key, value.estimate, value.low, value.high, unit};
 }
 
-Measurement exact_value(const std::string& quantity, const analysis::CaseKey& of, double value)
+Measurement exact_value(const std::string& quantity, const analysis::CaseKey& key, double value)
 {
-    return {"C09", quantity, of, value, value, value, "1"};
+    return {"C09", quantity, key, value, value, value, "1"};
 }
 
 Interval over(const Interval& a, const Interval& b)
@@ -85,13 +84,13 @@ Interval over(const Interval& a, const Interval& b)
     return {a.estimate / b.estimate, a.low / b.high, a.high / b.low};
 }
 
-void add_reference(const JoltCase& of, const pbs::Character& character, const std::vector<int>& probe, const MeasuredJiggle& measured,
-                   JoltRecords& records)
+void add_reference(const JoltCase& jolt_case, const pbs::Character& character, const std::vector<int>& probe,
+                   const MeasuredJiggle& measured, JoltRecords& records)
 {
     const auto& own = measured.response;
     if (!own.swing.found()) return;
     const double hz = own.swing.frequency_hz.estimate;
-    const auto reference = match_reference(character, dynamic_reference(first_young_pa), probe, jolt_at(of, measured.setting), hz);
+    const auto reference = match_reference(character, dynamic_reference(first_young_pa), probe, jolt_at(jolt_case, measured.setting), hz);
     if (!reference) return;
     const auto& swing = reference->response.swing;
     records.responses.push_back(response_row(measured.setting, reference->young_pa, reference->time_step_s, reference->response));
@@ -118,14 +117,14 @@ struct FrequencyRatio {
 // The ratio of the frequency at each setting to the frequency at the setting from which it is changed.
 std::vector<FrequencyRatio> ratios(const std::vector<MeasuredJiggle>& measured, void (*change)(JiggleSetting&))
 {
-    std::vector<FrequencyRatio> all;
-    for (const MeasuredJiggle& one : measured) {
-        JiggleSetting changed = one.setting;
+    std::vector<FrequencyRatio> frequency_ratios;
+    for (const MeasuredJiggle& jiggle : measured) {
+        JiggleSetting changed = jiggle.setting;
         change(changed);
-        const Interval *at = frequency_at(measured, one.setting), *there = frequency_at(measured, changed);
-        if (at && there) all.push_back({one.setting, over(*there, *at)});
+        const Interval *at = frequency_at(measured, jiggle.setting), *there = frequency_at(measured, changed);
+        if (at && there) frequency_ratios.push_back({jiggle.setting, over(*there, *at)});
     }
-    return all;
+    return frequency_ratios;
 }
 
 bool is_of_the_papers_solver(const JiggleSetting& setting)
@@ -136,23 +135,23 @@ bool is_of_the_papers_solver(const JiggleSetting& setting)
 void add_share(std::vector<Measurement>& measurements, const std::string& body, const std::vector<MeasuredJiggle>& measured)
 {
     std::vector<double> swings;  // 1 where it does
-    for (const MeasuredJiggle& one : measured)
-        if (is_of_the_paper(one.setting) && is_of_the_papers_solver(one.setting)) swings.push_back(one.response.swing.found());
+    for (const MeasuredJiggle& jiggle : measured)
+        if (is_of_the_paper(jiggle.setting) && is_of_the_papers_solver(jiggle.setting)) swings.push_back(jiggle.response.swing.found());
     if (swings.empty()) return;
     measurements.push_back(exact_value("share_of_settings_that_swing", {.body = body}, analysis::mean(swings)));
     measurements.back().n = static_cast<int>(swings.size());
 }
 
 // of: with the body and the deformer.
-void add_setting(std::vector<Measurement>& measurements, const analysis::CaseKey& of, const JoltResponse& response, bool of_the_paper)
+void add_setting(std::vector<Measurement>& measurements, const analysis::CaseKey& key, const JoltResponse& response, bool of_the_paper)
 {
-    if (response.finished) measurements.push_back(exact_value("amplitude", of, response.overshoot_over_jolt));
+    if (response.finished) measurements.push_back(exact_value("amplitude", key, response.overshoot_over_jolt));
     if (of_the_paper)
-        measurements.push_back(exact_value("last_share_of_peak", of, response.finished ? response.left_over_peak : analysis::not_known));
+        measurements.push_back(exact_value("last_share_of_peak", key, response.finished ? response.left_over_peak : analysis::not_known));
     if (!response.swing.found()) return;
     const std::string damping = of_the_paper ? "damping_ratio" : "damping_ratio_in_other_readings";
-    measurements.push_back(measurement(damping, of, response.swing.damping_ratio, "1"));
-    measurements.push_back(measurement("frequency_hz", of, response.swing.frequency_hz, "Hz"));
+    measurements.push_back(measurement(damping, key, response.swing.damping_ratio, "1"));
+    measurements.push_back(measurement("frequency_hz", key, response.swing.frequency_hz, "Hz"));
 }
 
 // Those that differ from `from` in k_stretch alone, the smallest first.
@@ -160,11 +159,11 @@ std::vector<MeasuredJiggle> by_k_stretch(const std::vector<MeasuredJiggle>& meas
                                          bool (*is_known)(const JoltResponse&))
 {
     std::vector<MeasuredJiggle> chosen;
-    for (const MeasuredJiggle& one : measured) {
-        from.k_stretch = one.setting.k_stretch;
-        if (is_known(one.response) && one.setting == from) chosen.push_back(one);
+    for (const MeasuredJiggle& jiggle : measured) {
+        from.k_stretch = jiggle.setting.k_stretch;
+        if (is_known(jiggle.response) && jiggle.setting == from) chosen.push_back(jiggle);
     }
-    std::ranges::stable_sort(chosen, {}, [](const MeasuredJiggle& one) { return one.setting.k_stretch; });
+    std::ranges::stable_sort(chosen, {}, [](const MeasuredJiggle& jiggle) { return jiggle.setting.k_stretch; });
     return chosen;
 }
 
@@ -176,25 +175,25 @@ struct Trend {
 Trend trend_of(const std::vector<MeasuredJiggle>& measured, double (*value)(const JoltResponse&))
 {
     Trend trend;
-    for (const MeasuredJiggle& one : measured) {
-        trend.stiffness.push_back(one.setting.k_stretch);
-        trend.value.push_back(value(one.response));
+    for (const MeasuredJiggle& jiggle : measured) {
+        trend.stiffness.push_back(jiggle.setting.k_stretch);
+        trend.value.push_back(value(jiggle.response));
     }
     return trend;
 }
 
 double correlation_without(Trend trend, std::size_t left_out)
 {
-    for (std::vector<double>* of : {&trend.stiffness, &trend.value})
-        if (left_out < of->size()) of->erase(of->begin() + static_cast<std::ptrdiff_t>(left_out));
+    for (std::vector<double>* numbers : {&trend.stiffness, &trend.value})
+        if (left_out < numbers->size()) numbers->erase(numbers->begin() + static_cast<std::ptrdiff_t>(left_out));
     return analysis::rank_correlation(trend.stiffness, trend.value);
 }
 
-void add_correlation(std::vector<Measurement>& measurements, const std::string& quantity, const analysis::CaseKey& of, const Trend& trend)
+void add_correlation(std::vector<Measurement>& measurements, const std::string& quantity, const analysis::CaseKey& key, const Trend& trend)
 {
     const std::size_t points = trend.value.size();
     if (points < std::size_t{least_for_correlation}) return;
-    Measurement correlation = exact_value(quantity, of, correlation_without(trend, points));
+    Measurement correlation = exact_value(quantity, key, correlation_without(trend, points));
     correlation.n = static_cast<int>(points);
     for (std::size_t left_out = 0; left_out < points; ++left_out) {
         const double without = correlation_without(trend, left_out);
@@ -205,12 +204,12 @@ void add_correlation(std::vector<Measurement>& measurements, const std::string& 
 }
 
 // NaN where nothing swings beyond its place at any stiffness.
-void add_amplitudes(std::vector<Measurement>& measurements, const analysis::CaseKey& of, const Trend& amplitude)
+void add_amplitudes(std::vector<Measurement>& measurements, const analysis::CaseKey& key, const Trend& amplitude)
 {
     if (amplitude.value.size() < 2) return;
     const auto [least, most] = std::ranges::minmax(amplitude.value);
-    measurements.push_back(exact_value("amplitude_ratio_over_k_stretch", of, most / least));
-    add_correlation(measurements, "rank_correlation_of_amplitude_and_k_stretch", of, amplitude);
+    measurements.push_back(exact_value("amplitude_ratio_over_k_stretch", key, most / least));
+    add_correlation(measurements, "rank_correlation_of_amplitude_and_k_stretch", key, amplitude);
 }
 
 void add_frequencies(std::vector<Measurement>& measurements, const std::string& body, const std::vector<MeasuredJiggle>& measured)
@@ -219,21 +218,21 @@ void add_frequencies(std::vector<Measurement>& measurements, const std::string& 
     add_correlation(measurements, "rank_correlation_of_frequency_and_k_stretch", {.body = body},
                     trend_of(measured, [](const JoltResponse& response) { return response.swing.frequency_hz.estimate; }));
     const MeasuredJiggle &smallest = measured.front(), &largest = measured.back();
-    const analysis::CaseKey of = {.body = body, .k_stretch = smallest.setting.k_stretch, .k_stretch_to = largest.setting.k_stretch};
-    measurements.push_back(measurement("frequency_ratio_over_k_stretch", of,
+    const analysis::CaseKey key = {.body = body, .k_stretch = smallest.setting.k_stretch, .k_stretch_to = largest.setting.k_stretch};
+    measurements.push_back(measurement("frequency_ratio_over_k_stretch", key,
                                        over(largest.response.swing.frequency_hz, smallest.response.swing.frequency_hz), "1"));
 }
 
 // LBS at each k_stretch, which it does not have; the author's later code; and finite elements in time: with damping at each Young's
 // modulus, without it at the first, at which those with damping come to rest within the steps. Linear elements suffice where nothing turns,
 // and average acceleration adds no damping of its own.
-void add_controls(const JoltCase& of, const pbs::Character& character, const std::vector<int>& probe,
+void add_controls(const JoltCase& jolt_case, const pbs::Character& character, const std::vector<int>& probe,
                   std::vector<Measurement>& measurements)
 {
-    Jolt jolt = of.jolt;
+    Jolt jolt = jolt_case.jolt;
     jolt.steps = control_steps;
     Trend of_lbs, of_fem;
-    for (const JiggleSetting& setting : of.settings) {
+    for (const JiggleSetting& setting : jolt_case.settings) {
         if (setting != JiggleSetting{.k_stretch = setting.k_stretch}) continue;
         of_lbs.stiffness.push_back(setting.k_stretch);
         of_lbs.value.push_back(jolt_response(character, default_spec("lbs"), probe, jolt).overshoot_over_jolt);
@@ -251,8 +250,8 @@ void add_controls(const JoltCase& of, const pbs::Character& character, const std
         return jolt_response(character, spec, probe, jolt);
     };
     analysis::CaseKey key = {.body = character.name, .deformer = "fem_undamped"};
-    for (const double young_pa : of.young_pa) {
-        const bool is_first = young_pa == of.young_pa.front();
+    for (const double young_pa : jolt_case.young_pa) {
+        const bool is_first = young_pa == jolt_case.young_pa.front();
         key.young_pa = young_pa;
         if (is_first) add_setting(measurements, key, response(young_pa, 0.0), true);
         key.deformer = "fem_damped";
@@ -278,6 +277,67 @@ void add_half_step(std::vector<Measurement>& measurements, const std::string& bo
     measurements.push_back(half);
 }
 
+// The vertices of a stop's bone in the jiggling zone.
+std::vector<int> probe_of(const StopCase& stop, const pbs::Character& character)
+{
+    const std::vector<bool> zone = pbs::jiggle_zone(character.binding);
+    const int bone = pbs::find_bone(character.skeleton, stop.bone);
+    std::vector<int> probe;
+    for (std::size_t v = 0; v < zone.size(); ++v)
+        if (zone[v] && character.binding.bone[v] == bone) probe.push_back(static_cast<int>(v));
+    if (probe.empty())
+        throw pbs::InputError("jiggle/cases.toml", 0, "stops", stop.bone, "expected a bone with vertices in the jiggling zone");
+    return probe;
+}
+
+// A deformer that stops, with the columns of stop.csv that describe it, and its steps for each step of PBS.
+struct StoppedDeformer {
+    DeformerSpec spec;
+    StopRow described;
+    int finer = 1;
+};
+
+// PBS with each stiffness, XPBD with the material of the reference, and the reference in time with each damping.
+std::vector<StoppedDeformer> stopped_deformers(const StopCase& stop)
+{
+    constexpr double none = analysis::not_known;
+    std::vector<StoppedDeformer> deformers;
+    for (const double k : stop.k_stretch)
+        deformers.push_back({jiggling(spec_of(stop.scene, "pbs"), {.k_stretch = k}), {"pbs", k, none, none}});
+    DeformerSpec flesh = spec_of(stop.scene, stop.scene.reference), xpbd = spec_of(stop.scene, "xpbd");
+    auto& fem = options_of<FemOptions>(flesh);
+    auto& own = options_of<pbs::XpbdOptions>(xpbd);
+    own.young_pa = fem.young_pa;
+    own.poisson = fem.poisson;
+    own.density_kg_m3 = fem.density_kg_m3;
+    own.jiggle = true;
+    for (const int finer : {1, stop.finer_steps}) deformers.push_back({xpbd, {"xpbd", none, own.young_pa, none}, finer});
+    fem.dynamics = reference_fem::Dynamics::generalized_alpha;
+    fem.contact = false;  // generalised alpha has none
+    for (const double damping_s : stop.rayleigh_stiffness_s) {
+        fem.rayleigh_stiffness_s = damping_s;
+        deformers.push_back({flesh, {flesh.label, none, fem.young_pa, damping_s}, stop.finer_steps});
+    }
+    return deformers;
+}
+
+// The response of a deformer. Nothing is fitted where it does not swing.
+StopRow stop_row(const StopCase& stop, const pbs::Character& character, const std::vector<int>& probe, const StoppedDeformer& deformer)
+{
+    MotionSpec motion = stop.scene.motion;
+    motion.frames *= deformer.finer;
+    motion.rate_hz *= deformer.finer;
+    motion.time_step_s /= deformer.finer;
+    const int still_steps = static_cast<int>(std::lround(stop.still_s / motion.time_step_s));
+    StopRow row = deformer.described;
+    row.response = stop_response(character, deformer.spec, probe, make_motion(motion, character.skeleton, stop.scene.file), still_steps);
+    row.time_step_ms = 1e3 * motion.time_step_s;
+    DampedOscillation& swing = row.response.swing;
+    row.outcome = name_of(swing.outcome);
+    if (!swing.found()) swing.frequency_hz = swing.damping_ratio = {analysis::not_known, analysis::not_known, analysis::not_known};
+    return row;
+}
+
 }  // namespace
 
 const Columns<ResponseRow> response_columns =
@@ -300,26 +360,26 @@ RECORD_SETTINGS_AND(JoltCase,
                         .constant("controls", {{"rayleigh_stiffness_s", rayleigh_stiffness_s}, {"steps", control_steps}}),
                     scene, jolt, settings, with_reference, young_pa)
 
-std::string record_jolts(const JoltCase& of, const std::string& folder)
+std::string record_jolts(const JoltCase& jolt_case, const std::string& folder)
 {
-    const pbs::Character character = pbs::make_character(of.scene.character);
+    const pbs::Character character = pbs::make_character(jolt_case.scene.character);
     const pbs::ZoneContents zone = zone_contents(character);
     JoltRecords records;
     std::vector<MeasuredJiggle> measured;
     std::string breakdown;
-    for (const JiggleSetting& setting : of.settings) {
-        const DeformerSpec spec = jiggling(spec_of(of.scene, "pbs"), setting);
-        measured.push_back({setting, jolt_response(character, spec, zone.pieces.front(), jolt_at(of, setting))});
+    for (const JiggleSetting& setting : jolt_case.settings) {
+        const DeformerSpec spec = jiggling(spec_of(jolt_case.scene, "pbs"), setting);
+        measured.push_back({setting, jolt_response(character, spec, zone.pieces.front(), jolt_at(jolt_case, setting))});
         const JoltResponse& response = measured.back().response;
         if (!response.finished) breakdown += text_of(setting) + ". ";
         if (!is_of_the_papers_solver(setting)) continue;
         records.responses.push_back(response_row(setting, analysis::not_known, setting.time_step_s, response));
     }
-    if (of.with_reference)
-        for (const MeasuredJiggle& one : measured) add_reference(of, character, zone.pieces.front(), one, records);
+    if (jolt_case.with_reference)
+        for (const MeasuredJiggle& jiggle : measured) add_reference(jolt_case, character, zone.pieces.front(), jiggle, records);
     else {
         records.measurements = jiggle_values(character.name, measured);
-        add_controls(of, character, zone.pieces.front(), records.measurements);
+        add_controls(jolt_case, character, zone.pieces.front(), records.measurements);
     }
     table_of(zone_columns, zone_rows(zone)).write(analysis::path_in(folder, "zone.csv"));
     table_of(response_columns, records.responses).write(analysis::path_in(folder, "responses.csv"));
@@ -340,45 +400,15 @@ RECORD_SETTINGS_AND(StopCase,
                         .constant("settled_share", settled_share),
                     scene, bone, k_stretch, rayleigh_stiffness_s, finer_steps, still_s)
 
-std::string record_stop(const StopCase& of, const std::string& folder)
+std::string record_stop(const StopCase& stop, const std::string& folder)
 {
-    const pbs::Character character = pbs::make_character(of.scene.character);
-    const std::vector<bool> zone = pbs::jiggle_zone(character.binding);
-    const int bone = pbs::find_bone(character.skeleton, of.bone);
-    std::vector<int> probe;
-    for (std::size_t v = 0; v < zone.size(); ++v)
-        if (zone[v] && character.binding.bone[v] == bone) probe.push_back(static_cast<int>(v));
-    if (probe.empty())
-        throw pbs::InputError("jiggle/cases.toml", 0, "stops", of.bone, "expected a bone with vertices in the jiggling zone");
-    constexpr double none = analysis::not_known;
+    const pbs::Character character = pbs::make_character(stop.scene.character);
+    const std::vector<int> probe = probe_of(stop, character);
     std::vector<StopRow> rows;
     std::string breakdown;
-    const auto add = [&](const DeformerSpec& spec, StopRow row, int finer) {
-        MotionSpec motion = of.scene.motion;
-        motion.frames *= finer;
-        motion.rate_hz *= finer;
-        motion.time_step_s /= finer;
-        const int still_steps = static_cast<int>(std::lround(of.still_s / motion.time_step_s));
-        row.response = stop_response(character, spec, probe, make_motion(motion, character.skeleton, of.scene.file), still_steps);
-        row.time_step_ms = 1e3 * motion.time_step_s;
-        row.outcome = name_of(row.response.swing.outcome);
-        if (analysis::DampedOscillation& swing = row.response.swing; !swing.found())
-            for (Interval* of_fit : {&swing.frequency_hz, &swing.damping_ratio}) of_fit->estimate = of_fit->low = of_fit->high = none;
+    for (const StoppedDeformer& deformer : stopped_deformers(stop)) {
+        const StopRow& row = rows.emplace_back(stop_row(stop, character, probe, deformer));
         if (!row.response.finished) breakdown += fmt::format("{} in steps of {} ms. ", row.deformer, row.time_step_ms);
-        rows.push_back(std::move(row));
-    };
-    for (const double k : of.k_stretch) add(jiggling(spec_of(of.scene, "pbs"), {.k_stretch = k}), {"pbs", k, none, none}, 1);
-    DeformerSpec flesh = spec_of(of.scene, of.scene.reference), xpbd = spec_of(of.scene, "xpbd");
-    auto& fem = options_of<FemOptions>(flesh);
-    auto& own = options_of<pbs::XpbdOptions>(xpbd);
-    std::tie(own.young_pa, own.poisson, own.density_kg_m3) = std::tuple(fem.young_pa, fem.poisson, fem.density_kg_m3);
-    own.jiggle = true;
-    for (const int finer : {1, of.finer_steps}) add(xpbd, {"xpbd", none, own.young_pa, none}, finer);
-    fem.dynamics = reference_fem::Dynamics::generalized_alpha;
-    fem.contact = false;  // generalised alpha has none
-    for (const double damping_s : of.rayleigh_stiffness_s) {
-        fem.rayleigh_stiffness_s = damping_s;
-        add(flesh, {flesh.label, none, fem.young_pa, damping_s}, of.finer_steps);
     }
     table_of(stop_columns, rows).write(analysis::path_in(folder, "stop.csv"));
     return breakdown;
@@ -388,8 +418,8 @@ std::vector<Measurement> jiggle_values(const std::string& body, const std::vecto
 {
     std::vector<Measurement> measurements;
     add_share(measurements, body, measured);
-    for (const MeasuredJiggle& one : measured)
-        add_setting(measurements, key_of(body, one.setting), one.response, is_of_the_paper(one.setting));
+    for (const MeasuredJiggle& jiggle : measured)
+        add_setting(measurements, key_of(body, jiggle.setting), jiggle.response, is_of_the_paper(jiggle.setting));
     for (const JiggleSetting& from : {JiggleSetting{}, JiggleSetting{.order = pbs::Order::ordered, .precision = pbs::Precision::f32}}) {
         const auto finished = by_k_stretch(measured, from, [](const JoltResponse& response) { return response.finished; });
         add_amplitudes(measurements,

@@ -8,6 +8,7 @@
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 #include "pbs/character/bone_capsules.hpp"
 #include "pbs/solver/options.hpp"
 
@@ -22,7 +23,7 @@ namespace experiments {
 struct JiggleSetting {
     double k_stretch = 0.1;  // in the zone; 1 elsewhere
     double time_step_s = 0.01;
-    int iterations = 24;
+    int iterations = paper_iterations;
     double k_bind = 1.0;  // in the zone; 1 elsewhere
     pbs::Masses masses = pbs::Masses::unit;
     pbs::Order order = pbs::Order::plain;  // the paper's solver, by which C09 is judged
@@ -145,12 +146,12 @@ extern const analysis::Columns<ZoneRow> zone_columns;
 
 // Everything that a run's result depends on.
 nlohmann::json to_json(const Jolt& jolt);
-nlohmann::json to_json(const JoltCase& of);
-nlohmann::json to_json(const StopCase& of);
+nlohmann::json to_json(const JoltCase& jolt_case);
+nlohmann::json to_json(const StopCase& stop);
 
 // Both return what broke down, if anything.
-std::string record_jolts(const JoltCase& of, const std::string& folder);
-std::string record_stop(const StopCase& of, const std::string& folder);  // stop.csv
+std::string record_jolts(const JoltCase& jolt_case, const std::string& folder);
+std::string record_stop(const StopCase& stop, const std::string& folder);  // stop.csv
 
 // The values of C09 from the responses of one body at all settings.
 //   for (const analysis::Measurement& measurement : jiggle_values("limb", measured)) ...

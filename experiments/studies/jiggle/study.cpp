@@ -91,13 +91,17 @@ JoltResponse at_frequency(const pbs::Character& character, const DeformerSpec& f
     return jolt_response(character, fem, probe, jolt);
 }
 
-JoltCase jolt_case(const StudyCase& of)
+JoltCase jolt_case(const StudyCase& study_case)
 {
-    JoltCase jolt{of.scene(), {}, jiggle_settings(), of.value("with_reference", false), of.value<std::vector<double>>("young_pa", {})};
-    jolt.jolt.direction = of.direction("along");
-    if (!of.has("settings")) return jolt;
+    JoltCase jolt{study_case.scene(),
+                  {},
+                  jiggle_settings(),
+                  study_case.value("with_reference", false),
+                  study_case.value<std::vector<double>>("young_pa", {})};
+    jolt.jolt.direction = study_case.direction("along");
+    if (!study_case.has("settings")) return jolt;
     jolt.settings.clear();
-    for (const nlohmann::json& differs : of.value<nlohmann::json>("settings"))
+    for (const nlohmann::json& differs : study_case.value<nlohmann::json>("settings"))
         jolt.settings.push_back({.k_stretch = differs.value("k_stretch", JiggleSetting{}.k_stretch),
                                  .iterations = differs.value("iterations", JiggleSetting{}.iterations)});
     return jolt;
@@ -105,11 +109,12 @@ JoltCase jolt_case(const StudyCase& of)
 
 StudyPlan plan(bool full)
 {
-    return plan_of_cases("jiggle", full, [](const StudyCase& of, StudyPlan& plan) {
-        if (of.has("stops"))
-            plan.runs.push_back(work_run<StopCase>(of.name, {of.scene(), of.value<std::string>("stops")}, of.cost_s, record_stop));
+    return plan_of_cases("jiggle", full, [](const StudyCase& study_case, StudyPlan& plan) {
+        if (study_case.has("stops"))
+            plan.runs.push_back(work_run<StopCase>(study_case.name, {study_case.scene(), study_case.value<std::string>("stops")},
+                                                   study_case.cost_s, record_stop));
         else
-            plan.runs.push_back(work_run(of.name, jolt_case(of), of.cost_s, record_jolts));
+            plan.runs.push_back(work_run(study_case.name, jolt_case(study_case), study_case.cost_s, record_jolts));
     });
 }
 
@@ -137,35 +142,35 @@ MeasuredJiggle jolted(const pbs::Character& character, const std::vector<int>& p
     return measured;
 }
 
-std::vector<MeasuredJiggle> jolts_of(const StudyCase& of, const pbs::Character& character, const std::vector<int>& probe,
+std::vector<MeasuredJiggle> jolts_of(const StudyCase& study_case, const pbs::Character& character, const std::vector<int>& probe,
                                      const Overrides& reading)
 {
-    const Scene scene = of.scene(reading);
+    const Scene scene = study_case.scene(reading);
     const DeformerSpec spec = spec_of(scene, "pbs");
     const auto& options = options_of<pbs::PbsOptions>(spec);
-    const double dt_s = of.scene().motion.time_step_s, k = options.jiggle ? options.jiggle->k_stretch : table_1_k_stretch;
+    const double dt_s = study_case.scene().motion.time_step_s, k = options.jiggle ? options.jiggle->k_stretch : table_1_k_stretch;
     const int substeps = static_cast<int>(std::lround(dt_s / scene.motion.time_step_s));
     const auto jolt = [&](const JiggleSetting& named, double k_stretch) {
-        Jolt of_setting{.direction = of.direction("along"), .time_step_s = named.time_step_s / substeps};
+        Jolt of_setting{.direction = study_case.direction("along"), .time_step_s = named.time_step_s / substeps};
         of_setting.still_steps *= substeps;
-        of_setting.steps = substeps * of.value<int>("jolt_steps");
+        of_setting.steps = substeps * study_case.value<int>("jolt_steps");
         return jolted(character, probe, of_setting, spec, named, k_stretch);
     };
     return {jolt({table_1_k_stretch, dt_s, options.iterations}, k), jolt({soft_k_stretch, dt_s, options.iterations}, soft_k_stretch),
             jolt({table_1_k_stretch, 0.5 * dt_s, options.iterations}, k), jolt({table_1_k_stretch, dt_s, 2 * options.iterations}, k)};
 }
 
-std::vector<ReadingValues> read_jolts(const StudyCase& of, const std::vector<Overrides>& readings)
+std::vector<ReadingValues> read_jolts(const StudyCase& study_case, const std::vector<Overrides>& readings)
 {
-    const pbs::Character character = pbs::make_character(of.scene().character);
+    const pbs::Character character = pbs::make_character(study_case.scene().character);
     const std::vector<int> probe = zone_contents(character).pieces.at(0);
-    std::vector<ReadingValues> all;
+    std::vector<ReadingValues> values_of_readings;
     for (const Overrides& reading : readings) {
-        const std::vector<MeasuredJiggle> measured = jolts_of(of, character, probe, reading);
-        ReadingValues& read = all.emplace_back(ReadingValues{jiggle_values(character.name, measured)});
-        read.broke_down = !std::ranges::all_of(measured, [](const MeasuredJiggle& one) { return one.response.finished; });
+        const std::vector<MeasuredJiggle> measured = jolts_of(study_case, character, probe, reading);
+        ReadingValues& read = values_of_readings.emplace_back(ReadingValues{jiggle_values(character.name, measured)});
+        read.broke_down = !std::ranges::all_of(measured, [](const MeasuredJiggle& jiggle) { return jiggle.response.finished; });
     }
-    return all;
+    return values_of_readings;
 }
 
 }  // namespace

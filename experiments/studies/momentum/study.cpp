@@ -150,18 +150,18 @@ const std::pair<ProjectedClass, const char*> classes[] = {
     {ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}, {ProjectedClass::bind, "bind"}};
 
 // The bones take up the momentum of bind constraints, which is no part of the claim.
-void add(std::vector<analysis::Measurement>& rows, ProjectedClass projected, const std::string& suffix, const analysis::CaseKey& of,
+void add(std::vector<analysis::Measurement>& rows, ProjectedClass projected, const std::string& suffix, const analysis::CaseKey& key,
          const MomentumDrift& drift)
 {
     const std::string bones = projected == ProjectedClass::bind ? "_taken_by_bones" : "";
     for (const auto& [quantity, value] : {std::pair{"linear_drift", drift.linear}, {"angular_drift", drift.angular}})
-        rows.push_back({"C07", quantity + suffix + bones, of, value, value, value, "1"});
+        rows.push_back({"C07", quantity + suffix + bones, key, value, value, value, "1"});
 }
 
-std::string measure_drift(const MomentumCase& of, const std::string& folder)
+std::string measure_drift(const MomentumCase& momentum_case, const std::string& folder)
 {
-    const PosedCharacter posed(of.scene, {of.frame});
-    pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec_of(of.scene, "pbs"));
+    const PosedCharacter posed(momentum_case.scene, {momentum_case.frame});
+    pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec_of(momentum_case.scene, "pbs"));
     options.jiggle.reset();
     std::vector<analysis::Measurement> rows;
     for (const auto& [precision, precision_name] : OptionNames<pbs::Precision>::table)
@@ -169,7 +169,8 @@ std::string measure_drift(const MomentumCase& of, const std::string& folder)
             for (const auto& [projected, class_name] : classes) {
                 options.precision = precision;
                 options.masses = setting.known;
-                analysis::CaseKey key = {.body = of.name, .precision = precision_name, .masses = setting.name, .constraint = class_name};
+                analysis::CaseKey key = {
+                    .body = momentum_case.name, .precision = precision_name, .masses = setting.name, .constraint = class_name};
                 add(rows, projected, "", key, drift_of_projections(posed.character(), posed.pose(0), options, projected, setting.counted));
                 for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::grouped, pbs::Order::plain}) {
                     options.order = order;
@@ -184,32 +185,33 @@ std::string measure_drift(const MomentumCase& of, const std::string& folder)
 
 StudyPlan plan(bool full)
 {
-    return plan_of_cases("momentum", full, [](const StudyCase& of, StudyPlan& plan) {
-        plan.runs.push_back(work_run<MomentumCase>(of.name, {of.name, of.scene(), of.value<int>("frame")}, of.cost_s, measure_drift));
+    return plan_of_cases("momentum", full, [](const StudyCase& study_case, StudyPlan& plan) {
+        plan.runs.push_back(work_run<MomentumCase>(study_case.name, {study_case.name, study_case.scene(), study_case.value<int>("frame")},
+                                                   study_case.cost_s, measure_drift));
     });
 }
 
 // Single projections and a pass of each class that is judged, from the reading's LBS shape. Momentum is that of the reading's masses.
-std::vector<ReadingValues> read_drifts(const StudyCase& of, const std::vector<Overrides>& readings)
+std::vector<ReadingValues> read_drifts(const StudyCase& study_case, const std::vector<Overrides>& readings)
 {
-    std::vector<ReadingValues> all;
+    std::vector<ReadingValues> values_of_readings;
     for (const Overrides& reading : readings) {
-        const Scene scene = of.scene(reading);
-        const PosedCharacter posed(scene, {of.value<int>("frame")});
+        const Scene scene = study_case.scene(reading);
+        const PosedCharacter posed(scene, {study_case.value<int>("frame")});
         const auto& options = options_of<pbs::PbsOptions>(spec_of(scene, "pbs"));
-        analysis::CaseKey key = of.key();
+        analysis::CaseKey key = study_case.key();
         key.precision = name_of(options.precision);
-        all.emplace_back();
+        values_of_readings.emplace_back();
         for (const auto& [projected, class_name] : classes) {
             if (projected == ProjectedClass::bind) continue;
             key.constraint = class_name;
-            add(all.back().values, projected, "", key,
+            add(values_of_readings.back().values, projected, "", key,
                 drift_of_projections(posed.character(), posed.pose(0), options, projected, options.masses));
-            add(all.back().values, projected, "_of_a_pass", key,
+            add(values_of_readings.back().values, projected, "_of_a_pass", key,
                 drift_of_a_pass(posed.character(), posed.pose(0), options, projected, options.masses));
         }
     }
-    return all;
+    return values_of_readings;
 }
 
 }  // namespace

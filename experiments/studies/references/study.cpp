@@ -35,12 +35,13 @@ struct ReferenceCase {
     bool is_compared = false;  // with what is kept
 };
 
-nlohmann::json to_json(const ReferenceCase& of)
+nlohmann::json to_json(const ReferenceCase& reference_case)
 {
     nlohmann::json members = nlohmann::json::array();
-    for (const EnsembleMember& member : of.members) members.push_back(to_json(member));
-    return {{"pose", of.pose.name},       {"scene", to_json(of.pose.scene)}, {"frame", of.pose.frame},
-            {"flesh", to_json(of.flesh)}, {"members", std::move(members)},   {"is_compared", of.is_compared}};
+    for (const EnsembleMember& member : reference_case.members) members.push_back(to_json(member));
+    return {{"pose", reference_case.pose.name},   {"scene", to_json(reference_case.pose.scene)},
+            {"frame", reference_case.pose.frame}, {"flesh", to_json(reference_case.flesh)},
+            {"members", std::move(members)},      {"is_compared", reference_case.is_compared}};
 }
 
 // references.csv.
@@ -59,10 +60,10 @@ const analysis::Columns<ReferenceRow> reference_columns =
     MEMBER_COLUMNS(ReferenceRow, pose, body, stratum, member, outcome, own_error_pct, linear_distance_pct, left_out_pct, energy_j,
                    lowest_det_f, newton_steps, solve_s, from_kept_m);
 
-KeptReference solved(const ReferenceCase& of, const EnsembleMember& member, const pbs::Character& character, const pbs::Pose& bones,
-                     const std::string& solutions)
+KeptReference solved(const ReferenceCase& reference_case, const EnsembleMember& member, const pbs::Character& character,
+                     const pbs::Pose& bones, const std::string& solutions)
 {
-    const PosedReference reference(character, flesh_of(of.flesh, member), bones, of.pose.scene.motion.time_step_s,
+    const PosedReference reference(character, flesh_of(reference_case.flesh, member), bones, reference_case.pose.scene.motion.time_step_s,
                                    ReferenceEffort::own_tets, solutions);
     KeptReference kept{.member = member, .outcome = "not_reached", .at_tips = reference.masked()};
     for (const NestedSolution& solution : reference.solutions()) kept.seconds += solution.seconds;
@@ -78,9 +79,12 @@ KeptReference solved(const ReferenceCase& of, const EnsembleMember& member, cons
     return kept;
 }
 
-ReferenceRow row_of(const ReferenceCase& of, const KeptReference& reference, const analysis::ErrorMetrics& metrics)
+ReferenceRow row_of(const ReferenceCase& reference_case, const KeptReference& reference, const analysis::ErrorMetrics& metrics)
 {
-    ReferenceRow row{.pose = of.pose.name, .body = of.pose.of.body, .stratum = of.pose.stratum, .member = reference.member.name};
+    ReferenceRow row{.pose = reference_case.pose.name,
+                     .body = reference_case.pose.of.body,
+                     .stratum = reference_case.pose.stratum,
+                     .member = reference.member.name};
     row.outcome = reference.outcome;
     if (std::isfinite(reference.own_error_pct())) row.own_error_pct = reference.own_error_pct();
     row.linear_distance_pct = reference.linear_distance_pct;
@@ -113,22 +117,22 @@ std::string compared_with_kept(const KeptReferences& solved, const pbs::Characte
     return differing;
 }
 
-std::string solve_and_record(const ReferenceCase& of, const std::string& folder)
+std::string solve_and_record(const ReferenceCase& reference_case, const std::string& folder)
 {
-    const pbs::Character character = pbs::make_character(of.pose.scene.character);
-    KeptReferences references{.pose = of.pose.name,
-                              .body = of.pose.of.body,
+    const pbs::Character character = pbs::make_character(reference_case.pose.scene.character);
+    KeptReferences references{.pose = reference_case.pose.name,
+                              .body = reference_case.pose.of.body,
                               .mesh_hash = pbs::content_hash(character.mesh),
                               .revision = analysis::collect_provenance(1).git_revision,
-                              .bones = bones_in(of.pose, character.skeleton)};
+                              .bones = bones_in(reference_case.pose, character.skeleton)};
     const analysis::ErrorMetrics metrics(error_domain(character, {}));
     std::vector<ReferenceRow> rows;
-    for (const EnsembleMember& member : of.members) {
-        references.members.push_back(solved(of, member, character, references.bones, solutions_of_run(folder)));
-        rows.push_back(row_of(of, references.members.back(), metrics));
+    for (const EnsembleMember& member : reference_case.members) {
+        references.members.push_back(solved(reference_case, member, character, references.bones, solutions_of_run(folder)));
+        rows.push_back(row_of(reference_case, references.members.back(), metrics));
     }
-    const std::string differing = of.is_compared ? compared_with_kept(references, character, rows) : "";
-    analysis::write_text_atomically(analysis::path_in(folder, of.pose.name + ".ref"), packed(references, character));
+    const std::string differing = reference_case.is_compared ? compared_with_kept(references, character, rows) : "";
+    analysis::write_text_atomically(analysis::path_in(folder, reference_case.pose.name + ".ref"), packed(references, character));
     table_of(reference_columns, rows).write(analysis::path_in(folder, "references.csv"));
     return differing;
 }
@@ -136,11 +140,11 @@ std::string solve_and_record(const ReferenceCase& of, const std::string& folder)
 StudyPlan plan(bool full)
 {
     return plan_of_cases("references", full, [&](const StudyCase& in_file, StudyPlan& plan) {
-        ReferenceCase of{.pose = reference_pose(in_file), .is_compared = !full};
-        if (of.is_compared) require_kept_tets(of.pose.of.body);
-        of.members = members_of(of.pose.stratum);
-        of.flesh = reference_flesh(of.pose.scene);
-        plan.runs.push_back(work_run(in_file.name, of, in_file.cost_s, solve_and_record));
+        ReferenceCase reference_case{.pose = reference_pose(in_file), .is_compared = !full};
+        if (reference_case.is_compared) require_kept_tets(reference_case.pose.of.body);
+        reference_case.members = members_of(reference_case.pose.stratum);
+        reference_case.flesh = reference_flesh(reference_case.pose.scene);
+        plan.runs.push_back(work_run(in_file.name, reference_case, in_file.cost_s, solve_and_record));
     });
 }
 

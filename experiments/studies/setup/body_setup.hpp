@@ -25,7 +25,7 @@ struct SetupCase {
     double rate_hz = 0.0;
 };
 nlohmann::json to_json(const BodySetup& setup);
-nlohmann::json to_json(const SetupCase& of);
+nlohmann::json to_json(const SetupCase& setup_case);
 
 // The shared text: the human through the clip, one deformer alone, at rate_hz frames per second.
 Scene shared_scene(double rate_hz, const std::string& deformer = "pbs");
@@ -62,9 +62,9 @@ extern const analysis::Columns<std::string> key_columns;
 std::vector<std::string> keys_changed(const nlohmann::json& shared, const nlohmann::json& own);
 
 // The values of C17, from a run's metrics.csv and run.json and from the keys that were changed for it.
-std::vector<analysis::Measurement> setup_measurements(const analysis::CaseKey& of, const analysis::CsvTable& metrics,
+std::vector<analysis::Measurement> setup_measurements(const analysis::CaseKey& key, const analysis::CsvTable& metrics,
                                                       const nlohmann::json& run, const std::vector<std::string>& changed);
 // The values of a body that did not run with any of further_keys(): the number of keys is unknown, and no frame is sound.
-std::vector<analysis::Measurement> not_set_up(const analysis::CaseKey& of);
+std::vector<analysis::Measurement> not_set_up(const analysis::CaseKey& key);
 
 }  // namespace experiments

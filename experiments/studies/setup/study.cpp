@@ -97,12 +97,14 @@ RECORD_SETTINGS(BodySetup, body, vertices, further, deformer)
 
 RECORD_SETTINGS_AND(SetupCase,
                     .derived("scene",
-                             [](const SetupCase& one) {
-                                 const bool has_scene = !is_unsuitable(one.setup.body);  // the others are made by the run
-                                 return has_scene ? to_json(scene_of(one.setup, one.rate_hz)) : nlohmann::json();
+                             [](const SetupCase& setup_case) {
+                                 const bool has_scene = !is_unsuitable(setup_case.setup.body);  // the others are made by the run
+                                 return has_scene ? to_json(scene_of(setup_case.setup, setup_case.rate_hz)) : nlohmann::json();
                              })
                         .derived("compared_with",
-                                 [](const SetupCase& one) { return shared_scene(one.rate_hz, one.setup.deformer).resolved; })
+                                 [](const SetupCase& setup_case) {
+                                     return shared_scene(setup_case.rate_hz, setup_case.setup.deformer).resolved;
+                                 })
                         .constant("further_keys", further_keys()),
                     setup, rate_hz)
 
@@ -158,7 +160,7 @@ std::vector<TriedSetup> tried_setups(const BodySetup& setup, const Trial& trial)
     return tried;
 }
 
-std::vector<Measurement> setup_measurements(const analysis::CaseKey& of, const analysis::CsvTable& metrics, const nlohmann::json& run,
+std::vector<Measurement> setup_measurements(const analysis::CaseKey& key, const analysis::CsvTable& metrics, const nlohmann::json& run,
                                             const std::vector<std::string>& changed)
 {
     const std::vector<double> change_pct = metrics.numbers("volume_change_pct"), inverted = metrics.numbers("inverted_tets");
@@ -174,32 +176,32 @@ std::vector<Measurement> setup_measurements(const analysis::CaseKey& of, const a
     const nlohmann::json& seconds = run.at("cost").at("cpu_seconds");
     const double set_up_s = seconds.at("character").get<double>() + seconds.at("motion").get<double>() + seconds.at("set_up").get<double>();
     const double keys = static_cast<double>(changed.size());
-    return {{"C17", "keys_changed", of, keys, keys, keys, "1"},
-            {"C17", "share_of_sound_frames", of, share.estimate, share.low, share.high, "1"},
-            {"C17", "mean_volume_change_pct", of, mean.estimate, mean.low, mean.high, "%"},
-            {"C17", "largest_volume_change_pct", of, largest_pct, largest_pct, largest_pct, "%"},
-            {"C17", "set_up_s", of, set_up_s, set_up_s, set_up_s, "s"}};
+    return {{"C17", "keys_changed", key, keys, keys, keys, "1"},
+            {"C17", "share_of_sound_frames", key, share.estimate, share.low, share.high, "1"},
+            {"C17", "mean_volume_change_pct", key, mean.estimate, mean.low, mean.high, "%"},
+            {"C17", "largest_volume_change_pct", key, largest_pct, largest_pct, largest_pct, "%"},
+            {"C17", "set_up_s", key, set_up_s, set_up_s, set_up_s, "s"}};
 }
 
-std::vector<Measurement> not_set_up(const analysis::CaseKey& of)
+std::vector<Measurement> not_set_up(const analysis::CaseKey& key)
 {
     const double none = analysis::not_known;
-    return {{"C17", "keys_changed", of, none, none, none, "1"}, {"C17", "share_of_sound_frames", of, 0.0, 0.0, 0.0, "1"}};
+    return {{"C17", "keys_changed", key, none, none, none, "1"}, {"C17", "share_of_sound_frames", key, 0.0, 0.0, 0.0, "1"}};
 }
 
 namespace {
 
 // Runs the body in `folder`/run and writes measurements.csv, changed_keys.csv and trials.csv. The run has its own cache of meshes, which
 // is removed afterwards; PBSKIN_CACHE of this process is set to it. Returns the failure of the last trial, if any.
-std::string set_up_and_record(const SetupCase& of, const std::string& folder)
+std::string set_up_and_record(const SetupCase& setup_case, const std::string& folder)
 {
-    const auto& [setup, rate_hz] = of;
+    const auto& [setup, rate_hz] = setup_case;
     const fs::path cache = fs::absolute(folder) / "cache", run_folder = fs::path(folder) / "run";
     fs::remove_all(cache);
     use_own_cache(cache);
     const auto run = [&](const BodySetup& own) {
         forget_meshes(cache);
-        return run_scene(scene_of(own, of.rate_hz), run_folder.string()).failure();
+        return run_scene(scene_of(own, setup_case.rate_hz), run_folder.string()).failure();
     };
     const BodySetup own = with_files(setup, folder);
     const std::vector<TriedSetup> tried = tried_setups(own, run);
@@ -209,7 +211,7 @@ std::string set_up_and_record(const SetupCase& of, const std::string& folder)
     const bool runs = tried.back().failure.empty();
     const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
     const auto is_of_the_body = [&](const std::string& key) {
-        return std::ranges::any_of(own.further, [&](const std::string& one) { return one.starts_with(key + "="); });
+        return std::ranges::any_of(own.further, [&](const std::string& name) { return name.starts_with(key + "="); });
     };
     std::vector<std::string> changed;
     if (runs) changed = keys_changed(shared_scene(rate_hz, setup.deformer).resolved, scene_of(last, rate_hz).resolved);
@@ -228,21 +230,23 @@ std::string set_up_and_record(const SetupCase& of, const std::string& folder)
 
 StudyPlan plan(bool full)
 {
-    return plan_of_cases("setup", full, [](const StudyCase& of, StudyPlan& plan) {
-        const BodySetup setup{of.value<std::string>("body"), of.value("vertices", 0), {}, of.value<std::string>("deformer", "pbs")};
-        plan.runs.push_back(work_run<SetupCase>(of.name, {setup, of.value<double>("rate_hz")}, of.cost_s, set_up_and_record));
+    return plan_of_cases("setup", full, [](const StudyCase& study_case, StudyPlan& plan) {
+        const BodySetup setup{
+            study_case.value<std::string>("body"), study_case.value("vertices", 0), {}, study_case.value<std::string>("deformer", "pbs")};
+        plan.runs.push_back(
+            work_run<SetupCase>(study_case.name, {setup, study_case.value<double>("rate_hz")}, study_case.cost_s, set_up_and_record));
     });
 }
 
 bool conclude(const FinishedRuns& finished)
 {
-    std::vector<Measurement> all;
+    std::vector<Measurement> rows;
     for (const std::string& file : finished.files("measurements.csv")) {
         std::vector<Measurement> own = analysis::measurements(file);
         std::ranges::sort(own, {}, &Measurement::quantity);
-        all.insert(all.end(), own.begin(), own.end());
+        rows.insert(rows.end(), own.begin(), own.end());
     }
-    finished.write("setup.csv", analysis::measurement_table(all));
+    finished.write("setup.csv", analysis::measurement_table(rows));
     return !finished.none();
 }
 

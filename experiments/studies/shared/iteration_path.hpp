@@ -87,6 +87,7 @@ StepLoops step_loops(const pbs::ConstraintSet<Scalar>& constraints, const pbs::T
 // The path of one initial guess, which `loops` load.
 IterationPath follow(const StepLoops& loops, const pbs::Positions& guess, int most, const IterationMetrics& iteration_metrics);
 
+inline constexpr int paper_iterations = 24;         // of a step
 inline constexpr double residual_tolerance = 0.05;  // of the floor
 inline constexpr double satisfied_residual = 1e-4;
 inline constexpr double volume_tolerance_pct = 0.5;  // Sec. 4

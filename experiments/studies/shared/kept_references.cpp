@@ -100,38 +100,43 @@ pbs::Positions predicted_plus(const pbs::Positions& predicted, const std::vector
 
 // The numbers of a member, without its shape.
 template <typename Reference, typename Visit>
-void for_each_number(Reference& of, const Visit& visit)
+void for_each_number(Reference& reference, const Visit& visit)
 {
-    visit("linear_distance_pct", of.linear_distance_pct), visit("energy_j", of.energy_j), visit("lowest_det_f", of.lowest_det_f);
+    visit("linear_distance_pct", reference.linear_distance_pct), visit("energy_j", reference.energy_j),
+        visit("lowest_det_f", reference.lowest_det_f);
 }
 
-json json_of(const KeptReference& of)
+json json_of(const KeptReference& reference)
 {
-    json one = {{"member", to_json(of.member)}, {"outcome", of.outcome}, {"newton_steps", of.newton_steps}, {"seconds", of.seconds}};
-    for_each_number(of, [&](const char* name, const std::optional<double>& value) {
-        if (value) one[name] = *value;
+    json table = {{"member", to_json(reference.member)},
+                  {"outcome", reference.outcome},
+                  {"newton_steps", reference.newton_steps},
+                  {"seconds", reference.seconds}};
+    for_each_number(reference, [&](const char* name, const std::optional<double>& value) {
+        if (value) table[name] = *value;
     });
     std::vector<int> tips;
-    for (std::size_t v = 0; v < of.at_tips.size(); ++v)
-        if (of.at_tips[v]) tips.push_back(static_cast<int>(v));
-    one["tips"] = tips;
-    return one;
+    for (std::size_t v = 0; v < reference.at_tips.size(); ++v)
+        if (reference.at_tips[v]) tips.push_back(static_cast<int>(v));
+    table["tips"] = tips;
+    return table;
 }
 
-KeptReference reference_of(const json& one, Eigen::Index vertices)
+KeptReference reference_of(const json& table, Eigen::Index vertices)
 {
-    KeptReference of;
-    const std::string name = one.at("member").at("name");
+    KeptReference reference;
+    const std::string name = table.at("member").at("name");
     for (const EnsembleMember& member : family())
-        if (member.name == name) of.member = member;
-    if (to_json(of.member) != one.at("member")) throw std::runtime_error("a member " + name + " that this program does not have");
-    one.at("outcome").get_to(of.outcome), one.at("newton_steps").get_to(of.newton_steps), one.at("seconds").get_to(of.seconds);
-    for_each_number(of, [&](const char* key, std::optional<double>& value) {
-        if (one.contains(key)) value = one.at(key).get<double>();
+        if (member.name == name) reference.member = member;
+    if (to_json(reference.member) != table.at("member")) throw std::runtime_error("a member " + name + " that this program does not have");
+    table.at("outcome").get_to(reference.outcome), table.at("newton_steps").get_to(reference.newton_steps),
+        table.at("seconds").get_to(reference.seconds);
+    for_each_number(reference, [&](const char* key, std::optional<double>& value) {
+        if (table.contains(key)) value = table.at(key).get<double>();
     });
-    of.at_tips.assign(vertices, false);
-    for (const int v : one.at("tips")) of.at_tips.at(v) = true;
-    return of;
+    reference.at_tips.assign(vertices, false);
+    for (const int v : table.at("tips")) reference.at_tips.at(v) = true;
+    return reference;
 }
 
 }  // namespace
@@ -143,26 +148,26 @@ double KeptReference::own_error_pct() const
 
 const KeptReference* KeptReferences::find(const std::string& member) const
 {
-    const auto found = std::ranges::find_if(members, [&](const KeptReference& one) { return one.member.name == member; });
+    const auto found = std::ranges::find_if(members, [&](const KeptReference& reference) { return reference.member.name == member; });
     return found == members.end() ? nullptr : &*found;
 }
 
 std::string packed(const KeptReferences& references, const pbs::Character& character)
 {
-    json all = {{"schema", kept_schema},           {"pose", references.pose},
-                {"body", references.body},         {"mesh_hash", references.mesh_hash},
-                {"revision", references.revision}, {"quantum_m", kept_quantum_m}};
+    json table = {{"schema", kept_schema},           {"pose", references.pose},
+                  {"body", references.body},         {"mesh_hash", references.mesh_hash},
+                  {"revision", references.revision}, {"quantum_m", kept_quantum_m}};
     for (const Eigen::Isometry3d& bone : references.bones)
-        all["bones"].push_back(std::vector<double>(bone.data(), bone.data() + bone.matrix().size()));
+        table["bones"].push_back(std::vector<double>(bone.data(), bone.data() + bone.matrix().size()));
     pbs::Positions predicted = rigid_shape(character, references.bones);
-    for (const KeptReference& of : references.members) {
-        json& one = all["members"].emplace_back(json_of(of));
-        if (!of.is_reached()) continue;
-        const std::vector<std::int32_t> values = residual(of.positions, predicted);
-        one["shape"] = json::binary(planes_of(values));
+    for (const KeptReference& reference : references.members) {
+        json& entry = table["members"].emplace_back(json_of(reference));
+        if (!reference.is_reached()) continue;
+        const std::vector<std::int32_t> values = residual(reference.positions, predicted);
+        entry["shape"] = json::binary(planes_of(values));
         predicted = predicted_plus(predicted, values, kept_quantum_m);
     }
-    return deflated(json::to_cbor(all));
+    return deflated(json::to_cbor(table));
 }
 
 KeptReferences unpacked(const std::string& text, const std::string& file, const pbs::Character& character)
@@ -171,31 +176,31 @@ KeptReferences unpacked(const std::string& text, const std::string& file, const 
     const std::string hash = pbs::content_hash(character.mesh);
     const std::vector<std::uint8_t> bytes = inflated(text);
     try {
-        const json all = json::from_cbor(bytes);
-        if (all.at("schema") != kept_schema)
-            throw pbs::InputError(file, 0, "schema", all.at("schema").dump(), fmt::format("expected {}", kept_schema));
-        all.at("pose").get_to(references.pose), all.at("body").get_to(references.body);
-        all.at("mesh_hash").get_to(references.mesh_hash), all.at("revision").get_to(references.revision);
+        const json table = json::from_cbor(bytes);
+        if (table.at("schema") != kept_schema)
+            throw pbs::InputError(file, 0, "schema", table.at("schema").dump(), fmt::format("expected {}", kept_schema));
+        table.at("pose").get_to(references.pose), table.at("body").get_to(references.body);
+        table.at("mesh_hash").get_to(references.mesh_hash), table.at("revision").get_to(references.revision);
         if (references.mesh_hash != hash)
             throw pbs::InputError(
                 file, 0, "mesh_hash", references.mesh_hash,
                 fmt::format("the tets of {} have the hash {}, so that these references do not belong to them; solve them with "
                             "`pbskin reproduce references --full`",
                             character.name, hash));
-        for (const json& bone : all.at("bones")) {
+        for (const json& bone : table.at("bones")) {
             const std::vector<double> numbers = bone;
             if (numbers.size() != 16) throw std::runtime_error("a transform of another size");
             references.bones.emplace_back(Eigen::Map<const Eigen::Matrix4d>(numbers.data()));
         }
         if (references.bones.size() != character.skeleton.bones.size()) throw std::runtime_error("another number of bones");
         pbs::Positions predicted = rigid_shape(character, references.bones);
-        const double quantum_m = all.at("quantum_m");
-        for (const json& one : all.at("members")) {
-            KeptReference& of = references.members.emplace_back(reference_of(one, predicted.rows()));
-            if (!of.is_reached()) continue;
-            const std::vector<std::int32_t> values = values_in(one.at("shape").get_binary());
+        const double quantum_m = table.at("quantum_m");
+        for (const json& entry : table.at("members")) {
+            KeptReference& reference = references.members.emplace_back(reference_of(entry, predicted.rows()));
+            if (!reference.is_reached()) continue;
+            const std::vector<std::int32_t> values = values_in(entry.at("shape").get_binary());
             if (static_cast<Eigen::Index>(values.size()) != predicted.size()) throw std::runtime_error("a shape of another size");
-            of.positions = predicted = predicted_plus(predicted, values, quantum_m);
+            reference.positions = predicted = predicted_plus(predicted, values, quantum_m);
         }
     } catch (const pbs::InputError&) {
         throw;
@@ -227,8 +232,9 @@ void require_kept_tets(const std::string& body)
     const std::string why = why_other_tets(body);
     if (!why.empty())
         throw pbs::InputError("", 0, "character.body", body,
-                              why + ": repeat its numbers on Debian 12, the system of the record, or solve its references on these tets "
-                                    "with `pbskin reproduce references --full`");
+                              why +
+                                  ": repeat its numbers on Debian 12, the system of the record, or solve its references on these tets "
+                                  "with `pbskin reproduce references --full`");
 }
 
 std::string file_of_references(const std::string& pose)

@@ -10,8 +10,6 @@
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 
@@ -111,12 +109,12 @@ std::vector<Shapes> PosedCharacter::shapes(const std::vector<pbs::PbsOptions>& o
     return all;
 }
 
-analysis::ErrorNorms PosedCharacter::distance(const Shape& one, const Shape& other) const
+analysis::ErrorNorms PosedCharacter::distance(const Shape& shape, const Shape& other) const
 {
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-    if (!one.finished || !other.finished) return {nothing, nothing, nothing};
+    if (!shape.finished || !other.finished) return {nothing, nothing, nothing};
     const Eigen::Index vertices = character_.mesh.rest.rows();
-    return error_metrics_.measure(one.positions.topRows(vertices), other.positions.topRows(vertices));
+    return error_metrics_.measure(shape.positions.topRows(vertices), other.positions.topRows(vertices));
 }
 
 const DeformerSpec& spec_of(const Scene& scene, const std::string& name)
@@ -126,26 +124,9 @@ const DeformerSpec& spec_of(const Scene& scene, const std::string& name)
     return *found;
 }
 
-std::string case_name(const analysis::CaseKey& of)
+const analysis::Columns<analysis::CaseKey>& pose_columns()
 {
-    return of.angle_deg ? fmt::format("{}_{}_{:g}", of.body, of.motion, *of.angle_deg) : of.body + "_" + of.pose;
-}
-
-using analysis::CaseKey;
-using analysis::Columns;
-using analysis::FrameMetrics;
-
-const Columns<CaseKey>& pose_columns()
-{
-    static const Columns<CaseKey> columns = MEMBER_COLUMNS(CaseKey, body, motion, pose, angle_deg);
-    return columns;
-}
-
-const Columns<FrameMetrics>& volume_columns()
-{
-    static const Columns<FrameMetrics> columns = {{"volume_change_pct", &FrameMetrics::volume_change_pct},
-                                                  {"volume_abs_change_pct", &FrameMetrics::volume_abs_change_pct},
-                                                  {"inverted", &FrameMetrics::inverted_tets}};
+    static const analysis::Columns<analysis::CaseKey> columns = MEMBER_COLUMNS(analysis::CaseKey, body, motion, pose, angle_deg);
     return columns;
 }
 

@@ -19,14 +19,9 @@
 
 namespace experiments {
 
-// The name of a pose's run, and of its diagram in the tables: limb_twist_90 if the pose is an angle, otherwise human_crouch.
-std::string case_name(const analysis::CaseKey& of);
-
-// Columns that the tables of several studies share.
-//   const Columns<Row> columns = within(&Row::of, pose_columns()) + within(&Row::metrics, volume_columns()) + ...;
-// They are functions, since columns of other files are made from them before main() begins.
-const analysis::Columns<analysis::CaseKey>& pose_columns();         // body, motion, pose, angle_deg
-const analysis::Columns<analysis::FrameMetrics>& volume_columns();  // volume_change_pct, volume_abs_change_pct, inverted
+// The columns of a pose that the tables of several studies share: body, motion, pose, angle_deg. It is a function, since columns of other
+// files are made from it before main() begins.
+const analysis::Columns<analysis::CaseKey>& pose_columns();
 
 // The shape that linear blend skinning gives [m], #V x 3.
 pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose);
@@ -62,7 +57,7 @@ public:
 
     // Between two shapes, on this character's vertices, which are the first ones of a refined character; by the metrics of every record.
     // Not a number where one of them did not finish.
-    analysis::ErrorNorms distance(const Shape& one, const Shape& other) const;
+    analysis::ErrorNorms distance(const Shape& shape, const Shape& other) const;
 
     const pbs::Character& character() const { return character_; }
     void set_weights(pbs::Weights weights) { character_.weights = std::move(weights); }  // that all deformers blend with from now on

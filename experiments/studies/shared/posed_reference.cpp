@@ -56,26 +56,27 @@ constexpr int kept_format = 1;
 
 // Visits the fields of a solution that are written to its file, except for the positions and the smallest det F.
 template <typename Solution, typename Visit>
-void for_each_field(Solution& of, const Visit& visit)
+void for_each_field(Solution& solution, const Visit& visit)
 {
-    visit("element_order", of.element_order), visit("refinements", of.refinements), visit("other_tets", of.other_tets);
-    visit("edges_per_radius", of.edges_per_radius), visit("vertices", of.vertices), visit("tets", of.tets),
-        visit("volume_m3", of.volume_m3);
-    visit("along_the_bones", of.along_the_bones), visit("finished", of.finished), visit("energy_j", of.energy_j);
-    visit("inverted_tets", of.inverted_tets), visit("j_min", of.j_min), visit("worst_tet", of.worst_tet);
-    visit("newton_steps", of.newton_steps), visit("projected", of.projected), visit("seconds", of.seconds), visit("at_tips", of.at_tips);
+    visit("element_order", solution.element_order), visit("refinements", solution.refinements), visit("other_tets", solution.other_tets);
+    visit("edges_per_radius", solution.edges_per_radius), visit("vertices", solution.vertices), visit("tets", solution.tets),
+        visit("volume_m3", solution.volume_m3);
+    visit("along_the_bones", solution.along_the_bones), visit("finished", solution.finished), visit("energy_j", solution.energy_j);
+    visit("inverted_tets", solution.inverted_tets), visit("j_min", solution.j_min), visit("worst_tet", solution.worst_tet);
+    visit("newton_steps", solution.newton_steps), visit("projected", solution.projected), visit("seconds", solution.seconds),
+        visit("at_tips", solution.at_tips);
 }
 
 std::string text_of(const std::vector<NestedSolution>& solutions)
 {
-    nlohmann::json all = nlohmann::json::array();
-    for (const NestedSolution& of : solutions) {
-        nlohmann::json& one = all.emplace_back();
-        for_each_field(of, [&](const char* name, const auto& value) { one[name] = value; });
-        if (of.lowest_det_f) one["lowest_det_f"] = *of.lowest_det_f;
-        one["positions"] = std::vector<double>(of.positions.data(), of.positions.data() + of.positions.size());
+    nlohmann::json table = nlohmann::json::array();
+    for (const NestedSolution& solution : solutions) {
+        nlohmann::json& entry = table.emplace_back();
+        for_each_field(solution, [&](const char* name, const auto& value) { entry[name] = value; });
+        if (solution.lowest_det_f) entry["lowest_det_f"] = *solution.lowest_det_f;
+        entry["positions"] = std::vector<double>(solution.positions.data(), solution.positions.data() + solution.positions.size());
     }
-    const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(all);  // which has numbers that are not finite, too
+    const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(table);  // which has numbers that are not finite, too
     return {bytes.begin(), bytes.end()};
 }
 
@@ -84,12 +85,12 @@ std::vector<NestedSolution> solutions_in(const std::string& text)
 {
     std::vector<NestedSolution> solutions;
     try {
-        for (const nlohmann::json& one : nlohmann::json::from_cbor(text)) {
-            NestedSolution& of = solutions.emplace_back();
-            for_each_field(of, [&](const char* name, auto& value) { one.at(name).get_to(value); });
-            if (one.contains("lowest_det_f")) of.lowest_det_f = one["lowest_det_f"];
-            const std::vector<double> numbers = one.at("positions");
-            of.positions = Eigen::Map<const pbs::Positions>(numbers.data(), static_cast<Eigen::Index>(numbers.size()) / 3, 3);
+        for (const nlohmann::json& table : nlohmann::json::from_cbor(text)) {
+            NestedSolution& solution = solutions.emplace_back();
+            for_each_field(solution, [&](const char* name, auto& value) { table.at(name).get_to(value); });
+            if (table.contains("lowest_det_f")) solution.lowest_det_f = table["lowest_det_f"];
+            const std::vector<double> numbers = table.at("positions");
+            solution.positions = Eigen::Map<const pbs::Positions>(numbers.data(), static_cast<Eigen::Index>(numbers.size()) / 3, 3);
         }
     } catch (const nlohmann::json::exception&) {
         return {};
@@ -197,8 +198,9 @@ PosedReference::Solutions PosedReference::kept(const std::string& file) const
 {
     if (!fs::exists(file)) return {};
     const Solutions solutions = solutions_in(analysis::read_text(file));
-    const auto fits = [&](const NestedSolution& one) {
-        return one.positions.rows() == character_.mesh.rest.rows() && (!one.finished || one.at_tips.size() == masked_.size());
+    const auto fits = [&](const NestedSolution& solution) {
+        return solution.positions.rows() == character_.mesh.rest.rows() &&
+               (!solution.finished || solution.at_tips.size() == masked_.size());
     };
     return std::ranges::all_of(solutions, fits) ? solutions : Solutions{};
 }
@@ -224,13 +226,14 @@ std::string PosedReference::file_of(const std::string& name, const std::vector<L
         analysis::record_text({module, kept_format, to_json(spec_), time_step_s_, character_.refinements, levels.size()});
     analysis::StateHash hash;
     const auto put = [&](const auto* data, std::size_t size) { hash.add_bytes(data, size * sizeof *data); };
-    const auto put_mesh = [&](const pbs::Character& of) {
-        hash.add(of.mesh.rest);
-        put(of.mesh.tets.data(), of.mesh.tets.size());
-        put(of.binding.bone.data(), of.binding.bone.size());
-        put(of.binding.distance.data(), of.binding.distance.size()), put(of.binding.parameter.data(), of.binding.parameter.size());
-        if (!of.artist || !of.artist->is_cut) return;
-        const pbs::Weights& holding = of.artist->weights;  // by which bones hold flesh that is cut between parts
+    const auto put_mesh = [&](const pbs::Character& character) {
+        hash.add(character.mesh.rest);
+        put(character.mesh.tets.data(), character.mesh.tets.size());
+        put(character.binding.bone.data(), character.binding.bone.size());
+        put(character.binding.distance.data(), character.binding.distance.size()),
+            put(character.binding.parameter.data(), character.binding.parameter.size());
+        if (!character.artist || !character.artist->is_cut) return;
+        const pbs::Weights& holding = character.artist->weights;  // by which bones hold flesh that is cut between parts
         put(holding.bone.data(), holding.bone.size()), put(holding.weight.data(), holding.weight.size());
     };
     put(stated.data(), stated.size());
@@ -297,19 +300,19 @@ void PosedReference::solve_on_tets(unsigned seed, double edges_per_radius)
 // the human. Solutions whose energies differ by less than that may be taken in the wrong order. The bound does not depend on it.
 void PosedReference::choose_the_reference()
 {
-    const auto energy_density = [](const NestedSolution& one) { return one.energy_j / one.volume_m3; };
+    const auto energy_density = [](const NestedSolution& solution) { return solution.energy_j / solution.volume_m3; };
     for (std::size_t i = 0; i < solutions_.size(); ++i) {
-        const NestedSolution& one = solutions_[i];
-        if (!(one.lowest_det_f > 0.0)) continue;
+        const NestedSolution& solution = solutions_[i];
+        if (!(solution.lowest_det_f > 0.0)) continue;
         const bool is_first = !which_ && i < nested_;
         const bool is_lower =
-            creases_ && one.element_order == 2 &&
-            (!which_ || solutions_[*which_].element_order == 1 || energy_density(one) < energy_density(solutions_[*which_]));
+            creases_ && solution.element_order == 2 &&
+            (!which_ || solutions_[*which_].element_order == 1 || energy_density(solution) < energy_density(solutions_[*which_]));
         if (is_first || is_lower) which_ = i;
     }
 }
 
-NestedSolution PosedReference::solution_of(const TriedSolution& of, const Level& level) const
+NestedSolution PosedReference::solution_of(const TriedSolution& tried, const Level& level) const
 {
     NestedSolution solution{.element_order = level.element_order,
                             .refinements = level.character.refinements,
@@ -319,19 +322,19 @@ NestedSolution PosedReference::solution_of(const TriedSolution& of, const Level&
                             .tets = static_cast<int>(level.character.mesh.tets.rows()),
                             .volume_m3 = pbs::tet_volumes(level.character.mesh.rest, level.character.mesh.tets).sum(),
                             .along_the_bones = level.along_the_bones,
-                            .finished = of.step.outcome == pbs::Outcome::finished,
-                            .seconds = of.step.seconds};
+                            .finished = tried.step.outcome == pbs::Outcome::finished,
+                            .seconds = tried.step.seconds};
     const pbs::Positions& rest = character_.mesh.rest;
-    const FemFacts& facts = *of.deformer->facts();
+    const FemFacts& facts = *tried.deformer->facts();
     if (level.other_tets == 0) {
-        solution.positions = last_state(*of.deformer).topRows(rest.rows());
+        solution.positions = last_state(*tried.deformer).topRows(rest.rows());
     } else {
         const pbs::EmbeddedSurface in_tets = pbs::embed(rest, {}, level.character.mesh);
         std::vector<pbs::Location> places;
         for (Eigen::Index v = 0; v < rest.rows(); ++v) places.push_back({in_tets.tet(v), in_tets.barycentric.row(v).tail<3>().transpose()});
         solution.positions = facts.moved(places);
     }
-    const nlohmann::json newton = of.deformer->record().at("newton");
+    const nlohmann::json newton = tried.deformer->record().at("newton");
     solution.newton_steps = newton.at("newton_steps").at("most");
     solution.projected = newton.at("projected_hessians");
     const pbs::Tets& tets = character_.mesh.tets;
@@ -347,7 +350,8 @@ NestedSolution PosedReference::solution_of(const TriedSolution& of, const Level&
 
 void PosedReference::observe_order()
 {
-    if (!std::all_of(solutions_.begin(), solutions_.begin() + nested_, [](const NestedSolution& one) { return one.finished; })) return;
+    if (!std::all_of(solutions_.begin(), solutions_.begin() + nested_, [](const NestedSolution& solution) { return solution.finished; }))
+        return;
     constexpr std::size_t finest = 0, quadratic = 1, linear_refined = 2, linear = 3;
     const auto to_finest = [&](std::size_t one) { return distance(solutions_[one].positions, solutions_[finest].positions).joint_pct; };
     order_ = analysis::nested_order({to_finest(linear), to_finest(linear_refined), to_finest(quadratic)},
@@ -383,8 +387,9 @@ analysis::ErrorNorms PosedReference::bound() const
 
 analysis::ErrorNorms PosedReference::bound_on_own_tets() const
 {
-    const auto quadratic = std::ranges::find_if(
-        solutions_, [](const NestedSolution& one) { return one.element_order == 2 && one.refinements == 0 && one.other_tets == 0; });
+    const auto quadratic = std::ranges::find_if(solutions_, [](const NestedSolution& solution) {
+        return solution.element_order == 2 && solution.refinements == 0 && solution.other_tets == 0;
+    });
     if (!is_reached() || quadratic == solutions_.end() || !quadratic->finished) return unknown_bound;
     analysis::ErrorNorms own = error_of(quadratic->positions);
     for (const auto norm : norms) own.*norm += bound().*norm;
@@ -396,9 +401,9 @@ analysis::ErrorNorms PosedReference::error_on_whole_body(const pbs::Positions& p
     return error_metrics_.measure(positions, reference().positions);
 }
 
-analysis::ErrorNorms PosedReference::distance(const pbs::Positions& one, const pbs::Positions& other) const
+analysis::ErrorNorms PosedReference::distance(const pbs::Positions& positions, const pbs::Positions& other) const
 {
-    return error_metrics_.measure(one, other, masked_);
+    return error_metrics_.measure(positions, other, masked_);
 }
 
 std::vector<EnsembleMember> family()

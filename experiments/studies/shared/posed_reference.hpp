@@ -65,7 +65,7 @@ struct NestedSolution {
     std::vector<bool> at_tips = {};  // of creases, #V; empty if it did not finish
 };
 // The larger one in each norm; not a number where one of them is not.
-analysis::ErrorNorms larger_of(const analysis::ErrorNorms& one, const analysis::ErrorNorms& other);
+analysis::ErrorNorms larger_of(const analysis::ErrorNorms& norms, const analysis::ErrorNorms& other);
 // "worst tet 812 of volume ratio -0.04, 3 inverted"
 std::string worst_tet_of(const NestedSolution& solution);
 
@@ -105,7 +105,7 @@ public:
 
     // Positions are those of the character's vertices [m], #V x 3. The error is the distance from the reference. Both are measured outside
     // the tips of creases, except by error_on_whole_body.
-    analysis::ErrorNorms distance(const pbs::Positions& one, const pbs::Positions& other) const;
+    analysis::ErrorNorms distance(const pbs::Positions& positions, const pbs::Positions& other) const;
     analysis::ErrorNorms error_of(const pbs::Positions& positions) const { return distance(positions, reference().positions); }
     analysis::ErrorNorms error_on_whole_body(const pbs::Positions& positions) const;
 
@@ -139,7 +139,7 @@ private:
     void solve_on_other_tets();
     void solve_on_tets(unsigned seed, double edges_per_radius);
     void choose_the_reference();
-    NestedSolution solution_of(const TriedSolution& of, const Level& level) const;
+    NestedSolution solution_of(const TriedSolution& tried, const Level& level) const;
     void observe_order();
     void observe_spread();
 

@@ -8,6 +8,7 @@
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
+#include "experiments/settings/scene_values.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/options.hpp"
 
@@ -88,15 +89,28 @@ bool is_at_rest(const CellResult& result)
 }
 
 template <typename Predicate>
-analysis::Interval share(const Group& cells, Predicate of)
+analysis::Interval share(const Group& cells, Predicate predicate)
 {
-    const auto counted = std::ranges::count_if(cells, [&](const MeasuredCell* measured) { return of(measured->result); });
+    const auto counted = std::ranges::count_if(cells, [&](const MeasuredCell* measured) { return predicate(measured->result); });
     return analysis::share_interval(static_cast<int>(counted), static_cast<int>(cells.size()));
 }
 
 std::string yes_or_no(bool value)
 {
     return value ? "yes" : "no";
+}
+
+// The deformer with so many iterations and all its other options. The numbers, texts and truth values of JSON are spelled as in TOML.
+DeformerSpec with_iterations(const DeformerSpec& spec, int iterations)
+{
+    const DeformerKind& kind = *find_deformer_kind(spec.kind);
+    nlohmann::json options = kind.options_json(spec);
+    options["iterations"] = iterations;
+    std::vector<std::string> overrides;
+    for (const auto& [name, setting] : options.items()) overrides.push_back(spec.kind + "." + name + "=" + setting.dump());
+    DeformerSpec changed = spec;
+    kind.read(SceneValues("schema = 1\n", "stability", overrides, scene_schema()), spec.kind, changed);
+    return changed;
 }
 
 // The result of so many iterations from the broken shape of the cell, or from the deformer's own initial guess [m], #V x 3.
@@ -106,7 +120,7 @@ pbs::Positions result_of(StabilityCell cell, int iterations, bool is_broken)
     if (!is_broken) cell.disturbance.start = Start::none;
     cell.disturbance.stays = true;
     StabilityBody body(cell);
-    const std::unique_ptr<Deformer> deformer = make_deformer(with_option(cell.spec, "iterations", iterations));
+    const std::unique_ptr<Deformer> deformer = make_deformer(with_iterations(cell.spec, iterations));
     deformer->reset(body.character());
     const Drive drive = body.drive(0);
     if (is_broken) deformer->start_from(drive.blended);
@@ -114,10 +128,10 @@ pbs::Positions result_of(StabilityCell cell, int iterations, bool is_broken)
     return deformer->positions();
 }
 
-std::optional<double> joint_pct(const StabilityCell& cell, const pbs::Positions& one, const pbs::Positions& other)
+std::optional<double> joint_pct(const StabilityCell& cell, const pbs::Positions& positions, const pbs::Positions& other)
 {
-    if (!one.allFinite() || !other.allFinite()) return std::nullopt;
-    return analysis::ErrorMetrics(error_domain(stability_character(cell), {})).measure(one, other).joint_pct;
+    if (!positions.allFinite() || !other.allFinite()) return std::nullopt;
+    return analysis::ErrorMetrics(error_domain(stability_character(cell), {})).measure(positions, other).joint_pct;
 }
 
 int inverted(const StabilityCell& cell, const pbs::Positions& positions)
@@ -125,11 +139,11 @@ int inverted(const StabilityCell& cell, const pbs::Positions& positions)
     return static_cast<int>((pbs::tet_volumes(positions, stability_character(cell).mesh.tets).array() <= 0.0).count());
 }
 
-bool is_far(const StabilityCell& cell, const pbs::Positions& one, const pbs::Positions& other)
+bool is_far(const StabilityCell& cell, const pbs::Positions& positions, const pbs::Positions& other)
 {
     const pbs::Positions& rest = stability_character(cell).mesh.rest;
     const double diagonal_m = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
-    return (one - other).rowwise().norm().maxCoeff() > analysis::StabilityBounds{}.farthest * diagonal_m;
+    return (positions - other).rowwise().norm().maxCoeff() > analysis::StabilityBounds{}.farthest * diagonal_m;
 }
 
 // The least number of iterations from which on all distances are within the bound. pct: by increasing number of iterations.
@@ -204,23 +218,26 @@ CellRow cell_row(const MeasuredCell& measured)
 CsvTable stability_measurements(const std::vector<MeasuredCell>& cells)
 {
     std::vector<analysis::Measurement> rows;
-    for (const auto& [sweep, of] : by_sweep(cells)) {
+    for (const auto& [sweep, group] : by_sweep(cells)) {
         const auto add = [&, key = sweep](const std::string& quantity, const Group& among, const analysis::Interval& share) {
             rows.push_back({"C08", quantity, key, share.estimate, share.low, share.high, "1"});
             rows.back().n = static_cast<int>(among.size());
         };
-        const auto add_at_rest = [&, all = of](const std::string& quantity, double least_s, double most_s) {
-            Group among = all;
-            std::erase_if(among, [&](const auto* one) { return one->cell.time_step_s < least_s || one->cell.time_step_s > most_s; });
+        const auto add_at_rest = [&, whole = group](const std::string& quantity, double least_s, double most_s) {
+            Group among = whole;
+            std::erase_if(
+                among, [&](const auto* measured) { return measured->cell.time_step_s < least_s || measured->cell.time_step_s > most_s; });
             if (among.empty()) return;
             const double at_rest = share(among, is_at_rest).estimate;
             add(quantity, among, {at_rest, at_rest, at_rest});
         };
-        const double away = share(of, ran_away).estimate;
-        add("share_of_cells_diverged", of, {away, away, away});
-        add("share_of_cells_inverted", of, share(of, [](const CellResult& result) { return is(result, StabilityOutcome::inverted); }));
-        add("share_of_cells_in_motion", of, share(of, never_rests));
-        add("share_of_cells_at_rest", of, share(of, [](const CellResult& result) { return is(result, StabilityOutcome::converged); }));
+        const double away = share(group, ran_away).estimate;
+        add("share_of_cells_diverged", group, {away, away, away});
+        add("share_of_cells_inverted", group,
+            share(group, [](const CellResult& result) { return is(result, StabilityOutcome::inverted); }));
+        add("share_of_cells_in_motion", group, share(group, never_rests));
+        add("share_of_cells_at_rest", group,
+            share(group, [](const CellResult& result) { return is(result, StabilityOutcome::converged); }));
         add_at_rest("share_of_cells_at_rest_in_small_steps", 0.0, 0.1);
         add_at_rest("share_of_cells_at_rest_in_large_steps", 0.05, std::numeric_limits<double>::infinity());
     }

@@ -1,5 +1,4 @@
-// The cells of the map of stability, by method, how each is run, and the outcomes as records. full: more values of each factor, and more
-// steps.
+// The cells of the map of stability, by method, how each is run, and the outcomes as records.
 #pragma once
 
 #include "analysis/metrics/stability_outcome.hpp"
@@ -48,8 +47,6 @@ template <>
 inline constexpr NameTable<Defect, 3> option_names<Defect>{
     {{Defect::none, "none"}, {Defect::slivers, "slivers"}, {Defect::needles, "needles"}}};
 
-inline constexpr double g_m_s2 = 9.81;  // one g
-
 // The seed of masses, distorted tets and random initial shapes.
 inline constexpr unsigned stability_seed = 20140528;
 
@@ -83,30 +80,11 @@ nlohmann::json to_json(const Disturbance& disturbance);
 nlohmann::json to_json(const StabilityCell& cell);  // all members
 std::string setting_of(const StabilityCell& cell);  // body, method, place and last pose: all members except those of the way to it
 
-// Cells in which one factor takes its values while everything else keeps its base value.
-//   const Sweep time_step{"time_step", "s", {1e-4, 0.01, 1.0}, {0.001, 0.1}, [](StabilityCell& cell, double s) { cell.time_step_s = s; }};
-//   append(cells, cells_of(time_step, base, full));
-struct Sweep {
-    using Set = void (*)(StabilityCell& cell, double value);
-
-    std::string factor, unit;
-    std::vector<double> values, more;  // more: in the full study only
-    Set set;
-    bool as_published = true;  // the paper's method with settings that it allows
-};
-
-std::vector<StabilityCell> cells_of(const Sweep& sweep, const StabilityCell& base, bool full);
-std::vector<StabilityCell> cells_of_map(const Sweep& rows, const Sweep& columns, const StabilityCell& base, bool full);
-
 void append(std::vector<StabilityCell>& cells, std::vector<StabilityCell> more);
 
-// The cells of a list in cases.toml, for one of the bodies: what is varied is data there. InputError for an option out of its range.
-std::vector<StabilityCell> stability_cells(const std::string& list, bool full, const std::string& body = "limb");
-
-// A deformer's settings, changed as a scene would change them, for deformers whose struct of options only their own file knows.
-//   cell.spec = with_option(cell.spec, "poisson", 0.499);
-// All other options keep their values. InputError for a value out of its range.
-DeformerSpec with_option(const DeformerSpec& spec, const std::string& key, const nlohmann::json& value);
+// The cells of a list in cases.toml, for one of the bodies. InputError for an option out of its range.
+//   stability_cells("pbs_character", "human");
+std::vector<StabilityCell> stability_cells(const std::string& list, const std::string& body = "limb");
 
 // The body of a cell and its motion: the pose, the blended shape and the bind points of each step.
 //   StabilityBody body(cell);
@@ -218,7 +196,7 @@ std::string blind_spots(const std::vector<CellRow>& cells);
 analysis::CsvTable map_csv(const std::vector<CellRow>& cells, const std::string& factor, const std::string& second_factor);
 
 // Does a deformer that minimises an energy find its own result again from a broken initial shape, and after how many iterations?
-//   for (const StabilityCell& cell : stability_cells("broken_starts", full)) rows.push_back(run_broken_start(cell, most_iterations));
+//   for (const StabilityCell& cell : stability_cells("broken_starts")) rows.push_back(run_broken_start(cell, most_iterations));
 // The deformer runs from the broken shape with 1, 2, 4, ... iterations, up to the most, and once with the most from its own initial guess.
 // The result of the latter is its own result. These runs differ from a scene only in the initial shape and in the number of iterations.
 // The outcomes in cells.csv cannot show this: there a deformer without memory forgets a broken shape after one step.

@@ -38,22 +38,25 @@ nlohmann::json scenes_of(const Cells& cells)
 }
 
 RECORD_SETTINGS_AND(StabilityCase,
-                    .derived("scenes", [](const StabilityCase& of) { return scenes_of(of.cells); })
+                    .derived("scenes", [](const StabilityCase& stability_case) { return scenes_of(stability_case.cells); })
                         .constant("seed", stability_seed)
                         .constant("criteria", analysis::criteria_text() + endings_text()),
                     cells)
 
 RECORD_SETTINGS_AND(BrokenStartsCase,
-                    .derived("scenes", [](const BrokenStartsCase& of) { return scenes_of(of.cells); })
+                    .derived("scenes", [](const BrokenStartsCase& broken_starts_case) { return scenes_of(broken_starts_case.cells); })
                         .constant("seed", stability_seed)
-                        .derived("criteria", [](const BrokenStartsCase& of) { return start_criteria_text(of.most_iterations); }),
+                        .derived("criteria",
+                                 [](const BrokenStartsCase& broken_starts_case) {
+                                     return start_criteria_text(broken_starts_case.most_iterations);
+                                 }),
                     cells, most_iterations)
 
-std::string run_and_record(const StabilityCase& of, const std::string& folder)
+std::string run_and_record(const StabilityCase& stability_case, const std::string& folder)
 {
     std::vector<MeasuredCell> measured;
     std::vector<CellRow> rows;
-    for (const StabilityCell& cell : of.cells) {
+    for (const StabilityCell& cell : stability_case.cells) {
         measured.push_back({cell, run_cell(cell)});
         rows.push_back(cell_row(measured.back()));
     }
@@ -63,10 +66,10 @@ std::string run_and_record(const StabilityCase& of, const std::string& folder)
     return {};
 }
 
-std::string start_and_record(const BrokenStartsCase& of, const std::string& folder)
+std::string start_and_record(const BrokenStartsCase& broken_starts_case, const std::string& folder)
 {
     std::vector<StartRow> rows;
-    for (const StabilityCell& cell : of.cells) rows.push_back(run_broken_start(cell, of.most_iterations));
+    for (const StabilityCell& cell : broken_starts_case.cells) rows.push_back(run_broken_start(cell, broken_starts_case.most_iterations));
     for (const StartRow& row : starts_not_applicable()) rows.push_back(row);
     table_of(start_columns, rows).write(analysis::path_in(folder, "starts.csv"));
     return {};
@@ -74,13 +77,13 @@ std::string start_and_record(const BrokenStartsCase& of, const std::string& fold
 
 StudyPlan plan(bool full)
 {
-    return plan_of_cases("stability", full, [](const StudyCase& of, StudyPlan& plan) {
-        const Cells cells = stability_cells(of.value<std::string>("cells"), of.full, of.value<std::string>("body", "limb"));
-        if (of.has("most_iterations"))
-            plan.runs.push_back(
-                work_run<BrokenStartsCase>(of.name, {cells, of.value<int>("most_iterations")}, of.cost_s, start_and_record));
+    return plan_of_cases("stability", full, [](const StudyCase& study_case, StudyPlan& plan) {
+        const Cells cells = stability_cells(study_case.value<std::string>("cells"), study_case.value<std::string>("body", "limb"));
+        if (study_case.has("most_iterations"))
+            plan.runs.push_back(work_run<BrokenStartsCase>(study_case.name, {cells, study_case.value<int>("most_iterations")},
+                                                           study_case.cost_s, start_and_record));
         else
-            plan.runs.push_back(work_run<StabilityCase>(of.name, {cells}, of.cost_s, run_and_record));
+            plan.runs.push_back(work_run<StabilityCase>(study_case.name, {cells}, study_case.cost_s, run_and_record));
     });
 }
 

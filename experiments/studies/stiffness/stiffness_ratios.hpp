@@ -6,6 +6,7 @@
 #include "analysis/verdicts/case_record.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "experiments/studies/shared/bodies.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 #include "pbs/near_rest/near_rest.hpp"
 
 #include <string>
@@ -38,7 +39,7 @@ struct StiffnessSetting {
     Method method = Method::pbs;
     double k_stretch = 0.2;   // of PBS, in the zone and outside of it; its k_volume and k_bind are 1
     double young_pa = 3.0e4;  // of XPBD
-    int iterations = 24;
+    int iterations = paper_iterations;
     double time_step_ms = 10.0;
     int order_seed = 0;  // of a random order within each class; 0: file order
 
@@ -106,7 +107,6 @@ std::vector<StiffnessExponent> stiffness_exponents(const std::vector<StiffnessRo
 struct StiffnessSweep {
     Varied varied = Varied::iterations;
     std::string body;
-    bool full = false;
     std::vector<int> vertices = {0};  // 0: the body's own size
 };
 nlohmann::json to_json(const StiffnessSweep& sweep);

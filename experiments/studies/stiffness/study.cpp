@@ -84,13 +84,13 @@ std::map<analysis::CaseKey, Case> cases_of(const std::vector<StiffnessRow>& rows
 {
     std::map<analysis::CaseKey, Case> cases;
     for (const StiffnessRow& row : rows) {
-        Case& found = cases[key_of(row, varied)];
+        Case& own = cases[key_of(row, varied)];
         const bool usable = row.converged && std::isfinite(row.stiffness_n_m) && row.stiffness_n_m > 0.0;
-        found.left_out += !usable;
-        if (usable) found.series[fmt::format("{} {}", row.setting.order_seed, row.mesh)].push_back({x_of(row, varied), row.stiffness_n_m});
+        own.left_out += !usable;
+        if (usable) own.series[fmt::format("{} {}", row.setting.order_seed, row.mesh)].push_back({x_of(row, varied), row.stiffness_n_m});
     }
-    for (auto& [of, found] : cases)
-        for (auto& [key, points] : found.series) std::ranges::sort(points, {}, &Point::x);
+    for (auto& [key, own] : cases)
+        for (auto& [order_and_mesh, points] : own.series) std::ranges::sort(points, {}, &Point::x);
     return cases;
 }
 
@@ -111,20 +111,20 @@ analysis::CaseKey over_range(analysis::CaseKey key, Varied varied, double first,
     return key;
 }
 
-std::optional<analysis::Measurement> ratio_of(const analysis::CaseKey& of, const Case& measured, Varied varied)
+std::optional<analysis::Measurement> ratio_of(const analysis::CaseKey& key, const Case& measured, Varied varied)
 {
     constexpr double rounding = 1e-9;
     const VariedText& text = text_of(varied);
     std::optional<analysis::Measurement> result;
-    for (const auto& [key, all] : measured.series) {
+    for (const auto& [order_and_mesh, series] : measured.series) {
         std::vector<Point> points;
-        std::ranges::copy_if(all, std::back_inserter(points), [&](const Point& point) {
+        std::ranges::copy_if(series, std::back_inserter(points), [&](const Point& point) {
             return point.x >= text.first * (1.0 - rounding) && point.x <= text.last * (1.0 + rounding);
         });
         if (points.size() < 2) continue;
         const double overall = for_one_doubling(points.front(), points.back());
         if (!result)
-            result = {"C11", text.quantity, over_range(of, varied, points.front().x, points.back().x), overall, overall, overall, "1"};
+            result = {"C11", text.quantity, over_range(key, varied, points.front().x, points.back().x), overall, overall, overall, "1"};
         for (std::size_t i = 1; i < points.size(); ++i) {
             const double single = for_one_doubling(points[i - 1], points[i]);
             result->low = std::min(result->low, single);
@@ -136,10 +136,10 @@ std::optional<analysis::Measurement> ratio_of(const analysis::CaseKey& of, const
 
 StudyPlan plan(bool full)
 {
-    return plan_of_cases("stiffness", full, [](const StudyCase& of, StudyPlan& plan) {
-        const StiffnessSweep sweep{option_of<Varied>(of.value<std::string>("varied")), of.value<std::string>("body"), of.full,
-                                   of.value<std::vector<int>>("vertices", {0})};
-        plan.runs.push_back(work_run(of.name, sweep, of.cost_s, record_stiffness));
+    return plan_of_cases("stiffness", full, [](const StudyCase& study_case, StudyPlan& plan) {
+        const StiffnessSweep sweep{option_of<Varied>(study_case.value<std::string>("varied")), study_case.value<std::string>("body"),
+                                   study_case.value<std::vector<int>>("vertices", {0})};
+        plan.runs.push_back(work_run(study_case.name, sweep, study_case.cost_s, record_stiffness));
     });
 }
 
@@ -152,14 +152,14 @@ std::vector<StiffnessRow> rows_of_sweep(FinishedRuns finished, Varied varied)
 
 bool conclude(const FinishedRuns& finished)
 {
-    std::vector<StiffnessRow> all;
+    std::vector<StiffnessRow> stiffness_rows;
     std::vector<StiffnessExponent> exponents;
     for (const auto& [varied, name] : OptionNames<Varied>::table) {
         const std::vector<StiffnessRow> swept = rows_of_sweep(finished, varied);
-        std::ranges::copy(swept, std::back_inserter(all));
+        std::ranges::copy(swept, std::back_inserter(stiffness_rows));
         std::ranges::copy(stiffness_exponents(swept, varied), std::back_inserter(exponents));
     }
-    finished.write("stiffness.csv", stiffness_columns, all);
+    finished.write("stiffness.csv", stiffness_columns, stiffness_rows);
     finished.write("exponents.csv", used_columns(exponent_columns(), exponents), exponents);
     return !finished.none();
 }
@@ -168,23 +168,23 @@ bool conclude(const FinishedRuns& finished)
 
 std::vector<analysis::Measurement> stiffness_ratios(const std::vector<StiffnessRow>& rows, Varied varied)
 {
-    std::vector<analysis::Measurement> measured;
-    for (const auto& [of, found] : cases_of(rows, varied))
-        if (const auto ratio = ratio_of(of, found, varied)) measured.push_back(*ratio);
-    return measured;
+    std::vector<analysis::Measurement> ratios;
+    for (const auto& [key, measured] : cases_of(rows, varied))
+        if (const auto ratio = ratio_of(key, measured, varied)) ratios.push_back(*ratio);
+    return ratios;
 }
 
 std::vector<StiffnessExponent> stiffness_exponents(const std::vector<StiffnessRow>& rows, Varied varied)
 {
     const auto shown = [varied](double x) { return varied == Varied::time_step ? 1e3 / x : x; };  // a time step [ms]
     std::vector<StiffnessExponent> exponents;
-    for (const auto& [of, found] : cases_of(rows, varied)) {
-        if (found.series.empty() || found.series.begin()->second.size() < 2) continue;
+    for (const auto& [key, measured] : cases_of(rows, varied)) {
+        if (measured.series.empty() || measured.series.begin()->second.size() < 2) continue;
         std::vector<double> x, stiffness;
-        for (const Point& point : found.series.begin()->second) x.push_back(point.x), stiffness.push_back(point.stiffness);
+        for (const Point& point : measured.series.begin()->second) x.push_back(point.x), stiffness.push_back(point.stiffness);
         const analysis::Interval slope = analysis::observed_order(x, stiffness).slope;
         exponents.push_back(
-            {varied, of, shown(x.front()), shown(x.back()), slope.n, found.left_out, slope.estimate, slope.low, slope.high});
+            {varied, key, shown(x.front()), shown(x.back()), slope.n, measured.left_out, slope.estimate, slope.low, slope.high});
     }
     return exponents;
 }

@@ -49,10 +49,10 @@ pbs::Positions second_difference(const std::vector<pbs::Positions>& x, int t)
 
 class ClipMeasuring {
 public:
-    explicit ClipMeasuring(const TemporalCase& of)
-        : of_(of),
-          character_(pbs::make_character(of.scene.character)),
-          motion_(make_motion(of.scene.motion, character_.skeleton, of.scene.file)),
+    explicit ClipMeasuring(const TemporalCase& temporal_case)
+        : of_(temporal_case),
+          character_(pbs::make_character(temporal_case.scene.character)),
+          motion_(make_motion(temporal_case.scene.motion, character_.skeleton, temporal_case.scene.file)),
           skin_(character_.mesh.rest, character_.mesh.tets),
           errors_(error_domain(character_, {})),
           nothing_(character_.mesh.rest.rows(), false)
@@ -153,9 +153,9 @@ private:
     TemporalRecords records_ = {};
 };
 
-std::string measure_and_record(const TemporalCase& of, const std::string& folder)
+std::string measure_and_record(const TemporalCase& temporal_case, const std::string& folder)
 {
-    const TemporalRecords records = measure_temporal(of);
+    const TemporalRecords records = measure_temporal(temporal_case);
     table_of(temporal_frame_columns, records.frames).write(analysis::path_in(folder, "frames.csv"));
     table_of(temporal_columns, records.summary).write(analysis::path_in(folder, "summary.csv"));
     return records.breakdown;
@@ -164,13 +164,14 @@ std::string measure_and_record(const TemporalCase& of, const std::string& folder
 StudyPlan plan(bool full)
 {
     return plan_of_cases("temporal", full, [](const StudyCase& in_file, StudyPlan& plan) {
-        TemporalCase of{.of = in_file.key(), .scene = in_file.scene(), .compared_every = in_file.value<int>("compared_every")};
+        TemporalCase temporal_case{.of = in_file.key(), .scene = in_file.scene(), .compared_every = in_file.value<int>("compared_every")};
         const auto warm = in_file.value<std::vector<std::string>>("warm");
-        for (const DeformerSpec& spec : of.scene.deformers)
-            if (!options_if<FemOptions>(spec)) (std::ranges::count(warm, spec.name) ? of.warm : of.cold).push_back(spec);
-        of.flesh = reference_flesh(of.scene);
-        options_of<FemOptions>(of.flesh).element_order = 1;
-        plan.runs.push_back(work_run(in_file.name, of, in_file.cost_s, measure_and_record));
+        for (const DeformerSpec& spec : temporal_case.scene.deformers)
+            if (!options_if<FemOptions>(spec))
+                (std::ranges::count(warm, spec.name) ? temporal_case.warm : temporal_case.cold).push_back(spec);
+        temporal_case.flesh = reference_flesh(temporal_case.scene);
+        options_of<FemOptions>(temporal_case.flesh).element_order = 1;
+        plan.runs.push_back(work_run(in_file.name, temporal_case, in_file.cost_s, measure_and_record));
     });
 }
 
@@ -182,9 +183,9 @@ bool conclude(const FinishedRuns& finished)
 
 }  // namespace
 
-TemporalRecords measure_temporal(const TemporalCase& of)
+TemporalRecords measure_temporal(const TemporalCase& temporal_case)
 {
-    return ClipMeasuring(of).measure();
+    return ClipMeasuring(temporal_case).measure();
 }
 
 Study temporal_study()

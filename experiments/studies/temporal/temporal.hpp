@@ -28,7 +28,7 @@ struct TemporalCase {
     DeformerSpec flesh = {};  // of the compared frames
     int compared_every = 30;  // frames, from one that is compared with flesh to the next
 };
-nlohmann::json to_json(const TemporalCase& of);
+nlohmann::json to_json(const TemporalCase& temporal_case);
 
 // The values of one frame. The last frame has no jitter, nor have the first 24, in which a deformer with memory leaves the rest pose.
 struct TemporalFrame {
@@ -62,6 +62,6 @@ struct TemporalRecords {
     std::vector<TemporalRow> summary;
     std::string breakdown;  // deformers that are not finite
 };
-TemporalRecords measure_temporal(const TemporalCase& of);
+TemporalRecords measure_temporal(const TemporalCase& temporal_case);
 
 }  // namespace experiments

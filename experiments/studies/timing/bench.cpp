@@ -134,7 +134,7 @@ json context_of(const BenchOptions& options)
             {"compiler", provenance.compiler},
             {"flags", provenance.flags},
             {"kernel_flags", PBS_KERNEL_FLAGS},
-            {"iterations", iterations_per_step},
+            {"iterations", paper_iterations},
             {"quick", options.quick},
             {"headline_ratio", "ratio_to_plain_spread"},
             {"provenance", provenance}};

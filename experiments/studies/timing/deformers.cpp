@@ -167,9 +167,13 @@ std::size_t place_of_plain(const std::vector<DeformerSetting>& settings, const s
         return static_cast<std::size_t>(std::find_if(settings.begin(), settings.end(), is_plain) - settings.begin());
     };
     const std::size_t candidates[] = {
-        place_where([&](const DeformerSetting& one) { return one.order == "plain" && one.precision == precision; }),
-        place_where([](const DeformerSetting& one) { return one.order == "plain" && one.precision == "f64"; }),
-        place_where([](const DeformerSetting& one) { return one.precision == "f64"; })};
+        place_where([&](const DeformerSetting& deformer_setting) {
+            return deformer_setting.order == "plain" && deformer_setting.precision == precision;
+        }),
+        place_where([](const DeformerSetting& deformer_setting) {
+            return deformer_setting.order == "plain" && deformer_setting.precision == "f64";
+        }),
+        place_where([](const DeformerSetting& deformer_setting) { return deformer_setting.precision == "f64"; })};
     for (const std::size_t place : candidates)
         if (place < settings.size()) return place;
     return 0;

@@ -87,7 +87,7 @@ struct Contender {
 };
 
 template <typename Scalar>
-void append(const EqualQualityCase& of, const pbs::Character& character, pbs::PbsOptions options, const StepStart& start,
+void append(const EqualQualityCase& quality_case, const pbs::Character& character, pbs::PbsOptions options, const StepStart& start,
             std::vector<Contender>& contenders)
 {
     const pbs::Tets& tets = character.mesh.tets;
@@ -101,7 +101,7 @@ void append(const EqualQualityCase& of, const pbs::Character& character, pbs::Pb
             pbs::PbsOptions in_order = options;
             in_order.order = order;
             const StepLoops loops = step_loops(constraints, tets, in_order, start);
-            add_order(name_of(order), loops, follow(loops, start.guess, of.most_iterations, metrics));
+            add_order(name_of(order), loops, follow(loops, start.guess, quality_case.most_iterations, metrics));
             if (order == pbs::Order::ordered) of_ordered = contenders.back().measured.path;
         }
         add_order("poses", loops_of_poses(constraints, tets, options, start, 1), of_ordered);  // each pose has its bits
@@ -110,7 +110,7 @@ void append(const EqualQualityCase& of, const pbs::Character& character, pbs::Pb
     const auto in_file_order = pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, {}, options);
     add(file_sequence, in_file_order);
     add(spread_sequence, in_spread_order(in_file_order));
-    for (const int seed : of.random) {
+    for (const int seed : quality_case.random) {
         pbs::ConstraintSet<Scalar> shuffled = in_file_order;
         in_random_sequence(shuffled, static_cast<unsigned>(seed));
         add(fmt::format("random_{}", seed), shuffled);
@@ -130,8 +130,8 @@ struct Target {
 // In this precision.
 std::vector<Target> targets(const std::vector<MeasuredOrder>& measured, const std::string& precision)
 {
-    const auto plain = std::ranges::find_if(measured, [&](const MeasuredOrder& one) {
-        return one.order == "plain" && one.sequence == file_sequence && one.precision == precision;
+    const auto plain = std::ranges::find_if(measured, [&](const MeasuredOrder& measured_order) {
+        return measured_order.order == "plain" && measured_order.sequence == file_sequence && measured_order.precision == precision;
     });
     if (plain == measured.end()) throw std::logic_error("no plain in file order and " + precision);
     const Look& after_24 = look_at(plain->path, paper_iterations);
@@ -161,23 +161,24 @@ pbs::Character tapered_limb()
 
 RECORD_SETTINGS(EqualQualityCase, of, scene, frame, random, most_iterations, rounds)
 
-std::vector<MeasuredOrder> measure_orders(const EqualQualityCase& of)
+std::vector<MeasuredOrder> measure_orders(const EqualQualityCase& quality_case)
 {
-    const pbs::Character character = of.of.body == tapered_name ? tapered_limb() : pbs::make_character(of.scene.character);
-    const pbs::Motion motion = make_motion(of.scene.motion, character.skeleton, of.scene.file);
-    const pbs::Pose& pose = motion.steps.at(static_cast<std::size_t>(of.frame) * motion.steps_per_frame);
+    const pbs::Character character =
+        quality_case.of.body == tapered_name ? tapered_limb() : pbs::make_character(quality_case.scene.character);
+    const pbs::Motion motion = make_motion(quality_case.scene.motion, character.skeleton, quality_case.scene.file);
+    const pbs::Pose& pose = motion.steps.at(static_cast<std::size_t>(quality_case.frame) * motion.steps_per_frame);
     const pbs::Positions lbs = blended(character, pose), bind_points = pbs::posed_bind_points(character.binding, pose);
-    pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec_of(of.scene, "pbs"));
+    pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec_of(quality_case.scene, "pbs"));
     options.jiggle.reset();
     options.sleep = false;
     options.threads = 1;
     std::vector<Contender> contenders;
-    append<float>(of, character, options, {lbs, bind_points}, contenders);
-    append<double>(of, character, options, {lbs, bind_points}, contenders);
+    append<float>(quality_case, character, options, {lbs, bind_points}, contenders);
+    append<double>(quality_case, character, options, {lbs, bind_points}, contenders);
 
     std::vector<TimedVariant> turns;
     for (const Contender& contender : contenders) turns.push_back([&contender] { return contender.turn(); });
-    const std::vector<Samples> samples = take_turns(turns, of.rounds);
+    const std::vector<Samples> samples = take_turns(turns, quality_case.rounds);
     std::vector<MeasuredOrder> measured;
     for (std::size_t i = 0; i < contenders.size(); ++i) {
         measured.push_back(std::move(contenders[i].measured));
@@ -207,31 +208,31 @@ std::optional<int> first_within(const IterationPath& path, double Look::*value, 
     return found == path.looks.end() ? std::nullopt : std::optional(found->iteration);
 }
 
-std::vector<OrderRow> order_rows(const CaseKey& of, const std::vector<MeasuredOrder>& measured)
+std::vector<OrderRow> order_rows(const CaseKey& key, const std::vector<MeasuredOrder>& measured)
 {
     std::vector<OrderRow> rows;
-    for (const MeasuredOrder& one : measured) {
-        const Look& last = one.path.looks.back();
-        rows.push_back(
-            {of, one.sequence, one.ms_iteration, look_at(one.path, paper_iterations), last, look_at(one.path, last.iteration / 2)});
-        rows.back().of.order = one.order;
-        rows.back().of.precision = one.precision;
+    for (const MeasuredOrder& measured_order : measured) {
+        const Look& last = measured_order.path.looks.back();
+        rows.push_back({key, measured_order.sequence, measured_order.ms_iteration, look_at(measured_order.path, paper_iterations), last,
+                        look_at(measured_order.path, last.iteration / 2)});
+        rows.back().of.order = measured_order.order;
+        rows.back().of.precision = measured_order.precision;
     }
     return rows;
 }
 
-std::vector<TargetRow> target_rows(const CaseKey& of, const std::vector<MeasuredOrder>& measured)
+std::vector<TargetRow> target_rows(const CaseKey& key, const std::vector<MeasuredOrder>& measured)
 {
     std::vector<TargetRow> rows;
-    for (const MeasuredOrder& one : measured)
-        for (const Target& target : targets(measured, one.precision)) {
-            TargetRow& row = rows.emplace_back(TargetRow{of, one.sequence, target.name, target.bound});
-            row.of.order = one.order;
-            row.of.precision = one.precision;
-            row.iterations = first_within(one.path, target.value, target.bound);
+    for (const MeasuredOrder& measured_order : measured)
+        for (const Target& target : targets(measured, measured_order.precision)) {
+            TargetRow& row = rows.emplace_back(TargetRow{key, measured_order.sequence, target.name, target.bound});
+            row.of.order = measured_order.order;
+            row.of.precision = measured_order.precision;
+            row.iterations = first_within(measured_order.path, target.value, target.bound);
             row.reached = row.iterations.has_value();
-            if (row.iterations) row.ms = *row.iterations * one.ms_iteration.median;
-            row.limit = one.path.looks.back().*target.value;
+            if (row.iterations) row.ms = *row.iterations * measured_order.ms_iteration.median;
+            row.limit = measured_order.path.looks.back().*target.value;
         }
     return rows;
 }
@@ -241,24 +242,26 @@ std::vector<EqualAnswer> equal_answers(const std::vector<TargetRow>& rows)
     const auto speedup = [&](const TargetRow& row, const std::string& sequence) -> std::optional<double> {
         CaseKey of_plain = row.of;
         of_plain.order = "plain";
-        const auto plain = std::ranges::find_if(
-            rows, [&](const TargetRow& one) { return one.of == of_plain && one.target == row.target && one.sequence == sequence; });
+        const auto plain = std::ranges::find_if(rows, [&](const TargetRow& target_row) {
+            return target_row.of == of_plain && target_row.target == row.target && target_row.sequence == sequence;
+        });
         if (plain == rows.end()) throw std::out_of_range("no rows of plain in the sequence " + sequence);
         return plain->ms && row.ms && *row.ms > 0.0 ? std::optional(*plain->ms / *row.ms) : std::nullopt;
     };
-    std::vector<EqualAnswer> all;
+    std::vector<EqualAnswer> equal_answers;
     for (const TargetRow& row : rows)
-        if (row.sequence == file_sequence) all.push_back({row, speedup(row, file_sequence), speedup(row, spread_sequence)});
-    return all;
+        if (row.sequence == file_sequence) equal_answers.push_back({row, speedup(row, file_sequence), speedup(row, spread_sequence)});
+    return equal_answers;
 }
 
-std::string measure_equal_quality(const EqualQualityCase& of, const std::string& folder)
+std::string measure_equal_quality(const EqualQualityCase& quality_case, const std::string& folder)
 {
-    const std::vector<MeasuredOrder> measured = measure_orders(of);
-    table_of(order_columns, order_rows(of.of, measured)).write(analysis::path_in(folder, "orders.csv"));
-    table_of(target_columns, target_rows(of.of, measured)).write(analysis::path_in(folder, "targets.csv"));
-    for (const MeasuredOrder& one : measured)
-        if (!one.path.finite) return one.order + " in the sequence " + one.sequence + " ceased to be finite";
+    const std::vector<MeasuredOrder> measured = measure_orders(quality_case);
+    table_of(order_columns, order_rows(quality_case.of, measured)).write(analysis::path_in(folder, "orders.csv"));
+    table_of(target_columns, target_rows(quality_case.of, measured)).write(analysis::path_in(folder, "targets.csv"));
+    for (const MeasuredOrder& measured_order : measured)
+        if (!measured_order.path.finite)
+            return measured_order.order + " in the sequence " + measured_order.sequence + " ceased to be finite";
     return {};
 }
 

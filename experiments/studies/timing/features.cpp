@@ -21,15 +21,15 @@
 
 namespace experiments {
 
-std::vector<Feature> features_of(const StudyCase& of)
+std::vector<Feature> features_of(const StudyCase& study_case)
 {
     std::vector<Feature> features;
-    for (const nlohmann::json& one : of.value<nlohmann::json>("features")) {
-        if (one.contains("only") && one.at("only") != of.value<std::string>("body")) continue;
-        Feature& feature = features.emplace_back(Feature{.name = one.at("name")});
-        feature.without.overrides = one.value("without", std::vector<std::string>{});
-        feature.with = {one.value("with", std::vector<std::string>{}), one.value("threads", 1), one.value("progress", false)};
-        feature.changes_result = one.value("changes_result", false);
+    for (const nlohmann::json& table : study_case.value<nlohmann::json>("features")) {
+        if (table.contains("only") && table.at("only") != study_case.value<std::string>("body")) continue;
+        Feature& feature = features.emplace_back(Feature{.name = table.at("name")});
+        feature.without.overrides = table.value("without", std::vector<std::string>{});
+        feature.with = {table.value("with", std::vector<std::string>{}), table.value("threads", 1), table.value("progress", false)};
+        feature.changes_result = table.value("changes_result", false);
     }
     return features;
 }
@@ -91,10 +91,11 @@ void draw_progress_unseen()
     show_progress();
 }
 
-std::optional<ResultChange> change_by(const Feature& feature, const FeaturesCase& of)
+std::optional<ResultChange> change_by(const Feature& feature, const FeaturesCase& features_case)
 {
     if (!feature.changes_result) return std::nullopt;
-    const Scene without = scene_of(of.scene, of.cut, feature.without), with = scene_of(of.scene, of.cut, feature.with);
+    const Scene without = scene_of(features_case.scene, features_case.cut, feature.without),
+                with = scene_of(features_case.scene, features_case.cut, feature.with);
     const nlohmann::json change = in_own_process([&] {
         const ResultChange found = change_between(without, with);
         return nlohmann::json{found.distance_m, found.volume_difference_pct};
@@ -173,10 +174,10 @@ ResultChange change_between(const Scene& without, const Scene& with)
 }
 
 // Returns the first breakdown. A bad frame is no failure here, since no reference has to reach a bend of 150 degrees.
-std::string measure_features(const FeaturesCase& of, const std::string& folder)
+std::string measure_features(const FeaturesCase& features_case, const std::string& folder)
 {
     std::vector<Variant> variants;  // each once, however many features it is a part of
-    for (const Feature& feature : of.features)
+    for (const Feature& feature : features_case.features)
         for (const Variant& variant : {feature.without, feature.with})
             if (std::ranges::find(variants, variant) == variants.end()) variants.push_back(variant);
     const std::string scratch = analysis::path_in(folder, "scratch");
@@ -184,18 +185,19 @@ std::string measure_features(const FeaturesCase& of, const std::string& folder)
     std::vector<TimedVariant> turns;
     for (const Variant& variant : variants)
         turns.push_back([&] {
-            const Scene scene = scene_of(of.scene, of.cut, variant);
+            const Scene scene = scene_of(features_case.scene, features_case.cut, variant);
             const nlohmann::json run = run_scene_alone(scene, scratch, variant.progress ? draw_progress_unseen : nullptr);
             if (breakdown.empty()) breakdown = run.at("outcome").at("breakdown");
             return costs_of_run(run, scene);
         });
-    const std::vector<Samples> costs = take_turns(turns, of.rounds);
+    const std::vector<Samples> costs = take_turns(turns, features_case.rounds);
     std::filesystem::remove_all(scratch);
 
     const auto costs_with = [&](const Variant& variant) { return costs[std::ranges::find(variants, variant) - variants.begin()]; };
     std::vector<FeatureRow> rows;
-    for (const Feature& feature : of.features)
-        rows.push_back(feature_row(of.name, feature.name, costs_with(feature.without), costs_with(feature.with), change_by(feature, of)));
+    for (const Feature& feature : features_case.features)
+        rows.push_back(feature_row(features_case.name, feature.name, costs_with(feature.without), costs_with(feature.with),
+                                   change_by(feature, features_case)));
     table_of(feature_columns, rows).write(analysis::path_in(folder, "features.csv"));
     return breakdown;
 }

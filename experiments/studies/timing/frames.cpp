@@ -116,25 +116,25 @@ constexpr int most_rounds = 61;
 using Frame = Columns<FrameTiming>;
 Frame frame_columns()
 {
-    Frame all =
+    Frame frame =
         MEMBER_COLUMNS(FrameTiming, variant, precision) + within(&FrameTiming::total_ms, Columns<Spread>{{"rounds", &Spread::rounds}});
-    for (const RecordedPart& part : recorded_parts) all = all + within(part.ms, spread_columns(part.name));
-    return all + within(&FrameTiming::surface_ms, spread_columns("surface_ms")) +
+    for (const RecordedPart& part : recorded_parts) frame = frame + within(part.ms, spread_columns(part.name));
+    return frame + within(&FrameTiming::surface_ms, spread_columns("surface_ms")) +
            within(&FrameTiming::drawn_wall_ms, spread_columns("drawn_wall_ms"));
 }
 
 analysis::Measurement measured(const TimingRow& row, const std::string& quantity, double value, double low, double high,
                                const std::string& unit)
 {
-    const analysis::CaseKey of = {.body = row.body,
-                                  .motion = "01_01",
-                                  .deformer = "pbs",
-                                  .variant = row.is_refined ? "refined" : "table_1",
-                                  .order = row.timing.variant,
-                                  .precision = row.timing.precision,
-                                  .vertices = row.vertices,
-                                  .model = row.model};
-    return {"C10", quantity, of, value, low, high, unit};
+    const analysis::CaseKey key = {.body = row.body,
+                                   .motion = "01_01",
+                                   .deformer = "pbs",
+                                   .variant = row.is_refined ? "refined" : "table_1",
+                                   .order = row.timing.variant,
+                                   .precision = row.timing.precision,
+                                   .vertices = row.vertices,
+                                   .model = row.model};
+    return {"C10", quantity, key, value, low, high, unit};
 }
 
 // Frames per second over `baseline`.
@@ -170,7 +170,7 @@ std::vector<FrameTiming> time_frames(const pbs::Character& character, const pbs:
     for (const Samples& seconds : take_turns(turns, rounds)) {
         const auto& [order, precision] = variants[timings.size()];
         FrameTiming& timing = timings.emplace_back(FrameTiming{name_of(order), name_of(precision)});
-        const auto ms = [&](FramePart of) { return scaled(spread_of(seconds[of]), 1e3); };
+        const auto ms = [&](FramePart frame_part) { return scaled(spread_of(seconds[frame_part]), 1e3); };
         for (const RecordedPart& part : recorded_parts) timing.*part.ms = ms(part.sample);
         if (character.surface) timing.surface_ms = ms(surface_s), timing.drawn_wall_ms = ms(drawn_wall_s);
     }
@@ -212,19 +212,20 @@ std::vector<TimingRow> timing_rows(const TimingRow& mesh, const std::vector<Fram
 
 std::vector<analysis::Measurement> timing_measurements(const std::vector<TimingRow>& rows)
 {
-    std::vector<analysis::Measurement> all;
+    std::vector<analysis::Measurement> measurements;
     for (const TimingRow& row : rows) {
         const FrameTiming& timing = row.timing;
         const bool is_judged = timing.variant == "plain" && timing.precision == "f64";
-        if (row.paper_frames_per_s || (row.is_refined && is_judged)) all.push_back(frame_rate(row, "frames_per_s", timing.total_wall_ms));
+        if (row.paper_frames_per_s || (row.is_refined && is_judged))
+            measurements.push_back(frame_rate(row, "frames_per_s", timing.total_wall_ms));
         if (!row.paper_frames_per_s) continue;
-        if (is_judged) all.push_back(frame_rate(row, "frames_per_s_of_processor_time", timing.total_ms));
-        all.push_back(frame_rate(row, "frames_per_s_over_table_1", timing.total_wall_ms, *row.paper_frames_per_s, "1"));
+        if (is_judged) measurements.push_back(frame_rate(row, "frames_per_s_of_processor_time", timing.total_ms));
+        measurements.push_back(frame_rate(row, "frames_per_s_over_table_1", timing.total_wall_ms, *row.paper_frames_per_s, "1"));
         for (const RecordedPart& part : recorded_parts)
             if (const Spread& ms = timing.*part.ms; part.is_value)
-                all.push_back(measured(row, part.name, ms.median, ms.lower, ms.upper, "ms"));
+                measurements.push_back(measured(row, part.name, ms.median, ms.lower, ms.upper, "ms"));
     }
-    return all;
+    return measurements;
 }
 
 analysis::Measurement author_frame_rate(const TimingRow& mesh, const pbs::Character& character, const pbs::Motion& motion,
@@ -265,12 +266,13 @@ std::vector<RealTimeEnd> real_time_ends(const std::vector<TimingRow>& rows)
     return ends;
 }
 
-std::string measure_frames(const TimedCase& of, const std::string& folder)
+std::string measure_frames(const TimedCase& timed_case, const std::string& folder)
 {
-    const pbs::Character character = pbs::make_character(of.scene.character);
-    const pbs::Motion motion = make_motion(of.scene.motion, character.skeleton, of.scene.file);
-    TimingRow mesh{.mesh = of.name, .body = of.scene.character.body, .model = of.model, .stands_in = of.stands_in};
-    mesh.is_refined = of.scene.character.refinements > 0;
+    const pbs::Character character = pbs::make_character(timed_case.scene.character);
+    const pbs::Motion motion = make_motion(timed_case.scene.motion, character.skeleton, timed_case.scene.file);
+    TimingRow mesh{
+        .mesh = timed_case.name, .body = timed_case.scene.character.body, .model = timed_case.model, .stands_in = timed_case.stands_in};
+    mesh.is_refined = timed_case.scene.character.refinements > 0;
     mesh.vertices = static_cast<int>(character.mesh.rest.rows());
     mesh.edges = static_cast<int>(pbs::edges_of(character.mesh.tets).rows());
     mesh.tets = static_cast<int>(character.mesh.tets.rows());
@@ -278,18 +280,19 @@ std::string measure_frames(const TimedCase& of, const std::string& folder)
     mesh.surface_vertices = character.surface ? static_cast<int>(character.surface->tet.size()) : 0;
     // So many rounds that they take about these seconds of one core, whatever else the machine does. A round is two frames of three
     // variants, each timed twice.
-    const int count = std::clamp(static_cast<int>(of.seconds / (round_s_per_vertex * mesh.vertices)), of.fewest_rounds, most_rounds);
+    const int count =
+        std::clamp(static_cast<int>(timed_case.seconds / (round_s_per_vertex * mesh.vertices)), timed_case.fewest_rounds, most_rounds);
     const Rounds rounds = {.seconds = 0.0, .fewest = count, .most = count};
-    const auto rows = timing_rows(mesh, time_frames(character, motion, of.k_jiggle, rounds));
+    const auto rows = timing_rows(mesh, time_frames(character, motion, timed_case.k_jiggle, rounds));
     table_of(timing_columns, rows).write(analysis::path_in(folder, "timing.csv"));
     auto measured = timing_measurements(rows);
-    if (!of.model.empty()) measured.push_back(author_frame_rate(mesh, character, motion, rounds));
+    if (!timed_case.model.empty()) measured.push_back(author_frame_rate(mesh, character, motion, rounds));
     if (!measured.empty()) analysis::measurement_table(measured).write(analysis::path_in(folder, "measurements.csv"));
     return "";
 }
 
 RECORD_SETTINGS_AND(TimedCase,
-                    .derived("refinements", [](const TimedCase& of) { return of.scene.character.refinements; })
+                    .derived("refinements", [](const TimedCase& timed_case) { return timed_case.scene.character.refinements; })
                         .constant("iterations", paper_iterations)
                         .constant("frames_a_turn", usual_frames_per_turn)
                         .constant("round_s_a_vertex", round_s_per_vertex)

@@ -140,12 +140,12 @@ double wall_s()
 void project_step(const StepLoops& loops, double (*lap_clock)(), std::vector<double>& seconds)
 {
     double before = lap_clock();
-    const auto lap = [&](Sample of) {
+    const auto lap = [&](Sample sample) {
         const double now = lap_clock();
-        seconds[of] += now - before;
+        seconds[sample] += now - before;
         before = now;
     };
-    for (int iteration = 0; iteration < iterations_per_step; ++iteration) {
+    for (int iteration = 0; iteration < paper_iterations; ++iteration) {
         loops.bind(), lap(bind_laps_s);
         loops.stretch(), lap(stretch_laps_s);
         loops.volume(), lap(volume_laps_s);
@@ -159,7 +159,7 @@ std::vector<double> time_step(const ProjectionVariant& variant)
     loops.load();
     const double warm_up = wall_s();  // brings the data into the caches after another variant's turn
     loops.iterate();
-    const bool by_cpu = variant.threads == 1 && (wall_s() - warm_up) * iterations_per_step > long_step_s;
+    const bool by_cpu = variant.threads == 1 && (wall_s() - warm_up) * paper_iterations > long_step_s;
 
     std::vector<double> seconds(samples, 0.0);
     const double load = wall_s();
@@ -172,7 +172,7 @@ std::vector<double> time_step(const ProjectionVariant& variant)
     seconds[step_wall_s] = wall_end - wall;
     seconds[step_s] = variant.threads == 1 ? cpu_end - cpu : wall_end - wall;
     const double laps = seconds[stretch_laps_s] + seconds[volume_laps_s] + seconds[bind_laps_s];
-    for (const Sample of : {stretch_laps_s, volume_laps_s, bind_laps_s}) seconds[of] *= seconds[step_s] / laps;
+    for (const Sample sample : {stretch_laps_s, volume_laps_s, bind_laps_s}) seconds[sample] *= seconds[step_s] / laps;
     return seconds;
 }
 
@@ -195,9 +195,9 @@ nlohmann::json entry_of(const ProjectionVariant& variant, const Samples& own, co
     using enum pbs::ConstraintClass;
     for (const auto& [name, of, sample] : {std::tuple("ns_stretch", stretch, stretch_laps_s),
                                            std::tuple("ns_volume", volume, volume_laps_s), std::tuple("ns_bind", bind, bind_laps_s)})
-        put_spread(entry, name, scaled(spread_of(own[sample]), 1e9 / (iterations_per_step * variant.poses * size.constraints(of))));
+        put_spread(entry, name, scaled(spread_of(own[sample]), 1e9 / (paper_iterations * variant.poses * size.constraints(of))));
     put_spread(entry, "ms_step", scaled(spread_of(own[step_s]), 1e3 / variant.poses));
-    const double step_bytes = iterations_per_step * pbs::bytes_per_iteration(layout, size) / variant.poses;
+    const double step_bytes = paper_iterations * pbs::bytes_per_iteration(layout, size) / variant.poses;
     if (variant.threads == 1) entry["ms_floor"] = 1e-6 * step_bytes / bandwidth_at(memory, working_set_bytes);
     if (variant.loops.stretch_fill) entry["fill"] = {{"stretch", *variant.loops.stretch_fill}, {"volume", *variant.loops.volume_fill}};
     return entry;
@@ -314,7 +314,7 @@ nlohmann::json time_projections(const BenchBody& body, const std::vector<int>& t
     const std::vector<ProjectionVariant> variants = projection_variants(body, threads);
     std::vector<TimedVariant> turns;
     for (const ProjectionVariant& variant : variants) turns.push_back([&variant] { return time_step(variant); });
-    const std::vector<Samples> all = take_turns(turns, rounds);
+    const std::vector<Samples> sampleses = take_turns(turns, rounds);
     // On one thread. std::out_of_range by at() where there is no such variant.
     const auto place_of = [&](const std::string& variant, const std::string& precision) {
         const auto found = std::ranges::find_if(variants, [&](const ProjectionVariant& one) {
@@ -328,11 +328,11 @@ nlohmann::json time_projections(const BenchBody& body, const std::vector<int>& t
     nlohmann::json entries = nlohmann::json::array();
     for (std::size_t i = 0; i < variants.size(); ++i) {
         const ProjectionVariant& variant = variants[i];
-        nlohmann::json entry = entry_of(variant, all[i], size, memory);
+        nlohmann::json entry = entry_of(variant, sampleses[i], size, memory);
         const Sample clock = variant.threads == 1 ? step_s : step_wall_s;
         for (const std::string baseline : {"plain_spread", "plain", "plain_native"}) {
             const std::size_t place = place_of(baseline, variant.precision);
-            put_spread(entry, "ratio_to_" + baseline, spread_of_ratios(all.at(place)[clock], all[i][clock], variant.poses));
+            put_spread(entry, "ratio_to_" + baseline, spread_of_ratios(sampleses.at(place)[clock], sampleses[i][clock], variant.poses));
             if (baseline == "plain_native") continue;  // the same answer as plain
             const AnswerRatio answer = answer_ratio(variant.loops.residuals(), variants[place].loops.residuals(), mean_distance_m);
             entry["residual_to_" + baseline] = answer.residual;
@@ -340,7 +340,7 @@ nlohmann::json time_projections(const BenchBody& body, const std::vector<int>& t
         }
         if (variant.threads > 1) {
             const std::size_t alone = place_of(variant.variant, variant.precision);
-            const std::vector<double>&alone_s = all.at(alone)[step_wall_s], &together_s = all[i][step_wall_s];
+            const std::vector<double>&alone_s = sampleses.at(alone)[step_wall_s], &together_s = sampleses[i][step_wall_s];
             const double times_the_poses = double(variant.poses) / variants[alone].poses;
             put_spread(entry, "speedup_by_threads", spread_of_ratios(alone_s, together_s, times_the_poses));
             // Of the fastest rounds, which were disturbed least.

@@ -26,21 +26,21 @@ namespace experiments {
 namespace {
 
 // A mesh is made to a row of Table 1 or to a number of vertices.
-StudyRun run_of_frames(const StudyCase& of)
+StudyRun run_of_frames(const StudyCase& study_case)
 {
-    TimedCase timed{.name = of.name, .scene = {}, .model = of.value<std::string>("model", "")};
+    TimedCase timed{.name = study_case.name, .scene = {}, .model = study_case.value<std::string>("model", "")};
     const TableOneRow* row = table_1_row(timed.model);
     if (row) timed.k_jiggle = row->jiggling;
-    const auto body = of.value<std::string>("body");
+    const auto body = study_case.value<std::string>("body");
     pbs::require_body(body);
-    const int vertices = row ? row->vertices : of.value<int>("vertices");
+    const int vertices = row ? row->vertices : study_case.value<int>("vertices");
     timed.scene =
         read_scene("human_01_01", {"character.body=" + body, fmt::format("character.vertices={}", vertices), "motion.duration_s=4.0"});
-    timed.scene.character.refinements = of.value("refinements", 0);
+    timed.scene.character.refinements = study_case.value("refinements", 0);
     timed.stands_in = row && body == "human";
-    timed.seconds = of.value("seconds", 4.0);
-    timed.fewest_rounds = of.value("fewest_rounds", 3);
-    return work_run(of.name, timed, of.cost_s, measure_frames);
+    timed.seconds = study_case.value("seconds", 4.0);
+    timed.fewest_rounds = study_case.value("fewest_rounds", 3);
+    return work_run(study_case.name, timed, study_case.cost_s, measure_frames);
 }
 
 std::string measure_bench(const BenchOptions& options, const std::string& folder)
@@ -51,41 +51,43 @@ std::string measure_bench(const BenchOptions& options, const std::string& folder
     return "";
 }
 
-StudyRun run_of_bench(const StudyCase& of)
+StudyRun run_of_bench(const StudyCase& study_case)
 {
-    BenchOptions bench{.mesh = "", .bars = true, .sizes = of.value<std::vector<int>>("sizes")};  // the bars have 9,400 and 101,000 tets
+    BenchOptions bench{
+        .mesh = "", .bars = true, .sizes = study_case.value<std::vector<int>>("sizes")};  // the bars have 9,400 and 101,000 tets
     bench.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    return work_run(of.name, bench, of.cost_s, measure_bench);
+    return work_run(study_case.name, bench, study_case.cost_s, measure_bench);
 }
 
-StudyRun run_of_features(const StudyCase& of)
+StudyRun run_of_features(const StudyCase& study_case)
 {
-    const FeaturesCase features{.name = of.value<std::string>("of"),
-                                .scene = of.value<std::string>("scene"),
-                                .cut = of.value<std::vector<std::string>>("overrides"),
-                                .features = features_of(of),
-                                .rounds = {.seconds = of.cost_s - 10.0, .fewest = 3, .most = 7}};
+    const FeaturesCase features{.name = study_case.value<std::string>("of"),
+                                .scene = study_case.value<std::string>("scene"),
+                                .cut = study_case.value<std::vector<std::string>>("overrides"),
+                                .features = features_of(study_case),
+                                .rounds = {.seconds = study_case.cost_s - 10.0, .fewest = 3, .most = 7}};
     read_scene(features.scene, features.cut);  // a body that is not installed is refused before anything runs
-    return work_run(of.name, features, of.cost_s, measure_features);
+    return work_run(study_case.name, features, study_case.cost_s, measure_features);
 }
 
-StudyRun run_of_equal_quality(const StudyCase& of)
+StudyRun run_of_equal_quality(const StudyCase& study_case)
 {
-    const EqualQualityCase orders{.of = of.key(),
-                                  .scene = of.scene(),
-                                  .frame = of.value<int>("frame"),
+    const EqualQualityCase orders{.of = study_case.key(),
+                                  .scene = study_case.scene(),
+                                  .frame = study_case.value<int>("frame"),
                                   .random = {1, 2, 3, 4, 5},
                                   .most_iterations = 16000,
                                   .rounds = {.seconds = 20.0, .fewest = 5, .most = 61}};
-    return work_run(of.name, orders, of.cost_s, measure_equal_quality);
+    return work_run(study_case.name, orders, study_case.cost_s, measure_equal_quality);
 }
 
 StudyPlan plan(bool full)
 {
     static const std::map<std::string, StudyRun (*)(const StudyCase&)> runs = {
         {"frames", run_of_frames}, {"bench", run_of_bench}, {"features", run_of_features}, {"equal_quality", run_of_equal_quality}};
-    return plan_of_cases("timing", full,
-                         [](const StudyCase& of, StudyPlan& plan) { plan.runs.push_back(runs.at(of.value<std::string>("times"))(of)); });
+    return plan_of_cases("timing", full, [](const StudyCase& study_case, StudyPlan& plan) {
+        plan.runs.push_back(runs.at(study_case.value<std::string>("times"))(study_case));
+    });
 }
 
 // Writes the rows of all runs, if there are any.

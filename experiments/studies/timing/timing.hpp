@@ -25,7 +25,7 @@ namespace experiments {
 // between, so that the clock is read twice per class. Its work does not depend on its values, but small meshes stay in the cache, so the
 // parts need not add up.
 
-inline constexpr int paper_iterations = 24, usual_frames_per_turn = 2;
+inline constexpr int usual_frames_per_turn = 2;
 
 struct FrameTiming {
     std::string variant = {}, precision = {};  // plain, ordered; f32, f64
@@ -54,7 +54,7 @@ struct TimedCase {
     int fewest_rounds = 3;   // however long they take
 };
 // Includes the processor, since times of two processors do not belong together.
-nlohmann::json to_json(const TimedCase& of);
+nlohmann::json to_json(const TimedCase& timed_case);
 
 // One variant on one mesh. The values next to the paper's are empty for a mesh of the ladder.
 struct TimingRow {
@@ -97,7 +97,7 @@ extern const analysis::Columns<RealTimeEnd> real_time_columns;
 std::vector<RealTimeEnd> real_time_ends(const std::vector<TimingRow>& rows);
 
 // The work of a run: writes timing.csv, and measurements.csv for a mesh made to Table 1.
-std::string measure_frames(const TimedCase& of, const std::string& folder);
+std::string measure_frames(const TimedCase& timed_case, const std::string& folder);
 
 // The optional features of a scene, as pairs of scenes that differ in one feature alone.
 
@@ -119,7 +119,7 @@ struct Feature {
 
 // The features of a case of cases.toml: features = [{ name = "sleep", with = ["pbs.sleep=true"], changes_result = true }, ...]. Further
 // keys of a feature: without, threads and progress (of the second scene), and only = "human" for one of the case's bodies.
-std::vector<Feature> features_of(const StudyCase& of);
+std::vector<Feature> features_of(const StudyCase& study_case);
 
 Scene scene_of(const std::string& name, const std::vector<std::string>& cut, const Variant& variant);
 
@@ -136,7 +136,7 @@ struct FeaturesCase {
 };
 nlohmann::json to_json(const Variant& variant);
 nlohmann::json to_json(const Feature& feature);
-nlohmann::json to_json(const FeaturesCase& of);
+nlohmann::json to_json(const FeaturesCase& features_case);
 
 struct Compared {
     Spread without, with, ratio;  // ratio: with / without in the same round
@@ -167,7 +167,7 @@ FeatureRow feature_row(const std::string& scene, const std::string& feature, con
                        const std::optional<ResultChange>& change = {});
 
 // The work of a run: writes features.csv. Each scene runs in a process of its own, and they take turns. Returns the first breakdown, or "".
-std::string measure_features(const FeaturesCase& of, const std::string& folder);
+std::string measure_features(const FeaturesCase& features_case, const std::string& folder);
 
 // Measures the residuals and volume changes of every order of projection, in both precisions and for several sequences of the constraints,
 // and the time until they are reached. The case is one body in one pose, and the initial guess is LBS.
@@ -189,7 +189,7 @@ struct EqualQualityCase {
     int most_iterations = 1000;    // where the limit is read
     Rounds rounds = {};            // of the timings
 };
-nlohmann::json to_json(const EqualQualityCase& of);
+nlohmann::json to_json(const EqualQualityCase& quality_case);
 
 inline const std::string file_sequence = "file", spread_sequence = "spread";
 
@@ -202,7 +202,7 @@ struct MeasuredOrder {
 };
 
 // The first one is `plain` in file order.
-std::vector<MeasuredOrder> measure_orders(const EqualQualityCase& of);
+std::vector<MeasuredOrder> measure_orders(const EqualQualityCase& quality_case);
 
 // orders.csv, one row per order, precision and sequence: the answer after the paper's 24 iterations and in the limit.
 struct OrderRow {
@@ -212,7 +212,7 @@ struct OrderRow {
     Look after_24, limit, half;  // limit: after the last iteration, which is reached if half of the iterations give the same
 };
 extern const analysis::Columns<OrderRow> order_columns;
-std::vector<OrderRow> order_rows(const analysis::CaseKey& of, const std::vector<MeasuredOrder>& measured);
+std::vector<OrderRow> order_rows(const analysis::CaseKey& key, const std::vector<MeasuredOrder>& measured);
 
 // targets.csv, one row per order, precision, sequence and target: when it first reaches the target. A target is a residual or an absolute
 // volume change: those that `plain` has after 24 iterations in file order in the same precision, and the paper's 0.5 % and 2 %. It is
@@ -230,7 +230,7 @@ struct TargetRow {
 };
 extern const analysis::Columns<TargetRow> target_columns;
 // std::logic_error without `plain` in file order.
-std::vector<TargetRow> target_rows(const analysis::CaseKey& of, const std::vector<MeasuredOrder>& measured);
+std::vector<TargetRow> target_rows(const analysis::CaseKey& key, const std::vector<MeasuredOrder>& measured);
 
 // The first look at which the value is not above the bound.
 std::optional<int> first_within(const IterationPath& path, double Look::*value, double bound);
@@ -247,6 +247,6 @@ extern const analysis::Columns<EqualAnswer> answer_columns;
 std::vector<EqualAnswer> equal_answers(const std::vector<TargetRow>& rows);
 
 // The work of a run: writes orders.csv and targets.csv. Returns what broke down, or "".
-std::string measure_equal_quality(const EqualQualityCase& of, const std::string& folder);
+std::string measure_equal_quality(const EqualQualityCase& quality_case, const std::string& folder);
 
 }  // namespace experiments

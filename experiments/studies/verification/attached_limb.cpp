@@ -46,9 +46,9 @@ pbs::Positions shape(const pbs::Character& limb, const FemOptions& options, cons
 }
 
 // Root mean square distance over that of `to` from rest.
-double distance(const pbs::Character& limb, const pbs::Positions& one, const pbs::Positions& to)
+double distance(const pbs::Character& limb, const pbs::Positions& positions, const pbs::Positions& to)
 {
-    return (one - to).norm() / (to - limb.mesh.rest).norm();
+    return (positions - to).norm() / (to - limb.mesh.rest).norm();
 }
 
 VerificationRow row_of(const pbs::Character& limb, const RowQuantity& quantity, double value, double reference, double tolerance,
@@ -151,7 +151,7 @@ struct Springs {
     Eigen::VectorXd stiffness;
 };
 
-Springs springs_of_bone(const ManufacturedSprings& of)
+Springs springs_of_bone(const ManufacturedSprings& manufactured_springs)
 {
     constexpr int samples = 3;  // their error is a ninth of the default's
     Springs springs{pbs::sample_points(capsule, samples), {}, {}};
@@ -159,8 +159,9 @@ Springs springs_of_bone(const ManufacturedSprings& of)
     springs.stiffness.resize(springs.points.rows());
     for (Eigen::Index s = 0; s < springs.points.rows(); ++s) {
         const Vec3 point = springs.points.row(s);
-        springs.targets.row(s) = (point + exact(point) + of.offset_m).transpose();
-        springs.stiffness(s) = of.weight * density(point) * capsule.volume_m3() / static_cast<double>(springs.points.rows());
+        springs.targets.row(s) = (point + exact(point) + manufactured_springs.offset_m).transpose();
+        springs.stiffness(s) =
+            manufactured_springs.weight * density(point) * capsule.volume_m3() / static_cast<double>(springs.points.rows());
     }
     return springs;
 }
@@ -176,16 +177,16 @@ VerificationRows attached_limb_rows(const Effort& effort)
             kept_factor(effort.limb(0))};
 }
 
-AttachedSolution solve_manufactured(const pbs::TetMesh& mesh, int element_order, const ManufacturedSprings& of,
+AttachedSolution solve_manufactured(const pbs::TetMesh& mesh, int element_order, const ManufacturedSprings& manufactured_springs,
                                     const ElasticMaterial& material)
 {
-    const Springs springs = springs_of_bone(of);
+    const Springs springs = springs_of_bone(manufactured_springs);
     const SimplexSpace space(mesh, element_order);
     const ElasticPotential flesh(space, Model::stable_neo_hookean, lame(material), Formulation::displacement);
     const AttachedPoints points(mesh, space, springs.points, springs.stiffness);
     SpringPotential held(points);
     held.move_to(springs.targets);
-    const DeadLoad load(load_vector(space, [&](const Vec3& x) { return body_force(x, of.offset_m); }));
+    const DeadLoad load(load_vector(space, [&](const Vec3& x) { return body_force(x, manufactured_springs.offset_m); }));
 
     const PrescribedData prescribed = prescribed_data(space, {.displacement = exact});
     Eigen::VectorXd displacement = Eigen::VectorXd::Zero(space.dofs());

@@ -18,9 +18,9 @@ constexpr int cells = 4;  // along each edge of the cube
 constexpr double formal_order = 2.0;
 
 // Root mean square over the vertices [m].
-double rms(const pbs::Positions& one, const pbs::Positions& other)
+double rms(const pbs::Positions& positions, const pbs::Positions& other)
 {
-    return (one - other).norm() / std::sqrt(static_cast<double>(one.rows()));
+    return (positions - other).norm() / std::sqrt(static_cast<double>(positions.rows()));
 }
 
 // At the common vertices. The values are not a number where Newton's method does not converge.
@@ -72,10 +72,10 @@ VerificationRow order_row(const NestedSolutions& solutions, const analysis::Nest
 }
 
 // The bound must cover the true error and be smaller than the error of the next coarser solution.
-VerificationRow bound_row(const NestedSolutions& solutions, const RowQuantity& quantity, double value, const pbs::Positions& of,
+VerificationRow bound_row(const NestedSolutions& solutions, const RowQuantity& quantity, double value, const pbs::Positions& positions,
                           const pbs::Positions& coarser)
 {
-    VerificationRow row = row_of(quantity, 2, value, solutions.error_of(of), "m", solutions.dofs);
+    VerificationRow row = row_of(quantity, 2, value, solutions.error_of(positions), "m", solutions.dofs);
     bound(row, row.reference, solutions.error_of(coarser), "the true errors of the solution and of the refined linear one");
     return row;
 }

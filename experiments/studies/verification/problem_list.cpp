@@ -7,7 +7,7 @@ using namespace reference_fem;
 
 const std::vector<VerificationProblem>& verification_problems()
 {
-    static const std::vector<VerificationProblem> all = {
+    static const std::vector<VerificationProblem> verification_problems = {
         {"laws", 1.0, 1.0, laws_rows},
         {"patch_test", 1.0, 1.0, patch_test_rows},
         {"manufactured_solution", 3.0, 30.0, manufactured_solution_rows},
@@ -31,7 +31,7 @@ const std::vector<VerificationProblem>& verification_problems()
         {"calculix", 90.0, 170.0, calculix_rows},
         {"distributed", 5.0, 5.0, distributed_rows},
     };
-    return all;
+    return verification_problems;
 }
 
 }  // namespace experiments

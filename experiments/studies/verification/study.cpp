@@ -37,11 +37,12 @@ struct VerificationCase {
 
 RECORD_SETTINGS(VerificationCase, problem, full)
 
-std::string solve_and_record(const VerificationCase& of, const std::string& folder)
+std::string solve_and_record(const VerificationCase& verification_case, const std::string& folder)
 {
     const auto& problems = problems_of_module();
-    const auto problem = std::find_if(problems.begin(), problems.end(), [&](const auto& one) { return one.name == of.problem; });
-    const VerificationRows rows = problem->rows({{.full = of.full}, limb});
+    const auto problem =
+        std::find_if(problems.begin(), problems.end(), [&](const auto& one) { return one.name == verification_case.problem; });
+    const VerificationRows rows = problem->rows({{.full = verification_case.full}, limb});
     std::string breakdown;
     for (const VerificationRow& row : rows)
         if (!std::isfinite(row.value))

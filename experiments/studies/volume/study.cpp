@@ -7,13 +7,13 @@
 //
 // README.md describes the runs, deformers and records. Besides the scene's own order of projection PBS has each other order and precision,
 // so that the report can say whether the verdict depends on it.
-#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/run/region_record.hpp"
 #include "experiments/scene/movements.hpp"
 #include "experiments/studies/study.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -27,89 +27,33 @@ struct RegionOfRun {
     RegionChange region;
 };
 
-void add_iterations(std::vector<DeformerSpec>& deformers, const DeformerSpec& pbs)
+// PBS with other settings, as the tables [[added]] state them.
+std::vector<DeformerSpec> added_to(const StudyCase& study_case)
 {
-    for (const int iterations : {1, 2, 4, 8, 12, 48, 96, 192, 384}) {  // in addition to the scene's own 24
-        DeformerSpec spec = pbs;
-        options_of<pbs::PbsOptions>(spec).iterations = iterations;
-        spec.label += "_" + std::to_string(iterations);
-        deformers.push_back(spec);
-    }
-}
-
-void add_order(std::vector<DeformerSpec>& deformers, DeformerSpec pbs, pbs::Order order, pbs::Precision precision)
-{
-    auto& options = options_of<pbs::PbsOptions>(pbs);
-    if (order == options.order && precision == options.precision) return;
-    pbs.name = "pbs_orders";
-    pbs.label += "_" + name_of(options.order = order) + "_" + name_of(options.precision = precision);
-    deformers.push_back(pbs);
-}
-
-void add_orders(std::vector<DeformerSpec>& deformers, const DeformerSpec& pbs)
-{
-    for (const auto order : {pbs::Order::plain, pbs::Order::ordered, pbs::Order::grouped})
-        for (const auto precision : {pbs::Precision::f32, pbs::Precision::f64}) add_order(deformers, pbs, order, precision);
-}
-
-void add_papers_order(std::vector<DeformerSpec>& deformers, const DeformerSpec& pbs)
-{
-    add_order(deformers, pbs, pbs::Order::plain, pbs::Precision::f64);
-}
-
-// Table 1's "jiggling" is k_stretch in the zone; outside it is 1 here. in_the_papers_order: a second time, as C02b is judged.
-void add_jiggle(std::vector<DeformerSpec>& deformers, DeformerSpec pbs, double k_in_zone)
-{
-    auto& options = options_of<pbs::PbsOptions>(pbs);
-    pbs.label += "_jiggle";
-    pbs.variant = "jiggle";
-    options.k_stretch = 1.0;
-    options.jiggle = pbs::Jiggle{k_in_zone};
-    deformers.push_back(pbs);
-    pbs.name = "pbs_orders";
-    pbs.label += "_plain_f64";
-    options.order = pbs::Order::plain;
-    options.precision = pbs::Precision::f64;
-    deformers.push_back(pbs);
-}
-
-void add_printed_forms(std::vector<DeformerSpec>& deformers, const DeformerSpec& pbs)
-{
-    for (const auto form :
-         {pbs::VolumeForm::labels_relative, pbs::VolumeForm::labels_absolute, pbs::VolumeForm::sign, pbs::VolumeForm::as_printed}) {
-        DeformerSpec spec = pbs;
-        spec.name = "pbs_printed";
-        options_of<pbs::PbsOptions>(spec).volume_form = form;
-        options_of<pbs::PbsOptions>(spec).order = pbs::Order::plain;
-        spec.variant = name_of(form);
-        spec.label += "_" + spec.variant;
-        deformers.push_back(spec);
-    }
-}
-
-StudyRun run_of(const StudyCase& of, const std::string& name, const Overrides& overrides)
-{
-    static const std::map<std::string, std::function<void(std::vector<DeformerSpec>&, const DeformerSpec&)>> adders = {
-        {"iterations", add_iterations}, {"orders", add_orders}, {"papers_order", add_papers_order}, {"printed_forms", add_printed_forms}};
-    StudyRun run{.name = name, .scene = of.scene(overrides), .cost_s = of.cost_s};
-    run.scene.name = name;
-    run.beside = of.value("beside", false);
-    run.bad_frames_are_results = of.value("goes_on", false);
-    const DeformerSpec pbs = *find_deformer_with<pbs::PbsOptions>(run.scene);
-    for (const auto& added : of.value<std::vector<std::string>>("add", {})) adders.at(added)(run.scene.deformers, pbs);
-    if (of.has("k_in_zone")) add_jiggle(run.scene.deformers, pbs, of.value<double>("k_in_zone"));
-    return run;
+    static const nlohmann::json tables = cases_document("volume").at("added");
+    std::vector<DeformerSpec> added;
+    const auto add = [&](const std::string& name, const Overrides& further = {}) {
+        const auto named = std::ranges::find_if(tables, [&](const nlohmann::json& table) { return table.at("name") == name; });
+        for (const nlohmann::json& pbs : named->at("pbs")) added.push_back(study_case.further_pbs(pbs, further));
+    };
+    for (const std::string& name : study_case.value<std::vector<std::string>>("add", {})) add(name);
+    if (study_case.has("k_in_zone")) add("jiggle", {fmt::format("pbs.jiggle.k_stretch={}", study_case.value<double>("k_in_zone"))});
+    return added;
 }
 
 StudyPlan plan(bool full)
 {
-    return plan_of_cases("volume", full, [](const StudyCase& of, StudyPlan& plan) {
-        if (!of.value("through_movements", false)) {
-            plan.runs.push_back(run_of(of, of.name, {}));
-            return;
-        }
-        for (const std::string& movement : movements_of(pbs::make_character(of.scene().character).skeleton))
-            plan.runs.push_back(run_of(of, of.name + "_" + movement, {fmt::format("motion.movements=['{}']", movement)}));
+    return plan_of_cases("volume", full, [](const StudyCase& study_case, StudyPlan& plan) {
+        const std::vector<DeformerSpec> added = added_to(study_case);
+        const auto add_run = [&](const std::string& name, const Overrides& overrides) {
+            StudyRun& run = plan.runs.emplace_back(study_case.scene_run(name, overrides));
+            run.beside = study_case.value("beside", false);
+            run.bad_frames_are_results = study_case.value("goes_on", false);
+            run.scene.deformers.insert(run.scene.deformers.end(), added.begin(), added.end());
+        };
+        if (!study_case.value("through_movements", false)) return add_run(study_case.name, {});
+        for (const std::string& movement : movements_of(pbs::make_character(study_case.scene().character).skeleton))
+            add_run(study_case.name + "_" + movement, {fmt::format("motion.movements=['{}']", movement)});
     });
 }
 
@@ -117,12 +61,12 @@ bool conclude(const FinishedRuns& finished)
 {
     static const analysis::Columns<RegionOfRun> columns =
         analysis::Columns<RegionOfRun>{{"run", &RegionOfRun::run}} + analysis::within(&RegionOfRun::region, region_columns);
-    std::vector<RegionOfRun> all;
+    std::vector<RegionOfRun> regions;
     for (const std::string& file : finished.files("regions.csv")) {
         const std::string run = std::filesystem::path(file).parent_path().filename().string();
-        for (const RegionChange& region : rows_of(region_columns, analysis::read_csv(file))) all.push_back({run, region});
+        for (const RegionChange& region : rows_of(region_columns, analysis::read_csv(file))) regions.push_back({run, region});
     }
-    finished.write("regions.csv", columns, all);
+    finished.write("regions.csv", columns, regions);
     return !finished.none();
 }
 

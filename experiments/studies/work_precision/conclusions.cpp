@@ -112,13 +112,14 @@ Spread share_of(const analysis::MethodErrors& method, const analysis::MethodErro
 }
 
 // The number of poses in which both methods have an error against each member.
-std::vector<int> compared_poses(const analysis::MethodErrors& one, const analysis::MethodErrors& other, const std::vector<bool>& kept)
+std::vector<int> compared_poses(const analysis::MethodErrors& method_errors, const analysis::MethodErrors& other,
+                                const std::vector<bool>& kept)
 {
     std::vector<int> poses;
-    for (std::size_t m = 0; m < one.error.size(); ++m) {
+    for (std::size_t m = 0; m < method_errors.error.size(); ++m) {
         poses.push_back(0);
         for (std::size_t pose = 0; pose < kept.size(); ++pose)
-            poses.back() += kept[pose] && !std::isnan(one.error[m][pose]) && !std::isnan(other.error[m][pose]);
+            poses.back() += kept[pose] && !std::isnan(method_errors.error[m][pose]) && !std::isnan(other.error[m][pose]);
     }
     return poses;
 }
@@ -202,14 +203,14 @@ MethodRow method_row(const Entry& entry, const Entry& lbs, const PosesOfTable& p
 // The pairs of a table at one time, and what each body changes.
 void add_pairs(const std::vector<Entry>& entries, const PosesOfTable& poses, std::vector<MethodRow>& rows, Comparison& comparison)
 {
-    analysis::ComparedPoses all = poses.compared();
-    for (const Entry& entry : entries) all.methods.push_back(entry.errors);
-    const analysis::ComparedPoses movement = analysis::selected_poses(all, poses.is_movement());
+    analysis::ComparedPoses compared_poses = poses.compared();
+    for (const Entry& entry : entries) compared_poses.methods.push_back(entry.errors);
+    const analysis::ComparedPoses movement = analysis::selected_poses(compared_poses, poses.is_movement());
     const std::vector<analysis::MethodPair> pairs = analysis::compare_methods(movement);
     const ComparisonTable table = rows.front().table;
     const double budget_ms = rows.front().budget_ms;
-    const auto add_decisions = [&](const std::vector<analysis::MethodPair>& of, const std::string& without_body) {
-        for (const analysis::MethodPair& pair : of)
+    const auto add_decisions = [&](const std::vector<analysis::MethodPair>& method_pairs, const std::string& without_body) {
+        for (const analysis::MethodPair& pair : method_pairs)
             comparison.decisions.push_back({table, budget_ms, without_body, pair.first, pair.second, pair.decision});
     };
     for (const analysis::MethodPair& pair : pairs)
@@ -267,8 +268,9 @@ std::vector<OtherStartRow> start_rows(const std::vector<PointRow>& points, const
     };
     for (const double budget_ms : comparison_times().tables_ms) {
         const auto setting_of = [&](const std::string& method) -> std::optional<std::string> {
-            const auto chosen = std::ranges::find_if(
-                settings, [&](const ChosenSetting& one) { return one.method == method && one.budget_ms == budget_ms; });
+            const auto chosen = std::ranges::find_if(settings, [&](const ChosenSetting& chosen_setting) {
+                return chosen_setting.method == method && chosen_setting.budget_ms == budget_ms;
+            });
             return chosen == settings.end() ? std::nullopt : std::optional(chosen->setting);
         };
         const std::optional<std::string> of_lbs = setting_of(baseline);
@@ -298,7 +300,7 @@ std::vector<ChosenSetting> chosen_settings(const std::vector<PointRow>& training
     std::vector<Tried> tried;
     for (const PointRow& point : training) {
         auto found =
-            std::ranges::find_if(tried, [&](const Tried& one) { return one.method == point.method && one.setting == point.setting; });
+            std::ranges::find_if(tried, [&](const Tried& tried) { return tried.method == point.method && tried.setting == point.setting; });
         if (found == tried.end())
             found = tried.insert(found, Tried{.method = point.method, .setting = point.setting, .ms = {}, .log_error = {}});
         found->poses += point.outcome == "finished";
@@ -384,8 +386,9 @@ std::vector<MotionRow> concluded(const std::vector<PlayedRow>& played, const std
         for (const ChosenSetting& chosen : settings) {
             const bool is_shown = std::ranges::count(comparison_times().tables_ms, chosen.budget_ms) > 0;
             if (!is_shown || chosen.method != method || chosen.setting != setting) continue;
-            const auto lbs_setting = std::ranges::find_if(
-                settings, [&](const ChosenSetting& one) { return one.method == baseline && one.budget_ms == chosen.budget_ms; });
+            const auto lbs_setting = std::ranges::find_if(settings, [&](const ChosenSetting& chosen_setting) {
+                return chosen_setting.method == baseline && chosen_setting.budget_ms == chosen.budget_ms;
+            });
             if (lbs_setting == settings.end()) continue;
             const auto lbs = all.find({clip, baseline, lbs_setting->setting, member});
             if (lbs == all.end()) continue;

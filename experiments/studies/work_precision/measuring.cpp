@@ -10,6 +10,7 @@
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/settings/option_fields.hpp"
+#include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/studies/shared/kept_references.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/character/bodies.hpp"
@@ -69,15 +70,15 @@ struct PosedShapes {
 // A body with its references, and the deformers that are posed like them.
 class ComparedBody {
 public:
-    explicit ComparedBody(const ComparisonCase& of)
-        : of_(of),
-          scene_(of.poses.front().scene),
+    explicit ComparedBody(const ComparisonCase& comparison)
+        : of_(comparison),
+          scene_(comparison.poses.front().scene),
           character_(pbs::make_character(scene_.character)),
           errors_(error_domain(character_, {})),
           skin_(character_.mesh.rest, character_.mesh.tets),
           metrics_(character_.mesh.rest, character_.mesh.tets)
     {
-        for (const ReferencePose& pose : of.poses) {
+        for (const ReferencePose& pose : comparison.poses) {
             const pbs::Motion motion = make_motion(pose.scene.motion, character_.skeleton, pose.scene.file);
             const auto frame = [&](int f) { return motion.steps.at(static_cast<std::size_t>(f) * motion.steps_per_frame); };
             const pbs::Pose bones = frame(pose.frame);
@@ -88,7 +89,9 @@ public:
                                                                       .kept = read_references(pose.name, character_, bones)});
             for (int f = std::max(0, pose.frame - frames_of_memory); f < pose.frame; ++f) compared.way.push_back(frame(f));
         }
-        const ComparedMethod pbs{.name = "pbs", .kind = "pbs", .overrides = {"pbs.iterations=24", "pbs.order=plain", "pbs.precision=f64"}};
+        const ComparedMethod pbs{.name = "pbs",
+                                 .kind = "pbs",
+                                 .overrides = {fmt::format("pbs.iterations={}", paper_iterations), "pbs.order=plain", "pbs.precision=f64"}};
         baseline_ = make_deformer(spec_of({&pbs}, scene_, character_, family().front()));
         baseline_->reset(character_);
     }
@@ -129,8 +132,13 @@ public:
     // A row without errors. pose: its place among the poses.
     PointRow row(std::size_t pose, const std::string& method, GivenFlesh flesh, const std::string& setting, const PosedShapes& posed) const
     {
-        const ReferencePose& of = *poses_[pose].pose;
-        PointRow row{.pose = of.name, .body = of.of.body, .stratum = of.stratum, .method = method, .flesh = flesh, .setting = setting};
+        const ReferencePose& reference_pose = *poses_[pose].pose;
+        PointRow row{.pose = reference_pose.name,
+                     .body = reference_pose.of.body,
+                     .stratum = reference_pose.stratum,
+                     .method = method,
+                     .flesh = flesh,
+                     .setting = setting};
         const pbs::Positions& shape = posed.shapes[pose];
         row.outcome = shape.allFinite() ? "finished" : "not_finite";
         row.clock = posed.clock;
@@ -212,7 +220,7 @@ private:
 void train(const ComparedBody& body, Measurements& measurements)
 {
     const double longest_ms = comparison_times().budgets_ms.back();
-    const std::vector<EnsembleMember> all = family(), fleshes = training_members();
+    const std::vector<EnsembleMember> members = family(), fleshes = training_members();
     for (const ComparedMethod& method : methods())
         for (const KeyValues& of_grid : method.grid)
             for (const Setting& setting : tried_settings(method, of_grid)) {
@@ -226,8 +234,8 @@ void train(const ComparedBody& body, Measurements& measurements)
                     PointRow row =
                         body.row(pose, method.name, method.takes_flesh() ? GivenFlesh::own : GivenFlesh::none, setting.text(), timed);
                     body.add_errors(row, pose, [&](std::size_t m) -> const pbs::Positions* {
-                        if (std::ranges::count(fleshes, all[m].name, &EnsembleMember::name) == 0) return nullptr;
-                        const auto own = with_flesh.find(all[m].name);
+                        if (std::ranges::count(fleshes, members[m].name, &EnsembleMember::name) == 0) return nullptr;
+                        const auto own = with_flesh.find(members[m].name);
                         return &(own == with_flesh.end() ? timed : own->second).shapes[pose];
                     });
                     measurements.points.push_back(std::move(row));
@@ -237,11 +245,11 @@ void train(const ComparedBody& body, Measurements& measurements)
 }
 
 // The chosen settings of a method, each once.
-std::vector<Setting> settings_of(const ComparisonCase& of, const ComparedMethod& method)
+std::vector<Setting> settings_of(const ComparisonCase& comparison, const ComparedMethod& method)
 {
     std::vector<Setting> settings;
     std::set<std::string> seen;
-    for (const ChosenSetting& chosen : of.settings)
+    for (const ChosenSetting& chosen : comparison.settings)
         if (chosen.method == method.name && seen.insert(chosen.setting).second) settings.push_back({&method, keys_in(chosen.setting)});
     return settings;
 }
@@ -276,13 +284,13 @@ void evaluate(const ComparedBody& body, const Setting& setting, Measurements& me
 }
 
 // Against the first member, whose flesh they have.
-void evaluate_starts(const ComparisonCase& of, const ComparedBody& body, Measurements& measurements)
+void evaluate_starts(const ComparisonCase& comparison, const ComparedBody& body, Measurements& measurements)
 {
     const std::vector<std::string> names = start_poses();
     const std::set<std::string> only(names.begin(), names.end());
     for (const OtherStart& start : other_starts()) {
         const ComparedMethod& method = *std::ranges::find(methods(), start.of, &ComparedMethod::name);
-        for (Setting setting : settings_of(of, method)) {
+        for (Setting setting : settings_of(comparison, method)) {
             const std::string text = setting.text();
             setting.keys.insert(setting.keys.end(), start.overrides.begin(), start.overrides.end());
             const PosedShapes posed = body.posed(body.spec(setting, family().front()), false, only);
@@ -297,27 +305,30 @@ void evaluate_starts(const ComparisonCase& of, const ComparedBody& body, Measure
 }
 
 // Two seconds of a clip that end in a compared pose, at 60 frames per second.
-pbs::Motion played_motion(const ComparisonCase& of, const pbs::Skeleton& skeleton)
+pbs::Motion played_motion(const ComparisonCase& comparison, const pbs::Skeleton& skeleton)
 {
-    const Scene scene = read_scene("human_01_01", {"motion.clip=" + of.clip + ".bvh", fmt::format("motion.rate_hz={}", played_rate_hz),
-                                                   fmt::format("pbs.time_step_s={:.17g}", 1.0 / played_rate_hz)});
+    const Scene scene =
+        read_scene("human_01_01", {"motion.clip=" + comparison.clip + ".bvh", fmt::format("motion.rate_hz={}", played_rate_hz),
+                                   fmt::format("pbs.time_step_s={:.17g}", 1.0 / played_rate_hz)});
     return make_motion(scene.motion, skeleton, scene.file);
 }
 
-void play(const ComparisonCase& of, const ComparedBody& body, const Setting& setting, const pbs::Motion& motion, Measurements& measurements)
+void play(const ComparisonCase& comparison, const ComparedBody& body, const Setting& setting, const pbs::Motion& motion,
+          Measurements& measurements)
 {
-    const std::vector<EnsembleMember> all = family();
+    const std::vector<EnsembleMember> members = family();
     std::map<std::string, std::unique_ptr<Deformer>> deformers;
-    for (std::size_t m = 0; m < all.size(); ++m) {
-        if (!is_played(all[m])) continue;
-        const std::unique_ptr<Deformer> deformer = make_deformer(body.spec(setting, all[m]));
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        if (!is_played(members[m])) continue;
+        const std::unique_ptr<Deformer> deformer = make_deformer(body.spec(setting, members[m]));
         deformer->reset(body.character());
         for (std::size_t pose = 0; pose < body.poses().size(); ++pose) {
             const ReferencePose& reference = *body.poses()[pose].pose;
             const int last = static_cast<int>(std::lround(reference.frame * played_rate_hz / reference.scene.motion.rate_hz));
             const auto add = [&](FrameGuess start, const std::vector<double>& samples_ms) {
-                measurements.played.push_back({reference.name, of.clip, setting.method->name, setting.text(), start, all[m].name,
-                                               analysis::median(samples_ms), body.error_joint_pct(pose, m, deformer->positions()),
+                measurements.played.push_back({reference.name, comparison.clip, setting.method->name, setting.text(), start,
+                                               members[m].name, analysis::median(samples_ms),
+                                               body.error_joint_pct(pose, m, deformer->positions()),
                                                body.skin_mm(pose, m, deformer->positions())});
             };
             std::vector<double> samples_ms;
@@ -339,35 +350,39 @@ void play(const ComparisonCase& of, const ComparedBody& body, const Setting& set
 
 }  // namespace
 
-nlohmann::json to_json(const ComparisonCase& of)
+nlohmann::json to_json(const ComparisonCase& comparison)
 {
-    nlohmann::json json = {{"name", of.name}, {"body", of.body}, {"what", name_of(of.what)}, {"clip", of.clip}, {"rounds", of.rounds}};
-    for (const ReferencePose& pose : of.poses)
+    nlohmann::json json = {{"name", comparison.name},
+                           {"body", comparison.body},
+                           {"what", name_of(comparison.what)},
+                           {"clip", comparison.clip},
+                           {"rounds", comparison.rounds}};
+    for (const ReferencePose& pose : comparison.poses)
         json["poses"].push_back({{"name", pose.name},
                                  {"of", option_json(pose.of)},
                                  {"stratum", name_of(pose.stratum)},
                                  {"scene", to_json(pose.scene)},
                                  {"frame", pose.frame}});
-    for (const ChosenSetting& chosen : of.settings) json["settings"].push_back({chosen.budget_ms, chosen.method, chosen.setting});
-    for (const ComparedMethod& method : of.external) json["external"].push_back(to_json(method.external));
+    for (const ChosenSetting& chosen : comparison.settings) json["settings"].push_back({chosen.budget_ms, chosen.method, chosen.setting});
+    for (const ComparedMethod& method : comparison.external) json["external"].push_back(to_json(method.external));
     json["methods"] = cases_document("work_precision");
     return json;
 }
 
-Measurements measure(const ComparisonCase& of)
+Measurements measure(const ComparisonCase& comparison)
 {
-    const ComparedBody body(of);
+    const ComparedBody body(comparison);
     Measurements measurements;
-    for (const ComparedMethod& method : of.external) evaluate(body, {&method}, measurements);
-    if (of.what == Measured::training) train(body, measurements);
+    for (const ComparedMethod& method : comparison.external) evaluate(body, {&method}, measurements);
+    if (comparison.what == Measured::training) train(body, measurements);
     std::optional<pbs::Motion> motion;
-    if (of.what == Measured::played) motion = played_motion(of, body.character().skeleton);
+    if (comparison.what == Measured::played) motion = played_motion(comparison, body.character().skeleton);
     for (const ComparedMethod& method : methods())
-        for (const Setting& setting : settings_of(of, method)) {
-            if (of.what == Measured::evaluation) evaluate(body, setting, measurements);
-            if (of.what == Measured::played) play(of, body, setting, *motion, measurements);
+        for (const Setting& setting : settings_of(comparison, method)) {
+            if (comparison.what == Measured::evaluation) evaluate(body, setting, measurements);
+            if (comparison.what == Measured::played) play(comparison, body, setting, *motion, measurements);
         }
-    if (of.what == Measured::evaluation) evaluate_starts(of, body, measurements);
+    if (comparison.what == Measured::evaluation) evaluate_starts(comparison, body, measurements);
     return measurements;
 }
 

@@ -71,7 +71,7 @@ struct ComparisonCase {
     std::vector<ComparedMethod> external = {};  // deformers of the user's own
     int rounds = 3;                             // timed frames per pose
 };
-nlohmann::json to_json(const ComparisonCase& of);
+nlohmann::json to_json(const ComparisonCase& comparison);
 
 struct Measurements {
     std::vector<PointRow> points = {};
@@ -79,6 +79,6 @@ struct Measurements {
     std::string breakdown = {};  // PBS, LBS or a deformer of the user's own that is not finite
 };
 // InputError as read_references, and where a deformer of the user's own fails.
-Measurements measure(const ComparisonCase& of);
+Measurements measure(const ComparisonCase& comparison);
 
 }  // namespace experiments

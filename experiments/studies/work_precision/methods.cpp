@@ -157,17 +157,17 @@ bool ComparedMethod::is_in(const std::string& table) const
 const std::vector<ComparedMethod>& methods()
 {
     static const std::vector<ComparedMethod> available = [] {
-        std::vector<ComparedMethod> all;
+        std::vector<ComparedMethod> compared_methods;
         for (const nlohmann::json& table : document().at("method"))
-            if (ComparedMethod method = method_in(table); is_available(method)) all.push_back(std::move(method));
-        return all;
+            if (ComparedMethod method = method_in(table); is_available(method)) compared_methods.push_back(std::move(method));
+        return compared_methods;
     }();
     return available;
 }
 
 const std::vector<OtherStart>& other_starts()
 {
-    static const std::vector<OtherStart> all = [] {
+    static const std::vector<OtherStart> other_starts = [] {
         std::vector<OtherStart> starts;
         for (const nlohmann::json& table : document().at("start"))
             starts.push_back({table.at("name"), table.at("of"), table.at("overrides")});
@@ -176,7 +176,7 @@ const std::vector<OtherStart>& other_starts()
         });
         return starts;
     }();
-    return all;
+    return other_starts;
 }
 
 const ComparisonTimes& comparison_times()
@@ -272,12 +272,12 @@ std::vector<ComparedMethod> external_methods(const std::string& file)
     }
     const std::vector<DeformerSpec> entries = listed_deformers(values);
     if (entries.empty()) throw pbs::InputError(file, 0, own, "", "missing: expected at least one [[" + own + "]] table");
-    std::vector<ComparedMethod> all;
+    std::vector<ComparedMethod> compared_methods;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         check_external(values, own + "." + std::to_string(i), entries[i]);
-        all.push_back({.name = entries[i].name, .tables = {"known", "guessed"}, .external = entries[i]});
+        compared_methods.push_back({.name = entries[i].name, .tables = {"known", "guessed"}, .external = entries[i]});
     }
-    return all;
+    return compared_methods;
 }
 
 double neutral_length(double k, const std::vector<double>& edge_lengths_m)

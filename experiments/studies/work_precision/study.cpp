@@ -16,11 +16,11 @@ namespace experiments {
 namespace {
 
 // The reference of each pose again, so that the folder has all that the tables are computed from.
-std::vector<OwnErrorRow> own_errors(const ComparisonCase& of)
+std::vector<OwnErrorRow> own_errors(const ComparisonCase& comparison)
 {
-    const pbs::Character character = pbs::make_character(of.poses.front().scene.character);
+    const pbs::Character character = pbs::make_character(comparison.poses.front().scene.character);
     std::vector<OwnErrorRow> rows;
-    for (const ReferencePose& pose : of.poses)
+    for (const ReferencePose& pose : comparison.poses)
         for (const KeptReference& reference : read_references(pose.name, character, bones_in(pose, character.skeleton)).members) {
             const double own_pct = reference.own_error_pct();
             rows.push_back({pose.name, pose.of.body, pose.stratum, reference.member.name, reference.outcome,
@@ -29,28 +29,28 @@ std::vector<OwnErrorRow> own_errors(const ComparisonCase& of)
     return rows;
 }
 
-std::string measure_and_record(const ComparisonCase& of, const std::string& folder)
+std::string measure_and_record(const ComparisonCase& comparison, const std::string& folder)
 {
-    const Measurements measurements = measure(of);
+    const Measurements measurements = measure(comparison);
     const auto path = [&](const char* name) { return analysis::path_in(folder, name); };
-    if (of.what == Measured::played)
+    if (comparison.what == Measured::played)
         table_of(played_columns, measurements.played).write(path("played.csv"));
     else
-        table_of(point_columns, measurements.points).write(path(of.what == Measured::training ? "training.csv" : "points.csv"));
-    if (of.what == Measured::evaluation) table_of(own_error_columns, own_errors(of)).write(path("references.csv"));
+        table_of(point_columns, measurements.points).write(path(comparison.what == Measured::training ? "training.csv" : "points.csv"));
+    if (comparison.what == Measured::evaluation) table_of(own_error_columns, own_errors(comparison)).write(path("references.csv"));
     return measurements.breakdown;
 }
 
-bool is_measured(const ReferencePose& pose, const ComparisonCase& of)
+bool is_measured(const ReferencePose& pose, const ComparisonCase& comparison)
 {
-    if (pose.of.body != of.body) return false;
-    switch (of.what) {
+    if (pose.of.body != comparison.body) return false;
+    switch (comparison.what) {
         case Measured::training:
             return pose.stratum == Stratum::training;
         case Measured::evaluation:
             return pose.stratum == Stratum::movement || pose.stratum == Stratum::fold;
         case Measured::played:
-            return pose.stratum == Stratum::played && pose.of.motion == of.clip;
+            return pose.stratum == Stratum::played && pose.of.motion == comparison.clip;
     }
     return false;
 }
@@ -61,17 +61,18 @@ StudyPlan plan_of(bool full, const std::vector<ComparedMethod>& external)
     const std::vector<ReferencePose> poses = reference_poses();
     const std::vector<double>& shown_ms = comparison_times().tables_ms;
     return plan_of_cases("work_precision", full, [&](const StudyCase& in_file, StudyPlan& plan) {
-        ComparisonCase of{.name = in_file.name, .body = in_file.value<std::string>("body")};
-        require_kept_tets(of.body);
-        of.what = option_of<Measured>(in_file.value<std::string>("what"));
-        of.clip = in_file.value<std::string>("clip", "");
+        ComparisonCase comparison{.name = in_file.name, .body = in_file.value<std::string>("body")};
+        require_kept_tets(comparison.body);
+        comparison.what = option_of<Measured>(in_file.value<std::string>("what"));
+        comparison.clip = in_file.value<std::string>("clip", "");
         for (const ReferencePose& pose : poses)
-            if (is_measured(pose, of)) of.poses.push_back(pose);
+            if (is_measured(pose, comparison)) comparison.poses.push_back(pose);
         for (const ChosenSetting& chosen : kept_settings())
-            if (of.what == Measured::played || !full ? std::ranges::count(shown_ms, chosen.budget_ms) > 0 : of.what == Measured::evaluation)
-                of.settings.push_back(chosen);
-        if (of.what == Measured::evaluation) of.external = external;
-        plan.runs.push_back(work_run(in_file.name, of, in_file.cost_s, measure_and_record));
+            if (comparison.what == Measured::played || !full ? std::ranges::count(shown_ms, chosen.budget_ms) > 0
+                                                             : comparison.what == Measured::evaluation)
+                comparison.settings.push_back(chosen);
+        if (comparison.what == Measured::evaluation) comparison.external = external;
+        plan.runs.push_back(work_run(in_file.name, comparison, in_file.cost_s, measure_and_record));
     });
 }
 

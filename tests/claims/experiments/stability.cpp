@@ -221,15 +221,13 @@ TEST(StabilityVerdict, WhatMovesToTheEndIsNotAtRest)
 // Without jiggle the time step has no effect, so that sweep holds for any method and is not a value of the claim.
 TEST(StabilityVerdict, TimeStepsThatDoNotEnterAreNotCounted)
 {
-    for (const bool full : {false, true}) {
-        int controls = 0;
-        for (const StabilityCell& cell : stability_cells("pbs", full)) {
-            EXPECT_FALSE(cell.factor == "time_step" && cell.as_published);
-            controls += cell.model == "pbs_no_memory";
-        }
-        EXPECT_GT(controls, 0);
+    int controls = 0;
+    for (const StabilityCell& cell : stability_cells("pbs")) {
+        EXPECT_FALSE(cell.factor == "time_step" && cell.as_published);
+        controls += cell.model == "pbs_no_memory";
     }
-    for (const StabilityCell& cell : stability_cells("pbs_jiggle", false)) EXPECT_TRUE(cell.factor != "time_step" || cell.as_published);
+    EXPECT_GT(controls, 0);
+    for (const StabilityCell& cell : stability_cells("pbs_jiggle")) EXPECT_TRUE(cell.factor != "time_step" || cell.as_published);
 }
 
 // C08 from cells of a jiggling limb with a distorted initial state, with the correct solver and with broken ones. Reference:
@@ -265,7 +263,7 @@ struct Held {
 Held held(bool jiggle, Broken how)
 {
     std::vector<MeasuredCell> measured;
-    for (StabilityCell cell : chosen(stability_cells(jiggle ? "pbs_jiggle" : "pbs", false), "start")) {
+    for (StabilityCell cell : chosen(stability_cells(jiggle ? "pbs_jiggle" : "pbs"), "start")) {
         options_of<pbs::PbsOptions>(cell.spec) = broken(options_of<pbs::PbsOptions>(cell.spec), how);
         measured.push_back({cell, run_cell(cell)});
     }
@@ -300,7 +298,7 @@ TEST(BrokenStability, TheSignTurnedRoundAndNothingProjectedRunAwayAndOneClassLes
 TEST(BrokenStability, ForgottenMultipliersRunAwayNowhereAndAreNoPartOfTheClaim)
 {
     std::vector<MeasuredCell> measured;
-    for (StabilityCell cell : chosen(stability_cells("xpbd", false), "start"))
+    for (StabilityCell cell : chosen(stability_cells("xpbd"), "start"))
         for (const bool keep : {true, false}) {
             options_of<pbs::XpbdOptions>(cell.spec).keep_multipliers = keep;
             measured.push_back({cell, run_cell(cell)});

@@ -108,7 +108,7 @@ analysis::Records limb_twist(Broken how, const std::string& weights = "paper")
         experiments::read_scene("limb_twist", {"character.vertices=400", "motion.frames=7", "output.frames_every=0", R"(reference.name="")",
                                                R"(deformers.use=["lbs", "pbs"])", "skinning.weights=\"" + weights + "\""});
     experiments::StudyPlan plan;
-    plan.runs.push_back({.name = "limb_twist", .scene = broken(scene, how), .cost_s = 1.0});
+    plan.runs.push_back({.name = "limb_twist", .scene = broken(scene, how), .motion = "twist", .cost_s = 1.0});
     return records_of(plan);
 }
 

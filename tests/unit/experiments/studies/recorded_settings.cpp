@@ -140,7 +140,7 @@ TEST(RecordedSettings, OfTheOtherStudies)
     StabilityCell cell;
     cell.spec = default_spec("pbs");
     EXPECT_GE(expect_each_change_repeats(cell), 28);
-    EXPECT_GE(expect_each_change_repeats(StiffnessSweep{.body = "limb"}), 6);
+    EXPECT_GE(expect_each_change_repeats(StiffnessSweep{.body = "limb"}), 5);
     const StiffnessSetting stiffness;
     test_support::for_each_change(stiffness, [&](const StiffnessSetting& changed, const std::string& what) {
         EXPECT_NE(to_json(changed), to_json(stiffness)) << what;

@@ -91,6 +91,23 @@ TEST(StudyRecords, ARecordIsOfTheBodyAndMotionThatThePlanGives)
     EXPECT_EQ(records.cases[0].place.motion, "01_03");
 }
 
+// The plan names a motion by its clip, its movements or, for a sweep, by the name in the case. Nothing is guessed.
+TEST(StudyRecords, ASweepHasTheNameOfItsCase)
+{
+    const ScratchFolder root;
+    StudyRun sweep{.name = "bend", .scene = read_scene("limb_bend", {}), .motion = "bend"};
+    const auto motion_of = [&](const StudyRun& run) {
+        StudyPlan plan;
+        plan.runs.push_back(run);
+        write_study_plan(root / "volume", plan);
+        return nlohmann::json::parse(analysis::read_text(root / "volume/plan.json")).at("runs").at(0).at("of").at("motion");
+    };
+    EXPECT_EQ(motion_of(sweep), "bend");
+    EXPECT_EQ(motion_of({.name = "a walk", .scene = walk()}), "01_03");
+    sweep.motion.clear();
+    EXPECT_THROW(motion_of(sweep), std::logic_error);
+}
+
 // Reference: the contents written to run.json.
 
 class MarkedFrames : public testing::Test {

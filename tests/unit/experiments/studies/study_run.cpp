@@ -1,11 +1,13 @@
 // Pieces of work in their folders. Reference: the contract of the header: run.json is written last, and only for a run that ended.
 
 #include "analysis/records/record_files.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/scene/movements.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/solver/options.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -182,7 +184,6 @@ TEST(StudyCases, HaveTheKeysAndTheCostOfTheirForm)
     for (const bool full : {false, true}) {
         std::vector<std::string> rings;
         plan_of_cases("setup", full, [&](const StudyCase& of, StudyPlan&) {
-            EXPECT_TRUE(of.full) << "each of its cases is measured in the default form as in the full one";
             EXPECT_EQ(of.value<double>("rate_hz"), 100.0);
             EXPECT_EQ(of.value<std::string>("deformer", "pbs_author"), "pbs_author");
             if (of.name == "ring") {
@@ -194,12 +195,51 @@ TEST(StudyCases, HaveTheKeysAndTheCostOfTheirForm)
         EXPECT_EQ(std::ranges::count(rings, "ring_by_the_author ring"), full ? 1 : 0) << "it has no quick_s";
         plan_of_cases("volume", full, [&](const StudyCase& of, StudyPlan&) {
             if (of.name == "limb_twist") {
-                EXPECT_EQ(of.full, full);
                 EXPECT_EQ(of.cost_s, full ? 72.0 : 9.0);
+                EXPECT_EQ(of.scene().deformers.size(), full ? 9u : 4u);
             }
-            for (const char* key : {"scene", "overrides", "add", "goes_on", "beside", "k_in_zone", "through_movements"}) of.has(key);
+            for (const char* key : {"scene", "overrides", "motion", "add", "goes_on", "beside", "k_in_zone", "through_movements"})
+                of.has(key);
         });
     }
+}
+
+// The overrides of a form follow those that both forms have in common.
+TEST(StudyCases, AddTheOverridesOfAFormToThoseOfTheCase)
+{
+    for (const bool full : {false, true}) {
+        int bends = 0;
+        plan_of_cases("frames", full, [&](const StudyCase& study_case, StudyPlan&) {
+            study_case.values();  // which counts all keys as read
+            if (study_case.name != "limb_bend") return;
+            ++bends;
+            const Scene scene = study_case.scene();
+            EXPECT_EQ(scene.motion.angle_deg, full ? 150.0 : 110.0);
+            EXPECT_EQ(scene.reference, "nh_p1");
+            EXPECT_EQ(scene.deformers.size(), 4u);
+        });
+        EXPECT_EQ(bends, 1);
+    }
+}
+
+// A deformer that a study adds is that of the case's scene, except for what its table states.
+TEST(StudyCases, AddPbsWithOtherSettings)
+{
+    const StudyCase bend("made_up", {{"name", "bend"}, {"quick_s", 1.0}, {"scene", "limb_bend"}, {"overrides", {"pbs.k_volume=0.5"}}},
+                         false);
+    const Scene scene = bend.scene();
+    const DeformerSpec own = *find_deformer_with<pbs::PbsOptions>(scene);
+    DeformerSpec spec = bend.further_pbs({{"label", "pbs_other"}, {"overrides", {"pbs.iterations=7"}}}, {"pbs.jiggle.k_stretch=0.3"});
+    EXPECT_EQ(spec.name, "pbs");
+    EXPECT_EQ(spec.label, "pbs_other");
+    EXPECT_EQ(spec.variant, "jiggle");
+    auto& options = options_of<pbs::PbsOptions>(spec);
+    EXPECT_EQ(options.iterations, 7);
+    EXPECT_EQ(options.jiggle->k_stretch, 0.3);
+    options.iterations = options_of<pbs::PbsOptions>(own).iterations;
+    options.jiggle.reset();
+    EXPECT_EQ(to_json(spec).at("options"), to_json(own).at("options"));
+    EXPECT_EQ(bend.further_pbs({{"label", "b"}, {"name", "pbs_orders"}, {"variant", "a"}}).name, "pbs_orders");
 }
 
 TEST(StudyCases, LeaveOutABodyWithAllOfItsCases)

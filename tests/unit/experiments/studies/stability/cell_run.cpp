@@ -68,9 +68,9 @@ TEST(CellRun, WhatNothingDisturbsStaysAtRestAndThePrintedSignDiverges)
         ADD_FAILURE() << "no cell of " << model;
         return StabilityOutcome::bounded;
     };
-    EXPECT_EQ(outcome_of(stability_cells("controls", false), "pbs_undisturbed", 1.0), StabilityOutcome::converged);
-    EXPECT_EQ(outcome_of(stability_cells("pbs_character", false, "human"), "pbs_undisturbed", 0.1), StabilityOutcome::converged);
-    EXPECT_EQ(outcome_of(stability_cells("controls", false), "pbs_printed_sign", 0.01), StabilityOutcome::diverged);
+    EXPECT_EQ(outcome_of(stability_cells("controls"), "pbs_undisturbed", 1.0), StabilityOutcome::converged);
+    EXPECT_EQ(outcome_of(stability_cells("pbs_character", "human"), "pbs_undisturbed", 0.1), StabilityOutcome::converged);
+    EXPECT_EQ(outcome_of(stability_cells("controls"), "pbs_printed_sign", 0.01), StabilityOutcome::diverged);
 }
 
 // The square of 1e25 m is not representable in f32, but it is in f64.

@@ -1,8 +1,8 @@
 // Reference: the requirements on a sweep; a cell counts for the claim if its base and all its factors are the paper's.
 
+#include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
-#include "pbs/author/author_solver.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <gtest/gtest.h>
@@ -14,52 +14,93 @@ namespace {
 
 using namespace experiments;
 
-StabilityCell pbs_cell()
+pbs::PbsOptions pbs_of(const StabilityCell& cell)
 {
-    StabilityCell cell;
-    cell.spec = default_spec("pbs");
-    return cell;
+    return options_of<pbs::PbsOptions>(cell.spec);
 }
 
-Sweep iterations(bool as_published)
+// The cells of a list that vary this factor alone, of one model and precision.
+std::vector<StabilityCell> swept(const std::string& list, const std::string& factor, const std::string& model, const std::string& precision)
 {
-    return {"iterations",
-            "1",
-            {24.0, 1.0},
-            {4.0},
-            [](StabilityCell& cell, double n) { options_of<pbs::PbsOptions>(cell.spec).iterations = int(n); },
-            as_published};
+    std::vector<StabilityCell> cells = stability_cells(list);
+    std::erase_if(cells, [&](const StabilityCell& cell) {
+        return cell.factor != factor || !cell.second_factor.empty() || cell.model != model || precision_of(cell) != precision;
+    });
+    EXPECT_GE(cells.size(), 2u) << factor;
+    return cells;
 }
 
-Sweep mass_ratio(bool as_published)
+// Each value reaches the setting that its factor names, and no other setting of PBS.
+TEST(CellSweep, SetsWhatItsFactorNames)
 {
-    return {"mass_ratio", "1", {10.0, 100.0}, {}, [](StabilityCell& cell, double ratio) { cell.mass_ratio = ratio; }, as_published};
+    struct Varied {
+        const char* factor;
+        double (*set)(const pbs::PbsOptions& options);
+        void (*reset)(pbs::PbsOptions& options);
+    };
+    const Varied factors[] = {
+        {"k_stretch", [](const auto& options) { return options.k_stretch == options.jiggle->k_stretch ? options.k_stretch : -1.0; },
+         [](auto& options) { options.k_stretch = options.jiggle->k_stretch = 0.2; }},
+        {"k_volume", [](const auto& options) { return options.k_volume; }, [](auto& options) { options.k_volume = 1.0; }},
+        {"k_bind", [](const auto& options) { return options.k_bind; }, [](auto& options) { options.k_bind = 1.0; }},
+        {"iterations", [](const auto& options) { return double(options.iterations); }, [](auto& options) { options.iterations = 24; }},
+        {"gravity", [](const auto& options) { return options.gravity_m_s2.y() / -9.81; },
+         [](auto& options) { options.gravity_m_s2.y() = -9.81; }}};
+    DeformerSpec base = swept("pbs_jiggle", "twist", "pbs_jiggle", "f64").front().spec;
+    for (const auto& [factor, set, reset] : factors) {
+        double before = -1.0;
+        for (const StabilityCell& cell : swept("pbs_jiggle", factor, "pbs_jiggle", "f64")) {
+            EXPECT_DOUBLE_EQ(set(pbs_of(cell)), cell.value) << factor;
+            EXPECT_GT(cell.value, before) << factor;
+            before = cell.value;
+            DeformerSpec others = cell.spec;
+            reset(options_of<pbs::PbsOptions>(others));
+            EXPECT_EQ(to_json(others), to_json(base)) << factor;
+        }
+    }
 }
 
-TEST(CellSweep, HasItsValuesInOrderAndAMapIsAsPublishedWhereAllOfItIs)
+// The named values, on which a cell's own factors and overrides depend, are those of the options.
+TEST(CellSweep, NamesTheValuesThatAreNoNumbers)
 {
-    const auto quick = cells_of(iterations(true), pbs_cell(), false), full = cells_of(iterations(true), pbs_cell(), true);
-    ASSERT_EQ(quick.size(), 2u);
-    ASSERT_EQ(full.size(), 3u);
-    EXPECT_EQ(options_of<pbs::PbsOptions>(full[1].spec).iterations, 4);
-    EXPECT_EQ(full[1].value, 4.0);
-    for (const bool base : {false, true})
-        for (const bool rows : {false, true})
-            for (const bool columns : {false, true}) {
-                StabilityCell from = pbs_cell();
-                from.as_published = base;
-                const auto cells = cells_of_map(iterations(rows), mass_ratio(columns), from, false);
-                ASSERT_EQ(cells.size(), 4u);
-                for (const StabilityCell& cell : cells) EXPECT_EQ(cell.as_published, base && rows && columns);
-                EXPECT_EQ(options_of<pbs::PbsOptions>(cells[1].spec).iterations, 1);
-                EXPECT_EQ(cells[1].mass_ratio, 100.0);
-            }
+    for (const StabilityCell& cell : swept("pbs", "order", "pbs", "f32")) EXPECT_EQ(cell.named, name_of(pbs_of(cell).order));
+    for (const StabilityCell& cell : swept("pbs", "start", "pbs", "f32")) EXPECT_EQ(cell.named, name_of(cell.disturbance.start));
+    for (const StabilityCell& cell : swept("controls", "printed_form", "pbs", "f64")) {
+        EXPECT_EQ(cell.named, name_of(pbs_of(cell).volume_form));
+        EXPECT_NE(cell.named, name_of(pbs::VolumeForm::derived));
+    }
+}
+
+// A map has each pair of values. It is as published where its base and both of its factors are.
+TEST(CellSweep, AMapHasEachPairOfValues)
+{
+    std::set<std::pair<double, double>> pairs;
+    std::set<double> time_steps, stiffnesses;
+    for (const StabilityCell& cell : stability_cells("pbs_maps")) {
+        EXPECT_TRUE(cell.as_published);
+        if (cell.factor != "time_step") continue;
+        EXPECT_EQ(cell.second_factor, "k_stretch");
+        EXPECT_EQ(cell.time_step_s, cell.value);
+        EXPECT_EQ(pbs_of(cell).k_stretch, cell.second_value);
+        EXPECT_TRUE(pairs.emplace(cell.value, cell.second_value).second) << "twice";
+        time_steps.insert(cell.value), stiffnesses.insert(cell.second_value);
+    }
+    EXPECT_EQ(pairs.size(), time_steps.size() * stiffnesses.size());
+    EXPECT_GE(stiffnesses.size(), 5u);
+}
+
+TEST(CellSweep, IsAsPublishedWhereItsBaseAndItsFactorAre)
+{
+    for (const StabilityCell& cell : stability_cells("pbs")) {
+        const bool is_factor_published = cell.factor != "mass_ratio" && cell.factor != "held_end";
+        EXPECT_EQ(cell.as_published, is_factor_published && cell.model == "pbs") << cell.factor;
+    }
 }
 
 // --resume compares to_json; setting_of identifies shared undisturbed states.
 TEST(CellSweep, ARecordTellsWhatACellStandsForAndItsSettingDoesNot)
 {
-    StabilityCell cell = cells_of_map(iterations(true), mass_ratio(true), pbs_cell(), false).front();
+    const StabilityCell cell = stability_cells("pbs_maps").front();
     StabilityCell judged = cell;
     judged.as_published = !cell.as_published;
     std::vector<StabilityCell> on_record_alone = {judged};
@@ -90,18 +131,16 @@ TEST(PbsCells, AreJudgedInThePapersOrderAndHaveTheirControls)
         return cell.as_published && precision_of(cell) == "f64" && options_of<pbs::PbsOptions>(cell.spec).order == pbs::Order::plain;
     };
     const auto is_undisturbed = [](const StabilityCell& cell) { return cell.model == "pbs_undisturbed"; };
-    for (const bool full : {false, true}) {
-        std::vector<StabilityCell> limb = stability_cells("pbs_jiggle", full);
-        append(limb, stability_cells("pbs", full));
-        EXPECT_EQ(factors_where(stability_cells("controls", full), is_undisturbed), factors_where(limb, is_judged));
-        EXPECT_GE(
-            factors_where(stability_cells("controls", full), [](const auto& cell) { return cell.model == "pbs_printed_sign"; }).size(), 5u);
-        for (const StabilityCell& cell : stability_cells("controls", full)) EXPECT_FALSE(cell.as_published) << cell.model;
-        const std::vector<StabilityCell> lady = stability_cells("pbs_character", full, "lady");
-        EXPECT_EQ(factors_where(lady, is_undisturbed), factors_where(lady, is_judged));
-        for (const StabilityCell& cell : lady) EXPECT_NE(cell.as_published, is_undisturbed(cell));
-        EXPECT_TRUE(std::ranges::any_of(lady, [&](const auto& cell) { return is_judged(cell) && cell.time_step_s >= 0.05; }));
-    }
+    std::vector<StabilityCell> limb = stability_cells("pbs_jiggle");
+    append(limb, stability_cells("pbs"));
+    const std::vector<StabilityCell> controls = stability_cells("controls");
+    EXPECT_EQ(factors_where(controls, is_undisturbed), factors_where(limb, is_judged));
+    EXPECT_GE(factors_where(controls, [](const auto& cell) { return cell.model == "pbs_printed_sign"; }).size(), 5u);
+    for (const StabilityCell& cell : controls) EXPECT_FALSE(cell.as_published) << cell.model;
+    const std::vector<StabilityCell> lady = stability_cells("pbs_character", "lady");
+    EXPECT_EQ(factors_where(lady, is_undisturbed), factors_where(lady, is_judged));
+    for (const StabilityCell& cell : lady) EXPECT_NE(cell.as_published, is_undisturbed(cell));
+    EXPECT_TRUE(std::ranges::any_of(lady, [&](const auto& cell) { return is_judged(cell) && cell.time_step_s >= 0.05; }));
 }
 
 // The deformers that are compared with PBS in the study of stability. Reference: the list of methods and of extreme cases that the study
@@ -122,7 +161,7 @@ std::set<std::string> factors_of(const std::vector<StabilityCell>& cells, const 
 
 StabilityCell cell_with(const std::string& model, const std::string& factor, double value)
 {
-    for (const StabilityCell& cell : stability_cells("other_deformers", true))
+    for (const StabilityCell& cell : stability_cells("other_deformers"))
         if (cell.model == model && cell.factor == factor && cell.value == value) return cell;
     ADD_FAILURE() << "no cell of " << model << " with " << factor << " = " << value;
     return {};
@@ -130,7 +169,7 @@ StabilityCell cell_with(const std::string& model, const std::string& factor, dou
 
 StabilityCell start_of(const std::string& model, Start start, const std::string& setting, double value)
 {
-    for (const StabilityCell& cell : stability_cells("broken_starts", true))
+    for (const StabilityCell& cell : stability_cells("broken_starts"))
         if (cell.model == model && cell.disturbance.start == start && cell.second_factor == setting &&
             (setting.empty() ? cell.disturbance.axis == pbs::Vec3::UnitX() : cell.second_value == value))
             return cell;
@@ -143,37 +182,33 @@ TEST(OtherCells, EveryDeformerHasEveryExtremeCase)
 {
     std::set<std::string> kinds = minimising_kinds;
     kinds.insert(other_kinds.begin(), other_kinds.end());
-    for (const bool full : {false, true}) {
-        const std::vector<StabilityCell> cells = stability_cells("other_deformers", full);
-        std::set<std::string> models;
-        for (const StabilityCell& cell : cells) {
-            models.insert(cell.model);
-            EXPECT_FALSE(cell.as_published) << cell.model;
-        }
-        EXPECT_EQ(models, kinds);
-        for (const std::string& model : kinds) {
-            const std::set<std::string> factors = factors_of(cells, model);
-            for (const char* factor : {"time_step", "twist", "bend_in_one_step", "teleport", "slivers_height_kept", "needles_edge_kept"})
-                EXPECT_TRUE(factors.count(factor)) << model << ", " << factor;
-            EXPECT_EQ(factors.count("poisson"), minimising_kinds.count(model)) << model;
-        }
-        EXPECT_TRUE(factors_of(cells, "pbs_author").count("own_time_step"));
+    const std::vector<StabilityCell> cells = stability_cells("other_deformers");
+    std::set<std::string> models;
+    for (const StabilityCell& cell : cells) {
+        models.insert(cell.model);
+        EXPECT_FALSE(cell.as_published) << cell.model;
     }
+    EXPECT_EQ(models, kinds);
+    for (const std::string& model : kinds) {
+        const std::set<std::string> factors = factors_of(cells, model);
+        for (const char* factor : {"time_step", "twist", "bend_in_one_step", "teleport", "slivers_height_kept", "needles_edge_kept"})
+            EXPECT_TRUE(factors.count(factor)) << model << ", " << factor;
+        EXPECT_EQ(factors.count("poisson"), minimising_kinds.count(model)) << model;
+    }
+    EXPECT_TRUE(factors_of(cells, "pbs_author").count("own_time_step"));
 }
 
 // Each minimising deformer has each broken start, and each other deformer states why it has none.
 TEST(OtherCells, EveryDeformerHasItsBrokenStarts)
 {
-    for (const bool full : {false, true}) {
-        std::set<std::pair<std::string, Start>> found, expected;
-        for (const StabilityCell& cell : stability_cells("broken_starts", full)) {
-            EXPECT_FALSE(cell.as_published) << cell.model;
-            if (cell.second_factor.empty()) found.insert({cell.model, cell.disturbance.start});
-        }
-        for (const std::string& model : minimising_kinds)
-            for (const Start start : {Start::flattened, Start::mirrored, Start::random, Start::point}) expected.insert({model, start});
-        EXPECT_EQ(found, expected);
+    std::set<std::pair<std::string, Start>> starts, expected;
+    for (const StabilityCell& cell : stability_cells("broken_starts")) {
+        EXPECT_FALSE(cell.as_published) << cell.model;
+        if (cell.second_factor.empty()) starts.insert({cell.model, cell.disturbance.start});
     }
+    for (const std::string& model : minimising_kinds)
+        for (const Start start : {Start::flattened, Start::mirrored, Start::random, Start::point}) expected.insert({model, start});
+    EXPECT_EQ(starts, expected);
     std::set<std::string> without;
     for (const StartRow& row : starts_not_applicable()) {
         EXPECT_EQ(row.outcome, StartOutcome::not_applicable);
@@ -186,7 +221,7 @@ TEST(OtherCells, EveryDeformerHasItsBrokenStarts)
 // One cell stands for all time steps of a method, which is right only if no time step changes a bit.
 TEST(OtherCells, AMethodWithOneTimeStepCellUsesNone)
 {
-    for (const StabilityCell& cell : stability_cells("other_deformers", false)) {
+    for (const StabilityCell& cell : stability_cells("other_deformers")) {
         if (cell.factor != "time_step") continue;
         EXPECT_EQ(cell.named, "not_used") << cell.model;
         const auto after_a_step = [&](double time_step_s) {

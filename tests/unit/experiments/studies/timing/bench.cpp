@@ -90,7 +90,7 @@ TEST(BenchBody, IsTwistedByNinetyDegreesFromTheHeldEnd)
     }
 }
 
-pbs::Residuals settled(const ProjectionVariant& variant, int iterations = iterations_per_step)
+pbs::Residuals settled(const ProjectionVariant& variant, int iterations = paper_iterations)
 {
     variant.loops.load();
     for (int i = 0; i < iterations; ++i) variant.loops.bind(), variant.loops.stretch(), variant.loops.volume();

@@ -15,7 +15,7 @@ using analysis::StabilityOutcome;
 // equilibria.
 StabilityCell cell_of(const std::string& model, Start start)
 {
-    for (StabilityCell cell : stability_cells("fem_static", false)) {
+    for (StabilityCell cell : stability_cells("fem_static")) {
         options_of<FemOptions>(cell.spec).attachment = FemAttachment::embedded;
         if (cell.model == model && cell.disturbance.start == start) return cell;
     }
