@@ -308,7 +308,6 @@ int export_references(const ExportArguments& arguments)
     {
         Progress progress("exporting", static_cast<int>(poses.size()));
         for (const ReferencePose& pose : poses) {
-            stop_if_interrupted();
             try {
                 folder.add(pose);
             } catch (const pbs::InputError& error) {

@@ -152,7 +152,7 @@ CaseMotion read_motion(const Scene& scene, pbs::Character& character, RunRemarks
     return motion;
 }
 
-// [s] of finished frames whose rows an interruption in the middle of a long step may lose.
+// [s] of finished frames whose rows an interruption may lose.
 constexpr double longest_loss_s = 1.0;
 
 class SceneRun {
@@ -227,6 +227,9 @@ private:
 
     void play()
     {
+        const bool finishes_early = when_interrupted_ == WhenInterrupted::finish_early;
+        std::optional<NotedInterrupts> noted;
+        if (finishes_early) noted.emplace();
         std::vector<pbs::Pose> frames;
         for (std::size_t step = 0; step < motion_.steps.size(); step += motion_.steps_per_frame) frames.push_back(motion_.steps[step]);
         if (scene_.reference_seconds > 0.0)
@@ -237,11 +240,10 @@ private:
                        [&] { runner.deformer->foresee(runner.deformer->has_memory() ? motion_.steps : frames); });
         if (const SpreadReference::Outcome* spread = spread_reference(); spread && spread->with_contact)
             options_of<FemOptions>(runners_.front().spec).contact = false;
-        const bool finishes_early = when_interrupted_ == WhenInterrupted::finish_early;
         if (finishes_early) runners_.front().deformer->give_up_when(interrupted);
         if (finishes_early && error_bar_) error_bar_->give_up_when(interrupted);
         Progress progress(scene_.name, static_cast<int>(motion_.steps.size()));
-        std::optional<pbs::Stage> stage;  // which would end the program within a second of an interruption
+        std::optional<pbs::Stage> stage;
         if (!finishes_early) stage.emplace(fmt::format("moving {} through {} frames", scene_.name, frames.size()));
         pbs::Stopwatch since_tables;
         for (std::size_t step = 0; step < motion_.steps.size(); ++step) {
@@ -260,7 +262,7 @@ private:
                 return;
             }
             if (is_frame) record_frame(static_cast<int>(step / motion_.steps_per_frame), step);
-            if (since_tables.seconds() > longest_loss_s) {
+            if (since_tables.seconds() > longest_loss_s || (is_frame && frames_ == 1)) {
                 folder_.write_tables(false);
                 since_tables = {};
             }

@@ -169,7 +169,6 @@ const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs
     std::vector<std::pair<double, double>> motions;
     made.animations = nlohmann::json::array();
     for (const pbs::RigAnimation& animation : animations) {
-        stop_if_interrupted();
         motions.push_back(motion_of(rig, body, animation));
         made.animations.push_back({{"name", animation.name},
                                    {"duration_s", animation.end_s - animation.start_s},

@@ -1,7 +1,7 @@
 #include "pbs/rig/rig_reader.hpp"
 
-#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/content_format.hpp"
+#include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/rig/rig_formats.hpp"

@@ -1,7 +1,7 @@
 #include "experiments/command_line/measure/frame_points.hpp"
 
 #include "analysis/metrics/frame_metrics.hpp"
-#include "pbs/geometry/child_process.hpp"
+#include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 
