@@ -114,13 +114,25 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const std::string& path, Reader& re
     return grid;
 }
 
+// From the bytes of the file, except one whose pieces are files of their own.
+void set_source(const std::string& path, vtkXMLPUnstructuredGridReader& reader)
+{
+    reader.SetFileName(path.c_str());
+}
+
+void set_source(const std::string& path, vtkXMLReader& reader)
+{
+    reader.ReadFromInputStringOn();
+    reader.SetInputString(read_text_file(path, most_mesh_bytes));
+}
+
 // Without the arrays of points and cells, whose defects are no matter here, except the one that marks what pieces share.
 template <typename Reader>
 vtkSmartPointer<vtkUnstructuredGrid> xml_grid(const std::string& path)
 {
     collect_messages();
     vtkNew<Reader> reader;
-    reader->SetFileName(path.c_str());
+    set_source(path, *reader.Get());
     reader->UpdateInformation();
     reader->GetPointDataArraySelection()->DisableAllArrays();
     reader->GetCellDataArraySelection()->DisableAllArrays();
@@ -133,7 +145,7 @@ template <typename XmlReader>
 vtkSmartPointer<vtkDataObject> data_of(const std::string& path, XmlReader& reader, const std::string& array)
 {
     collect_messages();
-    reader.SetFileName(path.c_str());
+    set_source(path, reader);
     reader.UpdateInformation();
     reader.GetCellDataArraySelection()->DisableAllArrays();
     if (!array.empty()) {
@@ -155,7 +167,9 @@ vtkSmartPointer<vtkDataObject> read_data(const std::string& path, const std::str
         reader->ReadAllNormalsOn();
         reader->ReadAllFieldsOn();
         collect_messages();
-        reader->SetFileName(path.c_str());
+        reader->SetFileName(path.c_str());  // for its messages
+        reader->ReadFromInputStringOn();
+        reader->SetInputString(read_text_file(path, most_mesh_bytes));
         reader->Update();
         throw_if_any_message(path);
         return reader->GetOutput();

@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -18,6 +19,7 @@
 #include <functional>
 #include <new>
 #include <stdexcept>
+#include <thread>
 
 namespace {
 
@@ -32,15 +34,30 @@ TEST(GuardedReading, ReadsInAChildAndThenHere)
 {
     int reads_here = 0;
     const auto read = [&](const std::string& path) { return path + std::to_string(++reads_here); };
-    EXPECT_EQ(pbs::read_guarded("x", read), "x1") << "what the child did stays in the child";
+    EXPECT_EQ(pbs::read_guarded("x", "reader", read), "x1") << "what the child did stays in the child";
     EXPECT_EQ(reads_here, 1);
     const auto dying = [&](const std::string&) -> int {
         ++reads_here;
         std::raise(SIGABRT);
         return 1;
     };
-    EXPECT_THROW(pbs::read_guarded("x", dying), pbs::InputError);
+    EXPECT_THROW(pbs::read_guarded("x", "dying reader", dying), pbs::InputError);
     EXPECT_EQ(reads_here, 1) << "read here although the child died";
+}
+
+TEST(GuardedReading, TriesTheSameBytesOnceForEachReader)
+{
+    const test_support::ScratchFolder folder;
+    const std::string path = folder.file("x.vtu", "bytes"), tries = folder.file("tries", "");
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // a file that was just written may change without a new time
+    const auto read = [&](const std::string&) {
+        std::ofstream(tries, std::ios::app) << "x";
+        return 1;
+    };
+    const pbs::SourceFile file(path);
+    EXPECT_EQ(file.text(), "bytes");
+    for (const char* reader : {"first", "second", "first", "second"}) pbs::read_guarded(path, reader, read);
+    EXPECT_EQ(std::filesystem::file_size(tries), 6u) << "four times here, and twice in a child";
 }
 
 TEST(GuardedReading, WhatTheReaderThrowsComesBack)
