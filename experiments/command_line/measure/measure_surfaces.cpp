@@ -119,9 +119,9 @@ public:
                 arguments_.rest, gap_pct, gap_frame_)});
         if (!moves_ && !rows_.empty())
             warn({fmt::format(
-                "{}: points = those at rest in all {} frames: nothing moves; a skin or a cache that another program applies is not "
-                "in such files (export the deformed surface, or measure the rigged model alone)",
-                arguments_.rest, rows_.size())});
+                "{}: nothing moves: each frame has the points of the rest mesh; a skin or a cache that another program applies is "
+                "not in such files (export the deformed surface, or measure the rigged model alone)",
+                arguments_.rest)});
     }
 
 private:
