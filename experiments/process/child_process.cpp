@@ -168,9 +168,10 @@ ProgramRun run_program(const std::vector<std::string>& program_and_arguments, co
         run.last_words = std::strerror(failure);
         return run;
     }
-    int status = 0;
+    constexpr int most_requests = 10;  // to end by itself, over half a second
+    int status = 0, requests = 0;
     while (waitpid(child, &status, WNOHANG) == 0) {
-        if (interrupted()) kill(child, SIGTERM);
+        if (interrupted()) kill(child, ++requests > most_requests ? SIGKILL : SIGTERM);
         std::this_thread::sleep_for(std::chrono::milliseconds(moment_ms));
     }
     stop_if_interrupted();

@@ -5,6 +5,7 @@
 #include "experiments/scene/scene.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/clip.hpp"
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/rig/rig_reader.hpp"
@@ -142,7 +143,7 @@ std::pair<double, double> motion_of(const pbs::Rig& rig, const pbs::RiggedBody& 
     sampling.rate_hz = (frames_looked_at - 1) / std::max(animation.end_s - animation.start_s, shortest_motion_s);
     sampling.time_step_s = 1.0 / sampling.rate_hz;
     const pbs::Motion motion = pbs::rig_motion(rig, body, animation, sampling).motion;
-    const double size_m = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).norm();
+    const double size_m = pbs::diagonal_m(body.surface);
     const double turn_deg = largest_turn_deg(motion, body.skeleton);
     return {turn_deg, std::max(turn_deg * M_PI / 180.0, pbs::largest_displacement_m(motion, body.skeleton) / size_m)};
 }

@@ -1,6 +1,7 @@
 #include "experiments/command_line/measure/frame_points.hpp"
 
 #include "analysis/metrics/frame_metrics.hpp"
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
@@ -34,7 +35,7 @@ constexpr double nearness = 0.1, twofold = 2.0;
 double rounding_m(const pbs::Positions& rest)
 {
     constexpr double same_point = 1e-6;  // of the body's diagonal: coordinates in single precision
-    return same_point * (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
+    return same_point * pbs::diagonal_m(rest);
 }
 
 struct PointVector {

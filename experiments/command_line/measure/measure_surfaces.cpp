@@ -5,6 +5,7 @@
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/trial/trial.hpp"
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/rig/rig_reader.hpp"
 #include "pbs/rig/rigged_body.hpp"
@@ -110,7 +111,7 @@ public:
                 .write(arguments_.csv);
         if (!arguments_.shells.empty()) table_of(shell_columns, shell_rows_).write(arguments_.shells);
         const pbs::Positions& rest = rest_.points();
-        const double gap_pct = 100.0 * gap_m_ / (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
+        const double gap_pct = 100.0 * gap_m_ / pbs::diagonal_m(rest);
         constexpr double least_gap_pct = 0.01;
         if (gap_pct > least_gap_pct)
             warn({fmt::format(
