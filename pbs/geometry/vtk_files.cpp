@@ -81,6 +81,7 @@ std::string sentence_of(const std::string& message)
     std::string words = message.substr(begin, end == std::string::npos ? end : end - begin);
     for (char& c : words)
         if (c == '\n') c = ' ';
+    words.erase(std::min(words.find(" for file:"), words.size()));  // whose name stands before these words
     if (words.starts_with("Algorithm ")) return "the file is damaged";  // what follows are addresses in memory
     return words;
 }
@@ -167,7 +168,6 @@ vtkSmartPointer<vtkDataObject> read_data(const std::string& path, const std::str
         reader->ReadAllNormalsOn();
         reader->ReadAllFieldsOn();
         collect_messages();
-        reader->SetFileName(path.c_str());  // for its messages
         reader->ReadFromInputStringOn();
         reader->SetInputString(read_text_file(path, most_mesh_bytes));
         reader->Update();
