@@ -8,6 +8,7 @@
 #include "pbs/geometry/winding_number.hpp"
 
 #include <Eigen/Geometry>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -31,6 +32,7 @@ void require_readable(const std::string& path, std::uintmax_t most_bytes)
     std::error_code code;
     if (!fs::exists(path, code)) throw InputError(path, 0, "", "", "no such file");
     if (!fs::is_regular_file(path, code)) throw InputError(path, 0, "", "", "expected a file");
+    if (::euidaccess(path.c_str(), R_OK) != 0) throw InputError(path, 0, "", "", "cannot be read");
     if (SourceFile(path).text(most_bytes).empty()) throw InputError(path, 0, "", "", "the file is empty");
 }
 
