@@ -4,9 +4,10 @@ set(left_out)
 if(PBS_WITH_MESH_IO)
     list(APPEND left_out pbs/geometry/mesh_io_unavailable)
 else()
-    list(APPEND left_out pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/medit_files pbs/geometry/mesh_checks
-        pbs/geometry/mesh_io pbs/geometry/mesh_repairs pbs/geometry/msh_files pbs/geometry/surface_obj pbs/geometry/surface_polygons
-        pbs/geometry/text_words pbs/geometry/vtk_files pbs/rig/surface_reader pbs/character/bodies pbs/character/body_cache)
+    list(APPEND left_out pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/guarded_reading pbs/geometry/medit_files
+        pbs/geometry/mesh_checks pbs/geometry/mesh_io pbs/geometry/mesh_repairs pbs/geometry/msh_files pbs/geometry/surface_obj
+        pbs/geometry/surface_polygons pbs/geometry/text_words pbs/geometry/vtk_files pbs/rig/surface_reader pbs/character/bodies
+        pbs/character/body_cache)
 endif()
 if(PBS_WITH_CGAL)
     list(APPEND left_out pbs/geometry/meshing_unavailable)
@@ -21,7 +22,8 @@ if(NOT PBS_WITH_RIG_IMPORT)
 endif()
 
 pbs_tests(unit pbs_files
-    FILES pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/medit_files pbs/geometry/mesh_checks pbs/geometry/mesh_io
+    FILES pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/guarded_reading pbs/geometry/medit_files
+        pbs/geometry/mesh_checks pbs/geometry/mesh_io
         pbs/geometry/mesh_io_unavailable pbs/geometry/mesh_repairs pbs/geometry/meshing pbs/geometry/meshing_unavailable
         pbs/geometry/msh_files pbs/geometry/self_intersection pbs/geometry/surface_obj pbs/geometry/surface_polygons
         pbs/geometry/text_words pbs/geometry/vtk_files

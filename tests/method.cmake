@@ -6,7 +6,8 @@ if(PBS_WITH_THREADS)
 endif()
 
 pbs_tests(unit pbs_geometry FOLDERS pbs/geometry
-    EXCEPT pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/medit_files pbs/geometry/mesh_checks pbs/geometry/mesh_io
+    EXCEPT pbs/geometry/content_format pbs/geometry/child_process pbs/geometry/guarded_reading pbs/geometry/medit_files
+        pbs/geometry/mesh_checks pbs/geometry/mesh_io
         pbs/geometry/mesh_io_unavailable pbs/geometry/mesh_repairs pbs/geometry/meshing pbs/geometry/meshing_unavailable
         pbs/geometry/msh_files pbs/geometry/self_intersection pbs/geometry/surface_obj pbs/geometry/surface_polygons
         pbs/geometry/text_words pbs/geometry/vtk_files

@@ -15,6 +15,7 @@
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/bone_capsules.hpp"
 #include "pbs/flesh/bone_springs.hpp"
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <CLI/CLI.hpp>
@@ -174,7 +175,7 @@ public:
             const pbs::Character& character = bodies_.at(name);
             const pbs::Positions& rest = character.mesh.rest;
             text += fmt::format("| `{}` | {} | {} | {} | {:.4f} |\n", name, rest.rows(), character.mesh.tets.rows(),
-                                character.skeleton.bones.size(), (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm());
+                                character.skeleton.bones.size(), pbs::diagonal_m(rest));
         }
         text += "\n## Poses\n\n| pose | body | stratum | members that were reached |\n|---|---|---|---|\n" + table_;
         analysis::write_text_atomically(analysis::path_in(folder_, "README.md"), text);
@@ -308,7 +309,6 @@ int export_references(const ExportArguments& arguments)
     {
         Progress progress("exporting", static_cast<int>(poses.size()));
         for (const ReferencePose& pose : poses) {
-            stop_if_interrupted();
             try {
                 folder.add(pose);
             } catch (const pbs::InputError& error) {

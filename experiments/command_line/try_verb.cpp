@@ -9,8 +9,8 @@
 #include "experiments/run/run_folder.hpp"
 #include "experiments/trial/trial.hpp"
 #include "pbs/geometry/child_process.hpp"
-#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/source_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -18,6 +18,7 @@
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
+#include <fstream>
 
 namespace experiments {
 namespace {
@@ -40,7 +41,6 @@ std::string python_that_draws()
                           "no python3 that can import numpy and matplotlib: install python3-numpy and python3-matplotlib");
 }
 
-constexpr std::uintmax_t largest_page_bytes = std::uintmax_t{4} << 30;
 constexpr double most_glb_bytes = 33e6, most_skin_bytes = 12e6;  // with the page and the tables, a trial takes at most 60 MB
 
 // Runs the scene that was just written. If it is refused before the run has written anything, the folder is left as it was.
@@ -67,13 +67,22 @@ RunResult run_new_scene(const std::string& scene_file, const std::string& earlie
     }
 }
 
+// The words between quotes are read one after the other, for a page may be large.
+bool page_has_viewer(const std::string& page)
+{
+    std::ifstream text(page);
+    for (std::string between_quotes; std::getline(text, between_quotes, '"');)
+        if (between_quotes == "viewer-block") return true;
+    return false;
+}
+
 // A trial leaves the page, the tables, the .glb files and the artist's surface. The frames for ParaView take most of the space; once the
 // page has a viewer, it has what it shows of them.
 void leave_what_is_of_use(const TrialOptions& options, bool has_page)
 {
     const fs::path folder = options.folder;
     const std::string page = (folder / "report.html").string();
-    const bool has_viewer = has_page && pbs::read_text_file(page, largest_page_bytes).find("id=\"viewer-block\"") != std::string::npos;
+    const bool has_viewer = has_page && page_has_viewer(page);
     const bool leaves_out = has_viewer && !options.paraview;
     if (leaves_out)
         remove_frames(options.folder);
@@ -95,6 +104,7 @@ void leave_what_is_of_use(const TrialOptions& options, bool has_page)
 
 int try_model(TrialOptions options, const CommonOptions& common)
 {
+    const pbs::SourceFile model(options.model);
     if (options.folder.empty()) options.folder = "results/" + fs::path(options.model).stem().string();
     const TrialScene made = [&] {
         const pbs::Stage stage("reading " + options.model);
@@ -181,14 +191,15 @@ void add_try_verb(CommandLine& line)
         "--error-bar", options->error_bar,
         "also bounds the reference's own error, by three further solutions per frame, two of them on tets cut into eight. With 2,000 "
         "vertices each frame takes minutes, and the run needs 6 GB: choose a few --frames");
-    verb->add_option("--reference-seconds", options->reference_seconds,
-                     "processor time for the finite elements, spent on evenly spread frames; 0: on all, whatever they take")
-        ->check(CLI::Range(0.0, 1e7))
-        ->capture_default_str()
-        ->excludes(error_bar);
+    auto* seconds = verb->add_option("--reference-seconds", options->reference_seconds,
+                                     "processor time for the finite elements, spent on evenly spread frames; 0: on all, whatever they take")
+                        ->check(CLI::Range(0.0, 1e7))
+                        ->capture_default_str()
+                        ->excludes(error_bar);
     verb->add_flag_callback(
             "--no-reference", [options] { options->reference = false; }, "leaves out the finite elements, which take most of the time")
-        ->excludes(error_bar);
+        ->excludes(error_bar)
+        ->excludes(seconds);
 }
 
 }  // namespace experiments

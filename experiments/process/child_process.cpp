@@ -9,118 +9,32 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <poll.h>
 #include <spawn.h>
 #include <spdlog/spdlog.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <map>
+#include <memory>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 namespace experiments {
 namespace {
 
-struct ProcessEnd {
-    std::string text;
-    int status = 0;
-};
+constexpr int moment_ms = 50;  // between two looks for an interruption, which may arrive just before a wait
 
-// A forked process that returns a text to its parent, however long the text is. It ends with its parent, however that ends.
-//   ForkedProcess process = start_process([] { return ProcessEnd{"text", exit_finished}; });
-//   while (process.from >= 0) wait_for_text({process.from}), listen(process);
-struct ForkedProcess {
-    pid_t id = -1;
-    int from = -1;          // the pipe that its text comes from; below 0 when no process can write any more
-    std::string text = {};  // as far as it has arrived
-    bool told_to_stop = false;
-};
-
-// Until all is written, signals or not, or nobody reads any more.
-void write_whole(int to, const std::string& text)
-{
-    for (std::size_t sent = 0; sent < text.size();) {
-        const ssize_t count = write(to, text.data() + sent, text.size() - sent);
-        if (count < 0 && errno != EINTR) return;
-        if (count > 0) sent += static_cast<std::size_t>(count);
-    }
-}
-
-// std::runtime_error where no process or pipe can be had. Programs that either process starts do not inherit the pipe.
-ForkedProcess start_process(const std::function<ProcessEnd()>& work)
-{
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe for a process");
-    fcntl(ends[0], F_SETFL, O_NONBLOCK);
-    std::fflush(nullptr);
-    const pid_t parent = getpid(), process = fork();
-    if (process < 0) throw std::runtime_error("no further process can be started");
-    if (process == 0) {
-        pbs::end_with_parent(parent);
-        if (interrupted()) _exit(exit_interrupted);  // by a signal that nobody passes on to this process
-        close(ends[0]);
-        const ProcessEnd end = work();
-        write_whole(ends[1], end.text);
-        std::fflush(nullptr);
-        _exit(end.status);
-    }
-    close(ends[1]);
-    return {process, ends[0]};
-}
-
-// Appends what has arrived without waiting. Parents must listen while the process works, for it waits when the pipe is full.
-void listen(ForkedProcess& process)
-{
-    char buffer[4096];
-    while (process.from >= 0) {
-        const ssize_t count = read(process.from, buffer, sizeof buffer);
-        if (count > 0)
-            process.text.append(buffer, static_cast<std::size_t>(count));
-        else if (count < 0 && errno == EAGAIN)
-            return;
-        else if (count == 0 || errno != EINTR)
-            close(std::exchange(process.from, -1));
-    }
-}
-
-// Passes an interruption of this process on, once, to a process that has not been waited for: as SIGINT, since METIS has a handler of its
-// own for SIGTERM.
-void pass_on_interruption(ForkedProcess& process)
-{
-    if (interrupted() && !std::exchange(process.told_to_stop, true)) kill(process.id, SIGINT);
-}
-
-// Waits until one of the pipes has something to read, but only for a moment, so that a signal before the wait is noticed after it.
-// Pipes below 0 are left out.
-void wait_for_text(const std::vector<int>& pipes)
-{
-    constexpr int moment_ms = 20;
-    std::vector<pollfd> polled;
-    for (const int pipe : pipes) polled.push_back({pipe, POLLIN, 0});  // poll leaves out those below 0
-    poll(polled.data(), polled.size(), moment_ms);
-}
-
-// Waits for the end of a process, signals or not.
-int status_of(pid_t process)
-{
-    int status = 0;
-    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
-    }
-    return status;
-}
-
-ProcessEnd result_or_failure(const std::function<nlohmann::json()>& work)
+pbs::ChildEnd result_or_failure(const std::function<nlohmann::json()>& work)
 {
     nlohmann::json end;
     try {
@@ -149,11 +63,11 @@ std::string end_of(const std::string& text)
 }
 
 struct Worker {
-    std::size_t work = 0;
-    ForkedProcess process;
+    std::size_t work = 0;  // its number
+    std::unique_ptr<pbs::ChildProcess> process;
 };
 
-ProcessEnd act_as_worker(const PooledWork& work)
+pbs::ChildEnd act_as_worker(const PooledWork& work)
 {
     hide_progress();
     try {
@@ -170,35 +84,18 @@ double seconds_of(const timeval& time)
     return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-PooledResult outcome_of(const PooledWork& work, ForkedProcess& process, int status)
+// Waits for the end of the worker.
+PooledResult outcome_of(const PooledWork& work, pbs::ChildProcess& process)
 {
-    listen(process);
-    if (process.from >= 0) close(process.from);  // a process that it started may still hold the other end
-    const int exit = WIFEXITED(status) ? WEXITSTATUS(status) : exit_internal;
+    rusage usage{};
+    const int status = process.wait(&usage), exit = WIFEXITED(status) ? WEXITSTATUS(status) : exit_internal;
     const bool finished = exit == exit_finished || exit == exit_breakdown;
-    PooledResult result{work.name, finished, exit == exit_breakdown ? process.text : "", finished ? "" : process.text};
+    PooledResult result{work.name, finished, exit == exit_breakdown ? process.text() : "", finished ? "" : process.text()};
     result.refused = exit == exit_input;
     if (WIFSIGNALED(status)) result.failure = fmt::format("ended by signal {}", WTERMSIG(status));
     if (exit == exit_interrupted) result.failure = "interrupted";
+    result.cpu_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
     return result;
-}
-
-// Returns the process that ended. Each wait is short, for a signal that arrives just before a wait without end would only be noticed when a
-// worker ends.
-pid_t wait_for_any(std::map<pid_t, Worker>& workers, int& status, rusage& usage)
-{
-    for (;;) {
-        std::vector<int> pipes;
-        for (auto& [id, worker] : workers) {
-            pass_on_interruption(worker.process);
-            listen(worker.process);
-            pipes.push_back(worker.process.from);
-        }
-        const pid_t ended = wait4(-1, &status, WNOHANG, &usage);
-        if (ended > 0) return ended;
-        if (ended < 0 && errno != EINTR) throw std::runtime_error("the workers are gone");
-        wait_for_text(pipes);
-    }
 }
 
 // Prints a line for each quarter of the expected cost that has ended; --verbose prints one for each run.
@@ -235,16 +132,13 @@ private:
 
 nlohmann::json in_own_process(const std::function<nlohmann::json()>& work)
 {
-    ForkedProcess process = start_process([&] { return result_or_failure(work); });
-    for (listen(process); process.from >= 0; listen(process)) {
-        pass_on_interruption(process);
-        wait_for_text({process.from});
-    }
-    const int status = status_of(process.id);
-    stop_if_interrupted();
+    const NotedInterrupts noted;
+    pbs::ChildProcess process([&] { return result_or_failure(work); });
+    for (; process.writes(); pbs::listen_to({&process}, moment_ms)) stop_if_interrupted();
+    const int status = process.wait();
     if (WIFSIGNALED(status))
         throw pbs::InputError("", 0, "process", "signal " + std::to_string(WTERMSIG(status)), "expected to end by itself");
-    return result_in(process.text);
+    return result_in(process.text());
 }
 
 ProgramRun run_program(const std::vector<std::string>& program_and_arguments, const std::optional<std::string>& folder)
@@ -263,6 +157,7 @@ ProgramRun run_program(const std::vector<std::string>& program_and_arguments, co
         posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
         posix_spawn_file_actions_addchdir_np(&actions, folder->c_str());
     }
+    const NotedInterrupts noted;
     pid_t child = 0;
     ProgramRun run;
     std::fflush(nullptr);
@@ -273,11 +168,11 @@ ProgramRun run_program(const std::vector<std::string>& program_and_arguments, co
         run.last_words = std::strerror(failure);
         return run;
     }
-    int status = 0;
-    bool told_to_stop = false;
+    constexpr int most_requests = 10;  // to end by itself, over half a second
+    int status = 0, requests = 0;
     while (waitpid(child, &status, WNOHANG) == 0) {
-        if (interrupted() && !std::exchange(told_to_stop, true)) kill(child, SIGTERM);
-        wait_for_text({});
+        if (interrupted()) kill(child, ++requests > most_requests ? SIGKILL : SIGTERM);
+        std::this_thread::sleep_for(std::chrono::milliseconds(moment_ms));
     }
     stop_if_interrupted();
     run.status = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
@@ -314,29 +209,27 @@ std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int j
     std::iota(queue.begin(), queue.end(), 0);
     std::stable_sort(queue.begin(), queue.end(), [&](auto a, auto b) { return work[a].cost_s > work[b].cost_s; });
 
+    const NotedInterrupts noted;
     std::vector<PooledResult> results(work.size());
-    std::map<pid_t, Worker> workers;
+    std::vector<Worker> workers;
     std::size_t next = 0;
     PoolProgress progress(work, jobs);
     while (next < queue.size() || !workers.empty()) {
-        while (next < queue.size() && static_cast<int>(workers.size()) < jobs && !interrupted()) {
+        for (; next < queue.size() && static_cast<int>(workers.size()) < jobs; ++next) {
             const PooledWork& item = work[queue[next]];
-            const ForkedProcess process = start_process([&] { return act_as_worker(item); });
-            workers[process.id] = {queue[next++], process};
+            workers.push_back({queue[next], std::make_unique<pbs::ChildProcess>([&] { return act_as_worker(item); })});
         }
-        if (workers.empty()) break;
-        int status = 0;
-        rusage usage{};
-        const pid_t process = wait_for_any(workers, status, usage);
-        const auto found = workers.find(process);
-        if (found == workers.end()) continue;
-        const std::size_t index = found->second.work;
-        results[index] = outcome_of(work[index], found->second.process, status);
-        results[index].cpu_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
-        workers.erase(found);
-        progress.ended(work[index], results[index], then_s);
+        std::vector<pbs::ChildProcess*> processes;
+        for (const Worker& worker : workers) processes.push_back(worker.process.get());
+        pbs::listen_to(processes, moment_ms);
+        stop_if_interrupted();  // which ends the workers
+        std::erase_if(workers, [&](const Worker& worker) {
+            if (worker.process->writes()) return false;
+            results[worker.work] = outcome_of(work[worker.work], *worker.process);
+            progress.ended(work[worker.work], results[worker.work], then_s);
+            return true;
+        });
     }
-    stop_if_interrupted();
     return results;
 }
 

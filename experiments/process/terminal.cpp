@@ -10,13 +10,14 @@
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 #include <sys/ioctl.h>
-#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -28,79 +29,85 @@
 #include <new>
 #include <sstream>
 #include <stdexcept>
+#include <stop_token>
+#include <thread>
 #include <utility>
 
 namespace experiments {
 namespace {
 
-volatile std::sig_atomic_t signalled = 0, taken = 0;
 bool progress_is_hidden = false;
 
-// The work that is interrupted has the time of grace to end by itself: a step between two frames, and the tables of the frames before it.
-constexpr double grace_s = 0.7, long_stage_s = 2.0;
 constexpr char last_words[] = "interrupted; what was finished is kept";
 
-// The stages of the program itself. A worker counts none. Signal handlers read these variables.
-std::atomic<pid_t> watching = 0;
-std::atomic<int> stages = 0, line_length = 0;  // 0: the line of the innermost stage has been printed
-char line_of_stage[800];
+// The signal handler reads these variables.
+std::atomic<pid_t> program = 0;  // the process that says that it was interrupted; its children say nothing
+std::atomic<pid_t> noting = 0;   // the process in which the next signal is only noted; 0: none
+std::atomic<bool> signalled = false;
 
-void ring_after(double seconds)
+void on_signal(int)
 {
-    const auto whole = static_cast<time_t>(seconds);
-    const itimerval once{{0, 0}, {whole, static_cast<suseconds_t>(1e6 * (seconds - static_cast<double>(whole)))}};
-    setitimer(ITIMER_REAL, &once, nullptr);
-}
-
-void print_from_handler(const char* text, std::size_t length)
-{
-    if (::write(STDERR_FILENO, text, length) < 0) return;  // nobody reads it
-}
-
-// The second signal ends the program at once, and its workers with it. A worker goes on, because a signal to its whole group reaches it
-// twice: directly, and from its parent. It has the time of grace from the first one, in a stage or not.
-void on_signal(int signal)
-{
-    const bool is_second = signalled != 0, is_program = getpid() == watching;
-    signalled = 1;
-    if (is_program && is_second) {
-        std::signal(signal, SIG_DFL);
-        std::raise(signal);  // which waits for the end of this handler
-    } else if (!is_second && (stages > 0 || !is_program)) {
-        ring_after(grace_s);
+    if (pid_t self = getpid(); noting.compare_exchange_strong(self, 0)) {
+        signalled = true;
+        return;
     }
+    pbs::AtomicFile::remove_unfinished();
+    if (getpid() == program)
+        for (const char* text : {isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "", "pbskin: ", last_words, "\n"})
+            if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;  // nobody reads it
+    _exit(exit_interrupted);
 }
 
-void on_alarm(int)
-{
-    const int error = errno;
-    if (interrupted()) {
-        pbs::AtomicFile::remove_unfinished();
-        if (getpid() == watching)
-            for (const char* text : {"pbskin: ", last_words, "\n"}) print_from_handler(text, std::strlen(text));
-        _exit(exit_interrupted);
+// Prints the name of the innermost stage when the stages around it have taken so long, and again so much later.
+class StageNames {
+public:
+    void begin(const std::string& name)
+    {
+        const std::lock_guard lock(mutex_);
+        unprinted_ = name;
+        if (++stages_ == 1) watch_ = std::jthread([this](const std::stop_token& stop) { print_in_time(stop); });
     }
-    ring_after(long_stage_s);
-    if (interrupted()) ring_after(grace_s);  // a signal came after the first line
-    if (const int length = line_length.exchange(0); length > 0) print_from_handler(line_of_stage, static_cast<std::size_t>(length));
-    errno = error;
-}
 
+    void end()
+    {
+        {
+            const std::lock_guard lock(mutex_);
+            unprinted_.clear();
+            if (--stages_ > 0) return;
+        }
+        watch_ = {};
+    }
+
+private:
+    void print_in_time(const std::stop_token& stop)
+    {
+        constexpr auto long_stage = std::chrono::seconds(2);
+        std::unique_lock lock(mutex_);
+        while (!stop.stop_requested()) {
+            ended_.wait_for(lock, stop, long_stage, [] { return false; });
+            if (stop.stop_requested() || progress_is_hidden || unprinted_.empty()) continue;
+            fmt::print(stderr, "{} ...\n", std::exchange(unprinted_, ""));
+        }
+    }
+
+    std::mutex mutex_;
+    std::condition_variable_any ended_;
+    int stages_ = 0;
+    std::string unprinted_;
+    std::jthread watch_;
+};
+
+StageNames stage_names;
+
+// Only the program itself names its stages.
 void begin_stage(const std::string& name)
 {
-    stop_if_interrupted();
-    if (getpid() != watching) return;
-    if (stages++ == 0) ring_after(long_stage_s);
-    line_length = 0;
-    const auto line = fmt::format_to_n(line_of_stage, sizeof line_of_stage, "{:.190} ...\n", name);  // a character has at most 4 bytes
-    if (!progress_is_hidden) line_length = static_cast<int>(line.size);
+    if (getpid() == program) stage_names.begin(name);
 }
 
 void end_stage()
 {
-    if (getpid() != watching || --stages > 0) return;
-    line_length = 0;
-    ring_after(0.0);
+    if (getpid() == program) stage_names.end();
 }
 
 constexpr int bar_width = 30;
@@ -143,37 +150,39 @@ Failure caught_failure()
 
 void watch_interrupts()
 {
-    watching = getpid();
+    program = getpid();
     struct sigaction action = {};
     action.sa_handler = on_signal;
+    action.sa_flags = SA_RESTART;  // work goes on as if nothing had happened
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
-    action.sa_handler = on_alarm;
-    action.sa_flags = SA_RESTART;  // work goes on as if nothing had happened
-    sigaction(SIGALRM, &action, nullptr);
     pbs::stage_watcher = {begin_stage, end_stage};
-    pbs::ask_while_reading(stop_if_interrupted);
     std::signal(SIGXFSZ, SIG_IGN);  // then a file over the limit (ulimit -f) is a write error, as on a full disk
+}
+
+NotedInterrupts::NotedInterrupts() : around_(noting.exchange(getpid()))
+{
+}
+
+NotedInterrupts::~NotedInterrupts()
+{
+    pid_t self = getpid();
+    noting.compare_exchange_strong(self, around_);  // not after a signal: the next one ends the process
 }
 
 bool interrupted()
 {
-    return signalled != 0 && taken == 0;
+    return signalled;
 }
 
 bool take_interruption()
 {
-    if (!interrupted()) return false;
-    taken = 1;
-    ring_after(stages > 0 ? long_stage_s : 0.0);
-    return true;
+    return signalled.exchange(false);
 }
 
 void stop_if_interrupted()
 {
-    if (!interrupted()) return;
-    ring_after(0.0);  // from here on, the work ends by itself
-    throw Interrupted{};
+    if (interrupted()) throw Interrupted{};
 }
 
 std::size_t terminal_width()

@@ -3,6 +3,8 @@
 
 #include "pbs/geometry/cost.hpp"
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -32,15 +34,29 @@ struct Failure {
 // (exit_input). Any other exception is an internal error, and its message states this.
 Failure caught_failure();
 
-// The first SIGINT or SIGTERM ends the work between two frames, so that finished work is kept. The second ends the program at once.
-// Workers end within a second of the first.
+// SIGINT and SIGTERM end this process and its child processes at once, with exit_interrupted: records are written whole or not at all.
+// Unfinished files are removed. The names of long stages are printed.
+void watch_interrupts();
+
+// While it exists, the first signal is only noted, for work that looks for it several times a second. The next one ends the process. Child
+// processes end at the first.
+//   const NotedInterrupts noted;  ...  stop_if_interrupted();
+class NotedInterrupts {
+public:
+    NotedInterrupts();
+    ~NotedInterrupts();
+    NotedInterrupts(const NotedInterrupts&) = delete;
+    NotedInterrupts& operator=(const NotedInterrupts&) = delete;
+
+private:
+    pid_t around_;
+};
+
 struct Interrupted {};
 
-void watch_interrupts();
 bool interrupted();
 void stop_if_interrupted();  // throws Interrupted
-// For work that an interruption shortens rather than ends: returns whether there was one, and forgets it. The next signal ends the program
-// at once.
+// For work that an interruption shortens rather than ends: returns whether there was one, and forgets it.
 bool take_interruption();
 
 // The number of characters in a line: COLUMNS, else the width of the terminal, else 100.

@@ -91,7 +91,7 @@ nlohmann::json motion_record(const CaseMotion& motion)
     return record;
 }
 
-// [s] of finished frames whose rows an interruption in the middle of a long step may lose.
+// [s] of finished frames whose rows an interruption may lose.
 constexpr double longest_loss_s = 1.0;
 
 // Prepares a scene, then for each frame: pose, deform, measure, write.
@@ -119,6 +119,8 @@ public:
     RunResult run()
     {
         try {
+            std::optional<NotedInterrupts> noted;
+            if (finishes_early_) noted.emplace();
             foresee();
             play();
         } catch (const Interrupted&) {
@@ -149,7 +151,7 @@ private:
     void play()
     {
         Progress progress(scene_.name, static_cast<int>(steps().size()));
-        std::optional<pbs::Stage> stage;  // which would end the program within a second of an interruption
+        std::optional<pbs::Stage> stage;
         if (!finishes_early_) stage.emplace(fmt::format("moving {} through {} frames", scene_.name, motion_.motion.frames()));
         pbs::Stopwatch since_tables;
         for (std::size_t step = 0; step < steps().size(); ++step) {
@@ -161,7 +163,7 @@ private:
                 return;
             }
             if (is_frame(step)) record_frame(static_cast<int>(step / motion_.motion.steps_per_frame), step);
-            if (since_tables.seconds() > longest_loss_s) {
+            if (since_tables.seconds() > longest_loss_s || (is_frame(step) && frames_ == 1)) {
                 folder_.write_tables(false);
                 since_tables = {};
             }

@@ -77,6 +77,7 @@ void SpreadReference::foresee(const std::vector<pbs::Pose>& poses)
     std::set<int> left;
     for (int number = 0; number < outcome_.frames; ++number)
         if (!is_solved(number)) left.insert(number);
+    const NotedInterrupts noted;
     try {
         while (!left.empty() && has_time_left()) pass(left);
         const std::vector<NotReached> again = std::exchange(outcome_.not_reached, {});

@@ -7,6 +7,7 @@
 #include "pbs/character/skeleton_file.hpp"
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/content_format.hpp"
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
@@ -106,8 +107,7 @@ void require_bones_of_the_meshs_size(const Character& character, const std::stri
 {
     Eigen::AlignedBox3d bones;
     for (const Bone& bone : character.skeleton.bones) bones.extend(bone.head).extend(bone.tail);
-    const Positions& rest = character.mesh.rest;
-    const double mesh_m = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm(), ratio = bones.diagonal().norm() / mesh_m;
+    const double mesh_m = diagonal_m(character.mesh.rest), ratio = bones.diagonal().norm() / mesh_m;
     if (ratio < most_in_size && ratio > 1.0 / most_in_size) return;
     throw InputError(skeleton_file, 0, "extent over the mesh's", std::to_string(ratio),
                      "expected 1/25 to 25: mesh and skeleton in different units (skeleton_scale)?");

@@ -6,7 +6,6 @@
 #include "pbs/geometry/mesh_io.hpp"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #define XXH_INLINE_ALL
@@ -74,6 +73,7 @@ bool is_whole(const fs::path& file, const std::string& key)
 std::optional<TetMesh> read_kept(const std::string& key)
 {
     for (const fs::path& file : files_of_key(references_folder() + "/tets", key)) {
+        const SourceFile bytes(file.string());
         if (is_whole(file, key)) return read_tet_frame(file.string());  // checked before it was stored
         throw InputError(file.string(), 0, "", "",
                          "is damaged: the hash in its name is not that of its bytes; install the program anew, or fetch the file again "
@@ -86,6 +86,7 @@ std::optional<TetMesh> read_kept(const std::string& key)
 std::optional<TetMesh> read_cached(const std::string& key)
 {
     for (const fs::path& file : files_of_key(cache_folder(), key)) try {
+            const SourceFile bytes(file.string());
             if (is_whole(file, key)) return read_tet_frame(file.string());
             fs::remove(file);
         } catch (const std::exception&) {  // unreadable
@@ -203,37 +204,25 @@ std::string file_name(const std::string& path)
     return fs::path(path).filename().string();
 }
 
-// `written` holds the file's number and the time of its last change; it is "" where there is no file. The time comes first, so that a
-// file written while it is hashed differs the next time.
-InputFile::State InputFile::state_of(const std::string& path)
-{
-    struct stat status = {};
-    std::string written;
-    if (::stat(path.c_str(), &status) == 0)
-        written =
-            std::to_string(status.st_ino) + " " + std::to_string(status.st_ctim.tv_sec) + " " + std::to_string(status.st_ctim.tv_nsec);
-    return {path, hash_of_file(path), written};
-}
-
 InputFile::InputFile(const std::string& path) : path_(path)
 {
     try {
-        before_ = {state_of(path)};
+        const auto add = [&](const std::string& file) { files_.emplace_back(file).text(most_mesh_bytes); };
+        add(path);
         for (const std::string& file : companions(path))
-            if (std::error_code error; fs::is_regular_file(file, error)) before_.push_back(state_of(file));
+            if (std::error_code error; fs::is_regular_file(file, error)) add(file);
     } catch (const std::exception&) {  // its reader says why
+        files_.clear();
     }
 }
 
 std::vector<std::pair<std::string, std::string>> InputFile::hashed() const
 {
-    if (before_.empty()) throw InputError(path_, 0, "", "", "was changed while it was read");
+    if (files_.empty()) throw InputError(path_, 0, "", "", "was changed while it was read");
     std::vector<std::pair<std::string, std::string>> named;
-    for (const State& before : before_) {
-        const State now = state_of(before.path);
-        if (now.hash != before.hash || now.written != before.written)
-            throw InputError(before.path, 0, "", "", "was changed while it was read");
-        named.emplace_back(file_name(before.path), before.hash);
+    for (const SourceFile& file : files_) {
+        if (file.was_changed()) throw InputError(file.path(), 0, "", "", "was changed while it was read");
+        named.emplace_back(file_name(file.path()), content_hash(file.text(most_mesh_bytes)));
     }
     return named;
 }

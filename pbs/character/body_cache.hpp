@@ -3,6 +3,7 @@
 //   TetMesh mesh = cached_mesh("limb-1775", [] { return mesh_limb(1775); });
 #pragma once
 
+#include "pbs/geometry/source_file.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 
 #include <functional>
@@ -32,29 +33,20 @@ TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make
 // Records name files, not folders of the machine.
 std::string file_name(const std::string& path);
 
-// A file that a run is made from, and the hash of the bytes that were read.
+// A file that a run is made from, with those that are read along with it (TetGen's other half, a glTF's buffers), and the hash of the bytes
+// that were read: readers that are called while it exists share its bytes.
 //   const InputFile clip("walk.gltf");  const Clip read = read_clip("walk.gltf");
 //   for (const auto& [name, hash] : clip.hashed()) ...
-// A library opens it by its name, with those that are read along with it: TetGen's other half, a glTF's buffers. Where what is
-// asked afterwards is what was there before, these are the bytes that were read.
 class InputFile {
 public:
     explicit InputFile(const std::string& path);  // what cannot be read is left to its reader, who says why; "": no file
 
-    // Names and hashes, the file itself first. InputError if a file has another content, has been written since, or is gone. A file with
-    // the same content that has been written since may have been read in between. Its time of change decides, which a change of its
-    // permissions or a new hard link also sets.
+    // Names and hashes, the file itself first. InputError if a file has been written since, or is gone.
     std::vector<std::pair<std::string, std::string>> hashed() const;
 
 private:
-    struct State {
-        std::string path, hash;
-        std::string written;  // which file it is, and when it was last changed
-    };
-    static State state_of(const std::string& path);
-
     std::string path_;
-    std::vector<State> before_;
+    std::vector<SourceFile> files_;
 };
 
 // By name, for the records; of another file of a name that is taken, "NAME (2)".

@@ -5,6 +5,7 @@
 #include "pbs/character/separated_parts.hpp"
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/child_process.hpp"
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
@@ -52,9 +53,9 @@ std::vector<Pose> sampled_poses(const RiggedModel& model)
 }
 
 // One bone ends where the other one, its child, begins.
-bool are_in_a_chain(int one, int other, const Skeleton& skeleton)
+bool are_in_a_chain(int first, int second, const Skeleton& skeleton)
 {
-    const int parent = std::min(one, other), child = std::max(one, other);  // parents come first
+    const int parent = std::min(first, second), child = std::max(first, second);  // parents come first
     return skeleton.bones[static_cast<std::size_t>(child)].parent == parent &&
            std::ranges::count(bones_meeting(skeleton, parent, BoneEnd::tail), child) > 0;
 }
@@ -73,12 +74,6 @@ std::string words_on_cuts(const std::vector<Cut>& cuts, const Skeleton& skeleton
     if (!between.empty()) words += "cut between " + name_list(between);
     if (!at_joints.empty()) words += (between.empty() ? "open at the joint " : ", and open at the joint ") + name_list(at_joints);
     return words;
-}
-
-// The size of a body by which lengths are stated: the diagonal of its bounding box [m].
-double body_diagonal_m(const RiggedBody& body)
-{
-    return (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).norm();
 }
 
 // Cuts the flesh between parts that the skeleton moves apart. Surface and weights follow; without a cut they are those of the nearest
@@ -118,7 +113,7 @@ void add_sheet(const RiggedBody& body, const std::string& file, RemarkList& rema
     const double offset_m = sheet_offset_m({body.surface, body.triangles});
     if (offset_m > 0.0)
         remarks.push_back({Gravity::results_wrong, file + ": the surface encloses no volume; the tets fill a layer on both sides of it, " +
-                                                       number_text(100.0 * offset_m / body_diagonal_m(body), 3) +
+                                                       number_text(100.0 * offset_m / diagonal_m(body.surface), 3) +
                                                        " % of the body's size thick"});
 }
 
@@ -181,7 +176,7 @@ void add_bones_outside(const RiggedBody& body, const TetMesh& mesh, const std::s
 
 void add_distance(const RiggedBody& body, double distance_m, const std::string& file, RemarkList& remarks)
 {
-    if (const double share = distance_m / body_diagonal_m(body); share > far_from_tets)
+    if (const double share = distance_m / diagonal_m(body.surface); share > far_from_tets)
         remarks.push_back({Gravity::part_left_out, file + ": the boundary of the tets lies up to " + number_text(100.0 * share, 3) +
                                                        " % of the body's size from the surface of the model"});
 }
@@ -216,6 +211,7 @@ std::shared_ptr<const RiggedModel> read_model(const std::string& file, const std
 {
     const Stage stage("reading " + file);
     auto model = std::make_shared<RiggedModel>();
+    model->file = std::make_shared<SourceFile>(file);
     model->rig = read_rig(file);
     model->animation = find_animation(model->rig, animation);
     model->body = make_rigged_body(model->rig, model->animation, scale);
@@ -260,8 +256,8 @@ Character make_model_character(const ModelSource& source, RemarkList& remarks)
     else
         character.surface = embed(body.surface, body.triangles, character.mesh);
     add_shape(body, character.mesh, source.file, remarks);
-    const RemarkList found = remarks_on_model(body, character, source.file);
-    remarks.insert(remarks.end(), found.begin(), found.end());
+    const RemarkList on_model = remarks_on_model(body, character, source.file);
+    remarks.insert(remarks.end(), on_model.begin(), on_model.end());
     return character;
 }
 

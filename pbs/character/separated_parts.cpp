@@ -1,5 +1,6 @@
 #include "pbs/character/separated_parts.hpp"
 
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
@@ -157,7 +158,7 @@ SkinParts::SkinParts(const RiggedBody& body, std::vector<Pose> poses)
       joined_(joined_skin(body)),
       ways_(static_cast<std::size_t>(body.surface.rows())),
       vertices_(static_cast<std::size_t>(body.surface.rows())),
-      diagonal_m_((body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).norm())
+      diagonal_m_(diagonal_m(body.surface))
 {
     for (Eigen::Index t = 0; t < body.triangles.rows(); ++t)
         for (int corner = 0; corner < 3; ++corner) {

@@ -4,213 +4,90 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/resource.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <chrono>
-#include <csignal>
-#include <cstdint>
+#include <cstdio>
 #include <cstring>
-#include <exception>
-#include <filesystem>
-#include <fstream>
-#include <limits>
-#include <new>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 namespace pbs {
 namespace {
 
-#ifndef __has_feature  // clang's
-#define __has_feature(feature) 0
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr bool sanitized = true;  // slow, and terabytes of addresses are reserved
-#else
-constexpr bool sanitized = false;
-#endif
-
-// Far above what a sound file needs. Time is longer than processor time, for machines that are busy with other work.
-constexpr double base_limit_s = 20.0, limit_s_per_megabyte = 10.0;
-constexpr double base_cpu_limit_s = sanitized ? 20.0 : 4.0, cpu_limit_s_per_megabyte = sanitized ? 10.0 : 2.0;
-constexpr std::uintmax_t base_limit_bytes = std::uintmax_t(1) << 30, limit_bytes_per_byte = 200;
-
-std::uintmax_t bytes_of(const std::string& path)
+[[noreturn]] void refuse_process()
 {
-    std::error_code code;
-    const std::uintmax_t bytes = std::filesystem::file_size(path, code);
-    return code ? 0 : bytes;
+    throw InputError("", 0, "process", "", std::string("cannot be started: ") + std::strerror(errno));
 }
 
-// Half of the memory that the machine has available: the parent reads the file too.
-std::uintmax_t most_bytes_now()
+// Until all is written, signals or not, or nobody reads any more.
+void write_whole(int pipe, const std::string& text)
 {
-    std::ifstream file("/proc/meminfo");
-    for (std::string line; std::getline(file, line);) {
-        std::istringstream words(line);
-        std::string word;
-        std::uintmax_t kilobytes = 0;
-        if (words >> word >> kilobytes && word == "MemAvailable:") return kilobytes * 1024 / 2;
+    for (std::size_t sent = 0; sent < text.size();) {
+        const ssize_t count = ::write(pipe, text.data() + sent, text.size() - sent);
+        if (count < 0 && errno != EINTR) return;
+        if (count > 0) sent += static_cast<std::size_t>(count);
     }
-    return std::numeric_limits<std::uintmax_t>::max();
-}
-
-void limit(int resource, std::uintmax_t most)
-{
-    rlimit now{};
-    getrlimit(resource, &now);
-    const rlimit wanted{std::min<rlim_t>(most, now.rlim_max), now.rlim_max};
-    setrlimit(resource, &wanted);
-}
-
-// Limits this process from here on: memory, processor time and no core file. Memory is not limited under a sanitizer.
-void limit_reading(const std::string& path)
-{
-    const std::uintmax_t file_bytes = bytes_of(path);
-    limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, static_cast<std::uintmax_t>(base_cpu_limit_s + cpu_limit_s_per_megabyte * 1e-6 * static_cast<double>(file_bytes)));
-    if (sanitized) return;
-    std::uintmax_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    const std::uintmax_t own = pages * static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
-    limit(RLIMIT_AS, own + std::min(base_limit_bytes + limit_bytes_per_byte * file_bytes, most_bytes_now()));
-}
-
-constexpr int longest_wait_ms = 200;  // between two questions
-
-std::function<void()>& question()
-{
-    static std::function<void()> asked = [] {};
-    return asked;
-}
-
-constexpr const char* too_much_memory = "damaged: asks for more memory than such a file can need";
-
-// "+" where the file was read, otherwise "-" and the words of the error.
-std::string answer_to(const std::string& path, const std::function<void(const std::string&)>& read)
-{
-    try {
-        read(path);
-        return "+";
-    } catch (const InputError& error) {
-        return std::string("-") + error.what();
-    } catch (const std::bad_alloc&) {
-        return "-" + path + ": " + too_much_memory;
-    } catch (const std::length_error&) {
-        return "-" + path + ": " + too_much_memory;
-    } catch (const std::exception& error) {
-        return "-" + path + ": " + error.what();
-    }
-}
-
-[[noreturn]] void answer_as_child(int pipe, const std::string& path, const std::function<void(const std::string&)>& read)
-{
-    for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTERM}) std::signal(signal, SIG_DFL);
-    std::signal(SIGINT, SIG_IGN);  // the parent decides
-    const int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    for (const int output : {STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, output);
-    limit_reading(path);
-    const std::string answer = answer_to(path, read);
-    for (std::size_t at = 0; at < answer.size();) {
-        const ssize_t count = ::write(pipe, answer.data() + at, answer.size() - at);
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) _exit(1);
-        at += static_cast<std::size_t>(count);
-    }
-    _exit(0);
-}
-
-// Everything the child writes until it closes the pipe; false when the time is up.
-bool collect(int pipe, double limit_s, std::string& answer)
-{
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit_s);
-    char buffer[1 << 12];
-    for (;;) {
-        question()();
-        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now()).count();
-        if (left <= 0) return false;
-        pollfd waiting{pipe, POLLIN, 0};
-        if (poll(&waiting, 1, static_cast<int>(std::min<long long>(left, longest_wait_ms))) <= 0) continue;
-        const ssize_t count = ::read(pipe, buffer, sizeof buffer);
-        if (count == 0) return true;
-        if (count > 0) answer.append(buffer, static_cast<std::size_t>(count));
-    }
-}
-
-// The process that tries and the pipe that it answers through, neither of which outlives this.
-class Reader {
-public:
-    Reader(const std::string& path, const std::function<void(const std::string&)>& read)
-    {
-        int ends[2];
-        if (pipe2(ends, O_CLOEXEC) != 0) throw InputError(path, 0, "", "", std::string("cannot be read: ") + std::strerror(errno));
-        const pid_t parent = getpid();
-        process_ = fork();
-        if (process_ == 0) {
-            end_with_parent(parent);
-            answer_as_child(ends[1], path, read);
-        }
-        close(ends[1]);
-        answer_ = ends[0];
-        if (process_ > 0) return;
-        close(answer_);
-        throw InputError(path, 0, "", "", "cannot be read: no process can be started");
-    }
-    ~Reader()
-    {
-        close(answer_);
-        if (process_ > 0) kill(process_, SIGKILL);
-        if (process_ > 0) status();
-    }
-    Reader(const Reader&) = delete;
-    Reader& operator=(const Reader&) = delete;
-
-    int answer() const { return answer_; }
-    // Once it has answered.
-    int status()
-    {
-        int status = 0;
-        const pid_t child = std::exchange(process_, 0);
-        while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-        }
-        return status;
-    }
-
-private:
-    pid_t process_ = 0;
-    int answer_ = -1;
-};
-
-// Why a child ended that sent no answer.
-std::string death(int status)
-{
-    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) return "took more processor time than such a file can need";
-    if (WIFSIGNALED(status)) return std::string("broke down on it: ") + strsignal(WTERMSIG(status));
-    return "ended in the middle, with exit status " + std::to_string(WEXITSTATUS(status));
 }
 
 }  // namespace
 
-void ask_while_reading(std::function<void()> asked)
+ChildProcess::ChildProcess(const std::function<ChildEnd()>& work)
 {
-    question() = std::move(asked);
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) refuse_process();
+    std::fflush(nullptr);
+    const pid_t parent = getpid();
+    process_ = fork();
+    if (process_ == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGINT);
+        if (getppid() != parent) _exit(128 + SIGINT);  // it ended before the line above
+        close(ends[0]);
+        const ChildEnd end = work();
+        write_whole(ends[1], end.text);
+        std::fflush(nullptr);
+        _exit(end.status);
+    }
+    close(ends[1]);
+    pipe_ = ends[0];
+    if (process_ > 0) return;
+    close(pipe_);
+    refuse_process();
 }
 
-void try_reading(const std::string& path, const std::function<void(const std::string&)>& read)
+ChildProcess::~ChildProcess()
 {
-    Reader reader(path, read);
-    std::string answer;
-    // [s] of time, not of processor time: other work may keep the machine busy.
-    const double limit_s = base_limit_s + limit_s_per_megabyte * 1e-6 * static_cast<double>(bytes_of(path));
-    if (!collect(reader.answer(), limit_s, answer)) throw InputError(path, 0, "", "", "damaged: the reader did not end");
-    const int status = reader.status();
-    if (status != 0 || answer.empty()) throw InputError(path, 0, "", "", "damaged: the reader " + death(status));
-    if (answer[0] != '+') throw InputError("", 0, "", "", answer.substr(1));
+    if (pipe_ >= 0) close(pipe_);
+    if (process_ < 0) return;
+    kill(process_, SIGINT);
+    wait();
+}
+
+int ChildProcess::wait(rusage* usage)
+{
+    int status = 0;
+    const pid_t child = std::exchange(process_, -1);
+    while (wait4(child, &status, 0, usage) < 0 && errno == EINTR) {
+    }
+    return status;
+}
+
+void ChildProcess::take_text()
+{
+    char buffer[4096];
+    const ssize_t count = ::read(pipe_, buffer, sizeof buffer);
+    if (count > 0)
+        text_.append(buffer, static_cast<std::size_t>(count));
+    else if (count == 0 || errno != EINTR)
+        close(std::exchange(pipe_, -1));
+}
+
+void listen_to(const std::vector<ChildProcess*>& children, int longest_ms)
+{
+    std::vector<pollfd> pipes;
+    for (const ChildProcess* child : children) pipes.push_back({child->pipe_, POLLIN, 0});  // poll leaves out those below 0
+    if (poll(pipes.data(), pipes.size(), longest_ms) <= 0) return;
+    for (std::size_t i = 0; i < pipes.size(); ++i)
+        if (pipes[i].revents != 0) children[i]->take_text();
 }
 
 }  // namespace pbs

@@ -1,44 +1,60 @@
-// Other people's readers on damaged files: assimp ends the process on one damaged .ply in two, VTK on rarer ones, and both may
-// take memory or time without limit. A child process tries first, silent, with limits on memory, processor time and time: far more than
-// a sound file needs, and no more than half of the memory that there is. Whatever becomes of the child, the caller gets what was read or an
-// InputError that names the file and says how the child died.
-//   const TetMesh mesh = read_guarded("arm.vtu", read_vtk);
-// Also: the stages of long work, a child that ends with its parent, and whether a process is still running.
-//   const pid_t parent = getpid();
-//   if (fork() == 0) { end_with_parent(parent); ... }   // a child that does not outlive its parent, however that one ends
+// Child processes, and the stages of long work.
 #pragma once
 
 #include <signal.h>
-#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <fstream>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace pbs {
 
-// Asked several times a second while a child tries; what it throws ends the child and leaves try_reading. Once, at the start:
-//   ask_while_reading(stop_if_interrupted);
-void ask_while_reading(std::function<void()> question);
+// What a child process leaves: a text of any length, and its exit status.
+struct ChildEnd {
+    std::string text;
+    int status = 0;
+};
 
-// read(path) in a child process, of which nothing stays behind; its exceptions come back as InputErrors.
-void try_reading(const std::string& path, const std::function<void(const std::string&)>& read);
+// A forked process that works for its parent and ends with it: it gets SIGINT when the parent ends, in whatever way. The thread that forked
+// must live as long as the child is needed.
+//   ChildProcess child([] { return ChildEnd{"text", 0}; });
+//   while (child.writes()) listen_to({&child});
+//   const int status = child.wait();      // child.text() is whole
+class ChildProcess {
+public:
+    // InputError if the system has no process or pipe left. Programs that either process starts do not inherit the pipe.
+    explicit ChildProcess(const std::function<ChildEnd()>& work);
+    ~ChildProcess();  // sends SIGINT to a child that has not been waited for, and waits for its end
+    ChildProcess(const ChildProcess&) = delete;
+    ChildProcess& operator=(const ChildProcess&) = delete;
 
-// read(path) in this process, once it has succeeded in a child.
-template <typename Read>
-auto read_guarded(const std::string& path, const Read& read)
-{
-    try_reading(path, [&](const std::string& file) { read(file); });
-    return read(path);
-}
+    bool writes() const { return pipe_ >= 0; }  // false once no process can write any more
+    const std::string& text() const { return text_; }
+    // Waits for the end of the child; returns its status as of waitpid. usage: what the child took of the processor; may be null.
+    int wait(rusage* usage = nullptr);
 
-// A stage of long work. The program prints the name of a stage that takes long, and ends within a second if it is interrupted in one.
+private:
+    friend void listen_to(const std::vector<ChildProcess*>& children, int longest_ms);
+    void take_text();
+
+    pid_t process_ = -1;
+    int pipe_ = -1;
+    std::string text_;
+};
+
+// Waits until one of the children that write has written or has ended, or a signal arrives, and takes what has arrived. A parent must
+// listen while a child works, for it waits when its pipe is full. longest_ms: of the wait; -1: no limit.
+void listen_to(const std::vector<ChildProcess*>& children, int longest_ms = -1);
+
+// A stage of long work. The program prints the name of a stage that takes long.
 //   const Stage stage("wrapping the surface");
 // Stages may contain others. Where nobody watches, as in a program of the user's own, a stage does nothing.
 struct StageWatcher {
-    void (*begin)(const std::string& name) = nullptr;  // may throw; then the stage has not begun
+    void (*begin)(const std::string& name) = nullptr;
     void (*end)() = nullptr;
 };
 inline StageWatcher stage_watcher;
@@ -56,13 +72,6 @@ public:
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 };
-
-// Call this first in the child (prctl(2), PR_SET_PDEATHSIG). The parent's thread that forked must live as long as the child is needed.
-inline void end_with_parent(pid_t parent)
-{
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(128 + SIGKILL);  // it ended before the line above
-}
 
 // No process of this number is on this machine: what it left half-made can be removed.
 inline bool process_is_gone(pid_t process)

@@ -1,5 +1,6 @@
 #include "pbs/geometry/content_format.hpp"
 
+#include "pbs/geometry/source_file.hpp"
 #include "pbs/geometry/text_words.hpp"
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -85,18 +85,13 @@ std::string lower_extension(const std::string& path)
 
 std::string beginning_of(const std::string& path)
 {
-    std::error_code code;
-    if (!fs::is_regular_file(path, code)) return "";
-    std::ifstream file(path, std::ios::binary);
-    std::string beginning(4096, '\0');
-    file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-    beginning.resize(static_cast<std::size_t>(file.gcount()));
-    return beginning;
+    return SourceFile(path).beginning();
 }
 
 std::string content_extension(const std::string& path)
 {
-    const std::string beginning = as_utf8(beginning_of(path));
+    const SourceFile file(path);
+    const std::string beginning = as_utf8(file.beginning());
     if (const std::string extension = extension_by_first_bytes(beginning); !extension.empty()) return extension;
     if (is_binary_stl(path)) return ".stl";
     if (holds(beginning, "; FBX ") || holds(beginning, "FBXHeaderExtension")) return ".fbx";

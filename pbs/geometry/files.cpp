@@ -1,9 +1,9 @@
 #include "pbs/geometry/files.hpp"
 
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/source_file.hpp"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -19,11 +19,6 @@
 
 namespace pbs {
 namespace {
-
-std::string reason()
-{
-    return std::generic_category().message(errno);
-}
 
 constexpr int most_parts = 64;
 
@@ -115,22 +110,7 @@ void require_size(const std::string& path, std::uintmax_t bytes, std::uintmax_t 
 
 std::string read_text_file(const std::string& path, std::uintmax_t most_bytes)
 {
-    const auto refuse = [&](const std::string& rule) { throw InputError(path, 0, "", "", rule); };
-    const OpenFile file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
-    if (file.number < 0) refuse("cannot be opened: " + reason());
-    struct stat status = {};  // the kind of a file is known only once it is open
-    if (::fstat(file.number, &status) != 0 || !S_ISREG(status.st_mode)) refuse("cannot be opened: expected a file");
-    require_size(path, static_cast<std::uintmax_t>(status.st_size), most_bytes);
-
-    std::string text;
-    std::array<char, 1 << 16> buffer;
-    for (ssize_t count = 1; count != 0;) {
-        count = ::read(file.number, buffer.data(), buffer.size());
-        if (count < 0 && errno != EINTR) refuse("cannot be read: " + reason());
-        if (count > 0) text.append(buffer.data(), static_cast<std::size_t>(count));
-        require_size(path, text.size(), most_bytes);  // it may grow
-    }
-    return text;
+    return SourceFile(path).text(most_bytes);
 }
 
 void check_toml_keys(const std::string& text, const std::string& file)

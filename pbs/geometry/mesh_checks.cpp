@@ -3,16 +3,17 @@
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/meshing.hpp"
+#include "pbs/geometry/source_file.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/geometry/winding_number.hpp"
 
 #include <Eigen/Geometry>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -31,11 +32,8 @@ void require_readable(const std::string& path, std::uintmax_t most_bytes)
     std::error_code code;
     if (!fs::exists(path, code)) throw InputError(path, 0, "", "", "no such file");
     if (!fs::is_regular_file(path, code)) throw InputError(path, 0, "", "", "expected a file");
-    if (!std::ifstream(path)) throw InputError(path, 0, "", "", "cannot be read");
-    const std::uintmax_t bytes = fs::file_size(path, code);
-    if (code) throw InputError(path, 0, "", "", "cannot be read: " + code.message());
-    if (bytes == 0) throw InputError(path, 0, "", "", "the file is empty");
-    require_size(path, bytes, most_bytes);
+    if (::euidaccess(path.c_str(), R_OK) != 0) throw InputError(path, 0, "", "", "cannot be read");
+    if (SourceFile(path).text(most_bytes).empty()) throw InputError(path, 0, "", "", "the file is empty");
 }
 
 void require_points(const std::string& path, long long points)

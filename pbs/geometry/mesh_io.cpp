@@ -1,7 +1,7 @@
 #include "pbs/geometry/mesh_io.hpp"
 
-#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/content_format.hpp"
+#include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/geometry/text_words.hpp"
@@ -42,7 +42,7 @@ TetFile read_as_listed(const std::string& path)
     if (format == TetFormat::tetgen) return {.mesh = read_tetgen(path)};
     if (format == TetFormat::tobj) return {.mesh = read_tobj(path)};
     if (format == TetFormat::medit) return {.mesh = read_medit(path)};
-    if (format == TetFormat::vtk) return {.mesh = read_guarded(path, read_vtk)};
+    if (format == TetFormat::vtk) return {.mesh = read_guarded(path, "tets", read_vtk)};
     return read_msh(path);
 }
 
@@ -248,6 +248,7 @@ TetMesh read_tobj(const std::string& path)
 
 TetMesh read_tet_frame(const std::string& path)
 {
+    const SourceFile file(path);
     TetMesh mesh = read_by_content(path).mesh;
     check_frame(path, mesh);
     return mesh;
@@ -255,6 +256,7 @@ TetMesh read_tet_frame(const std::string& path)
 
 MeshReading read_tet_mesh(const std::string& path, bool for_computing)
 {
+    const SourceFile source(path);
     TetFile file = read_by_content(path);
     MeshReading reading = check_rest(path, std::move(file.mesh), for_computing);
     reading.listed_at = std::move(file.listed_at);

@@ -1,5 +1,6 @@
 // Surface -> alpha wrap -> Mesh_3 with a cell size proportional to the local thickness -> perturb -> exude -> checks.
 // Alpha wrap: Portaneri et al., ACM TOG 41(4), 2022. Delaunay refinement, perturbation, exudation: Jamin et al., ACM TOMS 41(4), 2015.
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/meshing.hpp"
 
 #include "pbs/geometry/cgal_versions.hpp"
@@ -139,11 +140,6 @@ constexpr const char *boundary_not_manifold = "the boundary is not manifold", *n
 constexpr std::size_t least_bound = 30'000, bound_over_wanted = 6, least_in_all = 45'000, in_all_over_wanted = 30,
                       most_wrap_points = 1'000'000;
 
-double diagonal_of(const Positions& points)
-{
-    return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
-}
-
 struct WrapVisitor : CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor {
     template <typename Wrapper, typename NewPoint>
     void before_Steiner_point_insertion(const Wrapper&, const NewPoint&)
@@ -205,7 +201,7 @@ class WrappedBody : public EnclosedBody {
 public:
     WrappedBody(const SurfaceMesh& surface, double alpha, double offset)
         : EnclosedBody(wrap(surface, alpha, offset)),
-          diagonal_(diagonal_of(surface.points)),
+          diagonal_(diagonal_m(surface.points)),
           tree_(faces(surface_).begin(), faces(surface_).end(), surface_)
     {
         tree_.accelerate_distance_queries();
@@ -429,7 +425,7 @@ void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
     if (!surface.points.allFinite()) throw InputError("", 0, "points", "", "expected finite coordinates [m]");
     if (surface.triangles.minCoeff() < 0 || surface.triangles.maxCoeff() >= surface.points.rows())
         throw InputError("", 0, "triangles", "", "expected indices of points");
-    const double diagonal = diagonal_of(surface.points);
+    const double diagonal = diagonal_m(surface.points);
     if (!(diagonal >= smallest_m))
         throw InputError("", 0, "diagonal of the surface [m]", number_text(diagonal), "expected at least " + number_text(smallest_m));
     if (options.is_closed && sheet_offset_m(surface) > 0.0)
@@ -441,7 +437,7 @@ void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
 
 double sheet_offset_m(const SurfaceMesh& surface)
 {
-    const double diagonal = diagonal_of(surface.points);
+    const double diagonal = diagonal_m(surface.points);
     const bool has_volume = std::abs(fan_volume(surface.points, surface.triangles)) > flat_surface * diagonal * diagonal * diagonal;
     return has_volume ? 0.0 : diagonal * sheet_thickness / 2.0;
 }
@@ -455,7 +451,7 @@ TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
 {
     check_surface(surface, options);
     const double sheet_m = sheet_offset_m(surface);
-    const double alpha = options.wrap_alpha_m > 0.0 ? options.wrap_alpha_m : sheet_m > 0.0 ? sheet_m : diagonal_of(surface.points) / 170.0;
+    const double alpha = options.wrap_alpha_m > 0.0 ? options.wrap_alpha_m : sheet_m > 0.0 ? sheet_m : diagonal_m(surface.points) / 170.0;
     const double offset = options.wrap_offset_m > 0.0 ? options.wrap_offset_m : sheet_m > 0.0 ? sheet_m : alpha / 3.0;
 
     // A sheet of the surface, such as hair or a cape, becomes a layer between the offsets on both sides. Where that is too thin to be

@@ -81,6 +81,7 @@ std::string sentence_of(const std::string& message)
     std::string words = message.substr(begin, end == std::string::npos ? end : end - begin);
     for (char& c : words)
         if (c == '\n') c = ' ';
+    words.erase(std::min(words.find(" for file:"), words.size()));  // whose name stands before these words
     if (words.starts_with("Algorithm ")) return "the file is damaged";  // what follows are addresses in memory
     return words;
 }
@@ -114,13 +115,25 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const std::string& path, Reader& re
     return grid;
 }
 
+// From the bytes of the file, except one whose pieces are files of their own.
+void set_source(const std::string& path, vtkXMLPUnstructuredGridReader& reader)
+{
+    reader.SetFileName(path.c_str());
+}
+
+void set_source(const std::string& path, vtkXMLReader& reader)
+{
+    reader.ReadFromInputStringOn();
+    reader.SetInputString(read_text_file(path, most_mesh_bytes));
+}
+
 // Without the arrays of points and cells, whose defects are no matter here, except the one that marks what pieces share.
 template <typename Reader>
 vtkSmartPointer<vtkUnstructuredGrid> xml_grid(const std::string& path)
 {
     collect_messages();
     vtkNew<Reader> reader;
-    reader->SetFileName(path.c_str());
+    set_source(path, *reader.Get());
     reader->UpdateInformation();
     reader->GetPointDataArraySelection()->DisableAllArrays();
     reader->GetCellDataArraySelection()->DisableAllArrays();
@@ -133,7 +146,7 @@ template <typename XmlReader>
 vtkSmartPointer<vtkDataObject> data_of(const std::string& path, XmlReader& reader, const std::string& array)
 {
     collect_messages();
-    reader.SetFileName(path.c_str());
+    set_source(path, reader);
     reader.UpdateInformation();
     reader.GetCellDataArraySelection()->DisableAllArrays();
     if (!array.empty()) {
@@ -155,7 +168,8 @@ vtkSmartPointer<vtkDataObject> read_data(const std::string& path, const std::str
         reader->ReadAllNormalsOn();
         reader->ReadAllFieldsOn();
         collect_messages();
-        reader->SetFileName(path.c_str());
+        reader->ReadFromInputStringOn();
+        reader->SetInputString(read_text_file(path, most_mesh_bytes));
         reader->Update();
         throw_if_any_message(path);
         return reader->GetOutput();

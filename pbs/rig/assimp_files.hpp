@@ -1,12 +1,13 @@
-// assimp's one door, for COLLADA files and the materials of FBX files. It opens only files that content_format.hpp allows: the file itself
-// and regular files below its folder. It chooses its reader by the file's name, so that it is given a name whose extension fits the
-// content.
+// assimp's one door, for COLLADA files and the materials of FBX files. It gets the bytes of the file itself, and opens only files that
+// content_format.hpp allows: the file itself and regular files below its folder. It chooses its reader by the file's name, so that it is
+// given a name whose extension fits the content.
 //   Assimp::Importer importer;
 //   const aiScene& scene = read_scene(importer, path, aiProcess_Triangulate);
 #pragma once
 
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/source_file.hpp"
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
@@ -26,7 +27,10 @@ public:
     // path: the file that is read; it may lie anywhere. text: if not empty, a COLLADA document in place of its content; it outlives the
     // object.
     explicit OwnFolder(const std::string& path, std::string_view text = {})
-        : path_(path), name_(text.empty() ? path_by_content(path) : path + ".dae"), text_(text)
+        : path_(path),
+          name_(text.empty() ? path_by_content(path) : path + ".dae"),
+          source_(path),
+          text_(text.empty() ? source_.text(most_mesh_bytes) : text)
     {
     }
 
@@ -34,18 +38,13 @@ public:
     const std::string& name_by_content() const { return name_; }
 
     // False, too, for what may not be opened.
-    bool Exists(const char* named) const override
-    {
-        const std::string file = file_of(named);
-        return allows(file) && DefaultIOSystem::Exists(file.c_str());
-    }
+    bool Exists(const char* named) const override { return allows(file_of(named)); }
 
     // Null for what may not be opened; the first such file that is there is remembered.
     Assimp::IOStream* Open(const char* named, const char* mode) override
     {
         const std::string file = file_of(named);
-        if (!text_.empty() && file == path_)
-            return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(text_.data()), text_.size());
+        if (file == path_) return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(text_.data()), text_.size());
         if (allows(file)) return DefaultIOSystem::Open(file.c_str(), mode);
         std::error_code ignored;
         if (refused_.empty() && std::filesystem::exists(file, ignored)) refused_ = file;
@@ -65,7 +64,8 @@ private:
     std::string file_of(const std::string& named) const { return named == name_ ? path_ : named; }
 
     std::string path_, name_, refused_;
-    std::string_view text_;
+    SourceFile source_;
+    std::string_view text_;  // of the file at path_
 };
 
 // The scene, which the importer owns, with a root node. An InputError where assimp cannot read the file. text: as that of OwnFolder.

@@ -1,7 +1,7 @@
 #include "pbs/rig/rig_reader.hpp"
 
-#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/content_format.hpp"
+#include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/rig/rig_formats.hpp"
@@ -144,13 +144,15 @@ bool is_rig_file(const std::string& path)
 
 Rig read_any_rig(const std::string& path)
 {
+    const SourceFile file(path);
     require_readable(path, most_mesh_bytes);
     const RigFormat format = format_of(path);
     if (format == RigFormat::none)
         throw InputError(path, 0, "", "", "no rig: expected glTF 2.0 (.glb, .gltf), FBX (.fbx) or COLLADA (.dae, .zae)");
-    return checked(read_guarded(path, format == RigFormat::gltf  ? read_gltf_rig
-                                      : format == RigFormat::fbx ? read_fbx_rig
-                                                                 : read_collada_rig));
+    return checked(read_guarded(path, "rig",
+                                format == RigFormat::gltf  ? read_gltf_rig
+                                : format == RigFormat::fbx ? read_fbx_rig
+                                                           : read_collada_rig));
 }
 
 Rig read_rig(const std::string& path)
@@ -165,7 +167,7 @@ RigMaterials read_materials(const std::string& path)
 {
     RigMaterials materials;
     try {
-        materials = read_guarded(path, format_of(path) == RigFormat::gltf ? read_gltf_materials : read_assimp_materials);
+        materials = read_guarded(path, "materials", format_of(path) == RigFormat::gltf ? read_gltf_materials : read_assimp_materials);
     } catch (const InputError& error) {  // a surface needs none
         materials.remarks = {error.what()};
     }

@@ -1,5 +1,6 @@
 #include "pbs/rig/rigged_body.hpp"
 
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 
 #include <Eigen/SVD>
@@ -35,7 +36,7 @@ public:
     Tails(const Rig& rig, RiggedBody& body) : rig_(rig), body_(body), weight_(rig.nodes.size()), has_mesh_(rig.nodes.size())
     {
         place_ = bind_places(node_transforms(rig, nullptr, 0.0));
-        extent_m_ = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).norm();
+        extent_m_ = diagonal_m(body.surface);
         for (const RigMesh& mesh : rig.meshes) has_mesh_[mesh.node] = true;
         for (std::size_t e = 0; e < body.skin.bone.size(); ++e) weight_[body.node[body.skin.bone[e]]] += body.skin.weight[e];
         for (std::size_t n = rig.nodes.size(); n-- > 0;)  // children come after their parents: one pass sums the subtrees

@@ -2,8 +2,8 @@
 // body.
 #include "pbs/rig/surface_reader.hpp"
 
-#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/content_format.hpp"
+#include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/rig/rig_reader.hpp"
@@ -125,6 +125,7 @@ SurfaceMesh joined(const std::string& path, const SurfaceMesh& mesh)
 
 SurfaceReading checked_surface(const std::string& path, const std::string& mesh_name)
 {
+    const SourceFile file(path);
     require_readable(path, most_mesh_bytes);
     const std::string content = content_extension(path), extension = format_extension(path);
     if (!is_surface_file(path))
@@ -134,7 +135,8 @@ SurfaceReading checked_surface(const std::string& path, const std::string& mesh_
     if (is_rig_extension(extension))
         surface = surface_of_rig(path, mesh_name);
     else
-        surface.mesh = read_guarded(path, [&](const std::string& file) { return read_by_library(file, mesh_name); });
+        surface.mesh =
+            read_guarded(path, "surface " + mesh_name, [&](const std::string& file) { return read_by_library(file, mesh_name); });
     check_raw_surface(path, surface.mesh);
     return surface;
 }

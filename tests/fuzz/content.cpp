@@ -2,8 +2,8 @@
 // asked for. The format does not depend on the name, and the result is a surface or a mesh with valid indices, or an InputError. assimp and
 // VTK read in a child process. A breakdown of theirs is counted, since the child contains it for users too. CGAL is left out in
 // libFuzzer's program.
-#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/content_format.hpp"
+#include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/tet_mesh.hpp"

@@ -1,7 +1,8 @@
 #include "experiments/command_line/measure/frame_points.hpp"
 
 #include "analysis/metrics/frame_metrics.hpp"
-#include "pbs/geometry/child_process.hpp"
+#include "pbs/geometry/extent.hpp"
+#include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 
@@ -34,7 +35,7 @@ constexpr double nearness = 0.1, twofold = 2.0;
 double rounding_m(const pbs::Positions& rest)
 {
     constexpr double same_point = 1e-6;  // of the body's diagonal: coordinates in single precision
-    return same_point * (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
+    return same_point * pbs::diagonal_m(rest);
 }
 
 struct PointVector {
@@ -43,9 +44,11 @@ struct PointVector {
 };
 using PointVectors = std::map<std::string, PointVector>;
 
-// The name of a vector whose first component is called so: u for ux, u_x and u:0, U for U1, D for DX. Empty: it is none.
+// The name of a vector whose first component is called so: u for ux, u_x and u:0, U for U1, D for DX, and u for u, v and w. Empty: it is
+// none.
 std::string stem_of(const std::string& name)
 {
+    if (name == "u" || name == "U") return name;
     if (name.size() < 2) return "";
     const char last = static_cast<char>(std::tolower(static_cast<unsigned char>(name.back())));
     if (last != 'x' && last != '1' && last != '0') return "";
@@ -80,15 +83,16 @@ bool is_named_displacement(const std::string& name)
 // rows.
 PointVectors vectors_of(const std::string& path, const std::string& name, const std::vector<int>& file_point)
 {
-    const auto arrays = pbs::read_guarded(path, [&](const std::string& file) { return pbs::read_point_arrays(file, name); });
+    const auto arrays =
+        pbs::read_guarded(path, "arrays " + name, [&](const std::string& file) { return pbs::read_point_arrays(file, name); });
     PointVectors vectors;
-    for (const auto& [of, values] : arrays)
-        if (values.cols() == 3) vectors.emplace(of, PointVector{values});
+    for (const auto& [array, values] : arrays)
+        if (values.cols() == 3) vectors.emplace(array, PointVector{values});
     add_vectors_of_components(arrays, vectors);
-    for (auto& [of, vector] : vectors) {
+    for (auto& [own_name, vector] : vectors) {
         if (name.empty() && vector.values.rows() == 0) continue;
         if (vector.values.rows() <= std::ranges::max(file_point))
-            throw pbs::InputError(path, 0, of, fmt::format("{} rows", vector.values.rows()), "expected one for each point");
+            throw pbs::InputError(path, 0, own_name, fmt::format("{} rows", vector.values.rows()), "expected one for each point");
         vector.values = vector.values(file_point, Eigen::all).eval();
     }
     return vectors;
@@ -178,12 +182,12 @@ pbs::Positions shape_of_frame(const std::string& path, const pbs::Positions& poi
                               "expected those of the rest mesh with --displacement: points that are deformed already need no such option");
     PointVectors vectors = vectors_of(path, displacement, file_point);
     if (!vectors.contains(displacement)) vectors = vectors_of(path, "", file_point);
-    const auto found = vectors.find(displacement);
-    if (found == vectors.end())
+    const auto vector = vectors.find(displacement);
+    if (vector == vectors.end())
         throw pbs::InputError(path, 0, "--displacement", displacement, "expected a vector of the points: " + known_vectors(vectors));
-    if (found->second.values.rows() == 0) refuse(path, displacement, found->second, file_point);
-    if (!found->second.values.allFinite()) throw pbs::InputError(path, 0, displacement, "", "expected finite numbers");
-    return rest + found->second.values;
+    if (vector->second.values.rows() == 0) refuse(path, displacement, vector->second, file_point);
+    if (!vector->second.values.allFinite()) throw pbs::InputError(path, 0, displacement, "", "expected finite numbers");
+    return rest + vector->second.values;
 }
 
 }  // namespace experiments

@@ -5,6 +5,7 @@
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/trial/trial.hpp"
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/rig/rig_reader.hpp"
 #include "pbs/rig/rigged_body.hpp"
@@ -110,7 +111,7 @@ public:
                 .write(arguments_.csv);
         if (!arguments_.shells.empty()) table_of(shell_columns, shell_rows_).write(arguments_.shells);
         const pbs::Positions& rest = rest_.points();
-        const double gap_pct = 100.0 * gap_m_ / (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
+        const double gap_pct = 100.0 * gap_m_ / pbs::diagonal_m(rest);
         constexpr double least_gap_pct = 0.01;
         if (gap_pct > least_gap_pct)
             warn({fmt::format(
@@ -119,9 +120,9 @@ public:
                 arguments_.rest, gap_pct, gap_frame_)});
         if (!moves_ && !rows_.empty())
             warn({fmt::format(
-                "{}: points = those at rest in all {} frames: nothing moves; a skin or a cache that another program applies is not "
-                "in such files (export the deformed surface, or measure the rigged model alone)",
-                arguments_.rest, rows_.size())});
+                "{}: nothing moves: each frame has the points of the rest mesh; a skin or a cache that another program applies is "
+                "not in such files (export the deformed surface, or measure the rigged model alone)",
+                arguments_.rest)});
     }
 
 private:

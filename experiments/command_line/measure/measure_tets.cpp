@@ -99,8 +99,8 @@ int measure_tets(const MeasureArguments& arguments)
         warn({fmt::format("{}: points = those of the rest mesh: deformed by the field `displacement`, as of exported references",
                           paths.front())});
     if (!moves && !rows.empty() && measured.refused.empty())
-        warn({fmt::format("{}: points = those at rest in all {} frames: nothing moves; --displacement names a vector that deforms them",
-                          arguments.rest, rows.size())});
+        warn({fmt::format("{}: nothing moves: each frame has the points of the rest mesh; --displacement names a vector that deforms them",
+                          arguments.rest)});
     if (!references.empty() && !arguments.quiet) print_errors(rows);
     if (!arguments.csv.empty())
         (references.empty() ? table_of(columns, measured.frames) : table_of(error_columns, rows)).write(arguments.csv);

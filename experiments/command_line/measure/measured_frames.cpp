@@ -40,7 +40,6 @@ MeasuredFrames measure_each(const MeasureArguments& arguments, const std::vector
 {
     MeasuredFrames measured;
     for (std::size_t i = 0; i < paths.size(); ++i) {
-        stop_if_interrupted();
         try {
             measured.frames.push_back({names[i], measure_frame(i)});
             measured.all_hold = report_broken(arguments.bounds, paths[i], measured.frames.back().values) && measured.all_hold;

@@ -25,6 +25,7 @@ REFUSED = {
     "run nowhere.toml": "nowhere.toml: cannot be read",
     "run {scene} -o {out} --set motion.joint=knee": "motion.joint = knee: expected one of shoulder, elbow",
     "run limb_twist -o {out} --set fem.0.name=../x": "it names files",
+    "try rig.glb --no-reference --reference-seconds 5": "--reference-seconds excludes --no-reference",
 }
 
 

@@ -195,6 +195,7 @@ class ForeignFrames(program.ProgramTest):
     def test_three_scalars_that_are_the_components_of_a_displacement(self):
         shift = [tuple(a - b for a, b in zip(moved, rest)) for moved, rest in zip(stretched(-26.0), POINTS)]
         for stem, names in (("u", ("ux", "uy", "uz")), ("u", ("u_x", "u_y", "u_z")), ("U", ("U1", "U2", "U3")), ("D", ("DX", "DY", "DZ")),
+                            ("u", ("u", "v", "w")),
                             ("displacement", ("displacement_x", "displacement_y", "displacement_z")),
                             ("disp", ("disp:0", "disp:1", "disp:2"))):
             for file in ("scalars.vtu", "scalars.vtk"):

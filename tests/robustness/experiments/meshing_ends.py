@@ -66,7 +66,7 @@ class MeshingEnds(program.ProgramTest):
         start_s = time.monotonic()
         process.send_signal(kill)
         _, rest = process.communicate(timeout=60)
-        # Within a second. The program waits for 0.7 s of it; the rest is for its end, which other work on the processor stretches.
+        # Within a second, which other work on the processor stretches.
         self.assertLess(time.monotonic() - start_s, 1.0 + 0.3 * os.getloadavg()[0] / os.cpu_count())
         self.assertEqual(process.returncode, 130, printed + rest)
         self.assertEqual(rest.splitlines()[-1], "pbskin: interrupted; what was finished is kept")

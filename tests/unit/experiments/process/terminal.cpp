@@ -84,8 +84,8 @@ std::pair<int, double> end_of(const std::function<void()>& work)
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), stopwatch.seconds()};
 }
 
-// Reference: the contract in the header. Without the watch, the work waits for the time limit of the test.
-TEST(Interruption, EndsAStageThatGoesOnAndRemovesItsUnfinishedFiles)
+// Reference: the contract in the header. Without the watch, the signal itself would end the process.
+TEST(Interruption, EndsTheProgramAtOnceAndRemovesItsUnfinishedFiles)
 {
     const test_support::ScratchFolder folder;
     for (const int signal : {SIGINT, SIGTERM}) {
@@ -102,29 +102,88 @@ TEST(Interruption, EndsAStageThatGoesOnAndRemovesItsUnfinishedFiles)
     }
 }
 
-TEST(Interruption, IsNoticedWhereAStageBeginsAndLeavesTheRestInPeace)
+TEST(Interruption, IsOnlyNotedByWorkThatLooksForItUntilTheNextSignal)
 {
     EXPECT_EQ(end_of([] {
+                  const NotedInterrupts noted;
                   std::raise(SIGTERM);
-                  const pbs::Stage stage("the next one");
+                  if (!interrupted()) _exit(exit_internal);
+                  stop_if_interrupted();
               }).first,
               10 + exit_interrupted);
     EXPECT_EQ(end_of([] {
-                  std::optional<pbs::Stage> stage("work that ends by itself");
-                  std::raise(SIGTERM);
-                  stage.reset();
-                  const pbs::Stopwatch writing;  // longer than the time of grace
-                  while (writing.seconds() < 1.0) usleep(10'000);
+                  const NotedInterrupts around;
+                  {
+                      const NotedInterrupts noted;
+                      raise(SIGINT);
+                  }
+                  if (!take_interruption() || interrupted()) _exit(exit_internal);
+                  raise(SIGTERM);
+                  _exit(exit_bound);  // the second signal was noted too
               }).first,
-              exit_finished);
+              exit_interrupted);
+    EXPECT_EQ(end_of([] {
+                  std::optional<NotedInterrupts> noted(std::in_place);
+                  noted.reset();
+                  raise(SIGINT);
+              }).first,
+              exit_interrupted);
 }
 
-// A signal to all processes of a group reaches a worker twice, since its parent passes it on.
-TEST(Interruption, OfASecondSignalEndsTheProgramAndNoWorker)
+// A worker's temporary files go with it, also where its parent is killed. The pipe ends with the last process that could write.
+TEST(Interruption, EndsTheChildrenOfTheProgramWhichRemoveTheirFiles)
 {
-    EXPECT_EQ(end_of([] { raise(SIGINT), raise(SIGTERM); }).first, -SIGTERM);
-    const auto work = [] { return nlohmann::json((raise(SIGTERM), raise(SIGINT), usleep(2'000'000))); };  // its end is cut off
-    EXPECT_EQ(end_of([&] { in_own_process(work); }).first, 10 + exit_internal) << "ended without a result, and by no signal";
+    const test_support::ScratchFolder folder;
+    int ends[2];
+    ASSERT_EQ(pipe(ends), 0);
+    const auto work = [&] {
+        const pbs::AtomicFile file(folder / "unfinished.csv");
+        const ssize_t written = write(ends[1], "x", 1);
+        return nlohmann::json(written + sleep(60));
+    };
+    for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+        const pid_t program = fork();
+        if (program == 0) {
+            dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
+            watch_interrupts();
+            try {
+                in_own_process(work);
+            } catch (const Interrupted&) {
+                _exit(exit_interrupted);
+            }
+            _exit(exit_internal);
+        }
+        char begun = 0;
+        ASSERT_EQ(read(ends[0], &begun, 1), 1);
+        kill(program, signal);
+        int status = 0;
+        waitpid(program, &status, 0);
+        EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status), signal == SIGKILL ? SIGKILL : exit_interrupted);
+        const pbs::Stopwatch stopwatch;
+        while (!analysis::files_in(folder.path()).empty() && stopwatch.seconds() < 10.0) usleep(1'000);
+        EXPECT_TRUE(analysis::files_in(folder.path()).empty()) << "signal " << signal;
+    }
+    close(ends[0]);
+    close(ends[1]);
+}
+
+// To stderr, once, by the program alone.
+TEST(Stages, ThatTakeLongAreNamed)
+{
+    const test_support::ScratchFolder folder;
+    const std::string file = folder.file("stderr.txt", "");
+    const pid_t program = fork();
+    if (program == 0) {
+        dup2(open(file.c_str(), O_WRONLY), STDERR_FILENO);
+        watch_interrupts();
+        const pbs::Stage outer("outer"), inner("inner");
+        const pbs::Stopwatch stopwatch;
+        while (analysis::read_text(file).empty() && stopwatch.seconds() < 10.0) usleep(10'000);
+        in_own_process([] { return nlohmann::json((pbs::Stage("of a child"), usleep(1))); });
+        _exit(exit_finished);
+    }
+    waitpid(program, nullptr, 0);
+    EXPECT_EQ(analysis::read_text(file), "inner ...\n");
 }
 
 class Terminal : public ::testing::Test {

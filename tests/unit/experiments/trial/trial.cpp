@@ -126,6 +126,8 @@ TEST_F(TrialSceneTest, FindsAnInstalledClipByItsName)
     TrialOptions options = options_for(test_support::write_rigged_gltf(folder, "arm.gltf", {"Bend"}));
     options.animation = "01_01.bvh";
     expect_input_error([&] { trial_scene(options); }, pbs::find_clip("01_01.bvh", "") + ": joints = ", "no joint has the name of a bone");
+    options.animation = "01_01.bvh:";
+    expect_input_error([&] { trial_scene(options); }, "--animation = 01_01.bvh:: ", "expected the name of an animation behind the colon");
     EXPECT_FALSE(fs::exists(options.folder));
 }
 
