@@ -1,6 +1,7 @@
 #include "experiments/run/doubtful_results.hpp"
 
 #include "pbs/character/separated_parts.hpp"
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -109,7 +110,7 @@ pbs::RemarkList remarks_on_first_frame(const Scene& scene, const pbs::Character&
 CarriedSkin carried_skin(const pbs::Character& character, const RunFolder::FollowedSkin& followed)
 {
     const pbs::Positions& rest = character.artist->model->body.surface;
-    const double size_m = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
+    const double size_m = pbs::diagonal_m(rest);
     const pbs::Carrier carrier = pbs::carrier_of(character, followed.vertex);
     const auto bone = [&](int b) -> const pbs::Bone& { return character.skeleton.bones[static_cast<std::size_t>(b)]; };
     return {.largest_pct = 100.0 * followed.largest_m / size_m,

@@ -1,5 +1,7 @@
 #include "experiments/run/frame_measurement.hpp"
 
+#include "pbs/geometry/extent.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -216,7 +218,7 @@ std::vector<int> FrameMeasurer::contact_depths_um(const pbs::Positions& position
         contact_.emplace(mesh, rows, 3);
     }
     // Both skins are moved outwards by half of the distance at which they touch.
-    const double touching_m = 1e-3 * (mesh.rest.colwise().maxCoeff() - mesh.rest.colwise().minCoeff()).norm();
+    const double touching_m = 1e-3 * pbs::diagonal_m(mesh.rest);
     pbs::Positions normals = pbs::Positions::Zero(positions.rows(), 3);
     for (const auto corners : skin_.rowwise()) {
         const pbs::Vec3 a = positions.row(corners(0)), b = positions.row(corners(1)), c = positions.row(corners(2));

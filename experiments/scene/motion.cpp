@@ -2,6 +2,7 @@
 
 #include "experiments/scene/movements.hpp"
 #include "pbs/character/model_character.hpp"
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>
@@ -82,7 +83,7 @@ CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& characte
 // Bones that the animation moves away from their parents or towards them, as squash and stretch does.
 std::vector<StretchedBone> stretched_bones(const pbs::RigMotion& motion, const pbs::RiggedBody& body)
 {
-    const double size_m = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).norm();
+    const double size_m = pbs::diagonal_m(body.surface);
     std::vector<StretchedBone> stretched;
     for (std::size_t b = 0; b < motion.distances.size(); ++b) {
         const pbs::DistanceChange& change = motion.distances[b];
@@ -165,7 +166,7 @@ CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& charac
     made.largest_rotation_deg = pbs::largest_rotation_deg(made.motion);
     const double displacement_m = pbs::largest_displacement_m(made.motion, character.skeleton);
     const pbs::Positions& rest = character.mesh.rest;
-    const double size_m = rest.rows() > 0 ? (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm() : 0.0;
+    const double size_m = rest.rows() > 0 ? pbs::diagonal_m(rest) : 0.0;
     if (const double posed_deg = pose_deg(made.motion); posed_deg >= still_deg)
         made.remarks.push_back(
             {pbs::Gravity::results_wrong,

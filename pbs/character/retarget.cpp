@@ -1,6 +1,7 @@
 #include "pbs/character/clip.hpp"
 
 #include "pbs/character/body_axes.hpp"
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <algorithm>
@@ -45,7 +46,7 @@ std::vector<int> children_of(const Clip& clip, int joint)
 // limb_end -1: the joint's children, of which a thumb points to the side of its hand.
 Vec3 limb_of(const Clip& clip, const Positions& rest, int joint, int limb_end)
 {
-    const double extent = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
+    const double extent = diagonal_m(rest);
     for (std::vector<int> below = limb_end < 0 ? children_of(clip, joint) : std::vector{limb_end}; !below.empty();
          below = children_of(clip, below.front()))
         for (const int child : below) {

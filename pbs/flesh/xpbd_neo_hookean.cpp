@@ -1,6 +1,7 @@
 #include "pbs/flesh/xpbd_neo_hookean.hpp"
 
 #include "pbs/flesh/flesh_kernels.hpp"
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/packed/groups.hpp"
 
@@ -108,7 +109,7 @@ XpbdFlesh::XpbdFlesh(const TetMesh& mesh, const FleshEnergy& energy, const BoneH
     if (!(time_step > 0.0)) throw InputError("flesh", 0, "time_step", std::to_string(time_step), "expected a value above 0");
     for (const HoldMode& mode : hold.modes()) ++first_mode[mode.tet + 1];
     for (std::size_t t = 0; t < tets.size(); ++t) first_mode[t + 1] += first_mode[t];
-    size_m = (mesh.rest.colwise().maxCoeff() - mesh.rest.colwise().minCoeff()).norm();
+    size_m = diagonal_m(mesh.rest);
     for (const FleshTet& tet : energy.tets())
         for (int e = 0; e < 6; ++e)
             for (const int end : edges_of_tet[e]) w(tet.vertex[end]) += tet.w[e];

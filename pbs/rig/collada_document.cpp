@@ -1,6 +1,7 @@
 #include "pbs/rig/collada_document.hpp"
 
 #include "pbs/geometry/content_format.hpp"
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/rig/collada_xml.hpp"
@@ -292,7 +293,7 @@ void move_far_points_to_the_origin(ColladaXml& document, ColladaDocument& result
         const Positions points = rows_of_three(source.child("float_array"));
         if (points.rows() == 0 || !points.allFinite() || number_of(accessor, "stride", 1) != 3 || number_of(accessor, "offset") != 0)
             continue;
-        const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+        const double size = diagonal_m(points);
         if (points.cwiseAbs().maxCoeff() <= far_away * size) continue;
         std::string text;
         const Positions near = points.rowwise() - points.row(0);

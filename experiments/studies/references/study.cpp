@@ -16,6 +16,7 @@
 #include "experiments/studies/study.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/body_cache.hpp"
+#include "pbs/geometry/extent.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -101,7 +102,7 @@ std::string compared_with_kept(const KeptReferences& solved, const pbs::Characte
 {
     const KeptReferences kept = read_references(solved.pose, character, solved.bones);
     const pbs::Positions& rest = character.mesh.rest;
-    const double size_m = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
+    const double size_m = pbs::diagonal_m(rest);
     std::string differing;
     for (std::size_t m = 0; m < solved.members.size(); ++m) {
         const KeptReference& now = solved.members[m];

@@ -5,6 +5,7 @@
 #include "experiments/process/terminal.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/solver/particles.hpp"
@@ -314,7 +315,7 @@ StabilityBody::StabilityBody(const StabilityCell& cell)
       way_(way_of(cell, character_.skeleton)),
       start_(cell.disturbance.start),
       still_steps_(cell.still_steps),
-      diagonal_m_((character_.mesh.rest.colwise().maxCoeff() - character_.mesh.rest.colwise().minCoeff()).norm())
+      diagonal_m_(pbs::diagonal_m(character_.mesh.rest))
 {
 }
 

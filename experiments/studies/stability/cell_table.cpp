@@ -9,6 +9,7 @@
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/settings/scene_values.hpp"
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/options.hpp"
 
@@ -142,7 +143,7 @@ int inverted(const StabilityCell& cell, const pbs::Positions& positions)
 bool is_far(const StabilityCell& cell, const pbs::Positions& positions, const pbs::Positions& other)
 {
     const pbs::Positions& rest = stability_character(cell).mesh.rest;
-    const double diagonal_m = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
+    const double diagonal_m = pbs::diagonal_m(rest);
     return (positions - other).rowwise().norm().maxCoeff() > analysis::StabilityBounds{}.farthest * diagonal_m;
 }
 
