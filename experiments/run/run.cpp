@@ -262,7 +262,7 @@ private:
                 return;
             }
             if (is_frame) record_frame(static_cast<int>(step / motion_.steps_per_frame), step);
-            if (since_tables.seconds() > longest_loss_s || (is_frame && frames_ == 1)) {
+            if (since_tables.seconds() > longest_loss_s) {
                 folder_.write_tables(false);
                 since_tables = {};
             }
