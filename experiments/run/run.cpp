@@ -163,7 +163,7 @@ private:
                 return;
             }
             if (is_frame(step)) record_frame(static_cast<int>(step / motion_.motion.steps_per_frame), step);
-            if (since_tables.seconds() > longest_loss_s || (is_frame(step) && frames_ == 1)) {
+            if (since_tables.seconds() > longest_loss_s) {
                 folder_.write_tables(false);
                 since_tables = {};
             }

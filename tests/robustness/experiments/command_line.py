@@ -158,8 +158,8 @@ class CommandLine(foreign_arm.ArmTest):
     def test_interrupt_keeps_whole_files(self):
         process = subprocess.Popen([program.PBSKIN, "run", self.scene, "-o", self.path("out"), "--set", "motion.frames=100000",
                                     "--set", "output.frames_every=1"], stderr=subprocess.PIPE, text=True)
-        frame, deadline = self.path("out", "frames", "pbs_000001.vtu"), time.monotonic() + 60
-        while not os.path.exists(frame) and process.poll() is None and time.monotonic() < deadline:
+        tables, deadline = self.path("out", "metrics.csv"), time.monotonic() + 60  # which are written each second
+        while not os.path.exists(tables) and process.poll() is None and time.monotonic() < deadline:
             time.sleep(0.05)
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
