@@ -14,7 +14,7 @@
 #include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

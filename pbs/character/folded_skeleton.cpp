@@ -1,6 +1,5 @@
 #include "pbs/character/skeleton_file.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io.hpp"
 
 #include <Eigen/Geometry>
 

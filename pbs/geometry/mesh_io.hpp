@@ -12,8 +12,6 @@
 
 namespace pbs {
 
-inline constexpr double farthest_m = 1e9;  // of a point from the origin: beyond, products of three lengths leave the range of a double
-
 // The result of read_tet_mesh.
 struct MeshReading {
     TetMesh mesh;                      // positively oriented, in the file's order; nodes and elements of a .msh by their tags [m]

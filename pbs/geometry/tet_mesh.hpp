@@ -21,6 +21,8 @@ using Tets = Eigen::Matrix<int, Eigen::Dynamic, 4, Eigen::RowMajor>;          //
 using Edges = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;         // vertex indices, #E x 2, first < second
 using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;     // vertex indices, #F x 3, outward
 
+inline constexpr double farthest_m = 1e9;  // of a point from the origin: beyond, products of three lengths leave the range of a double
+
 // read_tet_mesh checks what it reads. For other meshes PbsSolver checks that indices are in range and volumes positive; most functions
 // check nothing.
 struct TetMesh {
