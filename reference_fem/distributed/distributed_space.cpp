@@ -146,15 +146,15 @@ std::pair<pbs::Edges, pbs::Positions> DistributedSpace::on_rank_0(const std::fun
             rows.push_back({double(first), double(second), value_at_own(dof(0)), value_at_own(dof(1)), value_at_own(dof(2))});
         }
     });
-    std::vector<Row> rows;
+    std::vector<Row> gathered;
     for (const auto& of_rank : dealii::Utilities::MPI::gather(MPI_COMM_WORLD, rows, 0))
-        rows.insert(rows.end(), of_rank.begin(), of_rank.end());
-    std::ranges::sort(rows);
-    pbs::Edges nodes(rows.size(), 2);
-    pbs::Positions values(rows.size(), 3);
-    for (std::size_t n = 0; n < rows.size(); ++n) {
-        nodes.row(n) << static_cast<int>(rows[n][0]), static_cast<int>(rows[n][1]);
-        values.row(n) << rows[n][2], rows[n][3], rows[n][4];
+        gathered.insert(gathered.end(), of_rank.begin(), of_rank.end());
+    std::ranges::sort(gathered);
+    pbs::Edges nodes(gathered.size(), 2);
+    pbs::Positions values(gathered.size(), 3);
+    for (std::size_t n = 0; n < gathered.size(); ++n) {
+        nodes.row(n) << static_cast<int>(gathered[n][0]), static_cast<int>(gathered[n][1]);
+        values.row(n) << gathered[n][2], gathered[n][3], gathered[n][4];
     }
     return {nodes, values};
 }
