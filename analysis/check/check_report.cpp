@@ -12,11 +12,11 @@ namespace analysis {
 
 int count(const std::vector<CheckSuite>& suites, CheckState state)
 {
-    int count = 0;
+    int cases = 0;
     for (const CheckSuite& suite : suites)
-        count += static_cast<int>(
+        cases += static_cast<int>(
             std::count_if(suite.cases.begin(), suite.cases.end(), [&](const CheckCase& check) { return check.state == state; }));
-    return count;
+    return cases;
 }
 
 const char* to_string(CheckState state)

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <filesystem>
@@ -68,14 +69,16 @@ auto from_record(const std::string& path, const Read& read)
     }
 }
 
-// A temporary folder for files that another program reads and writes. It is removed with this object.
+// A temporary folder for files that another program reads and writes. It is removed with this object; those that an interruption left are
+// removed by a later process.
 //   const ScratchFolder folder;  write(folder / "deck.inp");
 class ScratchFolder {
 public:
     ScratchFolder()
     {
         const std::filesystem::path parent = std::filesystem::temp_directory_path();
-        std::string name = (parent / "pbskin_XXXXXX").string();
+        remove_abandoned(parent);
+        std::string name = (parent / ("pbskin_" + std::to_string(getpid()) + "_XXXXXX")).string();
         if (!mkdtemp(name.data()))
             throw pbs::InputError(parent.string(), 0, "", "", "no folder can be made here: " + std::generic_category().message(errno));
         path_ = name;
@@ -92,6 +95,8 @@ public:
     const std::filesystem::path& path() const { return path_; }
 
 private:
+    static void remove_abandoned(const std::filesystem::path& parent);
+
     std::filesystem::path path_;
 };
 

@@ -263,9 +263,9 @@ public:
     }
     Columns in_group(const std::string& group) const
     {
-        Columns joined = *this;
-        for (Column<Row>& column : joined) column.group = group;
-        return joined;
+        Columns grouped = *this;
+        for (Column<Row>& column : grouped) column.group = group;
+        return grouped;
     }
     Columns without(const std::string& group) const
     {

@@ -51,7 +51,7 @@ std::string install_cube2()
             throw pbs::InputError("", 0, "cube2-data", "", "this process is not root, and sudo asks for a password; " + by_hand);
         program.insert(program.begin(), {"sudo", "-n"});
     }
-    const ProgramRun run = run_program(program, scratch.path());
+    const ProgramRun run = run_program(program, scratch.path(), false);  // a package that is half installed would be worse than a wait
     if (!run.started) throw pbs::InputError("", 0, "cube2-data", "", "apt-get is not installed: get Debian's package by other means");
     if (!run.succeeded()) throw pbs::InputError("", 0, "cube2-data", "", "apt-get failed (" + run.last_words + "); " + by_hand);
     pbs::require_body("frankie");
@@ -77,7 +77,7 @@ const PackedFile files[] = {
     {"package/public/data/targets/targets.bin", "5627e756345ac63762ac858c3b15af68"},
 };
 
-// A folder next to the final one. It is removed with everything in it, whatever happens.
+// A folder next to the final one. It is removed with this object; what an interruption left is removed by the next one.
 class Workplace {
 public:
     explicit Workplace(const fs::path& folder) : path_(folder.string() + "-fetching-" + std::to_string(::getpid()))

@@ -104,7 +104,7 @@ void leave_what_is_of_use(const TrialOptions& options, bool has_page)
 
 int try_model(TrialOptions options, const CommonOptions& common)
 {
-    const pbs::SourceFile model(options.model);
+    const pbs::SourceFile model(options.model);  // keeps the bytes for the run that follows
     if (options.folder.empty()) options.folder = "results/" + fs::path(options.model).stem().string();
     const TrialScene made = [&] {
         const pbs::Stage stage("reading " + options.model);

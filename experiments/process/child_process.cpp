@@ -136,12 +136,13 @@ nlohmann::json in_own_process(const std::function<nlohmann::json()>& work)
     pbs::ChildProcess process([&] { return result_or_failure(work); });
     for (; process.writes(); pbs::listen_to({&process}, moment_ms)) stop_if_interrupted();
     const int status = process.wait();
+    stop_if_interrupted();  // the same signal may have ended it
     if (WIFSIGNALED(status))
         throw pbs::InputError("", 0, "process", "signal " + std::to_string(WTERMSIG(status)), "expected to end by itself");
     return result_in(process.text());
 }
 
-ProgramRun run_program(const std::vector<std::string>& program_and_arguments, const std::optional<std::string>& folder)
+ProgramRun run_program(const std::vector<std::string>& program_and_arguments, const std::optional<std::string>& folder, bool may_be_killed)
 {
     std::vector<std::string> words = program_and_arguments;
     std::vector<char*> arguments;
@@ -171,7 +172,7 @@ ProgramRun run_program(const std::vector<std::string>& program_and_arguments, co
     constexpr int most_requests = 10;  // to end by itself, over half a second
     int status = 0, requests = 0;
     while (waitpid(child, &status, WNOHANG) == 0) {
-        if (interrupted()) kill(child, ++requests > most_requests ? SIGKILL : SIGTERM);
+        if (interrupted() && (may_be_killed || requests == 0)) kill(child, ++requests > most_requests ? SIGKILL : SIGTERM);
         std::this_thread::sleep_for(std::chrono::milliseconds(moment_ms));
     }
     stop_if_interrupted();
@@ -222,7 +223,10 @@ std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int j
         std::vector<pbs::ChildProcess*> processes;
         for (const Worker& worker : workers) processes.push_back(worker.process.get());
         pbs::listen_to(processes, moment_ms);
-        stop_if_interrupted();  // which ends the workers
+        if (interrupted())
+            for (pbs::ChildProcess* process : processes)
+                process->ask_to_end();  // all at once; the destructors wait for one after the other
+        stop_if_interrupted();
         std::erase_if(workers, [&](const Worker& worker) {
             if (worker.process->writes()) return false;
             results[worker.work] = outcome_of(work[worker.work], *worker.process);
@@ -230,6 +234,7 @@ std::vector<PooledResult> run_in_pool(const std::vector<PooledWork>& work, int j
             return true;
         });
     }
+    stop_if_interrupted();  // a worker that was interrupted too has not failed
     return results;
 }
 

@@ -27,8 +27,9 @@ struct ProgramRun {
 };
 
 // The program runs in `folder`, which must exist. Its output is in a file there while it runs. Without a folder, it runs in the current one
-// and writes where this process does.
-ProgramRun run_program(const std::vector<std::string>& program_and_arguments, const std::optional<std::string>& folder);
+// and writes where this process does. An interruption asks it to end, and kills it half a second later if it may be killed.
+ProgramRun run_program(const std::vector<std::string>& program_and_arguments, const std::optional<std::string>& folder,
+                       bool may_be_killed = true);
 
 // Returns why the program, a path or a name on the PATH, cannot be started, or an empty text if it can. Relative paths and relative entries
 // of the PATH count as missing, for run_program changes to its folder before it seeks the program.

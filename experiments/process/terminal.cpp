@@ -36,7 +36,7 @@
 namespace experiments {
 namespace {
 
-bool progress_is_hidden = false;
+std::atomic<bool> progress_is_hidden = false;
 
 constexpr char last_words[] = "interrupted; what was finished is kept";
 
@@ -45,9 +45,11 @@ std::atomic<pid_t> program = 0;  // the process that says that it was interrupte
 std::atomic<pid_t> noting = 0;   // the process in which the next signal is only noted; 0: none
 std::atomic<bool> signalled = false;
 
+// A child that notes signals goes on noting them, since a signal to its whole group reaches it twice: directly, and from its parent.
 void on_signal(int)
 {
-    if (pid_t self = getpid(); noting.compare_exchange_strong(self, 0)) {
+    if (noting == getpid()) {
+        if (getpid() == program) noting = 0;
         signalled = true;
         return;
     }
@@ -65,7 +67,12 @@ public:
     {
         const std::lock_guard lock(mutex_);
         unprinted_ = name;
-        if (++stages_ == 1) watch_ = std::jthread([this](const std::stop_token& stop) { print_in_time(stop); });
+        if (++stages_ > 1) return;
+        sigset_t all, before;  // the thread of the program handles them
+        sigfillset(&all);
+        pthread_sigmask(SIG_SETMASK, &all, &before);
+        watch_ = std::jthread([this](const std::stop_token& stop) { print_in_time(stop); });
+        pthread_sigmask(SIG_SETMASK, &before, nullptr);
     }
 
     void end()
@@ -97,7 +104,8 @@ private:
     std::jthread watch_;
 };
 
-StageNames stage_names;
+// It is never destroyed: a reader that calls exit() in a child, which has not this thread, would wait for it.
+StageNames& stage_names = *new StageNames;
 
 // Only the program itself names its stages.
 void begin_stage(const std::string& name)

@@ -2,7 +2,7 @@
 // its own, and what makes its frames doubtful.
 //   ComparedReference reference(scene, character, runners.front(), cost);
 //   reference.advance(pose, dt_s);                              // whenever the runner's deformer advances
-//   context.reference = ...; measurer.measure(x, reference.context(frame, pose, measurer));
+//   measurer.measure(x, reference.context(frame, pose, measurer));
 //   outcome.update(reference.record());   remarks.add(reference.remarks());
 #pragma once
 

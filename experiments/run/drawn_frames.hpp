@@ -14,8 +14,6 @@
 
 namespace experiments {
 
-// The bones of a run's frames and what binds the vertices to them, for programs that draw the frames: bones.csv, bones_rest.csv and
-// binding.csv. The columns explain their contents.
 struct BonePlace {
     std::string bone, parent;
     pbs::Vec3 head, tail;  // [m]
@@ -67,7 +65,7 @@ extern const analysis::Columns<DeformerDistance> distance_columns;
 
 class DistanceRecord {
 public:
-    // points [m]: #P x 3, with the same #P for all deformers of a frame. of: what the points belong to.
+    // points [m]: #P x 3, with the same #P for all deformers of a frame. owner: what the points belong to.
     void add(int frame, double time_s, const std::string& label, const std::string& owner, const pbs::Positions& points);
 
     analysis::CsvTable table() const { return table_of(distance_columns, distances_); }

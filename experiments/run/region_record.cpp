@@ -38,8 +38,7 @@ int heaviest(const std::vector<double>& weights)
 
 }  // namespace
 
-using Changes = analysis::Columns<RegionChange>;
-const Changes region_columns =
+const analysis::Columns<RegionChange> region_columns =
     MEMBER_COLUMNS(RegionChange, deformer, kind) + within(&RegionChange::bones, region_bone_columns) +
     MEMBER_COLUMNS(RegionChange, rest_share_pct, change_pct, abs_change_pct, lowest_pct, highest_pct, own_change_pct, frames);
 
@@ -83,7 +82,7 @@ RegionRecord::RegionRecord(const pbs::Character& character)
 void RegionRecord::add(const std::string& label, const pbs::Positions& positions)
 {
     if (!positions.allFinite()) return;
-    auto sums = std::ranges::find_if(sums_, [&](const auto& of_one) { return of_one.front().deformer == label; });
+    auto sums = std::ranges::find_if(sums_, [&](const auto& changes) { return changes.front().deformer == label; });
     const bool is_first = sums == sums_.end();
     if (is_first) {
         sums = sums_.emplace(sums_.end());

@@ -151,11 +151,9 @@ private:
     void play()
     {
         Progress progress(scene_.name, static_cast<int>(steps().size()));
-        std::optional<pbs::Stage> stage;
-        if (!finishes_early_) stage.emplace(fmt::format("moving {} through {} frames", scene_.name, motion_.motion.frames()));
+        const pbs::Stage stage(fmt::format("moving {} through {} frames", scene_.name, motion_.motion.frames()));
         pbs::Stopwatch since_tables;
         for (std::size_t step = 0; step < steps().size(); ++step) {
-            if (!finishes_early_) stop_if_interrupted();
             advance(step);
             const bool has_finished_frames = frames_ > 0;
             if (finishes_early_ && has_finished_frames && take_interruption()) {  // this frame is not finished

@@ -18,7 +18,7 @@ public:
 
     RunRemarks() = default;
     explicit RunRemarks(const Remarks& of_caller);
-    ~RunRemarks() { say_all(); }  // also of a run that is interrupted or refused
+    ~RunRemarks() { say_all(); }  // also of a run that is refused
     RunRemarks(const RunRemarks&) = delete;
     RunRemarks& operator=(const RunRemarks&) = delete;
 

@@ -210,11 +210,11 @@ void compare_settings(const Results& first, const Results& second, ResultCompari
             if (!record.is_object()) analysis::refuse_record(file);
             return record.value("scene", record.value("work", nlohmann::json()));
         };
-        const nlohmann::json table = settings_in(first), other = settings_in(second);
-        if (table.is_null() || other.is_null()) continue;  // kept records have none
-        for (const std::string& path : differing_paths(table, other))
-            to.other_settings.push_back(
-                fmt::format("{}{}{} = {} | {}", run, run.empty() ? "" : ": ", path, value_at(table, path), value_at(other, path)));
+        const nlohmann::json first_settings = settings_in(first), second_settings = settings_in(second);
+        if (first_settings.is_null() || second_settings.is_null()) continue;  // kept records have none
+        for (const std::string& path : differing_paths(first_settings, second_settings))
+            to.other_settings.push_back(fmt::format("{}{}{} = {} | {}", run, run.empty() ? "" : ": ", path, value_at(first_settings, path),
+                                                    value_at(second_settings, path)));
     }
 }
 
@@ -234,9 +234,9 @@ std::map<std::string, analysis::Verdict> verdicts_in(const Results& results)
 // A verdict is compared where both were computed from the same cases and controls.
 bool has_the_same_cases(const analysis::Verdict& verdict, const analysis::Verdict& other)
 {
-    const auto counts = [](const analysis::Verdict& verdict) {
-        std::vector<std::size_t> sizes = {verdict.own.cases.size(), verdict.printed.size()};
-        for (const analysis::Judged& control : verdict.others) sizes.push_back(control.cases.size());
+    const auto counts = [](const analysis::Verdict& judged) {
+        std::vector<std::size_t> sizes = {judged.own.cases.size(), judged.printed.size()};
+        for (const analysis::Judged& control : judged.others) sizes.push_back(control.cases.size());
         return sizes;
     };
     return counts(verdict) == counts(other);

@@ -282,7 +282,7 @@ int reproduce(const ReproduceArguments& arguments)
         expected.push_back(expected_cost(*planned_study.study, planned_study.to_do, arguments.jobs));
     if (arguments.cost_only) return fmt::print("{}", expected_cost_table(expected)), exit_finished;
     double wall_s = 0.0;
-    for (const ExpectedCost& expected_cost : expected) wall_s += expected_cost.wall_s;
+    for (const ExpectedCost& cost : expected) wall_s += cost.wall_s;
     if (planned.size() > 1) spdlog::info("{} studies, about {:.0f} min", planned.size(), std::ceil(wall_s / 60.0));
     name_left_out(planned);
     const std::vector<std::string> other_tets = name_other_tets(planned);

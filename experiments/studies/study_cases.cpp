@@ -14,7 +14,7 @@ namespace experiments {
 namespace {
 
 // The keys of a form, a body or an entry of `each` replace those that all have in common, except the overrides, which follow the common
-// ones.
+// ones. Tables are merged.
 void add_keys(nlohmann::json& values, const nlohmann::json& own)
 {
     nlohmann::json overrides = values.value("overrides", nlohmann::json::array());
@@ -195,7 +195,7 @@ StudyPlan plan_of_cases(const std::string& study, bool full, const std::function
              cases[first].contains("bodies") && last < cases.size() && cases[last].value("bodies", nlohmann::json()) == bodies;)
             ++last;
         for (const std::string body : bodies)
-            for (std::size_t one = first; one < last; ++one) add_case(cases[one], body);
+            for (std::size_t entry = first; entry < last; ++entry) add_case(cases[entry], body);
     }
     return plan;
 }

@@ -27,9 +27,9 @@ std::string per_cent(double value)
     return fmt::format("{:+.1f}", std::round(10.0 * value) / 10.0 + 0.0);
 }
 
-std::string volume_range(const nlohmann::json& of)
+std::string volume_range(const nlohmann::json& change)
 {
-    const std::string lowest = per_cent(of.at("lowest_pct")), highest = per_cent(of.at("highest_pct"));
+    const std::string lowest = per_cent(change.at("lowest_pct")), highest = per_cent(change.at("highest_pct"));
     if (lowest == highest) return lowest == "+0.0" ? "by less than 0.05 %" : fmt::format("by {} %", lowest);
     if (lowest == "+0.0" || highest == "+0.0") return fmt::format("by at most {} %", lowest == "+0.0" ? highest : lowest);
     return fmt::format("by {} to {} %", lowest, highest);
@@ -51,8 +51,8 @@ std::string time_of(const std::string& deformer, const nlohmann::json& facts)
 // In one place: "At the joints, PBS is nearer ...".
 std::string nearer_words(const std::string& place, const nlohmann::json& nearer, const nlohmann::json& facts)
 {
-    const auto frames = [](const nlohmann::json& of) {
-        return fmt::format("{} of {} frames", of.at("frames").get<int>(), of.at("of").get<int>());
+    const auto frames = [](const nlohmann::json& counted) {
+        return fmt::format("{} of {} frames", counted.at("frames").get<int>(), counted.at("of").get<int>());
     };
     std::string text = fmt::format("{}, PBS is nearer to FEM than LBS in {}", place, frames(nearer));
     if (const nlohmann::json& best = nearer.at("best_other"); !best.is_null())

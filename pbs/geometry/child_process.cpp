@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -39,13 +40,20 @@ ChildProcess::ChildProcess(const std::function<ChildEnd()>& work)
     const pid_t parent = getpid();
     process_ = fork();
     if (process_ == 0) {
+        struct sigaction inherited = {};
+        sigaction(SIGINT, nullptr, &inherited);
+        if (inherited.sa_handler == SIG_IGN) signal(SIGINT, SIG_DFL);  // of a program that a shell has started in the background
         prctl(PR_SET_PDEATHSIG, SIGINT);
         if (getppid() != parent) _exit(128 + SIGINT);  // it ended before the line above
         close(ends[0]);
-        const ChildEnd end = work();
-        write_whole(ends[1], end.text);
-        std::fflush(nullptr);
-        _exit(end.status);
+        try {
+            const ChildEnd end = work();
+            write_whole(ends[1], end.text);
+            std::fflush(nullptr);
+            _exit(end.status);
+        } catch (...) {  // or the child would go on as a second parent
+            _exit(EXIT_FAILURE);
+        }
     }
     close(ends[1]);
     pipe_ = ends[0];
@@ -58,8 +66,13 @@ ChildProcess::~ChildProcess()
 {
     if (pipe_ >= 0) close(pipe_);
     if (process_ < 0) return;
-    kill(process_, SIGINT);
+    ask_to_end();
     wait();
+}
+
+void ChildProcess::ask_to_end() const
+{
+    if (process_ > 0) kill(process_, SIGINT);
 }
 
 int ChildProcess::wait(rusage* usage)

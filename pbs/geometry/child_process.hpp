@@ -32,6 +32,7 @@ public:
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
+    void ask_to_end() const;                    // by SIGINT; does not wait
     bool writes() const { return pipe_ >= 0; }  // false once no process can write any more
     const std::string& text() const { return text_; }
     // Waits for the end of the child; returns its status as of waitpid. usage: what the child took of the processor; may be null.

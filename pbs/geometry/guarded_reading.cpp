@@ -18,6 +18,7 @@
 #include <fstream>
 #include <limits>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -131,12 +132,17 @@ std::string death(int status)
 
 void try_reading(const std::string& path, const std::function<void(const std::string&)>& read)
 {
-    ChildProcess child([&] { return answer_as_child(path, read); });
+    std::optional<ChildProcess> child;
+    try {
+        child.emplace([&] { return answer_as_child(path, read); });
+    } catch (const InputError& error) {
+        throw InputError(path, 0, "", "", std::string("cannot be read: ") + error.what());
+    }
     // [s] of time, not of processor time: other work may keep the machine busy.
     const double limit_s = base_limit_s + limit_s_per_megabyte * 1e-6 * static_cast<double>(bytes_of(path));
-    if (!ends_within(limit_s, child)) throw InputError(path, 0, "", "", "damaged: the reader did not end");
-    const int status = child.wait();
-    const std::string& answer = child.text();
+    if (!ends_within(limit_s, *child)) throw InputError(path, 0, "", "", "damaged: the reader did not end");
+    const int status = child->wait();
+    const std::string& answer = child->text();
     if (status != 0 || answer.empty()) throw InputError(path, 0, "", "", "damaged: the reader " + death(status));
     if (answer[0] != '+') throw InputError("", 0, "", "", answer.substr(1));
 }

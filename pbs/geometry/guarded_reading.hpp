@@ -16,7 +16,8 @@ namespace pbs {
 void try_reading(const std::string& path, const std::function<void(const std::string&)>& read);
 
 // read(path) in this process, once it has succeeded in a child. A child tries the same bytes only once for each reader, which is known by
-// its name, while a SourceFile of the path exists.
+// its name, while a SourceFile of the path exists. Files to which this one refers, such as a glTF's .bin, are not compared: a caller that
+// reads again after a change of these reads unguarded.
 template <typename Read>
 auto read_guarded(const std::string& path, const std::string& reader, const Read& read)
 {

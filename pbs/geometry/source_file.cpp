@@ -79,7 +79,10 @@ SourceFile::SourceFile(const std::string& path) : path_(path)
     std::erase_if(contents, [](const auto& entry) { return entry.second.expired(); });
     std::weak_ptr<Content>& known = contents[code ? path : canonical.string()];
     content_ = known.lock();
-    if (content_ && (!content_->is_opened || (content_->is_settled && content_->is_in_its_place(path)))) return;
+    if (content_) {
+        const std::lock_guard content_lock(content_->mutex);
+        if (!content_->is_opened || (content_->is_settled && content_->is_in_its_place(path))) return;
+    }
     content_ = std::make_shared<Content>();
     known = content_;
 }
@@ -116,17 +119,23 @@ std::string SourceFile::beginning() const
 
 bool SourceFile::was_changed() const
 {
-    if (!content_->is_in_its_place(path_)) return true;
-    return !content_->is_settled && SourceFile(path_).text(content_->bytes.size()) != content_->bytes;  // which opens it again
+    const bool has_later_time = [&] {
+        const std::lock_guard lock(content_->mutex);
+        return !content_->is_in_its_place(path_);
+    }();
+    if (has_later_time || content_->is_settled || !content_->is_whole) return has_later_time;
+    return SourceFile(path_).text() != content_->bytes;  // which opens it again
 }
 
 bool SourceFile::is_safe_for(const std::string& reader) const
 {
+    const std::lock_guard lock(content_->mutex);
     return content_->is_whole && content_->safe_readers.contains(reader);
 }
 
 void SourceFile::set_safe_for(const std::string& reader) const
 {
+    const std::lock_guard lock(content_->mutex);
     if (content_->is_whole) content_->safe_readers.insert(reader);
 }
 

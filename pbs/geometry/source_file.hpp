@@ -16,8 +16,8 @@ public:
     explicit SourceFile(const std::string& path);  // what cannot be opened is refused by text()
 
     const std::string& path() const { return path_; }
-    // Whole. An InputError where it cannot be read, is larger or is no file: a named pipe would be waited for without end, a device has
-    // none.
+    // Returns the whole file. Throws an InputError if it cannot be read, is larger, or is no regular file: a named pipe would be waited for
+    // without end, and a device has no end.
     const std::string& text(std::uintmax_t most_bytes = most_text_bytes) const;
     std::string beginning() const;  // the first 4,096 bytes; empty where it cannot be read
     bool was_changed() const;       // since it was opened; its time of change also says so for permissions and new hard links

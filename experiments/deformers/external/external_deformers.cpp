@@ -129,7 +129,6 @@ private:
         const pbs::Stopwatch stopwatch;
         const ProgramRun program = run_program(words, folder.path().string());
         wall_s_ = stopwatch.seconds();
-        stop_if_interrupted();
         if (!program.succeeded()) refuse_external(options_, end_of(program));
         try {
             done_ = read_exchange(folder.path().string(), character_->mesh.rest.rows(), foreseen_.size());

@@ -3,7 +3,6 @@
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/process/terminal.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
 #include "pbs/character/bodies.hpp"
@@ -69,7 +68,6 @@ public:
 
     std::vector<double> turn()
     {
-        stop_if_interrupted();
         const pbs::Pose& pose = motion_.steps[next_];
         next_ = (next_ + static_cast<std::size_t>(motion_.steps_per_frame)) % motion_.steps.size();
         const double took_s = cpu_seconds([&] {

@@ -8,7 +8,6 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/deformers/deformer_options.hpp"
-#include "experiments/process/terminal.hpp"
 #include "experiments/scene/movements.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/settings/recorded_settings.hpp"
@@ -42,7 +41,6 @@ public:
     const pbs::Positions& before(std::size_t step)
     {
         for (; next_ < step; ++next_) {
-            stop_if_interrupted();
             solver_.advance(positions_, pbs::posed_bind_points(character_.binding, motion_.steps[next_]), motion_.time_step_s);
             positions_ = solver_.positions();
         }

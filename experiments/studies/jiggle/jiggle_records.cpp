@@ -142,7 +142,7 @@ void add_share(std::vector<Measurement>& measurements, const std::string& body, 
     measurements.back().n = static_cast<int>(swings.size());
 }
 
-// of: with the body and the deformer.
+// key: with the body and the deformer.
 void add_setting(std::vector<Measurement>& measurements, const analysis::CaseKey& key, const JoltResponse& response, bool of_the_paper)
 {
     if (response.finished) measurements.push_back(exact_value("amplitude", key, response.overshoot_over_jolt));

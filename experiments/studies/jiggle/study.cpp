@@ -7,7 +7,6 @@
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/process/terminal.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
@@ -55,7 +54,6 @@ void sum_up(JoltResponse& response, const Jolt& jolt)
 
 bool advances(Deformer& deformer, const pbs::Pose& pose, double time_step_s)
 {
-    stop_if_interrupted();
     return deformer.advance(pose, time_step_s).outcome == pbs::Outcome::finished;
 }
 

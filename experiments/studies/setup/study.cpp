@@ -211,7 +211,7 @@ std::string set_up_and_record(const SetupCase& setup_case, const std::string& fo
     const bool runs = tried.back().failure.empty();
     const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
     const auto is_of_the_body = [&](const std::string& key) {
-        return std::ranges::any_of(own.further, [&](const std::string& name) { return name.starts_with(key + "="); });
+        return std::ranges::any_of(own.further, [&](const std::string& setting) { return setting.starts_with(key + "="); });
     };
     std::vector<std::string> changed;
     if (runs) changed = keys_changed(shared_scene(rate_hz, setup.deformer).resolved, scene_of(last, rate_hz).resolved);

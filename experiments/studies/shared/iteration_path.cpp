@@ -1,7 +1,6 @@
 #include "experiments/studies/shared/iteration_path.hpp"
 
 #include "analysis/statistics/fits.hpp"
-#include "experiments/process/terminal.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/solver/batched/batched_projection.hpp"
 #include "pbs/solver/particles.hpp"
@@ -127,7 +126,6 @@ IterationPath follow(const StepLoops& loops, const pbs::Positions& guess, int mo
     loops.load();
     int iteration = 0;
     for (const int look : looked_at(most)) {
-        stop_if_interrupted();
         for (; iteration < look; ++iteration) loops.iterate();  // (11) to (13)
         if (look > 0) path.last = loops.store();
         path.finite = path.last.allFinite();

@@ -176,26 +176,26 @@ KeptReferences unpacked(const std::string& text, const std::string& file, const 
     const std::string hash = pbs::content_hash(character.mesh);
     const std::vector<std::uint8_t> bytes = inflated(text);
     try {
-        const json table = json::from_cbor(bytes);
-        if (table.at("schema") != kept_schema)
-            throw pbs::InputError(file, 0, "schema", table.at("schema").dump(), fmt::format("expected {}", kept_schema));
-        table.at("pose").get_to(references.pose), table.at("body").get_to(references.body);
-        table.at("mesh_hash").get_to(references.mesh_hash), table.at("revision").get_to(references.revision);
+        const json document = json::from_cbor(bytes);
+        if (document.at("schema") != kept_schema)
+            throw pbs::InputError(file, 0, "schema", document.at("schema").dump(), fmt::format("expected {}", kept_schema));
+        document.at("pose").get_to(references.pose), document.at("body").get_to(references.body);
+        document.at("mesh_hash").get_to(references.mesh_hash), document.at("revision").get_to(references.revision);
         if (references.mesh_hash != hash)
             throw pbs::InputError(
                 file, 0, "mesh_hash", references.mesh_hash,
                 fmt::format("the tets of {} have the hash {}, so that these references do not belong to them; solve them with "
                             "`pbskin reproduce references --full`",
                             character.name, hash));
-        for (const json& bone : table.at("bones")) {
+        for (const json& bone : document.at("bones")) {
             const std::vector<double> numbers = bone;
             if (numbers.size() != 16) throw std::runtime_error("a transform of another size");
             references.bones.emplace_back(Eigen::Map<const Eigen::Matrix4d>(numbers.data()));
         }
         if (references.bones.size() != character.skeleton.bones.size()) throw std::runtime_error("another number of bones");
         pbs::Positions predicted = rigid_shape(character, references.bones);
-        const double quantum_m = table.at("quantum_m");
-        for (const json& entry : table.at("members")) {
+        const double quantum_m = document.at("quantum_m");
+        for (const json& entry : document.at("members")) {
             KeptReference& reference = references.members.emplace_back(reference_of(entry, predicted.rows()));
             if (!reference.is_reached()) continue;
             const std::vector<std::int32_t> values = values_in(entry.at("shape").get_binary());

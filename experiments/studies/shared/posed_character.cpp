@@ -1,6 +1,5 @@
 #include "experiments/studies/shared/posed_character.hpp"
 
-#include "experiments/process/terminal.hpp"
 #include "experiments/run/broken_frames.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "pbs/character/skinning_weights.hpp"
@@ -39,7 +38,6 @@ std::vector<pbs::Positions> shapes_in_motion(const pbs::Character& character, co
     for (int step = 0; step < static_cast<int>(motion.steps.size()); ++step) {
         const bool is_frame = step % motion.steps_per_frame == 0;
         if (!is_frame && !deformer->has_memory()) continue;
-        stop_if_interrupted();
         deformer->advance(motion.steps[step], motion.time_step_s);
         if (is_frame) shapes.push_back(deformer->positions());
     }
@@ -80,7 +78,6 @@ Shapes PosedCharacter::shapes(const DeformerSpec& spec, std::optional<std::size_
     Shapes shapes;
     const std::size_t count = std::min(poses.value_or(poses_.size()), poses_.size());
     for (std::size_t pose = 0; pose < count; ++pose) {
-        stop_if_interrupted();
         if (pose == 0 || deformer->has_memory()) deformer->reset(character_);
         const pbs::StepSummary step = deformer->advance(poses_[pose], time_step_s_);
         shapes.push_back(shape_of(step, deformer->positions(), last_state(*deformer)));
@@ -90,7 +87,6 @@ Shapes PosedCharacter::shapes(const DeformerSpec& spec, std::optional<std::size_
 
 std::vector<Shapes> PosedCharacter::shapes(const std::vector<pbs::PbsOptions>& options) const
 {
-    stop_if_interrupted();
     std::vector<pbs::PbsOptions> of_lane;
     std::vector<pbs::Positions> lbs, bind_points;
     for (const pbs::PbsOptions& own : options)

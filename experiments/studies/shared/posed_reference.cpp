@@ -69,14 +69,14 @@ void for_each_field(Solution& solution, const Visit& visit)
 
 std::string text_of(const std::vector<NestedSolution>& solutions)
 {
-    nlohmann::json table = nlohmann::json::array();
+    nlohmann::json list = nlohmann::json::array();
     for (const NestedSolution& solution : solutions) {
-        nlohmann::json& entry = table.emplace_back();
+        nlohmann::json& entry = list.emplace_back();
         for_each_field(solution, [&](const char* name, const auto& value) { entry[name] = value; });
         if (solution.lowest_det_f) entry["lowest_det_f"] = *solution.lowest_det_f;
         entry["positions"] = std::vector<double>(solution.positions.data(), solution.positions.data() + solution.positions.size());
     }
-    const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(table);  // which has numbers that are not finite, too
+    const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(list);  // which has numbers that are not finite, too
     return {bytes.begin(), bytes.end()};
 }
 
@@ -85,11 +85,11 @@ std::vector<NestedSolution> solutions_in(const std::string& text)
 {
     std::vector<NestedSolution> solutions;
     try {
-        for (const nlohmann::json& table : nlohmann::json::from_cbor(text)) {
+        for (const nlohmann::json& entry : nlohmann::json::from_cbor(text)) {
             NestedSolution& solution = solutions.emplace_back();
-            for_each_field(solution, [&](const char* name, auto& value) { table.at(name).get_to(value); });
-            if (table.contains("lowest_det_f")) solution.lowest_det_f = table["lowest_det_f"];
-            const std::vector<double> numbers = table.at("positions");
+            for_each_field(solution, [&](const char* name, auto& value) { entry.at(name).get_to(value); });
+            if (entry.contains("lowest_det_f")) solution.lowest_det_f = entry["lowest_det_f"];
+            const std::vector<double> numbers = entry.at("positions");
             solution.positions = Eigen::Map<const pbs::Positions>(numbers.data(), static_cast<Eigen::Index>(numbers.size()) / 3, 3);
         }
     } catch (const nlohmann::json::exception&) {
@@ -181,7 +181,6 @@ PosedReference::PosedReference(const pbs::Character& character, const DeformerSp
 
 void PosedReference::add(const std::string& name, const std::vector<Level>& levels)
 {
-    stop_if_interrupted();
     const std::string file = kept_in_.empty() ? "" : file_of(name, levels);
     Solutions found = kept(file);
     if (found.empty()) {
@@ -353,7 +352,9 @@ void PosedReference::observe_order()
     if (!std::all_of(solutions_.begin(), solutions_.begin() + nested_, [](const NestedSolution& solution) { return solution.finished; }))
         return;
     constexpr std::size_t finest = 0, quadratic = 1, linear_refined = 2, linear = 3;
-    const auto to_finest = [&](std::size_t one) { return distance(solutions_[one].positions, solutions_[finest].positions).joint_pct; };
+    const auto to_finest = [&](std::size_t solution) {
+        return distance(solutions_[solution].positions, solutions_[finest].positions).joint_pct;
+    };
     order_ = analysis::nested_order({to_finest(linear), to_finest(linear_refined), to_finest(quadratic)},
                                     convergence_order(options_of<FemOptions>(spec_).attachment));
 }

@@ -2,7 +2,6 @@
 
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
-#include "experiments/process/terminal.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
 #include "pbs/geometry/extent.hpp"
@@ -228,7 +227,6 @@ Course follow(const StabilityCell& cell, const pbs::Positions* undisturbed)
     const auto driven = make_driven_body(cell, character);
     Course course{{}, body.drive(0).blended, body.disturbed_steps(), {}};
     for (int step = 0; step < body.steps(); ++step) {
-        stop_if_interrupted();
         const Drive drive = body.drive(step);
         const pbs::StepSummary step_summary = driven->advance(drive, cell.time_step_s);
         course.steps.push_back(analysis::stability_step(course.last, driven->positions(), {drive.bind_points, character.binding.distance},

@@ -6,7 +6,6 @@
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
-#include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "pbs/geometry/extent.hpp"
@@ -117,7 +116,6 @@ DeformerSpec with_iterations(const DeformerSpec& spec, int iterations)
 // The result of so many iterations from the broken shape of the cell, or from the deformer's own initial guess [m], #V x 3.
 pbs::Positions result_of(StabilityCell cell, int iterations, bool is_broken)
 {
-    stop_if_interrupted();
     if (!is_broken) cell.disturbance.start = Start::none;
     cell.disturbance.stays = true;
     StabilityBody body(cell);

@@ -1,6 +1,5 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/measurement.hpp"
-#include "experiments/process/terminal.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "pbs/character/bodies.hpp"
@@ -65,7 +64,6 @@ SteppedBody step(Solver& solver, const LoadedBody& body, double time_step_s, int
     SteppedBody result;
     double before_m = 0.0;
     for (int quiet = 0; result.steps < most_steps && quiet < still_steps; ++result.steps) {
-        stop_if_interrupted();
         solver.advance(body.mesh.rest, bind_point, time_step_s);
         const double now_m = mean_displacement_m(body, solver.positions() - body.mesh.rest);
         if (!std::isfinite(now_m)) break;

@@ -8,7 +8,6 @@
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
-#include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
@@ -77,7 +76,6 @@ private:
         const auto deformer = make_deformer(of_.flesh);
         deformer->reset(character_);
         for (int frame = 0; frame < motion_.frames(); frame += of_.compared_every) {
-            stop_if_interrupted();
             if (deformer->advance(pose(frame), motion_.time_step_s).outcome == pbs::Outcome::finished)
                 flesh_.emplace(frame, deformer->positions().topRows(character_.mesh.rest.rows()));
         }
@@ -90,7 +88,6 @@ private:
         std::vector<pbs::Positions> shapes;
         const std::size_t first = records_.frames.size();
         for (int frame = 0; frame < motion_.frames(); ++frame) {
-            stop_if_interrupted();
             const double start_s = process_cpu_s();
             if (start == FrameStart::frame_before && frame > 0)
                 deformer->start_from(carried_by_lbs(shapes.back(), character_, pose(frame - 1), pose(frame)));

@@ -127,7 +127,7 @@ void append_settings(nlohmann::json& entries, const std::vector<DeformerSetting>
         first_frame_seconds(*timed.back().twice, body);
     }
     std::vector<TimedVariant> turns;
-    for (const Timed& one : timed) turns.push_back([&one, &body] { return one.round(body); });
+    for (const Timed& deformer : timed) turns.push_back([&deformer, &body] { return deformer.round(body); });
     const std::vector<Samples> samples = take_turns(turns, rounds);
     for (std::size_t i = 0; i < timed.size(); ++i) {
         entries.push_back(entry_of(timed[i], samples[i], body));

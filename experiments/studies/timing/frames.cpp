@@ -113,13 +113,12 @@ constexpr double steps_in_1_s = 100.0;
 constexpr double round_s_per_vertex = 24e-6;
 constexpr int most_rounds = 61;
 
-using Frame = Columns<FrameTiming>;
-Frame frame_columns()
+Columns<FrameTiming> frame_columns()
 {
-    Frame frame =
+    Columns<FrameTiming> columns =
         MEMBER_COLUMNS(FrameTiming, variant, precision) + within(&FrameTiming::total_ms, Columns<Spread>{{"rounds", &Spread::rounds}});
-    for (const RecordedPart& part : recorded_parts) frame = frame + within(part.ms, spread_columns(part.name));
-    return frame + within(&FrameTiming::surface_ms, spread_columns("surface_ms")) +
+    for (const RecordedPart& part : recorded_parts) columns = columns + within(part.ms, spread_columns(part.name));
+    return columns + within(&FrameTiming::surface_ms, spread_columns("surface_ms")) +
            within(&FrameTiming::drawn_wall_ms, spread_columns("drawn_wall_ms"));
 }
 

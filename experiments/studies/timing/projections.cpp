@@ -314,7 +314,7 @@ nlohmann::json time_projections(const BenchBody& body, const std::vector<int>& t
     const std::vector<ProjectionVariant> variants = projection_variants(body, threads);
     std::vector<TimedVariant> turns;
     for (const ProjectionVariant& variant : variants) turns.push_back([&variant] { return time_step(variant); });
-    const std::vector<Samples> sampleses = take_turns(turns, rounds);
+    const std::vector<Samples> samples_of_variants = take_turns(turns, rounds);
     // On one thread. std::out_of_range by at() where there is no such variant.
     const auto place_of = [&](const std::string& variant, const std::string& precision) {
         const auto found = std::ranges::find_if(variants, [&](const ProjectionVariant& one) {
@@ -328,11 +328,12 @@ nlohmann::json time_projections(const BenchBody& body, const std::vector<int>& t
     nlohmann::json entries = nlohmann::json::array();
     for (std::size_t i = 0; i < variants.size(); ++i) {
         const ProjectionVariant& variant = variants[i];
-        nlohmann::json entry = entry_of(variant, sampleses[i], size, memory);
+        nlohmann::json entry = entry_of(variant, samples_of_variants[i], size, memory);
         const Sample clock = variant.threads == 1 ? step_s : step_wall_s;
         for (const std::string baseline : {"plain_spread", "plain", "plain_native"}) {
             const std::size_t place = place_of(baseline, variant.precision);
-            put_spread(entry, "ratio_to_" + baseline, spread_of_ratios(sampleses.at(place)[clock], sampleses[i][clock], variant.poses));
+            put_spread(entry, "ratio_to_" + baseline,
+                       spread_of_ratios(samples_of_variants.at(place)[clock], samples_of_variants[i][clock], variant.poses));
             if (baseline == "plain_native") continue;  // the same answer as plain
             const AnswerRatio answer = answer_ratio(variant.loops.residuals(), variants[place].loops.residuals(), mean_distance_m);
             entry["residual_to_" + baseline] = answer.residual;
@@ -340,7 +341,8 @@ nlohmann::json time_projections(const BenchBody& body, const std::vector<int>& t
         }
         if (variant.threads > 1) {
             const std::size_t alone = place_of(variant.variant, variant.precision);
-            const std::vector<double>&alone_s = sampleses.at(alone)[step_wall_s], &together_s = sampleses[i][step_wall_s];
+            const std::vector<double>&alone_s = samples_of_variants.at(alone)[step_wall_s],
+                  &together_s = samples_of_variants[i][step_wall_s];
             const double times_the_poses = double(variant.poses) / variants[alone].poses;
             put_spread(entry, "speedup_by_threads", spread_of_ratios(alone_s, together_s, times_the_poses));
             // Of the fastest rounds, which were disturbed least.

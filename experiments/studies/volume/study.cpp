@@ -34,6 +34,7 @@ std::vector<DeformerSpec> added_to(const StudyCase& study_case)
     std::vector<DeformerSpec> added;
     const auto add = [&](const std::string& name, const Overrides& further = {}) {
         const auto named = std::ranges::find_if(tables, [&](const nlohmann::json& table) { return table.at("name") == name; });
+        if (named == tables.end()) throw std::logic_error("volume/cases.toml: no table `added` of the name " + name);
         for (const nlohmann::json& pbs : named->at("pbs")) added.push_back(study_case.further_pbs(pbs, further));
     };
     for (const std::string& name : study_case.value<std::vector<std::string>>("add", {})) add(name);

@@ -112,14 +112,13 @@ Spread share_of(const analysis::MethodErrors& method, const analysis::MethodErro
 }
 
 // The number of poses in which both methods have an error against each member.
-std::vector<int> compared_poses(const analysis::MethodErrors& method_errors, const analysis::MethodErrors& other,
-                                const std::vector<bool>& kept)
+std::vector<int> compared_poses(const analysis::MethodErrors& first, const analysis::MethodErrors& second, const std::vector<bool>& kept)
 {
     std::vector<int> poses;
-    for (std::size_t m = 0; m < method_errors.error.size(); ++m) {
+    for (std::size_t m = 0; m < first.error.size(); ++m) {
         poses.push_back(0);
         for (std::size_t pose = 0; pose < kept.size(); ++pose)
-            poses.back() += kept[pose] && !std::isnan(method_errors.error[m][pose]) && !std::isnan(other.error[m][pose]);
+            poses.back() += kept[pose] && !std::isnan(first.error[m][pose]) && !std::isnan(second.error[m][pose]);
     }
     return poses;
 }
@@ -203,9 +202,9 @@ MethodRow method_row(const Entry& entry, const Entry& lbs, const PosesOfTable& p
 // The pairs of a table at one time, and what each body changes.
 void add_pairs(const std::vector<Entry>& entries, const PosesOfTable& poses, std::vector<MethodRow>& rows, Comparison& comparison)
 {
-    analysis::ComparedPoses compared_poses = poses.compared();
-    for (const Entry& entry : entries) compared_poses.methods.push_back(entry.errors);
-    const analysis::ComparedPoses movement = analysis::selected_poses(compared_poses, poses.is_movement());
+    analysis::ComparedPoses with_methods = poses.compared();
+    for (const Entry& entry : entries) with_methods.methods.push_back(entry.errors);
+    const analysis::ComparedPoses movement = analysis::selected_poses(with_methods, poses.is_movement());
     const std::vector<analysis::MethodPair> pairs = analysis::compare_methods(movement);
     const ComparisonTable table = rows.front().table;
     const double budget_ms = rows.front().budget_ms;
@@ -300,7 +299,7 @@ std::vector<ChosenSetting> chosen_settings(const std::vector<PointRow>& training
     std::vector<Tried> tried;
     for (const PointRow& point : training) {
         auto found =
-            std::ranges::find_if(tried, [&](const Tried& tried) { return tried.method == point.method && tried.setting == point.setting; });
+            std::ranges::find_if(tried, [&](const Tried& entry) { return entry.method == point.method && entry.setting == point.setting; });
         if (found == tried.end())
             found = tried.insert(found, Tried{.method = point.method, .setting = point.setting, .ms = {}, .log_error = {}});
         found->poses += point.outcome == "finished";
@@ -308,15 +307,16 @@ std::vector<ChosenSetting> chosen_settings(const std::vector<PointRow>& training
         for (const std::optional<double>& error : point.errors)
             if (error) found->log_error.push_back(std::log(*error));
     }
-    int poses = 0;  // a ladder that ended early on one body, or a shape that is not finite, has fewer
-    for (const Tried& one : tried) poses = std::max(poses, one.poses);
+    int poses = 0;  // a ladder that ended early on entry body, or a shape that is not finite, has fewer
+    for (const Tried& entry : tried) poses = std::max(poses, entry.poses);
     std::vector<ChosenSetting> chosen;
     for (const ComparedMethod& method : methods())
         for (const double budget_ms : comparison_times().budgets_ms) {
             const Tried* best = nullptr;
-            for (const Tried& one : tried) {
-                if (one.method != method.name || one.poses < poses || one.log_error.empty() || analysis::mean(one.ms) > budget_ms) continue;
-                if (!best || analysis::mean(one.log_error) < analysis::mean(best->log_error)) best = &one;
+            for (const Tried& entry : tried) {
+                if (entry.method != method.name || entry.poses < poses || entry.log_error.empty() || analysis::mean(entry.ms) > budget_ms)
+                    continue;
+                if (!best || analysis::mean(entry.log_error) < analysis::mean(best->log_error)) best = &entry;
             }
             if (best)
                 chosen.push_back(

@@ -7,7 +7,6 @@
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
-#include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
@@ -115,7 +114,6 @@ public:
                 posed.shapes.emplace_back();
                 continue;
             }
-            stop_if_interrupted();
             if (deformer->has_memory())
                 for (const pbs::Pose& before : pose.way) deformer->advance(before, scene_.motion.time_step_s);
             deformer->advance(pose.bones, scene_.motion.time_step_s);
@@ -333,7 +331,6 @@ void play(const ComparisonCase& comparison, const ComparedBody& body, const Sett
             };
             std::vector<double> samples_ms;
             for (int frame = std::max(0, last - played_frames); frame <= last; ++frame) {
-                stop_if_interrupted();
                 const double start_s = process_cpu_s();
                 if (!samples_ms.empty())
                     deformer->start_from(

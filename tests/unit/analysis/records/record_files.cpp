@@ -168,6 +168,20 @@ TEST(FolderFiles, FilesOfAFolder)
 
 // Reference: Unicode's definition of UTF-8 (RFC 3629).
 
+TEST(TemporaryFolder, RemovesThoseOfProcessesThatAreGoneAndNothingElse)
+{
+    const ScratchFolder parent;
+    const fs::path abandoned = parent.path() / ("pbskin_" + std::to_string(ended_process()) + "_abcdef");
+    const fs::path own = parent.path() / ("pbskin_" + std::to_string(getpid()) + "_abcdef"), other = parent.path() / "pbskin_notes";
+    for (const fs::path& folder : {abandoned / "deep", own, other}) fs::create_directories(folder);
+    setenv("TMPDIR", parent.path().c_str(), 1);
+    const analysis::ScratchFolder folder;
+    unsetenv("TMPDIR");
+    EXPECT_EQ(folder.path().parent_path(), parent.path());
+    EXPECT_FALSE(fs::exists(abandoned));
+    EXPECT_TRUE(fs::exists(own) && fs::exists(other) && fs::exists(folder.path()));
+}
+
 TEST(RecordText, KnowsUtf8AndANameThatIsNotLosesNothingElse)
 {
     for (const char* text : {"", "limb", "Gelenk \xc3\xa4", "\xe2\x82\xac", "\xf0\x9d\x84\x9e"})

@@ -130,6 +130,21 @@ TEST(Interruption, IsOnlyNotedByWorkThatLooksForItUntilTheNextSignal)
               exit_interrupted);
 }
 
+// A signal to all processes of a group reaches a worker twice: directly, and from its parent.
+TEST(Interruption, OfASecondSignalEndsTheProgramAndNoWorkerThatNotesIt)
+{
+    const auto work = [] {
+        const NotedInterrupts noted;
+        raise(SIGTERM);
+        raise(SIGINT);
+        return nlohmann::json(interrupted());
+    };
+    EXPECT_EQ(end_of([&] {
+                  if (in_own_process(work) == nlohmann::json(true)) _exit(exit_bound);
+              }).first,
+              exit_bound);
+}
+
 // A worker's temporary files go with it, also where its parent is killed. The pipe ends with the last process that could write.
 TEST(Interruption, EndsTheChildrenOfTheProgramWhichRemoveTheirFiles)
 {
