@@ -44,17 +44,6 @@ void require(const std::error_code& error, const fs::path& path, const char* wha
 
 }  // namespace
 
-void ScratchFolder::remove_abandoned(const fs::path& parent)
-{
-    static const std::regex folder_name("pbskin_([0-9]{1,9})_[A-Za-z0-9]{6}");
-    std::error_code ignored;
-    for (fs::directory_iterator entry(parent, ignored), end; entry != end; entry.increment(ignored)) {
-        std::smatch match;
-        const std::string name = entry->path().filename().string();
-        if (std::regex_match(name, match, folder_name) && pbs::process_is_gone(std::stoi(match[1]))) fs::remove_all(entry->path(), ignored);
-    }
-}
-
 void write_text_atomically(const std::string& path, const std::string& text)
 {
     pbs::write_atomically(path, text);

@@ -2,6 +2,7 @@
 //   analysis::write_text_atomically(path, record_text(run));
 #pragma once
 
+#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <nlohmann/json.hpp>
@@ -10,8 +11,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -95,7 +98,19 @@ public:
     const std::filesystem::path& path() const { return path_; }
 
 private:
-    static void remove_abandoned(const std::filesystem::path& parent);
+    // A folder has the number of its process in its name.
+    static void remove_abandoned(const std::filesystem::path& parent)
+    {
+        constexpr std::string_view begin = "pbskin_";
+        std::error_code ignored;
+        for (std::filesystem::directory_iterator entry(parent, ignored), end; entry != end; entry.increment(ignored)) {
+            const std::string name = entry->path().filename().string();
+            if (!name.starts_with(begin)) continue;
+            int process = 0;
+            const auto [stop, error] = std::from_chars(name.data() + begin.size(), name.data() + name.size(), process);
+            if (error == std::errc() && *stop == '_' && pbs::process_is_gone(process)) std::filesystem::remove_all(entry->path(), ignored);
+        }
+    }
 
     std::filesystem::path path_;
 };
