@@ -1,5 +1,5 @@
-// What makes the results of a run doubtful, as remarks for the user: parts of the body that a deformer leaves out, tets that are inverted
-// from the beginning, and flesh that carries the artist's surface badly.
+// These functions remark on results that are doubtful: a deformer leaves out parts of the body, tets are inverted from the beginning, or
+// the flesh carries the artist's surface badly.
 //   remarks.add(remarks_on_set_up(scene, character, runners));
 //   remarks.add(remarks_on_first_frame(scene, character, motion, runners, measurer));
 #pragma once

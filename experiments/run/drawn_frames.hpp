@@ -1,5 +1,6 @@
-// What programs that draw a run's frames need besides the frames: its bones and what binds the vertices to them (bones.csv, bones_rest.csv,
-// binding.csv), the surface that the tets carry (surface_rest.vtp, embedding.csv), and how far apart the deformers are (distances.csv).
+// A program that draws the frames of a run reads these tables with them: the bones and the binding of the vertices (bones.csv,
+// bones_rest.csv, binding.csv), the surface that the tets carry (surface_rest.vtp, embedding.csv), and the distances between the deformers
+// (distances.csv).
 #pragma once
 
 #include "analysis/records/tables.hpp"

@@ -27,8 +27,8 @@ struct RunResult {
     const std::string& failure() const { return breakdown.empty() ? bad_frame : breakdown; }
 };
 
-// What an interruption ends: the run, whose tables remain with all frames except those of the last second; or what takes long, so that the
-// records are whole: the solving of a reference with a budget, or else the motion after the present frame.
+// stop: an interruption ends the program; the tables keep all frames except those of the last second. finish_early: it ends the solving of
+// a reference with a budget, or else the motion after the present frame, and the records of what is finished are written whole.
 enum class WhenInterrupted { stop, finish_early };
 
 // Overwrites the records in `folder`. Each file is written whole or not at all, run.json last. A breakdown of a negative control (the

@@ -33,7 +33,7 @@ std::string share_of(const pbs::ClipMatch& match)
     return fmt::format("{} of {} moving joints{}", match.matched, match.moving - match.small, aside);
 }
 
-// Of a clip that leaves anything out; nothing otherwise.
+// The list is empty if every moving joint matches a bone and every bone has a joint.
 pbs::RemarkList remarks_on_match(const pbs::ClipMatch& match, const std::string& clip)
 {
     if (match.unmatched.empty() && match.bones_without_joint.empty()) return {};

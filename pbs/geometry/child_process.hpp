@@ -13,7 +13,7 @@
 
 namespace pbs {
 
-// What a child process leaves: a text of any length, and its exit status.
+// The result of a child process: a text of any length, and the exit status.
 struct ChildEnd {
     std::string text;
     int status = 0;

@@ -20,13 +20,13 @@ same_in_every_run = {"0.5 %", "8 frames in 10", "24 iterations", "after 24", "90
 
 
 class Captions(ResultsTest):
-    def told(self, name, rows):
+    def title_and_caption(self, name, rows):
         write_table(self.results / f"{name}.csv", rows)
         return " ".join(captions.whole(listed[name], self.results, {"cpu_model": "a processor"}, part) for part in ("title", "caption"))
 
     def test_each_states_the_facts_of_the_rows_behind_its_figure(self):
         for case in tomllib.loads((root / "tests/unit/paper_figures/captions.toml").read_text(encoding="utf-8"))["case"]:
-            text = self.told(case["figure"], [dict(zip(case["columns"], row)) for row in case["rows"]])
+            text = self.title_and_caption(case["figure"], [dict(zip(case["columns"], row)) for row in case["rows"]])
             for words in case["states"]:
                 with self.subTest(case["what"]):
                     self.assertIn(words, text)
@@ -64,7 +64,7 @@ class Captions(ResultsTest):
             captions.read(listed["volume_over_iterations"], file.parent)
 
     def test_a_number_that_no_script_tells_is_an_error(self):
-        self.told("stability_maps", [{"map": "map_time_step_k_stretch.csv", "outcome": "bounded", "steps": 1}])
+        self.title_and_caption("stability_maps", [{"map": "map_time_step_k_stretch.csv", "outcome": "bounded", "steps": 1}])
         with self.assertRaises(KeyError):
             captions.whole(dataclasses.replace(listed["stability_maps"], caption="see {nothing}"), self.results, {})
 

@@ -1,4 +1,4 @@
-// What programs that draw the frames of a run need with them. References: rigid motion by hand and the limb's own geometry (bones and
+// The tables for programs that draw the frames of a run. References: rigid motion by hand and the limb's own geometry (bones and
 // binding), affine maps, which preserve barycentric coordinates inside a tet and outside (embedding), and distances of a few points by
 // hand. Tolerances: the rounding of motions and of distances.
 #include "analysis/records/record_files.hpp"
