@@ -37,7 +37,7 @@ pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out}
 if(TARGET pbskin_cholmod)
     pbs_tests(unit pbs_flesh FOLDERS pbs/flesh
         ALONE pbs/flesh/bone_springs pbs/flesh/flesh_contact pbs/flesh/flesh_energy pbs/flesh/minimisers pbs/flesh/packed_systems
-            pbs/flesh/projective_dynamics pbs/flesh/quasi_newton pbs/flesh/vbd pbs/flesh/xpbd_neo_hookean
+            pbs/flesh/projective_dynamics pbs/flesh/quasi_newton pbs/flesh/vbd pbs/flesh/warped_newton pbs/flesh/xpbd_neo_hookean
         LIBRARIES pbs_flesh ${threads})
     add_dependencies(test_unit_pbs_flesh pbskin_cholmod)
 endif()

@@ -1,7 +1,7 @@
 // The deformers that minimise the energy of elastic flesh in equilibrium, on linear tets that springs around the bones hold: quasi_newton,
-// vbd, xpbd_neo_hookean and projective_dynamics. Every frame begins at the initial guess anew, so that it does not depend on the frames
-// before. A further method of this kind is a struct of options that derives from FleshOptions, a class that derives from FleshDeformer,
-// and a kind whose keys begin with flesh_fields.
+// vbd, warped_newton, xpbd_neo_hookean and projective_dynamics. Every frame begins at the initial guess anew, so that it does not depend on
+// the frames before. A further method of this kind is a struct of options that derives from FleshOptions, a class that derives from
+// FleshDeformer, and a kind whose keys begin with flesh_fields.
 #include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/process/machine.hpp"
 #include "pbs/character/bone_capsules.hpp"
@@ -10,6 +10,7 @@
 #include "pbs/flesh/projective_dynamics.hpp"
 #include "pbs/flesh/quasi_newton.hpp"
 #include "pbs/flesh/vbd.hpp"
+#include "pbs/flesh/warped_newton.hpp"
 #include "pbs/flesh/xpbd_neo_hookean.hpp"
 #include "pbs/skinning/blend.hpp"
 
@@ -107,13 +108,15 @@ protected:
         else
             solver_.template emplace<Solver<double>>(arguments..., options_);
     }
-    auto solve(const pbs::Positions& targets, pbs::Positions& x)
+    template <typename... Arguments>
+    auto solve(Arguments&&... arguments)
     {
-        if (auto* in_float = std::get_if<Solver<float>>(&solver_)) return in_float->minimise(targets, x);
-        return std::get<Solver<double>>(solver_).minimise(targets, x);
+        if (auto* in_float = std::get_if<Solver<float>>(&solver_)) return in_float->minimise(arguments...);
+        return std::get<Solver<double>>(solver_).minimise(arguments...);
     }
     const pbs::HeldFlesh& flesh() const { return *flesh_; }
-    const pbs::Positions& centres() const { return centres_; }  // of the springs [m], #V x 3
+    const pbs::Positions& centres() const { return centres_; }     // of the springs [m], #V x 3
+    pbs::BlendSkinning<double>& skinning() { return *skinning_; }  // with the weights of the initial guess
     std::int64_t tets() const { return tets_; }
 
     Options options_;
@@ -193,6 +196,29 @@ private:
                 .work = {.vertex_visits = (1 + descent.iterations) * x.rows(),  // blended once, then moved
                          .tet_visits = 4 * descent.iterations * tets()}};       // once for each of its vertices
     }
+};
+
+// A quasi-Newton method whose first matrix is the warped stiffness at rest (pbs/flesh/warped_newton.hpp).
+using WarpedFlesh = FleshOptions<pbs::WarpedNewtonOptions>;
+
+class WarpedNewtonDeformer : public FleshDeformer<WarpedFlesh, pbs::WarpedNewton> {
+public:
+    using FleshDeformer::FleshDeformer;
+
+private:
+    void make_solver(const pbs::Character& character) override { make(character.mesh, flesh().energy(), flesh().factor()); }
+    pbs::StepSummary minimise(const pbs::Pose& pose, pbs::Positions& x) override
+    {
+        skinning().rotations(pose, rotations_);
+        const pbs::WarpedNewtonSummary newton = solve(centres(), rotations_, x);
+        return {.iterations = newton.iterations,
+                .work = {.gradients = newton.evaluations,
+                         .vertex_visits = (1 + newton.sweeps) * x.rows(),
+                         .tet_visits = (newton.evaluations + 4 * newton.sweeps) * tets(),
+                         .linear_solves = newton.iterations}};
+    }
+
+    std::vector<Eigen::Matrix3d> rotations_;  // of the flesh around each vertex, #V
 };
 
 // XPBD with the neo-Hookean constraints of Macklin and Mueller (pbs/flesh/xpbd_neo_hookean.hpp).
@@ -300,6 +326,20 @@ DeformerKind vbd_kind()
             .add("rho", &VbdFlesh::rho,
                  {.range = {0.0, 0.9999}, .meaning = "the spectral radius of a sweep that chebyshev assumes; unused otherwise"})
             .add("contact", &VbdFlesh::contact, contact_text()));
+}
+
+DeformerKind warped_newton_kind()
+{
+    return kind_of<WarpedNewtonDeformer>(
+        "warped_newton",
+        "neo-Hookean flesh in equilibrium on linear tets, by L-BFGS with the warped stiffness at rest (Mueller 2002) and sweeps of vertex "
+        "block descent",
+        flesh_fields<WarpedFlesh>("warped_newton")
+            .add("sweeps", &WarpedFlesh::sweeps,
+                 {.range = {0, 1e6}, .meaning = "sweeps over all vertices before the first step and after each"})
+            .add("omega", &WarpedFlesh::omega, {.range = {above_zero, 1.999}, .meaning = "over-relaxation of the sweeps"})
+            .add("history", &WarpedFlesh::history,
+                 {.range = {0, 100}, .meaning = "pairs of steps and changes of the gradient that L-BFGS keeps"}));
 }
 
 DeformerKind xpbd_neo_hookean_kind()

@@ -23,6 +23,7 @@ std::vector<DeformerKind>& registered()
         xpbd_small_steps_kind(),
         quasi_newton_kind(),
         vbd_kind(),
+        warped_newton_kind(),
         xpbd_neo_hookean_kind(),
         projective_dynamics_kind(),
         fem_kind(),

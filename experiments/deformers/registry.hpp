@@ -62,6 +62,7 @@ DeformerKind xpbd_kind();
 DeformerKind xpbd_small_steps_kind();
 DeformerKind quasi_newton_kind();
 DeformerKind vbd_kind();
+DeformerKind warped_newton_kind();
 DeformerKind xpbd_neo_hookean_kind();
 DeformerKind projective_dynamics_kind();
 DeformerKind fem_kind();

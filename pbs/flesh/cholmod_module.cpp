@@ -37,9 +37,9 @@ void copy(const cholmod_factor& from, pbs::CholeskyFactor& to)
 
 }  // namespace
 
-extern "C" void pbskin_cholmod_factor(const Eigen::SparseMatrix<double>& lower, pbs::CholeskyFactor& factor);
+extern "C" void pbskin_cholmod_factor(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order, pbs::CholeskyFactor& factor);
 
-void pbskin_cholmod_factor(const Eigen::SparseMatrix<double>& lower, pbs::CholeskyFactor& factor)
+void pbskin_cholmod_factor(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order, pbs::CholeskyFactor& factor)
 {
     factor = {};
     cholmod_common common;
@@ -48,7 +48,12 @@ void pbskin_cholmod_factor(const Eigen::SparseMatrix<double>& lower, pbs::Choles
     common.supernodal = CHOLMOD_SIMPLICIAL;
     common.final_ll = common.final_pack = common.final_monotonic = 1;
     cholmod_sparse matrix = view(lower);
-    cholmod_factor* cholmod = cholmod_analyze(&matrix, &common);
+    if (!order.empty()) {
+        common.nmethods = 1;
+        common.method[0].ordering = CHOLMOD_GIVEN;
+        common.postorder = 0;
+    }
+    cholmod_factor* cholmod = cholmod_analyze_p(&matrix, order.empty() ? nullptr : const_cast<int*>(order.data()), nullptr, 0, &common);
     if (cholmod) cholmod_factorize(&matrix, cholmod, &common);
     if (cholmod && common.status == CHOLMOD_OK && cholmod->minor == cholmod->n) copy(*cholmod, factor);
     if (cholmod) cholmod_free_factor(&cholmod, &common);

@@ -10,6 +10,17 @@
 #include <string>
 
 namespace pbs {
+namespace {
+
+// [v]_x, with [v]_x w = v x w.
+Eigen::Matrix3d cross_product_matrix(const Vec3& v)
+{
+    Eigen::Matrix3d matrix;
+    matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+    return matrix;
+}
+
+}  // namespace
 
 double sliver_factor(const TetMesh& mesh, Eigen::Index tet)
 {
@@ -103,6 +114,48 @@ Eigen::SparseMatrix<double> flesh_laplacian(const TetMesh& mesh, const FleshMate
     Eigen::SparseMatrix<double> laplacian(diagonal.size(), diagonal.size());
     laplacian.setFromTriplets(entries.begin(), entries.end());
     return laplacian;
+}
+
+// With e_k = x_k - x_0, 6 V = e_1 . (e_2 x e_3). Its second derivative in e_i and e_j, where (i, j, k) is a cyclic order, is -[e_k]_x.
+Eigen::SparseMatrix<double> flesh_hessian(const FleshEnergy& energy, const Positions& x)
+{
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto add_block = [&](int i, int j, const Eigen::Matrix3d& block) {
+        if (i < j) return;
+        for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < (i == j ? a + 1 : 3); ++b) entries.emplace_back(3 * i + a, 3 * j + b, block(a, b));
+    };
+    for (const FleshTet& tet : energy.tets()) {
+        Vec3 e[4], n[4];
+        for (int k = 1; k < 4; ++k) e[k] = (x.row(tet.vertex[k]) - x.row(tet.vertex[0])).transpose();
+        for (int k = 1; k < 4; ++k) n[k] = e[k % 3 + 1].cross(e[(k + 1) % 3 + 1]);
+        n[0] = -(n[1] + n[2] + n[3]);
+        const double pressure = tet.kappa * (n[3].dot(e[3]) - tet.d);
+        Eigen::Matrix3d of_volume[4][4];  // the second derivatives of 6 V
+        for (auto& row : of_volume) std::fill(std::begin(row), std::end(row), Eigen::Matrix3d::Zero());
+        for (int k = 1; k < 4; ++k) {
+            of_volume[k % 3 + 1][(k + 1) % 3 + 1] = -cross_product_matrix(e[k]);
+            of_volume[(k + 1) % 3 + 1][k % 3 + 1] = cross_product_matrix(e[k]);
+        }
+        for (int j = 1; j < 4; ++j) of_volume[0][j] = -(of_volume[1][j] + of_volume[2][j] + of_volume[3][j]);
+        for (auto& row : of_volume) row[0] = -(row[1] + row[2] + row[3]);
+        Eigen::Matrix4d of_edges = Eigen::Matrix4d::Zero();
+        for (int edge = 0; edge < 6; ++edge) {
+            const auto [i, j] = edges_of_tet[edge];
+            of_edges(i, j) = of_edges(j, i) = -tet.w[edge];
+            of_edges(i, i) += tet.w[edge];
+            of_edges(j, j) += tet.w[edge];
+        }
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < 4; ++j)
+                add_block(tet.vertex[i], tet.vertex[j],
+                          of_edges(i, j) * Eigen::Matrix3d::Identity() + tet.kappa * n[i] * n[j].transpose() + pressure * of_volume[i][j]);
+    }
+    for (Eigen::Index i = 0; i < energy.hold().size(); ++i)
+        add_block(static_cast<int>(i), static_cast<int>(i), energy.hold()(i) * Eigen::Matrix3d::Identity());
+    Eigen::SparseMatrix<double> hessian(3 * energy.hold().size(), 3 * energy.hold().size());
+    hessian.setFromTriplets(entries.begin(), entries.end());
+    return hessian;
 }
 
 FleshMaterial flesh_material(double poisson)

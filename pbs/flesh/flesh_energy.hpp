@@ -71,6 +71,11 @@ private:
 Eigen::SparseMatrix<double> flesh_laplacian(const TetMesh& mesh, const FleshMaterial& material, const FleshEnergy& energy,
                                             double volume_share);
 
+// The second derivative of the energy in x, its lower triangle over Young's modulus [m], 3 #V x 3 #V; vertex i has the rows 3 i to 3 i + 2.
+// At rest it is the stiffness matrix of linear elasticity and of the springs. All nine entries of a block are stored, those above the
+// diagonal of a block on the diagonal excepted.
+Eigen::SparseMatrix<double> flesh_hessian(const FleshEnergy& energy, const Positions& x);
+
 // The two constraints of a neo-Hookean tet of M. Macklin, M. Mueller, A constraint-based formulation of stable neo-Hookean materials, MIG
 // 2021, as functions of the deformation gradient F:
 //   hydrostatic  C_H = det F - alpha        of compliance 1 / (lambda V),

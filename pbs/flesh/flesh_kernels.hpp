@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 namespace pbs {
 
@@ -42,6 +43,35 @@ struct Supernode {
 template <typename Scalar>
 void solve_supernodes(const Supernode* nodes, int count, const std::uint32_t* below, const Scalar* values, const std::uint32_t* place,
                       int rows, Scalar* b, Scalar* work);
+
+// Columns of a Cholesky factor L of 3 x 3 blocks and the rows below them, L = [L_1; L_2], as the panel P = [L_1^-1; -L_2 L_1^-1]. With it
+// both substitutions are products of a matrix with a vector. A block of rows is four numbers, the last of them zero. A solve takes as long
+// as reading the values: for float a word has those of two columns, as the upper halves of float numbers (bfloat16), since the first matrix
+// of a quasi-Newton method may be that coarse. Values are stored by columns, or pairs of columns, of 4 * blocks; a last odd column has a
+// partner of zeros.
+template <typename Scalar>
+using PanelValue = std::conditional_t<std::is_same_v<Scalar, float>, std::uint32_t, Scalar>;
+inline constexpr int widest_panel = 48;    // columns, a multiple of 6
+inline constexpr int blocks_together = 4;  // the number of blocks is a multiple
+struct Panel {
+    int column_blocks;  // blocks of the columns themselves, which are the first blocks of rows
+    int blocks;         // of all rows; those that fill up the multiple are the dummy behind the last block of the matrix
+    std::size_t first_block, first_value;
+
+    int columns() const { return (3 * column_blocks + 1) / 2 * 2; }  // an even number
+};
+// Solves L L^T x = b in place for one right-hand side. block: 4 * block of each block of rows of the panels. work: blocks, and the dummy,
+// which is zero. scratch: room for the most blocks of a panel.
+template <typename Scalar>
+void solve_panels(const Panel* panels, int count, const std::uint32_t* block, const PanelValue<Scalar>* values, Scalar* work,
+                  Scalar* scratch);
+
+// turned_k = R_k^T rows_k, and rows_k = R_k turned_k, for the vertices k. rotations: three columns of four numbers each per vertex. place:
+// 4 * row of each vertex.
+template <typename Scalar>
+void turn_back(const Scalar* rotations, const std::uint32_t* place, int vertices, const Scalar* rows, Scalar* turned);
+template <typename Scalar>
+void turn(const Scalar* rotations, const std::uint32_t* place, int vertices, const Scalar* turned, Scalar* rows);
 
 // The kernel of projective dynamics follows.
 

@@ -14,23 +14,7 @@ namespace pbs {
 namespace {
 
 // The function of the module pbskin_cholmod: fills in the factor, or leaves it empty if the matrix is not positive definite.
-using FactorFunction = void(const Eigen::SparseMatrix<double>& lower, CholeskyFactor& factor);
-
-// How many columns from `column` on have the same rows below the last of them.
-int width_of_supernode(const CholeskyFactor& factor, int column)
-{
-    const int columns = static_cast<int>(factor.order.size());
-    int width = 1;
-    while (width < widest_supernode && column + width < columns) {
-        const int last = column + width - 1;
-        const int entries = factor.first[last + 1] - factor.first[last], next = factor.first[last + 2] - factor.first[last + 1];
-        // The rows of a column below its diagonal are among those of the column of the first of them (elimination tree).
-        const bool is_parent = entries > 1 && factor.row[factor.first[last] + 1] == last + 1;
-        if (!is_parent || entries != next + 1) break;
-        ++width;
-    }
-    return width;
-}
+using FactorFunction = void(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order, CholeskyFactor& factor);
 
 // The plain implementation: the energy in file order and a loop per entry of the factor, in double. Energy: FleshEnergy or
 // ProjectiveEnergy.
@@ -207,11 +191,26 @@ Weights HeldFlesh::smooth_weights(const Weights& otherwise) const
     return sparse_weights(solve_plainly(factor_, hold_.stiffness_of_bones()), negligible, otherwise);
 }
 
-CholeskyFactor cholesky_factor(const Eigen::SparseMatrix<double>& lower)
+CholeskyFactor cholesky_factor(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order)
 {
     CholeskyFactor factor;
-    load_module("pbskin_cholmod").function<FactorFunction>("pbskin_cholmod_factor")(lower, factor);
+    load_module("pbskin_cholmod").function<FactorFunction>("pbskin_cholmod_factor")(lower, order, factor);
     return factor;
+}
+
+int width_of_supernode(const CholeskyFactor& factor, int column, int widest)
+{
+    const int columns = static_cast<int>(factor.order.size());
+    int width = 1;
+    while (width < widest && column + width < columns) {
+        const int last = column + width - 1;
+        const int entries = factor.first[last + 1] - factor.first[last], next = factor.first[last + 2] - factor.first[last + 1];
+        // The rows of a column below its diagonal are among those of the column of the first of them (elimination tree).
+        const bool is_parent = entries > 1 && factor.row[factor.first[last] + 1] == last + 1;
+        if (!is_parent || entries != next + 1) break;
+        ++width;
+    }
+    return width;
 }
 
 template <typename Scalar>
@@ -220,7 +219,7 @@ TriangularSolve<Scalar>::TriangularSolve(const CholeskyFactor& factor, const std
     const int columns = static_cast<int>(factor.order.size());
     for (const int row : factor.order) place_.push_back(4u * place[row]);
     for (int column = 0; column < columns;) {
-        const int width = width_of_supernode(factor, column);
+        const int width = width_of_supernode(factor, column, widest_supernode);
         const int last = column + width - 1;
         Supernode node{column, width, factor.first[last + 1] - factor.first[last] - 1, below_.size(), values_.size()};
         const auto entry = [&](int row_in_column, int c) { return factor.value[factor.first[column + c] + row_in_column - c]; };

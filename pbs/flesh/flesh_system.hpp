@@ -28,8 +28,12 @@ struct CholeskyFactor {
     bool usable() const { return !first.empty(); }  // false: A is not positive definite in double
 };
 
-// lower: the lower triangle of A, compressed. CHOLMOD is in the module pbskin_cholmod; an InputError where that is missing.
-CholeskyFactor cholesky_factor(const Eigen::SparseMatrix<double>& lower);
+// lower: the lower triangle of A, compressed. order: of the rows, as in the factor; empty: CHOLMOD chooses one. CHOLMOD is in the module
+// pbskin_cholmod; an InputError where that is missing.
+CholeskyFactor cholesky_factor(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order = {});
+
+// How many columns of L, from `column` on, have the same rows below the last of them: a supernode. At most `widest`.
+int width_of_supernode(const CholeskyFactor& factor, int column, int widest);
 
 struct HeldFleshOptions {
     double poisson = 0.45;

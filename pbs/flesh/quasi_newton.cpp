@@ -16,7 +16,8 @@ QuasiNewton<Scalar>::QuasiNewton(const TetMesh& mesh, const FleshEnergy& energy,
       gradient_(x_),
       direction_(x_),
       next_x_(x_),
-      next_gradient_(x_)
+      next_gradient_(x_),
+      history_(options.history)
 {
     if (options.contact) contact_.emplace(mesh, energy, system_->place());
 }
@@ -25,7 +26,7 @@ template <typename Scalar>
 QuasiNewtonSummary QuasiNewton<Scalar>::minimise(const Positions& centres, Positions& x)
 {
     QuasiNewtonSummary summary;
-    pairs_.clear();
+    history_.clear();
     system_->set_centres(centres);
     system_->load(x, x_);
     int searches_left = contact_ ? 2 : 0;
@@ -67,27 +68,18 @@ template <typename Scalar>
 bool QuasiNewton<Scalar>::seek_contacts(QuasiNewtonSummary& summary)
 {
     if (!contact_->find(x_)) return false;
-    pairs_.clear();
+    history_.clear();
     summary.energy = value_and_gradient(x_, gradient_);
     ++summary.evaluations;
     return true;
 }
 
-// The direction is -H_k g by the two loops of L-BFGS (J. Nocedal, S. Wright, Numerical Optimization, algorithm 7.4). Returns the slope.
+// The direction is -H_k g. Returns the slope.
 template <typename Scalar>
 double QuasiNewton<Scalar>::set_direction()
 {
     direction_ = gradient_;
-    std::vector<double> alpha(pairs_.size());
-    for (std::size_t k = pairs_.size(); k-- > 0;) {
-        alpha[k] = system_->dot(pairs_[k].step, direction_) / pairs_[k].product;
-        system_->add(-alpha[k], pairs_[k].change, direction_);
-    }
-    system_->precondition(direction_);
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-        const double beta = system_->dot(pairs_[k].change, direction_) / pairs_[k].product;
-        system_->add(alpha[k] - beta, pairs_[k].step, direction_);
-    }
+    history_.apply(*system_, direction_, [&](Rows<Scalar>& rows) { system_->precondition(rows); });
     return -system_->dot(direction_, gradient_);
 }
 
@@ -110,31 +102,13 @@ bool QuasiNewton<Scalar>::search(double slope, QuasiNewtonSummary& summary)
         const bool is_equal = std::abs(energy - summary.energy) <= rounding;
         const bool is_flatter = is_equal && std::abs(system_->dot(direction_, next_gradient_)) <= sigma * std::abs(slope);
         if (!is_lower && !is_flatter) continue;
-        remember();
+        history_.remember(*system_, x_, next_x_, gradient_, next_gradient_);
         std::swap(x_, next_x_);
         std::swap(gradient_, next_gradient_);
         summary.energy = energy;
         return true;
     }
     return false;
-}
-
-// Keeps the last step where its curvature is positive.
-template <typename Scalar>
-void QuasiNewton<Scalar>::remember()
-{
-    if (options_.history == 0) return;
-    Pair pair;
-    if (static_cast<int>(pairs_.size()) == options_.history) {
-        pair = std::move(pairs_.front());
-        pairs_.pop_front();
-    }
-    pair.step = next_x_;
-    pair.change = next_gradient_;
-    system_->add(-1.0, x_, pair.step);
-    system_->add(-1.0, gradient_, pair.change);
-    pair.product = system_->dot(pair.step, pair.change);
-    if (pair.product > 0.0) pairs_.push_back(std::move(pair));
 }
 
 template class QuasiNewton<float>;

@@ -6,8 +6,8 @@
 
 #include "pbs/flesh/flesh_contact.hpp"
 #include "pbs/flesh/flesh_system.hpp"
+#include "pbs/flesh/step_history.hpp"
 
-#include <deque>
 #include <optional>
 
 namespace pbs {
@@ -39,22 +39,16 @@ public:
     QuasiNewtonSummary minimise(const Positions& centres, Positions& x);
 
 private:
-    struct Pair {
-        Rows<Scalar> step, change;  // of x, of the gradient
-        double product;             // their inner product, above 0
-    };
-
     double value_and_gradient(const Rows<Scalar>& x, Rows<Scalar>& gradient);
     bool seek_contacts(QuasiNewtonSummary& summary);
     double set_direction();
     bool search(double slope, QuasiNewtonSummary& summary);
-    void remember();
 
     QuasiNewtonOptions options_;
     std::unique_ptr<FleshSystem<Scalar>> system_;
     std::optional<FleshContact<Scalar>> contact_;
     Rows<Scalar> x_, gradient_, direction_, next_x_, next_gradient_;
-    std::deque<Pair> pairs_;
+    StepHistory<Scalar> history_;
 };
 
 }  // namespace pbs

@@ -98,11 +98,10 @@ template <typename Scalar>
     rows[3] = shuffled<HighHalves, Scalar>(zw_01, zw_23);
 }
 
-// Row k of a transpose: the vertices of lanes k, k + 4, k + 8 ...
-template <typename Scalar>
-[[gnu::always_inline]] inline Row<Scalar> row(const Scalar* vertices, const std::uint32_t* offset)
+// vertex(0), vertex(4), vertex(8) ..., each four numbers, side by side.
+template <typename Scalar, typename Vertex>
+[[gnu::always_inline]] inline Row<Scalar> side_by_side(const Vertex& vertex)
 {
-    const auto vertex = [&](int lane) { return *reinterpret_cast<const Vector<Scalar, 4>*>(vertices + offset[lane]); };
     if constexpr (lanes<Scalar> == 4) return vertex(0);
 #ifdef __AVX512DQ__
     else if constexpr (lanes<Scalar> == 16) {
@@ -121,6 +120,13 @@ template <typename Scalar>
             return __builtin_shufflevector(pair(0), pair(8), 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     }
 #endif
+}
+
+// Row k of a transpose: the vertices of lanes k, k + 4, k + 8 ...
+template <typename Scalar>
+[[gnu::always_inline]] inline Row<Scalar> row(const Scalar* vertices, const std::uint32_t* offset)
+{
+    return side_by_side<Scalar>([&](int lane) { return *reinterpret_cast<const Vector<Scalar, 4>*>(vertices + offset[lane]); });
 }
 
 // Numbers 4 which .. 4 which + 3.

@@ -336,6 +336,23 @@ void BlendSkinning<Scalar>::dual_quaternion(const Pose& pose, Positions& posed)
     blend_in_world(pose, posed, [&](const Vec3& origin, Scalar* rows) { dual_quaternion_rows(pose, origin, rows); });
 }
 
+template <class Scalar>
+void BlendSkinning<Scalar>::rotations(const Pose& pose, std::vector<Eigen::Matrix3d>& rotations)
+{
+    place_bones(pose, Vec3::Zero());
+    place_turned_bones();
+    const PackedDualQuaternion<Scalar>* bones = dual_quaternions_.data();
+    blend_matrices(raw(packed_.shared, packed_.shared.turned_bone), bones, matrices_.data() + packed_.bones);
+    own_matrices_.resize(packed_.own.rows());
+    blend_matrices(raw(packed_.own, packed_.own.turned_bone), bones, own_matrices_.data());
+    rotations.resize(packed_.matrix.size());
+    const PaddedMatrix<Scalar>* own = own_matrices_.data();
+    for (std::size_t i = 0; i < rotations.size(); ++i) {
+        const PaddedMatrix<Scalar>& matrix = packed_.matrix[i] < 0 ? *own++ : matrices_[packed_.matrix[i]];
+        rotations[i] = Eigen::Map<const Eigen::Matrix<Scalar, 4, 4>>(matrix.numbers).template topLeftCorner<3, 3>().template cast<double>();
+    }
+}
+
 template class BlendSkinning<float>;
 template class BlendSkinning<double>;
 

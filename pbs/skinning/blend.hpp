@@ -91,6 +91,9 @@ public:
     void linear_rows(const Pose& pose, const Vec3& origin, Scalar* posed);
     void dual_quaternion_rows(const Pose& pose, const Vec3& origin, Scalar* posed);  // likewise
 
+    // The rotations of the blended dual quaternions, #V.
+    void rotations(const Pose& pose, std::vector<Eigen::Matrix3d>& rotations);
+
     int vertices() const { return static_cast<int>(packed_.matrix.size()); }  // #V
 
 private:
@@ -107,6 +110,7 @@ private:
 
     std::vector<Eigen::Isometry3d> placed_;                       // the bones: rest position - middle -> posed position - origin
     std::vector<PaddedMatrix<Scalar>> matrices_;                  // of the bones, then of the shared rows
+    std::vector<PaddedMatrix<Scalar>> own_matrices_;              // of the rows of one vertex; only `rotations` needs them
     std::vector<PackedDualQuaternion<Scalar>> dual_quaternions_;  // of the turned bones
     std::vector<Scalar> posed_;                                   // #V x 3; empty where nothing has to be converted
 };

@@ -15,11 +15,11 @@ import run_records
 
 LONG = bool(os.environ.get("PBS_LONG"))
 ALL = ('["lbs", "dqs", "delta_mush", "direct_delta_mush", "pbs", "pbs_author", "xpbd", "xpbd_small_steps", "quasi_newton", "vbd", '
-       '"xpbd_neo_hookean", "projective_dynamics"]')
+       '"warped_newton", "xpbd_neo_hookean", "projective_dynamics"]')
 WITH_ORDERS = '["pbs", "xpbd", "xpbd_small_steps"]'
 FEM = '[[fem]]\nname = "p1"\nmodel = "linear"\n[[fem]]\nname = "snh"\nmodel = "stable_neo_hookean"\n'
 # Threads share the same vertices in each iteration; direct_delta_mush iterates before the first pose.
-ITERATED = ("direct_delta_mush", "pbs", "quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics")
+ITERATED = ("direct_delta_mush", "pbs", "quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean", "projective_dynamics")
 ORDERS, PRECISIONS = ["plain", "ordered", "grouped"], ["f32", "f64"]
 BLAS_THREADS = [{"OPENBLAS_NUM_THREADS": n, "OMP_NUM_THREADS": n} for n in "124"]
 ENVIRONMENTS = [{"LC_ALL": "de_DE.UTF-8", "LANG": "de_DE.UTF-8"}, {"LC_ALL": "C"}, {"TZ": "Asia/Kathmandu"},

@@ -44,7 +44,7 @@ pbs::Positions turned(const std::string& kind, const std::vector<std::string>& k
 }
 
 class Flesh : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Method, Flesh, testing::Values("quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics"));
+INSTANTIATE_TEST_SUITE_P(Method, Flesh, testing::Values("quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean", "projective_dynamics"));
 
 TEST_P(Flesh, AFrameDoesNotDependOnTheOneBefore)
 {

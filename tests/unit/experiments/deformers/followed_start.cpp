@@ -43,7 +43,7 @@ Eigen::Index inverted(const pbs::Character& bar, const pbs::Positions& positions
 
 class FollowedStart : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Method, FollowedStart,
-                         testing::Values("pbs", "xpbd", "xpbd_small_steps", "quasi_newton", "vbd", "xpbd_neo_hookean",
+                         testing::Values("pbs", "xpbd", "xpbd_small_steps", "quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean",
                                          "projective_dynamics"));
 
 TEST_P(FollowedStart, FarFramesAreReachedWithoutInvertedTets)

@@ -52,6 +52,24 @@ TEST_P(FleshEnergyOf, GradientByAnEpsSweep)
     test_support::expect_slope_by_eps_sweep(value, flat(at), flat(along), flat(gradient).dot(flat(along)), 0.1);
 }
 
+TEST_P(FleshEnergyOf, HessianByAnEpsSweep)
+{
+    const Positions at = test_support::jittered(bent.lbs, 0.05), along = test_support::jittered(Positions::Zero(at.rows(), 3), 1.0, 9),
+                    also = test_support::jittered(Positions::Zero(at.rows(), 3), 1.0, 10);
+    using ByVertex = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+    const auto by_vertex = [](const Positions& x) {
+        const ByVertex rows = x;
+        return Eigen::VectorXd(Eigen::VectorXd::Map(rows.data(), rows.size()));
+    };
+    const Eigen::SparseMatrix<double> lower = pbs::flesh_hessian(energy, at), H = lower.selfadjointView<Eigen::Lower>();
+    const auto slope = [&](const Eigen::VectorXd& x) {
+        Positions gradient;
+        energy.value_and_gradient(Positions::Map(x.data(), at.rows(), 3), centres, gradient);
+        return flat(gradient).dot(flat(also));
+    };
+    test_support::expect_slope_by_eps_sweep(slope, flat(at), flat(along), by_vertex(also).dot(H * by_vertex(along)), 0.1);
+}
+
 // Third differences of a quadratic vanish. Values are of order E; each has some 20 roundings per tet.
 TEST_P(FleshEnergyOf, IsQuadraticAlongOneVertex)
 {

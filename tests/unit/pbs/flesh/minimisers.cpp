@@ -1,11 +1,13 @@
-// The contract of the methods that minimise an energy of elastic flesh: vertex block descent, L-BFGS, XPBD with neo-Hookean constraints and
-// projective dynamics. References: the necessary conditions of a minimum, computed by the plain energy, rigid motions, and the same bar
-// without a sliver, whose volume is 1e-9 of that of a tet, so that the minimum does not depend on it.
+// The contract of the methods that minimise an energy of elastic flesh: vertex block descent, L-BFGS with either first matrix, XPBD with
+// neo-Hookean constraints and projective dynamics. References: the necessary conditions of a minimum, computed by the plain energy, rigid
+// motions, and the same bar without a sliver, whose volume is 1e-9 of that of a tet, so that the minimum does not depend on it.
 #include "pbs/flesh/flesh_system.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"
 #include "pbs/flesh/quasi_newton.hpp"
 #include "pbs/flesh/vbd.hpp"
+#include "pbs/flesh/warped_newton.hpp"
 #include "pbs/geometry/topology.hpp"
+#include "pbs/skinning/blend.hpp"
 #include "tests/support/flesh_rounding.hpp"
 #include "tests/support/held_xpbd.hpp"
 #include "tests/support/rounding_error.hpp"
@@ -76,6 +78,21 @@ struct ByLbfgs : OfFlesh {  // setting: the pairs that are kept
         const pbs::QuasiNewtonOptions options{
             .iterations = call.iterations, .history = int(*call.setting), .stop_gradient = call.stop, .packed = call.packed};
         return pbs::QuasiNewton<Scalar>(bar.bent.mesh, bar.energy, flesh.factor(), options).minimise(centres_of(bar, pose), x);
+    }
+};
+
+struct ByWarpedStiffness : OfFlesh {  // setting: omega
+    static constexpr int enough = 100, usual = 3;
+    static inline const std::vector<double> settings = {pbs::WarpedNewtonOptions().omega, 1.0, 1.9};
+
+    template <typename Scalar>
+    static auto minimise(const HeldXpbd& bar, const pbs::Pose& pose, const Call& call, Positions& x)
+    {
+        const pbs::HeldFlesh flesh(bar.bent.mesh, bar.springs, 2, {});
+        std::vector<Eigen::Matrix3d> rotations;
+        pbs::BlendSkinning<double>(bar.bent.mesh.rest, flesh.smooth_weights(bar.bent.weights)).rotations(pose, rotations);
+        const pbs::WarpedNewtonOptions options{.iterations = call.iterations, .omega = *call.setting, .packed = call.packed};
+        return pbs::WarpedNewton<Scalar>(bar.bent.mesh, bar.energy, flesh.factor(), options).minimise(centres_of(bar, pose), rotations, x);
     }
 };
 
@@ -150,7 +167,7 @@ protected:
         return gradient.norm();
     }
 };
-using Methods = testing::Types<ByVertices, ByLbfgs, ByXpbd, ByProjections>;
+using Methods = testing::Types<ByVertices, ByLbfgs, ByWarpedStiffness, ByXpbd, ByProjections>;
 TYPED_TEST_SUITE(Minimiser, Methods);
 
 TYPED_TEST(Minimiser, EndsWhereTheGradientVanishes)
@@ -198,9 +215,10 @@ TYPED_TEST(Minimiser, NoIterationsLeaveTheInitialGuess)
 }
 
 // Theory. Vertex block descent: along a vertex the energy is exactly quadratic, so that omega times the way to its minimum lowers it by
-// omega (2 - omega) / 2 g . H^-1 g, which is positive for 0 < omega < 2. L-BFGS: the line search requires it. Projective dynamics: each
-// step minimises the energy over the shapes and then over the positions. An energy has some 40 roundings per tet of positive terms; in that
-// of projective dynamics, a hundred of the springs' parts, which have either sign: a_i |x_i - c_i|^2 of a body of 2 m.
+// omega (2 - omega) / 2 g . H^-1 g, which is positive for 0 < omega < 2. L-BFGS: the line search requires it, or a step is taken back.
+// Projective dynamics: each step minimises the energy over the shapes and then over the positions. An energy has some 40 roundings per tet
+// of positive terms; in that of projective dynamics, a hundred of the springs' parts, which have either sign: a_i |x_i - c_i|^2 of a body
+// of 2 m.
 TYPED_TEST(Minimiser, NoIterationIncreasesTheEnergy)
 {
     if (!TypeParam::descends) return;

@@ -255,6 +255,25 @@ TYPED_TEST(BlendSkinningOf, RawRowsAreRelativeToTheOriginAndEndWithTheLastVertex
     for (int i = 12; i < 16; ++i) EXPECT_EQ(rows[i], untouched);
 }
 
+// The blend moves a point rigidly if its weights are kept: the columns of its rotation are what it does to the axes.
+TYPED_TEST(BlendSkinningOf, RotationsAreThoseOfTheDualQuaternions)
+{
+    BlendSkinning<TypeParam> skinning(four_points, four_vertices);
+    std::vector<Eigen::Matrix3d> rotations;
+    skinning.rotations(two_bones(), rotations);
+    ASSERT_EQ(rotations.size(), 4u);
+    Positions here, there;
+    pbs::dual_quaternion_skinning(four_points, four_vertices, two_bones(), here);
+    for (int axis = 0; axis < 3; ++axis) {
+        Positions moved = four_points;
+        moved.col(axis).array() += 1.0;
+        pbs::dual_quaternion_skinning(moved, four_vertices, two_bones(), there);
+        for (int i = 0; i < 4; ++i)
+            EXPECT_LT((rotations[i].col(axis).transpose() - (there - here).row(i)).cwiseAbs().maxCoeff(),
+                      2.0 * dual_quaternion_error<TypeParam>());
+    }
+}
+
 TYPED_TEST(BlendSkinningOf, BonesWithoutVertices)  // bones 0 and 2 of four
 {
     Pose pose(4, Eigen::Isometry3d::Identity());
