@@ -156,8 +156,7 @@ LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, dou
     double intercept, slope, var_intercept, covariance, var_slope, squares;
     gsl_fit_linear(x.data(), 1, y.data(), 1, x.size(), &intercept, &slope, &var_intercept, &covariance, &var_slope, &squares);
     const int n = static_cast<int>(x.size());
-    return {student_interval(slope, var_slope, level, n, 2), student_interval(intercept, var_intercept, level, n, 2),
-            std::sqrt(squares / n)};
+    return {student_interval(slope, var_slope, level, n, 2), student_interval(intercept, var_intercept, level, n, 2)};
 }
 
 LineFit observed_order(const std::vector<double>& h, const std::vector<double>& error, double level)
@@ -191,12 +190,6 @@ PowerLawEnd power_law_end(const std::vector<double>& sizes, const std::vector<do
     end.beyond = end.size < points.front().first || end.size > points.back().first;
     end.exponent = observed_order(sizes, costs).slope.estimate;
     return end;
-}
-
-const char* name_of(OscillationOutcome outcome)
-{
-    constexpr const char* names[] = {"found", "overdamped", "too_short", "unclear", "none"};
-    return names[static_cast<int>(outcome)];
 }
 
 DampedOscillation fit_damped_oscillation(const std::vector<double>& series, double dt_s, double level)

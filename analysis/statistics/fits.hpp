@@ -4,6 +4,8 @@
 
 #include "analysis/statistics/statistics.hpp"
 
+#include <array>
+#include <utility>
 #include <vector>
 
 namespace analysis {
@@ -11,7 +13,6 @@ namespace analysis {
 // y = intercept + slope x. Intervals by Student's t with n - 2 degrees of freedom; NaN bounds for two points.
 struct LineFit {
     Interval slope, intercept;  // in y / x and y
-    double residual_rms = 0.0;  // sqrt(sum of squared residuals / n)
 };
 
 // InputError unless x and y have the same size, at least two, and the values of x differ.
@@ -40,7 +41,14 @@ PowerLawEnd power_law_end(const std::vector<double>& sizes, const std::vector<do
 // overdamped: the series creeps back, and w is only a rate. too_short: fewer than 8 samples before the motion has died away. unclear: the
 // model explains less than half of the variance. none: nothing moves.
 enum class OscillationOutcome { found, overdamped, too_short, unclear, none };
-const char* name_of(OscillationOutcome outcome);  // as it is spelt in the enum
+template <>
+struct EnumNames<OscillationOutcome> {
+    static constexpr std::array<std::pair<OscillationOutcome, const char*>, 5> table{{{OscillationOutcome::found, "found"},
+                                                                                      {OscillationOutcome::overdamped, "overdamped"},
+                                                                                      {OscillationOutcome::too_short, "too_short"},
+                                                                                      {OscillationOutcome::unclear, "unclear"},
+                                                                                      {OscillationOutcome::none, "none"}}};
+};
 
 // The values may be used only if found().
 struct DampedOscillation {
