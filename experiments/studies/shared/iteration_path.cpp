@@ -1,6 +1,7 @@
 #include "experiments/studies/shared/iteration_path.hpp"
 
 #include "analysis/statistics/fits.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/solver/batched/batched_projection.hpp"
 #include "pbs/solver/particles.hpp"
@@ -160,7 +161,7 @@ Reached reached_residual(const IterationPath& path, double floor)
 
 Reached reached_volume(const IterationPath& path)
 {
-    return reached(path, &Look::volume_abs_change_pct, volume_tolerance_pct);
+    return reached(path, &Look::volume_abs_change_pct, analysis::kept_volume_pct);
 }
 
 double rate_of(const IterationPath& path, double floor)
