@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace experiments {
 
@@ -36,6 +37,7 @@ const Columns<DampedOscillation> swing_columns = within(&DampedOscillation::freq
 constexpr double first_young_pa = 1e5;         // of the reference, before its frequency is matched
 constexpr double rayleigh_stiffness_s = 0.02;  // of the control with damping
 constexpr int control_steps = 100;
+constexpr int reference_steps_a_period = 24, reference_periods = 4;  // of the wanted frequency
 
 std::vector<ZoneRow> zone_rows(const pbs::ZoneContents& zone)
 {
@@ -83,19 +85,38 @@ std::vector<ResponseRow> responses_of_pbs(const JoltCase& jolt_case, const pbs::
     return rows;
 }
 
-// Finite elements that swing as fast as a row of PBS. Nothing where it does not swing, or they do not.
+// Neo-Hookean, linear elements, generalised alpha.
+DeformerSpec dynamic_reference(double young_pa)
+{
+    DeformerSpec spec = default_spec("fem");
+    auto& options = options_of<FemOptions>(spec);
+    options.model = reference_fem::Model::neo_hookean;
+    options.element_order = 1;
+    options.dynamics = reference_fem::Dynamics::generalized_alpha;
+    options.young_pa = young_pa;
+    return spec;
+}
+
+// The same flesh as an elastic body in time, with the Young's modulus with which it swings as fast as PBS does at one setting; damping and
+// amplitude can then be compared. The frequency is proportional to sqrt(E): E is chosen by that of a first modulus, then solved again.
+// Nothing where one of them does not swing.
 std::optional<ResponseRow> reference_row(const JoltCase& jolt_case, const pbs::Character& character, const std::vector<int>& probe,
                                          const ResponseRow& own)
 {
     const DampedOscillation& swing = own.response.swing;
     if (!swing.found()) return std::nullopt;
-    const auto matched = match_reference(character, dynamic_reference(first_young_pa), probe, jolt_case.jolt, swing.frequency_hz.estimate);
-    if (!matched) return std::nullopt;
+    Jolt jolt = jolt_case.jolt;
+    jolt.time_step_s = 1.0 / (reference_steps_a_period * swing.frequency_hz.estimate);
+    jolt.steps = reference_steps_a_period * reference_periods;
     ResponseRow row = own;
     row.deformer = "nh_p1";
-    row.time_step_ms = 1e3 * matched->time_step_s;
-    row.young_pa = matched->young_pa;
-    row.response = matched->response;
+    row.time_step_ms = 1e3 * jolt.time_step_s;
+    row.young_pa = first_young_pa;
+    for (const bool is_matched : {false, true}) {
+        if (is_matched) row.young_pa *= std::pow(swing.frequency_hz.estimate / row.response.swing.frequency_hz.estimate, 2);
+        row.response = jolt_response(character, dynamic_reference(row.young_pa), probe, jolt);
+        if (!row.response.finished || !row.response.swing.found()) return std::nullopt;
+    }
     return row;
 }
 
@@ -149,6 +170,23 @@ void add_controls(const JoltCase& jolt_case, const pbs::Character& character, co
             measurements.push_back(exact_value("amplitude", damped, with_damping.overshoot_over_jolt));
     }
 }
+
+// stop.csv
+struct StopRow {
+    std::string deformer;
+    double k_stretch = 0.0, young_pa = 0.0, rayleigh_stiffness_s = 0.0;  // not a number where the deformer has none
+    double time_step_ms = 0.0;
+    JoltResponse response{};
+};
+
+const Columns<StopRow> stop_columns =
+    MEMBER_COLUMNS(StopRow, deformer, k_stretch, young_pa, rayleigh_stiffness_s, time_step_ms) +
+    within(&StopRow::response, within(&JoltResponse::swing, outcome_columns) +
+                                   Columns<JoltResponse>{{"path_m", &JoltResponse::path_m},
+                                                         {"rest_over_path", &JoltResponse::rest_over_jolt},
+                                                         {"peak_over_path", &JoltResponse::peak_over_jolt}} +
+                                   within(&JoltResponse::swing, swing_columns) +
+                                   MEMBER_COLUMNS(JoltResponse, settling_s, left_over_peak, finished));
 
 // The vertices of a stop's bone in the jiggling zone.
 std::vector<int> probe_of(const StopCase& stop, const pbs::Character& character)
@@ -272,15 +310,6 @@ std::string record_jolts(const JoltCase& jolt_case, const std::string& folder)
     analysis::measurement_table(measured).write(analysis::path_in(folder, "measurements.csv"));
     return breakdown;
 }
-
-const Columns<StopRow> stop_columns =
-    MEMBER_COLUMNS(StopRow, deformer, k_stretch, young_pa, rayleigh_stiffness_s, time_step_ms) +
-    within(&StopRow::response, within(&JoltResponse::swing, outcome_columns) +
-                                   Columns<JoltResponse>{{"path_m", &JoltResponse::path_m},
-                                                         {"rest_over_path", &JoltResponse::rest_over_jolt},
-                                                         {"peak_over_path", &JoltResponse::peak_over_jolt}} +
-                                   within(&JoltResponse::swing, swing_columns) +
-                                   MEMBER_COLUMNS(JoltResponse, settling_s, left_over_peak, finished));
 
 RECORD_SETTINGS_AND(
     StopCase,

@@ -12,7 +12,6 @@
 #include "experiments/studies/study.hpp"
 #include "pbs/character/bone_capsules.hpp"
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,24 +44,8 @@ struct JoltResponse {
     bool finished = true;                 // every step
 };
 
+inline constexpr double settled_share = 0.1;  // of the peak, within which the excursion is settled
 JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe, const Jolt& jolt);
-
-// The same flesh as an elastic body in time. The Young's modulus of the finite elements is chosen so that they swing as fast as PBS does at
-// one setting; damping and amplitude can then be compared.
-struct JiggleReference {
-    double young_pa = 0.0;  // the frequency is proportional to sqrt(E): chosen by that of the first modulus, then solved again
-    double time_step_s = 0.0;
-    JoltResponse response;  // with this modulus
-};
-inline constexpr double settled_share = 0.1;                                // of the peak, within which the excursion is settled
-inline constexpr int reference_steps_a_period = 24, reference_periods = 4;  // of the wanted frequency
-
-// fem: dynamic, with any Young's modulus to begin with. Nothing where the body does not swing.
-std::optional<JiggleReference> match_reference(const pbs::Character& character, const DeformerSpec& fem, const std::vector<int>& probe,
-                                               const Jolt& jolt, double frequency_hz);
-
-// Neo-Hookean, linear elements, generalised alpha.
-DeformerSpec dynamic_reference(double young_pa);
 
 // The skeleton goes through a motion and is then held still. What swings is the mean displacement of the probe's vertices from where they
 // come to rest (their mean in the last tenth), along the probe's last velocity. The excursion begins with the first still step. InputError
@@ -80,15 +63,6 @@ struct StopCase {
     int finer_steps = 4;                                              // of these, and of a second run of XPBD, for each step of PBS
     double still_s = 2.0;                                             // after the motion
 };
-
-// stop.csv
-struct StopRow {
-    std::string deformer;
-    double k_stretch = 0.0, young_pa = 0.0, rayleigh_stiffness_s = 0.0;  // not a number where the deformer has none
-    double time_step_ms = 0.0;
-    JoltResponse response{};
-};
-extern const analysis::Columns<StopRow> stop_columns;
 
 // The response of the zone's largest piece to a jolt, at each setting.
 struct JoltCase {
@@ -130,7 +104,7 @@ nlohmann::json to_json(const StopCase& stop);
 
 // Both return what broke down, if anything.
 std::string record_jolts(const JoltCase& jolt_case, const std::string& folder);
-std::string record_stop(const StopCase& stop, const std::string& folder);  // stop.csv
+std::string record_stop(const StopCase& stop, const std::string& folder);  // stop.csv, one row per deformer and setting
 
 ResponseRow setting_of(const Scene& scene);  // of its PBS; the response is left out
 
