@@ -248,7 +248,7 @@ std::vector<analysis::Measurement> convergence_conclusions(const std::vector<ana
                     iterations.push_back(value.value);
                 }
             if (vertices.size() < 3) continue;
-            const analysis::Interval exponent = analysis::observed_order(vertices, iterations, exponent_level).slope;
+            const analysis::Interval exponent = analysis::observed_order(vertices, iterations, exponent_level);
             analysis::CaseKey of = ladder;
             of.vertices = vertices.front();
             of.vertices_to = vertices.back();

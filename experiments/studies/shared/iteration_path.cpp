@@ -180,7 +180,7 @@ double rate_of(const IterationPath& path, double floor)
             iterations.push_back(look.iteration);
             excess.push_back(std::log(look.combined - floor));
         }
-    return iterations.size() < 3 ? analysis::not_known : std::exp(analysis::fit_line(iterations, excess).slope.estimate);
+    return iterations.size() < 3 ? analysis::not_known : std::exp(analysis::fit_line(iterations, excess).estimate);
 }
 
 const Look& look_at(const IterationPath& path, int iteration)
