@@ -96,7 +96,7 @@ Shared shared_columns(const std::string& file, const CsvTable& first, const CsvT
     Shared shared;
     for (const std::string& column : first.columns()) {
         if (!second.has_column(column) || is_among(own.not_compared, column)) continue;
-        const bool is_text = has_text(first, column) || has_text(second, column);
+        const bool is_text = !is_a_time(column) && (has_text(first, column) || has_text(second, column));
         const bool is_setting = is_among(own.settings, column) ||
                                 (!is_among(own.results, column) && (is_among(settings, column) || (is_text && !is_among(results, column))));
         if (is_setting)

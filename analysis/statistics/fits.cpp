@@ -144,23 +144,19 @@ void add_values(DampedOscillation& swing, const Fit& fit, double level)
     const double variance =
         by_d * by_d * fit.covariance(0, 0) + by_w * by_w * fit.covariance(1, 1) + 2.0 * by_d * by_w * fit.covariance(0, 1);
     swing.damping_ratio = student_interval(d / undamped, std::max(variance, 0.0), level, swing.samples, parameters);
-    swing.amplitude = std::hypot(fit.value[2], fit.value[3]);
-    swing.offset = fit.value[4];
 }
 
 }  // namespace
 
-LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, double level)
+Interval fit_line(const std::vector<double>& x, const std::vector<double>& y, double level)
 {
     require_points_for_a_line(x, y);
     double intercept, slope, var_intercept, covariance, var_slope, squares;
     gsl_fit_linear(x.data(), 1, y.data(), 1, x.size(), &intercept, &slope, &var_intercept, &covariance, &var_slope, &squares);
-    const int n = static_cast<int>(x.size());
-    return {student_interval(slope, var_slope, level, n, 2), student_interval(intercept, var_intercept, level, n, 2),
-            std::sqrt(squares / n)};
+    return student_interval(slope, var_slope, level, static_cast<int>(x.size()), 2);
 }
 
-LineFit observed_order(const std::vector<double>& h, const std::vector<double>& error, double level)
+Interval observed_order(const std::vector<double>& h, const std::vector<double>& error, double level)
 {
     return fit_line(logarithms(h, "h"), logarithms(error, "error"), level);
 }
@@ -189,14 +185,8 @@ PowerLawEnd power_law_end(const std::vector<double>& sizes, const std::vector<do
     PowerLawEnd end;
     end.size = below * std::pow(limit / below_cost, 1.0 / slope);
     end.beyond = end.size < points.front().first || end.size > points.back().first;
-    end.exponent = observed_order(sizes, costs).slope.estimate;
+    end.exponent = observed_order(sizes, costs).estimate;
     return end;
-}
-
-const char* name_of(OscillationOutcome outcome)
-{
-    constexpr const char* names[] = {"found", "overdamped", "too_short", "unclear", "none"};
-    return names[static_cast<int>(outcome)];
 }
 
 DampedOscillation fit_damped_oscillation(const std::vector<double>& series, double dt_s, double level)

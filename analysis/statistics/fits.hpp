@@ -1,24 +1,21 @@
 // Straight lines through data by least squares (GSL), and observed orders of convergence as slopes on log-log axes.
-//   const Interval order = observed_order(mesh_size_m, error_l2_pct).slope;   // 2.02 [1.97, 2.07]
+//   const Interval order = observed_order(mesh_size_m, error_l2_pct);   // 2.02 [1.97, 2.07]
 #pragma once
 
 #include "analysis/statistics/statistics.hpp"
 
+#include <array>
+#include <utility>
 #include <vector>
 
 namespace analysis {
 
-// y = intercept + slope x. Intervals by Student's t with n - 2 degrees of freedom; NaN bounds for two points.
-struct LineFit {
-    Interval slope, intercept;  // in y / x and y
-    double residual_rms = 0.0;  // sqrt(sum of squared residuals / n)
-};
-
+// The slope of y = intercept + slope x. Its interval is by Student's t with n - 2 degrees of freedom, with NaN bounds for two points.
 // InputError unless x and y have the same size, at least two, and the values of x differ.
-LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, double level = 0.95);
+Interval fit_line(const std::vector<double>& x, const std::vector<double>& y, double level = 0.95);
 
-// error = c h^p: p is the slope, log c the intercept. InputError unless all values are positive.
-LineFit observed_order(const std::vector<double>& h, const std::vector<double>& error, double level = 0.95);
+// The exponent p of error = c h^p. InputError unless all values are positive.
+Interval observed_order(const std::vector<double>& h, const std::vector<double>& error, double level = 0.95);
 
 // Where a cost that grows with size as a power reaches a limit.
 //   const PowerLawEnd end = power_law_end(vertices, ms_per_frame, 1e3 / 30.0);   // the size at which a frame takes 1 / 30 s
@@ -40,7 +37,14 @@ PowerLawEnd power_law_end(const std::vector<double>& sizes, const std::vector<do
 // overdamped: the series creeps back, and w is only a rate. too_short: fewer than 8 samples before the motion has died away. unclear: the
 // model explains less than half of the variance. none: nothing moves.
 enum class OscillationOutcome { found, overdamped, too_short, unclear, none };
-const char* name_of(OscillationOutcome outcome);  // as it is spelt in the enum
+template <>
+struct EnumNames<OscillationOutcome> {
+    static constexpr std::array<std::pair<OscillationOutcome, const char*>, 5> table{{{OscillationOutcome::found, "found"},
+                                                                                      {OscillationOutcome::overdamped, "overdamped"},
+                                                                                      {OscillationOutcome::too_short, "too_short"},
+                                                                                      {OscillationOutcome::unclear, "unclear"},
+                                                                                      {OscillationOutcome::none, "none"}}};
+};
 
 // The values may be used only if found().
 struct DampedOscillation {
@@ -48,9 +52,8 @@ struct DampedOscillation {
     // w / 2 pi, and d / sqrt(d^2 + w^2): 0 swings for ever, 1 does not swing. The intervals use Student's t and the covariance of the fit.
     // The residual of a body with many modes is not white noise, so these intervals are too narrow.
     Interval frequency_hz, damping_ratio;
-    double amplitude = 0.0, offset = 0.0;  // sqrt(a^2 + b^2) at t = 0, and c, in the series' unit
-    double explained = 0.0;                // share of the variance that the model explains
-    int samples = 0;                       // number of samples used by the fit: up to the time at which 2 % of the largest excursion remain
+    double explained = 0.0;  // share of the variance that the model explains
+    int samples = 0;         // number of samples used by the fit: up to the time at which 2 % of the largest excursion remain
 
     bool found() const { return outcome == OscillationOutcome::found; }  // true if frequency and damping have intervals
 };

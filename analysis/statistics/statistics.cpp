@@ -115,6 +115,26 @@ double rank_correlation(const std::vector<double>& x, const std::vector<double>&
     return std::round(places * gsl_stats_spearman(x.data(), 1, y.data(), 1, n, work.data())) / places;
 }
 
+Interval ratio(const Interval& a, const Interval& b)
+{
+    return {a.estimate / b.estimate, a.low / b.high, a.high / b.low};
+}
+
+Interval rank_correlation_without_one(const std::vector<double>& x, const std::vector<double>& y)
+{
+    const double all = rank_correlation(x, y);
+    Interval interval{.estimate = all, .low = all, .high = all, .n = static_cast<int>(x.size())};
+    for (std::ptrdiff_t left_out = 0; left_out < std::ssize(x); ++left_out) {
+        std::vector<double> other_x = x, other_y = y;
+        other_x.erase(other_x.begin() + left_out);
+        other_y.erase(other_y.begin() + left_out);
+        const double without = rank_correlation(other_x, other_y);
+        interval.low = std::min(interval.low, without);
+        interval.high = std::max(interval.high, without);
+    }
+    return interval;
+}
+
 double integrated_autocorrelation_time(const std::vector<double>& series)
 {
     const std::size_t n = series.size();

@@ -19,17 +19,23 @@ double standard_deviation(const std::vector<double>& values);  // n - 1 in the d
 // Spearman's rank correlation, rounded to 12 decimals; it is 1 if y rises with x throughout. NaN for fewer than two pairs.
 double rank_correlation(const std::vector<double>& x, const std::vector<double>& y);
 
-// Integrated autocorrelation time in samples, 1 + 2 sum rho_k over the first window W >= 5 tau (Sokal). The mean of n samples is as precise
-// as that of n / tau independent ones. At least 1; 1 for a series without spread.
-double integrated_autocorrelation_time(const std::vector<double>& series);
-
-// An estimate with its confidence interval, in the unit of the series. NaN bounds mean that the interval is not known.
+// An estimate with its interval, in the unit of the series. NaN bounds mean that the interval is not known.
 struct Interval {
     double estimate = 0.0, low = 0.0, high = 0.0;  // the estimated value and its bounds
     double level = 0.95;                           // confidence level, two-sided
     int n = 0;                                     // number of samples
     int block = 0;                                 // length of the blocks; 0: no bootstrap was made
 };
+
+// The quotient of two positive estimates, from the least to the largest one that their intervals allow.
+Interval ratio(const Interval& a, const Interval& b);
+
+// The rank correlation of all pairs, with its least and its largest value when any one of the pairs is left out.
+Interval rank_correlation_without_one(const std::vector<double>& x, const std::vector<double>& y);
+
+// Integrated autocorrelation time in samples, 1 + 2 sum rho_k over the first window W >= 5 tau (Sokal). The mean of n samples is as precise
+// as that of n / tau independent ones. At least 1; 1 for a series without spread.
+double integrated_autocorrelation_time(const std::vector<double>& series);
 
 // An estimate from n samples, with its estimates from all samples but one: estimate +- Student's t (n - 1) times the jackknife's standard
 // error sqrt((n - 1) / n sum (without - their mean)^2). The bounds are NaN for fewer than two samples.

@@ -39,19 +39,23 @@ json to_json_of(const Threshold& threshold)
     return object;
 }
 
+json tested_value(const CaseKey& of, const std::string& quantity, double value, const Threshold& threshold, bool holds)
+{
+    json object = to_json_of(of);
+    object.update(
+        {{"value", finite(value)}, {"threshold_low", finite(threshold.low)}, {"threshold_high", finite(threshold.high)}, {"holds", holds}});
+    if (!quantity.empty()) object["quantity"] = quantity;
+    return object;
+}
+
 json to_json_of(const JudgedCase& tested)
 {
-    json object = to_json_of(tested.of);
+    json object = tested_value(tested.of, tested.quantity, tested.value, tested.threshold, tested.holds);
     object.update({{"unit", tested.unit},
-                   {"value", finite(tested.value)},
                    {"low", finite(tested.low)},
                    {"high", finite(tested.high)},
-                   {"threshold_low", finite(tested.threshold.low)},
-                   {"threshold_high", finite(tested.threshold.high)},
                    {"n", tested.n},
-                   {"holds", tested.holds},
                    {"excluded", tested.counts() ? json(nullptr) : json(name_of(tested.excluded))}});
-    if (!tested.quantity.empty()) object["quantity"] = tested.quantity;
     for (const JudgedCase& part : tested.parts) object["parts"].push_back(to_json_of(part));
     if (tested.limit != Limit::none) object["limit"] = recorded_name(tested.limit);
     return object;
@@ -59,13 +63,7 @@ json to_json_of(const JudgedCase& tested)
 
 json to_json_of(const PrintedValue& value)
 {
-    json object = to_json_of(value.of);
-    object.update({{"quantity", value.quantity},
-                   {"value", finite(value.printed)},
-                   {"threshold_low", finite(value.least)},
-                   {"threshold_high", finite(value.most)},
-                   {"holds", value.is_consistent()}});
-    return object;
+    return tested_value(value.of, value.quantity, value.printed, {.low = value.least, .high = value.most}, value.is_consistent());
 }
 
 json to_json_of(const BodyExcluded& excluded)

@@ -67,6 +67,26 @@ CsvTable measurement_table(const std::vector<Measurement>& measurements)
     return table_of(used_columns(measurement_columns(), measurements), measurements);
 }
 
+std::map<CaseKey, std::map<double, Measurement>> series_over(const std::vector<Measurement>& measured, const std::string& quantity,
+                                                             std::optional<double> CaseKey::*field)
+{
+    std::map<CaseKey, std::map<double, Measurement>> all;
+    for (const Measurement& measurement : measured) {
+        if (measurement.quantity != quantity || !(measurement.of.*field)) continue;
+        CaseKey of = measurement.of;
+        (of.*field).reset();
+        all[of].emplace(*(measurement.of.*field), measurement);
+    }
+    return all;
+}
+
+const Measurement* find_measurement(const std::vector<Measurement>& measured, const std::string& quantity, const CaseKey& of)
+{
+    const auto is_wanted = [&](const Measurement& measurement) { return measurement.quantity == quantity && measurement.of == of; };
+    const auto found = std::ranges::find_if(measured, is_wanted);
+    return found == measured.end() ? nullptr : &*found;
+}
+
 double share_of_kept_frames(const std::vector<double>& volume_change_pct)
 {
     const auto is_kept = [](double change_pct) { return std::abs(change_pct) <= kept_volume_pct; };

@@ -4,6 +4,8 @@
 
 #include "analysis/verdicts/case_record.hpp"
 
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,15 @@ namespace analysis {
 // an unknown limit.
 std::vector<Measurement> measurements(const std::string& csv);
 CsvTable measurement_table(const std::vector<Measurement>& measurements);  // the table that measurements() reads; run is not part of it
+
+// The values of a quantity whose cases differ in one field of the key alone, by this field: the iterations on each mesh. Each series has
+// the key without the field. Values without the field are left out.
+//   for (const auto& [of, amplitudes] : series_over(measured, "amplitude", &CaseKey::k_stretch)) use(amplitudes.begin()->first);
+std::map<CaseKey, std::map<double, Measurement>> series_over(const std::vector<Measurement>& measured, const std::string& quantity,
+                                                             std::optional<double> CaseKey::*field);
+
+// The value of a quantity in a case; null if there is none.
+const Measurement* find_measurement(const std::vector<Measurement>& measured, const std::string& quantity, const CaseKey& of);
 
 inline constexpr double kept_volume_pct = 0.5;  // the paper's Sec. 4: "the volume is preserved within 0.5 %"
 double share_of_kept_frames(const std::vector<double>& volume_change_pct);

@@ -170,6 +170,9 @@ struct Study {
     StudyPlan (*plan_with)(bool full, const std::string& external_file) = nullptr;
     // The values of the study's claims for a case of `ambiguity`, by each of the readings. Null: it has none.
     std::vector<ReadingValues> (*read)(const StudyCase& study_case, const std::vector<Overrides>& readings) = nullptr;
+    // The values that follow from other measured values of a run: exponents, ranks, shares. A run records them, and verdicts take what is
+    // concluded anew from the measured values on record. Null: every value is measured.
+    std::vector<analysis::Measurement> (*conclusions)(const std::vector<analysis::Measurement>& measured) = nullptr;
 };
 const std::vector<Study>& studies();
 

@@ -64,12 +64,24 @@ analysis::CaseKey key_of(const StudyRun& run)
     return key;
 }
 
+// Of a run of the study in this folder, which has its name. Values on record that follow from others are those that are concluded now.
+std::vector<analysis::Measurement> measurements_of(const fs::path& study, const std::string& csv)
+{
+    std::vector<analysis::Measurement> measured = analysis::measurements(csv);
+    const auto known = std::ranges::find(studies(), study.filename().string(), &Study::name);
+    if (known == studies().end() || !known->conclusions) return measured;
+    const std::vector<analysis::Measurement> concluded = known->conclusions(measured);
+    for (analysis::Measurement& recorded : measured)
+        if (const auto* now = analysis::find_measurement(concluded, recorded.quantity, recorded.of)) recorded = *now;
+    return measured;
+}
+
 void add_run(analysis::Records& records, const fs::path& folder, const std::string& name, const analysis::CaseKey& place, bool beside)
 {
     if (const fs::path printed = folder / "printed.csv"; fs::exists(printed))
         for (auto& value : analysis::printed_values(printed.string())) records.printed.push_back(std::move(value));
     if (const fs::path measured = folder / "measurements.csv"; fs::exists(measured))
-        for (auto& measurement : analysis::measurements(measured.string())) {
+        for (auto& measurement : measurements_of(folder.parent_path(), measured.string())) {
             measurement.run = name;
             records.measurements.push_back(std::move(measurement));
         }

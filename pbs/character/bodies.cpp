@@ -195,6 +195,12 @@ void require_body(const std::string& name)
         if (!std::filesystem::exists(file)) throw InputError("", 0, "character.body", name, "not installed: needs " + body->package);
 }
 
+bool is_character(const std::string& body)
+{
+    const NamedBody* named = find_body(body);
+    return named && named->is_character;
+}
+
 bool body_is_installed(const std::string& body)
 {
     try {

@@ -37,6 +37,7 @@ struct NamedBody {
     Character (*make)(const std::string& name, int vertices, bool with_surface);
 };
 const std::vector<NamedBody>& named_bodies();
+bool is_character(const std::string& body);  // as NamedBody has it; false for a name that is none
 
 // Are the files of a named body there? Cheap: nothing is read or meshed. require_body: an InputError that names what is missing.
 // Bodies that are built in have no files, and names that are none are not refused here but by make_character.

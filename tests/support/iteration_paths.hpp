@@ -50,4 +50,10 @@ inline experiments::ConvergencePaths papers_paths(const std::vector<double>& rat
     return paths;
 }
 
+// What the study measures of these paths.
+inline std::vector<analysis::Measurement> values_of_paths(const std::vector<experiments::ConvergencePaths>& paths, bool ladder = false)
+{
+    return experiments::convergence_values(experiments::rate_rows({paths, ladder}), ladder);
+}
+
 }  // namespace test_support

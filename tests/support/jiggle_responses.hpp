@@ -5,19 +5,18 @@
 
 namespace test_support {
 
-inline experiments::MeasuredJiggle swinging(const experiments::JiggleSetting& setting, double hz, double width = 0.1)
+inline experiments::ResponseRow swinging(experiments::ResponseRow setting, double hz, double width = 0.1)
 {
-    experiments::MeasuredJiggle measured{setting, {}};
-    measured.response.swing.outcome = analysis::OscillationOutcome::found;
-    measured.response.swing.frequency_hz = {hz, (1.0 - width) * hz, (1.0 + width) * hz};
-    measured.response.swing.damping_ratio = {0.1, 0.08, 0.12};
-    measured.response.overshoot_over_jolt = 0.3;
-    return measured;
+    setting.response = {.overshoot_over_jolt = 0.3};
+    setting.response.swing.outcome = analysis::OscillationOutcome::found;
+    setting.response.swing.frequency_hz = {hz, (1.0 - width) * hz, (1.0 + width) * hz};
+    setting.response.swing.damping_ratio = {0.1, 0.08, 0.12};
+    return setting;
 }
 
-inline experiments::MeasuredJiggle creeping(const experiments::JiggleSetting& setting)
+inline experiments::ResponseRow creeping(const experiments::ResponseRow& setting)
 {
-    experiments::MeasuredJiggle measured = swinging(setting, 0.0);
+    experiments::ResponseRow measured = swinging(setting, 0.0);
     measured.response.swing = {};
     measured.response.swing.outcome = analysis::OscillationOutcome::overdamped;
     return measured;

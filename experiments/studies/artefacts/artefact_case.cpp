@@ -3,9 +3,11 @@
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/run/frame_measurement.hpp"
+#include "experiments/studies/study.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -361,20 +363,15 @@ std::string why_left_out(const pbs::Character& character, const JointByHand& joi
     return section_radius(character, bones[parent], bones[child]) > 0.0 ? "" : "no_flesh_round_the_joint";
 }
 
-// Frankie's bones are short for his flesh. The rule asks for a limb longer than 3 times the mean distance of its vertices; his upper arm
-// reaches 1.2 times, the upper half of his forearm 2.5, and the first bones of his tail 2.3 and 2.8. But all planes across forearm, wrist
-// and tail cut one outline of the limb alone, and so do those at the elbow and at the tail's root. Farther up they cut the skin that hangs
-// from the arm to the flank and, once the tail is bent, the trunk. Frankie's leg is drawn into the belly: planes across the shin cut the
-// trunk.
 std::vector<JointByHand> joints_by_hand(const std::string& body)
 {
-    if (body != "frankie") return {};
-    return {{"upper_arm.L", "forearm_upper.L", 0.25, 0.5, ""},
-            {"forearm_upper.L", "forearm_lower.L", 0.5, 0.5, ""},
-            {"forearm_lower.L", "hand.L", 0.5, 0.5, ""},
-            {"tail_1", "tail_2", 0.35, 0.5, ""},
-            {"tail_2", "tail_3", 0.5, 0.5, ""},
-            {"thigh.L", "shin.L", 0.0, 0.0, "leg_drawn_into_the_belly"}};
+    std::vector<JointByHand> joints;
+    const nlohmann::json document = cases_document("artefacts");
+    for (const nlohmann::json& joint : document.at("joint"))
+        if (joint.at("body") == body)
+            joints.push_back(
+                {joint.at("parent"), joint.at("child"), joint.at("reach").at(0), joint.at("reach").at(1), joint.value("no_section", "")});
+    return joints;
 }
 
 std::vector<LimbJoint> limb_joints(const pbs::Character& character)

@@ -109,8 +109,7 @@ struct ConvergencePaths {
 
 struct ConvergenceResult {
     std::vector<ConvergencePaths> all;
-    bool ladder = false;  // as in the case
-    bool exponents = false;
+    bool ladder = false;         // as in the case
     std::string breakdown = {};  // paths that ceased to be finite; `reference` states one that was not reached
 };
 
@@ -119,17 +118,22 @@ ConvergenceResult measure_convergence(const ConvergenceCase& convergence_case, c
 
 // The records of convergence: residuals by iteration, one row per path, and the error to the reference by iteration.
 
-// rates.csv
+// A path in numbers. Those from the initial guesses are the rows of rates.csv. The columns leave out what the values of the claims need
+// too.
+enum class PathKind { guess, control, author };
 struct RateRow {
-    PathCase of;
+    PathKind kind = PathKind::guess;
+    analysis::CaseKey key = {};             // as in ConvergencePaths
+    bool character = false, twist = false;  // likewise
+    PathCase of = {};
     int iterations = 0;
-    std::string outcome;
+    std::string outcome = {};
     double floor = 0.0;
     double rate = 0.0;  // rate_of
-    Reached residual, volume;
-    Look paper, nearest, last;  // after 24 iterations, with the least error, and the last one
-    std::string reference;
-    ReferenceQuality quality;
+    Reached residual = {}, volume = {};
+    Look paper = {}, nearest = {}, last = {};  // after 24 iterations, with the least error, and the last one
+    std::string reference = {};
+    ReferenceQuality quality = {};
 };
 extern const analysis::Columns<RateRow> rate_columns;
 
@@ -142,13 +146,17 @@ extern const analysis::Columns<LookRow> residual_columns, towards_columns;
 
 std::vector<LookRow> look_rows(const ConvergenceResult& result);  // thinned to five looks per decade
 std::vector<LookRow> towards_rows(std::vector<LookRow> looks);    // those with an error
-std::vector<RateRow> rate_rows(const ConvergenceResult& result);  // one per path
+// One per path: those of a mesh, order and precision follow each other, LBS first, then the controls and the author's later code.
+std::vector<RateRow> rate_rows(const ConvergenceResult& result);
 
-// The values by which C03 and C12 are judged, from the paths of a case: one per order and precision. The scene's own mesh gives the value,
+// The values by which C03 and C12 are judged, from the rows of a case: one per order and precision. The scene's own mesh gives the value,
 // and the other meshes of about that size give its range. Where a tolerance is never reached, the number of iterations that were tried
 // takes its place and `limit` marks it, so that a ratio is a bound. Where neither initial guess reaches the tolerance there is no value;
 // where this happens on another mesh, the range is open. The iterations of limbs have a quantity of their own, and so have ratios in
 // twists, in which the rest pose already satisfies all constraints. A ladder has no ratios, since its sizes are no independent cases.
-std::vector<analysis::Measurement> convergence_values(const ConvergenceResult& result);
+std::vector<analysis::Measurement> convergence_values(const std::vector<RateRow>& rows, bool ladder = false);
+
+// What follows from these values: iterations ~ vertices^exponent, over at least three sizes that reach the tolerance.
+std::vector<analysis::Measurement> convergence_conclusions(const std::vector<analysis::Measurement>& measured);
 
 }  // namespace experiments

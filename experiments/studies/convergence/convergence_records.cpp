@@ -1,6 +1,7 @@
 #include "experiments/studies/convergence/convergence_case.hpp"
 
 #include "analysis/statistics/fits.hpp"
+#include "analysis/verdicts/measurement.hpp"
 
 #include <fmt/format.h>
 
@@ -18,12 +19,6 @@ using analysis::Columns;
 using analysis::within;
 
 const Columns<PathCase> case_columns = MEMBER_COLUMNS(PathCase, body, pose, vertices, tets, own_mesh, order, precision, k_stretch, start);
-
-PathCase case_of(PathCase path_case, std::size_t start)
-{
-    path_case.start = name_of(all_starts[start]);
-    return path_case;
-}
 
 // Six digits are enough for drawing. All digits would double the size of the record.
 Look rounded(Look look)
@@ -47,11 +42,10 @@ std::vector<Look> thinned(const IterationPath& path)
     return kept;
 }
 
-RateRow rate_row(const ConvergencePaths& paths, std::size_t start, double floor)
+RateRow rate_row(const ConvergencePaths& paths, const IterationPath& path, double floor, PathKind kind, const std::string& start)
 {
-    const IterationPath& path = paths.paths[start];
-    RateRow row;
-    row.of = case_of(paths.of, start);
+    RateRow row{.kind = kind, .key = paths.key, .character = paths.character, .twist = paths.twist, .of = paths.of};
+    row.of.start = start;
     row.outcome = path.finite ? "finished" : "not_finite";
     row.paper = look_at(path, paper_iterations);
     row.nearest = nearest_to_reference(path);
@@ -79,60 +73,45 @@ struct PathValue {
     double value = 0.0;
     analysis::Limit limit = analysis::Limit::none;
 };
-using ValueOf = std::function<std::optional<PathValue>(const ConvergencePaths&)>;
-using Group = std::vector<const ConvergencePaths*>;  // meshes of about one size, the scene's own first
+using ValueOf = std::function<std::optional<PathValue>(const RateRow& row, const RateRow& lbs)>;
+using MeshRows = std::vector<const RateRow*>;  // of one mesh and setting, LBS first
+using Group = std::vector<MeshRows>;           // meshes of about one size, the scene's own first
 
-std::vector<Group> groups_of(const ConvergenceResult& result)
+std::vector<Group> groups_of(const std::vector<RateRow>& rows, bool ladder)
 {
+    const auto setting = [&](const PathCase& of) {
+        return std::tuple(of.pose, of.k_stretch, of.order, of.precision, ladder ? of.vertices : 0);
+    };
     std::vector<Group> groups;
-    for (const ConvergencePaths& paths : result.all) {
-        const auto same = [&](const Group& group) {
-            const PathCase &first = group.front()->of, &other = paths.of;
-            return std::tie(first.pose, first.k_stretch, first.order, first.precision) ==
-                       std::tie(other.pose, other.k_stretch, other.order, other.precision) &&
-                   (!result.ladder || first.vertices == other.vertices);
-        };
-        if (const auto found = std::find_if(groups.begin(), groups.end(), same); found != groups.end())
-            found->push_back(&paths);
-        else
-            groups.push_back({&paths});
+    std::size_t group = 0;
+    for (const RateRow& row : rows) {
+        if (row.kind == PathKind::guess && row.of.start == name_of(SolverStart::lbs)) {  // the first path of a mesh
+            const auto is_same = [&](const Group& other) { return setting(other.front().front()->of) == setting(row.of); };
+            group = static_cast<std::size_t>(std::ranges::find_if(groups, is_same) - groups.begin());
+            if (group == groups.size()) groups.emplace_back();
+            groups[group].emplace_back();
+        }
+        groups[group].back().push_back(&row);
     }
     return groups;
 }
 
-analysis::CaseKey key_of(const ConvergencePaths& paths)
+// place: of the path among those of its mesh. key: the part in which the values of a group differ.
+void add(std::vector<analysis::Measurement>& to, const std::string& claim, const std::string& quantity, const analysis::CaseKey& key,
+         const Group& group, std::size_t place, const ValueOf& value_of)
 {
-    analysis::CaseKey key = paths.key;
-    key.body = paths.of.body;
-    key.deformer = "pbs";
-    key.order = paths.of.order;
-    key.precision = paths.of.precision;
-    key.vertices = paths.of.vertices;
-    key.k_stretch = paths.of.k_stretch;
-    return key;
-}
-
-// The part of a value's key in which the values of a group differ.
-struct What {
-    std::string claim, quantity;
-    std::string tolerance = {}, initial_guess = {};
-};
-
-void add(std::vector<analysis::Measurement>& to, const What& what, const Group& group, const ValueOf& value_of)
-{
-    const std::optional<PathValue> own = value_of(*group.front());
+    const auto value_on = [&](const MeshRows& rows) { return value_of(*rows.at(place), *rows.front()); };
+    const std::optional<PathValue> own = value_on(group.front());
     if (!own || !std::isfinite(own->value)) return;
-    analysis::Measurement measured{what.claim, what.quantity, key_of(*group.front()), own->value, own->value, own->value, "1"};
-    measured.of.tolerance = what.tolerance;
-    measured.of.initial_guess = what.initial_guess;
+    analysis::Measurement measured{claim, quantity, key, own->value, own->value, own->value, "1"};
     measured.limit = own->limit;
     int without = 0;
-    for (const ConvergencePaths* other : group) {
-        const std::optional<PathValue> measurement = value_of(*other);
-        without += !measurement;
-        if (!measurement || !std::isfinite(measurement->value)) continue;
-        measured.low = std::min(measured.low, measurement->value);
-        measured.high = std::max(measured.high, measurement->value);
+    for (const MeshRows& other : group) {
+        const std::optional<PathValue> value = value_on(other);
+        without += !value;
+        if (!value || !std::isfinite(value->value)) continue;
+        measured.low = std::min(measured.low, value->value);
+        measured.high = std::max(measured.high, value->value);
     }
     if (without > 0) {
         measured.not_reached = without;
@@ -143,32 +122,21 @@ void add(std::vector<analysis::Measurement>& to, const What& what, const Group& 
     to.push_back(measured);
 }
 
-struct Tolerance {
-    const char* name;  // in a key
-    Reached (*reached)(const ConvergencePaths& paths, const IterationPath& path);
-};
-const Tolerance tolerances[] = {
-    {"residual", [](const ConvergencePaths& paths, const IterationPath& path) { return reached_residual(path, floor_of(paths.paths)); }},
-    {"volume", [](const ConvergencePaths&, const IterationPath& path) { return reached_volume(path); }}};
+const std::pair<const char*, Reached RateRow::*> tolerances[] = {{"residual", &RateRow::residual}, {"volume", &RateRow::volume}};
 
-PathValue iterations_of(const Reached& reached)
+ValueOf iterations_to(Reached RateRow::*tolerance)
 {
-    return {double(reached.iterations), reached.within ? analysis::Limit::none : analysis::Limit::more_than};
+    return [tolerance](const RateRow& row, const RateRow&) {
+        const Reached& reached = row.*tolerance;
+        return PathValue{double(reached.iterations), reached.within ? analysis::Limit::none : analysis::Limit::more_than};
+    };
 }
-
-ValueOf iterations_to(const Tolerance& tolerance)
-{
-    return [&tolerance](const ConvergencePaths& paths) { return iterations_of(tolerance.reached(paths, paths.paths[0])); };
-}
-
-// One of a case's paths.
-using PathOf = std::function<const IterationPath&(const ConvergencePaths&)>;
 
 // An initial guess that fulfils the tolerance counts as one iteration.
-ValueOf over_lbs(const Tolerance& tolerance, const PathOf& path_of)
+ValueOf over_lbs(Reached RateRow::*tolerance)
 {
-    return [&tolerance, path_of](const ConvergencePaths& paths) -> std::optional<PathValue> {
-        const Reached other = tolerance.reached(paths, path_of(paths)), lbs = tolerance.reached(paths, paths.paths[0]);
+    return [tolerance](const RateRow& row, const RateRow& lbs_row) -> std::optional<PathValue> {
+        const Reached &other = row.*tolerance, &lbs = lbs_row.*tolerance;
         if (!other.within && !lbs.within) return {};
         return PathValue{std::max(other.iterations, 1) / double(std::max(lbs.iterations, 1)), !other.within ? analysis::Limit::at_least
                                                                                               : !lbs.within ? analysis::Limit::at_most
@@ -176,63 +144,12 @@ ValueOf over_lbs(const Tolerance& tolerance, const PathOf& path_of)
     };
 }
 
-// The later code of the paper's first author, by the residual's own floor.
-void add_author(std::vector<analysis::Measurement>& to, const Group& group)
+std::optional<PathValue> error_over_lbs(const RateRow& row, const RateRow& lbs)
 {
-    add(to, {"C12", "iterations_to_tolerance", "residual"}, group,
-        [](const ConvergencePaths& paths) { return iterations_of(reached_residual(*paths.author, paths.author->looks.back().combined)); });
-    to.back().of.deformer = "pbs_author";
-    to.back().of.order = "first_fit";
-}
-
-void add_starts(std::vector<analysis::Measurement>& to, const Group& group)
-{
-    const std::string in_a_twist = group.front()->twist ? "_in_a_twist" : "";
-    const auto add_guess = [&](const char* guess, const PathOf& path_of) {
-        for (const Tolerance& tolerance : tolerances)
-            add(to, {"C03", "iterations_over_lbs_guess" + in_a_twist, tolerance.name, guess}, group, over_lbs(tolerance, path_of));
-        add(to, {"C03", "error_after_24_iterations_over_lbs_guess", "", guess}, group, [path_of](const ConvergencePaths& paths) {
-            return PathValue{look_at(path_of(paths), paper_iterations).error_joint_pct /
-                             look_at(paths.paths[0], paper_iterations).error_joint_pct};
-        });
-    };
-    for (std::size_t start = 1; start < group.front()->paths.size(); ++start)
-        add_guess(name_of(all_starts[start]),
-                  [start](const ConvergencePaths& paths) -> const IterationPath& { return paths.paths[start]; });
-    if (group.front()->controls.empty()) return;
-    add_guess("lbs", [](const ConvergencePaths& paths) -> const IterationPath& { return paths.controls[0]; });
-    add_guess("random", [](const ConvergencePaths& paths) -> const IterationPath& { return paths.controls[1]; });
+    return PathValue{row.paper.error_joint_pct / lbs.paper.error_joint_pct};
 }
 
 constexpr double exponent_level = 0.99;  // sizes in any other order than their own lie beyond it in less than 1 % of all cases
-
-// iterations ~ vertices^exponent, over the sizes that reach the tolerance, by order.
-void add_exponents(std::vector<analysis::Measurement>& to, const ConvergenceResult& result)
-{
-    for (const ConvergencePaths& first : result.all) {
-        const auto ladder_of = [](const PathCase& path_case) {
-            return std::tie(path_case.pose, path_case.k_stretch, path_case.order, path_case.precision);
-        };
-        const auto same = [&](const ConvergencePaths& other) { return ladder_of(other.of) == ladder_of(first.of); };
-        if (&*std::find_if(result.all.begin(), result.all.end(), same) != &first) continue;
-        for (const Tolerance& tolerance : tolerances) {
-            std::vector<double> vertices, iterations;
-            for (const ConvergencePaths& paths : result.all)
-                if (const Reached lbs = tolerance.reached(paths, paths.paths[0]); same(paths) && lbs.within && lbs.iterations > 0) {
-                    vertices.push_back(paths.of.vertices);
-                    iterations.push_back(lbs.iterations);
-                }
-            if (vertices.size() < 3) continue;
-            const analysis::Interval exponent = analysis::observed_order(vertices, iterations, exponent_level).slope;
-            const auto [fewest, most] = std::minmax_element(vertices.begin(), vertices.end());
-            analysis::CaseKey key = key_of(first);
-            key.tolerance = tolerance.name;
-            key.vertices = *fewest;
-            key.vertices_to = *most;
-            to.push_back({"C12", "exponent_of_iterations_over_vertices", key, exponent.estimate, exponent.low, exponent.high, "1"});
-        }
-    }
-}
 
 }  // namespace
 
@@ -258,8 +175,11 @@ std::vector<LookRow> look_rows(const ConvergenceResult& result)
     std::vector<LookRow> rows;
     for (const ConvergencePaths& paths : result.all) {
         if (!paths.of.own_mesh && !result.ladder) continue;  // of other tessellations only the rates are recorded
-        for (std::size_t start = 0; start < paths.paths.size(); ++start)
-            for (const Look& look : thinned(paths.paths[start])) rows.push_back({case_of(paths.of, start), look});
+        for (std::size_t start = 0; start < paths.paths.size(); ++start) {
+            PathCase of = paths.of;
+            of.start = name_of(all_starts[start]);
+            for (const Look& look : thinned(paths.paths[start])) rows.push_back({of, look});
+        }
     }
     return rows;
 }
@@ -269,7 +189,13 @@ std::vector<RateRow> rate_rows(const ConvergenceResult& result)
     std::vector<RateRow> rows;
     for (const ConvergencePaths& paths : result.all) {
         const double floor = floor_of(paths.paths);
-        for (std::size_t start = 0; start < paths.paths.size(); ++start) rows.push_back(rate_row(paths, start, floor));
+        for (std::size_t start = 0; start < paths.paths.size(); ++start)
+            rows.push_back(rate_row(paths, paths.paths[start], floor, PathKind::guess, name_of(all_starts[start])));
+        for (std::size_t control = 0; control < paths.controls.size(); ++control)
+            rows.push_back(rate_row(paths, paths.controls[control], floor, PathKind::control, control == 0 ? "lbs" : "random"));
+        if (paths.author)
+            rows.push_back(
+                rate_row(paths, *paths.author, paths.author->looks.back().combined, PathKind::author, "author"));  // its own floor
     }
     return rows;
 }
@@ -280,20 +206,55 @@ std::vector<LookRow> towards_rows(std::vector<LookRow> looks)
     return looks;
 }
 
-std::vector<analysis::Measurement> convergence_values(const ConvergenceResult& result)
+std::vector<analysis::Measurement> convergence_values(const std::vector<RateRow>& rows, bool ladder)
 {
     std::vector<analysis::Measurement> measurements;
-    const std::vector<Group> groups = groups_of(result);
-    for (const Group& group : groups) {
-        for (const Tolerance& tolerance : tolerances)
-            add(measurements,
-                {"C12", group.front()->character ? "iterations_to_tolerance" : "iterations_to_tolerance_of_limbs", tolerance.name}, group,
-                iterations_to(tolerance));
-        if (group.front()->author) add_author(measurements, group);
-        if (!result.ladder) add_starts(measurements, group);
+    for (const Group& group : groups_of(rows, ladder)) {
+        const RateRow& lbs = *group.front().front();
+        const std::string in_a_twist = lbs.twist ? "_in_a_twist" : "", of_limbs = lbs.character ? "" : "_of_limbs";
+        for (std::size_t place = 0; place < (ladder ? 1 : group.front().size()); ++place) {
+            const RateRow& row = *group.front()[place];
+            analysis::CaseKey key = row.key;
+            key.body = row.of.body;
+            key.deformer = row.kind == PathKind::author ? "pbs_author" : "pbs";
+            key.order = row.kind == PathKind::author ? "first_fit" : row.of.order;
+            key.precision = row.of.precision;
+            key.vertices = row.of.vertices;
+            key.k_stretch = row.of.k_stretch;
+            const bool is_lbs = place == 0, is_guess = !is_lbs && row.kind != PathKind::author;
+            if (is_guess) key.initial_guess = row.of.start;
+            if (is_guess) add(measurements, "C03", "error_after_24_iterations_over_lbs_guess", key, group, place, error_over_lbs);
+            for (const auto& [name, tolerance] : tolerances) {
+                key.tolerance = name;
+                if (is_guess)
+                    add(measurements, "C03", "iterations_over_lbs_guess" + in_a_twist, key, group, place, over_lbs(tolerance));
+                else if (is_lbs || tolerance == &RateRow::residual)
+                    add(measurements, "C12", "iterations_to_tolerance" + of_limbs, key, group, place, iterations_to(tolerance));
+            }
+        }
     }
-    if (result.exponents) add_exponents(measurements, result);
     return measurements;
+}
+
+std::vector<analysis::Measurement> convergence_conclusions(const std::vector<analysis::Measurement>& measured)
+{
+    std::vector<analysis::Measurement> exponents;
+    for (const char* quantity : {"iterations_to_tolerance", "iterations_to_tolerance_of_limbs"})
+        for (const auto& [ladder, series] : series_over(measured, quantity, &analysis::CaseKey::vertices)) {
+            std::vector<double> vertices, iterations;
+            for (const auto& [size, value] : series)
+                if (value.limit == analysis::Limit::none && value.value > 0.0) {
+                    vertices.push_back(size);
+                    iterations.push_back(value.value);
+                }
+            if (vertices.size() < 3) continue;
+            const analysis::Interval exponent = analysis::observed_order(vertices, iterations, exponent_level);
+            analysis::CaseKey of = ladder;
+            of.vertices = vertices.front();
+            of.vertices_to = vertices.back();
+            exponents.push_back({"C12", "exponent_of_iterations_over_vertices", of, exponent.estimate, exponent.low, exponent.high, "1"});
+        }
+    return exponents;
 }
 
 }  // namespace experiments

@@ -22,6 +22,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <random>
 
 namespace experiments {
@@ -187,9 +188,13 @@ std::string measure_and_record(const ConvergenceCase& convergence_case, const st
     const auto path = [&](const char* name) { return analysis::path_in(folder, name); };
     const std::vector<LookRow> looks = look_rows(result);
     table_of(residual_columns, looks).write(path("residuals.csv"));
-    table_of(rate_columns, rate_rows(result)).write(path("rates.csv"));
     table_of(towards_columns, towards_rows(looks)).write(path("towards.csv"));
-    analysis::measurement_table(convergence_values(result)).write(path("measurements.csv"));
+    std::vector<RateRow> rows = rate_rows(result);
+    std::vector<analysis::Measurement> measured = convergence_values(rows, convergence_case.ladder);
+    if (convergence_case.exponents) std::ranges::move(convergence_conclusions(measured), std::back_inserter(measured));
+    analysis::measurement_table(measured).write(path("measurements.csv"));
+    std::erase_if(rows, [](const RateRow& row) { return row.kind != PathKind::guess; });
+    table_of(rate_columns, rows).write(path("rates.csv"));
     return result.breakdown;
 }
 
@@ -264,7 +269,7 @@ std::vector<ReadingValues> read_paths(const StudyCase& study_case, const std::ve
         ConvergenceResult result = measure_convergence(read);
         if (!k_stretch) k_stretch = options.k_stretch;
         result.all.front().of.k_stretch = *k_stretch;
-        values_of_readings.push_back({convergence_values(result), !result.breakdown.empty()});
+        values_of_readings.push_back({convergence_values(rate_rows(result)), !result.breakdown.empty()});
         if (!result.all.front().character) values_of_readings.back().left_out = all_but("C12a", {}, "judged on characters alone");
     }
     return values_of_readings;
@@ -319,7 +324,7 @@ RECORD_SETTINGS_AND(
     .derived("looks", [](const ConvergenceCase& convergence_case) -> nlohmann::json { return looked_at(convergence_case.most_iterations); })
         .constant("residual_tolerance", residual_tolerance)
         .constant("satisfied_residual", satisfied_residual)
-        .constant("volume_tolerance_pct", volume_tolerance_pct),
+        .constant("volume_tolerance_pct", analysis::kept_volume_pct),
     scene, frames, k_stretch, settings, other_vertices, every_setting_to, ladder, exponents, from_lbs_alone, most_iterations, reference,
     effort, reference_to)
 
@@ -327,7 +332,6 @@ ConvergenceResult measure_convergence(const ConvergenceCase& convergence_case, c
 {
     ConvergenceResult result;
     result.ladder = convergence_case.ladder;
-    result.exponents = convergence_case.exponents;
     Mesh(convergence_case, convergence_case.scene, true, solutions).add_to(result);
     for (const int vertices : convergence_case.other_vertices)
         Mesh(convergence_case, at_size(convergence_case.scene, vertices), false, solutions).add_to(result);
@@ -336,7 +340,7 @@ ConvergenceResult measure_convergence(const ConvergenceCase& convergence_case, c
 
 Study convergence_study()
 {
-    return {"convergence", plan, quick_and_full, nullptr, false, nullptr, read_paths};
+    return {"convergence", plan, quick_and_full, nullptr, false, nullptr, read_paths, convergence_conclusions};
 }
 
 }  // namespace experiments

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace experiments {
 
@@ -24,9 +25,7 @@ using analysis::within;
 
 namespace {
 
-const Columns<JiggleSetting> stiffness_columns = {{"k_stretch", &JiggleSetting::k_stretch}};
-const Columns<JiggleSetting> solver_columns = MEMBER_COLUMNS(JiggleSetting, iterations, masses, k_bind);
-
+const Columns<DampedOscillation> outcome_columns = {{"outcome", &DampedOscillation::outcome}};
 const Columns<Interval> frequency_columns = {
     {"frequency_hz", &Interval::estimate}, {"frequency_low_hz", &Interval::low}, {"frequency_high_hz", &Interval::high}};
 const Columns<Interval> damping_columns = {
@@ -35,18 +34,10 @@ const Columns<DampedOscillation> swing_columns = within(&DampedOscillation::freq
                                                  within(&DampedOscillation::damping_ratio, damping_columns) +
                                                  Columns<DampedOscillation>{{"explained", &DampedOscillation::explained}};
 
-const Columns<JoltResponse> jolt_columns =
-    within(&JoltResponse::swing, swing_columns) +
-    MEMBER_COLUMNS(JoltResponse, peak_over_jolt, overshoot_over_jolt, left_over_peak, speed_growth, finished);
-
 constexpr double first_young_pa = 1e5;         // of the reference, before its frequency is matched
 constexpr double rayleigh_stiffness_s = 0.02;  // of the control with damping
-constexpr int control_steps = 100, least_for_correlation = 4;
-
-ResponseRow response_row(const JiggleSetting& setting, double young_pa, double time_step_s, const JoltResponse& response)
-{
-    return {std::isnan(young_pa) ? "pbs" : "nh_p1", setting, 1e3 * time_step_s, young_pa, name_of(response.swing.outcome), response};
-}
+constexpr int control_steps = 100;
+constexpr int reference_steps_a_period = 24, reference_periods = 4;  // of the wanted frequency
 
 std::vector<ZoneRow> zone_rows(const pbs::ZoneContents& zone)
 {
@@ -57,190 +48,108 @@ std::vector<ZoneRow> zone_rows(const pbs::ZoneContents& zone)
     return rows;
 }
 
-Jolt jolt_at(const JoltCase& jolt_case, const JiggleSetting& setting)
-{
-    Jolt jolt = jolt_case.jolt;
-    jolt.time_step_s = setting.time_step_s;
-    return jolt;
-}
-
-struct JoltRecords {
-    std::vector<ResponseRow> responses = {};
-    std::vector<analysis::Measurement> measurements = {};
-};
-
-Measurement measurement(const std::string& quantity, const analysis::CaseKey& key, const Interval& value, const std::string& unit)
+Measurement measurement(const std::string& quantity, const analysis::CaseKey& key, const Interval& value, const std::string& unit = "1")
 {
     return {"C09", quantity, key, value.estimate, value.low, value.high, unit};
 }
 
 Measurement exact_value(const std::string& quantity, const analysis::CaseKey& key, double value)
 {
-    return {"C09", quantity, key, value, value, value, "1"};
+    return measurement(quantity, key, {value, value, value});
 }
 
-Interval over(const Interval& a, const Interval& b)
+// key: with the body, the deformer and the setting.
+void add_values(std::vector<Measurement>& measurements, const analysis::CaseKey& key, const JoltResponse& response)
 {
-    return {a.estimate / b.estimate, a.low / b.high, a.high / b.low};
-}
-
-void add_reference(const JoltCase& jolt_case, const pbs::Character& character, const std::vector<int>& probe,
-                   const MeasuredJiggle& measured, JoltRecords& records)
-{
-    const auto& own = measured.response;
-    if (!own.swing.found()) return;
-    const double hz = own.swing.frequency_hz.estimate;
-    const auto reference = match_reference(character, dynamic_reference(first_young_pa), probe, jolt_at(jolt_case, measured.setting), hz);
-    if (!reference) return;
-    const auto& swing = reference->response.swing;
-    records.responses.push_back(response_row(measured.setting, reference->young_pa, reference->time_step_s, reference->response));
-    analysis::CaseKey at = key_of(character.name, measured.setting);
-    at.reference = "nh_p1";
-    at.young_pa = reference->young_pa;
-    const double reach = own.overshoot_over_jolt / reference->response.overshoot_over_jolt;
-    records.measurements.push_back(measurement("frequency_over_reference", at, over(own.swing.frequency_hz, swing.frequency_hz), "1"));
-    records.measurements.push_back(exact_value("amplitude_over_reference", at, reach));
-    records.measurements.push_back(measurement("damping_ratio_of_reference", at, swing.damping_ratio, "1"));
-}
-
-const Interval* frequency_at(const std::vector<MeasuredJiggle>& measured, const JiggleSetting& setting)
-{
-    const auto found = std::find_if(measured.begin(), measured.end(), [&](const auto& one) { return one.setting == setting; });
-    return found != measured.end() && found->response.swing.found() ? &found->response.swing.frequency_hz : nullptr;
-}
-
-struct FrequencyRatio {
-    JiggleSetting from;
-    Interval ratio;
-};
-
-// The ratio of the frequency at each setting to the frequency at the setting from which it is changed.
-std::vector<FrequencyRatio> ratios(const std::vector<MeasuredJiggle>& measured, void (*change)(JiggleSetting&))
-{
-    std::vector<FrequencyRatio> frequency_ratios;
-    for (const MeasuredJiggle& jiggle : measured) {
-        JiggleSetting changed = jiggle.setting;
-        change(changed);
-        const Interval *at = frequency_at(measured, jiggle.setting), *there = frequency_at(measured, changed);
-        if (at && there) frequency_ratios.push_back({jiggle.setting, over(*there, *at)});
-    }
-    return frequency_ratios;
-}
-
-bool is_of_the_papers_solver(const JiggleSetting& setting)
-{
-    return setting.order == JiggleSetting{}.order && setting.precision == JiggleSetting{}.precision;
-}
-
-void add_share(std::vector<Measurement>& measurements, const std::string& body, const std::vector<MeasuredJiggle>& measured)
-{
-    std::vector<double> swings;  // 1 where it does
-    for (const MeasuredJiggle& jiggle : measured)
-        if (is_of_the_paper(jiggle.setting) && is_of_the_papers_solver(jiggle.setting)) swings.push_back(jiggle.response.swing.found());
-    if (swings.empty()) return;
-    measurements.push_back(exact_value("share_of_settings_that_swing", {.body = body}, analysis::mean(swings)));
-    measurements.back().n = static_cast<int>(swings.size());
-}
-
-// key: with the body and the deformer.
-void add_setting(std::vector<Measurement>& measurements, const analysis::CaseKey& key, const JoltResponse& response, bool of_the_paper)
-{
+    const bool is_of_the_paper = !key.k_bind && key.masses != name_of(pbs::Masses::lumped);
     if (response.finished) measurements.push_back(exact_value("amplitude", key, response.overshoot_over_jolt));
-    if (of_the_paper)
+    if (is_of_the_paper)
         measurements.push_back(exact_value("last_share_of_peak", key, response.finished ? response.left_over_peak : analysis::not_known));
     if (!response.swing.found()) return;
-    const std::string damping = of_the_paper ? "damping_ratio" : "damping_ratio_in_other_readings";
-    measurements.push_back(measurement(damping, key, response.swing.damping_ratio, "1"));
+    const std::string damping = is_of_the_paper ? "damping_ratio" : "damping_ratio_in_other_readings";
+    measurements.push_back(measurement(damping, key, response.swing.damping_ratio));
     measurements.push_back(measurement("frequency_hz", key, response.swing.frequency_hz, "Hz"));
 }
 
-// Those that differ from `from` in k_stretch alone, the smallest first.
-std::vector<MeasuredJiggle> by_k_stretch(const std::vector<MeasuredJiggle>& measured, JiggleSetting from,
-                                         bool (*is_known)(const JoltResponse&))
+// The response of PBS at each setting.
+std::vector<ResponseRow> responses_of_pbs(const JoltCase& jolt_case, const pbs::Character& character, const std::vector<int>& probe)
 {
-    std::vector<MeasuredJiggle> chosen;
-    for (const MeasuredJiggle& jiggle : measured) {
-        from.k_stretch = jiggle.setting.k_stretch;
-        if (is_known(jiggle.response) && jiggle.setting == from) chosen.push_back(jiggle);
+    std::vector<ResponseRow> rows;
+    for (const Overrides& setting : jolt_case.settings) {
+        const Scene scene = scene_of(jolt_case, setting);
+        Jolt jolt = jolt_case.jolt;
+        jolt.time_step_s = scene.motion.time_step_s;
+        rows.push_back(setting_of(scene));
+        rows.back().response = jolt_response(character, spec_of(scene, "pbs"), probe, jolt);
     }
-    std::ranges::stable_sort(chosen, {}, [](const MeasuredJiggle& jiggle) { return jiggle.setting.k_stretch; });
-    return chosen;
+    return rows;
 }
 
-// A quantity at each stiffness: k_stretch, or Young's modulus.
-struct Trend {
-    std::vector<double> stiffness, value;
-};
-
-Trend trend_of(const std::vector<MeasuredJiggle>& measured, double (*value)(const JoltResponse&))
+// Neo-Hookean, linear elements, generalised alpha.
+DeformerSpec dynamic_reference(double young_pa)
 {
-    Trend trend;
-    for (const MeasuredJiggle& jiggle : measured) {
-        trend.stiffness.push_back(jiggle.setting.k_stretch);
-        trend.value.push_back(value(jiggle.response));
+    DeformerSpec spec = default_spec("fem");
+    auto& options = options_of<FemOptions>(spec);
+    options.model = reference_fem::Model::neo_hookean;
+    options.element_order = 1;
+    options.dynamics = reference_fem::Dynamics::generalized_alpha;
+    options.young_pa = young_pa;
+    return spec;
+}
+
+// The same flesh as an elastic body in time, with the Young's modulus with which it swings as fast as PBS does at one setting; damping and
+// amplitude can then be compared. The frequency is proportional to sqrt(E): E is chosen by that of a first modulus, then solved again.
+// Nothing where one of them does not swing.
+std::optional<ResponseRow> reference_row(const JoltCase& jolt_case, const pbs::Character& character, const std::vector<int>& probe,
+                                         const ResponseRow& own)
+{
+    const DampedOscillation& swing = own.response.swing;
+    if (!swing.found()) return std::nullopt;
+    Jolt jolt = jolt_case.jolt;
+    jolt.time_step_s = 1.0 / (reference_steps_a_period * swing.frequency_hz.estimate);
+    jolt.steps = reference_steps_a_period * reference_periods;
+    ResponseRow row = own;
+    row.deformer = "nh_p1";
+    row.time_step_ms = 1e3 * jolt.time_step_s;
+    row.young_pa = first_young_pa;
+    for (const bool is_matched : {false, true}) {
+        if (is_matched) row.young_pa *= std::pow(swing.frequency_hz.estimate / row.response.swing.frequency_hz.estimate, 2);
+        row.response = jolt_response(character, dynamic_reference(row.young_pa), probe, jolt);
+        if (!row.response.finished || !row.response.swing.found()) return std::nullopt;
     }
-    return trend;
+    return row;
 }
 
-double correlation_without(Trend trend, std::size_t left_out)
+void add_over_reference(std::vector<Measurement>& measurements, const std::string& body, const ResponseRow& own,
+                        const ResponseRow& reference)
 {
-    for (std::vector<double>* numbers : {&trend.stiffness, &trend.value})
-        if (left_out < numbers->size()) numbers->erase(numbers->begin() + static_cast<std::ptrdiff_t>(left_out));
-    return analysis::rank_correlation(trend.stiffness, trend.value);
-}
-
-void add_correlation(std::vector<Measurement>& measurements, const std::string& quantity, const analysis::CaseKey& key, const Trend& trend)
-{
-    const std::size_t points = trend.value.size();
-    if (points < std::size_t{least_for_correlation}) return;
-    Measurement correlation = exact_value(quantity, key, correlation_without(trend, points));
-    correlation.n = static_cast<int>(points);
-    for (std::size_t left_out = 0; left_out < points; ++left_out) {
-        const double without = correlation_without(trend, left_out);
-        correlation.low = std::min(correlation.low, without);
-        correlation.high = std::max(correlation.high, without);
-    }
-    measurements.push_back(correlation);
-}
-
-// NaN where nothing swings beyond its place at any stiffness.
-void add_amplitudes(std::vector<Measurement>& measurements, const analysis::CaseKey& key, const Trend& amplitude)
-{
-    if (amplitude.value.size() < 2) return;
-    const auto [least, most] = std::ranges::minmax(amplitude.value);
-    measurements.push_back(exact_value("amplitude_ratio_over_k_stretch", key, most / least));
-    add_correlation(measurements, "rank_correlation_of_amplitude_and_k_stretch", key, amplitude);
-}
-
-void add_frequencies(std::vector<Measurement>& measurements, const std::string& body, const std::vector<MeasuredJiggle>& measured)
-{
-    if (measured.size() < 2) return;
-    add_correlation(measurements, "rank_correlation_of_frequency_and_k_stretch", {.body = body},
-                    trend_of(measured, [](const JoltResponse& response) { return response.swing.frequency_hz.estimate; }));
-    const MeasuredJiggle &smallest = measured.front(), &largest = measured.back();
-    const analysis::CaseKey key = {.body = body, .k_stretch = smallest.setting.k_stretch, .k_stretch_to = largest.setting.k_stretch};
-    measurements.push_back(measurement("frequency_ratio_over_k_stretch", key,
-                                       over(largest.response.swing.frequency_hz, smallest.response.swing.frequency_hz), "1"));
+    const DampedOscillation &own_swing = own.response.swing, &swing = reference.response.swing;
+    analysis::CaseKey at = key_of(body, own);
+    at.reference = reference.deformer;
+    at.young_pa = reference.young_pa;
+    measurements.push_back(measurement("frequency_over_reference", at, analysis::ratio(own_swing.frequency_hz, swing.frequency_hz)));
+    measurements.push_back(
+        exact_value("amplitude_over_reference", at, own.response.overshoot_over_jolt / reference.response.overshoot_over_jolt));
+    measurements.push_back(measurement("damping_ratio_of_reference", at, swing.damping_ratio));
 }
 
 // LBS at each k_stretch, which it does not have; the author's later code; and finite elements in time: with damping at each Young's
 // modulus, without it at the first, at which those with damping come to rest within the steps. Linear elements suffice where nothing turns,
 // and average acceleration adds no damping of its own.
 void add_controls(const JoltCase& jolt_case, const pbs::Character& character, const std::vector<int>& probe,
-                  std::vector<Measurement>& measurements)
+                  const std::vector<ResponseRow>& rows, std::vector<Measurement>& measurements)
 {
     Jolt jolt = jolt_case.jolt;
     jolt.steps = control_steps;
-    Trend of_lbs, of_fem;
-    for (const JiggleSetting& setting : jolt_case.settings) {
-        if (setting != JiggleSetting{.k_stretch = setting.k_stretch}) continue;
-        of_lbs.stiffness.push_back(setting.k_stretch);
-        of_lbs.value.push_back(jolt_response(character, default_spec("lbs"), probe, jolt).overshoot_over_jolt);
+    for (const ResponseRow& row : rows) {
+        if (key_of("", row) != key_of("", {.k_stretch = row.k_stretch})) continue;
+        const analysis::CaseKey key = {.body = character.name, .deformer = "lbs", .k_stretch = row.k_stretch};
+        measurements.push_back(
+            exact_value("amplitude", key, jolt_response(character, default_spec("lbs"), probe, jolt).overshoot_over_jolt));
     }
-    add_amplitudes(measurements, {.body = character.name, .deformer = "lbs"}, of_lbs);
     DeformerSpec author = default_spec("pbs_author");
     options_of<pbs::AuthorOptions>(author).gravity_m_s2.setZero();
-    add_setting(measurements, {.body = character.name, .deformer = "pbs_author"}, jolt_response(character, author, probe, jolt), true);
+    add_values(measurements, {.body = character.name, .deformer = "pbs_author"}, jolt_response(character, author, probe, jolt));
     const auto response = [&](double young_pa, double damping_s) {
         DeformerSpec spec = dynamic_reference(young_pa);
         auto& options = options_of<FemOptions>(spec);
@@ -249,33 +158,35 @@ void add_controls(const JoltCase& jolt_case, const pbs::Character& character, co
         options.rayleigh_stiffness_s = damping_s;
         return jolt_response(character, spec, probe, jolt);
     };
-    analysis::CaseKey key = {.body = character.name, .deformer = "fem_undamped"};
     for (const double young_pa : jolt_case.young_pa) {
         const bool is_first = young_pa == jolt_case.young_pa.front();
-        key.young_pa = young_pa;
-        if (is_first) add_setting(measurements, key, response(young_pa, 0.0), true);
-        key.deformer = "fem_damped";
-        const JoltResponse damped = response(young_pa, rayleigh_stiffness_s);
-        if (is_first) add_setting(measurements, key, damped, true);
-        if (!damped.finished) continue;
-        if (!is_first) measurements.push_back(exact_value("amplitude", key, damped.overshoot_over_jolt));
-        of_fem.stiffness.push_back(young_pa);
-        of_fem.value.push_back(damped.overshoot_over_jolt);
+        const analysis::CaseKey undamped = {.body = character.name, .deformer = "fem_undamped", .young_pa = young_pa},
+                                damped = {.body = character.name, .deformer = "fem_damped", .young_pa = young_pa};
+        if (is_first) add_values(measurements, undamped, response(young_pa, 0.0));
+        const JoltResponse with_damping = response(young_pa, rayleigh_stiffness_s);
+        if (is_first)
+            add_values(measurements, damped, with_damping);
+        else if (with_damping.finished)
+            measurements.push_back(exact_value("amplitude", damped, with_damping.overshoot_over_jolt));
     }
-    add_amplitudes(measurements, {.body = character.name, .deformer = "fem_damped"}, of_fem);
 }
 
-void add_half_step(std::vector<Measurement>& measurements, const std::string& body, const std::vector<MeasuredJiggle>& measured)
-{
-    const std::vector<FrequencyRatio> halvings = ratios(measured, [](JiggleSetting& setting) { setting.time_step_s /= 2.0; });
-    if (halvings.empty()) return;
-    Measurement half =
-        exact_value("frequency_ratio_at_half_time_step", key_of(body, halvings.front().from), halvings.front().ratio.estimate);
-    for (const FrequencyRatio& halving : halvings) half.low = std::min(half.low, halving.ratio.estimate);
-    for (const FrequencyRatio& halving : halvings) half.high = std::max(half.high, halving.ratio.estimate);
-    half.n = static_cast<int>(halvings.size());
-    measurements.push_back(half);
-}
+// stop.csv
+struct StopRow {
+    std::string deformer;
+    double k_stretch = 0.0, young_pa = 0.0, rayleigh_stiffness_s = 0.0;  // not a number where the deformer has none
+    double time_step_ms = 0.0;
+    JoltResponse response{};
+};
+
+const Columns<StopRow> stop_columns =
+    MEMBER_COLUMNS(StopRow, deformer, k_stretch, young_pa, rayleigh_stiffness_s, time_step_ms) +
+    within(&StopRow::response, within(&JoltResponse::swing, outcome_columns) +
+                                   Columns<JoltResponse>{{"path_m", &JoltResponse::path_m},
+                                                         {"rest_over_path", &JoltResponse::rest_over_jolt},
+                                                         {"peak_over_path", &JoltResponse::peak_over_jolt}} +
+                                   within(&JoltResponse::swing, swing_columns) +
+                                   MEMBER_COLUMNS(JoltResponse, settling_s, left_over_peak, finished));
 
 // The vertices of a stop's bone in the jiggling zone.
 std::vector<int> probe_of(const StopCase& stop, const pbs::Character& character)
@@ -302,8 +213,11 @@ std::vector<StoppedDeformer> stopped_deformers(const StopCase& stop)
 {
     constexpr double none = analysis::not_known;
     std::vector<StoppedDeformer> deformers;
-    for (const double k : stop.k_stretch)
-        deformers.push_back({jiggling(spec_of(stop.scene, "pbs"), {.k_stretch = k}), {"pbs", k, none, none}});
+    for (const double k : stop.k_stretch) {
+        DeformerSpec jiggling = spec_of(stop.scene, "pbs");
+        options_of<pbs::PbsOptions>(jiggling).jiggle.value().k_stretch = k;
+        deformers.push_back({jiggling, {jiggling.label, k, none, none}});
+    }
     DeformerSpec flesh = spec_of(stop.scene, stop.scene.reference), xpbd = spec_of(stop.scene, "xpbd");
     auto& fem = options_of<FemOptions>(flesh);
     auto& own = options_of<pbs::XpbdOptions>(xpbd);
@@ -321,7 +235,7 @@ std::vector<StoppedDeformer> stopped_deformers(const StopCase& stop)
     return deformers;
 }
 
-// The response of a deformer. Nothing is fitted where it does not swing.
+// The response of a deformer. Where it does not swing, no frequency is on record.
 StopRow stop_row(const StopCase& stop, const pbs::Character& character, const std::vector<int>& probe, const StoppedDeformer& deformer)
 {
     MotionSpec motion = stop.scene.motion;
@@ -333,7 +247,6 @@ StopRow stop_row(const StopCase& stop, const pbs::Character& character, const st
     row.response = stop_response(character, deformer.spec, probe, make_motion(motion, character.skeleton, stop.scene.file), still_steps);
     row.time_step_ms = 1e3 * motion.time_step_s;
     DampedOscillation& swing = row.response.swing;
-    row.outcome = name_of(swing.outcome);
     if (!swing.found()) swing.frequency_hz = swing.damping_ratio = {analysis::not_known, analysis::not_known, analysis::not_known};
     return row;
 }
@@ -341,9 +254,10 @@ StopRow stop_row(const StopCase& stop, const pbs::Character& character, const st
 }  // namespace
 
 const Columns<ResponseRow> response_columns =
-    Columns<ResponseRow>{{"deformer", &ResponseRow::deformer}} + within(&ResponseRow::setting, stiffness_columns) +
-    Columns<ResponseRow>{{"time_step_ms", &ResponseRow::time_step_ms}} + within(&ResponseRow::setting, solver_columns) +
-    MEMBER_COLUMNS(ResponseRow, young_pa, outcome) + within(&ResponseRow::response, jolt_columns);
+    MEMBER_COLUMNS(ResponseRow, deformer, k_stretch, time_step_ms, iterations, masses, k_bind, young_pa) +
+    within(&ResponseRow::response,
+           within(&JoltResponse::swing, outcome_columns + swing_columns) +
+               MEMBER_COLUMNS(JoltResponse, peak_over_jolt, overshoot_over_jolt, left_over_peak, speed_growth, finished));
 
 const Columns<ZoneRow> zone_columns = MEMBER_COLUMNS(ZoneRow, share_of_vertices, share_on_skin, pieces, largest_piece) +
                                       within(&ZoneRow::bone, Columns<pbs::BoneInZone>{{"bone", &pbs::BoneInZone::name},
@@ -358,47 +272,49 @@ RECORD_SETTINGS_AND(JoltCase,
                                             {"steps_a_period", reference_steps_a_period},
                                             {"periods", reference_periods}})
                         .constant("controls", {{"rayleigh_stiffness_s", rayleigh_stiffness_s}, {"steps", control_steps}}),
-                    scene, jolt, settings, with_reference, young_pa)
+                    scene, overrides, settings, jolt, with_reference, young_pa)
+
+Scene scene_of(const JoltCase& jolt_case, Overrides setting)
+{
+    setting.insert(setting.begin(), jolt_case.overrides.begin(), jolt_case.overrides.end());
+    return read_scene(jolt_case.scene, setting);
+}
 
 std::string record_jolts(const JoltCase& jolt_case, const std::string& folder)
 {
-    const pbs::Character character = pbs::make_character(jolt_case.scene.character);
+    const pbs::Character character = pbs::make_character(scene_of(jolt_case).character);
     const pbs::ZoneContents zone = zone_contents(character);
-    JoltRecords records;
-    std::vector<MeasuredJiggle> measured;
+    const std::vector<int>& probe = zone.pieces.front();
+    std::vector<ResponseRow> rows = responses_of_pbs(jolt_case, character, probe), references;
+    std::vector<Measurement> measured;
+    if (jolt_case.with_reference) {
+        for (const ResponseRow& row : rows)
+            if (const auto reference = reference_row(jolt_case, character, probe, row)) {
+                references.push_back(*reference);
+                add_over_reference(measured, character.name, row, *reference);
+            }
+    } else {
+        measured = response_values(character.name, rows);
+        add_controls(jolt_case, character, probe, rows, measured);
+        std::ranges::move(jiggle_conclusions(measured), std::back_inserter(measured));
+        std::erase_if(measured, [](const Measurement& value) { return value.quantity == "amplitude" && value.of.deformer == "lbs"; });
+    }
     std::string breakdown;
-    for (const JiggleSetting& setting : jolt_case.settings) {
-        const DeformerSpec spec = jiggling(spec_of(jolt_case.scene, "pbs"), setting);
-        measured.push_back({setting, jolt_response(character, spec, zone.pieces.front(), jolt_at(jolt_case, setting))});
-        const JoltResponse& response = measured.back().response;
-        if (!response.finished) breakdown += text_of(setting) + ". ";
-        if (!is_of_the_papers_solver(setting)) continue;
-        records.responses.push_back(response_row(setting, analysis::not_known, setting.time_step_s, response));
-    }
-    if (jolt_case.with_reference)
-        for (const MeasuredJiggle& jiggle : measured) add_reference(jolt_case, character, zone.pieces.front(), jiggle, records);
-    else {
-        records.measurements = jiggle_values(character.name, measured);
-        add_controls(jolt_case, character, zone.pieces.front(), records.measurements);
-    }
+    for (const ResponseRow& row : rows)
+        if (!row.response.finished) breakdown += text_of(key_of(character.name, row)) + ". ";
+    std::erase_if(rows,
+                  [](const ResponseRow& row) { return row.order != ResponseRow().order || row.precision != ResponseRow().precision; });
+    rows.insert(rows.end(), references.begin(), references.end());
     table_of(zone_columns, zone_rows(zone)).write(analysis::path_in(folder, "zone.csv"));
-    table_of(response_columns, records.responses).write(analysis::path_in(folder, "responses.csv"));
-    analysis::measurement_table(records.measurements).write(analysis::path_in(folder, "measurements.csv"));
+    table_of(response_columns, rows).write(analysis::path_in(folder, "responses.csv"));
+    analysis::measurement_table(measured).write(analysis::path_in(folder, "measurements.csv"));
     return breakdown;
 }
 
-const Columns<StopRow> stop_columns = MEMBER_COLUMNS(StopRow, deformer, k_stretch, young_pa, rayleigh_stiffness_s, time_step_ms, outcome) +
-                                      within(&StopRow::response, Columns<JoltResponse>{{"path_m", &JoltResponse::path_m},
-                                                                                       {"rest_over_path", &JoltResponse::rest_over_jolt},
-                                                                                       {"peak_over_path", &JoltResponse::peak_over_jolt}} +
-                                                                     within(&JoltResponse::swing, swing_columns) +
-                                                                     MEMBER_COLUMNS(JoltResponse, settling_s, left_over_peak, finished));
-
-RECORD_SETTINGS_AND(StopCase,
-                    .constant("pbs", to_json(JiggleSetting{}))
-                        .constant("finite_elements", {{"dynamics", "generalized_alpha"}, {"contact", false}})
-                        .constant("settled_share", settled_share),
-                    scene, bone, k_stretch, rayleigh_stiffness_s, finer_steps, still_s)
+RECORD_SETTINGS_AND(
+    StopCase,
+    .constant("finite_elements", {{"dynamics", "generalized_alpha"}, {"contact", false}}).constant("settled_share", settled_share), scene,
+    bone, k_stretch, rayleigh_stiffness_s, finer_steps, still_s)
 
 std::string record_stop(const StopCase& stop, const std::string& folder)
 {
@@ -414,28 +330,44 @@ std::string record_stop(const StopCase& stop, const std::string& folder)
     return breakdown;
 }
 
-std::vector<Measurement> jiggle_values(const std::string& body, const std::vector<MeasuredJiggle>& measured)
+ResponseRow setting_of(const Scene& scene)
 {
-    std::vector<Measurement> measurements;
-    add_share(measurements, body, measured);
-    for (const MeasuredJiggle& jiggle : measured)
-        add_setting(measurements, key_of(body, jiggle.setting), jiggle.response, is_of_the_paper(jiggle.setting));
-    for (const JiggleSetting& from : {JiggleSetting{}, JiggleSetting{.order = pbs::Order::ordered, .precision = pbs::Precision::f32}}) {
-        const auto finished = by_k_stretch(measured, from, [](const JoltResponse& response) { return response.finished; });
-        add_amplitudes(measurements,
-                       {.body = body,
-                        .deformer = "pbs",
-                        .order = name_of(from.order),
-                        .precision = name_of(from.precision),
-                        .masses = name_of(from.masses)},
-                       trend_of(finished, [](const JoltResponse& response) { return response.overshoot_over_jolt; }));
-    }
-    add_frequencies(measurements, body, by_k_stretch(measured, {}, [](const JoltResponse& response) { return response.swing.found(); }));
-    add_half_step(measurements, body, measured);
-    const std::vector<FrequencyRatio> doublings = ratios(measured, [](JiggleSetting& setting) { setting.iterations *= 2; });
-    for (const auto& [from, ratio] : doublings)
-        measurements.push_back(measurement("frequency_ratio_at_twice_iterations", key_of(body, from), ratio, "1"));
-    return measurements;
+    const auto& options = options_of<pbs::PbsOptions>(spec_of(scene, "pbs"));
+    return {.k_stretch = options.jiggle.value().k_stretch,
+            .time_step_ms = 1e3 * scene.motion.time_step_s,
+            .iterations = options.iterations,
+            .masses = name_of(options.masses),
+            .k_bind = options.jiggle->k_bind.value_or(options.k_bind),
+            .order = name_of(options.order),
+            .precision = name_of(options.precision)};
+}
+
+analysis::CaseKey key_of(const std::string& body, const ResponseRow& row)
+{
+    analysis::CaseKey key = {.body = body,
+                             .deformer = row.deformer,
+                             .order = row.order,
+                             .precision = row.precision,
+                             .k_stretch = row.k_stretch,
+                             .masses = row.masses,
+                             .iterations = row.iterations,
+                             .time_step_s = row.time_step_ms / 1e3};
+    if (row.k_bind < 1.0) key.k_bind = row.k_bind;
+    return key;
+}
+
+std::vector<Measurement> response_values(const std::string& body, const std::vector<ResponseRow>& rows)
+{
+    std::vector<Measurement> measured;
+    for (const ResponseRow& row : rows) add_values(measured, key_of(body, row), row.response);
+    return measured;
+}
+
+std::vector<Measurement> jiggle_values(const std::string& body, const std::vector<ResponseRow>& rows)
+{
+    std::vector<Measurement> values = response_values(body, rows);
+    std::ranges::move(jiggle_conclusions(values), std::back_inserter(values));
+    return values;
 }
 
 }  // namespace experiments

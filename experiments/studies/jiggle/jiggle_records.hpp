@@ -9,40 +9,13 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
+#include "experiments/studies/study.hpp"
 #include "pbs/character/bone_capsules.hpp"
-#include "pbs/solver/options.hpp"
 
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace experiments {
-
-// The settings at which the values of C09 are measured.
-//   for (const JiggleSetting& setting : jiggle_settings()) responses.push_back(jolt_response(character, jiggling(pbs, setting), ...));
-struct JiggleSetting {
-    double k_stretch = 0.1;  // in the zone; 1 elsewhere
-    double time_step_s = 0.01;
-    int iterations = paper_iterations;
-    double k_bind = 1.0;  // in the zone; 1 elsewhere
-    pbs::Masses masses = pbs::Masses::unit;
-    pbs::Order order = pbs::Order::plain;  // the paper's solver, by which C09 is judged
-    pbs::Precision precision = pbs::Precision::f64;
-    bool operator==(const JiggleSetting&) const = default;
-};
-
-// The default, then one change at a time: k_stretch 0.05 to 1, steps of 2.5 to 40 ms, 6 to 96 iterations, lumped masses, an unbound zone;
-// then each k_stretch in ordered f32, the default of the deformer.
-std::vector<JiggleSetting> jiggle_settings();
-
-// The zone is bound and all masses are 1, as in the paper, in any order and precision. Other settings are other readings of the paper.
-bool is_of_the_paper(const JiggleSetting& setting);
-
-nlohmann::json to_json(const JiggleSetting& setting);
-
-DeformerSpec jiggling(DeformerSpec pbs, const JiggleSetting& setting);  // with the gravity of `pbs`
-analysis::CaseKey key_of(const std::string& body, const JiggleSetting& setting);
-std::string text_of(const JiggleSetting& setting);  // "k_stretch 0.1, 10 ms, 24 iterations, unit masses"; a k_bind below 1 is appended
 
 // The step response of a body's flesh: the skeleton is moved by a jolt in one time step and then held still.
 //   const JoltResponse response = jolt_response(character, spec, probe, {});
@@ -71,24 +44,8 @@ struct JoltResponse {
     bool finished = true;                 // every step
 };
 
+inline constexpr double settled_share = 0.1;  // of the peak, within which the excursion is settled
 JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe, const Jolt& jolt);
-
-// The same flesh as an elastic body in time. The Young's modulus of the finite elements is chosen so that they swing as fast as PBS does at
-// one setting; damping and amplitude can then be compared.
-struct JiggleReference {
-    double young_pa = 0.0;  // the frequency is proportional to sqrt(E): chosen by that of the first modulus, then solved again
-    double time_step_s = 0.0;
-    JoltResponse response;  // with this modulus
-};
-inline constexpr double settled_share = 0.1;                                // of the peak, within which the excursion is settled
-inline constexpr int reference_steps_a_period = 24, reference_periods = 4;  // of the wanted frequency
-
-// fem: dynamic, with any Young's modulus to begin with. Nothing where the body does not swing.
-std::optional<JiggleReference> match_reference(const pbs::Character& character, const DeformerSpec& fem, const std::vector<int>& probe,
-                                               const Jolt& jolt, double frequency_hz);
-
-// Neo-Hookean, linear elements, generalised alpha.
-DeformerSpec dynamic_reference(double young_pa);
 
 // The skeleton goes through a motion and is then held still. What swings is the mean displacement of the probe's vertices from where they
 // come to rest (their mean in the last tenth), along the probe's last velocity. The excursion begins with the first still step. InputError
@@ -107,33 +64,29 @@ struct StopCase {
     double still_s = 2.0;                                             // after the motion
 };
 
-// stop.csv
-struct StopRow {
-    std::string deformer;
-    double k_stretch = 0.0, young_pa = 0.0, rayleigh_stiffness_s = 0.0;  // not a number where the deformer has none
-    double time_step_ms = 0.0;
-    std::string outcome{};
-    JoltResponse response{};
-};
-extern const analysis::Columns<StopRow> stop_columns;
-
 // The response of the zone's largest piece to a jolt, at each setting.
 struct JoltCase {
-    Scene scene;  // with pbs, whose gravity is used
-    Jolt jolt;    // except its time step, which each setting has
-    std::vector<JiggleSetting> settings;
-    bool with_reference = false;        // for each setting that swings; then the settings' own values are left to another run
-    std::vector<double> young_pa = {};  // of the finite elements that are controls
+    std::string scene;                     // built-in, with pbs, whose gravity is used
+    Overrides overrides = {};              // of the scene
+    std::vector<Overrides> settings = {};  // each one on top of these
+    Jolt jolt = {};                        // except its time step, which each setting has
+    bool with_reference = false;           // for each setting that swings; then the settings' own values are left to another run
+    std::vector<double> young_pa = {};     // of the finite elements that are controls
 };
 
-// responses.csv: one row per setting in plain f64, and one per reference that was matched to it.
+Scene scene_of(const JoltCase& jolt_case, Overrides setting = {});
+
+// responses.csv: one row per setting in plain f64, the paper's solver, and one per reference that was matched to it.
 struct ResponseRow {
-    std::string deformer;
-    JiggleSetting setting;
-    double time_step_ms = 0.0;
-    double young_pa = 0.0;  // of the reference; not a number for pbs
-    std::string outcome;
-    JoltResponse response;
+    std::string deformer = "pbs";
+    double k_stretch = 0.1;  // in the zone; 1 elsewhere
+    double time_step_ms = 10.0;
+    int iterations = paper_iterations;
+    std::string masses = "unit";
+    double k_bind = 1.0;                    // in the zone; 1 elsewhere
+    double young_pa = analysis::not_known;  // of the reference
+    std::string order = "plain", precision = "f64";
+    JoltResponse response = {};
 };
 // zone.csv, one row per bone. The zone's own numbers are the same in all rows.
 struct ZoneRow {
@@ -151,26 +104,31 @@ nlohmann::json to_json(const StopCase& stop);
 
 // Both return what broke down, if anything.
 std::string record_jolts(const JoltCase& jolt_case, const std::string& folder);
-std::string record_stop(const StopCase& stop, const std::string& folder);  // stop.csv
+std::string record_stop(const StopCase& stop, const std::string& folder);  // stop.csv, one row per deformer and setting
 
-// The values of C09 from the responses of one body at all settings.
-//   for (const analysis::Measurement& measurement : jiggle_values("limb", measured)) ...
-struct MeasuredJiggle {
-    JiggleSetting setting;
-    JoltResponse response;
-};
+ResponseRow setting_of(const Scene& scene);  // of its PBS; the response is left out
 
-// The values of one body:
-// - for the paper's own settings, all time steps included: the share of the peak that is left at the end (C09a), NaN where a setting breaks
-//   down; the share of settings at which the zone swings (DampedOscillation::found);
-// - for those that swing: the damping ratio (C09a), with that of other readings (unbound, lumped masses) as a quantity of its own; the
-//   frequency; its rank correlation with k_stretch, with its range when one setting is left out, and its ratio at the ends of k_stretch;
-//   the ratio of frequencies with twice the iterations and with the default;
-// - for those that finish: the amplitude, which is the overshoot over the jolt; over k_stretch, the ratio of the largest and the smallest
-//   amplitude and the rank correlation (C09b), in each order and precision;
+// The case of a setting. k_bind is set only where the zone is not bound as the rest is.
+analysis::CaseKey key_of(const std::string& body, const ResponseRow& row);
+
+// What one body's responses measure, per setting: the amplitude, which is the overshoot over the jolt, of those that finish; the damping
+// ratio and the frequency of those that swing (DampedOscillation::found). If the zone is bound and all masses are 1, as in the paper: the
+// share of the peak that is left at the end (C09a), NaN where the setting breaks down. Otherwise the damping ratio is a quantity of its
+// own.
+std::vector<analysis::Measurement> response_values(const std::string& body, const std::vector<ResponseRow>& rows);
+
+// What follows from these values:
+// - in the paper's solver: the share of the paper's settings that swing; the rank correlation of the frequency with k_stretch, with its
+//   range when one setting is left out, and the ratio of the frequencies at the ends of k_stretch;
+// - the ratio of the largest and the smallest amplitude over k_stretch and their rank correlation (C09b), in each order and precision. The
+//   damped finite elements have Young's modulus in the place of k_stretch;
+// - the ratio of frequencies with twice the iterations and with the default;
 // - the ratio of frequencies with half the time step and with the whole, for the first setting, with its range over all halvings. Without
 //   gravity Algorithm 1 makes it 2 on any body: by lines 7, 8 and 16 a particle moves on by its last movement, x_n + (x_n - x_n-1), however
 //   long a step is, so that the frequency is one per step.
-std::vector<analysis::Measurement> jiggle_values(const std::string& body, const std::vector<MeasuredJiggle>& measured);
+std::vector<analysis::Measurement> jiggle_conclusions(const std::vector<analysis::Measurement>& measured);
+
+// Both.
+std::vector<analysis::Measurement> jiggle_values(const std::string& body, const std::vector<ResponseRow>& rows);
 
 }  // namespace experiments

@@ -7,14 +7,11 @@
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/options.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -81,27 +78,16 @@ DeformerSpec without_inertia(DeformerSpec spec)
     return spec;
 }
 
-JoltResponse at_frequency(const pbs::Character& character, const DeformerSpec& fem, const std::vector<int>& probe, Jolt jolt,
-                          double frequency_hz)
-{
-    jolt.time_step_s = 1.0 / (reference_steps_a_period * frequency_hz);
-    jolt.steps = reference_steps_a_period * reference_periods;
-    return jolt_response(character, fem, probe, jolt);
-}
-
+// A body that is not installed is refused before anything runs.
 JoltCase jolt_case(const StudyCase& study_case)
 {
-    JoltCase jolt{study_case.scene(),
-                  {},
-                  jiggle_settings(),
-                  study_case.value("with_reference", false),
-                  study_case.value<std::vector<double>>("young_pa", {})};
-    jolt.jolt.direction = study_case.direction("along");
-    if (!study_case.has("settings")) return jolt;
-    jolt.settings.clear();
-    for (const nlohmann::json& differs : study_case.value<nlohmann::json>("settings"))
-        jolt.settings.push_back({.k_stretch = differs.value("k_stretch", JiggleSetting{}.k_stretch),
-                                 .iterations = differs.value("iterations", JiggleSetting{}.iterations)});
+    JoltCase jolt{.scene = study_case.value<std::string>("scene"),
+                  .overrides = study_case.value<Overrides>("overrides"),
+                  .settings = study_case.value<std::vector<Overrides>>("settings"),
+                  .jolt = {.direction = study_case.direction("along")},
+                  .with_reference = study_case.value("with_reference", false),
+                  .young_pa = study_case.value<std::vector<double>>("young_pa", {})};
+    for (const Overrides& setting : jolt.settings) scene_of(jolt, setting);
     return jolt;
 }
 
@@ -122,8 +108,8 @@ constexpr double table_1_k_stretch = 0.9, soft_k_stretch = 0.1;
 constexpr double least_answer = 1e-3;  // of the jolt; flesh that LBS carries along moves by rounding, some 1e-5, which is no swing
 
 // named: the setting under which the values are recorded, which is the paper's, whatever the reading makes of it.
-MeasuredJiggle jolted(const pbs::Character& character, const std::vector<int>& probe, const Jolt& jolt, const DeformerSpec& read,
-                      const JiggleSetting& named, double k_stretch)
+ResponseRow jolted(const pbs::Character& character, const std::vector<int>& probe, const Jolt& jolt, const DeformerSpec& read,
+                   ResponseRow named, double k_stretch)
 {
     DeformerSpec spec = read;
     auto& options = options_of<pbs::PbsOptions>(spec);
@@ -132,30 +118,34 @@ MeasuredJiggle jolted(const pbs::Character& character, const std::vector<int>& p
     options.jiggle->k_stretch = k_stretch;
     if (everywhere) options.k_stretch = k_stretch;
     options.iterations = named.iterations;
-    options.order = named.order;
-    options.precision = named.precision;
+    options.order = pbs::Order::plain;
+    options.precision = pbs::Precision::f64;
     options.gravity_m_s2.setZero();
-    MeasuredJiggle measured{named, jolt_response(character, spec, probe, jolt)};
-    if (measured.response.peak_over_jolt < least_answer) measured.response.swing = {};
-    return measured;
+    named.response = jolt_response(character, spec, probe, jolt);
+    if (named.response.peak_over_jolt < least_answer) named.response.swing = {};
+    return named;
 }
 
-std::vector<MeasuredJiggle> jolts_of(const StudyCase& study_case, const pbs::Character& character, const std::vector<int>& probe,
-                                     const Overrides& reading)
+std::vector<ResponseRow> jolts_of(const StudyCase& study_case, const pbs::Character& character, const std::vector<int>& probe,
+                                  const Overrides& reading)
 {
     const Scene scene = study_case.scene(reading);
     const DeformerSpec spec = spec_of(scene, "pbs");
     const auto& options = options_of<pbs::PbsOptions>(spec);
     const double dt_s = study_case.scene().motion.time_step_s, k = options.jiggle ? options.jiggle->k_stretch : table_1_k_stretch;
     const int substeps = static_cast<int>(std::lround(dt_s / scene.motion.time_step_s));
-    const auto jolt = [&](const JiggleSetting& named, double k_stretch) {
-        Jolt of_setting{.direction = study_case.direction("along"), .time_step_s = named.time_step_s / substeps};
+    const auto jolt = [&](const ResponseRow& named, double k_stretch) {
+        Jolt of_setting{.direction = study_case.direction("along"), .time_step_s = named.time_step_ms / 1e3 / substeps};
         of_setting.still_steps *= substeps;
         of_setting.steps = substeps * study_case.value<int>("jolt_steps");
         return jolted(character, probe, of_setting, spec, named, k_stretch);
     };
-    return {jolt({table_1_k_stretch, dt_s, options.iterations}, k), jolt({soft_k_stretch, dt_s, options.iterations}, soft_k_stretch),
-            jolt({table_1_k_stretch, 0.5 * dt_s, options.iterations}, k), jolt({table_1_k_stretch, dt_s, 2 * options.iterations}, k)};
+    const ResponseRow named{.k_stretch = table_1_k_stretch, .time_step_ms = 1e3 * dt_s, .iterations = options.iterations};
+    ResponseRow soft = named, half = named, twice = named;
+    soft.k_stretch = soft_k_stretch;
+    half.time_step_ms *= 0.5;
+    twice.iterations *= 2;
+    return {jolt(named, k), jolt(soft, soft_k_stretch), jolt(half, k), jolt(twice, k)};
 }
 
 std::vector<ReadingValues> read_jolts(const StudyCase& study_case, const std::vector<Overrides>& readings)
@@ -164,9 +154,9 @@ std::vector<ReadingValues> read_jolts(const StudyCase& study_case, const std::ve
     const std::vector<int> probe = zone_contents(character).pieces.at(0);
     std::vector<ReadingValues> values_of_readings;
     for (const Overrides& reading : readings) {
-        const std::vector<MeasuredJiggle> measured = jolts_of(study_case, character, probe, reading);
-        ReadingValues& read = values_of_readings.emplace_back(ReadingValues{jiggle_values(character.name, measured)});
-        read.broke_down = !std::ranges::all_of(measured, [](const MeasuredJiggle& jiggle) { return jiggle.response.finished; });
+        const std::vector<ResponseRow> rows = jolts_of(study_case, character, probe, reading);
+        ReadingValues& read = values_of_readings.emplace_back(ReadingValues{jiggle_values(character.name, rows)});
+        read.broke_down = !std::ranges::all_of(rows, [](const ResponseRow& row) { return row.response.finished; });
     }
     return values_of_readings;
 }
@@ -222,88 +212,9 @@ JoltResponse stop_response(const pbs::Character& character, const DeformerSpec& 
     return response;
 }
 
-std::optional<JiggleReference> match_reference(const pbs::Character& character, const DeformerSpec& fem, const std::vector<int>& probe,
-                                               const Jolt& jolt, double frequency_hz)
-{
-    const JoltResponse first = at_frequency(character, fem, probe, jolt, frequency_hz);
-    if (!first.finished || !first.swing.found()) return std::nullopt;
-    DeformerSpec matching = fem;
-    double& young_pa = options_of<FemOptions>(matching).young_pa;
-    young_pa *= std::pow(frequency_hz / first.swing.frequency_hz.estimate, 2);
-    JiggleReference matched{young_pa, 1.0 / (reference_steps_a_period * frequency_hz),
-                            at_frequency(character, matching, probe, jolt, frequency_hz)};
-    if (!matched.response.finished || !matched.response.swing.found()) return std::nullopt;
-    return matched;
-}
-
-DeformerSpec dynamic_reference(double young_pa)
-{
-    DeformerSpec spec = default_spec("fem");
-    auto& options = options_of<FemOptions>(spec);
-    options.model = reference_fem::Model::neo_hookean;
-    options.element_order = 1;
-    options.dynamics = reference_fem::Dynamics::generalized_alpha;
-    options.young_pa = young_pa;
-    return spec;
-}
-
-std::vector<JiggleSetting> jiggle_settings()
-{
-    std::vector<JiggleSetting> settings = {{}};
-    for (const double k : {0.05, 0.2, 0.35, 0.5, 0.7, 0.9, 1.0}) settings.push_back({.k_stretch = k});
-    for (const double dt_s : {0.0025, 0.005, 0.02, 0.04}) settings.push_back({.time_step_s = dt_s});
-    for (const int iterations : {6, 12, 48, 96}) settings.push_back({.iterations = iterations});
-    settings.push_back({.k_bind = 0.0});
-    settings.push_back({.masses = pbs::Masses::lumped});
-    for (const double k : {0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.0})
-        settings.push_back({.k_stretch = k, .order = pbs::Order::ordered, .precision = pbs::Precision::f32});
-    return settings;
-}
-
-bool is_of_the_paper(const JiggleSetting& setting)
-{
-    return setting.k_bind == JiggleSetting{}.k_bind && setting.masses == JiggleSetting{}.masses;
-}
-
-DeformerSpec jiggling(DeformerSpec pbs, const JiggleSetting& setting)
-{
-    auto& options = options_of<pbs::PbsOptions>(pbs);
-    options.k_stretch = 1.0;
-    options.jiggle = pbs::Jiggle{.k_stretch = setting.k_stretch, .k_bind = setting.k_bind};
-    options.iterations = setting.iterations;
-    options.masses = setting.masses;
-    options.order = setting.order;
-    options.precision = setting.precision;
-    return pbs;
-}
-
-analysis::CaseKey key_of(const std::string& body, const JiggleSetting& setting)
-{
-    analysis::CaseKey key = {.body = body,
-                             .deformer = "pbs",
-                             .order = name_of(setting.order),
-                             .precision = name_of(setting.precision),
-                             .k_stretch = setting.k_stretch,
-                             .masses = name_of(setting.masses),
-                             .iterations = setting.iterations,
-                             .time_step_s = setting.time_step_s};
-    if (setting.k_bind < 1.0) key.k_bind = setting.k_bind;
-    return key;
-}
-
-std::string text_of(const JiggleSetting& setting)
-{
-    const std::string bind = setting.k_bind < 1.0 ? fmt::format(", k_bind {}", setting.k_bind) : "";
-    return fmt::format("k_stretch {}, {} ms, {} iterations, {} masses, {} {}", setting.k_stretch, 1e3 * setting.time_step_s,
-                       setting.iterations, name_of(setting.masses), name_of(setting.order), name_of(setting.precision)) +
-           bind;
-}
-
-RECORD_SETTINGS(JiggleSetting, k_stretch, time_step_s, iterations, k_bind, masses, order, precision)
-
 Study jiggle_study()
 {
-    return {"jiggle", plan, quick_and_full, nullptr, false, nullptr, read_jolts};
+    return {"jiggle", plan, quick_and_full, nullptr, false, nullptr, read_jolts, jiggle_conclusions};
 }
 
 }  // namespace experiments

@@ -1,6 +1,7 @@
 #include "experiments/studies/shared/iteration_path.hpp"
 
 #include "analysis/statistics/fits.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/solver/batched/batched_projection.hpp"
 #include "pbs/solver/particles.hpp"
@@ -160,7 +161,7 @@ Reached reached_residual(const IterationPath& path, double floor)
 
 Reached reached_volume(const IterationPath& path)
 {
-    return reached(path, &Look::volume_abs_change_pct, volume_tolerance_pct);
+    return reached(path, &Look::volume_abs_change_pct, analysis::kept_volume_pct);
 }
 
 double rate_of(const IterationPath& path, double floor)
@@ -179,7 +180,7 @@ double rate_of(const IterationPath& path, double floor)
             iterations.push_back(look.iteration);
             excess.push_back(std::log(look.combined - floor));
         }
-    return iterations.size() < 3 ? analysis::not_known : std::exp(analysis::fit_line(iterations, excess).slope.estimate);
+    return iterations.size() < 3 ? analysis::not_known : std::exp(analysis::fit_line(iterations, excess).estimate);
 }
 
 const Look& look_at(const IterationPath& path, int iteration)

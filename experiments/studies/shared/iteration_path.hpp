@@ -7,7 +7,7 @@
 // - residual: the combined residual (Look::combined) is within 5 % of its floor, which is the lowest residual that any of the initial
 //   guesses has after the last iteration; or it is below 1e-4, where the constraints can be satisfied and the floor is rounding (no
 //   constraint feels a twist);
-// - volume: the absolute volume change is within the paper's 0.5 %.
+// - volume: the absolute volume change is within the paper's 0.5 % (analysis::kept_volume_pct).
 // The number of iterations is the first one after which the path never leaves the tolerance again.
 #pragma once
 
@@ -90,7 +90,6 @@ IterationPath follow(const StepLoops& loops, const pbs::Positions& guess, int mo
 inline constexpr int paper_iterations = 24;         // of a step
 inline constexpr double residual_tolerance = 0.05;  // of the floor
 inline constexpr double satisfied_residual = 1e-4;
-inline constexpr double volume_tolerance_pct = 0.5;  // Sec. 4
 
 struct Reached {
     int iterations = 0;

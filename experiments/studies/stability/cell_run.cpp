@@ -4,6 +4,7 @@
 #include "experiments/process/machine.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
+#include "pbs/character/bodies.hpp"
 #include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/blend.hpp"
@@ -38,7 +39,7 @@ std::vector<pbs::Pose> way_of(const StabilityCell& cell, const pbs::Skeleton& sk
 {
     const Disturbance& disturbance = cell.disturbance;
     std::vector<pbs::Pose> way;
-    if (cell.body == "limb") {
+    if (!pbs::is_character(cell.body)) {
         const int forearm = pbs::find_bone(skeleton, "forearm");
         way = pbs::joint_sweep(skeleton, forearm, disturbance.axis, disturbance.angle_deg, disturbance.turning_steps + 1, cell.time_step_s)
                   .steps;
@@ -294,8 +295,9 @@ bool all_upright(const pbs::TetMesh& mesh, const std::vector<int>& tets)
 
 Scene stability_scene(const std::string& body)
 {
-    if (body == "limb") return read_scene("limb_bend", {"character.vertices=" + std::to_string(limb_vertices)});
-    return read_scene("human_01_01", {"character.body=" + body, "motion.start_s=6.72", "motion.duration_s=0.36"});
+    const std::string of_body = "character.body=" + body;
+    if (pbs::is_character(body)) return read_scene("human_01_01", {of_body, "motion.start_s=6.72", "motion.duration_s=0.36"});
+    return read_scene("limb_bend", {of_body, "character.vertices=" + std::to_string(limb_vertices)});
 }
 
 const pbs::Character& stability_character(const StabilityCell& cell)

@@ -236,7 +236,7 @@ std::vector<StartRow> starts_not_applicable()
 {
     std::vector<StartRow> rows;
     for (const nlohmann::json& entry : document().at("without_start")) {
-        StartRow row{.body = "limb", .model = entry.at("model")};
+        StartRow row{.body = StabilityCell().body, .model = entry.at("model")};
         row.precision = traits_of(default_spec(row.model)).precision;
         row.outcome = StartOutcome::not_applicable;
         row.reason = entry.at("reason");

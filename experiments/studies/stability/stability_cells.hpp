@@ -84,7 +84,7 @@ void append(std::vector<StabilityCell>& cells, std::vector<StabilityCell> more);
 
 // The cells of a list in cases.toml, for one of the bodies. InputError for an option out of its range.
 //   stability_cells("pbs_character", "human");
-std::vector<StabilityCell> stability_cells(const std::string& list, const std::string& body = "limb");
+std::vector<StabilityCell> stability_cells(const std::string& list, const std::string& body = StabilityCell().body);
 
 // The body of a cell and its motion: the pose, the blended shape and the bind points of each step.
 //   StabilityBody body(cell);

@@ -78,7 +78,7 @@ std::string start_and_record(const BrokenStartsCase& broken_starts_case, const s
 StudyPlan plan(bool full)
 {
     return plan_of_cases("stability", full, [](const StudyCase& study_case, StudyPlan& plan) {
-        const Cells cells = stability_cells(study_case.value<std::string>("cells"), study_case.value<std::string>("body", "limb"));
+        const Cells cells = stability_cells(study_case.value<std::string>("cells"), study_case.value("body", StabilityCell().body));
         if (study_case.has("most_iterations"))
             plan.runs.push_back(work_run<BrokenStartsCase>(study_case.name, {cells, study_case.value<int>("most_iterations")},
                                                            study_case.cost_s, start_and_record));

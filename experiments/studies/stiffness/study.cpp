@@ -182,7 +182,7 @@ std::vector<StiffnessExponent> stiffness_exponents(const std::vector<StiffnessRo
         if (measured.series.empty() || measured.series.begin()->second.size() < 2) continue;
         std::vector<double> x, stiffness;
         for (const Point& point : measured.series.begin()->second) x.push_back(point.x), stiffness.push_back(point.stiffness);
-        const analysis::Interval slope = analysis::observed_order(x, stiffness).slope;
+        const analysis::Interval slope = analysis::observed_order(x, stiffness);
         exponents.push_back(
             {varied, key, shown(x.front()), shown(x.back()), slope.n, measured.left_out, slope.estimate, slope.low, slope.high});
     }

@@ -223,7 +223,7 @@ json fit_scaling(const json& meshes)
                 ms_step.push_back(entry.at("ms_step"));
             }
         if (constraints.size() != meshes.size()) continue;
-        const analysis::Interval exponent = analysis::observed_order(constraints, ms_step).slope;
+        const analysis::Interval exponent = analysis::observed_order(constraints, ms_step);
         fit.update({{"exponent", exponent.estimate},
                     {"interval", {number_or_null(exponent.low), number_or_null(exponent.high)}},
                     {"level", exponent.level},

@@ -1,6 +1,7 @@
 #include "experiments/studies/timing/timing.hpp"
 
 #include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/settings/recorded_settings.hpp"
@@ -138,7 +139,7 @@ std::vector<Target> targets(const std::vector<MeasuredOrder>& measured, const st
     return {{"residual_of_plain", &Look::combined, after_24.combined},
             {"volume_of_plain", &Look::volume_abs_change_pct, after_24.volume_abs_change_pct},
             {"volume_2_pct", &Look::volume_abs_change_pct, 2.0},
-            {"volume_05_pct", &Look::volume_abs_change_pct, volume_tolerance_pct}};
+            {"volume_05_pct", &Look::volume_abs_change_pct, analysis::kept_volume_pct}};
 }
 
 const Columns<CaseKey> order_key_columns = MEMBER_COLUMNS(CaseKey, body, motion, pose, angle_deg, order, precision);

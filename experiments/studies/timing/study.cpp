@@ -37,7 +37,7 @@ StudyRun run_of_frames(const StudyCase& study_case)
     timed.scene =
         read_scene("human_01_01", {"character.body=" + body, fmt::format("character.vertices={}", vertices), "motion.duration_s=4.0"});
     timed.scene.character.refinements = study_case.value("refinements", 0);
-    timed.stands_in = row && body == "human";
+    timed.stands_in = study_case.value("stands_in", false);
     timed.seconds = study_case.value("seconds", 4.0);
     timed.fewest_rounds = study_case.value("fewest_rounds", 3);
     return work_run(study_case.name, timed, study_case.cost_s, measure_frames);
@@ -113,7 +113,7 @@ bool conclude(const FinishedRuns& finished)
 
 Study timing_study()
 {
-    return {"timing", plan, quick_and_full, conclude, true};
+    return {"timing", plan, quick_and_full, conclude, true, nullptr, nullptr, timing_conclusions};
 }
 
 }  // namespace experiments

@@ -78,9 +78,12 @@ const TableOneRow* table_1_row(const std::string& model);  // null: there is non
 std::vector<TimingRow> timing_rows(const TimingRow& mesh, const std::vector<FrameTiming>& timings);
 
 // C10, for meshes made to Table 1 (variant table_1): frames per second by wall time, LBS included, with quartiles. The plain order in f64
-// is judged. For comparison: the other variants, processor time, the ratio to the paper's frame rate, and the milliseconds of each part. A
-// refined mesh (variant refined) has the frame rate that is judged, as a control.
+// is judged. For comparison: the other variants, processor time, and the milliseconds of each part. A refined mesh (variant refined) has
+// the frame rate that is judged, as a control. The conclusions follow.
 std::vector<analysis::Measurement> timing_measurements(const std::vector<TimingRow>& rows);
+
+// The ratio of each frame rate of the method to the paper's in the same row of Table 1 (C10b).
+std::vector<analysis::Measurement> timing_conclusions(const std::vector<analysis::Measurement>& measured);
 
 // The frame rate of the later code of the paper's first author (pbs/author) with its own number of iterations, likewise. mesh: as above.
 analysis::Measurement author_frame_rate(const TimingRow& mesh, const pbs::Character& character, const pbs::Motion& motion,

@@ -24,14 +24,14 @@ using analysis::Measurement;
 using analysis::VerdictKind;
 
 // Sixteen poses of a body, of which the last `others` have other paths.
-ConvergenceResult poses(const ConvergencePaths& first, int others, const ConvergencePaths& other)
+std::vector<ConvergencePaths> poses(const ConvergencePaths& first, int others, const ConvergencePaths& other)
 {
-    ConvergenceResult result;
+    std::vector<ConvergencePaths> all;
     for (int i = 0; i < 16; ++i) {
-        ConvergencePaths& one = result.all.emplace_back(i < 16 - others ? first : other);
+        ConvergencePaths& one = all.emplace_back(i < 16 - others ? first : other);
         one.of.pose = one.key.pose = "pose " + std::to_string(i);
     }
-    return result;
+    return all;
 }
 
 ConvergencePaths altered(ConvergencePaths paths, const std::function<void(ConvergencePaths&)>& alter)
@@ -79,7 +79,7 @@ TEST(ConvergenceVerdict, FollowsFromThePaths)
                                  {"another order", "C12a", inconclusive, of_another_order},
                                  {"limbs", "C12a", inconclusive, altered(in_24, [](ConvergencePaths& of) { of.character = false; })}};
     for (const auto& [name, id, kind, first, others, other] : cases)
-        EXPECT_EQ(verdict_on(id, convergence_values(poses(first, others, other))), kind) << name;
+        EXPECT_EQ(verdict_on(id, values_of_paths(poses(first, others, other))), kind) << name;
 }
 
 // The author's later code takes 5 iterations to its own floor.
@@ -87,7 +87,7 @@ TEST(ConvergenceVerdict, ComparesTheAuthorsLaterCode)
 {
     const auto of =
         altered(papers_paths({0.89, 0.9, 0.9, 0.9}), [](ConvergencePaths& one) { one.author = path_to_floor(1000, 3.0, 3.0, 0.5); });
-    const analysis::Verdict verdict = verdict_from("C12a", convergence_values(poses(of, 0, {})));
+    const analysis::Verdict verdict = verdict_from("C12a", values_of_paths(poses(of, 0, {})));
     EXPECT_EQ(verdict.kind, VerdictKind::fails);
     const auto author = std::ranges::find(verdict.others, "the author's later code", [](const auto& one) { return one.selection.name; });
     ASSERT_NE(author, verdict.others.end());
@@ -98,15 +98,14 @@ TEST(ConvergenceVerdict, ComparesTheAuthorsLaterCode)
 // The limb's bend on four sizes, which need these iterations.
 VerdictKind of_ladder(const std::array<int, 4>& iterations)
 {
-    ConvergenceResult ladder;
-    ladder.ladder = ladder.exponents = true;
+    std::vector<ConvergencePaths> ladder;
     for (std::size_t i = 0; i < iterations.size(); ++i) {
-        ConvergencePaths& one = ladder.all.emplace_back(papers_paths({0.5}));
+        ConvergencePaths& one = ladder.emplace_back(papers_paths({0.5}));
         one.of.vertices = 500 << i;
         one.key = {.motion = "bend", .angle_deg = 90.0};
         one.paths = {path_by(1000, [least = iterations[i]](int n) { return n < least ? 2.0 : 1.0; })};
     }
-    return verdict_on("C12b", convergence_values(ladder));
+    return verdict_on("C12b", convergence_conclusions(values_of_paths(ladder, true)));
 }
 
 TEST(ConvergenceVerdict, FollowsFromTheExponentOfTheLadder)
@@ -143,7 +142,7 @@ const ConvergenceResult& bend(Broken how)
 
 std::vector<Measurement> measured(Broken how)
 {
-    return convergence_values(bend(how));
+    return values_of_paths(bend(how).all);
 }
 
 const IterationPath& path(Broken how, SolverStart start)

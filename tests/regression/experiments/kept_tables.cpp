@@ -216,6 +216,32 @@ TEST(KeptTables, OfMeasuredAndPrintedValues)
     EXPECT_EQ(printed, 1);
 }
 
+// Every value on record that a study concludes from others follows from these, to the last digit. Reference: what earlier versions
+// concluded while they measured.
+TEST(KeptTables, OfConclusionsFollowFromTheMeasuredValues)
+{
+    const experiments::OpenedRecords opened(PBS_KEPT_RECORDS);
+    std::map<std::string, int> concluded;  // by study
+    for (const experiments::Study& study : experiments::studies()) {
+        if (!study.conclusions) continue;
+        for (const std::string& run : experiments::finished_runs((fs::path(opened.folder()) / study.name).string()).folders) {
+            const fs::path file = fs::path(run) / "measurements.csv";
+            if (!fs::exists(file)) continue;
+            const auto recorded = analysis::measurements(file.string());
+            for (const analysis::Measurement& now : study.conclusions(recorded)) {
+                const analysis::Measurement* before = find_measurement(recorded, now.quantity, now.of);
+                ASSERT_TRUE(before) << run << ": " << now.quantity << ", " << text_of(now.of);
+                EXPECT_EQ(std::tie(now.value, now.low, now.high, now.unit, now.n, now.limit),
+                          std::tie(before->value, before->low, before->high, before->unit, before->n, before->limit))
+                    << run << ": " << now.quantity << ", " << text_of(now.of);
+                ++concluded[study.name];
+            }
+        }
+    }
+    for (const auto& [study, at_least] : {std::pair("convergence", 5), std::pair("jiggle", 50), std::pair("timing", 25)})
+        EXPECT_GE(concluded[study], at_least) << study;
+}
+
 // Values that several studies measure are the same in all of them.
 
 using Wanted = std::map<std::string, std::string>;

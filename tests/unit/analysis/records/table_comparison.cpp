@@ -55,6 +55,7 @@ const TablePair table_pairs[] = {
     {"rows of the same settings by their order", two_rows, two_rows, {2}},
     {"one of two rows of the same settings", two_rows, radius_of("1.5"), {1, 0, 0, 1}},
     {"no rows", head, head, {0}},
+    {"another processor", "body,cpu_model,radius_m\nlimb,one,1.5\n", "body,cpu_model,radius_m\nlimb,other,1.5\n", {1}},
     {"a row that the first lacks", head, radius_of("1"), {0, 0, 0, 0, 1}},
     {"the tenth digit", radius_of("1.23456789012345"), radius_of("1.23456789512345"), {1, 1}},
     {"the last digits", radius_of("1.23456789012345"), radius_of("1.23456789012999"), {1, 0, 1}},

@@ -61,6 +61,16 @@ TEST(Statistics, RankCorrelationIsOfRanksAlone)
     EXPECT_EQ(rank_correlation({1, 2, 3}, {9, 2, 1}), -1.0);
 }
 
+// The last pair alone turns the order round. Without it, the correlation is 1.
+TEST(Statistics, RankCorrelationWithoutOneHasTheRangeOfAllSuchSamples)
+{
+    const Interval all = rank_correlation_without_one({1, 2, 3, 4}, {1, 2, 3, 0});
+    EXPECT_EQ(all.estimate, rank_correlation({1, 2, 3, 4}, {1, 2, 3, 0}));
+    EXPECT_EQ(all.low, rank_correlation({1, 2, 4}, {1, 2, 0}));
+    EXPECT_EQ(all.high, 1.0);
+    EXPECT_EQ(all.n, 4);
+}
+
 // Reference: degenerate cases by definition, and reproducibility by seed. tests/verification/analysis/statistics.cpp tests the coverage.
 
 using test_support::mean_error;

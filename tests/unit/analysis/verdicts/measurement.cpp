@@ -41,6 +41,23 @@ TEST(Measurement, ComesBackFromItsTable)
     EXPECT_THROW(measurements(path), pbs::InputError) << "an unknown limit";
 }
 
+TEST(MeasuredSeries, DifferInOneFieldAlone)
+{
+    const auto amplitude = [](const char* body, std::optional<double> k_stretch, double value) {
+        return Measurement{"C09", "amplitude", {.body = body, .k_stretch = k_stretch}, value, value, value, "1"};
+    };
+    Measurement other = amplitude("limb", 0.3, 9.0);
+    other.quantity = "frequency_hz";
+    const auto all = series_over({amplitude("limb", 0.5, 1.0), amplitude("man", 0.1, 4.0), other, amplitude("limb", {}, 5.0),
+                                  amplitude("limb", 0.1, 2.0), amplitude("limb", 0.2, 3.0)},
+                                 "amplitude", &CaseKey::k_stretch);
+    ASSERT_EQ(all.size(), 2u);
+    std::vector<std::pair<double, double>> of_limb;
+    for (const auto& [k_stretch, measurement] : all.at({.body = "limb"})) of_limb.emplace_back(k_stretch, measurement.value);
+    EXPECT_EQ(of_limb, (std::vector<std::pair<double, double>>{{0.1, 2.0}, {0.2, 3.0}, {0.5, 1.0}}));
+    EXPECT_EQ(all.at({.body = "man"}).size(), 1u);
+}
+
 CaseRecord walk()
 {
     CaseRecord walk;

@@ -32,6 +32,35 @@ void finish(const std::string& study, const std::string& run, double value)
     analysis::write_text_atomically((folder / "run.json").string(), "{\"schema\": 3}\n");
 }
 
+// Half the time step makes the frequency 3 times as large. A conclusion that was never drawn is not added, and one without its values
+// stays.
+TEST(StudyRecords, ConclusionsComeFromTheMeasuredValues)
+{
+    const analysis::CaseKey whole = {.body = "limb", .deformer = "pbs", .order = "plain", .precision = "f64", .time_step_s = 0.01},
+                            half = {.body = "limb", .deformer = "pbs", .order = "plain", .precision = "f64", .time_step_s = 0.005};
+    const char* const at_half = "frequency_ratio_at_half_time_step";
+    const auto concluded_in = [&](const std::string& study) {
+        const ScratchFolder root;
+        const std::string folder = root / study;
+        write_study_plan(folder, plan_of({"limb"}));
+        finish(folder, "limb", 0.0);
+        analysis::measurement_table({{"C09", "frequency_hz", whole, 2.0, 1.0, 3.0, "Hz"},
+                                     {"C09", "frequency_hz", half, 6.0, 6.0, 6.0, "Hz"},
+                                     {"C09", "last_share_of_peak", whole, 0.1, 0.1, 0.1, "1"},
+                                     {"C09", at_half, whole, 2.5, 2.5, 2.5, "1"},
+                                     {"C09", "amplitude_ratio_over_k_stretch", {.body = "limb", .deformer = "lbs"}, 7.0, 7.0, 7.0, "1"}})
+            .write(folder + "/limb/measurements.csv");
+        return read_study_records(folder, root.path().string()).measurements;
+    };
+    const auto concluded = concluded_in("jiggle"), as_recorded = concluded_in("momentum");
+    ASSERT_EQ(concluded.size(), 5u);
+    EXPECT_EQ(concluded[3].value, 3.0);
+    EXPECT_EQ(concluded[3].high, 3.0);
+    EXPECT_EQ(concluded[3].run, "jiggle/limb");
+    EXPECT_EQ(concluded[4].value, 7.0);
+    EXPECT_EQ(as_recorded[3].value, 2.5);
+}
+
 Scene walk()
 {
     Scene scene;

@@ -15,6 +15,7 @@ using namespace experiments;
 using analysis::Measurement;
 using test_support::papers_paths;
 using test_support::starts_at_rates;
+using test_support::values_of_paths;
 
 std::vector<Measurement> values_named(const std::vector<Measurement>& all, const std::string& quantity, const std::string& guess = "")
 {
@@ -26,9 +27,9 @@ std::vector<Measurement> values_named(const std::vector<Measurement>& all, const
 
 TEST(ConvergenceFigures, ValueIsOfTheOwnMeshAndTheOthersAreItsRange)
 {
-    const ConvergenceResult result{{starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8}), starts_at_rates(1900, {0.88, 0.95, 0.9, 0.8}),
-                                    starts_at_rates(1650, {0.91, 0.95, 0.9, 0.8})}};
-    const auto iterations = values_named(convergence_values(result), "iterations_to_tolerance");
+    const auto all = values_of_paths({starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8}), starts_at_rates(1900, {0.88, 0.95, 0.9, 0.8}),
+                                      starts_at_rates(1650, {0.91, 0.95, 0.9, 0.8})});
+    const auto iterations = values_named(all, "iterations_to_tolerance");
     ASSERT_EQ(iterations.size(), 2u);  // by residual; by volume, which stays at 1 %
     EXPECT_EQ(iterations[0].value, 29.0);
     EXPECT_EQ(iterations[0].low, 24.0);
@@ -39,7 +40,7 @@ TEST(ConvergenceFigures, ValueIsOfTheOwnMeshAndTheOthersAreItsRange)
 
 TEST(ConvergenceFigures, EachOrderAndPrecisionHasAValueOfItsOwn)
 {
-    const auto all = convergence_values({{papers_paths({0.88, 0.9, 0.9, 0.9}), starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})}});
+    const auto all = values_of_paths({papers_paths({0.88, 0.9, 0.9, 0.9}), starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})});
     const auto iterations = values_named(all, "iterations_to_tolerance");
     ASSERT_EQ(iterations.size(), 4u);  // two settings by two tolerances
     for (const auto& [at, value, setting] : {std::tuple(0, 24.0, "plain f64"), {2, 29.0, "ordered f32"}}) {
@@ -54,22 +55,22 @@ TEST(ConvergenceFigures, EachOrderAndPrecisionHasAValueOfItsOwn)
 TEST(ConvergenceFigures, ControlsAreComparedWithLbsAndLeaveTheFloorAsItIs)
 {
     ConvergencePaths paths = papers_paths({0.9, 0.9, 0.9, 0.9});
-    const auto all = convergence_values({{paths}});
+    const auto all = values_of_paths({paths});
     const Measurement lbs = values_named(all, "iterations_over_lbs_guess", "lbs").at(0),
                       random = values_named(all, "iterations_over_lbs_guess", "random").at(0);
     EXPECT_EQ(lbs.value, 1.0);
     EXPECT_EQ(random.value, 1000.0 / 29.0);
     EXPECT_EQ(random.limit, analysis::Limit::at_least);
     paths.controls[0] = test_support::path_to_floor(1000, 0.5, 1.0, 0.9);
-    EXPECT_EQ(values_named(convergence_values({{paths}}), "iterations_to_tolerance").at(0).value, 29.0);
-    EXPECT_LT(values_named(convergence_values({{paths}}), "iterations_over_lbs_guess", "lbs").at(0).value, 1.0);
+    EXPECT_EQ(values_named(values_of_paths({paths}), "iterations_to_tolerance").at(0).value, 29.0);
+    EXPECT_LT(values_named(values_of_paths({paths}), "iterations_over_lbs_guess", "lbs").at(0).value, 1.0);
 }
 
 TEST(ConvergenceFigures, TheAuthorsLaterCodeHasAFloorOfItsOwn)
 {
     ConvergencePaths paths = papers_paths({0.9, 0.9, 0.9, 0.9});
     paths.author = test_support::path_to_floor(1000, 3.0, 3.0, 0.5);  // 3 + 3 0.5^n <= 1.05 * 3 from n = 5 on
-    const auto all = values_named(convergence_values({{paths}}), "iterations_to_tolerance");
+    const auto all = values_named(values_of_paths({paths}), "iterations_to_tolerance");
     ASSERT_EQ(all.size(), 3u);
     EXPECT_EQ(all[2].value, 5.0);
     EXPECT_EQ(all[2].limit, analysis::Limit::none);
@@ -78,8 +79,7 @@ TEST(ConvergenceFigures, TheAuthorsLaterCodeHasAFloorOfItsOwn)
 
 TEST(ConvergenceFigures, StartsAreComparedWithLbs)
 {
-    const ConvergenceResult result{{starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8})}};
-    const auto all = convergence_values(result);
+    const auto all = values_of_paths({starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8})});
     EXPECT_EQ(values_named(all, "iterations_over_lbs_guess", "previous_frame").at(0).value, 59.0 / 29.0);
     EXPECT_EQ(values_named(all, "iterations_over_lbs_guess", "rest_pose").at(0).value, 1.0);
     EXPECT_EQ(values_named(all, "iterations_over_lbs_guess", "rigid_bind").at(0).value, 14.0 / 29.0);
@@ -89,7 +89,7 @@ TEST(ConvergenceFigures, AStartThatNeverArrivesGivesABound)
 {
     ConvergencePaths paths = starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9});
     paths.paths[2] = test_support::path_to_floor(1000, 2.0, 1.0, 0.9);
-    const auto ratio = values_named(convergence_values({{paths}}), "iterations_over_lbs_guess", "rest_pose");
+    const auto ratio = values_named(values_of_paths({paths}), "iterations_over_lbs_guess", "rest_pose");
     ASSERT_EQ(ratio.size(), 1u);
     EXPECT_EQ(ratio[0].value, 1000.0 / 29.0);
     EXPECT_EQ(ratio[0].limit, analysis::Limit::at_least);
@@ -98,7 +98,7 @@ TEST(ConvergenceFigures, AStartThatNeverArrivesGivesABound)
 // Volume stays at 1 % from every initial guess.
 TEST(ConvergenceFigures, WhereNeitherArrivesThereIsNone)
 {
-    const auto all = convergence_values({{starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})}});
+    const auto all = values_of_paths({starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})});
     for (const Measurement& measured : all)
         EXPECT_FALSE(measured.quantity == "iterations_over_lbs_guess" && measured.of.tolerance == "volume") << text_of(measured.of);
 }
@@ -110,7 +110,7 @@ TEST(ConvergenceFigures, AMeshOnWhichNeitherArrivesOpensTheRange)
     for (IterationPath& path : arriving.paths)
         for (Look& look : path.looks) look.volume_abs_change_pct = look.iteration < 8 ? 1.0 : 0.0;
     for (const std::size_t start : {2, 3}) lost.paths[start] = arriving.paths[start];
-    const auto all = convergence_values({{arriving, lost}});
+    const auto all = values_of_paths({arriving, lost});
     const auto previous = values_named(all, "iterations_over_lbs_guess", "previous_frame").at(1);
     EXPECT_EQ(previous.value, 1.0);
     EXPECT_EQ(previous.low, 0.0);
@@ -125,7 +125,7 @@ TEST(ConvergenceFigures, TwistsAndTheLimbAreReportedAndNotJudged)
     ConvergencePaths twist = starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8});
     twist.character = false;
     twist.twist = true;
-    const auto all = convergence_values({{twist}});
+    const auto all = values_of_paths({twist});
     EXPECT_TRUE(values_named(all, "iterations_to_tolerance").empty());
     EXPECT_TRUE(values_named(all, "iterations_over_lbs_guess", "previous_frame").empty());
     EXPECT_EQ(values_named(all, "iterations_to_tolerance_of_limbs").at(0).value, 29.0);
@@ -135,23 +135,31 @@ TEST(ConvergenceFigures, TwistsAndTheLimbAreReportedAndNotJudged)
 // Rates exp(-1 / sqrt(vertices)) need log 20 sqrt(vertices) iterations, rounded up: by at most 1 in 67, 1.5 % at one end of a factor of 64.
 TEST(ConvergenceFigures, ExponentOfALadderIsThatOfTheFormula)
 {
-    ConvergenceResult ladder;
-    ladder.ladder = ladder.exponents = true;
+    std::vector<ConvergencePaths> ladder;
     for (const int vertices : {500, 2000, 8000, 32000})
         for (const auto order : {pbs::Order::ordered, pbs::Order::plain}) {
             const double rate = order == pbs::Order::plain ? 0.5 : std::exp(-1.0 / std::sqrt(vertices));
-            ladder.all.push_back(starts_at_rates(vertices, {rate, 0.5, 0.5, 0.5}, 4000));
-            ladder.all.back().of.order = name_of(order);
+            ladder.push_back(starts_at_rates(vertices, {rate, 0.5, 0.5, 0.5}, 4000));
+            ladder.back().of.order = name_of(order);
         }
-    const auto exponent = values_named(convergence_values(ladder), "exponent_of_iterations_over_vertices");
+    const auto all = values_of_paths(ladder, true), exponent = convergence_conclusions(all);
     ASSERT_EQ(exponent.size(), 2u);  // one for each order
     EXPECT_EQ(exponent[1].value, 0.0);
     EXPECT_NEAR(exponent[0].value, 0.5, 0.015 / std::log(64.0) * 2.0);
     EXPECT_LE(exponent[0].low, exponent[0].value);
     EXPECT_GE(exponent[0].high, exponent[0].value);
+    EXPECT_EQ(text_of(exponent[0].of), "human, pbs, ordered, f32, vertices 500 to 32000, k_stretch 0.2, tolerance residual");
     // One for each size and order, with two tolerances.
-    EXPECT_EQ(values_named(convergence_values(ladder), "iterations_to_tolerance").size(), 16u);
-    EXPECT_TRUE(values_named(convergence_values(ladder), "iterations_over_lbs_guess").empty());
+    EXPECT_EQ(values_named(all, "iterations_to_tolerance").size(), 16u);
+    EXPECT_TRUE(values_named(all, "iterations_over_lbs_guess").empty());
+}
+
+// Two sizes have an exponent for any numbers of iterations.
+TEST(ConvergenceFigures, TwoSizesHaveNoExponent)
+{
+    std::vector<ConvergencePaths> ladder = {starts_at_rates(500, {0.9, 0.9, 0.9, 0.9}), starts_at_rates(2000, {0.95, 0.9, 0.9, 0.9})};
+    ladder.push_back(starts_at_rates(8000, {0.999999, 0.9, 0.9, 0.9}));  // not reached
+    EXPECT_TRUE(convergence_conclusions(values_of_paths(ladder, true)).empty());
 }
 
 TEST(ConvergenceFigures, ErrorsOfNoReferenceAreLeftOut)
@@ -159,8 +167,7 @@ TEST(ConvergenceFigures, ErrorsOfNoReferenceAreLeftOut)
     ConvergencePaths paths = starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9});
     for (IterationPath& path : paths.paths)
         for (Look& look : path.looks) look.error_joint_pct = std::numeric_limits<double>::quiet_NaN();
-    for (const Measurement& measured : convergence_values({{paths}}))
-        EXPECT_FALSE(measured.quantity.starts_with("error")) << measured.quantity;
+    for (const Measurement& measured : values_of_paths({paths})) EXPECT_FALSE(measured.quantity.starts_with("error")) << measured.quantity;
 }
 
 // Reference: the definition of each initial guess.
