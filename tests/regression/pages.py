@@ -165,6 +165,16 @@ class Pages(program.ProgramTest):
         _, told, _ = readme_part.cut(readme_tables.features_page, "features")
         self.assertEqual(told.splitlines()[1:], readme_tables.features_lines(KEPT))
 
+    def test_names_that_the_tables_of_places_quote_are_in_their_files(self):
+        for folder in ("experiments", "reference_fem"):
+            page = SOURCE / folder / "README.md"
+            rows = page.read_text(encoding="utf-8").split("## Where is it?\n\n")[1].split("\n\n")[0].splitlines()[2:]
+            for row in rows:
+                files = [page.parent / file for file in re.findall(r"\]\(([^)]+)\)", row)]
+                texts = [file.read_text(encoding="utf-8") for file in files if file.is_file()]
+                for name in re.findall(r"`(?:\w+::)?(\w+)`", row.split(" | ")[-1]):
+                    self.assertTrue(any(name in text for text in texts) or name in self.studies() or not texts, row)
+
     def test_files_named_by_the_readmes_of_experiments_are_there(self):
         for folder in ("", "deformers", "verdicts"):
             page = SOURCE / "experiments" / folder / "README.md"
