@@ -96,9 +96,10 @@ void leave_what_is_of_use(const TrialOptions& options, int page)
     const bool leaves_out = page == exit_finished && !options.paraview;
     if (leaves_out) remove_frames(options.folder);
     if (page == page_without_model)
-        warn({fmt::format("{}/report.html: the page has no viewer, for the reason above; the frames remain, so that `pbskin report {}` "
-                          "can add it once that reason is gone",
-                          options.folder, options.folder)});
+        warn(
+            {fmt::format("{}/report.html: the page has no viewer, for the reason above; the frames remain, so that `pbskin report {}` "
+                         "can add it once that reason is gone",
+                         options.folder, options.folder)});
     std::uintmax_t bytes = 0;
     int files = 0;
     for (const auto& file : fs::recursive_directory_iterator(folder)) {
@@ -122,8 +123,7 @@ int try_model(TrialOptions options, const CommonOptions& common)
     const std::string scene_file = (fs::path(options.folder) / "scene.toml").string(), earlier_scene = earlier_trial_scene(options);
     analysis::write_text_atomically(scene_file, made.text);
 
-    const RunResult result =
-        run_new_scene(scene_file, earlier_scene, options, is_new, common.threads, made.remarks, std::move(model));
+    const RunResult result = run_new_scene(scene_file, earlier_scene, options, is_new, common.threads, made.remarks, std::move(model));
     for (const auto& line : result.lines) spdlog::info("{}", line);
     nlohmann::json facts = trial_facts(options.folder);
     facts["animations"] = made.animations;

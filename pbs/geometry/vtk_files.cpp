@@ -82,7 +82,7 @@ std::string sentence_of(const std::string& message)
     std::string words = message.substr(begin, end == std::string::npos ? end : end - begin);
     for (char& c : words)
         if (c == '\n') c = ' ';
-    words.erase(std::min(words.find(" for file:"), words.size()));  // whose name stands before these words
+    words.erase(std::min(words.find(" for file:"), words.size()));      // whose name stands before these words
     if (words.starts_with("Algorithm ")) return "the file is damaged";  // what follows are addresses in memory
     return words;
 }
