@@ -61,7 +61,7 @@ TEST(RunRemarks, ArePrintedOnceAndTheGravestAtOnce)
 
 TEST(RunRemarks, AreSaidByTheSignalThatEndsTheProgram)
 {
-    const auto interrupted_with = [](const std::string& printed, const auto& use) {
+    const auto interrupted_with = [](const std::string& text, const auto& use) {
         EXPECT_EXIT(
             {
                 watch_interrupts();
@@ -70,7 +70,7 @@ TEST(RunRemarks, AreSaidByTheSignalThatEndsTheProgram)
                 use(remarks);
                 std::raise(SIGTERM);
             },
-            testing::ExitedWithCode(exit_interrupted), "^" + printed + "pbskin: interrupted");
+            testing::ExitedWithCode(exit_interrupted), "^" + text + "pbskin: interrupted");
     };
     interrupted_with("pbskin: warning: x/a: 1\n", [](RunRemarks&) {});
     interrupted_with("", [](RunRemarks& remarks) { remarks.say_all(); });
