@@ -15,7 +15,7 @@ namespace analysis {
 //   const CaseKey key = {.body = "limb", .motion = "bend", .joint = "upper|forearm", .angle_deg = 90.0, .deformer = "pbs"};
 // A field has the same name as its column of measurements.csv, its member of a case in claims.json, and its entry in `of` of claims.toml.
 struct CaseKey {
-    std::string body = {};    // limb, bar, ring, human, man, lady, frankie, or a character of the user's
+    std::string body = {};    // of pbs::named_bodies(), or a character of the user's
     std::string motion = {};  // twist, bend, or the name of a clip such as 01_01
     std::string pose = {};    // pose in a clip: crouch, landing, in_the_air
     std::string joint = {};   // the names of the joint's two bones: upper|forearm

@@ -107,7 +107,7 @@ private:
             const std::string name = entry.path().filename().string();
             if (!name.starts_with(begin)) continue;
             const pid_t process = std::atoi(name.c_str() + begin.size());
-            if (process > 0 && (process == ::getpid() || pbs::process_is_gone(process))) fs::remove_all(entry.path(), ignored);
+            if (process == ::getpid() || pbs::process_is_gone(process)) fs::remove_all(entry.path(), ignored);
         }
     }
 

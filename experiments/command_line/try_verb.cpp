@@ -18,7 +18,8 @@
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
-#include <fstream>
+#include <optional>
+#include <utility>
 
 namespace experiments {
 namespace {
@@ -45,7 +46,7 @@ constexpr double most_glb_bytes = 33e6, most_skin_bytes = 12e6;  // with the pag
 
 // Runs the scene that was just written. If it is refused before the run has written anything, the folder is left as it was.
 RunResult run_new_scene(const std::string& scene_file, const std::string& earlier_scene, const TrialOptions& options, bool folder_is_new,
-                        int threads, const Remarks& remarks)
+                        int threads, const Remarks& remarks, std::optional<pbs::SourceFile> model)
 {
     try {
         Scene scene = read_scene(scene_file, {});
@@ -55,7 +56,7 @@ RunResult run_new_scene(const std::string& scene_file, const std::string& earlie
             scene.output.most_glb_bytes = most_glb_bytes;
             scene.output.most_skin_bytes = most_skin_bytes;
         }
-        return run_scene(scene, options.folder, remarks, WhenInterrupted::finish_early);
+        return run_scene(scene, options.folder, remarks, WhenInterrupted::finish_early, std::move(model));
     } catch (const pbs::InputError&) {
         std::error_code code;
         if (!earlier_scene.empty())
@@ -67,30 +68,38 @@ RunResult run_new_scene(const std::string& scene_file, const std::string& earlie
     }
 }
 
-// The words between quotes are read one after the other, for a page may be large.
-bool page_has_viewer(const std::string& page)
+constexpr int page_without_model = 3;  // of make_report.py --needs-model: it has written the page without the moving model
+
+// Writes `folder`/report.html by the scripts of paper_figures. The page maker runs as a process of its own, which reports what is missing.
+// Returns its exit status. InputErrors: no such folder, no python3 with the packages that draw, no page maker.
+int write_report_page(const std::string& folder, bool quiet, bool needs_model)
 {
-    std::ifstream text(page);
-    for (std::string between_quotes; std::getline(text, between_quotes, '"');)
-        if (between_quotes == "viewer-block") return true;
-    return false;
+    if (!fs::is_directory(folder))
+        throw pbs::InputError(folder, 0, "", "", "no such folder: expected one that `pbskin try`, `run` or `reproduce` wrote");
+    if (!fs::is_regular_file(page_maker()))
+        throw pbs::InputError(page_maker().string(), 0, "", "",
+                              "not found: the page is made by scripts that are installed with the program");
+    const pbs::Stage stage("making the page " + (fs::path(folder) / "report.html").string());
+    std::vector<std::string> words = {python_that_draws(), "-B", page_maker().string(), folder};
+    if (quiet) words.push_back("--quiet");
+    if (needs_model) words.push_back("--needs-model");
+    const ProgramRun page = run_program(words, std::nullopt);
+    if (!page.started) throw pbs::InputError("", 0, "report", words.front(), "cannot be started");
+    return page.status >= 0 ? page.status : 128 - page.status;
 }
 
 // A trial leaves the page, the tables, the .glb files and the artist's surface. The frames for ParaView take most of the space; once the
 // page has a viewer, it has what it shows of them.
-void leave_what_is_of_use(const TrialOptions& options, bool has_page)
+void leave_what_is_of_use(const TrialOptions& options, int page)
 {
     const fs::path folder = options.folder;
-    const std::string page = (folder / "report.html").string();
-    const bool has_viewer = has_page && page_has_viewer(page);
-    const bool leaves_out = has_viewer && !options.paraview;
-    if (leaves_out)
-        remove_frames(options.folder);
-    else if (has_page && !has_viewer)
+    const bool leaves_out = page == exit_finished && !options.paraview;
+    if (leaves_out) remove_frames(options.folder);
+    if (page == page_without_model)
         warn(
-            {fmt::format("{}: the page has no viewer, for the reason above; the frames remain, so that `pbskin report {}` can add it once "
-                         "that reason is gone",
-                         page, options.folder)});
+            {fmt::format("{}/report.html: the page has no viewer, for the reason above; the frames remain, so that `pbskin report {}` "
+                         "can add it once that reason is gone",
+                         options.folder, options.folder)});
     std::uintmax_t bytes = 0;
     int files = 0;
     for (const auto& file : fs::recursive_directory_iterator(folder)) {
@@ -104,7 +113,7 @@ void leave_what_is_of_use(const TrialOptions& options, bool has_page)
 
 int try_model(TrialOptions options, const CommonOptions& common)
 {
-    const pbs::SourceFile model(options.model);  // keeps the bytes for the run that follows
+    std::optional<pbs::SourceFile> model(options.model);  // keeps the bytes until the run has read them
     if (options.folder.empty()) options.folder = "results/" + fs::path(options.model).stem().string();
     const TrialScene made = [&] {
         const pbs::Stage stage("reading " + options.model);
@@ -114,14 +123,15 @@ int try_model(TrialOptions options, const CommonOptions& common)
     const std::string scene_file = (fs::path(options.folder) / "scene.toml").string(), earlier_scene = earlier_trial_scene(options);
     analysis::write_text_atomically(scene_file, made.text);
 
-    const RunResult result = run_new_scene(scene_file, earlier_scene, options, is_new, common.threads, made.remarks);
+    const RunResult result = run_new_scene(scene_file, earlier_scene, options, is_new, common.threads, made.remarks, std::move(model));
     for (const auto& line : result.lines) spdlog::info("{}", line);
     nlohmann::json facts = trial_facts(options.folder);
     facts["animations"] = made.animations;
     facts["summary"] = trial_sentence(facts);
     analysis::write_text_atomically((fs::path(options.folder) / "try.json").string(), analysis::record_text(facts));
-    const int page = write_report_page(options.folder, common.quiet);
-    leave_what_is_of_use(options, page == exit_finished);
+    const int written = write_report_page(options.folder, common.quiet, true);
+    const int page = written == page_without_model ? exit_finished : written;
+    leave_what_is_of_use(options, written);
     spdlog::info("{}", facts["summary"].get<std::string>());
     if (result.was_interrupted) {
         spdlog::error("pbskin: interrupted; {} has what was finished, and the same command goes on from there",
@@ -136,28 +146,13 @@ int try_model(TrialOptions options, const CommonOptions& common)
 
 }  // namespace
 
-int write_report_page(const std::string& folder, bool quiet)
-{
-    if (!fs::is_directory(folder))
-        throw pbs::InputError(folder, 0, "", "", "no such folder: expected one that `pbskin try`, `run` or `reproduce` wrote");
-    if (!fs::is_regular_file(page_maker()))
-        throw pbs::InputError(page_maker().string(), 0, "", "",
-                              "not found: the page is made by scripts that are installed with the program");
-    const pbs::Stage stage("making the page " + (fs::path(folder) / "report.html").string());
-    std::vector<std::string> words = {python_that_draws(), "-B", page_maker().string(), folder};
-    if (quiet) words.push_back("--quiet");
-    const ProgramRun page = run_program(words, std::nullopt);
-    if (!page.started) throw pbs::InputError("", 0, "report", words.front(), "cannot be started");
-    return page.status >= 0 ? page.status : 128 - page.status;
-}
-
 // pbskin report DIR: writes the records and the figures drawn from them as one self-contained page, DIR/report.html.
 void add_report_verb(CommandLine& line)
 {
     auto folder = std::make_shared<std::string>();
     CLI::App* verb = line.add("report", "writes records and figures on one HTML page that loads nothing", "pbskin report results/reproduce",
                               [&common = line.common, folder] {
-                                  const int status = write_report_page(*folder, common.quiet);
+                                  const int status = write_report_page(*folder, common.quiet, false);
                                   if (status == exit_finished) say_next("xdg-open " + *folder + "/report.html");
                                   return status;
                               });

@@ -40,10 +40,6 @@ void say_next(const std::string& words);  // what to do next, on stderr after al
 // A scene key has table, name, meaning, unit, rule, in_list and default (JSON text; empty: every scene must state it).
 std::string describe(const CLI::App& app);
 
-// Writes `folder`/report.html by the scripts of paper_figures. The page maker runs as a process of its own, which reports what is missing.
-// Returns its exit status. InputErrors: no such folder, no python3 with the packages that draw, no page maker.
-int write_report_page(const std::string& folder, bool quiet);
-
 // The files that a user means by frames: files, `frames_%04d.vtu`, `frames_*.vtu` (quoted), or a folder with one sequence.
 //   for (const std::string& path : frame_files({"out/frames_%04d.vtu"})) ...
 // The files in the order of their numbers, which may be negative and have a fraction. The number is the one in place of %d (%g, %f), or the

@@ -1,5 +1,7 @@
 #include "experiments/process/machine.hpp"
 
+#include "pbs/geometry/input_error.hpp"
+
 #include <dlfcn.h>
 #include <malloc.h>
 #include <unistd.h>
@@ -10,6 +12,7 @@
 #include <cctype>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <mutex>
@@ -172,7 +175,10 @@ void select_blas_kernels()
 const pbs::Module& load_module_with_blas(const std::string& name)
 {
     select_blas_kernels();
-    return pbs::load_module(name);
+    const pbs::Module& module = pbs::load_module(name);
+    if (std::strcmp(module.function<decltype(pbskin_headers)>("pbskin_headers")(), pbskin_headers()) != 0)
+        throw pbs::InputError(module.path(), 0, "", "", "was built from other headers than this program: build both again");
+    return module;
 }
 
 std::map<std::string, std::string> blas_in_use()

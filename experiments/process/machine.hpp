@@ -87,7 +87,8 @@ std::string better_core_type(const std::string& selected, const Processor& proce
 // the user has set in OPENBLAS_CORETYPE is kept, and so is an OpenBLAS that the process has loaded before. Only the first call has an
 // effect. Thread-safe.
 void select_blas_kernels();
-const pbs::Module& load_module_with_blas(const std::string& name);  // pbs::load_module after select_blas_kernels
+// pbs::load_module after select_blas_kernels. InputError for a module that was built from other headers than this program.
+const pbs::Module& load_module_with_blas(const std::string& name);
 
 // For the provenance of a record: `library` (OpenBLAS's own description), `core_type` that is in use, and `core_type_selected_by`:
 // "pbskin", "OpenBLAS", or "user" where the environment held OPENBLAS_CORETYPE. Empty where this process has loaded no OpenBLAS.
@@ -98,3 +99,6 @@ std::map<std::string, std::string> blas_in_use();
 void restart_with_better_blas_kernels(char** argv);
 
 }  // namespace experiments
+
+// The hash of the headers that the program and its modules share (cmake/shared_headers.cmake). Each module has a function of this name.
+extern "C" const char* pbskin_headers();

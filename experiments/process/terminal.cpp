@@ -24,6 +24,7 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <list>
 #include <map>
 #include <mutex>
 #include <new>
@@ -44,6 +45,7 @@ constexpr char last_words[] = "interrupted; what was finished is kept";
 std::atomic<pid_t> program = 0;  // the process that says that it was interrupted; its children say nothing
 std::atomic<pid_t> noting = 0;   // the process in which the next signal is only noted; 0: none
 std::atomic<bool> signalled = false;
+std::atomic<const char*> unsaid = "";
 
 // A child that notes signals goes on noting them, since a signal to its whole group reaches it twice: directly, and from its parent.
 void on_signal(int)
@@ -55,7 +57,7 @@ void on_signal(int)
     }
     pbs::AtomicFile::remove_unfinished();
     if (getpid() == program)
-        for (const char* text : {isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "", "pbskin: ", last_words, "\n"})
+        for (const char* text : {isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "", unsaid.load(), "pbskin: ", last_words, "\n"})
             if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;  // nobody reads it
     _exit(exit_interrupted);
 }
@@ -181,6 +183,12 @@ NotedInterrupts::~NotedInterrupts()
 bool interrupted()
 {
     return signalled;
+}
+
+void say_when_interrupted(const std::string& text)
+{
+    static std::list<std::string> texts;  // all of them, since the handler may be reading one
+    unsaid = texts.emplace_back(text).c_str();
 }
 
 bool take_interruption()

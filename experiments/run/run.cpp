@@ -286,10 +286,13 @@ private:
 
 }  // namespace
 
-RunResult run_scene(const Scene& scene, const std::string& folder, const Remarks& remarks, WhenInterrupted when_interrupted)
+RunResult run_scene(const Scene& scene, const std::string& folder, const Remarks& remarks, WhenInterrupted when_interrupted,
+                    std::optional<pbs::SourceFile> model)
 {
     std::optional<pbs::Stage> preparing("preparing " + scene.name);
+    if (!model) model.emplace(scene.character.model_file);  // the character, the motion and the materials are read from it
     SceneRun run(scene, folder, remarks, when_interrupted);
+    model.reset();
     preparing.reset();
     return run.run();
 }

@@ -3,9 +3,11 @@
 
 #include "analysis/records/provenance.hpp"
 #include "experiments/scene/scene.hpp"
+#include "pbs/geometry/source_file.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,8 +36,9 @@ enum class WhenInterrupted { stop, finish_early };
 // Overwrites the records in `folder`. Each file is written whole or not at all, run.json last. A breakdown of a negative control (the
 // printed forms, linear elasticity) is only recorded, under outcome.broken_frames.
 // remarks: what the caller has to say about the scene; they are printed and recorded before those of the run.
+// model: the scene's rigged model, if the caller has read it. Its bytes are kept until the first frame.
 RunResult run_scene(const Scene& scene, const std::string& folder, const Remarks& remarks = {},
-                    WhenInterrupted when_interrupted = WhenInterrupted::stop);
+                    WhenInterrupted when_interrupted = WhenInterrupted::stop, std::optional<pbs::SourceFile> model = {});
 
 // The parts of run.json that are the same for all runs.
 //   run["provenance"] = run_provenance(threads);   run["outcome"].update(run_end(stopwatch.seconds()));

@@ -1,7 +1,9 @@
 #include "experiments/run/run_remarks.hpp"
 
+#include "experiments/process/terminal.hpp"
 #include "pbs/character/body_cache.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -35,6 +37,7 @@ void RunRemarks::add(const pbs::RemarkList& remarks)
         else if (remark.gravity == pbs::Gravity::results_wrong && added - entries_.begin() < std::ptrdiff_t{most_warnings})
             say(*added, "warning");
     }
+    announce();
 }
 
 void RunRemarks::add(pbs::Gravity gravity, const std::vector<std::string>& texts)
@@ -48,9 +51,23 @@ void RunRemarks::say(Entry& entry, const char* kind)
     entry.is_said = true;
 }
 
+void RunRemarks::announce() const
+{
+    std::string text;
+    for (std::size_t e = 0; e < entries_.size() && spdlog::should_log(spdlog::level::warn); ++e)
+        if (!entries_[e].is_said) text += fmt::format("pbskin: {}: {}\n", kind_of(e), entries_[e].remark.text);
+    say_when_interrupted(text);
+}
+
 void RunRemarks::say_all()
 {
-    for (std::size_t e = 0; e < entries_.size(); ++e) say(entries_[e], e < warning_count() ? "warning" : "note");
+    for (std::size_t e = 0; e < entries_.size(); ++e) say(entries_[e], kind_of(e));
+    announce();
+}
+
+const char* RunRemarks::kind_of(std::size_t entry) const
+{
+    return entry < warning_count() ? "warning" : "note";
 }
 
 std::size_t RunRemarks::warning_count() const

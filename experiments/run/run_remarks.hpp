@@ -23,6 +23,7 @@ public:
     RunRemarks& operator=(const RunRemarks&) = delete;
 
     // Each text counts once. Notes, and the first warnings that make results wrong, are printed at once, so that a user can stop the run.
+    // The others are printed at its end or by an interruption.
     void add(const pbs::RemarkList& remarks);
     void add(pbs::Gravity gravity, const std::vector<std::string>& texts);
 
@@ -39,6 +40,8 @@ private:
         bool is_said = false;
     };
     void say(Entry& entry, const char* kind);
+    void announce() const;  // what an interruption is to print
+    const char* kind_of(std::size_t entry) const;
     std::size_t warning_count() const;
 
     std::vector<Entry> entries_;  // the gravest first, otherwise in order of time

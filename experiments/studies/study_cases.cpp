@@ -76,12 +76,8 @@ void add_differences(const nlohmann::json& a, const nlohmann::json& b, const std
 
 nlohmann::json cases_document(const std::string& study)
 {
-    const toml::table document = analysis::parse_toml_document(
-        *::cases::by_name.at(study), study + "/cases.toml",
-        {"case", "baseline", "place", "untouched", "method", "start", "budgets_ms", "tables_ms", "training_members", "start_poses", "added",
-         "scene", "sweep", "cells", "without_start", "tuned", "joint"});
     std::ostringstream json;
-    json << toml::json_formatter{document};
+    json << toml::json_formatter{analysis::parse_toml(*::cases::by_name.at(study), study + "/cases.toml")};
     nlohmann::json tables = nlohmann::json::parse(json.str());
     tables["case"] = each_of(tables.at("case"));
     return tables;

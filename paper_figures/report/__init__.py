@@ -26,8 +26,8 @@ def refusing(write):
 
 
 @refusing
-def main(results, quiet=False):
-    """Writes the page. Returns the exit status: 1 if it is too large."""
+def main(results, quiet=False, needs_model=False):
+    """Writes the page. Returns the exit status: 1 if it is too large, 3 if it lacks the moving model that it needs."""
     is_run, file = (results / "run.json").is_file(), results / "report.html"
     try:
         text, missing = run_page.page(results) if is_run else page.page(record_set.RecordSet(kept.opened(results)))
@@ -43,7 +43,7 @@ def main(results, quiet=False):
     if megabytes > most_mb:
         print(f"pbskin: {file}: {megabytes:.1f} MB: expected at most {most_mb}", file=sys.stderr)
         return 1
-    return 0
+    return 3 if needs_model and run_page.MODEL not in text else 0
 
 
 @refusing

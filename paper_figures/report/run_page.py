@@ -25,6 +25,7 @@ moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "notes?": [shapes.
          "motion?": {"largest_rotation_deg?": shapes.number, "clip_joints?": shapes.whole, "matched_joints?": shapes.whole,
                      "stretched_bones?": [{"bone": shapes.text, "change_pct": shapes.number, "frame": shapes.whole}]}}
 shape = shapes.run | {"scene": shapes.scene | {"name": shapes.text}, "outcome": moved}
+MODEL = 'id="viewer-block"'  # of the element of the page that has what the viewer shows
 animation = {"name": shapes.text, "duration_s": shapes.number, "largest_rotation_deg": shapes.number}
 trial = {"summary": shapes.text, "warnings": [shapes.text], "notes?": [shapes.text], "animations?": [animation]}
 
@@ -310,7 +311,7 @@ def viewer_of(found):
     kept = None
     if not any((found.folder / "frames").glob("*.vtu")):
         page = found.folder / "report.html"
-        viewer = r'<div id="frame-viewer">.*?id="viewer-block">.*?</script>(\s*<script type="module">.*?</script>)?'
+        viewer = rf'<div id="frame-viewer">.*?{MODEL}>.*?</script>(\s*<script type="module">.*?</script>)?'
         kept = page.is_file() and re.search(viewer, page.read_text(), re.DOTALL)
         if not kept:
             return None, ["viewer: frames/*.vtu: do not exist: `pbskin try --paraview` keeps them" if found.trial else

@@ -1,4 +1,4 @@
-// Characters by name (built in: limb, bar, ring; installed: human, and man, lady, frankie by `pbskin fetch`) and from files.
+// Characters by name (named_bodies) and from files.
 #pragma once
 
 #include "pbs/character/character.hpp"

@@ -42,6 +42,8 @@ void wait_for_turn(int lock_file, const std::string& key)
     ::fcntl(lock_file, F_OFD_SETLKW, &byte);
 }
 
+bool makes_meshes_anew = false;
+
 constexpr const char* format = ".vtu";  // Float64, so that what is read is what was made to the bit
 
 std::string hex(const XXH128_hash_t& hash)
@@ -126,7 +128,8 @@ void store(const std::string& key, const TetMesh& mesh)
 // The files that a glTF refers to. A buffer within the text ("data:...") is no file, and the reader refuses one that does not exist.
 std::vector<std::string> referred_files(const std::string& path)
 {
-    const std::string text = read_text_file(path, most_mesh_bytes), key = "\"uri\"", blank = " \t\r\n";
+    const SourceFile file(path);
+    const std::string &text = file.text(most_mesh_bytes), key = "\"uri\"", blank = " \t\r\n";
     std::vector<std::string> files;
     for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
         const std::size_t colon = text.find_first_not_of(blank, at + key.size());
@@ -164,7 +167,7 @@ std::string content_hash(const TetMesh& mesh)
 
 std::string hash_of_file(const std::string& path)
 {
-    return content_hash(read_text_file(path, most_mesh_bytes));
+    return content_hash(SourceFile(path).text(most_mesh_bytes));
 }
 
 std::string cache_folder()
@@ -188,6 +191,7 @@ std::string references_folder()
 TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make)
 {
     if (const std::optional<TetMesh> mesh = read_kept(key)) return *mesh;
+    if (makes_meshes_anew) return make();
     if (const std::optional<TetMesh> mesh = read_cached(key)) return *mesh;
     std::error_code ignored;
     fs::create_directories(cache_folder(), ignored);
@@ -197,6 +201,11 @@ TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make
     const TetMesh mesh = make();
     store(key, mesh);
     return mesh;
+}
+
+void make_meshes_anew()
+{
+    makes_meshes_anew = true;
 }
 
 std::string file_name(const std::string& path)

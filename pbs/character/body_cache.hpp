@@ -29,6 +29,8 @@ std::string references_folder();
 // Reads the mesh from that folder or from the cache, or makes and stores it while other processes wait. Where the cache cannot be written,
 // the mesh is made every time. InputError for a file of that folder that is damaged.
 TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make);
+// From now on, this process makes each mesh that is not in that folder, and stores none.
+void make_meshes_anew();
 
 // Records name files, not folders of the machine.
 std::string file_name(const std::string& path);

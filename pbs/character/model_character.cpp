@@ -211,7 +211,6 @@ std::shared_ptr<const RiggedModel> read_model(const std::string& file, const std
 {
     const Stage stage("reading " + file);
     auto model = std::make_shared<RiggedModel>();
-    model->file = std::make_shared<SourceFile>(file);
     model->rig = read_rig(file);
     model->animation = find_animation(model->rig, animation);
     model->body = make_rigged_body(model->rig, model->animation, scale);

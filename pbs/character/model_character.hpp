@@ -4,7 +4,6 @@
 
 #include "pbs/character/character.hpp"
 #include "pbs/character/remark.hpp"
-#include "pbs/geometry/source_file.hpp"
 #include "pbs/rig/rigged_body.hpp"
 
 #include <memory>
@@ -15,7 +14,6 @@ namespace pbs {
 
 // A rigged file as a character keeps it, for its animations and for the artist's own skinning.
 struct RiggedModel {
-    std::shared_ptr<const SourceFile> file = {};  // keeps the bytes, from which materials are read later
     Rig rig;
     RiggedBody body;
     const RigAnimation* animation = nullptr;  // of `rig`; null: it has none

@@ -77,6 +77,7 @@ public:
 // No process of this number is on this machine: what it left half-made can be removed.
 inline bool process_is_gone(pid_t process)
 {
+    if (process <= 0) return false;  // kill(2) takes such a number for a group
     if (::kill(process, 0) != 0 && errno == ESRCH) return true;
     std::string status;  // proc(5): number (name) state ...; Z and X have ended, and nobody has waited for them
     std::getline(std::ifstream("/proc/" + std::to_string(process) + "/stat"), status);

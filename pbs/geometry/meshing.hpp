@@ -22,14 +22,21 @@ TetMesh mesh_bar(int vertices);  // InputError, as of the limb, for fewer vertic
 // The tets' boundary lies up to about wrap_offset_m + wrap_alpha_m from the surface. If no offset is requested and the surface is not
 // watertight, a wrap that cannot be meshed is repeated with 3 times and then with 6 times the offset, so that the distance grows likewise.
 struct SurfaceMeshing {
-    int vertices = 2000;                    // wanted, 150 or more
-    double wrap_alpha_m = 0.0;              // smallest gap the wrap enters; 0: the bounding box's diagonal / 170
-    double wrap_offset_m = 0.0;             // 0: alpha / 3; 3 or 6 times that where open surfaces need it
-    double min_dihedral_deg = 5.0;          // required of every tet
-    std::optional<int> boundary_euler = 2;  // required of the boundary; 2: a ball, 0: a body with one handle; null: any
-    bool is_closed = true;                  // required of the surface: its wrap holds about what it encloses
-    bool is_one_piece = true;               // required of the tets
-    std::vector<Vec3> inside = {};          // points that must lie inside, e.g. joints
+    int vertices = 2000;         // wanted, 150 or more
+    double wrap_alpha_m = 0.0;   // smallest gap the wrap enters; 0: the bounding box's diagonal / 170
+    double wrap_offset_m = 0.0;  // 0: alpha / 3; 3 or 6 times that where open surfaces need it
+    // The sizes of facets and cells, which the search for the wanted number of vertices multiplies by one factor.
+    double cells_across = 2.9;                              // a facet is at most this part of the local thickness
+    double smallest_facet = 0.0042, largest_facet = 0.021;  // over the diagonal: they give a standing human 2,000 vertices
+    double facet_distance = 0.0032;                         // from the wrap, over the diagonal
+    double inside_to_skin = 1.2;                            // size of cells over size of facets
+    double radius_edge_ratio = 2.5;                         // largest of a cell
+    double good_dihedral_deg = 12.0;                        // perturbing and exuding end once all tets have it
+    double min_dihedral_deg = 5.0;                          // required of every tet
+    std::optional<int> boundary_euler = 2;                  // required of the boundary; 2: a ball, 0: a body with one handle; null: any
+    bool is_closed = true;                                  // required of the surface: its wrap holds about what it encloses
+    bool is_one_piece = true;                               // required of the tets
+    std::vector<Vec3> inside = {};                          // points that must lie inside, e.g. joints
 };
 // InputError where fewer than 150 vertices are requested; the surface has fewer than 4 triangles, a point that is not finite, an index out
 // of range or a diagonal below 1e-9 m; a surface that must be closed has no volume, or its wrap holds less than half or more than twice
@@ -44,8 +51,11 @@ struct FineBall {
     double radius_m = 0.0, size_m = 0.0;  // edges inside have about this length; outside it grows by a third of the distance
 };
 struct Remeshing {
-    unsigned seed = 0;  // another one changes all sizes by up to a tenth, at random, so that the refinement takes other points
+    unsigned seed = 0;  // another one changes all sizes by up to most_change, at random, so that the refinement takes other points
     std::vector<FineBall> fine = {};
+    double most_change = 0.1;
+    double facet_size = 0.75, cell_size = 0.9;  // over the edges of the boundary: they give as many vertices as the tets had
+    double facet_distance = 0.05;               // from the boundary, over its mean edge
 };
 // InputError where the boundary is not manifold; where the result would have a dihedral angle below 5 degrees, more pieces, another Euler
 // number or a boundary that intersects itself; and where it would take more than 30,000 vertices and six times those of the mesh.

@@ -118,19 +118,11 @@ private:
     std::vector<std::vector<Surface::Vertex_index>> parts_;
 };
 
-constexpr double radius_edge_ratio = 2.5, good_dihedral_deg = 12.0;
-
-// Relative to the diagonal of the body, at size 1: the value that gives a standing human 2,000 vertices.
-constexpr double smallest_cell = 0.0042, largest_cell = 0.021, facet_distance = 0.0032;
-constexpr double cells_across = 2.9;    // a cell is at most this part of the local thickness, at size 1
-constexpr double inside_to_skin = 1.2;  // size of cells over size of facets
-
 // |V| / diagonal^3 is 0.19 of the cube. Rounding leaves 1e-16 of a flat surface; a body so thin would be all wrap.
 constexpr double flat_surface = 1e-12;
 constexpr double smallest_m = 1e-9;       // squares and cubes of cells of a smaller surface leave the range that CGAL can compare
 constexpr double sheet_thickness = 0.05;  // over the diagonal: some tets across it at the default number of vertices
-constexpr double edge_to_facet_size = 0.75, edge_to_cell_size = 0.9;  // give as many vertices as the tets had
-constexpr double remeshed_distance = 0.05, most_change = 0.1, grading = 1.0 / 3.0;
+constexpr double grading = 1.0 / 3.0;     // of facets outside a FineBall
 constexpr const char *boundary_not_manifold = "the boundary is not manifold", *no_tets = "no tets";
 
 // Bounds on the work, far above what a sound mesh takes. They count points, so that a slow machine makes the same meshes. A thin layer is
@@ -199,8 +191,9 @@ std::vector<double> local_thickness(const Surface& surface, const Tree& tree, do
 // A wrapped body, ready to be meshed at any cell size.
 class WrappedBody : public EnclosedBody {
 public:
-    WrappedBody(const SurfaceMesh& surface, double alpha, double offset)
+    WrappedBody(const SurfaceMesh& surface, double alpha, double offset, const SurfaceMeshing& options)
         : EnclosedBody(wrap(surface, alpha, offset)),
+          options_(options),
           diagonal_(diagonal_m(surface.points)),
           tree_(faces(surface_).begin(), faces(surface_).end(), surface_)
     {
@@ -217,21 +210,22 @@ public:
     double relative_size(const Point& p) const override
     {
         const double thickness = thickness_[tree_.closest_point_and_primitive(p).second.idx()];
-        return std::clamp(thickness / cells_across, smallest_cell * diagonal_, largest_cell * diagonal_);
+        return std::clamp(thickness / options_.cells_across, options_.smallest_facet * diagonal_, options_.largest_facet * diagonal_);
     }
 
-    // size 1: cells as above; distance 1: facets as near to the wrap as above. sliver_bound_deg: see MeshCriteria.
+    // size 1: cells as in the options; distance 1: facets as near to the wrap as there. sliver_bound_deg: see MeshCriteria.
     MeshCriteria criteria(double size, double distance, std::optional<double> sliver_bound_deg = {}) const
     {
         return {.facet_size = size,
-                .cell_size = inside_to_skin * size,
-                .facet_distance = facet_distance * diagonal_ * distance * size,
-                .radius_edge_ratio = radius_edge_ratio,
+                .cell_size = options_.inside_to_skin * size,
+                .facet_distance = options_.facet_distance * diagonal_ * distance * size,
+                .radius_edge_ratio = options_.radius_edge_ratio,
                 .is_manifold = true,
                 .sliver_bound_deg = sliver_bound_deg};
     }
 
 private:
+    const SurfaceMeshing& options_;
     double diagonal_;
     Tree tree_;
     std::vector<double> thickness_;
@@ -269,7 +263,7 @@ public:
         for (const auto face : surface_.faces()) {
             double sum = 0.0;
             for (const auto edge : CGAL::halfedges_around_face(surface_.halfedge(face), surface_)) sum += pmp::edge_length(edge, surface_);
-            factor_.push_back(1.0 + (options.seed == 0 ? 0.0 : most_change * (2.0 * random() / std::mt19937::max() - 1.0)));
+            factor_.push_back(1.0 + (options.seed == 0 ? 0.0 : options.most_change * (2.0 * random() / std::mt19937::max() - 1.0)));
             size_.push_back(factor_.back() * sum / 3.0);
         }
     }
@@ -392,7 +386,7 @@ std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, do
 {
     const auto wanted = static_cast<std::size_t>(options.vertices);
     Effort effort = {std::max(least_bound, bound_over_wanted * wanted), std::max(least_in_all, in_all_over_wanted * wanted)};
-    WrappedBody body(surface, alpha, offset);
+    WrappedBody body(surface, alpha, offset, options);
     const double ratio = body.volume() / std::abs(fan_volume(surface.points, surface.triangles));
     if (options.is_closed && is_far_off(ratio))
         throw InputError("", 0, "wrapped volume / enclosed volume", std::to_string(ratio),
@@ -402,7 +396,7 @@ std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, do
     for (const double distance : {1.0, 0.8, 1.25, 0.65, 1.5, 0.5}) try {
             const Stage stage("filling the wrap with tets, attempt " + std::to_string(++attempt));
             const double size = size_of(body, options.vertices, distance, effort);
-            TetMesh mesh = mesh_within(effort, body, body.criteria(size, distance, good_dihedral_deg));
+            TetMesh mesh = mesh_within(effort, body, body.criteria(size, distance, options.good_dihedral_deg));
             const std::string breach = breach_of(mesh, options);
             if (breach.empty()) return mesh;
             why.emplace("", 0, "surface", "", "could not be meshed with the quality asked: " + breach + "; " + advice(ratio));
@@ -473,18 +467,19 @@ TetMesh mesh_anew(const TetMesh& mesh, const Remeshing& options)
         throw InputError("", 0, "tets", std::to_string(mesh.tets.rows()),
                          "expected some with a manifold boundary, to mesh its inside anew");
     RemeshedBody body(boundary_surface(mesh), options);
-    const MeshCriteria criteria = {.facet_size = edge_to_facet_size,
-                                   .cell_size = edge_to_cell_size,
-                                   .facet_distance = remeshed_distance * body.mean_size(),
-                                   .radius_edge_ratio = radius_edge_ratio,
+    const SurfaceMeshing required = {.boundary_euler = topology.boundary_euler, .is_one_piece = topology.components == 1};
+    const MeshCriteria criteria = {.facet_size = options.facet_size,
+                                   .cell_size = options.cell_size,
+                                   .facet_distance = options.facet_distance * body.mean_size(),
+                                   .radius_edge_ratio = required.radius_edge_ratio,
                                    .is_manifold = true,
-                                   .sliver_bound_deg = good_dihedral_deg};
+                                   .sliver_bound_deg = required.good_dihedral_deg};
     const std::size_t most = std::max(least_bound, bound_over_wanted * static_cast<std::size_t>(mesh.rest.rows()));
     Effort effort = {most, most};
     std::string breach;
     try {
         TetMesh other = mesh_within(effort, body, criteria);
-        breach = breach_of(other, {.boundary_euler = topology.boundary_euler, .is_one_piece = topology.components == 1});
+        breach = breach_of(other, required);
         if (breach.empty()) return other;
     } catch (const TooManyVertices& reached) {
         breach = reached.vertices + " vertices";

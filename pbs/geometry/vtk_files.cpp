@@ -4,6 +4,7 @@
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
+#include "pbs/geometry/source_file.hpp"
 #include "pbs/geometry/text_words.hpp"
 
 #include <vtkCell.h>
@@ -81,7 +82,7 @@ std::string sentence_of(const std::string& message)
     std::string words = message.substr(begin, end == std::string::npos ? end : end - begin);
     for (char& c : words)
         if (c == '\n') c = ' ';
-    words.erase(std::min(words.find(" for file:"), words.size()));  // whose name stands before these words
+    words.erase(std::min(words.find(" for file:"), words.size()));      // whose name stands before these words
     if (words.starts_with("Algorithm ")) return "the file is damaged";  // what follows are addresses in memory
     return words;
 }
@@ -124,7 +125,7 @@ void set_source(const std::string& path, vtkXMLPUnstructuredGridReader& reader)
 void set_source(const std::string& path, vtkXMLReader& reader)
 {
     reader.ReadFromInputStringOn();
-    reader.SetInputString(read_text_file(path, most_mesh_bytes));
+    reader.SetInputString(SourceFile(path).text(most_mesh_bytes));
 }
 
 // Without the arrays of points and cells, whose defects are no matter here, except the one that marks what pieces share.
@@ -169,7 +170,7 @@ vtkSmartPointer<vtkDataObject> read_data(const std::string& path, const std::str
         reader->ReadAllFieldsOn();
         collect_messages();
         reader->ReadFromInputStringOn();
-        reader->SetInputString(read_text_file(path, most_mesh_bytes));
+        reader->SetInputString(SourceFile(path).text(most_mesh_bytes));
         reader->Update();
         throw_if_any_message(path);
         return reader->GetOutput();
@@ -197,11 +198,11 @@ Positions points_in(vtkPointSet& data)
 vtkSmartPointer<vtkUnstructuredGrid> legacy_grid(const std::string& path)
 {
     collect_messages();
-    std::string text = read_text_file(path, most_mesh_bytes);
-    text.erase(std::min({text.find("\nPOINT_DATA "), text.find("\nCELL_DATA "), text.size()}));
+    const SourceFile file(path);
+    const std::string& text = file.text(most_mesh_bytes);
     vtkNew<vtkUnstructuredGridReader> reader;
     reader->ReadFromInputStringOn();
-    reader->SetInputString(text + '\n');
+    reader->SetInputString(text.substr(0, std::min(text.find("\nPOINT_DATA "), text.find("\nCELL_DATA "))) + '\n');
     return grid_of(path, *reader.Get());
 }
 

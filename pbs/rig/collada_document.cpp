@@ -287,7 +287,9 @@ void move_far_points_to_the_origin(ColladaXml& document, ColladaDocument& result
     constexpr double far_away = 100.0;  // sizes; nearer, single precision has an error below 1e-5 of the size
     bool has_far = false;
     for (const pugi::xpath_node& found : document.root().select_nodes("library_geometries/geometry[@id]/mesh")) {
-        Vec3& origin = result.origins.try_emplace(id_of(found.node().parent()), Vec3::Zero()).first->second;
+        const std::string id = id_of(found.node().parent());
+        const auto [entry, is_new] = result.origins.try_emplace(id, Vec3::Zero());
+        if (!is_new) throw InputError(document.path(), 0, "geometry", id, "two have this id: expected one id per geometry");
         const pugi::xml_node source = document.source(found.node().child("vertices"), "POSITION");
         const pugi::xml_node accessor = source.child("technique_common").child("accessor");
         const Positions points = rows_of_three(source.child("float_array"));
@@ -299,7 +301,7 @@ void move_far_points_to_the_origin(ColladaXml& document, ColladaDocument& result
         const Positions near = points.rowwise() - points.row(0);
         for (const double number : near.reshaped<Eigen::RowMajor>()) text += number_text(number, 17) + " ";
         source.child("float_array").text() = text.c_str();
-        origin = points.row(0);
+        entry->second = points.row(0);
         has_far = true;
     }
     pugi::xml_attribute unit = document.root().child("asset").child("unit").attribute("meter");

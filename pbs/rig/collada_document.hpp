@@ -28,8 +28,8 @@ struct ColladaDocument {
 // - a node of library_nodes that the scene instantiates once: the node itself
 // - a controller of several skeletons: one for each, with joints of other names.
 // InputErrors: a negative index of a polygon, which assimp takes for 0; a weight, of a skin that the scene uses, that is negative or not
-// finite; a curve of another kind, or a Bezier curve of matrices; joints of two skeletons that are known by their ids. Text that is not XML
-// is left to assimp.
+// finite; a curve of another kind, or a Bezier curve of matrices; joints of two skeletons that are known by their ids; two geometries with
+// one id. Text that is not XML is left to assimp.
 ColladaDocument read_collada_document(const std::string& path);
 
 }  // namespace pbs

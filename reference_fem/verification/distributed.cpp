@@ -5,10 +5,12 @@
 
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/tables.hpp"
+#include "pbs/geometry/child_process.hpp"
 
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
-#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 
 namespace reference_fem {
@@ -22,16 +24,14 @@ namespace fs = std::filesystem;
 constexpr double mode_share = 0.78;
 const std::string bound_text = "both solutions' relative residuals over 0.78, the share of a uniform load in a cantilever's first mode";
 
-// The output of a shell command; nothing where it fails.
-std::optional<std::string> output_of(const std::string& command)
+// Whether a shell command succeeds. It ends with this process, and so does a program that takes the place of its shell (exec).
+bool succeeds(const std::string& command)
 {
-    FILE* pipe = popen(command.c_str(), "r");
-    if (!pipe) return std::nullopt;
-    std::string text;
-    char part[4096];
-    while (const std::size_t size = std::fread(part, 1, sizeof(part), pipe)) text.append(part, size);
-    if (pclose(pipe) != 0) return std::nullopt;
-    return text;
+    pbs::ChildProcess shell([&] {
+        execl("/bin/sh", "sh", "-c", (command + " >/dev/null 2>&1").c_str(), nullptr);
+        return pbs::ChildEnd{"", EXIT_FAILURE};
+    });
+    return shell.wait() == 0;
 }
 
 struct Answer {
@@ -43,18 +43,17 @@ class Program {
 public:
     Program() : path_(fs::read_symlink("/proc/self/exe").parent_path() / "pbskin_distributed") {}
 
-    bool is_installed() const { return fs::exists(path_) && output_of("command -v mpirun"); }
+    bool is_installed() const { return fs::exists(path_) && succeeds("command -v mpirun"); }
 
     // Without mpirun where ranks is 0.
     std::optional<Answer> solve(int ranks, int element_order, const std::string& arguments) const
     {
         const analysis::ScratchFolder folder;
         const std::string launch = ranks ? "mpirun --allow-run-as-root --oversubscribe -n " + std::to_string(ranks) + " " : "";
-        const auto text =
-            output_of(launch + "'" + path_.string() + "' --bar 3000 --gravity 0 0 -9.81 --order " + std::to_string(element_order) +
-                      " --nodes -o " + folder.path().string() + " " + arguments + " 2>/dev/null");
-        if (!text) return {};
-        return Answer{nlohmann::json::parse(*text), displacement_in(folder / "nodes.csv")};
+        if (!succeeds("exec " + launch + "'" + path_.string() + "' --bar 3000 --gravity 0 0 -9.81 --order " +
+                      std::to_string(element_order) + " --nodes -o " + folder.path().string() + " " + arguments))
+            return {};
+        return Answer{analysis::read_record(folder / "record.json"), displacement_in(folder / "nodes.csv")};
     }
 
 private:

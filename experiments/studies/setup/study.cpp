@@ -22,7 +22,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 namespace experiments {
@@ -40,22 +39,6 @@ std::vector<std::string> shared_overrides(double rate_hz, const std::string& def
             R"(reference.name="")",
             "output.frames=[]",
             "output.frame_names=[]"};
-}
-
-// Sets an empty cache of meshes. Fetched packages remain visible in it.
-void use_own_cache(const fs::path& cache)
-{
-    const fs::path packages = fs::path(pbs::cache_folder()) / "packages";
-    fs::create_directories(cache);
-    if (fs::exists(packages)) fs::create_directory_symlink(fs::absolute(packages), cache / "packages");
-    setenv("PBSKIN_CACHE", cache.c_str(), 1);
-}
-
-// So that every trial meshes anew.
-void forget_meshes(const fs::path& cache)
-{
-    for (const fs::path& file : analysis::files_in(cache))
-        if (file.filename() != "packages") fs::remove_all(file);
 }
 
 analysis::CaseKey key_of(const BodySetup& setup)
@@ -191,21 +174,16 @@ std::vector<Measurement> not_set_up(const analysis::CaseKey& key)
 
 namespace {
 
-// Runs the body in `folder`/run and writes measurements.csv, changed_keys.csv and trials.csv. The run has its own cache of meshes, which
-// is removed afterwards; PBSKIN_CACHE of this process is set to it. Returns the failure of the last trial, if any.
+// Runs the body in `folder`/run and writes measurements.csv, changed_keys.csv and trials.csv. Every trial meshes anew. Returns the failure
+// of the last trial, if any.
 std::string set_up_and_record(const SetupCase& setup_case, const std::string& folder)
 {
     const auto& [setup, rate_hz] = setup_case;
-    const fs::path cache = fs::absolute(folder) / "cache", run_folder = fs::path(folder) / "run";
-    fs::remove_all(cache);
-    use_own_cache(cache);
-    const auto run = [&](const BodySetup& own) {
-        forget_meshes(cache);
-        return run_scene(scene_of(own, setup_case.rate_hz), run_folder.string()).failure();
-    };
+    const fs::path run_folder = fs::path(folder) / "run";
+    pbs::make_meshes_anew();
+    const auto run = [&](const BodySetup& own) { return run_scene(scene_of(own, setup_case.rate_hz), run_folder.string()).failure(); };
     const BodySetup own = with_files(setup, folder);
     const std::vector<TriedSetup> tried = tried_setups(own, run);
-    fs::remove_all(cache);
 
     const BodySetup& last = tried.back().setup;
     const bool runs = tried.back().failure.empty();

@@ -4,6 +4,7 @@ experiments/command_line/README.md; what is fetched is complete and checked, or 
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import time
@@ -154,6 +155,18 @@ class CommandLine(foreign_arm.ArmTest):
         self.assertIn("libstdc++", loaded)
         self.assertNotIn("libdeal", loaded)
         self.assertNotIn("libpbskin_fem", loaded)
+
+    @unittest.skipUnless(program.HAS_FEM, "the finite elements are not installed")
+    def test_a_module_of_other_headers_is_refused(self):
+        def hashes(file):
+            return set(re.findall(rb"(?<![0-9a-f])[0-9a-f]{64}(?![0-9a-f])", pathlib.Path(file).read_bytes()))
+
+        [module] = [file for file in program.MODULES if file.endswith("_fem.so")]
+        [own] = hashes(module) & hashes(program.PBSKIN)
+        other = pathlib.Path(self.path("libpbskin_fem.so"))
+        other.write_bytes(pathlib.Path(module).read_bytes().replace(own, own[::-1]))
+        self.refuses(f"{other}: was built from other headers than this program", "run", "limb_twist", "-o", self.path("out"),
+                     env=os.environ | {"PBSKIN_MODULES": self.folder})
 
     def test_interrupt_keeps_whole_files(self):
         process = subprocess.Popen([program.PBSKIN, "run", self.scene, "-o", self.path("out"), "--set", "motion.frames=100000",

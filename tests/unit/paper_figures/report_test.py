@@ -109,6 +109,7 @@ class Report(ReportTest):
         self.assertEqual(sorted(table), judged)  # by topic
         lines = re.findall(r'<details class="claim" id="(\w+)"><summary>.*?<span class="mark \w+">.*?</span> ([\w ]+)</span>', text)
         self.assertEqual(lines, judged)
+        self.assertIn('<td class="measured">107 to 233 frames/s<span class="under">asked: 30 or more</span></td>', text)
         self.assertIn('<a href="volume/limb_twist/">volume/limb_twist</a>', text)
         self.assertIn("<li>1 of 3 cases hold, share 0.333 [0.01, 0.91]</li>", text)
         self.assertIn("<li>frames per second: 107 to 233 1/s, threshold 30 or more</li>", text)

@@ -5,7 +5,7 @@ import unittest
 from results_case import ResultsTest, root
 import synthetic_records
 from synthetic_records import case, claim, selection
-from words import case_words, sentences
+from words import case_words, methods_of_run, sentences
 
 
 class CaseWords(unittest.TestCase):
@@ -26,6 +26,13 @@ class CaseWords(unittest.TestCase):
     def test_a_material_has_six_digits_of_poissons_ratio(self):
         self.assertEqual(case_words.material({"material": "neo_hookean", "poisson": repr(1 / 3)}), "neo-Hookean, nu = 0.333333")
         self.assertEqual(case_words.material({"material": "linear", "poisson": ""}), "linear")
+
+
+class MethodsOfRun(unittest.TestCase):
+    def test_the_volume_changes_most_and_least_by_its_size_not_its_sign(self):
+        changes = {"DQS": -0.2, "LBS": -3.0, "PBS": 0.25, "FEM": None}
+        self.assertEqual(methods_of_run.largest_change([{"name": name, "volume_pct": change} for name, change in changes.items()]),
+                         "The volume changes most under LBS, by \u22123 %, and least under DQS, by \u22120.2 %")
 
 
 class Bounds(unittest.TestCase):

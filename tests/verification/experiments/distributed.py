@@ -9,6 +9,7 @@ import json
 import os
 import pathlib
 import subprocess
+import time
 import unittest
 
 import numpy
@@ -109,6 +110,20 @@ class Outcomes(program.ProgramTest):
         self.assertFalse(record["converged"])
         self.assertEqual(record["iterations"], 3)
         self.assertGreater(record["relative_residual"], 1e-10)
+
+    def test_mpirun_ends_with_the_program_that_started_it(self):
+        """A stand-in for mpirun, which would go on for a minute."""
+        self.script("mpirun", f"echo $$ > {self.path('process')}\nexec sleep 60\n")
+        path = f"{self.folder}:{os.environ['PATH']}"
+        with subprocess.Popen([program.PBSKIN, "reproduce", "verification", "--only", "distributed", "-o", self.path("out"), "--quiet"],
+                              env=ENVIRONMENT | {"PATH": path}) as process:
+            while process.poll() is None and not (os.path.exists(self.path("process")) and self.read("process")):
+                time.sleep(0.01)
+            process.terminate()
+        deadline = time.monotonic() + 5
+        while (left := int(self.read("process")) in program.statuses()) and time.monotonic() < deadline:
+            time.sleep(0.01)
+        self.assertFalse(left)
 
     def test_bad_input_is_refused_by_all_ranks(self):
         damaged = self.write("damaged.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n")

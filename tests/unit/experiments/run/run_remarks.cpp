@@ -1,8 +1,10 @@
 // The remarks of a run. Reference: the rule of remark.hpp, by hand.
+#include "experiments/process/terminal.hpp"
 #include "experiments/run/run_remarks.hpp"
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <regex>
 #include <stdexcept>
 
@@ -55,6 +57,23 @@ TEST(RunRemarks, ArePrintedOnceAndTheGravestAtOnce)
     }
     EXPECT_EQ(printed(), "") << "all were said before it ended";
     testing::internal::GetCapturedStdout();
+}
+
+TEST(RunRemarks, AreSaidByTheSignalThatEndsTheProgram)
+{
+    const auto interrupted_with = [](const std::string& text, const auto& use) {
+        EXPECT_EXIT(
+            {
+                watch_interrupts();
+                RunRemarks remarks;
+                remarks.add(Gravity::part_left_out, {"x/a: 1"});
+                use(remarks);
+                std::raise(SIGTERM);
+            },
+            testing::ExitedWithCode(exit_interrupted), "^" + text + "pbskin: interrupted");
+    };
+    interrupted_with("pbskin: warning: x/a: 1\n", [](RunRemarks&) {});
+    interrupted_with("", [](RunRemarks& remarks) { remarks.say_all(); });
 }
 
 TEST(RunRemarks, AreSaidWhereARunIsInterrupted)

@@ -13,6 +13,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <string>
 
 namespace {
@@ -43,6 +44,7 @@ TEST(ChildProcess, IsEndedAndWaitedForByItsDestructor)
 TEST(Process, IsGoneOnceItHasEndedThoughNobodyHasAskedHow)
 {
     EXPECT_FALSE(pbs::process_is_gone(getpid()));
+    for (const pid_t none : {0, -std::numeric_limits<pid_t>::max()}) EXPECT_FALSE(pbs::process_is_gone(none));
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {

@@ -81,6 +81,17 @@ TEST(ColladaWeights, TheirPlaceFollowsTheAccessor)
     expect_refused(text, "3 = -0.2");
 }
 
+// assimp would show the last one for both.
+TEST(ColladaGeometries, OfOneIdAreRefused)
+{
+    const ScratchFolder folder;
+    std::string text = test_support::collada_arm();
+    const std::size_t begin = text.find("<geometry "), end = text.find("</geometry>") + 11;
+    text.insert(end, text.substr(begin, end - begin));
+    const std::string path = folder.file("arm.dae", text);
+    expect_input_error([&] { pbs::read_collada_document(path); }, path + ": geometry = arm: ", "expected one id per geometry");
+}
+
 // Points near the origin replace those of a geometry that is far from it.
 TEST(ColladaFarFromTheOrigin, IsLeftAsItIsWhereAWordIsNoNumber)
 {
