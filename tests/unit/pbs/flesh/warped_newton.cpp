@@ -139,6 +139,14 @@ TEST(WarpedNewton, TheFirstStepFromRestIsOfSecondOrder)
     EXPECT_NEAR(std::log2(Bent(0.2).distance(one_step) / Bent(0.1).distance(one_step)), 2.0, 0.05);
 }
 
+// The pairs correct the stiffness at rest where the flesh has turned away from the axes that the matrix knows.
+TEST(WarpedNewton, HistorySavesSteps)
+{
+    const Bent bent(10.0);
+    const auto distance = [&](int history) { return bent.distance({.iterations = 8, .history = history}); };
+    EXPECT_LT(distance(5), 0.5 * distance(0));
+}
+
 TEST(WarpedNewton, ReportsEnergiesThatDoNotIncreaseAndCountsItsWork)
 {
     const Bent bent(70.0);
