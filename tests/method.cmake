@@ -14,8 +14,8 @@ pbs_tests(unit pbs_geometry FOLDERS pbs/geometry
     ALONE pbs/geometry/topology
     LIBRARIES pbs_method)
 pbs_tests(unit pbs_skinning FOLDERS pbs/skinning pbs/constraints
-    ALONE pbs/skinning/blend pbs/skinning/contract pbs/skinning/delta_mush pbs/skinning/pose pbs/skinning/pose_path pbs/skinning/weights
-        pbs/constraints/contract pbs/constraints/region_volume pbs/constraints/volume_printed
+    ALONE pbs/skinning/blend pbs/skinning/contract pbs/skinning/correctives pbs/skinning/delta_mush pbs/skinning/pose
+        pbs/skinning/pose_path pbs/skinning/weights pbs/constraints/contract pbs/constraints/region_volume pbs/constraints/volume_printed
     LIBRARIES pbs_method)
 pbs_tests(unit pbs_solver FOLDERS pbs/packed pbs/contact pbs/solver pbs/author
     ALONE pbs/solver/batched/batch_program pbs/solver/batched/batched_projection pbs/solver/batched/kernels

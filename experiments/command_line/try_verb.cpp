@@ -7,6 +7,7 @@
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/run/run_folder.hpp"
+#include "experiments/trial/bake.hpp"
 #include "experiments/trial/trial.hpp"
 #include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -128,6 +129,12 @@ int try_model(TrialOptions options, const CommonOptions& common)
     nlohmann::json facts = trial_facts(options.folder);
     facts["animations"] = made.animations;
     facts["summary"] = trial_sentence(facts);
+    if (options.bake && !result.was_interrupted) {
+        BakeOptions bake{.seconds = options.reference_seconds, .surface_files = options.paraview};
+        if (!options.paraview) bake.most_glb_bytes = most_glb_bytes;
+        facts["correctives"] = bake_correctives(read_scene(scene_file, {}), options.folder, bake);
+        spdlog::info("{}", bake_sentence(facts["correctives"], options.folder));
+    }
     analysis::write_text_atomically((fs::path(options.folder) / "try.json").string(), analysis::record_text(facts));
     const int written = write_report_page(options.folder, common.quiet, true);
     const int page = written == page_without_model ? exit_finished : written;
@@ -179,22 +186,24 @@ void add_try_verb(CommandLine& line)
         ->check(CLI::Range(150, 10'000'000));
     verb->add_option("--skeleton", options->skeleton, "skeleton of a model without joints: a file, or human");
     verb->add_option("--scale", options->scale, "enlarges the model, for files that state a wrong unit");
-    verb->add_flag("--paraview", options->paraview, "keeps the frames for ParaView too (.vtu, .vtp), which take most of the space");
+    verb->add_flag("--paraview", options->paraview, "keeps the frames for ParaView too (.vtu, .vtp): most of the space");
     verb->add_flag("--allow-partial", options->allow_partial,
                    "accepts a clip of which fewer than half of the moving joints match a bone, or one half of a limb alone does");
+    auto* bake = verb->add_flag("--bake", options->bake, "learns shapes of the reference, as correctives for scenes and engines");
     auto* error_bar = verb->add_flag(
         "--error-bar", options->error_bar,
         "also bounds the reference's own error, by three further solutions per frame, two of them on tets cut into eight. With 2,000 "
         "vertices each frame takes minutes, and the run needs 6 GB: choose a few --frames");
     auto* seconds = verb->add_option("--reference-seconds", options->reference_seconds,
-                                     "processor time for the finite elements, spent on evenly spread frames; 0: on all, whatever they take")
+                                     "processor time of finite elements, evenly over frames; 0: no limit")
                         ->check(CLI::Range(0.0, 1e7))
                         ->capture_default_str()
                         ->excludes(error_bar);
     verb->add_flag_callback(
             "--no-reference", [options] { options->reference = false; }, "leaves out the finite elements, which take most of the time")
         ->excludes(error_bar)
-        ->excludes(seconds);
+        ->excludes(seconds)
+        ->excludes(bake);
 }
 
 }  // namespace experiments

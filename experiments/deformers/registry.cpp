@@ -17,6 +17,7 @@ std::vector<DeformerKind>& registered()
         dqs_kind(),
         delta_mush_kind(),
         direct_delta_mush_kind(),
+        correctives_kind(),
         pbs_kind(),
         pbs_author_kind(),
         xpbd_kind(),

@@ -56,6 +56,7 @@ DeformerKind lbs_kind();
 DeformerKind dqs_kind();
 DeformerKind delta_mush_kind();
 DeformerKind direct_delta_mush_kind();
+DeformerKind correctives_kind();
 DeformerKind pbs_kind();
 DeformerKind pbs_author_kind();
 DeformerKind xpbd_kind();

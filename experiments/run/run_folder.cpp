@@ -6,6 +6,7 @@
 #include "experiments/run/run.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/model_character.hpp"
+#include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/topology.hpp"
@@ -68,10 +69,10 @@ bool has_artist_skin(const pbs::Character& character)
     return character.artist && character.artist->model && !character.artist->model->body.skeleton.bones.empty();
 }
 
-// The files that RunFolder writes into frames/: LABEL_000123.vtu, LABEL_surface_000123.vtp, LABEL.pvd, LABEL.glb.
+// The files in frames/: LABEL_000123.vtu, LABEL_surface_000123.vtp, LABEL.pvd and LABEL.glb, and correctives.toml of a trial.
 bool is_own_frame(const fs::path& file)
 {
-    static const std::regex own("[A-Za-z0-9_]+_[0-9]{6}\\.vt[up]|[A-Za-z0-9_]+\\.(pvd|glb)");
+    static const std::regex own("[A-Za-z0-9_]+_[0-9]{6}\\.vt[up]|[A-Za-z0-9_]+\\.(pvd|glb)|correctives\\.toml");
     return std::regex_match(file.filename().string(), own);
 }
 
@@ -203,7 +204,7 @@ void RunFolder::write_artist_skin(int frame, double time_s, const pbs::Character
 void remove_frames(const std::string& folder)
 {
     for (const fs::path& file : analysis::files_in(fs::path(folder) / "frames"))
-        if (is_own_frame(file) && file.extension() != ".glb") analysis::remove_record(file);
+        if (is_own_frame(file) && file.extension() != ".glb" && file.extension() != ".toml") analysis::remove_record(file);
 }
 
 void RunFolder::write_tables(bool with_moving_surfaces)

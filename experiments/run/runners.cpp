@@ -1,7 +1,6 @@
 #include "experiments/run/runners.hpp"
 
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "experiments/run/spread_reference.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/mesh_io.hpp"
@@ -38,12 +37,17 @@ std::unique_ptr<Deformer> deformer_of(const DeformerSpec& spec, const Scene& sce
                                       const std::string& folder, WhenInterrupted when_interrupted)
 {
     if (scene.reference_seconds == 0.0 || spec.name != scene.reference) return make_deformer(spec);
-    const ReferenceBudget budget{scene.reference_seconds, folder + "/reference_frames.cbor", reference_key(spec, character),
-                                 when_interrupted == WhenInterrupted::finish_early};
-    return std::make_unique<SpreadReference>(spec, budget);
+    return std::make_unique<SpreadReference>(
+        spec, reference_budget(spec, character, folder, scene.reference_seconds, when_interrupted == WhenInterrupted::finish_early));
 }
 
 }  // namespace
+
+ReferenceBudget reference_budget(const DeformerSpec& reference, const pbs::Character& character, const std::string& folder, double seconds,
+                                 bool goes_on_without_the_rest)
+{
+    return {seconds, folder + "/reference_frames.cbor", reference_key(reference, character), goes_on_without_the_rest};
+}
 
 bool Runner::has_inverted_flesh(const FrameMeasurer& measurer) const
 {

@@ -5,6 +5,7 @@
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/run/run_folder.hpp"
+#include "experiments/run/spread_reference.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -38,6 +39,10 @@ struct Runner {
 // reference with a budget keeps its solved frames.
 std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& character, CostRecord& cost, const std::string& folder,
                                  WhenInterrupted when_interrupted);
+
+// The budget of a reference whose solved frames a run of the scene keeps in its folder, so that they are found again.
+ReferenceBudget reference_budget(const DeformerSpec& reference, const pbs::Character& character, const std::string& folder, double seconds,
+                                 bool goes_on_without_the_rest);
 
 // Vertices whose positions any of the deformers is given, #V; empty: none. Errors leave them out.
 std::vector<bool> prescribed_by_any(const std::vector<Runner>& runners);

@@ -250,6 +250,8 @@ TrialScene trial_scene(const TrialOptions& options)
     TrialScene made;
     const std::string moved = motion(options, made);
     const bool reference = options.reference && finds_the_finite_elements(options, made.remarks.warnings);
+    if (options.bake && !reference)
+        throw pbs::InputError(options.model, 0, "--bake", "", "expected the finite elements, from which correctives are learned");
     std::string character = fmt::format("model = {}\n", quoted(from_folder(options.model, options.folder)));
     if (options.scale != 1.0) character += fmt::format("scale = {}\n", nlohmann::json(options.scale).dump());
     if (options.vertices > 0) character += fmt::format("vertices = {}\n", options.vertices);

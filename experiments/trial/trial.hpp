@@ -23,6 +23,7 @@ struct TrialOptions {
     double reference_seconds = 120.0;  // of processor time, for all frames of the reference; 0: no limit
     bool reference = true;             // also left out, with a remark, where the finite elements are not installed
     bool allow_partial = false;
+    bool bake = false;      // learns correctives from the reference, which then may not be left out
     bool paraview = false;  // the frames are kept as .vtu and .vtp too
 };
 
@@ -78,6 +79,7 @@ std::string earlier_trial_scene(const TrialOptions& options);
 //   interrupted   whether the trial was interrupted and has only what was finished by then
 //   from_artist   where the surface carried by the tets under lbs is farthest from the artist's: largest_pct of the model's size, frame,
 //                 the bones of surface and flesh there, and the gap between them at rest; null: not compared
+//   correctives   what `--bake` learned (bake.hpp); not there without it
 //   control       the files of the surface by the format's own skinning; null: the model has no joints and so no skinning
 // An InputError where the run's records are missing or damaged.
 nlohmann::json trial_facts(const std::string& folder);
@@ -87,5 +89,9 @@ nlohmann::json trial_facts(const std::string& folder);
 // where it was estimated. The last sentence is that for whoever decides: what PBS changes on this model, by how much, at what cost, and
 // which frame to look at.
 std::string trial_sentence(const nlohmann::json& facts);
+
+// What was learned with --bake, in how many seconds, how near it is in the frames that were held out, and where it is. correctives: the
+// facts of bake.hpp.
+std::string bake_sentence(const nlohmann::json& correctives, const std::string& folder);
 
 }  // namespace experiments

@@ -18,9 +18,15 @@ using nlohmann::json;
 constexpr double most_glb_bytes = 4.2e9;  // its lengths have 32 bits; some room for the description
 constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8, bytes_per_number = 4;
-constexpr int of_indices = 5125, of_floats = 5126;                             // component types: unsigned int, float
+constexpr int of_shorts = 5123, of_indices = 5125, of_floats = 5126;           // component types: unsigned short, unsigned int, float
 constexpr int for_vertices = 34962, for_triangles = 34963, triangle_list = 4;  // targets of views, and a mode of primitives
-constexpr const char *scalar = "SCALAR", *vec2 = "VEC2", *vec3 = "VEC3";
+constexpr const char *scalar = "SCALAR", *vec2 = "VEC2", *vec3 = "VEC3", *vec4 = "VEC4", *mat4 = "MAT4";
+constexpr int bones_per_set = 4;
+
+std::size_t components(const char* type)
+{
+    return type == mat4 ? 16 : type == vec4 ? 4 : type == vec3 ? 3 : type == vec2 ? 2 : 1;
+}
 
 template <typename Number>
 std::string_view bytes_of(const std::vector<Number>& numbers)
@@ -31,14 +37,6 @@ std::string_view bytes_of(const std::vector<Number>& numbers)
 std::string words(const std::vector<std::uint32_t>& numbers)
 {
     return std::string(bytes_of(numbers));
-}
-
-// In frame f the weight of target f - 1 is one, and all others are zero.
-std::vector<float> weights_in(std::size_t frame, std::size_t frames)
-{
-    std::vector<float> weights(frames - 1, 0.0F);
-    if (frame > 0) weights[frame - 1] = 1.0F;
-    return weights;
 }
 
 std::string padded(std::string bytes)
@@ -81,6 +79,7 @@ std::vector<float> single(const std::vector<double>& numbers)
 struct GlbDocument {
     json document = {{"asset", {{"generator", "pbskin"}, {"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
     std::size_t bytes = 0;  // of the buffer
+    std::string behind;     // its end, behind the numbers that GlbWriter has written
 
     std::size_t add_view(std::size_t length, int target)
     {
@@ -92,12 +91,20 @@ struct GlbDocument {
         return document["bufferViews"].size() - 1;
     }
 
-    // The number of the accessor. All components have four bytes, so that every view begins at a multiple of four. target: 0 for none.
+    // The number of the accessor. target: 0 for none.
     std::size_t add(std::size_t count, int component_type, const char* type, int target)
     {
-        const std::size_t number = add_view(bytes_per_number * count * (type == vec3 ? 3 : type == vec2 ? 2 : 1), target);
+        const std::size_t number = add_view((component_type == of_shorts ? 2 : bytes_per_number) * count * components(type), target);
         document["accessors"].push_back({{"bufferView", number}, {"componentType", component_type}, {"count", count}, {"type", type}});
         return document["accessors"].size() - 1;
+    }
+
+    // An accessor of numbers behind all others.
+    template <typename Number>
+    std::size_t append(const std::vector<Number>& numbers, const char* type, int target = 0)
+    {
+        behind += padded(std::string(bytes_of(numbers)));
+        return add(numbers.size() / components(type), sizeof(Number) == 2 ? of_shorts : of_floats, type, target);
     }
 
     void bound(std::size_t accessor, const std::vector<double>& smallest, const std::vector<double>& largest)
@@ -115,15 +122,96 @@ struct GlbDocument {
     }
 };
 
-void add_animation(const std::vector<double>& times_s, GlbDocument& glb)
+std::size_t add_times(const std::vector<double>& times_s, GlbDocument& glb)
 {
     const std::vector<float> times = single(times_s);
-    const std::size_t input = glb.add(times_s.size(), of_floats, scalar, 0);
+    const std::size_t input = glb.append(times, scalar);
     glb.bound(input, {static_cast<double>(times.front())}, {static_cast<double>(times.back())});
-    const std::size_t output = glb.add(times_s.size() * (times_s.size() - 1), of_floats, scalar, 0);
-    glb.document["animations"] = {{{"name", "deformed"},
-                                   {"samplers", {{{"input", input}, {"interpolation", "LINEAR"}, {"output", output}}}},
-                                   {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
+    return input;
+}
+
+// A channel of the animation, with linear interpolation.
+void animate(std::size_t node, const char* path, std::size_t input, std::size_t output, GlbDocument& glb)
+{
+    json& animation = glb.document["animations"][0];
+    animation["name"] = "deformed";
+    animation["channels"].push_back({{"sampler", animation["samplers"].size()}, {"target", {{"node", node}, {"path", path}}}});
+    animation["samplers"].push_back({{"input", input}, {"interpolation", "LINEAR"}, {"output", output}});
+}
+
+// In frame f the weight of target f - 1 is one, and all others are zero.
+void animate_frames(const std::vector<double>& times_s, GlbDocument& glb)
+{
+    const std::size_t targets = times_s.size() - 1;
+    std::vector<float> weights(times_s.size() * targets, 0.0F);
+    for (std::size_t target = 0; target < targets; ++target) weights[(target + 1) * targets + target] = 1.0F;
+    const std::size_t input = add_times(times_s, glb);
+    animate(0, "weights", input, glb.append(weights, scalar), glb);
+}
+
+// The attributes JOINTS_0, WEIGHTS_0 and so on of the points.
+void add_weights(const Weights& weights, GlbDocument& glb, json& attributes)
+{
+    int most = 1;
+    for (int p = 0; p < weights.vertices(); ++p) most = std::max(most, weights.first[p + 1] - weights.first[p]);
+    for (int set = 0; set * bones_per_set < most; ++set) {
+        std::vector<std::uint16_t> bones(static_cast<std::size_t>(bones_per_set * weights.vertices()), 0);
+        std::vector<float> shares(bones.size(), 0.0F);
+        for (int p = 0; p < weights.vertices(); ++p)
+            for (int k = 0; k < bones_per_set; ++k) {
+                const int entry = weights.first[p] + set * bones_per_set + k;
+                if (entry >= weights.first[p + 1]) break;
+                bones[static_cast<std::size_t>(bones_per_set * p + k)] = static_cast<std::uint16_t>(weights.bone[entry]);
+                shares[static_cast<std::size_t>(bones_per_set * p + k)] = static_cast<float>(weights.weight[entry]);
+            }
+        attributes["JOINTS_" + std::to_string(set)] = glb.append(bones, vec4, for_vertices);
+        attributes["WEIGHTS_" + std::to_string(set)] = glb.append(shares, vec4, for_vertices);
+    }
+}
+
+// A node per bone behind that of the mesh, at the bone's head, with the axes of the world at rest.
+void add_bones(const Skeleton& skeleton, GlbDocument& glb)
+{
+    std::vector<float> inverse_binds;
+    json& nodes = glb.document["nodes"];
+    json joints = json::array();
+    for (const Bone& bone : skeleton.bones) {
+        const std::size_t node = nodes.size();
+        const Vec3 place = bone.parent < 0 ? bone.head : Vec3(bone.head - skeleton.bones[bone.parent].head);
+        nodes.push_back({{"name", bone.name}, {"translation", {place.x(), place.y(), place.z()}}});
+        (bone.parent < 0 ? glb.document["scenes"][0]["nodes"] : nodes[static_cast<std::size_t>(bone.parent) + 1]["children"])
+            .push_back(node);
+        joints.push_back(node);
+        const Eigen::Matrix4f bind = Eigen::Affine3d(Eigen::Translation3d(-bone.head)).matrix().cast<float>();
+        inverse_binds.insert(inverse_binds.end(), bind.data(), bind.data() + bind.size());
+    }
+    glb.document["skins"] = {{{"joints", joints}, {"inverseBindMatrices", glb.append(inverse_binds, mat4)}}};
+    nodes[0]["skin"] = 0;
+}
+
+void animate_skin(const GlbSkin& skin, GlbDocument& glb)
+{
+    const std::size_t input = add_times(skin.times_s, glb);
+    if (skin.target_weights.cols() > 0) {
+        const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights = skin.target_weights.cast<float>();
+        animate(0, "weights", input, glb.append(std::vector<float>(weights.data(), weights.data() + weights.size()), scalar), glb);
+    }
+    for (std::size_t b = 0; b < skin.skeleton.bones.size(); ++b) {
+        const Bone& bone = skin.skeleton.bones[b];
+        std::vector<float> turns, places;
+        for (const Pose& pose : skin.poses) {
+            const Vec3 head = pose[b] * bone.head;
+            const Eigen::Isometry3d parent = bone.parent < 0 ? Eigen::Isometry3d::Identity() : pose[bone.parent];
+            const Vec3 origin = bone.parent < 0 ? Vec3(Vec3::Zero()) : skin.skeleton.bones[bone.parent].head;
+            const Eigen::Quaterniond relative(Eigen::Matrix3d(parent.linear().transpose() * pose[b].linear()));
+            const Eigen::Vector4d turn = relative.normalized().coeffs();
+            const Vec3 place = parent.inverse() * head - origin;
+            for (const double number : turn) turns.push_back(static_cast<float>(number));
+            for (const double number : place) places.push_back(static_cast<float>(number));
+        }
+        animate(b + 1, "rotation", input, glb.append(turns, vec4), glb);
+        animate(b + 1, "translation", input, glb.append(places, vec3), glb);
+    }
 }
 
 void copy(const std::string& from, AtomicFile& file)
@@ -213,7 +301,7 @@ void GlbWriter::add_frame(double time_s, const Positions& points)
     times_s_.push_back(time_s);
 }
 
-void GlbWriter::write()
+void GlbWriter::write(const GlbSkin* skin)
 {
     GlbDocument glb;
     if (!materials_.document.empty()) glb.document.update(json::parse(materials_.document));
@@ -236,11 +324,17 @@ void GlbWriter::write()
         else
             all["targets"].push_back(frame);
     }
+    if (skin) add_weights(skin->weights, glb, all["attributes"]);
     for (json& primitive : mesh["primitives"]) primitive.update(all);
     if (times_s_.size() > 1) mesh["weights"] = std::vector<double>(times_s_.size() - 1, 0.0);
     glb.document["meshes"] = json::array({mesh});
     glb.document["nodes"] = {{{"mesh", 0}, {"name", name_}}};
-    if (times_s_.size() > 1) add_animation(times_s_, glb);
+    if (skin) {
+        add_bones(skin->skeleton, glb);
+        animate_skin(*skin, glb);
+    } else if (times_s_.size() > 1) {
+        animate_frames(times_s_, glb);
+    }
 
     const std::string text = glb.text();
     const auto json_bytes = static_cast<std::uint32_t>(text.size()), data_bytes = static_cast<std::uint32_t>(glb.bytes);
@@ -248,9 +342,7 @@ void GlbWriter::write()
     AtomicFile file(path_);
     file.write("glTF" + words({2, all_bytes, json_bytes, json_chunk}) + text + words({data_bytes, binary_chunk}));
     copy(data_.temporary(), file);
-    if (times_s_.size() > 1) file.write(bytes_of(single(times_s_)));
-    if (times_s_.size() > 1)
-        for (std::size_t f = 0; f < times_s_.size(); ++f) file.write(bytes_of(weights_in(f, times_s_.size())));
+    file.write(glb.behind);
     file.finish();
 }
 

@@ -3,17 +3,29 @@
 //   for (...) writer.add_frame(time_s, points);
 //   writer.write();
 // The frames wait in a temporary file next to the .glb file, so that the memory does not depend on their number.
+//   writer.write(&skin);   // for a surface with a skin: the first frame is its rest shape, and the others are shapes that are added to it
 #pragma once
 
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/rig/rig.hpp"
+#include "pbs/skinning/pose.hpp"
 
 #include <map>
 #include <string>
 #include <vector>
 
 namespace pbs {
+
+// Bones that move the surface, and an animation of the bones and of the weights of the morph targets. glTF moves the points by the targets
+// first, and by the bones then: x = sum_j w_j P_j (X + sum_k c_k D_k).
+struct GlbSkin {
+    Skeleton skeleton = {};
+    Weights weights = {};                 // w of the points, #S; the file has as many sets of four as the most bones of a point need
+    std::vector<double> times_s = {};     // of the keys, ascending, 1 or more
+    std::vector<Pose> poses = {};         // P at these times, #keys
+    Eigen::MatrixXd target_weights = {};  // c of each frame after the first one, #keys x (#frames - 1)
+};
 
 class GlbWriter {
 public:
@@ -29,8 +41,9 @@ public:
     // The size of a file with so many frames of the points that were added, without its description.
     double bytes(int frames) const;
 
-    // The file with the frames so far, 1 or more; whole or not at all, with the InputErrors of write_atomically.
-    void write();
+    // The file with the frames so far, 1 or more; whole or not at all, with the InputErrors of write_atomically. With a skin, the times of
+    // the frames have no meaning.
+    void write(const GlbSkin* skin = nullptr);
 
 private:
     struct Extent {

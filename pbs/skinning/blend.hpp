@@ -96,6 +96,9 @@ public:
 
     int vertices() const { return static_cast<int>(packed_.matrix.size()); }  // #V
 
+    // The rest positions, which a caller may displace between two poses [m]: #V rows x, y, z, in float relative to the middle of the body.
+    Scalar* rest_rows() { return rest_.data(); }
+
 private:
     using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, 3, Eigen::RowMajor>;
 

@@ -156,9 +156,13 @@ class Model:
             corners = numpy.arange(self.document["accessors"][primitive["attributes"]["POSITION"]]["count"])
         return corners[:len(corners) // 3 * 3] if primitive.get("mode", 4) == 4 else corners
 
+    def unskinned(self, n, primitive):
+        """The points of a primitive before its skin moves them, #P x 3."""
+        return self.numbers(primitive["attributes"]["POSITION"])
+
     def skinned(self, node, n, primitive, moved):
         """The points of a primitive of the mesh of node n, #P x 3."""
-        points = self.numbers(primitive["attributes"]["POSITION"])
+        points = self.unskinned(n, primitive)
         points = numpy.hstack([points, numpy.ones((len(points), 1))])
         if "skin" not in node:
             return (points @ self.world(n, moved).T)[:, :3]

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "pbs/geometry/topology.hpp"
+#include "pbs/skinning/correctives.hpp"
 #include "pbs/skinning/delta_mush.hpp"
 #include "pbs/skinning/direct_delta_mush.hpp"
 #include "tests/support/rounding_error.hpp"
@@ -260,6 +261,62 @@ struct Direct {
         return packed_error(options) + direct_error<double>(DirectDeltaMush(limb.mesh, limb.weights, options), pose, 0.0, distance + 1.1);
     }
     static double blend_error() { return rounding_error_in<S>(40, 2.0); }
+};
+
+// Correctives that are fitted to dual quaternions on the way to the limb's pose and back beyond rest, for a body of any size, mirror image
+// and order.
+template <typename S, bool is_packed>
+struct Corrective {
+    using Options = pbs::CorrectiveOptions;
+    using Plain = Corrective<double, false>;
+    static constexpr bool packed = is_packed;
+    static inline const TwoBoneLimb& limb = bent_bar;
+    static inline const std::vector<Options> settings = {{.least_strength = 1e-2}, {.rank = 1, .least_strength = 1e-1}};
+    static inline const std::vector<Options> without_smoothing = {};
+    static constexpr int samples = 6;
+
+    static pbs::Correctives fitted(const TwoBoneLimb& body, const Options& options)
+    {
+        std::vector<pbs::CorrectiveSample> solved(samples);
+        for (int s = 0; s < samples; ++s) {
+            const Eigen::AngleAxisd turn(body.pose[1].linear());
+            solved[s].pose = {Eigen::Isometry3d::Identity(),
+                              Eigen::Isometry3d(Eigen::AngleAxisd(turn.angle() * (1.0 - 0.3 * s), turn.axis()))};
+            pbs::dual_quaternion_skinning(body.mesh.rest, body.weights, solved[s].pose, solved[s].shape);
+        }
+        return pbs::fit_correctives(body.skeleton, body.mesh.rest, body.weights, solved, options);
+    }
+    static Positions applied(const TwoBoneLimb& body, const Pose& pose, const Options& options)
+    {
+        const pbs::Correctives correctives = fitted(body, options);
+        Positions posed;
+        if constexpr (packed)
+            pbs::CorrectiveSkinning<S>(correctives, body.mesh.rest, body.weights).apply(pose, posed);
+        else
+            pbs::corrected_skinning(correctives, body.mesh.rest, body.weights, pose, posed);
+        return posed;
+    }
+    // Coefficients of a ridge of strength s are in error by at most |Y| |dF| (1/4 + 1) / s + |dY| / (2 sqrt s) (P. C. Hansen,
+    // Rank-deficient and discrete ill-posed problems, SIAM 1998, Sec. 5.1). Over the largest squared singular value s is `least_strength`
+    // or more; features and residuals, which are shorter than the body is long, go through some 60 roundings each.
+    static double of_fit(const Options& options, double farthest)
+    {
+        return rounding_error(
+            options.sweeps * 60.0 * samples * std::sqrt(double(pbs::corrective_features)) * (1.25 + 0.5) / options.least_strength,
+            farthest);
+    }
+    static double error(const Options& options, const Pose& pose, double farthest)
+    {
+        return of_fit(options, farthest) + Blend<S, is_packed, true>::error({}, pose, farthest);
+    }
+    // A displacement, which is shorter than a coordinate, adds up to eight products.
+    static double packed_error(const Options&) { return rounding_error_in<S>(2 * 40 * 2 + 10, 1.0); }
+    static bool proves(const Options&) { return true; }
+    static double far_error(const Options& options, const Pose&, double distance)
+    {
+        return packed_error(options) + motion_error(2, distance + 2.0);
+    }
+    static double blend_error() { return rounding_error_in<S>(2 * 40 * 2, 1.0); }
 };
 
 }  // namespace test_support

@@ -3,7 +3,9 @@
 
 #include "pbs/geometry/files.hpp"
 #include "pbs/rig/rig_formats.hpp"
+#include "pbs/rig/rigged_body.hpp"
 #include "pbs/rig/tiny_gltf.hpp"
+#include "pbs/skinning/blend.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
@@ -131,6 +133,45 @@ TEST_F(GlbWriter, ItsMeshIsReadAgain)
     const Rig rig = read_gltf_rig(folder / "a.glb");
     EXPECT_EQ(rig.meshes.at(0).points, first_frame);
     EXPECT_EQ(rig.meshes.at(0).triangles, one_triangle);
+}
+
+// Five bones in a chain, all of which move the last point, so that a second set of weights is needed. The reader knows the skin, and the
+// targets are compared as numbers. Tolerance: the file has single precision, and a point of 5 m goes through five joints below each other.
+TEST_F(GlbWriter, ASkinMovesItsPointsByLinearBlendingAndItsTargetsHaveTheirWeights)
+{
+    GlbSkin skin;
+    std::vector<Eigen::Quaterniond> turns;
+    for (int b = 0; b < 5; ++b) {
+        skin.skeleton.bones.push_back({"bone " + std::to_string(b), b - 1, {b + 0.5, 0.0, 0.25}, {b + 1.5, 0.0, 0.25}});
+        turns.emplace_back(Eigen::AngleAxisd(0.3 + 0.1 * b, Vec3(1, b, 2).normalized()));
+    }
+    skin.weights.first = {0};
+    for (const std::vector<double>& row : {std::vector{1.0}, std::vector{0.25, 0.75}, std::vector{0.1, 0.2, 0.3, 0.15, 0.25}}) {
+        for (std::size_t b = 0; b < row.size(); ++b) skin.weights.add(static_cast<int>(b), row[b]);
+        skin.weights.end_vertex();
+    }
+    skin.times_s = {0.0, 0.5};
+    skin.poses = {Pose(5, Eigen::Isometry3d::Identity()), pose_from_joints(skin.skeleton, turns, {0.1, 0.2, 0.3})};
+    skin.target_weights = (Eigen::MatrixXd(2, 2) << 0.0, 0.25, -0.5, 1.0).finished();
+    pbs::GlbWriter writer(folder / "a.glb", "hero", one_triangle);
+    writer.add_frame(0.0, first_frame);
+    for (const double height : {0.5, 2.0}) writer.add_frame(0.0, first_frame.array() + height);
+    writer.write(&skin);
+
+    const Rig rig = read_gltf_rig(folder / "a.glb");
+    ASSERT_EQ(rig.meshes.size(), 1u);
+    for (std::size_t key = 0; key < 2; ++key) {
+        Positions expected;
+        linear_blend_skinning(first_frame, skin.weights, skin.poses[key], expected);
+        const Positions moved = skinned_points(rig.meshes[0], node_transforms(rig, &rig.animations.at(0), skin.times_s[key]));
+        EXPECT_LT((moved - expected).cwiseAbs().maxCoeff(), 5.0 * 5.0 * 16.0 * 0x1p-24) << key;
+    }
+    const WrittenGlb glb = parts_of(read_text_file(folder / "a.glb"));
+    const json& animation = glb.document["animations"][0];
+    EXPECT_EQ(animation["channels"][0]["target"]["path"], "weights");
+    EXPECT_EQ(glb.floats(animation["samplers"][0]["output"]), (std::vector<float>{0.0F, 0.25F, -0.5F, 1.0F}));
+    const json& targets = glb.document["meshes"][0]["primitives"][0]["targets"];
+    EXPECT_EQ(glb.floats(targets[1]["POSITION"]), std::vector<float>(9, 2.0F));
 }
 
 TEST_F(GlbWriter, NormalsAreThoseOfTheFrameAndKeepTheArtistsHardEdges)

@@ -1,5 +1,5 @@
-// The contract of the skinners: LBS, dual quaternions, delta mush and direct delta mush, plain and packed. References: rigid motions, the
-// limits of the definitions, and of packed code the plain one. Tolerances: tests/support/skinners.hpp.
+// The contract of the skinners: LBS, dual quaternions, delta mush, direct delta mush and correctives, plain and packed. References: rigid
+// motions, the limits of the definitions, and of packed code the plain one. Tolerances: tests/support/skinners.hpp.
 #include "tests/support/random_points.hpp"
 #include "tests/support/skinners.hpp"
 
@@ -36,7 +36,8 @@ class Skinner : public testing::Test {
 };
 using Skinners = testing::Types<Blend<double, false, true>, Blend<float, true, true>, Blend<double, true, true>,
                                 Blend<double, false, false>, Blend<float, true, false>, Blend<double, true, false>, Delta<double, false>,
-                                Delta<float, true>, Delta<double, true>, Direct<double, false>, Direct<float, true>, Direct<double, true>>;
+                                Delta<float, true>, Delta<double, true>, Direct<double, false>, Direct<float, true>, Direct<double, true>,
+                                Corrective<double, false>, Corrective<float, true>, Corrective<double, true>>;
 TYPED_TEST_SUITE(Skinner, Skinners);
 
 TYPED_TEST(Skinner, IsThePlainOne)
