@@ -4,8 +4,8 @@ started again."""
 import contextlib
 import csv
 import fcntl
-import itertools
 import io
+import itertools
 import json
 import os
 import pathlib
