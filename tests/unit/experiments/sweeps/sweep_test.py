@@ -1,8 +1,10 @@
 """Reference: the definition. A sweep expands to every combination once; invalid ones are refused with file, line, field, value and rule.
 The tables of runs with known metrics do not depend on their order, times or machine. With snakemake, finished runs are never
 started again."""
+import contextlib
 import csv
 import fcntl
+import io
 import itertools
 import json
 import os
@@ -120,6 +122,20 @@ class Tables(SweepTest):
         columns = ("exit_status", "frames_not_finite", "frames_not_converged", "frames_broken")
         self.assertEqual([[row[column] for column in columns] for row in rows[:2]], [["3", "0", "0", "0"], ["3", "2", "0", "1"]])
         self.assertEqual(told["exit_statuses"], {"3": 6})
+
+    def test_rows_of_another_variant_do_not_count_and_several_revisions_are_named(self):
+        plan, out = self.read(self.text), self.folder / "out"
+        for number, run in enumerate(plan.runs):
+            synthetic_runs.write(out / "runs" / run, 1)
+            record = out / "runs" / run / "run.json"
+            record.write_text(record.read_text().replace('"abc"', f'"abc{number % 2}"'))
+            with open(out / "runs" / run / "metrics.csv", "a", encoding="utf-8") as file:
+                file.write("s,pbs,jiggle,ordered,f32,1,1,0,0,99,,1,finished\n")
+        with contextlib.redirect_stderr(io.StringIO()) as errors:
+            merge.write(plan, out)
+        with open(out / "sweep.csv", newline="", encoding="utf-8") as file:
+            self.assertEqual(list(csv.DictReader(file))[1]["largest_volume_change_pct"], "0.6")
+        self.assertIn("the runs are of several revisions", errors.getvalue())
 
     def test_other_order_and_times_make_the_same_bytes(self):
         for rows in ("deformers", "frames"):
