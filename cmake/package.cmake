@@ -23,7 +23,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME pbskin)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
     "assimp-testmodels, python3, python3-numpy, python3-matplotlib, python3-vtk9, xvfb, xauth, openmpi-bin")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "libpbs-dev, calculix-ccx, cube2-data, npm, snakemake, slurm-client")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "libpbs-dev, cube2-data, npm, snakemake, slurm-client")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Static libraries, headers and the CMake package pbs.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpbs-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)

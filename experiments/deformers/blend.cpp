@@ -152,7 +152,7 @@ DeformerKind blend_kind(const std::string& name, const std::string& meaning)
         .add("precision", &BlendOptions::precision, {.meaning = "floating point of the blend"})
         .add("packed", &BlendOptions::packed,
              {.meaning = "weights that several vertices have are blended once per pose; false: plain code in f64, one vertex at a time"});
-    DeformerKind kind = kind_of<void>(name, meaning, fields, read_weights<BlendOptions>);
+    DeformerKind kind = kind_of<void>(name, meaning, fields.complete(), read_weights<BlendOptions>);
     kind.make = [](const DeformerSpec& spec) {
         const auto& options = options_of<BlendOptions>(spec);
         return in_code<PlainBlend, PackedBlend>(options.precision, options.packed, blend);
@@ -177,7 +177,7 @@ DeformerKind mush_kind(const std::string& name, const std::string& meaning, Opti
 {
     fields.add("precision", &Options::precision, {.meaning = "floating point of the smoothing; f32: packed code"})
         .add("packed", &Options::packed, {.meaning = "true: several vertices per instruction; false: plain code in f64"});
-    DeformerKind kind = kind_of<void>(name, meaning, add_weights_key(fields), check);
+    DeformerKind kind = kind_of<void>(name, meaning, add_weights_key(fields).complete(), check);
     kind.make = [](const DeformerSpec& spec) {
         const auto& options = options_of<Options>(spec);
         return in_code<Plain, Packed>(options.precision, options.packed, options);

@@ -206,7 +206,8 @@ DeformerKind kind_of_xpbd(const std::string& name, const std::string& meaning, C
             .record("substeps", &XpbdOptions::substeps)
             .record("gravity_m_s2", &XpbdOptions::gravity_m_s2)
             .record("jiggle", &XpbdOptions::jiggle)
-            .record("keep_multipliers", &XpbdOptions::keep_multipliers);
+            .record("keep_multipliers", &XpbdOptions::keep_multipliers)
+            .complete(1);  // except for threads
     DeformerKind kind = kind_of<XpbdDeformer>(name, meaning, fields, check);
     kind.traits = [](const DeformerSpec& spec) {
         const auto& options = options_of<XpbdOptions>(spec);
@@ -273,7 +274,8 @@ DeformerKind pbs_author_kind()
                  {.range = {0, 6}, .meaning = "stiffness of tets with negative volume; as k_volume"})
             .add("k_volume", &Options::k_volume,
                  {.range = {0, 6},
-                  .meaning = "stiffness of all other tets; a projection removes k_volume / 6 of the error, since the gradients lack 1/6"}));
+                  .meaning = "stiffness of all other tets; a projection removes k_volume / 6 of the error, since the gradients lack 1/6"})
+            .complete());
     kind.traits = [](const DeformerSpec& spec) {
         return DeformerTraits{.order = "first_fit", .iterations = options_of<Options>(spec).iterations};
     };

@@ -150,7 +150,7 @@ const OptionFields<PbsOptions>& pbs_fields()
         add_jiggle_keys(declared);
         add_variant_keys(declared);
         add_improvement_keys(declared);
-        return declared;
+        return declared.complete(1);  // except for threads
     }();
     return fields;
 }

@@ -136,6 +136,7 @@ public:
     template <typename Member, typename Owner>
     OptionFields& add(const std::string& name, Member Owner::*member, const FieldText& text)
     {
+        recorded_members_[table_ + "." + name] = 1;
         SceneKey key = key_of(name, key_type<Member>(), text, option_json(Options{}.*member));
         if constexpr (std::is_enum_v<Member>) key.choices = names_of_options<Member>();
         return add(
@@ -146,10 +147,11 @@ public:
             [name, member](const Options& options, nlohmann::json& record) { record[name] = option_json(options.*member); });
     }
 
-    // A key whose value is not stored in exactly one member.
+    // A key whose value is not stored in exactly one member. `write` records so many members.
     OptionFields& add(const std::string& name, KeyType type, const nlohmann::json& default_value, const FieldText& text, Reader read,
-                      Writer write)
+                      Writer write, std::size_t members = 1)
     {
+        if (write) recorded_members_[table_ + "." + name] = members;
         return add(key_of(name, type, text, default_value), std::move(read), std::move(write));
     }
 
@@ -170,7 +172,7 @@ public:
     template <typename Member, typename Owner>
     OptionFields& record(const std::string& name, Member Owner::*member)
     {
-        ++members_;
+        recorded_members_[table_ + "." + name] = 1;
         return derived(name, [member](const Options& options) { return option_json(options.*member); });
     }
 
@@ -184,11 +186,14 @@ public:
         return derived(name, [value](const Options&) { return value; });
     }
 
-    // std::logic_error unless each member is recorded. Settings of a study's run must be complete, for --resume compares them.
-    const OptionFields& complete() const
+    // std::logic_error unless each member is recorded, except for so many on which no result depends, such as the number of threads.
+    // Settings of a study's run and options of deformers must be complete, for --resume compares them.
+    const OptionFields& complete(std::size_t except = 0) const
     {
-        if (members_ == member_count<Options>()) return *this;
-        throw std::logic_error("settings " + root_ + ": " + std::to_string(members_) + " of " + std::to_string(member_count<Options>()) +
+        std::size_t recorded = except;
+        for (const auto& [name, members] : recorded_members_) recorded += members;
+        if (recorded == member_count<Options>()) return *this;
+        throw std::logic_error("settings " + root_ + ": " + std::to_string(recorded) + " of " + std::to_string(member_count<Options>()) +
                                " members are declared");
     }
 
@@ -250,7 +255,7 @@ private:
 
     std::string table_, root_;
     bool in_list_;
-    std::size_t members_ = 0;  // that are recorded
+    std::map<std::string, std::size_t> recorded_members_;  // by the field that records them
     std::vector<Field> fields_;
     std::vector<RenamedKey> renamed_keys_;
 };

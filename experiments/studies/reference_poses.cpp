@@ -1,8 +1,10 @@
 #include "experiments/studies/reference_poses.hpp"
 
-#include <nlohmann/json.hpp>
+#include "experiments/settings/recorded_settings.hpp"
 
 namespace experiments {
+
+RECORD_SETTINGS(ReferencePose, name, of, stratum, scene, frame)
 
 namespace {
 

@@ -26,6 +26,8 @@ struct ReferencePose {
     int frame = 0;     // of its motion
 };
 
+nlohmann::json to_json(const ReferencePose& pose);
+
 // The pose of a case of cases.toml. InputError as read_scene.
 ReferencePose reference_pose(const StudyCase& in_file);
 

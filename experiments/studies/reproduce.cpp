@@ -302,7 +302,7 @@ int reproduce(const ReproduceArguments& arguments)
         for (std::string line; std::getline(marked >> std::ws, line);) warnings.add(planned_study.study->name + "/" + line);
         for (auto& verdict : verdicts_of(*planned_study.study, planned_study.folder, arguments.folder))
             screen.here.push_back(std::move(verdict));
-        if (planned_study.study->conclude) all_hold &= planned_study.study->conclude(outcome.finished);
+        all_hold &= study_holds(*planned_study.study, outcome.finished);
         const bool has_own_deformers = planned_study.study->plan_with && arguments.external;  // which no record has
         if (!has_own_deformers) screen.studies.push_back(planned_study.study->name);
     }

@@ -95,6 +95,11 @@ bool is_finished(const StudyRun& run, const std::string& folder)
     return then.is_object() && then.value("git_revision", none) == now.git_revision && then.value("git_dirty", none) == now.git_dirty;
 }
 
+bool study_holds(const Study& study, const FinishedRuns& finished)
+{
+    return !study.conclude || (!finished.none() && study.conclude(finished));
+}
+
 std::string carry_out(const StudyRun& run, const std::string& folder)
 {
     if (run.work) return carry_out_work(run, folder);

@@ -163,7 +163,8 @@ struct Study {
     std::string name;  // of its folder, whose README.md is the page of `pbskin explain`, and of the folder of its records
     StudyPlan (*plan)(bool full) = nullptr;
     Sets sets = {};
-    // Writes the tables over all runs, and returns whether the study holds, apart from the verdicts on its claims. Null: there are none.
+    // Writes the tables over the finished runs, of which there is at least one, and returns whether the study holds, apart from the
+    // verdicts on its claims. Null: there are none.
     bool (*conclude)(const FinishedRuns& finished) = nullptr;
     bool alone = false;  // it measures time: one run at a time, whatever -j is
     // The plan with deformers of the user's own from the [[external]] tables of a file. Null: the study has a fixed list of deformers.
@@ -175,6 +176,10 @@ struct Study {
     std::vector<analysis::Measurement> (*conclusions)(const std::vector<analysis::Measurement>& measured) = nullptr;
 };
 const std::vector<Study>& studies();
+
+// Writes the tables over all runs, and returns whether the study holds. Without a finished run a study with such tables does not hold, and
+// nothing is written.
+bool study_holds(const Study& study, const FinishedRuns& finished);
 
 // One per folder next to this file, each defined in its study.cpp.
 Study volume_study();

@@ -40,7 +40,7 @@ void add_material_fields(OptionFields<FemOptions>& fields)
                {.unit = "1/s, s",
                 .range = {0, 1e6},
                 .meaning = "Rayleigh damping [mass, stiffness]: C = mass M + stiffness K(rest); without dynamics, zero"},
-               read_rayleigh, write_rayleigh);
+               read_rayleigh, write_rayleigh, 2);
 }
 
 void add_attachment_fields(OptionFields<FemOptions>& fields)
@@ -182,7 +182,7 @@ const OptionFields<FemOptions>& fem_fields()
         add_attachment_fields(declared);
         add_contact_fields(declared);
         add_solver_fields(declared);
-        return declared;
+        return declared.complete();
     }();
     return fields;
 }

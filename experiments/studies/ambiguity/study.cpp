@@ -230,7 +230,7 @@ bool conclude(const FinishedRuns& finished)
     const auto changes = finished.rows(claim_change_columns(), "ambiguity.csv");
     finished.write("ambiguity.csv", used_columns(claim_change_columns(), changes), changes);
     finished.write("figures.csv", volume_change_columns, finished.rows(volume_change_columns, "figures.csv"));
-    return !finished.none();
+    return true;
 }
 
 }  // namespace

@@ -152,7 +152,7 @@ StudyPlan plan(bool full)
 bool conclude(const FinishedRuns& finished)
 {
     finished.write("references.csv", reference_columns, finished.rows(reference_columns, "references.csv"));
-    return !finished.none();
+    return true;
 }
 
 }  // namespace

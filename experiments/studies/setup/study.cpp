@@ -225,7 +225,7 @@ bool conclude(const FinishedRuns& finished)
         rows.insert(rows.end(), own.begin(), own.end());
     }
     finished.write("setup.csv", analysis::measurement_table(rows));
-    return !finished.none();
+    return true;
 }
 
 }  // namespace

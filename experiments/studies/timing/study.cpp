@@ -106,7 +106,7 @@ bool conclude(const FinishedRuns& finished)
     for (const std::string& file : finished.files("bench.txt")) finished.write("bench.txt", analysis::read_text(file));
     sum_up(finished, "features.csv", feature_columns, finished.rows(feature_columns, "features.csv"));
     sum_up(finished, "answers.csv", answer_columns, equal_answers(finished.rows(target_columns, "targets.csv")));
-    return !finished.none();
+    return true;
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include "pbs/character/character.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "reference_fem/boundary_value_problem.hpp"
-#include "reference_fem/verification/calculix/calculix_rows.hpp"
+#include "reference_fem/elastic_body.hpp"
 #include "reference_fem/verification/verification_record.hpp"
 
 #include <functional>
@@ -36,16 +36,40 @@ struct VerificationProblem {
 };
 const std::vector<VerificationProblem>& verification_problems();
 
-// A frame of a character that its bones hold, as a problem that CalculiX can solve too. pose_at(1) is the frame; pose_at(0), where a large
-// rotation starts from, is the rest pose. Poses are relative to the root.
-struct HeldFrame {
-    reference_fem::ElasticMaterial material;
-    FemAttachment attachment = FemAttachment::nodes;  // or smooth, embedded
-    reference_fem::BodyModel model = reference_fem::BodyModel::linear;
-    int element_order = 1;
-    std::function<pbs::Pose(double fraction)> pose_at;
+inline constexpr reference_fem::ElasticMaterial calculix_flesh{.young_pa = 1e5, .poisson = 0.3};
+
+enum class BodyModel {
+    linear,
+    st_venant_kirchhoff,
+    st_venant_kirchhoff_at_four_points,  // P2 integrated by C3D10's rule; the reference's own rule has six points
 };
-reference_fem::HeldBody held_body(const pbs::Character& character, const HeldFrame& frame);
+
+// A pose of the limb that CalculiX has solved.
+struct CalculixLimb {
+    int vertices;     // that the mesher is asked for
+    std::string way;  // bent or twisted
+    int angle_deg;    // of the forearm
+    BodyModel model;
+    int element_order;
+    FemAttachment attachment = FemAttachment::nodes;  // or smooth
+
+    bool is_smooth() const { return attachment == FemAttachment::smooth; }
+    std::string problem() const;  // the name of its kept displacements
+};
+std::vector<CalculixLimb> calculix_limbs(bool full);
+
+// The same pose as a problem of the reference. Its row compares the two programs at every node.
+//   const HeldBody body = held_body(character, limb, calculix_flesh);
+//   calculix_row(character, limb, body).value
+struct HeldBody {
+    reference_fem::ElasticMaterial material;
+    BodyModel model = BodyModel::linear;
+    int element_order = 1;
+    reference_fem::Attachment attachment;  // no vertex is bound
+    reference_fem::TargetsAt targets_at;   // of the pose at 1, and of rest, where a large rotation begins, at 0
+};
+HeldBody held_body(const pbs::Character& character, const CalculixLimb& limb, const reference_fem::ElasticMaterial& material);
+VerificationRow calculix_row(const pbs::Character& character, const CalculixLimb& limb, const HeldBody& body);
 
 // A manufactured solution u_i = A sin(a_i . x + phi_i) of stable neo-Hookean flesh in the unit cube that is held by springs with the
 // density k of a smooth attachment. The springs' targets lie a given offset c from the exact positions, so that the body force is f = -div

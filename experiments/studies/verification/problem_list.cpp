@@ -28,7 +28,7 @@ const std::vector<VerificationProblem>& verification_problems()
         {"dynamics", 2.0, 8.0, dynamics_rows},
         {"moving_skeleton", 2.0, 2.0, moving_skeleton_rows},
         {"contact", 10.0, 40.0, contact_rows},
-        {"calculix", 90.0, 170.0, calculix_rows},
+        {"calculix", 15.0, 20.0, calculix_rows},
         {"distributed", 5.0, 5.0, distributed_rows},
     };
     return verification_problems;

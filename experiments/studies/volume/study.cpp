@@ -68,7 +68,7 @@ bool conclude(const FinishedRuns& finished)
         for (const RegionChange& region : rows_of(region_columns, analysis::read_csv(file))) regions.push_back({run, region});
     }
     finished.write("regions.csv", columns, regions);
-    return !finished.none();
+    return true;
 }
 
 }  // namespace

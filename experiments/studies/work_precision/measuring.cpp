@@ -8,7 +8,6 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/run/frame_measurement.hpp"
-#include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/studies/shared/kept_references.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
@@ -354,12 +353,7 @@ nlohmann::json to_json(const ComparisonCase& comparison)
                            {"what", name_of(comparison.what)},
                            {"clip", comparison.clip},
                            {"rounds", comparison.rounds}};
-    for (const ReferencePose& pose : comparison.poses)
-        json["poses"].push_back({{"name", pose.name},
-                                 {"of", option_json(pose.of)},
-                                 {"stratum", name_of(pose.stratum)},
-                                 {"scene", to_json(pose.scene)},
-                                 {"frame", pose.frame}});
+    for (const ReferencePose& pose : comparison.poses) json["poses"].push_back(to_json(pose));
     for (const ChosenSetting& chosen : comparison.settings) json["settings"].push_back({chosen.budget_ms, chosen.method, chosen.setting});
     for (const ComparedMethod& method : comparison.external) json["external"].push_back(to_json(method.external));
     json["methods"] = cases_document("work_precision");

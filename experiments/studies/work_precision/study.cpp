@@ -89,7 +89,6 @@ StudyPlan plan_with(bool full, const std::string& external_file)
 // 2. The tables over all poses.
 bool conclude(const FinishedRuns& finished)
 {
-    if (finished.none()) return false;
     if (const std::vector<PointRow> training = finished.rows(point_columns, "training.csv"); !training.empty())
         finished.write("settings.csv", chosen_columns, chosen_settings(training));
     const std::vector<OwnErrorRow> own = finished.rows(own_error_columns, "references.csv");

@@ -40,7 +40,7 @@ TEST_P(VerificationRecord, EveryJudgedRowHoldsAndSaysWhy)
     EXPECT_TRUE(judged > 0 || rows.empty());  // no rows: the body or the program that the problem needs is missing
 }
 
-INSTANTIATE_TEST_SUITE_P(Problem, VerificationRecord, testing::Values("pbs_locking", "nested_convergence", "distributed"),
+INSTANTIATE_TEST_SUITE_P(Problem, VerificationRecord, testing::Values("pbs_locking", "nested_convergence", "distributed", "calculix"),
                          [](const auto& info) { return info.param; });
 
 TEST(VerificationRecordWithAWrongLameParameter, DoesNotPass)

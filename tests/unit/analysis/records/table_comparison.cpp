@@ -39,13 +39,13 @@ struct TablePair {
 const analysis::ComparedAs rounded = {.is_rounded = true}, part = {.second_is_part = true};
 
 const std::string two_rows = radius_of("1.5") + "radius,limb,0.2,f64,2.5\n", reference_quantity = "radius_over_reference",
-                  drift_quantity = "linear_drift", sizes_head = "body,radius_m,area_m2\n",
+                  drift_quantity = "linear_drift", programs_quantity = "largest_node_difference", sizes_head = "body,radius_m,area_m2\n",
                   outcomes_head = "body,outcome,inverted_tets,residual\n", frames_head = "deformer,frame,time_s,volume_change_pct\n",
                   first_of_two = sizes_head + "limb,1,2\nhuman,3,4\n";
 
 // In doubles a last digit is rounding; in single precision and by finite elements the tolerance is 1e-5. A drift of 1e-15 is nothing but
-// rounding, relative to a momentum of 1. A rounded record has six digits; a short number is exact anywhere else. A slower clip has other
-// numbers of its frames at the same times.
+// rounding, relative to a momentum of 1, and so is the difference of two programs. A rounded record has six digits; a short number is exact
+// anywhere else. A slower clip has other numbers of its frames at the same times.
 const TablePair table_pairs[] = {
     {"a table with itself", radius_of("1.0625") + "radius,limb,0.9,f64,nan\n", radius_of("1.0625") + "radius,limb,0.9,f64,nan\n", {2}},
     {"rows in another order",
@@ -71,6 +71,11 @@ const TablePair table_pairs[] = {
      {1, 1}},
     {"a drift by rounding", radius_of("1.5e-15", "f64", drift_quantity), radius_of("4.5e-15", "f64", drift_quantity), {1, 0, 1}},
     {"a drift", radius_of("1.5e-15", "f64", drift_quantity), radius_of("4.5e-5", "f64", drift_quantity), {1, 1}},
+    {"a difference of two programs by rounding",
+     radius_of("1.5e-13", "f64", programs_quantity),
+     radius_of("4.5e-13", "f64", programs_quantity),
+     {1, 0, 1}},
+    {"a difference of two programs", radius_of("1.5e-13", "f64", programs_quantity), radius_of("4.5e-8", "f64", programs_quantity), {1, 1}},
     {"half a digit of a rounded record", radius_of("1.23457"), radius_of("1.23456789012345"), {1}, "a.csv", rounded},
     {"more than half a digit", radius_of("1.23457"), radius_of("1.23458123456789"), {1, 1}, "a.csv", rounded},
     {"six digits on both sides", radius_of("1.23457"), radius_of("1.23458"), {1, 1}, "a.csv", rounded},

@@ -1,9 +1,8 @@
-// Reference: the same deformer on a character that has these weights itself; equal to the bit.
+// What LBS, DQS and both delta mushes promise beyond the contract of all deformers. Reference: the plain formulae, and the keys of scenes.
 #include "experiments/deformers/registry.hpp"
 
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/skinning/delta_mush.hpp"
@@ -29,30 +28,6 @@ pbs::Positions posed(const DeformerSpec& spec, const pbs::Character& character)
     deformer->reset(character);
     EXPECT_EQ(deformer->advance(elbow, 0.01).outcome, pbs::Outcome::finished);
     return deformer->positions();
-}
-
-TEST(OwnWeights, AreThoseOfACharacterThatHasThemItself)
-{
-    const pbs::Character smooth = pbs::with_weights(pbs::WeightKind::smooth, thin_bar);
-    EXPECT_EQ(smooth.weight_kind, pbs::WeightKind::smooth);
-    for (const char* kind : blends) {
-        DeformerSpec spec = default_spec(kind);
-        const pbs::Positions of_scene = posed(spec, thin_bar), expected = posed(spec, smooth);
-        spec.weights = pbs::WeightKind::smooth;
-        EXPECT_EQ(posed(spec, thin_bar), expected) << kind;
-        EXPECT_NE(of_scene, expected) << kind;
-    }
-}
-
-TEST(OwnWeights, AreOnRecordAndRefusedWhereTheCharacterDoesNotBringThem)
-{
-    DeformerSpec spec = default_spec("delta_mush");
-    EXPECT_FALSE(to_json(spec).contains("weights"));
-    spec.weights = pbs::WeightKind::smooth;
-    EXPECT_EQ(to_json(spec)["weights"], "smooth");
-    spec = default_spec("lbs");
-    spec.weights = pbs::WeightKind::artist;
-    EXPECT_THROW(make_deformer(spec)->reset(thin_bar), pbs::InputError);
 }
 
 // The roundings of LBS, ten, are amplified by the rotations of the mushes, whose own bounds are tested with them. A hundred roundings of

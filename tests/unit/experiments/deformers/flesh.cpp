@@ -46,15 +46,6 @@ pbs::Positions turned(const std::string& kind, const std::vector<std::string>& k
 class Flesh : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Method, Flesh, testing::Values("quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean", "projective_dynamics"));
 
-TEST_P(Flesh, AFrameDoesNotDependOnTheOneBefore)
-{
-    const auto deformer = flesh(GetParam(), {});
-    EXPECT_FALSE(deformer->has_memory());
-    deformer->advance(turned_by(80.0), 0.01);
-    deformer->advance(turned_by(30.0), 0.01);
-    EXPECT_EQ(deformer->positions(), turned(GetParam(), {}, 30.0));
-}
-
 TEST_P(Flesh, BeginsAtTheShapeThatItIsGiven)
 {
     const auto deformer = flesh(GetParam(), {"iterations=0", "packed=false"});
