@@ -112,6 +112,7 @@ template <typename Scalar>
 void WarpedSolve<Scalar>::make_panels(const CholeskyFactor& factor)
 {
     const std::vector<Columns> supernodes = merged_supernodes(factor);
+    constexpr int columns_of_a_value = std::is_same_v<Scalar, float> ? 2 : 1;
     std::size_t numbers = 0;
     int most_blocks = 0;
     for (const Columns& columns : supernodes) {
@@ -122,7 +123,7 @@ void WarpedSolve<Scalar>::make_panels(const CholeskyFactor& factor)
         while ((blocks_.size() - first_block) % blocks_together != 0) blocks_.push_back(4u * static_cast<std::uint32_t>(order_.size()));
         const int blocks = static_cast<int>(blocks_.size() - first_block);
         panels_.push_back({columns.width / 3, blocks, first_block, numbers});
-        numbers += 4 * static_cast<std::size_t>(blocks) * panels_.back().columns() / (std::is_same_v<Scalar, float> ? 2 : 1);
+        numbers += 4 * static_cast<std::size_t>(blocks) * panels_.back().columns() / columns_of_a_value;
         most_blocks = std::max(most_blocks, blocks);
     }
     values_ = Rows<PanelValue<Scalar>>(static_cast<int>(numbers / 4));
