@@ -122,7 +122,10 @@ std::vector<DeformerSpec> read_deformers(const SceneValues& values)
         else if (kind && !kind->needs_list)
             used.push_back(read_spec(values, *kind, name, name));
         else
-            values.refuse("deformers.use", "expected a deformer of `pbskin list deformers` or the name of a [[fem]] table, not " + name);
+            values.refuse(
+                "deformers.use",
+                "expected a deformer of `pbskin list deformers` or the name of a [[fem]], [[external]] or [[correctives]] table, not " +
+                    name);
     }
     if (used.empty()) values.refuse("deformers.use", "expected at least one deformer");
     return used;
