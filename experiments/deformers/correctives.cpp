@@ -24,7 +24,7 @@ using pbs::InputError;
 constexpr int correctives_schema = 1, most_modes = 1000;
 constexpr const char* hash_key = "content_hash = \"";
 
-// Of the names and places of the bones, and of the skinning weights.
+// The hash covers the names and places of the bones and the skinning weights.
 std::string rig_hash(const pbs::Character& character)
 {
     std::string bytes;

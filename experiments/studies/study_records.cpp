@@ -64,7 +64,7 @@ analysis::CaseKey key_of(const StudyRun& run)
     return key;
 }
 
-// Of a run of the study in this folder, which has its name. Values on record that follow from others are those that are concluded now.
+// Reads the values of one run. A recorded value that follows from others is replaced by the one that is concluded now.
 std::vector<analysis::Measurement> measurements_of(const fs::path& study, const std::string& csv)
 {
     std::vector<analysis::Measurement> measured = analysis::measurements(csv);

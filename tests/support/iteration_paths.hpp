@@ -50,7 +50,7 @@ inline experiments::ConvergencePaths papers_paths(const std::vector<double>& rat
     return paths;
 }
 
-// What the study measures of these paths.
+// Returns the values that the study measures on these paths.
 inline std::vector<analysis::Measurement> values_of_paths(const std::vector<experiments::ConvergencePaths>& paths, bool ladder = false)
 {
     return experiments::convergence_values(experiments::rate_rows({paths, ladder}), ladder);

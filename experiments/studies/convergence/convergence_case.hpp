@@ -156,7 +156,7 @@ std::vector<RateRow> rate_rows(const ConvergenceResult& result);
 // twists, in which the rest pose already satisfies all constraints. A ladder has no ratios, since its sizes are no independent cases.
 std::vector<analysis::Measurement> convergence_values(const std::vector<RateRow>& rows, bool ladder = false);
 
-// What follows from these values: iterations ~ vertices^exponent, over at least three sizes that reach the tolerance.
+// The exponent of iterations ~ vertices^exponent follows from these values, over at least three sizes that reach the tolerance.
 std::vector<analysis::Measurement> convergence_conclusions(const std::vector<analysis::Measurement>& measured);
 
 }  // namespace experiments

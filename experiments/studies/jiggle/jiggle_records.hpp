@@ -117,7 +117,7 @@ analysis::CaseKey key_of(const std::string& body, const ResponseRow& row);
 // own.
 std::vector<analysis::Measurement> response_values(const std::string& body, const std::vector<ResponseRow>& rows);
 
-// What follows from these values:
+// These conclusions follow from the measured values:
 // - in the paper's solver: the share of the paper's settings that swing; the rank correlation of the frequency with k_stretch, with its
 //   range when one setting is left out, and the ratio of the frequencies at the ends of k_stretch;
 // - the ratio of the largest and the smallest amplitude over k_stretch and their rank correlation (C09b), in each order and precision. The
