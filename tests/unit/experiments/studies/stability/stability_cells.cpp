@@ -148,7 +148,7 @@ TEST(PbsCells, AreJudgedInThePapersOrderAndHaveTheirControls)
 
 using analysis::StabilityOutcome;
 
-const std::set<std::string> minimising_kinds = {"quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics"};
+const std::set<std::string> minimising_kinds = {"quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean", "projective_dynamics"};
 const std::set<std::string> other_kinds = {"delta_mush", "direct_delta_mush", "pbs_author"};
 
 std::set<std::string> factors_of(const std::vector<StabilityCell>& cells, const std::string& model)

@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
     OfKinds, DeformerSettings,
     testing::Values(SettingsOfKinds{{"pbs"}, four_orders}, SettingsOfKinds{{"xpbd"}, four_orders, false},
                     SettingsOfKinds{{"lbs", "dqs"}, packed_and_plain, false},
-                    SettingsOfKinds{{"quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics"}, packed_and_plain},
+                    SettingsOfKinds{{"quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean", "projective_dynamics"}, packed_and_plain},
                     SettingsOfKinds{{"pbs_author"}, {{"", "f64"}}}, SettingsOfKinds{{"xpbd_small_steps"}, {{"", "f64"}}, false}));
 
 struct GivenOptions {

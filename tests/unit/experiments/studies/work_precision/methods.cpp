@@ -27,7 +27,7 @@ namespace {
 using namespace experiments;
 using nlohmann::json;
 
-const std::set<std::string> minimisers = {"quasi_newton", "vbd", "xpbd_neo_hookean", "projective_dynamics"};
+const std::set<std::string> minimisers = {"quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean", "projective_dynamics"};
 
 const ComparedMethod& method(const std::string& name)
 {
