@@ -2,7 +2,9 @@
 #include "experiments/deformers/correctives.hpp"
 
 #include "experiments/deformers/deformer_kind.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "pbs/character/body_cache.hpp"
+#include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/source_file.hpp"
@@ -22,6 +24,7 @@ using pbs::corrective_features;
 using pbs::InputError;
 
 constexpr int correctives_schema = 1, most_modes = 1000;
+constexpr double quantum = 5e-6;  // of the body's size: modes are whole multiples of it in a file
 constexpr const char* hash_key = "content_hash = \"";
 
 // The hash covers the names and places of the bones and the skinning weights.
@@ -53,6 +56,17 @@ std::string rows_text(const Eigen::MatrixXd& rows)
 {
     std::string text = "[";
     for (const auto& row : rows.rowwise()) text += (text.size() > 1 ? ",\n " : "") + numbers_of(row).dump();
+    return text + "]\n";
+}
+
+std::string multiples_text(const Eigen::MatrixXd& rows)
+{
+    std::string text = "[";
+    for (const auto& row : rows.rowwise()) {
+        text += text.size() > 1 ? ",\n [" : "[";
+        for (const double multiple : row) text += fmt::format("{}{}", text.back() == '[' ? "" : ",", std::llround(multiple));
+        text += "]";
+    }
     return text + "]\n";
 }
 
@@ -90,6 +104,13 @@ public:
         if (!number || *number < low || *number > high)
             refuse(node, key, number ? std::to_string(*number) : "", pbs::expected_whole("an integer", low, high));
         return *number;
+    }
+    double positive(const char* key) const
+    {
+        const toml::node& node = at(key);
+        const double number = node.value<double>().value_or(std::nan(""));
+        if (!std::isfinite(number) || number <= 0.0) refuse(node, key, "", "expected a finite number above 0");
+        return number;
     }
     const toml::array& list(const char* key) const
     {
@@ -152,7 +173,7 @@ void require_character(const FileTable& top, const pbs::Character& character)
     top.expect("rig_hash", rig, fitted_for("the bones and weights", rig));
 }
 
-pbs::JointCorrective joint_in(const FileTable& table, const pbs::Character& character)
+pbs::JointCorrective joint_in(const FileTable& table, double unit_m, const pbs::Character& character)
 {
     const auto bones = static_cast<long long>(character.skeleton.bones.size());
     pbs::JointCorrective joint{.joint = static_cast<int>(table.whole(table.at("bone"), "bone", 0, bones - 1))};
@@ -164,7 +185,7 @@ pbs::JointCorrective joint_in(const FileTable& table, const pbs::Character& char
     joint.drivers = table.rows("drivers", modes, corrective_features);
     joint.lowest = table.numbers(table.at("lowest"), "lowest", modes).transpose();
     joint.highest = table.numbers(table.at("highest"), "highest", modes).transpose();
-    joint.modes = table.rows("modes", modes, 3 * static_cast<Eigen::Index>(joint.vertices.size())).transpose();
+    joint.modes = unit_m * table.rows("modes", modes, 3 * static_cast<Eigen::Index>(joint.vertices.size())).transpose();
     return joint;
 }
 
@@ -211,11 +232,13 @@ void find_correctives(const SceneValues& values, const std::string& /*table*/, C
 
 std::string text_of(const pbs::Correctives& correctives, const pbs::Character& character)
 {
-    std::string contents = "lowest = " + rows_text(correctives.lowest) + "highest = " + rows_text(correctives.highest);
+    const double unit_m = quantum * pbs::diagonal_m(character.mesh.rest);
+    std::string contents = fmt::format("unit_m = {:.17g}\n", unit_m);
+    contents += "lowest = " + rows_text(correctives.lowest) + "highest = " + rows_text(correctives.highest);
     for (const pbs::JointCorrective& joint : correctives.joints)
         contents += fmt::format("[[joint]]\nbone = {}\nvertices = {}\nlowest = {}\nhighest = {}\ndrivers = {}modes = {}", joint.joint,
                                 nlohmann::json(joint.vertices).dump(), numbers_of(joint.lowest).dump(), numbers_of(joint.highest).dump(),
-                                rows_text(joint.drivers), rows_text(joint.modes.transpose()));
+                                rows_text(joint.drivers), multiples_text(joint.modes.transpose() / unit_m));
     const std::string name = nlohmann::json(character.name).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
     return fmt::format(
         "# Shapes that are added to the rest shape of a character before linear blend skinning: `pbskin explain correctives`.\n"
@@ -232,20 +255,37 @@ pbs::Correctives parse_correctives(const std::string& text, const std::string& f
     } catch (const toml::parse_error& error) {
         throw InputError(file, static_cast<int>(error.source().begin.line), "", "", std::string(error.description()));
     }
-    const FileTable top(parsed, file, {"schema", "character", "tets_hash", "rig_hash", "content_hash", "lowest", "highest", "joint"});
+    const FileTable top(parsed, file,
+                        {"schema", "character", "tets_hash", "rig_hash", "content_hash", "unit_m", "lowest", "highest", "joint"});
     top.whole(top.at("schema"), "schema", correctives_schema, correctives_schema);
     require_character(top, character);
     pbs::Correctives correctives{.vertices = static_cast<int>(character.mesh.rest.rows())};
     for (const pbs::Bone& bone : character.skeleton.bones) correctives.parents.push_back(bone.parent);
     const auto bones = static_cast<Eigen::Index>(correctives.parents.size());
+    const double unit_m = top.positive("unit_m");
     correctives.lowest = top.rows("lowest", bones, corrective_features);
     correctives.highest = top.rows("highest", bones, corrective_features);
     if (parsed.contains("joint"))
         for (const FileTable& table : top.tables("joint", {"bone", "vertices", "lowest", "highest", "drivers", "modes"}))
-            correctives.joints.push_back(joint_in(table, character));
+            correctives.joints.push_back(joint_in(table, unit_m, character));
     const std::size_t contents = text.find('\n', text.find(hash_key)) + 1;
     top.expect("content_hash", pbs::content_hash(text.substr(contents)), "the lines below have another hash: the file was changed");
     return correctives;
+}
+
+std::string file_of_correctives(const std::string& body)
+{
+    return (fs::path(pbs::references_folder()) / "correctives" / (body + ".toml")).string();
+}
+
+DeformerSpec kept_correctives(const std::string& body)
+{
+    DeformerSpec spec = default_spec("correctives");
+    auto& options = options_of<CorrectivesOptions>(spec);
+    options.file = file_of_correctives(body);
+    options.file_hash = pbs::hash_of_file(options.file);
+    spec.weights = pbs::WeightKind::diffused;
+    return spec;
 }
 
 DeformerKind correctives_kind()

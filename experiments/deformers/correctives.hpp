@@ -3,11 +3,13 @@
 //   const pbs::Correctives correctives = parse_correctives(text, "hero/correctives.toml", character);
 //
 // It is a TOML file: `schema` (1); `character`, by its name; `tets_hash` and `rig_hash`, of the character's tets, and of its bones and
-// skinning weights; `content_hash`, of all that follows its line; the features `lowest` and `highest` of the training, a row per bone; and
-// a table [[joint]] per joint that displaces the flesh, with the index of its bone, its `vertices`, the range of its coefficients
-// (`lowest`, `highest`), and `drivers` and `modes` [m], a row per mode. pbs/skinning/correctives.hpp explains these numbers.
+// skinning weights; `content_hash`, of all that follows its line; `unit_m`, 5e-6 of the body's size; the features `lowest` and `highest` of
+// the training, a row per bone; and a table [[joint]] per joint that displaces the flesh, with the index of its bone, its `vertices`, the
+// range of its coefficients (`lowest`, `highest`), and `drivers` and `modes`, a row per mode. Modes are whole multiples of unit_m.
+// pbs/skinning/correctives.hpp explains these numbers.
 #pragma once
 
+#include "experiments/deformers/deformer.hpp"
 #include "pbs/character/character.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/correctives.hpp"
@@ -21,10 +23,15 @@ struct CorrectivesOptions {
     pbs::Precision precision = pbs::Precision::f32;
 };
 
+// It rounds the modes to multiples of unit_m.
 std::string text_of(const pbs::Correctives& correctives, const pbs::Character& character);
 
 // InputError by line: no TOML; a key that is unknown, missing or of another type or size; a number that is not finite; bones, tets or
 // weights other than those of the character; an index that is out of range; and contents that have been changed.
 pbs::Correctives parse_correctives(const std::string& text, const std::string& file, const pbs::Character& character);
+
+// The correctives of a body that come with the program: of the references' tets, with diffused weights. The study `references` learns them.
+std::string file_of_correctives(const std::string& body);
+DeformerSpec kept_correctives(const std::string& body);  // InputError without such a file
 
 }  // namespace experiments

@@ -43,7 +43,9 @@ std::vector<EnsembleMember> members_of(Stratum stratum)
 std::vector<ReferencePose> reference_poses()
 {
     std::vector<ReferencePose> poses;
-    plan_of_cases("references", true, [&](const StudyCase& in_file, StudyPlan&) { poses.push_back(reference_pose(in_file)); });
+    plan_of_cases("references", true, [&](const StudyCase& in_file, StudyPlan&) {
+        if (!in_file.has("learned_from")) poses.push_back(reference_pose(in_file));
+    });
     return poses;
 }
 

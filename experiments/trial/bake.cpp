@@ -3,6 +3,7 @@
 #include "analysis/metrics/skin_error.hpp"
 #include "experiments/deformers/correctives.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/run/corrective_training.hpp"
 #include "experiments/run/runners.hpp"
 #include "experiments/run/spread_reference.hpp"
 #include "experiments/scene/motion.hpp"
@@ -26,8 +27,9 @@
 namespace experiments {
 namespace {
 
-constexpr double turns_deg[] = {-60.0, -30.0, 30.0, 60.0};
-constexpr int held_out_of = 3;  // one of so many frames of the motion
+constexpr int held_out_of = 3;            // one of so many frames of the motion
+constexpr double most_coordinates = 1e8;  // of the surface in all poses drawn, about a gigabyte
+constexpr int fewest_drawn = 150;
 constexpr std::size_t bones_of_a_point = 4;
 constexpr double without_limit_s = 1e9;
 
@@ -44,31 +46,43 @@ std::vector<pbs::Pose> frames_of(const pbs::Motion& motion)
     return frames;
 }
 
-// In the frames of the motion first, then in each joint's poses.
-std::vector<SolvedPose> solved_poses(const Scene& scene, const pbs::Character& character, const std::vector<pbs::Pose>& frames,
-                                     const std::string& folder, double seconds)
+// The frames of the motion that the reference reaches.
+std::vector<SolvedPose> solved_frames(const Scene& scene, const pbs::Character& character, const std::vector<pbs::Pose>& frames,
+                                      const std::string& folder, double seconds)
 {
     const auto spec = std::ranges::find(scene.deformers, scene.reference, &DeformerSpec::name);
     SpreadReference reference(*spec, reference_budget(*spec, character, folder, seconds > 0.0 ? seconds : without_limit_s, true));
-    std::vector<pbs::Pose> poses = frames;
-    for (pbs::Pose& pose : poses_of_single_joints(character)) poses.push_back(std::move(pose));
     reference.reset(character);
-    reference.foresee(poses);
+    reference.foresee(frames);
     std::vector<SolvedPose> solved;
-    for (std::size_t p = 0; p < poses.size(); ++p) {
-        reference.advance(poses[p], 0.0);
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+        reference.advance(frames[f], 0.0);
         if (!reference.has_state()) continue;
-        solved.push_back({{poses[p], reference.positions()}, near_tips(reference.facts()->tips, character.mesh.rest)});
-        solved.back().is_held_out = p < frames.size() && p % held_out_of == 1;
+        solved.push_back({{frames[f], reference.positions()}, near_tips(reference.facts()->tips, character.mesh.rest)});
+        solved.back().is_held_out = f % held_out_of == 1;
     }
     return solved;
 }
 
-std::vector<pbs::CorrectiveSample> training_of(const std::vector<SolvedPose>& solved)
+// The frames that are not held out, and poses drawn around them.
+std::vector<pbs::CorrectiveSample> training_of(const Scene& scene, const pbs::Character& character, const std::vector<SolvedPose>& solved,
+                                               double seconds)
 {
     std::vector<pbs::CorrectiveSample> samples;
+    std::vector<pbs::Pose> frames;
     for (const SolvedPose& pose : solved)
-        if (!pose.is_held_out) samples.push_back(pose.sample);
+        if (!pose.is_held_out) {
+            samples.push_back(pose.sample);
+            frames.push_back(pose.sample.pose);
+        }
+    const auto spec = std::ranges::find(scene.deformers, scene.reference, &DeformerSpec::name);
+    DrawnPoses drawn;
+    const double coordinates = 3.0 * static_cast<double>(character.surface->tet.size());
+    drawn.count = std::clamp(static_cast<int>(most_coordinates / coordinates), fewest_drawn, drawn.count);
+    for (pbs::CorrectiveSample& sample : solved_on_linear_elements(
+             character, options_of<FemOptions>(*spec), drawn_poses(character.skeleton, rotations_in(character.skeleton, frames), drawn),
+             seconds > 0.0 ? seconds : without_limit_s))
+        samples.push_back(std::move(sample));
     return samples;
 }
 
@@ -148,25 +162,6 @@ Eigen::Index write_surface(const pbs::Character& character, const pbs::Motion& m
 
 }  // namespace
 
-std::vector<pbs::Pose> poses_of_single_joints(const pbs::Character& character)
-{
-    const std::vector<pbs::Bone>& bones = character.skeleton.bones;
-    std::vector<bool> moves_flesh(bones.size(), false);
-    for (const int bone : character.weights.bone) moves_flesh[static_cast<std::size_t>(bone)] = true;
-    std::vector<pbs::Pose> poses;
-    for (std::size_t b = 0; b < bones.size(); ++b) {
-        if (bones[b].parent < 0 || !moves_flesh[b]) continue;
-        const pbs::Vec3 along = (bones[b].tail - bones[b].head).normalized(), across = along.unitOrthogonal();
-        for (const pbs::Vec3& axis : {along, across, pbs::Vec3(along.cross(across))})
-            for (const double turn_deg : turns_deg) {
-                std::vector<Eigen::Quaterniond> turns(bones.size(), Eigen::Quaterniond::Identity());
-                turns[b] = Eigen::AngleAxisd(turn_deg * M_PI / 180.0, axis);
-                poses.push_back(pbs::pose_from_joints(character.skeleton, turns, pbs::Vec3::Zero()));
-            }
-    }
-    return poses;
-}
-
 pbs::Weights surface_weights(const pbs::Character& character)
 {
     const pbs::EmbeddedSurface& surface = *character.surface;
@@ -195,8 +190,8 @@ nlohmann::json bake_correctives(const Scene& scene, const std::string& folder, c
     source.surface = true;
     const pbs::Character character = pbs::make_character(source);
     const pbs::Motion motion = make_case_motion(scene.motion, character, scene.file).motion;
-    const std::vector<SolvedPose> solved = solved_poses(scene, character, frames_of(motion), folder, options.seconds);
-    const std::vector<pbs::CorrectiveSample> training = training_of(solved);
+    const std::vector<SolvedPose> solved = solved_frames(scene, character, frames_of(motion), folder, options.seconds);
+    const std::vector<pbs::CorrectiveSample> training = training_of(scene, character, solved, options.seconds);
     if (training.empty())
         throw pbs::InputError(scene.file, 0, "reference.name", scene.reference,
                               "no pose was reached from which correctives could be learned: expected more --reference-seconds");
@@ -205,7 +200,7 @@ nlohmann::json bake_correctives(const Scene& scene, const std::string& folder, c
     pbs::write_atomically(frames_folder + "/correctives.toml", text_of(correctives, character));
     const Eigen::Index targets = write_surface(character, motion, training, frames_folder, options);
     return {{"trained", training.size()},
-            {"held_out", solved.size() - training.size()},
+            {"held_out", std::ranges::count(solved, true, &SolvedPose::is_held_out)},
             {"modes", correctives.modes()},
             {"targets", targets},
             {"seconds", stopwatch.seconds()},

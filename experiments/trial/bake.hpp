@@ -19,16 +19,13 @@ struct BakeOptions {
     bool surface_files = false;   // the surface in each frame as frames/correctives_surface_000123.vtp, too
 };
 
-// The poses in which each joint turns alone: by 30 and 60 degrees in both directions about its bone and about two axes across it. Joints
-// that move no flesh are left out.
-std::vector<pbs::Pose> poses_of_single_joints(const pbs::Character& character);
-
 // The weights by which a format for games moves the surface that the character carries: those of the artist, otherwise those of the tets
 // that carry each point; the four heaviest bones of a point, scaled to a sum of one.
 pbs::Weights surface_weights(const pbs::Character& character);
 
-// Solves the reference of the scene in the frames of its motion, which a run in `folder` may have solved, and in poses_of_single_joints,
-// and fits correctives to them, except for every third frame of the motion. Writes
+// Solves the reference of the scene in the frames of its motion, which a run in `folder` may have solved, and linear elements in 900 poses
+// that are drawn around these frames (corrective_training.hpp; fewer for a surface of many points), and fits correctives to them, except
+// for every third frame of the motion. Writes
 //   frames/correctives.toml  the correctives of the tets, for the deformer of this name
 //   frames/correctives.glb   the surface with its skin (surface_weights), the correctives of the surface as morph targets, and the motion.
 //                            The surface is fitted by itself, so that targets and skin give its correctives exactly

@@ -15,25 +15,31 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr int rotation_features = corrective_features / 2;
+constexpr int rotation_features = 25, parent_features = corrective_features - rotation_features;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double least_tried_strength = 1e-12;  // over the largest squared singular value
 constexpr double better = 1.0 - 1e-9;           // less is no improvement but rounding
 constexpr double least_feature = 1e-9;          // of a joint that turns; below it is rounding
+constexpr double added_share = 0.05;            // of the mean squared residual, in the weights of the samples
 
 void require_option(bool holds, const char* option, double value, const char* rule)
 {
     if (!holds) throw InputError("correctives", 0, option, number_text(value), rule);
 }
 
-// R - 1 column by column, then xx, xy, xz, yy, yz, zz of the rotation vector.
+// R - 1 column by column, then xx, xy, xz, yy, yz, zz and xxx, xxy, xxz, xyy and so on of the rotation vector.
 Eigen::Matrix<double, 1, rotation_features> features_of_rotation(const Eigen::Matrix3d& rotation)
 {
     const Eigen::AngleAxisd turn(rotation);
     const Vec3 w = turn.angle() * turn.axis();
     Eigen::Matrix<double, 1, rotation_features> features;
-    features << (rotation - Eigen::Matrix3d::Identity()).reshaped().transpose(), w.x() * w.x(), w.x() * w.y(), w.x() * w.z(), w.y() * w.y(),
-        w.y() * w.z(), w.z() * w.z();
+    features.head<9>() = (rotation - Eigen::Matrix3d::Identity()).reshaped().transpose();
+    int quadratic = 9, cubic = parent_features;
+    for (int a = 0; a < 3; ++a)
+        for (int b = a; b < 3; ++b) {
+            features(quadratic++) = w(a) * w(b);
+            for (int c = b; c < 3; ++c) features(cubic++) = w(a) * w(b) * w(c);
+        }
     return features;
 }
 
@@ -77,10 +83,11 @@ std::vector<int> moved_vertices(const std::vector<int>& vertices, const MatrixXd
 // A joint, and what its regression needs in every sweep.
 class JointFit {
 public:
-    // residuals: r of the samples, #samples x 3 #V. They determine the strength and the vertices.
-    JointFit(int joint, const std::vector<int>& support, MatrixXd features, const CorrectiveOptions& options,
+    // roots: sqrt(w_p) of the samples. residuals: r of the samples times these, #samples x 3 #V. They determine the strength and the
+    // vertices.
+    JointFit(int joint, const std::vector<int>& support, MatrixXd features, const VectorXd& roots, const CorrectiveOptions& options,
              const RowMajorMatrix& residuals)
-        : joint_{.joint = joint}, options_(options), features_(std::move(features)), ridge_(features_)
+        : joint_{.joint = joint}, options_(options), features_(std::move(features)), roots_(roots), ridge_(roots.asDiagonal() * features_)
     {
         const MatrixXd targets = residuals(Eigen::all, columns_of(support));
         strength_ = ridge_.best_strength(targets, options.least_strength);
@@ -116,11 +123,15 @@ public:
     const JointCorrective& joint() const { return joint_; }
 
 private:
-    MatrixXd fit() const { return features_ * joint_.drivers.transpose() * joint_.modes.transpose(); }  // #samples x 3 #vertices
+    MatrixXd fit() const  // #samples x 3 #vertices, times the roots
+    {
+        return roots_.asDiagonal() * (features_ * joint_.drivers.transpose()) * joint_.modes.transpose();
+    }
 
     JointCorrective joint_;
     CorrectiveOptions options_;
     MatrixXd features_;
+    VectorXd roots_;
     RidgeRegression ridge_;
     double strength_ = 0.0;
     std::vector<int> columns_;
@@ -191,7 +202,7 @@ CorrectiveFeatures corrective_features_of(const std::vector<int>& parents, const
         if (parents[bone] < 0) continue;
         const Eigen::Matrix3d rotation = pose[parents[bone]].linear().transpose() * pose[bone].linear();
         features.row(bone).head<rotation_features>() = features_of_rotation(rotation);
-        features.row(bone).tail<rotation_features>() = features.row(parents[bone]).head<rotation_features>();
+        features.row(bone).tail<parent_features>() = features.row(parents[bone]).head<parent_features>();
     }
     return features;
 }
@@ -209,6 +220,13 @@ Positions rest_residual(const Positions& rest, const Weights& weights, const Cor
         residual.row(v) = (inverse * residual.row(v).transpose()).transpose();
     }
     return residual;
+}
+
+VectorXd sample_weights(const VectorXd& squared_residuals)
+{
+    const double floor = added_share * squared_residuals.mean();
+    if (!(floor > 0.0)) return VectorXd::Ones(squared_residuals.size());
+    return (squared_residuals.array() + floor).inverse();
 }
 
 Correctives fit_correctives(const Skeleton& skeleton, const Positions& rest, const Weights& weights,
@@ -237,13 +255,15 @@ Correctives fit_correctives(const Skeleton& skeleton, const Positions& rest, con
         correctives.highest = correctives.highest.cwiseMax(rows);
         for (Eigen::Index bone = 0; bone < bones; ++bone) features[bone].row(s) = rows.row(bone);
     }
+    const VectorXd roots = sample_weights(residuals.rowwise().squaredNorm()).cwiseSqrt();
+    residuals = roots.asDiagonal() * residuals;
     std::vector<JointFit> fits;
     for (int bone = 0; bone < bones; ++bone) {
         const bool turns = count > 0 && features[bone].cwiseAbs().maxCoeff() > least_feature;
         if (!turns) continue;
         const std::vector<int> support = support_of(bone, correctives.parents[bone], weights);
         if (support.empty()) continue;
-        JointFit fit(bone, support, features[bone], options, residuals);
+        JointFit fit(bone, support, features[bone], roots, options, residuals);
         if (!fit.is_any()) continue;
         fits.push_back(std::move(fit));
         fits.back().sweep(residuals);

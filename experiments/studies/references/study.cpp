@@ -8,6 +8,8 @@
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/tables.hpp"
+#include "experiments/deformers/correctives.hpp"
+#include "experiments/run/corrective_training.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/kept_references.hpp"
@@ -16,7 +18,10 @@
 #include "experiments/studies/study.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/body_cache.hpp"
+#include "pbs/character/skinning_weights.hpp"
+#include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/extent.hpp"
+#include "pbs/geometry/files.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -27,6 +32,8 @@
 namespace experiments {
 namespace {
 
+// Of the body's size: the modes of two files are rounded to 5e-6 of it, up to eight of a joint move a vertex, and up to three joints.
+constexpr double same_correctives = 8 * 3 * 5e-6;
 constexpr double same_solution = 1e-5;  // of the body's size: the largest difference of two solutions of one problem
 
 struct ReferenceCase {
@@ -138,9 +145,90 @@ std::string solve_and_record(const ReferenceCase& reference_case, const std::str
     return differing;
 }
 
+// Correctives of a body, learned anew.
+struct LearnedCase {
+    std::string body;
+    Scene scene = {};
+    std::vector<Scene> motions = {};  // around whose rotations poses are drawn; none: around all movements
+    FemOptions flesh = {};
+    bool is_compared = false;  // with what is kept
+};
+
+nlohmann::json to_json(const LearnedCase& learned_case)
+{
+    nlohmann::json motions = nlohmann::json::array();
+    for (const Scene& scene : learned_case.motions) motions.push_back(to_json(scene));
+    return {{"scene", to_json(learned_case.scene)}, {"motions", std::move(motions)}, {"is_compared", learned_case.is_compared}};
+}
+
+// correctives.csv.
+struct LearnedRow {
+    std::string body;
+    int poses = 0, modes = 0;
+    double seconds = 0.0;
+    std::optional<double> from_kept_m = {};  // largest distance of a vertex from its place by the kept file, over the poses of the training
+};
+const analysis::Columns<LearnedRow> learned_columns = MEMBER_COLUMNS(LearnedRow, body, poses, modes, seconds, from_kept_m);
+
+double largest_distance_m(const pbs::Correctives& one, const pbs::Correctives& other, const std::vector<pbs::CorrectiveSample>& samples)
+{
+    double largest_m = 0.0;
+    for (const pbs::CorrectiveSample& sample : samples)
+        largest_m = std::max(
+            largest_m,
+            (corrective_displacements(one, sample.pose) - corrective_displacements(other, sample.pose)).rowwise().norm().maxCoeff());
+    return largest_m;
+}
+
+std::string learn_and_record(const LearnedCase& learned_case, const std::string& folder)
+{
+    const pbs::Stopwatch stopwatch;
+    const pbs::Character character = pbs::with_weights(pbs::WeightKind::diffused, pbs::make_character(learned_case.scene.character));
+    std::vector<pbs::Pose> poses;
+    for (const Scene& scene : learned_case.motions) {
+        const pbs::Motion motion = make_motion(scene.motion, character.skeleton, scene.file);
+        poses.insert(poses.end(), motion.steps.begin(), motion.steps.end());
+    }
+    const JointRotations known = poses.empty() ? rotations_of_movements(character.skeleton) : rotations_in(character.skeleton, poses);
+    const std::vector<pbs::CorrectiveSample> samples =
+        solved_on_linear_elements(character, learned_case.flesh, drawn_poses(character.skeleton, known));
+    const pbs::Correctives learned = pbs::fit_correctives(character.skeleton, character.mesh.rest, character.weights, samples);
+    const std::string text = text_of(learned, character);
+    LearnedRow row{learned_case.body, static_cast<int>(samples.size()), static_cast<int>(learned.modes()), stopwatch.seconds()};
+    std::string differing;
+    if (learned_case.is_compared) {
+        const std::string file = file_of_correctives(learned_case.body);
+        const pbs::Correctives kept = parse_correctives(pbs::read_text_file(file), file, character);
+        row.from_kept_m = largest_distance_m(parse_correctives(text, "", character), kept, samples);
+        if (*row.from_kept_m > same_correctives * pbs::diagonal_m(character.mesh.rest))
+            differing = fmt::format("correctives of {}: a vertex lies {:.2g} m from its place by the kept file. ", learned_case.body,
+                                    *row.from_kept_m);
+    }
+    analysis::write_text_atomically(analysis::path_in(folder, learned_case.body + ".toml"), text);
+    table_of(learned_columns, std::vector<LearnedRow>{row}).write(analysis::path_in(folder, "correctives.csv"));
+    return differing;
+}
+
+LearnedCase learned_case(const StudyCase& in_file, bool full)
+{
+    LearnedCase learned{.body = in_file.value<std::string>("body"), .is_compared = !full};
+    for (std::vector<std::string> motion : in_file.value<std::vector<std::vector<std::string>>>("learned_from")) {
+        const std::string scene = motion.front();
+        motion.erase(motion.begin());
+        learned.motions.push_back(read_scene(scene, motion));
+    }
+    learned.scene = learned.motions.empty() ? read_scene("human_01_01", {"character.body=" + learned.body}) : learned.motions.front();
+    learned.flesh = options_of<FemOptions>(flesh_of(reference_flesh(learned.scene), family().front()));
+    return learned;
+}
+
 StudyPlan plan(bool full)
 {
     return plan_of_cases("references", full, [&](const StudyCase& in_file, StudyPlan& plan) {
+        if (in_file.has("learned_from")) {
+            plan.runs.push_back(work_run(in_file.name, learned_case(in_file, full), in_file.cost_s, learn_and_record));
+            return;
+        }
         ReferenceCase reference_case{.pose = reference_pose(in_file), .is_compared = !full};
         if (reference_case.is_compared) require_kept_tets(reference_case.pose.of.body);
         reference_case.members = members_of(reference_case.pose.stratum);
@@ -152,6 +240,7 @@ StudyPlan plan(bool full)
 bool conclude(const FinishedRuns& finished)
 {
     finished.write("references.csv", reference_columns, finished.rows(reference_columns, "references.csv"));
+    finished.write("correctives.csv", learned_columns, finished.rows(learned_columns, "correctives.csv"));
     return true;
 }
 

@@ -5,6 +5,7 @@
 #include "analysis/metrics/skin_error.hpp"
 #include "analysis/records/record_files.hpp"
 #include "analysis/statistics/statistics.hpp"
+#include "experiments/deformers/correctives.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
@@ -166,6 +167,7 @@ StudyPlan plan(bool full)
         for (const DeformerSpec& spec : temporal_case.scene.deformers)
             if (!options_if<FemOptions>(spec))
                 (std::ranges::count(warm, spec.name) ? temporal_case.warm : temporal_case.cold).push_back(spec);
+        temporal_case.cold.push_back(kept_correctives(temporal_case.of.body));
         temporal_case.flesh = reference_flesh(temporal_case.scene);
         options_of<FemOptions>(temporal_case.flesh).element_order = 1;
         plan.runs.push_back(work_run(in_file.name, temporal_case, in_file.cost_s, measure_and_record));

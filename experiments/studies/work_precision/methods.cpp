@@ -1,5 +1,6 @@
 #include "experiments/studies/work_precision/methods.hpp"
 
+#include "experiments/deformers/correctives.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/registry.hpp"
@@ -76,6 +77,8 @@ ComparedMethod method_in(const nlohmann::json& table)
             value.get_to(method.tables);
         else if (key == "k_by_edge_length")
             value.get_to(method.k_by_edge_length);
+        else if (key == "learned")
+            value.get_to(method.is_learned);
         else
             throw std::logic_error("work_precision/cases.toml: nothing reads the key " + key + " of a method");
     }
@@ -224,6 +227,11 @@ DeformerSpec spec_of(const Setting& setting, const Scene& scene, const pbs::Char
 {
     const ComparedMethod& method = *setting.method;
     if (method.kind.empty()) return method.external;
+    if (method.is_learned) {
+        DeformerSpec learned = kept_correctives(scene.character.body);
+        learned.name = learned.label = method.name;
+        return learned;
+    }
     std::string kind = method.kind;
     double young_times = 1.0;
     for (const std::string& key : setting.keys) {

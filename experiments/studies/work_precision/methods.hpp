@@ -27,6 +27,7 @@ struct ComparedMethod {
     std::vector<int> iterations = {};  // empty: it does not iterate
     std::vector<std::string> tables = {};
     bool k_by_edge_length = false;
+    bool is_learned = false;     // from the file of the body that comes with the program
     DeformerSpec external = {};  // of a deformer of the user's own, which has no kind above
 
     bool takes_flesh() const { return !takes.empty(); }

@@ -1,7 +1,6 @@
-// The poses that correctives are learned from, and the skin of the exported surface. Reference: the definitions in bake.hpp, by hand.
+// The skin of the exported surface. Reference: the definition in bake.hpp, by hand.
 #include "experiments/trial/bake.hpp"
 
-#include "tests/support/bar_character.hpp"
 #include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
@@ -9,28 +8,6 @@
 namespace {
 
 using namespace experiments;
-
-TEST(BakedPoses, TurnOneJointAloneByEachAngleAboutThreeAxes)
-{
-    const pbs::Character bar = test_support::bar_character({4, 1, 1});
-    const std::vector<pbs::Pose> poses = poses_of_single_joints(bar);
-    ASSERT_EQ(poses.size(), 12u);  // the forearm alone has a parent
-    const double rounding = test_support::rounding_error(30, 180.0);
-    for (std::size_t p = 0; p < poses.size(); ++p) {
-        EXPECT_TRUE(poses[p][0].isApprox(Eigen::Isometry3d::Identity(), 0.0));
-        const Eigen::AngleAxisd turn(poses[p][1].linear());
-        EXPECT_NEAR(turn.angle() * 180.0 / M_PI, p % 4 == 0 || p % 4 == 3 ? 60.0 : 30.0, rounding);
-        EXPECT_LT((poses[p][1] * bar.skeleton.bones[1].head - bar.skeleton.bones[1].head).norm(), rounding);
-        EXPECT_NEAR(std::abs(turn.axis().x()), p < 4 ? 1.0 : 0.0, rounding) << "about the bone, then across it";
-    }
-}
-
-TEST(BakedPoses, LeaveOutJointsWithoutFlesh)
-{
-    pbs::Character bar = test_support::bar_character({4, 1, 1});
-    bar.skeleton.bones.push_back({"fingers", 1, {1, 0, 0}, {1.1, 0, 0}});
-    EXPECT_EQ(poses_of_single_joints(bar).size(), 12u);
-}
 
 // A point in the middle of a tet has a quarter of the weights of each corner, of which the four heaviest bones remain.
 TEST(BakedSurface, HasTheFourHeaviestBonesOfTheTetThatCarriesAPoint)

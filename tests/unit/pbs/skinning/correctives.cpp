@@ -56,14 +56,16 @@ std::vector<CorrectiveSample> solved(const TwoBoneLimb& limb, int count, double 
     return samples;
 }
 
-double squared_residual(const TwoBoneLimb& limb, const Correctives& correctives, const std::vector<CorrectiveSample>& samples)
+// The sum that a fit minimises, without the ridge.
+double weighted_residual(const TwoBoneLimb& limb, const Correctives& correctives, const std::vector<CorrectiveSample>& samples)
 {
-    double sum = 0.0;
-    for (const CorrectiveSample& sample : samples)
-        sum += (rest_residual(limb.mesh.rest, limb.weights, sample, CorrectiveOptions().least_stretch) -
-                corrective_displacements(correctives, sample.pose))
-                   .squaredNorm();
-    return sum;
+    Eigen::VectorXd residuals(samples.size()), left(samples.size());
+    for (std::size_t s = 0; s < samples.size(); ++s) {
+        const Positions residual = rest_residual(limb.mesh.rest, limb.weights, samples[s], CorrectiveOptions().least_stretch);
+        residuals(s) = residual.squaredNorm();
+        left(s) = (residual - corrective_displacements(correctives, samples[s].pose)).squaredNorm();
+    }
+    return sample_weights(residuals).dot(left);
 }
 
 Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, RandomPoints& random)
@@ -215,8 +217,15 @@ TEST(RidgeRegression, TakesTheStrengthThatPredictsBest)
     EXPECT_GT(strength, 0.01);
 }
 
-// With one joint and no ridge, the sum of |r|^2 falls with the rank. With several it is never above that of LBS, since each fit of a joint
-// minimises the sum with the ridge.
+TEST(Correctives, APoseThatDeformsLittleCountsAsOneThatDeformsALot)
+{
+    const Eigen::VectorXd weights = sample_weights(Eigen::Vector4d(1.0, 4.0, 15.0, 0.0));
+    for (int s = 0; s < 4; ++s) EXPECT_NEAR(weights(s), 1.0 / (Eigen::Vector4d(1.0, 4.0, 15.0, 0.0)(s) + 0.25), 1e-15) << s;
+    EXPECT_EQ(sample_weights(Eigen::Vector2d::Zero()), Eigen::Vector2d::Ones());
+}
+
+// With one joint and no ridge, the weighted sum of |r|^2 falls with the rank. With several it is never above that of LBS, since each fit of
+// a joint minimises the sum with the ridge.
 TEST(Correctives, TheFitNeverEnlargesTheResidualOfItsTraining)
 {
     const TwoBoneLimb three = chain();
@@ -224,12 +233,12 @@ TEST(Correctives, TheFitNeverEnlargesTheResidualOfItsTraining)
         const CorrectiveOptions options{.rank = rank, .least_strength = 0.0, .negligible = 0.0};
         const Correctives correctives = fit_correctives(limb.skeleton, limb.mesh.rest, limb.weights, samples, options);
         EXPECT_GT(correctives.modes(), 0);
-        return squared_residual(limb, correctives, samples);
+        return weighted_residual(limb, correctives, samples);
     };
     for (const unsigned seed : {11u, 12u}) {
         const std::vector<CorrectiveSample> of_bar = solved(bar(), 40, 0.003, seed), of_chain = solved(three, 60, 0.003, seed);
-        double before = squared_residual(bar(), fit_correctives(bar().skeleton, bar().mesh.rest, bar().weights, {}), of_bar);
-        const double without = squared_residual(three, fit_correctives(three.skeleton, three.mesh.rest, three.weights, {}), of_chain);
+        double before = weighted_residual(bar(), fit_correctives(bar().skeleton, bar().mesh.rest, bar().weights, {}), of_bar);
+        const double without = weighted_residual(three, fit_correctives(three.skeleton, three.mesh.rest, three.weights, {}), of_chain);
         for (const int rank : {1, 2, 4, 8}) {
             const double after = left(bar(), of_bar, rank);
             EXPECT_LT(after, before) << rank;
