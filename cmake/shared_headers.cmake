@@ -1,5 +1,6 @@
-# The hash of the headers through which the program and its modules exchange objects. Each of them has it as `pbskin_headers()`, so that the
-# program refuses a module that was built from other headers (load_module_with_blas). As a script, with SOURCES, this file writes OUTPUT.
+# The hash of the headers through which the program and its modules exchange objects. pbskin_fem and pbskin_verification have it as
+# `pbskin_headers()`, so that the program refuses one that was built from other headers (load_module_with_blas). Functions of the other
+# modules have new names where their arguments change. As a script, with SOURCES, this file writes OUTPUT.
 if(NOT CMAKE_SCRIPT_MODE_FILE)
     set(SOURCES ${PROJECT_SOURCE_DIR})
 endif()

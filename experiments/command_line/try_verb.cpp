@@ -123,19 +123,25 @@ int try_model(TrialOptions options, const CommonOptions& common)
     const bool is_new = analysis::make_output_folder(options.folder);
     const std::string scene_file = (fs::path(options.folder) / "scene.toml").string(), earlier_scene = earlier_trial_scene(options);
     analysis::write_text_atomically(scene_file, made.text);
+    analysis::remove_record(fs::path(options.folder) / "frames" / "correctives.toml");  // of an earlier trial
 
     const RunResult result = run_new_scene(scene_file, earlier_scene, options, is_new, common.threads, made.remarks, std::move(model));
     for (const auto& line : result.lines) spdlog::info("{}", line);
     nlohmann::json facts = trial_facts(options.folder);
     facts["animations"] = made.animations;
     facts["summary"] = trial_sentence(facts);
+    const auto write_facts = [&] {
+        analysis::write_text_atomically((fs::path(options.folder) / "try.json").string(), analysis::record_text(facts));
+    };
+    write_facts();  // also for a bake that fails
     if (options.bake && !result.was_interrupted) {
-        BakeOptions bake{.seconds = options.reference_seconds, .surface_files = options.paraview};
+        BakeOptions bake{.surface_files = options.paraview};
+        if (options.reference_seconds > 0.0) bake.seconds = options.reference_seconds;
         if (!options.paraview) bake.most_glb_bytes = most_glb_bytes;
         facts["correctives"] = bake_correctives(read_scene(scene_file, {}), options.folder, bake);
+        write_facts();
         spdlog::info("{}", bake_sentence(facts["correctives"], options.folder));
     }
-    analysis::write_text_atomically((fs::path(options.folder) / "try.json").string(), analysis::record_text(facts));
     const int written = write_report_page(options.folder, common.quiet, true);
     const int page = written == page_without_model ? exit_finished : written;
     leave_what_is_of_use(options, written);
@@ -186,7 +192,7 @@ void add_try_verb(CommandLine& line)
         ->check(CLI::Range(150, 10'000'000));
     verb->add_option("--skeleton", options->skeleton, "skeleton of a model without joints: a file, or human");
     verb->add_option("--scale", options->scale, "enlarges the model, for files that state a wrong unit");
-    verb->add_flag("--paraview", options->paraview, "keeps the frames for ParaView too (.vtu, .vtp): most of the space");
+    verb->add_flag("--paraview", options->paraview, "also keeps the frames for ParaView (.vtu, .vtp), which take most of the space");
     verb->add_flag("--allow-partial", options->allow_partial,
                    "accepts a clip of which fewer than half of the moving joints match a bone, or one half of a limb alone does");
     auto* bake = verb->add_flag("--bake", options->bake, "learns shapes of the reference, as correctives for scenes and engines");
@@ -195,7 +201,7 @@ void add_try_verb(CommandLine& line)
         "also bounds the reference's own error, by three further solutions per frame, two of them on tets cut into eight. With 2,000 "
         "vertices each frame takes minutes, and the run needs 6 GB: choose a few --frames");
     auto* seconds = verb->add_option("--reference-seconds", options->reference_seconds,
-                                     "processor time of finite elements, evenly over frames; 0: no limit")
+                                     "processor time that the finite elements may take, distributed evenly over the frames; 0: no limit")
                         ->check(CLI::Range(0.0, 1e7))
                         ->capture_default_str()
                         ->excludes(error_bar);

@@ -222,9 +222,11 @@ private:
     std::function<void(const pbs::Pose&, pbs::Positions&)> apply_;
 };
 
-void find_correctives(const SceneValues& values, const std::string& /*table*/, CorrectivesOptions& options, DeformerSpec& /*spec*/)
+void find_correctives(const SceneValues& values, const std::string& table, CorrectivesOptions& options, DeformerSpec& /*spec*/)
 {
     options.file = fs::absolute(fs::path(values.file()).parent_path() / options.file).string();
+    if (!fs::is_regular_file(options.file))
+        values.refuse(table + ".file", "no such file: expected one that `pbskin try --bake` has written");
     options.file_hash = pbs::hash_of_file(options.file);
 }
 

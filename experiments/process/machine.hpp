@@ -100,5 +100,6 @@ void restart_with_better_blas_kernels(char** argv);
 
 }  // namespace experiments
 
-// The hash of the headers that the program and its modules share (cmake/shared_headers.cmake). Each module has a function of this name.
+// The hash of the headers that the program and its modules share (cmake/shared_headers.cmake). Modules that
+// load_module_with_blas loads have a function of this name.
 extern "C" const char* pbskin_headers();

@@ -85,11 +85,11 @@ std::vector<pbs::Pose> drawn_poses(const pbs::Skeleton& skeleton, const JointRot
     std::vector<pbs::Pose> poses;
     for (int p = 0; p < options.count; ++p) {
         std::vector<Quaterniond> turns(skeleton.bones.size(), Quaterniond::Identity());
+        const double share = share_of_joints[static_cast<std::size_t>(p) % share_of_joints.size()];
         for (std::size_t b = 0; b < turns.size(); ++b) {
-            if (skeleton.bones[b].parent < 0 || random.number(0.0, 1.0) > share_of_joints[p % share_of_joints.size()]) continue;
+            if (skeleton.bones[b].parent < 0 || random.number(0.0, 1.0) > share) continue;
             if (!known[b].empty()) turns[b] = known[b][random.index(known[b].size())];
-            const bool goes_further = p / share_of_joints.size() % 3 != 0;
-            if (goes_further || known[b].empty()) turns[b] = turns[b] * random.rotation(options.further_deg * M_PI / 180.0);
+            turns[b] = turns[b] * random.rotation(options.further_deg * M_PI / 180.0);
         }
         poses.push_back(pbs::pose_from_joints(skeleton, turns, pbs::Vec3::Zero()));
     }

@@ -25,11 +25,11 @@ JointRotations rotations_of_movements(const pbs::Skeleton& skeleton);
 
 struct DrawnPoses {
     int count = 900;
-    double further_deg = 30.0;  // beyond a known rotation, about any axis, in two of three poses
+    double further_deg = 30.0;  // beyond a known rotation, about any axis
 };
 // In one third of the poses each joint turns with the probability 0.12, in one third with 0.4, and in one third all do: by one of its known
-// rotations, if there are any, and by a random angle up to further_deg about a random axis. The same arguments give the same poses on
-// every system.
+// rotations, if there are any, and by a random angle up to further_deg about a random axis. No pose therefore has exactly a known rotation.
+// The same arguments give the same poses on every system, except for rounding.
 std::vector<pbs::Pose> drawn_poses(const pbs::Skeleton& skeleton, const JointRotations& known, const DrawnPoses& options = {});
 
 // The equilibrium in each pose: the minimum of the energy of linear elements with the material and springs of `reference`, without contact.

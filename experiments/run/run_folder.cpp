@@ -69,10 +69,10 @@ bool has_artist_skin(const pbs::Character& character)
     return character.artist && character.artist->model && !character.artist->model->body.skeleton.bones.empty();
 }
 
-// The files in frames/: LABEL_000123.vtu, LABEL_surface_000123.vtp, LABEL.pvd and LABEL.glb, and correctives.toml of a trial.
+// The files in frames/: LABEL_000123.vtu, LABEL_surface_000123.vtp, LABEL.pvd and LABEL.glb.
 bool is_own_frame(const fs::path& file)
 {
-    static const std::regex own("[A-Za-z0-9_]+_[0-9]{6}\\.vt[up]|[A-Za-z0-9_]+\\.(pvd|glb)|correctives\\.toml");
+    static const std::regex own("[A-Za-z0-9_]+_[0-9]{6}\\.vt[up]|[A-Za-z0-9_]+\\.(pvd|glb)");
     return std::regex_match(file.filename().string(), own);
 }
 

@@ -372,7 +372,7 @@ std::string claim_text(const ComparedClaim& compared)
 std::string repeated_text(const ResultComparison& compared)
 {
     const int numbers = compared.numbers();
-    if (numbers == 0 && compared.agrees()) return "The record has none of these studies: nothing was compared.";
+    if (numbers == 0 && compared.other_verdicts.empty()) return "The record has none of these runs: nothing was compared.";
     if (compared.agrees())
         return fmt::format("This machine repeats the record: {0} of {0} numbers agree ({1} in every digit).", count_text(numbers),
                            count_text(compared.equal()));

@@ -113,11 +113,9 @@ std::vector<Method> methods_within_1_ms(const std::string& records)
 
 std::string title_of(const std::string& method)
 {
-    static const std::map<std::string, std::string> titles = {{"quasi_newton", "quasi-Newton"},
-                                                              {"vbd", "vertex block descent"},
-                                                              {"warped_newton", "warped Newton"},
-                                                              {"xpbd_neo_hookean", "neo-Hookean XPBD"},
-                                                              {"xpbd", "XPBD"}};
+    static const std::map<std::string, std::string> titles = {
+        {"quasi_newton", "quasi-Newton"},        {"vbd", "vertex block descent"},          {"warped_newton", "warped Newton"},
+        {"correctives", "LBS with correctives"}, {"xpbd_neo_hookean", "neo-Hookean XPBD"}, {"xpbd", "XPBD"}};
     const auto found = titles.find(method);
     return found == titles.end() ? method : found->second;
 }

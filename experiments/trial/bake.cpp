@@ -31,7 +31,6 @@ constexpr int held_out_of = 3;            // one of so many frames of the motion
 constexpr double most_coordinates = 1e8;  // of the surface in all poses drawn, about a gigabyte
 constexpr int fewest_drawn = 150;
 constexpr std::size_t bones_of_a_point = 4;
-constexpr double without_limit_s = 1e9;
 
 struct SolvedPose {
     pbs::CorrectiveSample sample;
@@ -51,7 +50,7 @@ std::vector<SolvedPose> solved_frames(const Scene& scene, const pbs::Character& 
                                       const std::string& folder, double seconds)
 {
     const auto spec = std::ranges::find(scene.deformers, scene.reference, &DeformerSpec::name);
-    SpreadReference reference(*spec, reference_budget(*spec, character, folder, seconds > 0.0 ? seconds : without_limit_s, true));
+    SpreadReference reference(*spec, reference_budget(*spec, character, folder, seconds, false));
     reference.reset(character);
     reference.foresee(frames);
     std::vector<SolvedPose> solved;
@@ -79,9 +78,9 @@ std::vector<pbs::CorrectiveSample> training_of(const Scene& scene, const pbs::Ch
     DrawnPoses drawn;
     const double coordinates = 3.0 * static_cast<double>(character.surface->tet.size());
     drawn.count = std::clamp(static_cast<int>(most_coordinates / coordinates), fewest_drawn, drawn.count);
-    for (pbs::CorrectiveSample& sample : solved_on_linear_elements(
-             character, options_of<FemOptions>(*spec), drawn_poses(character.skeleton, rotations_in(character.skeleton, frames), drawn),
-             seconds > 0.0 ? seconds : without_limit_s))
+    for (pbs::CorrectiveSample& sample :
+         solved_on_linear_elements(character, options_of<FemOptions>(*spec),
+                                   drawn_poses(character.skeleton, rotations_in(character.skeleton, frames), drawn), seconds))
         samples.push_back(std::move(sample));
     return samples;
 }

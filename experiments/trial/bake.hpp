@@ -14,7 +14,7 @@
 namespace experiments {
 
 struct BakeOptions {
-    double seconds = 0.0;         // of processor time for poses that the trial has not solved; 0: no limit
+    double seconds = 1e9;         // of processor time for frames that the trial has not solved, and again for the poses drawn
     double most_glb_bytes = 1e9;  // fewer modes per joint where the file would be larger, one at least
     bool surface_files = false;   // the surface in each frame as frames/correctives_surface_000123.vtp, too
 };

@@ -141,11 +141,10 @@ std::string decisive_sentence(const nlohmann::json& facts)
 
 std::string distance_words(const nlohmann::json& distance, const char* where)
 {
-    if (distance.is_null()) return fmt::format("no frame {} its training was held out", where);
-    const double lbs_mm = distance.at("lbs_mm"), own_mm = distance.at("correctives_mm");
-    return fmt::format("{} its training ({} frames held out) its skin is {:.2g} mm from the reference and that of LBS {:.2g} mm{}", where,
-                       distance.at("frames").get<int>(), own_mm, lbs_mm,
-                       lbs_mm > 0.0 ? fmt::format(", a share of {:.2f}", own_mm / lbs_mm) : "");
+    if (distance.is_null()) return fmt::format("No frame {} the trained range was held out.", where);
+    return fmt::format(
+        "In the {} held-out frames {} the trained range, the skin is {:.2g} mm from the reference; with LBS it is {:.2g} mm.",
+        distance.at("frames").get<int>(), where, distance.at("correctives_mm").get<double>(), distance.at("lbs_mm").get<double>());
 }
 
 }  // namespace
@@ -153,10 +152,10 @@ std::string distance_words(const nlohmann::json& distance, const char* where)
 std::string bake_sentence(const nlohmann::json& correctives, const std::string& folder)
 {
     return fmt::format(
-        "Correctives were learned from {} poses of the reference in {:.0f} s: {}; {}. {}/frames/correctives.glb plays them in "
+        "Correctives were learned from {} poses in {:.0f} s. {} {} {}/frames/correctives.glb plays them in "
         "other programs, and {}/frames/correctives.toml is for scenes (`pbskin explain correctives`).",
         correctives.at("trained").get<int>(), correctives.at("seconds").get<double>(), distance_words(correctives.at("within"), "within"),
-        distance_words(correctives.at("beyond"), "beyond"), folder, folder);
+        distance_words(correctives.at("beyond"), "outside"), folder, folder);
 }
 
 std::string trial_sentence(const nlohmann::json& facts)

@@ -179,7 +179,9 @@ class Compared:
         text = (f"With {ms:g} ms per frame, {name(known['method'])} has the least error: it leaves {percent(known['share'])} % of the "
                 f"error of LBS")
         guessed = self.row("guessed", ms, known["method"])
-        if known["takes"] and guessed is not None:
+        if known["takes"] == "learned":
+            text += ", which was learned before from flesh of one kind"
+        elif known["takes"] and guessed is not None:
             text += f" if material and springs of the flesh are known, and {percent(guessed['share'])} % if they are guessed"
         if without is not None and without is not known:
             text += f"; of the methods that need none of this, {name(without['method'])} leaves {percent(without['share'])} %"

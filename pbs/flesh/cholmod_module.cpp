@@ -37,9 +37,10 @@ void copy(const cholmod_factor& from, pbs::CholeskyFactor& to)
 
 }  // namespace
 
-extern "C" void pbskin_cholmod_factor(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order, pbs::CholeskyFactor& factor);
+extern "C" void pbskin_cholmod_ordered_factor(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order,
+                                              pbs::CholeskyFactor& factor);
 
-void pbskin_cholmod_factor(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order, pbs::CholeskyFactor& factor)
+void pbskin_cholmod_ordered_factor(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order, pbs::CholeskyFactor& factor)
 {
     factor = {};
     cholmod_common common;

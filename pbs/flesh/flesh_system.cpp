@@ -194,7 +194,7 @@ Weights HeldFlesh::smooth_weights(const Weights& otherwise) const
 CholeskyFactor cholesky_factor(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order)
 {
     CholeskyFactor factor;
-    load_module("pbskin_cholmod").function<FactorFunction>("pbskin_cholmod_factor")(lower, order, factor);
+    load_module("pbskin_cholmod").function<FactorFunction>("pbskin_cholmod_ordered_factor")(lower, order, factor);
     return factor;
 }
 

@@ -20,7 +20,7 @@ public:
 
     void clear() { pairs_.clear(); }
 
-    // Keeps the step from x to next_x where its curvature is positive.
+    // Keeps the step from x to next_x where its curvature is positive. A full memory loses its oldest pair in any case.
     void remember(const FleshSystem<Scalar>& system, const Rows<Scalar>& x, const Rows<Scalar>& next_x, const Rows<Scalar>& gradient,
                   const Rows<Scalar>& next_gradient)
     {

@@ -162,6 +162,7 @@ void WarpedSolve<Scalar>::apply(Rows<Scalar>& rows)
         for (int k = 0; k < vertices; ++k)
             for (int axis = 0; axis < 3; ++axis) turned_[k][axis] = Scalar(solution(3 * order_[k] + axis));
     } else {
+        std::fill_n(turned_[vertices], 4, Scalar(0));  // of the panels' further rows, which a frame that is not finite would spoil
         solve_panels(panels_.data(), static_cast<int>(panels_.size()), blocks_.data(), values_.data(), turned_.data(), scratch_.data());
     }
     turn(rotations_.data(), place_.data(), vertices, turned_.data(), rows.data());

@@ -2,7 +2,8 @@
 //   GlbWriter writer("pbs.glb", "hero", triangles);   // or, for a surface that does not look alike everywhere, (..., look, materials)
 //   for (...) writer.add_frame(time_s, points);
 //   writer.write();
-// The frames wait in a temporary file next to the .glb file, so that the memory does not depend on their number.
+// The points of the frames wait in a temporary file next to the .glb file. The memory has the weights of the morph targets alone, a number
+// for each two frames.
 //   writer.write(&skin);   // for a surface with a skin: the first frame is its rest shape, and the others are shapes that are added to it
 #pragma once
 

@@ -3,6 +3,7 @@
 #include "pbs/geometry/input_error.hpp"
 
 #include <Eigen/LU>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -179,7 +180,7 @@ double RidgeRegression::best_strength(const MatrixXd& targets, double least) con
     const double largest = svd_.singularValues()(0) * svd_.singularValues()(0);
     const auto attempt = [&](double strength) {
         const double error = left_out_error(targets, strength);
-        if (error >= better * least_error) return;
+        if (!(error < better * least_error)) return;
         least_error = error;
         best = strength;
     };
@@ -240,6 +241,10 @@ Correctives fit_correctives(const Skeleton& skeleton, const Positions& rest, con
                    "expected a number above 0, at most 1");
     require_option(options.negligible >= 0.0 && options.negligible < 1.0, "negligible", options.negligible,
                    "expected a number from 0, below 1");
+    for (const CorrectiveSample& sample : samples)
+        if (sample.shape.rows() != rest.rows() || !sample.shape.allFinite())
+            throw InputError("correctives", 0, "samples", std::to_string(sample.shape.rows()) + " points",
+                             fmt::format("expected {} finite points", rest.rows()));
     Correctives correctives;
     correctives.vertices = static_cast<int>(rest.rows());
     for (const Bone& bone : skeleton.bones) correctives.parents.push_back(bone.parent);

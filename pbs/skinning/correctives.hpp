@@ -16,8 +16,9 @@
 // shape. The coefficients are linear in the features instead of interpolated by radial basis functions. Poses may move several joints at
 // once: U_j and W_j minimise sum_p w_p |R_p|^2 + sum_j s_j |U_j W_j|^2, R_p what is left of r in pose p, joint by joint in several sweeps,
 // parents first. The weights w_p = 1 / (|r_p|^2 + m / 20), m the mean of |r_p|^2, let a pose that deforms little count as much as one that
-// deforms a lot. For each joint the minimiser are principal components of that part of r which its features explain (reduced-rank ridge
-// regression; A. Mukherjee, J. Zhu, Stat. Anal. Data Min. 4, 2011): where they explain all of r, these are the principal components of r.
+// deforms a lot. For each joint the minimiser consists of the principal components of that part of r which its features explain
+// (reduced-rank ridge regression; A. Mukherjee, J. Zhu, Stat. Anal. Data Min. 4, 2011): where they explain all of r, these are the
+// principal components of r.
 #pragma once
 
 #include "pbs/skinning/blend.hpp"
@@ -41,9 +42,10 @@ struct CorrectiveSample {
 struct CorrectiveOptions {
     int rank = 8;    // largest number of modes per joint, 1 or more
     int sweeps = 4;  // over all joints, 1 or more
-    // The strengths s_j that are tried are the largest squared singular value of a joint's features times 1, 0.1, 0.01 and so on, down to
-    // this. 0: down to 1e-12, and no ridge at all is tried too. Poses that resemble each other, such as the frames of a clip, find too weak
-    // a ridge by leaving out one of them: without this bound poses beyond the training get worse, and those within it hardly better.
+    // The strengths s_j that are tried are the largest squared singular value of a joint's weighted features times 1, 0.1, 0.01 and so on,
+    // down to this. 0: down to 1e-12, and no ridge at all is tried too. Poses that resemble each other, such as the frames of a clip, find
+    // too weak a ridge by leaving out one of them: without this bound poses beyond the training get worse, and those within it hardly
+    // better.
     double least_strength = 1e-3;
     // A singular value of M_v below this counts as this one: where LBS flattens the flesh, r would grow without limit.
     double least_stretch = 0.2;
@@ -96,9 +98,10 @@ CorrectiveFeatures corrective_features_of(const std::vector<int>& parents, const
 Positions rest_residual(const Positions& rest, const Weights& weights, const CorrectiveSample& sample, double least_stretch);
 
 // rest [m], #V x 3, and weights of as many; each sample has as many points, and every bone of the skeleton. A joint has no
-// correctives if it has no vertices, if it never turns, and if no strength of the ridge predicts samples that are left out better than LBS
+// correctives if it has no vertices, if it never turns, or if no strength of the ridge predicts samples that are left out better than LBS
 // does, as of a single pose. With nothing left out as negligible, the fit never enlarges
-// the sum of w_p |r_p|^2 over the samples. InputError where an option is out of its range.
+// the sum of w_p |r_p|^2 over the samples. InputError where an option is out of its range, and
+// where a sample has other than #V finite points.
 Correctives fit_correctives(const Skeleton& skeleton, const Positions& rest, const Weights& weights,
                             const std::vector<CorrectiveSample>& samples, const CorrectiveOptions& options = {});
 

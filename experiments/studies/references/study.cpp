@@ -1,5 +1,6 @@
 // The references that methods are compared with: each pose with every member of the family, solved once and kept as data. The default form
-// solves two poses again and compares them with what is kept. README.md describes the poses, members and files.
+// solves two poses again, and learns the correctives of the limb again, and compares them with what is kept. README.md describes the poses,
+// members and files.
 //
 //   pbskin reproduce references            two poses, three minutes
 //   pbskin reproduce references --full     all poses, two to three hours; what is solved is kept, so that it goes on where it was
@@ -28,12 +29,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace experiments {
 namespace {
 
-// Of the body's size: the modes of two files are rounded to 5e-6 of it, up to eight of a joint move a vertex, and up to three joints.
-constexpr double same_correctives = 8 * 3 * 5e-6;
+// Of the body's size: two files round each coordinate of a mode by half of 5e-6 of it, and the limb has eight modes, whose coefficients are
+// at most one. As much again for solutions that end at 1e-5 of their first step.
+constexpr double same_correctives = 2 * 8 * std::numbers::sqrt3 * 5e-6;
 constexpr double same_solution = 1e-5;  // of the body's size: the largest difference of two solutions of one problem
 
 struct ReferenceCase {
@@ -158,7 +161,12 @@ nlohmann::json to_json(const LearnedCase& learned_case)
 {
     nlohmann::json motions = nlohmann::json::array();
     for (const Scene& scene : learned_case.motions) motions.push_back(to_json(scene));
-    return {{"scene", to_json(learned_case.scene)}, {"motions", std::move(motions)}, {"is_compared", learned_case.is_compared}};
+    const pbs::CorrectiveOptions fit;
+    return {{"scene", to_json(learned_case.scene)},
+            {"motions", std::move(motions)},
+            {"poses", {DrawnPoses().count, DrawnPoses().further_deg}},
+            {"fit", {fit.rank, fit.sweeps, fit.least_strength, fit.least_stretch, fit.negligible}},
+            {"is_compared", learned_case.is_compared}};
 }
 
 // correctives.csv.

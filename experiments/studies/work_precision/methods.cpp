@@ -77,8 +77,6 @@ ComparedMethod method_in(const nlohmann::json& table)
             value.get_to(method.tables);
         else if (key == "k_by_edge_length")
             value.get_to(method.k_by_edge_length);
-        else if (key == "learned")
-            value.get_to(method.is_learned);
         else
             throw std::logic_error("work_precision/cases.toml: nothing reads the key " + key + " of a method");
     }
@@ -227,7 +225,7 @@ DeformerSpec spec_of(const Setting& setting, const Scene& scene, const pbs::Char
 {
     const ComparedMethod& method = *setting.method;
     if (method.kind.empty()) return method.external;
-    if (method.is_learned) {
+    if (method.is_learned()) {
         DeformerSpec learned = kept_correctives(scene.character.body);
         learned.name = learned.label = method.name;
         return learned;

@@ -9,6 +9,7 @@
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "pbs/character/character.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -27,10 +28,10 @@ struct ComparedMethod {
     std::vector<int> iterations = {};  // empty: it does not iterate
     std::vector<std::string> tables = {};
     bool k_by_edge_length = false;
-    bool is_learned = false;     // from the file of the body that comes with the program
     DeformerSpec external = {};  // of a deformer of the user's own, which has no kind above
 
-    bool takes_flesh() const { return !takes.empty(); }
+    bool is_learned() const { return std::ranges::count(takes, "learned") > 0; }
+    bool takes_flesh() const { return !takes.empty() && !is_learned(); }  // while it runs
     bool is_in(const std::string& table) const;
 };
 // Those whose deformers and keys this program has.

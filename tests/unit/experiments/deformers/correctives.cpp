@@ -187,7 +187,7 @@ TEST_F(CorrectivesFile, ASceneNamesItRelativeToItself)
     const nlohmann::json recorded = to_json(read.deformers.at(1)).at("options");
     EXPECT_EQ(recorded, (nlohmann::json{{"file", "fitted.toml"}, {"file_hash", pbs::content_hash(text)}, {"precision", "f64"}}));
     expect_input_error([&] { read_scene(folder.file("other.toml", scene + replaced(table, "fitted", "no_such")), {}); },
-                       folder / "no_such.toml", "");
+                       folder / "other.toml:11", "correctives.0.file = no_such.toml: no such file");
     expect_input_error([&] { read_scene(folder.file("bare.toml", scene + replaced(table, "file = \"fitted.toml\"\n", "")), {}); },
                        folder / "bare.toml", "correctives.0.file");
 }

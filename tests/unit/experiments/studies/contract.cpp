@@ -79,12 +79,4 @@ TEST_P(EveryStudy, DoesNotRepeatWorkThatEndedUnlessItsSettingsHaveChanged)
     }
 }
 
-TEST_P(EveryStudy, DoesNotHoldWithoutAFinishedRun)
-{
-    FinishedRuns none{.folder = folder_.path().string()};
-    for (const StudyRun& run : study_.plan(false).runs) none.missing.push_back(run.name);
-    EXPECT_EQ(study_holds(study_, none), study_.conclude == nullptr) << "only a study without tables over all runs";
-    EXPECT_TRUE(std::filesystem::is_empty(folder_.path())) << "tables without rows";
-}
-
 }  // namespace

@@ -92,7 +92,7 @@ TEST_F(Modules, AreLoadedOnceAndFoundBesideTheExecutable)
 {
     const pbs::Module& cholmod = pbs::load_module("pbskin_cholmod");
     EXPECT_EQ(&cholmod, &pbs::load_module("pbskin_cholmod"));
-    EXPECT_NE(cholmod.function<void()>("pbskin_cholmod_factor"), nullptr);
+    EXPECT_NE(cholmod.function<void()>("pbskin_cholmod_ordered_factor"), nullptr);
 }
 
 TEST_F(Modules, AFunctionThatIsNotThereIsRefusedByName)

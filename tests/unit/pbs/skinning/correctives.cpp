@@ -284,6 +284,15 @@ TEST(Correctives, AJointWithoutVerticesHasNone)
     for (const JointCorrective& joint : correctives.joints) EXPECT_LT(joint.joint, 4) << "no vertex follows d or e";
 }
 
+TEST(Correctives, SamplesOfAnotherSizeOrNotFiniteAreRefused)
+{
+    std::vector<CorrectiveSample> samples = solved(bar(), 3, 0.01, 18);
+    samples[1].shape(4, 2) = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(fit_correctives(bar().skeleton, bar().mesh.rest, bar().weights, samples), InputError);
+    samples[1].shape = samples[0].shape.topRows(5);
+    EXPECT_THROW(fit_correctives(bar().skeleton, bar().mesh.rest, bar().weights, samples), InputError);
+}
+
 TEST(Correctives, OptionsOutOfRangeAreRefused)
 {
     for (const CorrectiveOptions& options :
