@@ -1,6 +1,7 @@
 // LBS of a rest shape to which learned correctives are added: no state but the last pose's positions.
 #include "experiments/deformers/correctives.hpp"
 
+#include "analysis/records/toml_keys.hpp"
 #include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "pbs/character/body_cache.hpp"
@@ -250,13 +251,7 @@ std::string text_of(const pbs::Correctives& correctives, const pbs::Character& c
 
 pbs::Correctives parse_correctives(const std::string& text, const std::string& file, const pbs::Character& character)
 {
-    pbs::check_toml_keys(text, file);
-    toml::table parsed;
-    try {
-        parsed = toml::parse(text, file);
-    } catch (const toml::parse_error& error) {
-        throw InputError(file, static_cast<int>(error.source().begin.line), "", "", std::string(error.description()));
-    }
+    const toml::table parsed = analysis::parse_toml(text, file);
     const FileTable top(parsed, file,
                         {"schema", "character", "tets_hash", "rig_hash", "content_hash", "unit_m", "lowest", "highest", "joint"});
     top.whole(top.at("schema"), "schema", correctives_schema, correctives_schema);
@@ -299,7 +294,8 @@ DeformerKind correctives_kind()
             .key("name", KeyType::text, "", {.is_stated = true, .meaning = "the name of this deformer in deformers.use and in the records"})
             .add("file", &Options::file, {.is_stated = true, .meaning = "the fitted correctives, relative to the scene"})
             .add("precision", &Options::precision, {.meaning = "floating point of the displacements and of the blend"})
-            .record("file_hash", &Options::file_hash),
+            .record("file_hash", &Options::file_hash)
+            .complete(),
         find_correctives);
     kind.needs_list = true;
     kind.options_json = [recorded = kind.options_json](const DeformerSpec& spec) {

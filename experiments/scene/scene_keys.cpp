@@ -143,7 +143,8 @@ SceneSchema scene_schema(const std::vector<DeformerKind>& kinds)
                .keys());
     append(Keys("deformers")
                .key("use", texts, {"lbs", "pbs"},
-                    {.meaning = "what moves the character: names of `pbskin list deformers` and of the [[fem]] tables"})
+                    {.meaning = "what moves the character: names of `pbskin list deformers` and of the tables [[fem]], [[correctives]] and "
+                                "[[external]]"})
                .keys());
     append(output_fields().keys());
     return schema;

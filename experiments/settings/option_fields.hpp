@@ -187,7 +187,8 @@ public:
     }
 
     // std::logic_error unless each member is recorded, except for so many on which no result depends, such as the number of threads.
-    // Settings of a study's run and options of deformers must be complete, for --resume compares them.
+    // Settings of a study's run must be complete, for --resume compares them, and so must options of deformers, except for structs with a
+    // base, whose members cannot be counted.
     const OptionFields& complete(std::size_t except = 0) const
     {
         std::size_t recorded = except;

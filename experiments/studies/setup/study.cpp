@@ -174,8 +174,8 @@ std::vector<Measurement> not_set_up(const analysis::CaseKey& key)
 
 namespace {
 
-// Runs the body in `folder`/run and writes measurements.csv, changed_keys.csv and trials.csv. Every trial meshes anew. Returns the failure
-// of the last trial, if any.
+// Runs the body in `folder`/run and writes measurements.csv, changed_keys.csv and trials.csv. Every trial meshes anew, unless its tets come
+// with the program. Returns the failure of the last trial, if any.
 std::string set_up_and_record(const SetupCase& setup_case, const std::string& folder)
 {
     const auto& [setup, rate_hz] = setup_case;

@@ -4,6 +4,7 @@
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/metrics/skin_error.hpp"
 #include "analysis/statistics/statistics.hpp"
+#include "experiments/deformers/correctives.hpp"
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
@@ -19,6 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -357,6 +359,9 @@ nlohmann::json to_json(const ComparisonCase& comparison)
     for (const ChosenSetting& chosen : comparison.settings) json["settings"].push_back({chosen.budget_ms, chosen.method, chosen.setting});
     for (const ComparedMethod& method : comparison.external) json["external"].push_back(to_json(method.external));
     json["methods"] = cases_document("work_precision");
+    for (const ComparedMethod& method : methods())
+        if (method.is_learned() && std::filesystem::exists(file_of_correctives(comparison.body)))
+            json["learned"][method.name] = to_json(kept_correctives(comparison.body));
     return json;
 }
 

@@ -12,6 +12,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace {
 
 using namespace experiments;
@@ -137,8 +140,15 @@ TEST_F(CorrectivesFile, ErrorsNameTheLineTheFieldAndTheRule)
     const auto refused = [&](const std::string& changed, const std::string& line, const std::string& holds) {
         expect_input_error([&] { parse_correctives(changed, "fitted.toml", learned_bar()); }, "fitted.toml:" + line, holds);
     };
+    const auto line_of = [](const std::string& changed, const std::string& place) {
+        return std::to_string(1 + std::count(changed.begin(), changed.begin() + static_cast<long>(changed.find(place)), '\n'));
+    };
+    const auto refused_at = [&](const std::string& from, const std::string& to, const std::string& holds) {
+        const std::string changed = replaced(text, from, to);
+        refused(changed, line_of(changed, to), holds);
+    };
     refused(replaced(text, "schema = 1", "schema = 2"), "2", "schema = 2: expected 1");
-    refused(replaced(text, "schema = 1", "schema = one"), "2", "");
+    refused(replaced(text, "schema = 1", "schema = one"), "2", "error");
     refused(replaced(text, "schema = 1\n", ""), "", "schema: missing");
     refused(replaced(text, "character = \"bar\"", "character = \"bar\"\ncharcter = 1"), "4",
             "unknown key; the nearest known one is character");
@@ -147,13 +157,14 @@ TEST_F(CorrectivesFile, ErrorsNameTheLineTheFieldAndTheRule)
     refused(replaced(text, "\nlowest = [[0.0,", "\nlowest = [[\"0\","), "8", "expected a finite number");
     refused(replaced(text, "\nlowest = [", "\nlowest = [[0.0],"), "8", "3 rows: expected 2");
     refused(replaced(text, "unit_m = ", "unit_m = -"), "7", "unit_m: expected a finite number above 0");
-    refused(replaced(text, "[[joint]]", "[joint]"), "", "joint: expected a list");
-    refused(replaced(text, "bone = 1", "bone = 2"), "", "bone = 2: expected an integer from 0 to 1");
-    refused(replaced(text, "bone = 1\n", ""), "", "bone: missing");
-    refused(replaced(text, "vertices = [", "vertices = [-1, "), "", "vertices = -1: expected an integer from 0 to");
-    refused(replaced(text, "vertices = [", "vertices = [0, "), "", "modes");
-    refused(replaced(text, "drivers = [[", "drivers = [[0.0], ["), "", "drivers");
-    refused(text.substr(0, text.size() / 2), "", "");
+    refused_at("[[joint]]", "[joint]", "joint: expected a list");
+    refused_at("bone = 1", "bone = 2", "bone = 2: expected an integer from 0 to 1");
+    refused(replaced(text, "bone = 1\n", ""), line_of(text, "[[joint]]"), "bone: missing");
+    refused_at("vertices = [", "vertices = [-1, ", "vertices = -1: expected an integer from 0 to");
+    refused(replaced(text, "vertices = [", "vertices = [0, "), line_of(text, "modes = "), "modes");
+    refused_at("drivers = [[", "drivers = [[0.0], [", "drivers = 1 numbers: expected a list of 40 numbers");
+    refused(text.substr(0, text.size() / 2),
+            std::to_string(std::count(text.begin(), text.begin() + static_cast<long>(text.size() / 2), '\n') + 1), "");
 }
 
 // Numbers that nothing else checks.
