@@ -3,7 +3,6 @@
 #include "pbs/geometry/input_error.hpp"
 
 #include <Eigen/LU>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -244,7 +243,7 @@ Correctives fit_correctives(const Skeleton& skeleton, const Positions& rest, con
     for (const CorrectiveSample& sample : samples)
         if (sample.shape.rows() != rest.rows() || !sample.shape.allFinite())
             throw InputError("correctives", 0, "samples", std::to_string(sample.shape.rows()) + " points",
-                             fmt::format("expected {} finite points", rest.rows()));
+                             "expected " + std::to_string(rest.rows()) + " finite points");
     Correctives correctives;
     correctives.vertices = static_cast<int>(rest.rows());
     for (const Bone& bone : skeleton.bones) correctives.parents.push_back(bone.parent);
