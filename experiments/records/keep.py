@@ -27,7 +27,7 @@ MOST_BYTES = 8_000_000
 COMPRESSED_FROM = 1_000_000  # bytes of a table of all runs, which is then NAME.csv.gz
 # Tables of a run from which those of the study follow: kept whatever their length. WHOLE: of a study, with all digits, since every decision
 # can be recomputed from them.
-RAW = ("rates.csv",)
+RAW = ("rates.csv", "played.csv")
 WHOLE = ("errors.csv", "pairs.csv")
 # Tables that no verdict and no page reads, and rows.csv, whose rows verification.csv has. Three figures need them from a run.
 UNREAD = ("profiles.csv", "regions.csv", "smoothness.csv", "rows.csv", "towards.csv", "points.csv", "training.csv")

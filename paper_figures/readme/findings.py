@@ -117,13 +117,14 @@ def origin_of_picture(results):
 def methods_lines(results):
     """The answer for a reader who has to choose, and the table of the methods."""
     compared, processor = compared_methods.Compared(results / "work_precision"), origin_of_picture(results)["cpu_model"]
+    processor = processor.replace("(R)", "").removesuffix(" Processor")
     head = ["method", "takes", *(f"{ms:g} ms" for ms in compared.times_ms)]
     rows = [tables.line(*cells) for cells in compared.table("known")]
     poses = compared.row("known", compared.times_ms[0], "lbs")["poses"]
-    marks = {"\u2020": "too slow on a machine half as fast", "\u2021": "too slow on this machine"}
+    marks = {"\u2020": "too slow on a machine half as fast", "\u2021": "on this one"}
     told = [f"Error at the joints in per cent of that of LBS, on one core ({processor}): geometric mean over {poses} poses, in brackets "
-            "the range over the reference variants. It is not decided which of two methods with a common letter is nearer.",
-            *(f"{mark}: {meaning}." for mark, meaning in marks.items() if mark in "".join(rows))]
+            "the range over the reference variants. Between methods with a common letter nothing is decided.",
+            "; ".join(f"{mark}: {meaning}" for mark, meaning in marks.items() if mark in "".join(rows)) + "."]
     return [*tables.filled(f"**{compared.headline()}** [Other times, and what is open]({page})."), "",
             tables.line(*head), "|---" * len(head) + "|", *rows, "", *tables.filled(f"*{' '.join(told)}*")]
 

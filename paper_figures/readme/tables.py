@@ -64,9 +64,10 @@ def held_out_sentences(claims):
 
 
 def claims_lines(results):
-    """With each revision and the studies that were measured at it; the revision with the most of them comes first."""
+    """With each revision and the studies whose runs judge a claim and were measured at it; the revision with the most of them comes first."""
     table, studies = claims_table(results), {}
-    for file in sorted(results.glob("*/*/run.json")):
+    judged = {run for claim in claims_of(results) for run in claim["runs"]}
+    for file in sorted(file for file in results.glob("*/*/run.json") if "/".join(file.parts[-3:-1]) in judged):
         revision = of_revision(shapes.read(file, shapes.run).get("provenance", {}))
         studies.setdefault(revision, {})[file.parent.parent.name] = True
     records.need(studies, f"{results}: no run.json of a study's run in it")

@@ -59,6 +59,11 @@ def taken(row):
     return ", ".join(case_words.of_field("takes", word) for word in row["takes"].split()) or "nothing"
 
 
+def is_learned(row):
+    """It takes nothing while it runs, but it was trained before."""
+    return row["takes"] == "learned"
+
+
 def cell(row):
     """33 [33, 48] ab: the share, its range and the letters; nothing where a method needs more time."""
     return "" if row is None else (f"{percent(row['share'])} [{percent(row['share_low'])}, {percent(row['share_high'])}] "
@@ -136,7 +141,7 @@ class Compared:
         """The reference variants that compare the two."""
         return [row["member"] for row in of_time(self.pairs, table, ms) if {row["first"], row["second"]} == {method, other}]
 
-    def familiar_ones(self, table, ms, method):
+    def familiar_ones(self, table, ms, method, with_exceptions=True):
         """nearer than PBS and LBS for 7 of 8 reference variants (not decided if the flesh is nearly incompressible)"""
         by_variants = {}
         for other in familiar:
@@ -144,7 +149,7 @@ class Compared:
             if nearer:
                 without = [member for member in variants if member not in nearer]
                 text = f" for {len(nearer)} of {len(variants)} reference variants" if without else ""
-                if 0 < len(without) <= most_exceptions and not self.where_nearer(table, ms, other, method):
+                if with_exceptions and 0 < len(without) <= most_exceptions and not self.where_nearer(table, ms, other, method):
                     text += f", not decided if {assumed(without)}"
                 by_variants.setdefault(text, []).append(other)
         return "; ".join(f"nearer than {named(others)}{text}" for text, others in by_variants.items())
@@ -178,17 +183,18 @@ class Compared:
             return f"No method is fast enough on this machine for {ms:g} ms per frame."
         text = (f"With {ms:g} ms per frame, {name(known['method'])} has the least error: it leaves {percent(known['share'])} % of the "
                 f"error of LBS")
-        guessed = self.row("guessed", ms, known["method"])
-        if known["takes"] == "learned":
-            text += ", which was learned before from flesh of one kind"
-        elif known["takes"] and guessed is not None:
+        guessed, learned = self.row("guessed", ms, known["method"]), next((row for row in self.rows("known", ms) if is_learned(row)), None)
+        if known["takes"] and not is_learned(known) and guessed is not None:
             text += f" if material and springs of the flesh are known, and {percent(guessed['share'])} % if they are guessed"
+        if learned is not None:
+            text += (f". {name(learned['method'])}, learned once for each body, leaves {percent(learned['share'])} % in "
+                     f"{float(learned['ms']):.1g} ms")
         if without is not None and without is not known:
             text += f"; of the methods that need none of this, {name(without['method'])} leaves {percent(without['share'])} %"
             mush = self.row("known", ms, "delta_mush")
             if mush is not None and mush is not without:
                 text += f" and {name(mush['method'])} {percent(mush['share'])} %"
-        compared = self.familiar_ones("known", ms, known["method"])
+        compared = self.familiar_ones("known", ms, known["method"], with_exceptions=False)
         subject = name(known["method"])
         return f"{text}. {subject[0].upper()}{subject[1:]} is {compared}." if compared else f"{text}."
 
