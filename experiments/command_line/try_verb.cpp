@@ -192,7 +192,7 @@ void add_try_verb(CommandLine& line)
         ->check(CLI::Range(150, 10'000'000));
     verb->add_option("--skeleton", options->skeleton, "skeleton of a model without joints: a file, or human");
     verb->add_option("--scale", options->scale, "enlarges the model, for files that state a wrong unit");
-    verb->add_flag("--paraview", options->paraview, "also keeps the frames for ParaView (.vtu, .vtp), which take most of the space");
+    verb->add_flag("--paraview", options->paraview, "also keeps the frames for ParaView (.vtu, .vtp): most of the space");
     verb->add_flag("--allow-partial", options->allow_partial,
                    "accepts a clip of which fewer than half of the moving joints match a bone, or one half of a limb alone does");
     auto* bake = verb->add_flag("--bake", options->bake, "learns shapes of the reference, as correctives for scenes and engines");
@@ -201,7 +201,7 @@ void add_try_verb(CommandLine& line)
         "also bounds the reference's own error, by three further solutions per frame, two of them on tets cut into eight. With 2,000 "
         "vertices each frame takes minutes, and the run needs 6 GB: choose a few --frames");
     auto* seconds = verb->add_option("--reference-seconds", options->reference_seconds,
-                                     "processor time that the finite elements may take, distributed evenly over the frames; 0: no limit")
+                                     "processor time of the finite elements; 0: no limit")
                         ->check(CLI::Range(0.0, 1e7))
                         ->capture_default_str()
                         ->excludes(error_bar);

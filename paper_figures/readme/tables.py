@@ -64,7 +64,7 @@ def held_out_sentences(claims):
 
 
 def claims_lines(results):
-    """With each revision and the studies whose runs judge a claim and were measured at it; the revision with the most of them comes first."""
+    """With each revision and the studies whose runs judge a claim and were measured at it. The revision with the most comes first."""
     table, studies = claims_table(results), {}
     judged = {run for claim in claims_of(results) for run in claim["runs"]}
     for file in sorted(file for file in results.glob("*/*/run.json") if "/".join(file.parts[-3:-1]) in judged):

@@ -224,7 +224,7 @@ Positions rest_residual(const Positions& rest, const Weights& weights, const Cor
 
 VectorXd sample_weights(const VectorXd& squared_residuals)
 {
-    const double floor = added_share * squared_residuals.mean();
+    const double floor = squared_residuals.size() > 0 ? added_share * squared_residuals.mean() : 0.0;
     if (!(floor > 0.0)) return VectorXd::Ones(squared_residuals.size());
     return (squared_residuals.array() + floor).inverse();
 }

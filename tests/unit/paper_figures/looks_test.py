@@ -26,7 +26,7 @@ class Looks(unittest.TestCase):
         compared = tomllib.loads((root / "experiments/studies/work_precision/cases.toml").read_text(encoding="utf-8"))["method"]
         self.assertLessEqual({method["name"] for method in compared}, set(looks.listed))
         drawn = [looks.of(method["name"]) for method in compared if "known" in method["tables"]]
-        self.assertEqual(len({look.color for look in drawn}), 10)
+        self.assertEqual(len({look.color for look in drawn}), 12)
 
     def test_a_deformer_that_is_not_listed_has_its_name_and_a_look_that_depends_on_nothing_else(self):
         listed = {entry.get("color") for entry in looks.listed.values()}

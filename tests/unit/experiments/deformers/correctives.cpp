@@ -148,7 +148,7 @@ TEST_F(CorrectivesFile, ErrorsNameTheLineTheFieldAndTheRule)
         refused(changed, line_of(changed, to), holds);
     };
     refused(replaced(text, "schema = 1", "schema = 2"), "2", "schema = 2: expected 1");
-    refused(replaced(text, "schema = 1", "schema = one"), "2", "error");
+    refused(replaced(text, "schema = 1", "schema = one"), "2", "could not determine value type");
     refused(replaced(text, "schema = 1\n", ""), "", "schema: missing");
     refused(replaced(text, "character = \"bar\"", "character = \"bar\"\ncharcter = 1"), "4",
             "unknown key; the nearest known one is character");
@@ -198,7 +198,7 @@ TEST_F(CorrectivesFile, ASceneNamesItRelativeToItself)
     const nlohmann::json recorded = to_json(read.deformers.at(1)).at("options");
     EXPECT_EQ(recorded, (nlohmann::json{{"file", "fitted.toml"}, {"file_hash", pbs::content_hash(text)}, {"precision", "f64"}}));
     expect_input_error([&] { read_scene(folder.file("other.toml", scene + replaced(table, "fitted", "no_such")), {}); },
-                       folder / "other.toml:11", "correctives.0.file = no_such.toml: no such file");
+                       folder / "other.toml:12", "correctives.0.file = no_such.toml: no such file");
     expect_input_error([&] { read_scene(folder.file("bare.toml", scene + replaced(table, "file = \"fitted.toml\"\n", "")), {}); },
                        folder / "bare.toml", "correctives.0.file");
 }

@@ -18,10 +18,16 @@ namespace {
 using namespace experiments;
 using nlohmann::json;
 
-// Of all bodies, whether they are installed or not.
+// Of all bodies, whether they are installed or not; not the cases of correctives.
 const json& listed()
 {
-    static const json cases = cases_document("references").at("case");
+    static const json cases = [] {
+        json poses = json::array();
+        const json document = cases_document("references");
+        for (const json& one : document.at("case"))
+            if (!one.contains("learned_from")) poses.push_back(one);
+        return poses;
+    }();
     return cases;
 }
 

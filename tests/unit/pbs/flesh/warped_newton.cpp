@@ -168,20 +168,12 @@ TEST(WarpedNewton, RefusesFactorsThatCannotConverge)
         EXPECT_THROW(pbs::WarpedNewton<double>(mesh, bar.energy, flesh().factor(), {.omega = omega}), pbs::InputError);
 }
 
+// Its energy and its sweeps, the parts with threads, are tested on so many vertices that they use several in packed_systems.cpp.
 TEST(WarpedNewton, NeitherThreadsNorRepetitionChangeABit)
 {
-    const test_support::HeldBar large({60, 16, 16});  // 17,629 vertices: enough chunks of a colour for several threads
-    ASSERT_GE(large.vertices(), 16384);
-    const pbs::HeldFlesh held(large.bent.mesh, large.springs, 2, {});
-    const std::vector<Eigen::Matrix3d> rotations(static_cast<std::size_t>(large.vertices()), Eigen::Matrix3d::Identity());
-    const auto moved = [&](int threads) {
-        pbs::WarpedNewton<float> solver(large.bent.mesh, held.energy(), held.factor(), {.iterations = 1, .threads = threads});
-        Positions x = large.bent.lbs;
-        solver.minimise(large.centres, rotations, x);
-        return x;
-    };
-    const Positions once = moved(1);
-    for (const int threads : {1, 2, 4}) EXPECT_EQ(moved(threads), once) << threads;
+    const Bent bent(70.0);
+    const Positions once = bent.moved({}).first;
+    for (const int threads : {1, 2, 4}) EXPECT_EQ(bent.moved({.threads = threads}).first, once);
 }
 
 }  // namespace

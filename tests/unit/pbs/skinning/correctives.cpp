@@ -222,6 +222,7 @@ TEST(Correctives, APoseThatDeformsLittleCountsAsOneThatDeformsALot)
     const Eigen::VectorXd weights = sample_weights(Eigen::Vector4d(1.0, 4.0, 15.0, 0.0));
     for (int s = 0; s < 4; ++s) EXPECT_NEAR(weights(s), 1.0 / (Eigen::Vector4d(1.0, 4.0, 15.0, 0.0)(s) + 0.25), 1e-15) << s;
     EXPECT_EQ(sample_weights(Eigen::Vector2d::Zero()), Eigen::Vector2d::Ones());
+    EXPECT_EQ(sample_weights(Eigen::VectorXd()).size(), 0);
 }
 
 // With one joint and no ridge, the weighted sum of |r|^2 falls with the rank. With several it is never above that of LBS, since each fit of

@@ -106,8 +106,8 @@ TEST(Temporal, PlansEachClipWithFleshThatIsNoneOfItsDeformers)
     for (const bool full : {false, true})
         for (const StudyRun& run : temporal_study().plan(full).runs) {
             EXPECT_EQ(run.settings.at("flesh").at("options").at("element_order"), 1);
-            EXPECT_EQ(run.settings.at("cold").size(), 5u);
-            EXPECT_EQ(run.settings.at("warm").size(), 6u);
+            EXPECT_EQ(run.settings.at("cold").size(), 6u);
+            EXPECT_EQ(run.settings.at("warm").size(), 7u);
         }
 }
 

@@ -124,7 +124,7 @@ TEST(Methods, ThatAreLearnedHaveAFileOfTheBody)
     const auto loss = [&](const pbs::Positions& x) {
         return 1.0 - pbs::tet_volumes(x, character.mesh.tets).sum() / pbs::tet_volumes(character.mesh.rest, character.mesh.tets).sum();
     };
-    EXPECT_GT(loss(lbs), 0.04);
+    EXPECT_GT(loss(lbs), 0.03);
     EXPECT_LT(std::abs(loss(deformer->positions())), 0.01);
 }
 
@@ -368,7 +368,7 @@ TEST(Comparison, HasItsTimesMembersAndPosesFromOtherTables)
     EXPECT_EQ(members, (std::vector<std::string>{"smooth", "nu_0.49", "rigid_capsules"}));
     std::set<std::string> movements;
     for (const json& pose : listed("references", "case"))
-        if (pose.at("stratum") == "movement") movements.insert(pose.at("name"));
+        if (pose.value("stratum", "") == "movement") movements.insert(pose.at("name"));
     EXPECT_EQ(start_poses().size(), 12u);
     for (const std::string& pose : start_poses()) EXPECT_TRUE(movements.contains(pose)) << pose;
 }

@@ -1,15 +1,18 @@
 // All settings in a training pose. Reference: the methods' table, and deformers that are driven by hand.
+#include "experiments/deformers/correctives.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/studies/shared/kept_references.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/work_precision/measuring.hpp"
 #include "pbs/character/body_cache.hpp"
+#include "pbs/character/skinning_weights.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -35,6 +38,9 @@ TEST(Training, TriesAllSettingsWithTheFleshOfTheTrainingMembers)
     }
     references.file("limb_twist_30.ref", packed(kept, limb));
     kept = read_references(pose.name, limb, bones);
+    const pbs::Character diffused = pbs::with_weights(pbs::WeightKind::diffused, limb);  // correctives that move nothing
+    std::filesystem::create_directory(references / "correctives");
+    references.file("correctives/limb.toml", text_of(pbs::fit_correctives(limb.skeleton, limb.mesh.rest, diffused.weights, {}), diffused));
     const Measurements measurements = measure(of);
     ::unsetenv("PBSKIN_REFERENCES");
 
