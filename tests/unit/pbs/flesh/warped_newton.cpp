@@ -80,6 +80,26 @@ TEST(WarpedSolve, SolvesTheSystemPlainlyAndByPanels)
     }
 }
 
+// A frame that is not finite, and then the same one as before.
+TEST(WarpedSolve, NumbersThatAreNotFiniteLeaveNothingBehind)
+{
+    std::vector<int> place(bar.vertices());
+    std::iota(place.begin(), place.end(), 0);
+    pbs::WarpedSolve<float> solve(mesh, bar.energy, flesh().factor().order, place, true);
+    solve.set_rotations(random_rotations(bar.vertices()));
+    const auto applied = [&](const Positions& b) {
+        pbs::Rows<float> rows(bar.vertices());
+        pbs::load_rows(b, place, pbs::Vec3::Zero(), rows);
+        solve.apply(rows);
+        Positions x;
+        pbs::store_rows(rows, place, pbs::Vec3::Zero(), x);
+        return x;
+    };
+    const Positions b = test_support::jittered(Positions::Zero(bar.vertices(), 3), 0.1), before = applied(b);
+    EXPECT_FALSE(applied(Positions::Constant(bar.vertices(), 3, std::numeric_limits<double>::quiet_NaN())).allFinite());
+    EXPECT_EQ(applied(b), before);
+}
+
 // Float has rounded values, but both substitutions read the same ones, so that the matrix is symmetric and positive definite as L-BFGS
 // requires.
 TEST(WarpedSolve, IsSymmetricAndPositiveDefiniteInFloat)
