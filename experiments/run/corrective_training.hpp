@@ -1,4 +1,4 @@
-// What correctives are learned from (pbs/skinning/correctives.hpp): poses that are drawn at random, solved on linear elements.
+// The training of correctives (pbs/skinning/correctives.hpp): poses that are drawn at random, and solved on linear elements.
 //   const JointRotations known = rotations_in(skeleton, frames);
 //   const auto samples = solved_on_linear_elements(character, reference, drawn_poses(skeleton, known));
 //

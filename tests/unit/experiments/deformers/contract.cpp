@@ -1,5 +1,5 @@
-// What every deformer promises. Reference: the contract of experiments/deformers/deformer.hpp, and of the keys that each kind declares. A
-// kind of the registry joins by itself; finite elements, which need a table in the scene, are in `every_deformer`.
+// Every deformer keeps these promises. Reference: the contract of experiments/deformers/deformer.hpp, and of the keys that each kind
+// declares. A kind of the registry joins by itself; finite elements, which need a table in the scene, are in `every_deformer`.
 
 #include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"

@@ -1,4 +1,4 @@
-// What correctives are learned from. Reference: the turns that poses are made of, the mirror image of a turn, the rules of the header for
+// The training of correctives. Reference: the turns that poses are made of, the mirror image of a turn, the rules of the header for
 // poses that are drawn, and the deformer of the same energy.
 #include "experiments/run/corrective_training.hpp"
 

@@ -1,4 +1,4 @@
-// What every study promises. Reference: the contract of experiments/studies/study.hpp. A study of the list joins by itself.
+// Every study keeps these promises. Reference: the contract of experiments/studies/study.hpp. A study of the list joins by itself.
 
 #include "experiments/studies/reproduce.hpp"
 #include "experiments/studies/study.hpp"

@@ -1,6 +1,6 @@
-// What every constraint promises, whatever it measures. References: Eq. 3-4, 8 and 9 by hand, differences of the values for the gradients,
-// and that a projection depends only on lengths and volumes: it commutes with rigid motions, renumbering, mirrors and changes of unit.
-// Tolerances: the rounding of a projection, and of a moved input, which a projection amplifies (projection_rounding.hpp).
+// Every constraint keeps these promises, whatever it measures. References: Eq. 3-4, 8 and 9 by hand, differences of the values for the
+// gradients, and that a projection depends only on lengths and volumes: it commutes with rigid motions, renumbering, mirrors and changes of
+// unit. Tolerances: the rounding of a projection, and of a moved input, which a projection amplifies (projection_rounding.hpp).
 #include "pbs/constraints/region_volume.hpp"
 
 #include "pbs/geometry/topology.hpp"
