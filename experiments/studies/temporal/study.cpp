@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 namespace experiments {
@@ -167,7 +168,8 @@ StudyPlan plan(bool full)
         for (const DeformerSpec& spec : temporal_case.scene.deformers)
             if (!options_if<FemOptions>(spec))
                 (std::ranges::count(warm, spec.name) ? temporal_case.warm : temporal_case.cold).push_back(spec);
-        temporal_case.cold.push_back(kept_correctives(temporal_case.of.body));
+        if (std::filesystem::exists(file_of_correctives(temporal_case.of.body)))  // not where the references are made anew
+            temporal_case.cold.push_back(kept_correctives(temporal_case.of.body));
         temporal_case.flesh = reference_flesh(temporal_case.scene);
         options_of<FemOptions>(temporal_case.flesh).element_order = 1;
         plan.runs.push_back(work_run(in_file.name, temporal_case, in_file.cost_s, measure_and_record));
