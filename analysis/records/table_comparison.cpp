@@ -177,8 +177,11 @@ bool is_by_minimisation(const std::string& method)
 double tolerance_of(const std::string& file, const CsvTable& table, int row, const std::string& column, double value)
 {
     if (file == "metrics.csv" && column.ends_with("_pct")) return same_frame_points;
-    if (file == "errors.csv" && column.ends_with("_pct"))  // of work_precision, whose methods compute in single precision
-        return is_by_minimisation(cell_or_nothing(table, row, "method")) ? same_minimum_points : same_in_single * std::abs(value);
+    if (file == "errors.csv") {  // of work_precision, whose methods compute in single precision
+        const std::optional<double> points = number_in(cell_or_nothing(table, row, "smooth_pct"));
+        if (!is_by_minimisation(cell_or_nothing(table, row, "method")) || !points) return same_in_single * std::abs(value);
+        return column == "skin_mm" ? same_minimum_points / *points * std::abs(value) : same_minimum_points;  // by the same displacement
+    }
     const std::string quantity = cell_or_nothing(table, row, "quantity");
     const bool is_single = cell_or_nothing(table, row, "precision") == "f32";
     const bool is_of_two_programs = quantity == "largest_node_difference" && column == "value";  // that solve one system
