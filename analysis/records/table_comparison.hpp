@@ -19,9 +19,9 @@ namespace analysis {
 // iterations and the dozens of constraints of a vertex.
 inline constexpr double same_in_double = 1e-9, same_in_single = 1e-5, same_by_finite_elements = 1e-5;
 inline constexpr double same_frame_points = 1e-4;  // of a volume or an error of a frame, in percentage points
-// Of the error of a method that minimises an energy in single precision, in percentage points of the displacement. It ends where steps
-// change the energy by less than its rounding, 2^-24 of it. Since the energy grows with the square of the distance from the minimum, the
-// shape is then known to sqrt(2 * 2^-24) of the displacement.
+// The tolerance for the error of a method that minimises an energy in single precision, in percentage points of the displacement. Such a
+// method ends where a step changes the energy by less than the rounding of the energy, which is 2^-24 of it. The energy grows with the
+// square of the distance from the minimum, so that the shape is then known to sqrt(2 * 2^-24) of the displacement.
 inline constexpr double same_minimum_points = 100.0 * 3.453e-4;
 
 struct CellDifference {

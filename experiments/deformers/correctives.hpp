@@ -30,7 +30,8 @@ std::string text_of(const pbs::Correctives& correctives, const pbs::Character& c
 // weights other than those of the character; an index that is out of range; and contents that have been changed.
 pbs::Correctives parse_correctives(const std::string& text, const std::string& file, const pbs::Character& character);
 
-// The correctives of a body that come with the program: of the references' tets, with diffused weights. The study `references` learns them.
+// The program comes with correctives of five bodies, which the study `references` learns. They fit the tets of the kept references and the
+// skinning weights of the kind `diffused`.
 std::string file_of_correctives(const std::string& body);
 DeformerSpec kept_correctives(const std::string& body);  // InputError without such a file
 

@@ -18,9 +18,10 @@ namespace experiments {
 // Rotations against the parent that each joint is known to take, #bones lists. A root has none.
 using JointRotations = std::vector<std::vector<Eigen::Quaterniond>>;
 
-// Those of the poses, except where a joint does not turn.
+// The rotations that the joints have in the poses. A pose in which a joint does not turn adds none to it.
 JointRotations rotations_in(const pbs::Skeleton& skeleton, const std::vector<pbs::Pose>& poses);
-// Those of all movements of scenes/movements.toml, and their mirror images in x = 0 for joints whose names end in .R instead of .L.
+// The rotations of all movements of scenes/movements.toml. A joint whose name ends in .R takes the mirror images, in the plane x = 0, of
+// those of the joint whose name ends in .L.
 JointRotations rotations_of_movements(const pbs::Skeleton& skeleton);
 
 struct DrawnPoses {

@@ -34,8 +34,9 @@
 namespace experiments {
 namespace {
 
-// Of the body's size: two files round each coordinate of a mode by half of 5e-6 of it, and the limb has eight modes, whose coefficients are
-// at most one. As much again for solutions that end at 1e-5 of their first step.
+// The largest distance between two files of correctives, over the body's size. Each file rounds a coordinate of a mode by half of 5e-6 of
+// the size, and the limb has eight modes, whose coefficients are at most one. The tolerance allows as much again for solutions, which end
+// at 1e-5 of their first step.
 constexpr double same_correctives = 2 * 8 * std::numbers::sqrt3 * 5e-6;
 constexpr double same_solution = 1e-5;  // of the body's size: the largest difference of two solutions of one problem
 

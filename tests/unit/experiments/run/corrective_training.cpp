@@ -88,7 +88,7 @@ TEST(DrawnPosesOfTraining, TurnFewManyAndAllJointsNearTheirKnownRotations)
             }
         }
     }
-    // Of 400 joints each, with four standard deviations of a binomial distribution.
+    // Each third of the poses has 400 joints. The bounds are four standard deviations of a binomial distribution.
     EXPECT_NEAR(turned[0], 48, 4 * std::sqrt(400 * 0.12 * 0.88));
     EXPECT_NEAR(turned[1], 160, 4 * std::sqrt(400 * 0.4 * 0.6));
     EXPECT_EQ(turned[2], 400);

@@ -18,7 +18,7 @@ namespace {
 using namespace experiments;
 using nlohmann::json;
 
-// Of all bodies, whether they are installed or not; not the cases of correctives.
+// The cases of poses of all bodies, whether the bodies are installed or not. The cases of correctives have no pose.
 const json& listed()
 {
     static const json cases = [] {

@@ -99,7 +99,7 @@ TEST(Methods, DeformTheLimb)
     }
 }
 
-// Those of man and lady belong to tets that other versions of CGAL do not make.
+// The files of man and lady are left out: they belong to tets that other versions of CGAL do not make.
 TEST(Methods, TheirFilesBelongToTheBodiesOfTheReferences)
 {
     for (const char* body : {"limb", "human", "frankie"}) {
@@ -112,7 +112,7 @@ TEST(Methods, TheirFilesBelongToTheBodiesOfTheReferences)
     }
 }
 
-// Of the sizes of the references: near the flesh where LBS loses its volume.
+// The limb has the size of its references here. Correctives keep the volume that LBS loses.
 TEST(Methods, ThatAreLearnedHaveAFileOfTheBody)
 {
     const Scene scene = read_scene("limb_twist", {"motion.angle_deg=60", "motion.frames=2"});
