@@ -33,6 +33,18 @@ std::vector<Eigen::Matrix3d> random_rotations(int count)
     return rotations;
 }
 
+// Vertex i has row place[i].
+template <typename Scalar>
+Positions applied(pbs::WarpedSolve<Scalar>& solve, const std::vector<int>& place, const Positions& b)
+{
+    pbs::Rows<Scalar> rows(static_cast<int>(place.size()));
+    pbs::load_rows(b, place, pbs::Vec3::Zero(), rows);
+    solve.apply(rows);
+    Positions x;
+    pbs::store_rows(rows, place, pbs::Vec3::Zero(), x);
+    return x;
+}
+
 // (R K R^T)^-1 b with the vertices in reversed rows.
 template <typename Scalar>
 Positions solved(const HeldBar& held, const pbs::CholeskyFactor& factor, bool packed, const Positions& b)
@@ -41,12 +53,7 @@ Positions solved(const HeldBar& held, const pbs::CholeskyFactor& factor, bool pa
     std::iota(place.rbegin(), place.rend(), 0);
     pbs::WarpedSolve<Scalar> solve(held.bent.mesh, held.energy, factor.order, place, packed);
     solve.set_rotations(random_rotations(held.vertices()));
-    pbs::Rows<Scalar> rows(held.vertices());
-    pbs::load_rows(b, place, pbs::Vec3::Zero(), rows);
-    solve.apply(rows);
-    Positions x;
-    pbs::store_rows(rows, place, pbs::Vec3::Zero(), x);
-    return x;
+    return applied(solve, place, b);
 }
 
 // R K R^T x. A vertex without tets has the row of a unit matrix.
@@ -87,17 +94,9 @@ TEST(WarpedSolve, NumbersThatAreNotFiniteLeaveNothingBehind)
     std::iota(place.begin(), place.end(), 0);
     pbs::WarpedSolve<float> solve(mesh, bar.energy, flesh().factor().order, place, true);
     solve.set_rotations(random_rotations(bar.vertices()));
-    const auto applied = [&](const Positions& b) {
-        pbs::Rows<float> rows(bar.vertices());
-        pbs::load_rows(b, place, pbs::Vec3::Zero(), rows);
-        solve.apply(rows);
-        Positions x;
-        pbs::store_rows(rows, place, pbs::Vec3::Zero(), x);
-        return x;
-    };
-    const Positions b = test_support::jittered(Positions::Zero(bar.vertices(), 3), 0.1), before = applied(b);
-    EXPECT_FALSE(applied(Positions::Constant(bar.vertices(), 3, std::numeric_limits<double>::quiet_NaN())).allFinite());
-    EXPECT_EQ(applied(b), before);
+    const Positions b = test_support::jittered(Positions::Zero(bar.vertices(), 3), 0.1), before = applied(solve, place, b);
+    EXPECT_FALSE(applied(solve, place, Positions::Constant(bar.vertices(), 3, std::numeric_limits<double>::quiet_NaN())).allFinite());
+    EXPECT_EQ(applied(solve, place, b), before);
 }
 
 // Float has rounded values, but both substitutions read the same ones, so that the matrix is symmetric and positive definite as L-BFGS
