@@ -161,6 +161,28 @@ Violations unit_mirror(const SourceTree& tree)
     return violations;
 }
 
+// StudyCase refuses keys that nothing reads; the tables beside [[case]] have no such owner.
+Violations unread_tables(const SourceTree& tree)
+{
+    static const std::regex header(R"(^\[\[?(\w+))");
+    Violations violations;
+    for (const auto& [path, text] : tree) {
+        if (!path.ends_with("/cases.toml")) continue;
+        std::string sources = "\"case\"";  // that of study_cases.cpp
+        for (const auto& [source, code] : tree)
+            if (is_cpp(source) && folder_of(source) == folder_of(path)) sources += code;
+        const std::vector<std::string> lines = lines_of(text);
+        bool in_text = false;
+        for (std::size_t line = 0; line < lines.size(); ++line) {
+            std::smatch table;
+            if (!in_text && std::regex_search(lines[line], table, header) && sources.find('"' + table.str(1) + '"') == std::string::npos)
+                violations.push_back(at(path, static_cast<int>(line) + 1, "no source of the study reads the table " + table.str(1)));
+            if (lines[line].find("\"\"\"") != std::string::npos) in_text = !in_text;
+        }
+    }
+    return violations;
+}
+
 Violations kernel_includes(const SourceTree& tree)
 {
     Violations violations;

@@ -74,6 +74,7 @@ Violations registers_at_home(const SourceTree& tree);  // SIMD headers included 
 // Every source file is built, and the unit tests mirror the source folders.
 Violations orphaned_sources(const SourceTree& tree);  // a .cpp that no CMake file names
 Violations unit_mirror(const SourceTree& tree);       // tests/unit/A/... without a source folder A or pbs/A
+Violations unread_tables(const SourceTree& tree);     // a table of a study's cases.toml that none of its sources names
 
 // cmake/packages.txt is the one list of the project's requirements: it is well formed, and covers what the CMake files search for.
 Violations package_list_form(const SourceTree& tree);

@@ -35,6 +35,7 @@ const std::map<std::string, Law> all_laws = {
     {"KernelsAloneSeeRegisters", registers_at_home},
     {"EverySourceIsBuilt", orphaned_sources},
     {"UnitTestsMirrorTheSource", unit_mirror},
+    {"EveryTableOfCasesIsRead", unread_tables},
     {"PackageListIsWellFormed", package_list_form},
     {"PackageListCoversTheCMakeFiles", package_list_cover},
     {"Functions", function_sizes},
