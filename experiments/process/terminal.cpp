@@ -193,7 +193,9 @@ void say_when_interrupted(const std::string& text)
 
 bool take_interruption()
 {
-    return signalled.exchange(false);
+    const bool taken = signalled.exchange(false);
+    if (taken && getpid() == program) spdlog::info("interrupted; what is finished is written now (a second interruption ends this too)");
+    return taken;
 }
 
 void stop_if_interrupted()

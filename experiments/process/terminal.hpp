@@ -58,7 +58,7 @@ bool interrupted();
 void stop_if_interrupted();  // throws Interrupted
 // What an interruption that ends the program prints, in place of an earlier text.
 void say_when_interrupted(const std::string& text);
-// For work that an interruption shortens rather than ends: returns whether there was one, and forgets it.
+// For work that an interruption shortens rather than ends: returns whether there was one, says so, and forgets it.
 bool take_interruption();
 
 // The number of characters in a line: COLUMNS, else the width of the terminal, else 100.

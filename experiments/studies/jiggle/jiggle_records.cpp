@@ -297,7 +297,6 @@ std::string record_jolts(const JoltCase& jolt_case, const std::string& folder)
         measured = response_values(character.name, rows);
         add_controls(jolt_case, character, probe, rows, measured);
         std::ranges::move(jiggle_conclusions(measured), std::back_inserter(measured));
-        std::erase_if(measured, [](const Measurement& value) { return value.quantity == "amplitude" && value.of.deformer == "lbs"; });
     }
     std::string breakdown;
     for (const ResponseRow& row : rows)

@@ -61,6 +61,7 @@ class MovingCharacterTest(program.ProgramTest):
                 trial.send_signal(sent)
                 printed += trial.stderr.read()
                 self.assertEqual(trial.wait(), 130, printed)
+                self.assertIn("interrupted; what is finished is written now (a second interruption ends this too)", printed)
                 self.assertIn("report.html has what was finished, and the same command goes on from there", printed)
                 facts = self.json("slime", "try.json")
                 self.assertTrue(facts["interrupted"])
