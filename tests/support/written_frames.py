@@ -1,4 +1,4 @@
-"""The meshes that the program writes, read by VTK and not by the program's own code."""
+"""Meshes as VTK has them: those that the program writes, read by VTK and not by the program's own code, and surfaces for it to read."""
 import numpy
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
@@ -30,3 +30,16 @@ def signed_volumes(grid):
     """The volume of each tet [m^3]."""
     a, b, c, d = (points(grid).astype(numpy.float64)[tets(grid)[:, corner]] for corner in range(4))
     return numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a) / 6.0
+
+
+def surface(points, faces):
+    """Polygons as VTK's data set. points: #P x 3; faces: their corners."""
+    polygons, cloud, cells = vtk.vtkPolyData(), vtk.vtkPoints(), vtk.vtkCellArray()
+    cloud.SetDataTypeToDouble()
+    for point in points:
+        cloud.InsertNextPoint(point)
+    for face in faces:
+        cells.InsertNextCell(len(face), face)
+    polygons.SetPoints(cloud)
+    polygons.SetPolys(cells)
+    return polygons

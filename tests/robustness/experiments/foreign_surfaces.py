@@ -10,6 +10,7 @@ import vtk
 import program
 import rig_files
 import run_records
+import written_frames
 
 # The six faces of a box, outward; corner 4 x + 2 y + z.
 QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -42,14 +43,7 @@ def joined(*parts):
 
 
 def write_vtp(path, points, faces, vector=None):
-    surface, cloud, cells = vtk.vtkPolyData(), vtk.vtkPoints(), vtk.vtkCellArray()
-    cloud.SetDataTypeToDouble()
-    for point in points:
-        cloud.InsertNextPoint(point)
-    for face in faces:
-        cells.InsertNextCell(len(face), face)
-    surface.SetPoints(cloud)
-    surface.SetPolys(cells)
+    surface = written_frames.surface(points, faces)
     if vector is not None:
         array = vtk.vtkDoubleArray()
         array.SetName("u")

@@ -11,6 +11,7 @@ import fbx_formula
 import program
 import rig_files
 import skin_formula
+import written_frames
 
 FRAMES = 5
 INSTALLED = "/usr/share/assimp/models"
@@ -20,16 +21,8 @@ FBX_MODELS = {f"{INSTALLED}/FBX/animation_with_skeleton.fbx": 5, f"{INSTALLED}/F
 
 def volume_and_area(points, faces):
     """Inside a surface of triangles. The volume of polygons that are not flat would depend on how they are cut."""
-    surface, cloud, cells = vtk.vtkPolyData(), vtk.vtkPoints(), vtk.vtkCellArray()
-    cloud.SetDataTypeToDouble()
-    for point in points:
-        cloud.InsertNextPoint(point)
-    for face in faces:
-        cells.InsertNextCell(len(face), face)
-    surface.SetPoints(cloud)
-    surface.SetPolys(cells)
     mass = vtk.vtkMassProperties()
-    mass.SetInputData(surface)
+    mass.SetInputData(written_frames.surface(points, faces))
     return mass.GetVolume(), mass.GetSurfaceArea()
 
 
