@@ -27,6 +27,9 @@ class Presets(unittest.TestCase):
         self.assertRegex(text(".ci/run"), r'(?m)^exec ".*/\.\./check" "\$@"$')
 
     def test_both_in_one_folder(self):
+        """With the same flags, so that ./check compiles nothing again that ./reproduce has compiled."""
+        self.assertEqual((self.configured["ci"]["inherits"], self.configured["ci"]["cacheVariables"]),
+                         ("release", {"PBS_WITH_TESTS": "ON"}))
         folder = re.search(r"^build_folder=(\S+)$", text("cmake/setup.sh"), re.MULTILINE)[1]
         self.assertEqual(self.configured["ci"]["binaryDir"], "${sourceDir}/" + folder)
 
