@@ -249,8 +249,9 @@ void name_left_out(const std::vector<PlannedStudy>& planned)
 
 bool has_run_of(const std::vector<PlannedStudy>& planned, const std::string& body)
 {
+    const auto is_of_body = [&](const StudyRun& run) { return is_run_of(run.name, body); };
     return std::ranges::any_of(planned, [&](const PlannedStudy& planned_study) {
-        return std::ranges::any_of(planned_study.plan.runs, [&](const StudyRun& run) { return is_run_of(run.name, body); });
+        return std::ranges::any_of(planned_study.to_do, is_of_body) || std::ranges::any_of(planned_study.kept, is_of_body);
     });
 }
 
