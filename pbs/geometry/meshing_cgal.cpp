@@ -17,6 +17,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -30,6 +32,9 @@ namespace pbs {
 namespace {
 
 namespace parameters = CGAL::parameters;
+
+// The body was asked more often than it may be.
+struct NoEnd {};
 
 // A body as CGAL's concept MeshDomain_3.
 struct AskedBody {
@@ -54,7 +59,10 @@ struct AskedBody {
     }
     auto is_in_domain_object() const
     {
-        return [this](const Point& p) { return body->contains(p) ? Subdomain(1) : Subdomain(); };
+        return [this](const Point& p) {
+            if (questions_left-- == 0) throw NoEnd{};
+            return body->contains(p) ? Subdomain(1) : Subdomain();
+        };
     }
     const AskedBody& construct_intersection_object() const { return *this; }
     Intersection operator()(const MeshedBody::Line& line) const
@@ -64,6 +72,8 @@ struct AskedBody {
     }
 
     const MeshedBody* body;
+    mutable std::size_t questions_left = unlimited;
+    static constexpr auto unlimited = std::numeric_limits<std::size_t>::max();
 };
 
 using Domain = CGAL::Mesh_domain_with_polyline_features_3<AskedBody>;
@@ -115,6 +125,21 @@ Complex refined(const Domain& domain, const MeshCriteria& wanted)
                                                                             parameters::pointer_to_error_code = &end));
     if (end != CGAL::CGAL_MESH_3_NO_ERROR) throw TooManyVertices{"more than " + std::to_string(wanted.most_vertices)};
     return complex;
+}
+
+// False where the perturbation has no end: that of CGAL 6.0 moves the vertices of some coarse meshes to and fro. Others ask the body up to
+// 50 times per vertex. A count ends it the same way each time, which seconds would not. The complex is of no use then.
+bool perturbed(Complex& complex, const Domain& domain, double sliver_bound_deg)
+{
+    constexpr std::size_t most_questions_per_vertex = 2000;
+    domain.questions_left = most_questions_per_vertex * complex.triangulation().number_of_vertices();
+    const std::shared_ptr<void> restored(nullptr, [&domain](void*) { domain.questions_left = Domain::unlimited; });
+    try {
+        CGAL::perturb_mesh_3(complex, domain, parameters::sliver_bound = sliver_bound_deg);
+    } catch (const NoEnd&) {
+        return false;
+    }
+    return true;
 }
 
 // Vertices are numbered as the cells first name them; cells come in the order of the triangulation's container.
@@ -224,7 +249,7 @@ TetMesh mesh_body(MeshedBody& body, const MeshCriteria& criteria)
     Complex complex = refined(domain, criteria);
     while (complex.number_of_facets_in_complex() == 0 && body.double_initial_points()) complex = refined(domain, criteria);
     if (criteria.sliver_bound_deg) {
-        CGAL::perturb_mesh_3(complex, domain, parameters::sliver_bound = *criteria.sliver_bound_deg);
+        if (!perturbed(complex, domain, *criteria.sliver_bound_deg)) complex = refined(domain, criteria);
         CGAL::exude_mesh_3(complex, parameters::sliver_bound = *criteria.sliver_bound_deg);
     }
     return tet_mesh_of(complex);

@@ -131,9 +131,10 @@ TEST_F(GltfRig, ShowsTheMeshesOfTheDefaultScene)
 
 TEST_F(GltfRig, ExtensionsThatDoNotMoveVerticesAreAllowed)
 {
+    gltf.json["extensions"] = json::parse(R"({"KHR_lights_punctual": {"lights": [{"type": "point"}]}})");
     for (const char* extension : {"KHR_materials_unlit", "KHR_texture_transform", "KHR_mesh_quantization", "KHR_lights_punctual"}) {
         gltf.json["extensionsRequired"] = {extension};
-        gltf.json["nodes"][0]["extensions"] = {{extension, json::object()}};
+        gltf.json["nodes"][0]["extensions"] = {{extension, {{"light", 0}}}};
         EXPECT_NO_THROW(read()) << extension;
     }
     gltf.json["extensionsRequired"] = {"ACME_texture"};
