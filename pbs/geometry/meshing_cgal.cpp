@@ -128,7 +128,7 @@ Complex refined(const Domain& domain, const MeshCriteria& wanted)
 }
 
 // False where the perturbation has no end: that of CGAL 6.0 moves the vertices of some coarse meshes to and fro. Others ask the body up to
-// 50 times per vertex. A count ends it the same way each time, which seconds would not. The complex is of no use then.
+// 65 times per vertex. A count ends it the same way each time, which seconds would not. The complex is of no use then.
 bool perturbed(Complex& complex, const Domain& domain, double sliver_bound_deg)
 {
     constexpr std::size_t most_questions_per_vertex = 2000;
