@@ -1,6 +1,6 @@
 // The quick verification record of the finite elements. Reference: what each row cites (closed forms, published benchmarks, other codes);
 // the row states its tolerance and where that comes from. The record can fail: with an error of 5 % in the solver's lambda, which the
-// compared values do not have, a named row does not hold. Problems without a character, PBS or another program:
+// compared values do not have, named rows do not hold. Problems without a character, PBS or another program:
 // tests/verification/reference_fem/problems.cpp.
 #include "experiments/studies/verification/problem.hpp"
 
@@ -45,10 +45,12 @@ INSTANTIATE_TEST_SUITE_P(Problem, VerificationRecord, testing::Values("pbs_locki
 
 TEST(VerificationRecordWithAWrongLameParameter, DoesNotPass)
 {
-    bool failed = false;
-    for (const VerificationRow& row : problem("nested_convergence").rows({{.lambda_error = 0.05}}))
-        failed |= row.quantity.key == "bound" && !holds(row).value_or(true);
-    EXPECT_TRUE(failed);
+    for (const auto& [name, quantity] : {std::pair("nested_convergence", "bound"), {"distributed", "node_difference"}}) {
+        bool failed = false;
+        for (const VerificationRow& row : problem(name).rows({{.lambda_error = 0.05}}))
+            failed |= row.quantity.key == quantity && !holds(row).value_or(true);
+        EXPECT_TRUE(failed) << name;
+    }
 }
 
 }  // namespace

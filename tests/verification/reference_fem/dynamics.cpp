@@ -319,6 +319,34 @@ TEST_F(Body, AfterASolveIsAtRest)
     EXPECT_LT(tolerance, 1e-4 * (equilibrium - bar.rest).norm()) << "a bound that would let a vibration pass proves nothing";
 }
 
+// The targets beyond 0.6 of the path are not numbers. In linear elements the weight does the work rho V g . u on each tet, where u is the
+// mean of its corners. Each term goes through the roundings of an entry of the load and of the sum over the degrees of freedom.
+TEST_F(Body, BearsThePartOfTheWeightThatItsLoadPathReached)
+{
+    const ElasticOptions options{.element_order = 1};
+    ElasticBody hanging = body(options);
+    const Vec3 gravity(0, 0, -1);
+    const auto targets = [](double fraction) {
+        return Targets{Positions(0, 3), fraction > 0.6 ? Positions::Constant(bar.rest.rows(), 3, std::nan("")) : bar.rest, {}};
+    };
+    const LoadPathSummary path = hanging.solve(targets, gravity);
+    ASSERT_FALSE(path.converged());
+    ASSERT_GT(path.reached, 0.0);
+    const Positions moved = hanging.positions() - bar.rest;
+    const Eigen::VectorXd volumes = pbs::tet_volumes(bar.rest, bar.tets);
+    double work_j = 0.0, terms_j = 0.0;
+    for (Eigen::Index t = 0; t < bar.tets.rows(); ++t)
+        for (const int corner : bar.tets.row(t)) {
+            const double term_j = path.reached * options.density_kg_m3 * volumes(t) / 4.0 * moved.row(corner).dot(gravity);
+            work_j += term_j;
+            terms_j += std::abs(term_j);
+        }
+    const SimplexSpace space(bar, 1);
+    const double roundings = test_support::entry_roundings(space, 2, 1) + space.dofs();
+    EXPECT_NEAR(hanging.potential_energy_j(), hanging.strain_energy_j() - work_j, test_support::rounding_error(2.0 * roundings, terms_j));
+    EXPECT_LT(test_support::rounding_error(2.0 * roundings, terms_j), 1e-6 * terms_j) << "a bound that would let another weight pass";
+}
+
 TEST_F(Body, RefusesAStepThatIsNotPositiveAndABodyWithoutMass)
 {
     ElasticBody still = body({.element_order = 1}), resting = body({.element_order = 1, .dynamics = Dynamics::newmark});

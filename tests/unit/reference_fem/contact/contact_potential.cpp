@@ -103,7 +103,12 @@ TEST_P(FlatFaces, PressWithTheBarrierOncePerAreaOnAnyTwoMeshes)
     EXPECT_NEAR(contact.value(together), young_pa * area_m2 * b.value, test_support::rounding_error(1e4, young_pa * area_m2 * b.value));
     const Vec3 force = force_on(gradient_of(contact, together), space, true);
     EXPECT_NEAR(force.z(), -young_pa * area_m2 * b.first, test_support::rounding_error(1e4, young_pa * area_m2));
-    EXPECT_NEAR(contact.state(together).smallest_distance_m, gap_m, test_support::rounding_error(40, 2.0));
+    // The upper face is tilted about its rim at x = 0, which stays above the rim of the lower face. All other places are farther apart.
+    Eigen::VectorXd tilted = together;
+    for (int n = 0; n < space.nodes(); ++n)
+        if (space.node_positions()(n, 2) > 1.0) tilted(3 * n + 2) += 0.01 * space.node_positions()(n, 0);
+    for (const Eigen::VectorXd& state : {together, tilted})
+        EXPECT_NEAR(contact.state(state).smallest_distance_m, gap_m, test_support::rounding_error(40, 2.0));
 }
 
 TEST_P(FlatFaces, DoNotPressBeyondTheRange)
@@ -178,6 +183,23 @@ INSTANTIATE_TEST_SUITE_P(OfTwoMeshes, FlatFaces, testing::Values(Blocks{1, 2}, B
                          [](const auto& blocks) {
                              return "Order" + std::to_string(blocks.param.element_order) + "Squares" + std::to_string(blocks.param.squares);
                          });
+
+// Two tets whose facing edges cross at right angles, 1 m apart at rest. All other pairs are farther apart than the range. An edge has a
+// third of its two triangles, whose area is sqrt 2 m^2 each, and a pair of edges presses with half the mean of their areas. The roundings
+// are those of flat faces.
+TEST(ContactPotential, OfTwoEdgesThatCrossIsTheBarrierOnceForTheMeanOfTheirAreas)
+{
+    pbs::TetMesh tets{pbs::Positions(8, 3), pbs::Tets(2, 4)};
+    tets.rest << -1, 0, 0, 1, 0, 0, 0, -1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, -1, 0, 2, 1, 0, 2;
+    tets.tets << 0, 1, 2, 3, 4, 5, 6, 7;
+    const SimplexSpace space(tets, 1);
+    const ContactPotential contact(space, options);
+    const double gap_m = 0.4 * range_m, area_m2 = 2.0 * std::numbers::sqrt2 / 3.0;
+    const ContactState state = contact.state(brought_together(space, gap_m, 0.5));
+    EXPECT_EQ(state.pairs, 1);
+    const double energy_j = young_pa / 2.0 * area_m2 * barrier(gap_m, range_m / 2.0).value;
+    EXPECT_NEAR(state.energy_j, energy_j, test_support::rounding_error(1e4, energy_j));
+}
 
 TEST(ContactPotential, IsZeroAtRestHoweverLongItsRange)
 {

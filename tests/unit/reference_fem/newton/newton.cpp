@@ -134,6 +134,8 @@ TEST(Newton, ReusesItsFactorWhileStepsContract)
     Eigen::VectorXd anew, kept;
     const NewtonSummary each_step = minimise(0.0, anew), reusing = minimise(contraction, kept);
     ASSERT_TRUE(each_step.converged() && reusing.converged());
+    for (const NewtonSummary* summary : {&each_step, &reusing})
+        EXPECT_LE(summary->iterations.back().residual_n, tolerance * summary->iterations.back().force_scale_n);
     EXPECT_LT(reusing.factorisations, each_step.factorisations);
 
     const auto& states = reusing.iterations;
