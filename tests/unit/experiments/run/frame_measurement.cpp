@@ -195,6 +195,7 @@ TEST(LimbStations, StandAlongBothBonesAndAcrossTheJointAndCutTheWholeLimb)
         EXPECT_EQ(station.point.tail<2>().norm(), 0.0);
         EXPECT_EQ(station.normal, pbs::Vec3::UnitX());
         joints += station.carriers.size() == 2;
+        EXPECT_EQ(std::ssize(station.tets), limb.mesh.tets.rows()) << station.name << ": the bones in one line are one limb";
         const double area = analysis::cross_section_area(limb.mesh.rest, limb.mesh.tets, station.tets, {station.point, station.normal});
         EXPECT_GT(area, 0.8 * circle) << station.name;
         EXPECT_LT(area, 1.01 * circle) << station.name;

@@ -210,9 +210,12 @@ TEST(StudyCases, AddTheOverridesOfAFormToThoseOfTheCase)
     for (const bool full : {false, true}) {
         int bends = 0;
         plan_of_cases("frames", full, [&](const StudyCase& study_case, StudyPlan&) {
-            study_case.values();  // which counts all keys as read
+            const nlohmann::json values = study_case.values();  // which counts all keys as read
             if (study_case.name != "limb_bend") return;
             ++bends;
+            EXPECT_EQ(values.at("overrides"), (nlohmann::json{R"(deformers.use=["lbs","dqs","pbs","nh_p1"])", R"(reference.name="nh_p1")",
+                                                              full ? "motion.angle_deg=150" : "motion.angle_deg=110",
+                                                              full ? "motion.frames=16" : "motion.frames=12"}));
             const Scene scene = study_case.scene();
             EXPECT_EQ(scene.motion.angle_deg, full ? 150.0 : 110.0);
             EXPECT_EQ(scene.reference, "nh_p1");

@@ -232,13 +232,14 @@ TEST_F(TrialSummary, CountsTheFramesThatCanBeComparedAndLeavesOutWhatTheRecordsD
 }
 
 // Delta mush is nearer than PBS in both frames in which it can be compared, and has a smaller median error than DQS; the reference is no
-// method. In frame 0 nobody is visibly away from the reference, so that the first decimals of rounding decide nothing.
+// method. In frame 0 nobody is visibly away from the reference, so that the first decimals of rounding decide nothing; hundredths of one
+// per cent, as in frame 2, are visible.
 TEST_F(TrialSummary, ComparesPbsWithTheBestOtherMethodToo)
 {
     folder.file("regions.csv", regions_header);
     folder.file("metrics.csv", metrics_header + "nh_p1,0,0,0,900,0\nlbs,0,0,0,1,1e-5\npbs,0,0,0,2,1e-6\ndelta_mush,0,0,0,1.5,1e-5\n" +
                                    "nh_p1,1,0,0,900,0\nlbs,1,-4,0,1,8\npbs,1,-0.4,0,2,2\ndelta_mush,1,0,0,1.5,1\ndqs,1,0,0,1,3\n" +
-                                   "nh_p1,2,0,0,900,0\nlbs,2,0,0,1,6\npbs,2,0,0,2,3\ndelta_mush,2,0,0,1.5,2\ndqs,2,0,0,1,9\n");
+                                   "nh_p1,2,0,0,900,0\nlbs,2,0,0,1,0.06\npbs,2,0,0,2,0.03\ndelta_mush,2,0,0,1.5,0.02\ndqs,2,0,0,1,0.09\n");
     const nlohmann::json best = {{"deformer", "delta_mush"}, {"frames", 0}, {"of", 2}};
     EXPECT_EQ(facts().at("nearer").at("joints"), (nlohmann::json{{"deformer", "lbs"}, {"frames", 2}, {"of", 2}, {"best_other", best}}));
     EXPECT_EQ(trial_sentence(facts()),
@@ -349,6 +350,19 @@ TEST_F(TrialSummary, WithoutAJointErrorsAreThoseOfTheBodyAndWhereNothingDeformsN
     folder.file("metrics.csv", header + "lbs,0,0,0,1,nan,1e-9,1e-9\npbs,0,0,0,1,nan,1e-8,0.009\n");
     EXPECT_TRUE(facts().at("nearer").at("body").is_null());
     EXPECT_EQ(trial_sentence(facts()), "No flesh deforms: it rests or moves rigidly in every frame, so that there is nothing to compare.");
+}
+
+// The bound of one frame of four is not known, and the largest one is neither the first nor the last.
+TEST_F(TrialSummary, StatesTheLargestBoundOfTheReferencesErrorAndItsTime)
+{
+    EXPECT_TRUE(facts().at("error_bar").is_null()) << "no column has the bounds";
+    folder.file("run.json", R"({"character": {"model": {"file": "hero.glb"}, "tets": 7, "vertices": 5},
+                                "cost": {"seconds": {"error_bar": 2.0, "error_bar_set_up": 0.5}},
+                                "outcome": {"motion": {"largest_rotation_deg": 30.0}, "frames": 4, "warnings": [], "notes": []}})");
+    folder.file("metrics.csv",
+                "deformer,frame,volume_change_pct,inverted_tets,step_ms,reference_error_joint_pct\n"
+                "nh_p1,0,0,0,1,0.25\nnh_p1,1,0,0,1,0.75\nnh_p1,2,0,0,1,\nnh_p1,3,0,0,1,0.5\nlbs,0,-1,0,1,9\npbs,0,-2,0,1,9\n");
+    EXPECT_EQ(facts().at("error_bar"), (nlohmann::json{{"frames", 3}, {"of", 4}, {"seconds", 2.5}, {"largest_pct", 0.75}}));
 }
 
 TEST_F(TrialSummary, FramesThatBrokeDownAreLeftOut)

@@ -198,6 +198,15 @@ TEST(Starts, AreWhatTheyAreCalled)
     EXPECT_NE(shape(frame, SolverStart::lbs), shape(frame, SolverStart::rigid_bind));
 }
 
+// Reference: the rule by hand. floor(n 10^0.2) is the next iteration on record wherever it is beyond n + 1: 6 of 4, 9 of 6, 14 of 9.
+TEST(LookRows, AreFiveForEachDecadeAndTheLast)
+{
+    ConvergenceResult result{{starts_at_rates(1780, {0.9}, 100)}};
+    std::vector<int> iterations;
+    for (const LookRow& row : look_rows(result)) iterations.push_back(row.look.iteration);
+    EXPECT_EQ(iterations, (std::vector{0, 1, 2, 3, 4, 6, 9, 14, 22, 34, 53, 83, 100}));
+}
+
 // The mean of n numbers that are uniform in an interval has the standard deviation of 1 / sqrt(12 n) of its width.
 TEST(Starts, RandomPositionsFillTheBoxOfLbsAndAreTheSameAgain)
 {
