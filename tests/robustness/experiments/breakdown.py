@@ -30,13 +30,16 @@ class Breakdown(foreign_arm.ArmTest):
         self.assertLess(first["first_vertex"], len(self.points))
 
     def test_inverted_tets_of_a_nonlinear_reference(self):
-        printed, outcome = self.run_scene(3, "motion.frames=2", "motion.angle_deg=170.0", fem=SOLID + "contact = false\n", use='["snh"]')
+        printed, outcome = self.run_scene(3, "motion.frames=2", "motion.angle_deg=170.0", 'reference.name="snh"',
+                                          fem=SOLID + "contact = false\n", use='["lbs", "snh"]')
         first = outcome["broken_frames"]["snh"][0]
         self.assertEqual((first["what"], first["frame"]), ("inverted", 1))
         self.assertLess(first["volume_ratio"], 0.0)
         self.assertNotIn("numerical breakdown", printed)
         self.assertIn(f"inverted tets: snh is inverted in frame 1: worst tet {first['worst_tet']} of volume ratio", printed)
         self.assertIn("; 1 of 2 frames of snh broke down", printed)
+        compared = [row["error_l2_pct"] != "" for row in self.rows("out", "metrics.csv") if row["deformer"] == "lbs"]
+        self.assertEqual(compared, [True, False], "the rest pose alone")
 
     def test_a_frame_that_newton_does_not_reach(self):
         printed, outcome = self.run_scene(3, *HARD, fem=SOLID, use='["snh"]')
@@ -95,6 +98,21 @@ class Breakdown(foreign_arm.ArmTest):
             words = f"limb_bend.toml: the reference passes through itself in {frames} of 6 frames, first in frame 4"
             self.assertEqual([warning.startswith(words) for warning in self.outcome()["warnings"]], [True] * bool(frames))
             self.assertEqual(f"pbskin: warning: {words}" in printed, frames > 0)
+
+    def test_flesh_that_lags_behind_its_bone_is_a_warning(self):
+        """Springs of a thousandth of their stiffness hardly turn the forearm's flesh, so that it lags behind by less than the angle of the
+        bend, and most in the last frame."""
+        for factor in (10, 0.01):
+            sets = ('deformers.use=["lbs", "nh_p1"]', "character.vertices=300", "motion.frames=4", "output.frames_every=0",
+                    f"fem.3.spring_factor={factor}", "fem.3.core_radius=0.2")
+            printed = self.succeeds("run", "limb_bend", "-o", self.path("out"), *(word for one in sets for word in ("--set", one))).stderr
+            lag, lags = self.outcome()["reference_lag"], factor < 1
+            words = f"the flesh that forearm alone moves is turned by up to {lag['largest_turn_deg']:.0f} degrees against it, in frame 3"
+            self.assertEqual(words in printed, lags, printed)
+            self.assertEqual(sum(words in warning for warning in self.outcome()["warnings"]), lags)
+            if lags:
+                self.assertEqual((lag["bone"], lag["frame"]), ("forearm", 3))
+                self.assertLess(lag["largest_turn_deg"], 150)
 
     def test_a_run_that_holds_names_nothing(self):
         _, outcome = self.run_scene(0, use='["lbs", "pbs"]')
