@@ -22,6 +22,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 namespace experiments {
 namespace {
@@ -125,6 +126,14 @@ std::string slug(const std::string& name)
     return text;
 }
 
+// The README.md of a study or a deformer, or the page of a claim. std::logic_error if the source tree lacks it.
+const std::string& page_named(const std::string& name)
+{
+    const auto page = pages::by_name.find(name);
+    if (page == pages::by_name.end()) throw std::logic_error(name + " has no page");
+    return *page->second;
+}
+
 const std::map<std::string, std::function<Lines()>> kinds = {
     {"cases",
      [] {
@@ -137,8 +146,7 @@ const std::map<std::string, std::function<Lines()>> kinds = {
     {"deformers", [] { return lines_of(deformer_kinds(), &DeformerKind::name, &DeformerKind::meaning); }},
     {"studies",
      [] {
-         return lines_of(studies(), &Study::name,
-                         [](const Study& study) { return analysis::first_paragraph(*pages::by_name.at(study.name)); });
+         return lines_of(studies(), &Study::name, [](const Study& study) { return analysis::first_paragraph(page_named(study.name)); });
      }},
     {"claims", [] { return lines_of(claims(), &analysis::Claim::id, &analysis::Claim::statement); }},
     {"metrics", [] { return lines_of(metric_texts(), &MetricText::name, &MetricText::meaning); }},
@@ -158,10 +166,9 @@ int list(const std::vector<std::string>& asked)
     return exit_finished;
 }
 
-// The README.md of a study or a deformer, or the page of a claim.
 std::string text_of(const std::string& name)
 {
-    return analysis::plain_text(*pages::by_name.at(name), terminal_width());
+    return analysis::plain_text(page_named(name), terminal_width());
 }
 
 // A label and its text, which is wrapped in a column of its own.

@@ -76,8 +76,10 @@ void add_differences(const nlohmann::json& a, const nlohmann::json& b, const std
 
 nlohmann::json cases_document(const std::string& study)
 {
+    const auto cases = ::cases::by_name.find(study);
+    if (cases == ::cases::by_name.end()) throw std::logic_error(fmt::format("the study {} has no cases.toml", study));
     std::ostringstream json;
-    json << toml::json_formatter{analysis::parse_toml(*::cases::by_name.at(study), study + "/cases.toml")};
+    json << toml::json_formatter{analysis::parse_toml(*cases->second, study + "/cases.toml")};
     nlohmann::json tables = nlohmann::json::parse(json.str());
     tables["case"] = each_of(tables.at("case"));
     return tables;
