@@ -249,7 +249,12 @@ TetMesh mesh_body(MeshedBody& body, const MeshCriteria& criteria)
     Complex complex = refined(domain, criteria);
     while (complex.number_of_facets_in_complex() == 0 && body.double_initial_points()) complex = refined(domain, criteria);
     if (criteria.sliver_bound_deg) {
-        if (!perturbed(complex, domain, *criteria.sliver_bound_deg)) complex = refined(domain, criteria);
+        if (!perturbed(complex, domain, *criteria.sliver_bound_deg)) {
+            MeshCriteria larger = criteria;  // which has other vertices
+            larger.facet_size *= 1.01;
+            larger.cell_size *= 1.01;
+            return mesh_body(body, larger);
+        }
         CGAL::exude_mesh_3(complex, parameters::sliver_bound = *criteria.sliver_bound_deg);
     }
     return tet_mesh_of(complex);
