@@ -13,7 +13,7 @@
 namespace pbs {
 
 // Limb: capsule of radius 0.15 m round (-1,0,0) -> (1,0,0) m with round caps. Bar: [-1, 1] x [-0.15, 0.15]^2 m.
-// `vertices`: wanted number, at least 300 (limb) or 150 (bar); what comes out is within 10 % (the cell size is searched).
+// `vertices`: wanted number, at least 300 (limb) or 200 (bar); what comes out is within 10 % (the cell size is searched).
 TetMesh mesh_limb(int vertices);
 TetMesh mesh_bar(int vertices);  // InputError, as of the limb, for fewer vertices than that and in a build without CGAL
 
@@ -38,10 +38,10 @@ struct SurfaceMeshing {
     bool is_one_piece = true;                               // required of the tets
     std::vector<Vec3> inside = {};                          // points that must lie inside, e.g. joints
 };
-// InputError where fewer than 150 vertices are requested; the surface has fewer than 4 triangles, a point that is not finite, an index out
-// of range or a diagonal below 1e-9 m; a surface that must be closed has no volume, or its wrap holds less than half or more than twice
-// what it encloses (an open sheet, triangles turned both ways); the wrap has another Euler number or leaves a point of `inside` outside; or
-// none of the attempts has the required quality. Also in a build without CGAL.
+// InputError where fewer than 150 vertices are requested; CGAL's perturbation has no end; the surface has fewer than 4 triangles, a point
+// that is not finite, an index out of range or a diagonal below 1e-9 m; a surface that must be closed has no volume, or its wrap holds less
+// than half or more than twice what it encloses (an open sheet, triangles turned both ways); the wrap has another Euler number or leaves a
+// point of `inside` outside; or none of the attempts has the required quality. Also in a build without CGAL.
 TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options);
 
 // Other tets inside the boundary of these. The refinement begins with its vertices; its edges are not kept. Cells are as large as the

@@ -127,19 +127,20 @@ Complex refined(const Domain& domain, const MeshCriteria& wanted)
     return complex;
 }
 
-// False where the perturbation has no end: that of CGAL 6.0 moves the vertices of some coarse meshes to and fro. Others ask the body up to
-// 65 times per vertex. A count ends it the same way each time, which seconds would not. The complex is of no use then.
-bool perturbed(Complex& complex, const Domain& domain, double sliver_bound_deg)
+// InputError where the perturbation has no end: that of CGAL 6.0 moves the vertices of some coarse meshes to and fro. Others ask the body
+// up to 65 times per vertex. A count ends it the same way each time, which seconds would not.
+void perturb(Complex& complex, const Domain& domain, double sliver_bound_deg)
 {
-    constexpr std::size_t most_questions_per_vertex = 2000;
-    domain.questions_left = most_questions_per_vertex * complex.triangulation().number_of_vertices();
-    const std::shared_ptr<void> restored(nullptr, [&domain](void*) { domain.questions_left = Domain::unlimited; });
+    constexpr std::size_t most_questions_per_vertex = 500;
+    const std::size_t vertices = complex.triangulation().number_of_vertices();
+    domain.questions_left = most_questions_per_vertex * vertices;
     try {
         CGAL::perturb_mesh_3(complex, domain, parameters::sliver_bound = sliver_bound_deg);
     } catch (const NoEnd&) {
-        return false;
+        throw InputError("", 0, "vertices", std::to_string(vertices),
+                         "CGAL moves them to and fro without end to improve flat tets: expected another number");
     }
-    return true;
+    domain.questions_left = Domain::unlimited;
 }
 
 // Vertices are numbered as the cells first name them; cells come in the order of the triangulation's container.
@@ -249,12 +250,7 @@ TetMesh mesh_body(MeshedBody& body, const MeshCriteria& criteria)
     Complex complex = refined(domain, criteria);
     while (complex.number_of_facets_in_complex() == 0 && body.double_initial_points()) complex = refined(domain, criteria);
     if (criteria.sliver_bound_deg) {
-        if (!perturbed(complex, domain, *criteria.sliver_bound_deg)) {
-            MeshCriteria larger = criteria;  // which has other vertices
-            larger.facet_size *= 1.01;
-            larger.cell_size *= 1.01;
-            return mesh_body(body, larger);
-        }
+        perturb(complex, domain, *criteria.sliver_bound_deg);
         CGAL::exude_mesh_3(complex, parameters::sliver_bound = *criteria.sliver_bound_deg);
     }
     return tet_mesh_of(complex);
@@ -268,7 +264,7 @@ TetMesh mesh_limb(int vertices)
 
 TetMesh mesh_bar(int vertices)
 {
-    return mesh_builtin(*make_bar(), vertices, 150);
+    return mesh_builtin(*make_bar(), vertices, 200);
 }
 
 }  // namespace pbs
