@@ -73,9 +73,9 @@ Positions multiplied(const HeldBar& held, const Positions& x)
 }
 
 // The residual of a Cholesky solve is at most some 4 n eps |A| |x|, |A| its largest row sum (N. Higham, Accuracy and Stability of Numerical
-// Algorithms, theorem 10.4), and the regular part is 1e-9 of the diagonal. Panels have the inverses of their triangles, which multiplies the
-// first bound by the condition of a triangle (J. Du Croz, N. Higham, IMA Journal of Numerical Analysis 12, 1992); the second one, which is
-// 10,000 times larger, covers that.
+// Algorithms, theorem 10.4), and the regular part is 1e-9 of the diagonal. Panels have the inverses of their triangles, which multiplies
+// the first bound by the condition of a triangle (J. Du Croz, N. Higham, IMA Journal of Numerical Analysis 12, 1992); the second one, which
+// is 10,000 times larger, covers that.
 TEST(WarpedSolve, SolvesTheSystemPlainlyAndByPanels)
 {
     const Positions b = test_support::jittered(Positions::Zero(mesh.rest.rows(), 3), 0.1);
