@@ -119,7 +119,8 @@ logged() {
     return "$status"
 }
 
-# configured COMMAND..., built OPTION...: what they print goes to files. A failure ends the script with its first error.
+# configured COMMAND..., built OPTION...: what they print goes to files. A failure ends the script with its first error. The next build
+# compiles files with a warning again, so that it has the warning too.
 configured() {
     timed configure logged "$output/configure.txt" "$@" || refuse "CMake could not configure the build: $cause"
     grep "is newer than" "$output/configure.txt" | sort -u || true
@@ -127,6 +128,7 @@ configured() {
 built() {
     timed build logged "$output/build.txt" cmake --build "$build_folder" -j "$jobs" "$@" ||
         refuse "the build failed: $cause; it was tried with Debian 12 and 13, and this is $(this_system)"
+    sed -nE "s|^($PWD/[^:]+):[0-9:]* warning: .*|\1|p" "$output/build.txt" | sort -u | xargs -r -d '\n' touch
 }
 
 # The first error in what CMake, a compiler, apt or npm printed, on one line; without any, the last line. CMake breaks its sentences.

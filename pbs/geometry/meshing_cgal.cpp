@@ -33,9 +33,6 @@ namespace {
 
 namespace parameters = CGAL::parameters;
 
-// The body was asked more often than it may be.
-struct NoEnd {};
-
 // A body as CGAL's concept MeshDomain_3.
 struct AskedBody {
     using R = Kernel;
@@ -60,7 +57,7 @@ struct AskedBody {
     auto is_in_domain_object() const
     {
         return [this](const Point& p) {
-            if (questions_left-- == 0) throw NoEnd{};
+            if (questions_left-- == 0) throw EndlessPerturbation{};
             return body->contains(p) ? Subdomain(1) : Subdomain();
         };
     }
@@ -127,18 +124,12 @@ Complex refined(const Domain& domain, const MeshCriteria& wanted)
     return complex;
 }
 
-// InputError where the perturbation has no end: that of CGAL 6.0 moves the vertices of some coarse meshes to and fro. The most questions
-// of one that ends are 600,000, with 150 vertices of a limb. A count ends it the same way each time, which seconds would not.
-void perturb(Complex& complex, const Domain& domain, double sliver_bound_deg)
+// A count ends the perturbation at the same place each time, which seconds would not.
+void perturb(Complex& complex, const Domain& domain, const MeshCriteria& wanted)
 {
-    const std::size_t vertices = complex.triangulation().number_of_vertices();
-    domain.questions_left = 2'000'000 + 500 * vertices;
-    try {
-        CGAL::perturb_mesh_3(complex, domain, parameters::sliver_bound = sliver_bound_deg);
-    } catch (const NoEnd&) {
-        throw InputError("", 0, "vertices", std::to_string(vertices),
-                         "CGAL moves them to and fro without end to improve flat tets: expected another number");
-    }
+    if (wanted.most_questions > 0)
+        domain.questions_left = wanted.most_questions * (1 + complex.triangulation().number_of_vertices() / 4000);
+    CGAL::perturb_mesh_3(complex, domain, parameters::sliver_bound = *wanted.sliver_bound_deg);
     domain.questions_left = Domain::unlimited;
 }
 
@@ -232,9 +223,20 @@ std::unique_ptr<MeshedBody> make_bar()
 TetMesh mesh_builtin(MeshedBody& body, int vertices, int least)
 {
     if (vertices < least) throw InputError("", 0, "vertices", std::to_string(vertices), "expected at least " + std::to_string(least));
-    return mesh_at_vertex_count(vertices, 0.78 * std::pow(vertices, -0.36), [&](double size) {
-        return mesh_body(body, {.facet_size = size, .cell_size = size, .facet_distance = 0.1 * size, .sliver_bound_deg = 0.0});
+    TetMesh mesh = mesh_at_vertex_count(vertices, 0.78 * std::pow(vertices, -0.36), [&](double size) -> TetMesh {
+        try {
+            return mesh_body(body, {.facet_size = size,
+                                    .cell_size = size,
+                                    .facet_distance = 0.1 * size,
+                                    .sliver_bound_deg = 0.0,
+                                    .most_questions = SurfaceMeshing().most_questions});
+        } catch (const EndlessPerturbation&) {
+            return {};
+        }
     });
+    if (mesh.tets.rows() == 0)
+        throw InputError("", 0, "vertices", std::to_string(vertices), std::string(endless_perturbation) + ": expected another number");
+    return mesh;
 }
 
 }  // namespace
@@ -249,7 +251,7 @@ TetMesh mesh_body(MeshedBody& body, const MeshCriteria& criteria)
     Complex complex = refined(domain, criteria);
     while (complex.number_of_facets_in_complex() == 0 && body.double_initial_points()) complex = refined(domain, criteria);
     if (criteria.sliver_bound_deg) {
-        perturb(complex, domain, *criteria.sliver_bound_deg);
+        perturb(complex, domain, criteria);
         CGAL::exude_mesh_3(complex, parameters::sliver_bound = *criteria.sliver_bound_deg);
     }
     return tet_mesh_of(complex);

@@ -54,6 +54,7 @@ struct MeshCriteria {
     bool is_manifold = false;                // the mesh of a skin of one patch
     std::optional<double> sliver_bound_deg;  // perturb and exude; dihedral angles above it are good enough; 0: as good as they get
     std::size_t most_vertices = 0;           // a refinement that reaches so many ends with TooManyVertices; 0: no bound
+    std::size_t most_questions = 0;          // of the perturbation, for each 4,000 vertices begun; 0: no bound
 };
 struct TooManyVertices {
     std::string vertices;  // how many, in words
@@ -61,6 +62,8 @@ struct TooManyVertices {
 struct PointTwice {  // a refinement would put a point where a vertex is: rounding in a layer that is too thin
     std::size_t vertices = 0;
 };
+struct EndlessPerturbation {};  // it asked too many questions: that of CGAL 6.0 moves the vertices of some coarse meshes to and fro
+constexpr const char* endless_perturbation = "CGAL moves their vertices to and fro without end to improve flat tets";
 TetMesh mesh_body(MeshedBody& body, const MeshCriteria& criteria);
 
 }  // namespace pbs

@@ -221,7 +221,8 @@ public:
                 .facet_distance = options_.facet_distance * diagonal_ * distance * size,
                 .radius_edge_ratio = options_.radius_edge_ratio,
                 .is_manifold = true,
-                .sliver_bound_deg = sliver_bound_deg};
+                .sliver_bound_deg = sliver_bound_deg,
+                .most_questions = options_.most_questions};
     }
 
 private:
@@ -293,7 +294,7 @@ struct Effort {
     std::size_t most, left;  // of vertices: what each refinement of a wrap may take, and what all together may still take
 };
 
-// Empty where the refinement fails; TooManyVertices where a bound is reached.
+// Empty where the refinement fails; TooManyVertices and EndlessPerturbation where a bound is reached.
 TetMesh mesh_within(Effort& effort, MeshedBody& body, MeshCriteria criteria)
 {
     criteria.most_vertices = std::min(effort.most, effort.left);
@@ -306,6 +307,9 @@ TetMesh mesh_within(Effort& effort, MeshedBody& body, MeshCriteria criteria)
     } catch (const PointTwice& failed) {
         effort.left += criteria.most_vertices - std::min(criteria.most_vertices, failed.vertices);
         return {};
+    } catch (const EndlessPerturbation&) {  // whose own bound ends it
+        effort.left += criteria.most_vertices;
+        throw;
     }
 }
 
@@ -407,6 +411,9 @@ std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, do
             why.emplace("", 0, "vertices of the tets", reached.vertices,
                         "expected about " + std::to_string(options.vertices) + " (--vertices): " + advice(ratio));
             break;
+        } catch (const EndlessPerturbation&) {
+            why.emplace("", 0, "vertices of the tets", std::to_string(options.vertices),
+                        std::string(endless_perturbation) + ": expected another number (--vertices)");
         }
     return std::nullopt;
 }
@@ -473,7 +480,8 @@ TetMesh mesh_anew(const TetMesh& mesh, const Remeshing& options)
                                    .facet_distance = options.facet_distance * body.mean_size(),
                                    .radius_edge_ratio = required.radius_edge_ratio,
                                    .is_manifold = true,
-                                   .sliver_bound_deg = required.good_dihedral_deg};
+                                   .sliver_bound_deg = required.good_dihedral_deg,
+                                   .most_questions = required.most_questions};
     const std::size_t most = std::max(least_bound, bound_over_wanted * static_cast<std::size_t>(mesh.rest.rows()));
     Effort effort = {most, most};
     std::string breach;
@@ -483,6 +491,8 @@ TetMesh mesh_anew(const TetMesh& mesh, const Remeshing& options)
         if (breach.empty()) return other;
     } catch (const TooManyVertices& reached) {
         breach = reached.vertices + " vertices";
+    } catch (const EndlessPerturbation&) {
+        breach = endless_perturbation;
     }
     throw InputError("", 0, "tets", "", "their inside could not be meshed anew: " + breach);
 }

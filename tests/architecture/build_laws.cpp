@@ -164,7 +164,8 @@ Violations unit_mirror(const SourceTree& tree)
 // StudyCase refuses keys that nothing reads; the tables beside [[case]] have no such owner.
 Violations unread_tables(const SourceTree& tree)
 {
-    static const std::regex header(R"(^\[\[?(\w+))");
+    static const std::regex header(R"(^\s*\[\[?(\w+))");
+    const std::string quotes = "\"\"\"";  // around a text of several lines
     Violations violations;
     for (const auto& [path, text] : tree) {
         if (!path.ends_with("/cases.toml")) continue;
@@ -177,7 +178,8 @@ Violations unread_tables(const SourceTree& tree)
             std::smatch table;
             if (!in_text && std::regex_search(lines[line], table, header) && sources.find('"' + table.str(1) + '"') == std::string::npos)
                 violations.push_back(at(path, static_cast<int>(line) + 1, "no source of the study reads the table " + table.str(1)));
-            if (lines[line].find("\"\"\"") != std::string::npos) in_text = !in_text;
+            for (auto found = lines[line].find(quotes); found != std::string::npos; found = lines[line].find(quotes, found + quotes.size()))
+                in_text = !in_text;
         }
     }
     return violations;

@@ -71,7 +71,7 @@ Violations kernel_includes(const SourceTree& tree);    // headers that the sourc
 Violations machine_flags(const SourceTree& tree);      // -march for a target that is not a kernel
 Violations registers_at_home(const SourceTree& tree);  // SIMD headers included by code that is not a kernel
 
-// Every source file is built, and the unit tests mirror the source folders.
+// Every source file is built, the unit tests mirror the source folders, and no table of cases is left unread.
 Violations orphaned_sources(const SourceTree& tree);  // a .cpp that no CMake file names
 Violations unit_mirror(const SourceTree& tree);       // tests/unit/A/... without a source folder A or pbs/A
 Violations unread_tables(const SourceTree& tree);     // a table of a study's cases.toml that none of its sources names

@@ -1,4 +1,4 @@
-"""`cmake --workflow --preset ci` is what ./check runs, and ./check is what continuous integration runs. Reference: the files themselves."""
+"""./check builds and tests with the preset ci, and ./check is what continuous integration runs. Reference: the files themselves."""
 import json
 import os
 import pathlib

@@ -108,7 +108,7 @@ class FirstError(ScratchCase):
         self.assertEqual(done.stdout, f"3: a:1:2: error: b (all of it: {self.folder}/log)\n")
 
 
-class Packages(ScratchCase):
+class ProgramsCase(ScratchCase):
     def program(self, name, script):
         (self.folder / name).write_text(f"#!/bin/sh\n{script}\n")
         (self.folder / name).chmod(0o755)
@@ -116,6 +116,20 @@ class Packages(ScratchCase):
     def with_programs(self, script):
         return shell(script, PATH=f"{self.folder}:{os.environ['PATH']}")
 
+
+class Warnings(ProgramsCase):
+    def test_files_with_one_are_newer_than_their_objects_after_the_build(self):
+        for name in ("warned.cpp", "silent.cpp"):
+            (self.folder / name).touch()
+            os.utime(self.folder / name, (0, 0))
+        self.program("cmake", f"echo '{self.folder}/warned.cpp:1:2: warning: a'; echo '/usr/include/other.hpp:3: warning: b'")
+        done = self.with_programs(f"cd {self.folder}; output={self.folder}; jobs=1; set -euo pipefail; built")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertGreater((self.folder / "warned.cpp").stat().st_mtime, 0)
+        self.assertEqual((self.folder / "silent.cpp").stat().st_mtime, 0)
+
+
+class Packages(ProgramsCase):
     def test_one_that_the_system_does_not_have_is_named_and_left_out(self):
         self.program("apt-cache", 'test "$2" != mandoc')
         self.program("apt-get", f'echo "$@" >> {self.folder}/asked')

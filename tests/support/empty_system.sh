@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# empty_system.sh RELEASE FOLDER: runs ./reproduce as a new user does, in a fresh clone on an empty Debian RELEASE (bookworm, trixie), in a
-# chroot that debootstrap makes below FOLDER. FOLDER/RELEASE keeps what it prints and repeated.json, and the exit status is that of
-# ./reproduce. It needs root, 8 GB of disk and 20 to 30 minutes on two cores. The proxy of apt and the certificates are this machine's.
+# empty_system.sh RELEASE FOLDER: runs ./reproduce and ./check as a new user does, in a fresh clone on an empty Debian RELEASE (bookworm,
+# trixie), in a chroot that debootstrap makes below FOLDER. FOLDER/RELEASE keeps what they print and repeated.json. The exit status is that
+# of the first that fails. It needs root, 10 GB of disk and an hour on two cores. The proxy of apt and the certificates are this machine's.
 # shellcheck disable=SC2016  # $0 is for the inner shell
 set -euo pipefail
 release=$1 kept=$(realpath -m "$2/$1")
@@ -22,6 +22,8 @@ unshare --mount --pid --fork bash -euo pipefail -c '
     mount -t proc proc "$0/proc"
     mount -t sysfs sys "$0/sys"
     exec chroot "$0" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
-        NODE_EXTRA_CA_CERTS=/certificates.crt bash -c "cd ~/pbskin && ./reproduce"' "$root" |& tee "$kept/printed.txt" || status=$?
+        NODE_EXTRA_CA_CERTS=/certificates.crt bash -c "cd ~/pbskin && ./reproduce && ./check"' "$root" |&
+    tee "$kept/printed.txt" || status=$?
 cp "$root/root/pbskin/results/reproduce/"{repeated.json,*.txt} "$kept/" || status=1
+cp -r "$root/root/pbskin/results/check" "$kept/" || status=1
 exit "$status"

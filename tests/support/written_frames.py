@@ -32,12 +32,12 @@ def signed_volumes(grid):
     return numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a) / 6.0
 
 
-def surface(points, faces):
-    """Polygons as VTK's data set. points: #P x 3; faces: their corners."""
+def surface(vertices, faces):
+    """Returns polygons as a data set of VTK. vertices: #V x 3; faces: the corners of each."""
     polygons, cloud, cells = vtk.vtkPolyData(), vtk.vtkPoints(), vtk.vtkCellArray()
     cloud.SetDataTypeToDouble()
-    for point in points:
-        cloud.InsertNextPoint(point)
+    for vertex in vertices:
+        cloud.InsertNextPoint(vertex)
     for face in faces:
         cells.InsertNextCell(len(face), face)
     polygons.SetPoints(cloud)

@@ -100,19 +100,23 @@ class Breakdown(foreign_arm.ArmTest):
             self.assertEqual(f"pbskin: warning: {words}" in printed, frames > 0)
 
     def test_flesh_that_lags_behind_its_bone_is_a_warning(self):
-        """Springs of a thousandth of their stiffness hardly turn the forearm's flesh, so that it lags behind by less than the angle of the
-        bend, and most in the last frame."""
+        """Springs of a thousandth of the stiffness turn the forearm's flesh less. It lags behind by less than the angle of the bend, and
+        most in the last frame."""
+        turns = []
         for factor in (10, 0.01):
             sets = ('deformers.use=["lbs", "nh_p1"]', "character.vertices=300", "motion.frames=4", "output.frames_every=0",
                     f"fem.3.spring_factor={factor}", "fem.3.core_radius=0.2")
             printed = self.succeeds("run", "limb_bend", "-o", self.path("out"), *(word for one in sets for word in ("--set", one))).stderr
             lag, lags = self.outcome()["reference_lag"], factor < 1
-            words = f"the flesh that forearm alone moves is turned by up to {lag['largest_turn_deg']:.0f} degrees against it, in frame 3"
-            self.assertEqual(words in printed, lags, printed)
-            self.assertEqual(sum(words in warning for warning in self.outcome()["warnings"]), lags)
+            turns.append(lag["largest_turn_deg"])
+            self.assertEqual("forearm alone moves is turned by up to" in printed, lags, printed)
+            self.assertEqual(sum("forearm alone moves is turned by up to" in warning for warning in self.outcome()["warnings"]), lags)
             if lags:
                 self.assertEqual((lag["bone"], lag["frame"]), ("forearm", 3))
-                self.assertLess(lag["largest_turn_deg"], 150)
+                self.assertIn(f"the flesh that forearm alone moves is turned by up to {turns[1]:.0f} degrees against it, in frame 3",
+                              printed)
+        self.assertLess(turns[0], turns[1])
+        self.assertLess(turns[1], 150)
 
     def test_a_run_that_holds_names_nothing(self):
         _, outcome = self.run_scene(0, use='["lbs", "pbs"]')

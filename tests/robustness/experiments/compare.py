@@ -170,13 +170,15 @@ class KeptRecord(program.ProgramTest):
         other, = (references / "tets").glob("limb-1700-*")
         own.unlink()
         other.rename(other.with_name(other.name.replace("1700", "1775")))
-        done = self.ends(0, "reproduce", "momentum", "-o", self.results,
-                         env=os.environ | {"PBSKIN_RECORDS": str(self.records), "PBSKIN_REFERENCES": str(references)})
+        environment = os.environ | {"PBSKIN_RECORDS": str(self.records), "PBSKIN_REFERENCES": str(references)}
+        done = self.ends(0, "reproduce", "momentum", "-o", self.results, env=environment)
         self.assertEqual(done.stderr.count("neither the runs of limb nor verdicts are compared with the record"), 1, done.stderr)
         self.assertNotIn("runs of human", done.stderr)
         compared = json.loads((self.results / "repeated.json").read_text())
         self.assertTrue(compared["agrees"])
         self.assertNotIn("momentum/limb", json.dumps(compared))
+        of_human = self.ends(1, "reproduce", "momentum", "--only", "human", "-o", self.path("of human"), env=environment)
+        self.assertNotIn("runs of limb", of_human.stderr)
 
     def test_a_folder_without_records_is_refused(self):
         records = os.environ | {"PBSKIN_RECORDS": self.path("nothing")}

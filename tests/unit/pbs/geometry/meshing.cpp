@@ -126,10 +126,8 @@ TEST(Bar, IsSoundAtTheWantedSizeAndHasItsExactVolume)
 
 TEST(BuiltIn, TooFewVerticesAreRefused)
 {
-    for (const int vertices : {-1, 0, 199}) {
-        EXPECT_THROW(pbs::mesh_limb(vertices), pbs::InputError);
-        EXPECT_THROW(pbs::mesh_bar(vertices), pbs::InputError);
-    }
+    for (const int vertices : {-1, 0, 299}) EXPECT_THROW(pbs::mesh_limb(vertices), pbs::InputError);
+    for (const int vertices : {-1, 0, 199}) EXPECT_THROW(pbs::mesh_bar(vertices), pbs::InputError);
 }
 
 // Reference: the closed forms of sphere and torus, their topology, and the specification in the header.
@@ -204,6 +202,14 @@ TEST(SurfaceToTets, WrapsOfAnotherShapeAndPointsOutsideAreRefused)
     pbs::SurfaceMeshing options = quick(0.2, 0.02, 200);
     options.inside = {{0, 0, 0}, {0, 0, 3}};
     expect_refused(icosphere(1.0, 2), options, "point 1 asked inside: ", "expected inside the surface");
+}
+
+// Asked once too often, the mesher ends as it does where the perturbation has no end.
+TEST(SurfaceToTets, APerturbationWithoutEndIsRefusedAfterTheLastAttempt)
+{
+    pbs::SurfaceMeshing options = quick(0.3, 0.02, 150);
+    options.most_questions = 1;
+    expect_refused(icosphere(1.0, 1), options, "vertices of the tets = 150: ", "without end to improve flat tets: expected another number");
 }
 
 TEST(SurfaceToTets, SmallHolesAreClosedAndOpenSheetsRefused)

@@ -198,7 +198,8 @@ TEST(Starts, AreWhatTheyAreCalled)
     EXPECT_NE(shape(frame, SolverStart::lbs), shape(frame, SolverStart::rigid_bind));
 }
 
-// Reference: the rule by hand. floor(n 10^0.2) is the next iteration on record wherever it is beyond n + 1: 6 of 4, 9 of 6, 14 of 9.
+// Reference: the rule by hand. floor(n 10^0.2) is the next iteration on record wherever it is beyond n + 1:
+// 6 follows 4, 9 follows 6, and 14 follows 9.
 TEST(LookRows, AreFiveForEachDecadeAndTheLast)
 {
     ConvergenceResult result{{starts_at_rates(1780, {0.9}, 100)}};
