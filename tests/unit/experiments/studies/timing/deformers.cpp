@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -82,22 +84,29 @@ struct GivenOptions {
     pbs::Precision precision = pbs::Precision::f64;
 };
 
-// A deformer that works for 2 ms in f64 and 1 ms in f32.
+// A deformer that works for 2 ms in f64 and 1 ms in f32, or longer where a virtual machine counts the time of others, too.
 class GivenTime : public Deformer {
 public:
-    explicit GivenTime(const GivenOptions& options) : seconds_(options.precision == pbs::Precision::f32 ? 1e-3 : 2e-3) {}
+    explicit GivenTime(const GivenOptions& options)
+        : seconds_(options.precision == pbs::Precision::f32 ? 1e-3 : 2e-3), taken_ms_(taken_ms[options.precision])
+    {
+    }
     void reset(const pbs::Character& character) override { positions_ = character.mesh.rest; }
     pbs::StepSummary advance(const pbs::Pose&, double) override
     {
         const double start = thread_cpu_s();
-        while (thread_cpu_s() - start < seconds_) {
-        }
+        double taken = 0.0;
+        while (taken < seconds_) taken = thread_cpu_s() - start;
+        taken_ms_.push_back(1e3 * taken);
         return {};
     }
     const pbs::Positions& positions() const override { return positions_; }
 
+    static inline std::map<pbs::Precision, std::vector<double>> taken_ms;  // of each frame
+
 private:
     double seconds_;
+    std::vector<double>& taken_ms_;
     pbs::Positions positions_;
 };
 
@@ -127,11 +136,17 @@ TEST(DeformerTimings, TakeUpWhatIsRegistered)
 
     ASSERT_EQ(given.size(), 2u);
     EXPECT_EQ(given[0].at("precision"), "f32");
-    // A frame takes at least its time, and little more: a reading of the clock takes less than a tenth of a millisecond.
+    // The time of a frame is one of its times, or between them, and little more: a reading of the clock takes less than a tenth of a
+    // millisecond.
     const double ms_frame = given[0].at("ms_frame");
-    EXPECT_GE(ms_frame, 1.0);
-    EXPECT_LE(ms_frame, 1.1);
-    EXPECT_NEAR(given[0].at("ratio_to_plain"), 2.0, 0.2);
+    const auto f32 = std::ranges::minmax(GivenTime::taken_ms[pbs::Precision::f32]),
+               f64 = std::ranges::minmax(GivenTime::taken_ms[pbs::Precision::f64]);
+    EXPECT_GE(f32.min, 1.0);
+    EXPECT_GE(f64.min, 2.0);
+    EXPECT_GE(ms_frame, f32.min);
+    EXPECT_LE(ms_frame, f32.max + 0.1);
+    EXPECT_GE(given[0].at("ratio_to_plain"), f64.min / (f32.max + 0.1));
+    EXPECT_LE(given[0].at("ratio_to_plain"), (f64.max + 0.1) / f32.min);
     EXPECT_EQ(given[1].at("ratio_to_plain"), 1.0);
     EXPECT_FALSE(given[0].contains("ms_iteration"));
     EXPECT_NEAR(given[0].at("ns_tet").get<double>() * double(bar().mesh().tets.rows()), 1e6 * ms_frame, 1e-6 * 1e6);
