@@ -44,12 +44,15 @@ function(calls_libraries target)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endfunction()
 
-# unity_build(TARGET [ALONE SOURCE...]): compiles the sources eight at once, so that their anonymous namespaces are one. A source with a
-# name that another one has too is compiled alone. The presets dev and package compile each source alone, which detects a missing include.
-# GCC 12 warns of its own headers where it inlines more.
+# unity_build(TARGET [BATCH NUMBER] [ALONE SOURCE...]): compiles NUMBER sources at once, eight unless stated, so that their anonymous
+# namespaces are one. A source with a name that another one has too is compiled alone or has a namespace of its own. The presets dev and
+# package compile each source alone, which detects a missing include. GCC 12 warns of its own headers where it inlines more.
 function(unity_build target)
-    cmake_parse_arguments(PARSE_ARGV 1 unity "" "" "ALONE")
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ${PBS_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 8)
+    cmake_parse_arguments(PARSE_ARGV 1 unity "" "BATCH" "ALONE")
+    if(NOT unity_BATCH)
+        set(unity_BATCH 8)
+    endif()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ${PBS_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE ${unity_BATCH})
     set_source_files_properties(${unity_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     if(PBS_UNITY_BUILD)
         target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)

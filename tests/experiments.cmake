@@ -16,10 +16,7 @@ endif()
 
 # A verdict changes with its records: the project's own claims with the values of the studies. A broken solver changes the values and
 # verdicts that it must change by theory, and no others.
-pbs_tests(claims experiments FOLDERS experiments EXCEPT ${left_out}
-    ALONE experiments/attacks experiments/broken_bulge experiments/momentum experiments/stiffness experiments/broken_weights
-        experiments/jiggle
-    LIBRARIES experiments)
+pbs_tests(claims experiments FOLDERS experiments EXCEPT ${left_out} LIBRARIES experiments)
 set(kept_records PBS_KEPT_RECORDS="${PROJECT_SOURCE_DIR}/experiments/records/full")
 target_compile_definitions(test_claims_experiments PRIVATE ${claims_file} ${kept_records}
     PBS_ATTACKS_FILE="${PROJECT_SOURCE_DIR}/tests/claims/attacks.toml")
@@ -27,15 +24,8 @@ pbs_tests(unit experiments BLAS
     FOLDERS experiments/process experiments/scene experiments/run experiments/deformers experiments/trial
     FILES experiments/deformers/fem/fem_module
     EXCEPT experiments/deformers/fem ${left_out}
-    ALONE experiments/run/frame_measurement experiments/run/reference_error_bar
     LIBRARIES experiments)
-pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out}
-    ALONE experiments/studies/ambiguity/readings experiments/studies/ambiguity/reading_values
-        experiments/studies/convergence/convergence_values experiments/studies/recorded_settings experiments/studies/shared/iteration_path
-        experiments/studies/shared/kept_references experiments/studies/reference_poses experiments/studies/stability/stability_cells
-        experiments/studies/stiffness/stiffness_ratios experiments/studies/timing/frames experiments/studies/work_precision/conclusions
-        experiments/studies/work_precision/measuring experiments/studies/work_precision/methods
-    LIBRARIES experiments)
+pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out} LIBRARIES experiments)
 pbs_tests(properties experiments FOLDERS experiments LIBRARIES experiments)
 pbs_tests(regression experiments FOLDERS experiments LIBRARIES experiments)
 target_compile_definitions(test_regression_experiments PRIVATE ${kept_records})

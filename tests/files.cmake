@@ -28,16 +28,11 @@ pbs_tests(unit pbs_files
         pbs/geometry/msh_files pbs/geometry/self_intersection pbs/geometry/surface_obj pbs/geometry/surface_polygons
         pbs/geometry/text_words pbs/geometry/vtk_files
     EXCEPT ${left_out}
-    ALONE pbs/geometry/msh_files pbs/geometry/surface_obj pbs/geometry/vtk_files
     LIBRARIES pbs_rig pbs_mesh_io pbs_meshing pbs_module)
-pbs_tests(unit pbs_rig FOLDERS pbs/rig EXCEPT ${left_out} ALONE pbs/rig/surface_reader LIBRARIES pbs_rig pbs_mesh_io)
-pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out}
-    ALONE pbs/character/bone_capsules pbs/character/character pbs/character/retarget
-    LIBRARIES pbs_character pbs_mesh_io)
+pbs_tests(unit pbs_rig FOLDERS pbs/rig EXCEPT ${left_out} LIBRARIES pbs_rig pbs_mesh_io)
+pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out} LIBRARIES pbs_character pbs_mesh_io)
 if(TARGET pbskin_cholmod)
     pbs_tests(unit pbs_flesh FOLDERS pbs/flesh
-        ALONE pbs/flesh/bone_springs pbs/flesh/flesh_contact pbs/flesh/flesh_energy pbs/flesh/minimisers pbs/flesh/packed_systems
-            pbs/flesh/projective_dynamics pbs/flesh/quasi_newton pbs/flesh/vbd pbs/flesh/warped_newton pbs/flesh/xpbd_neo_hookean
         LIBRARIES pbs_flesh ${threads})
     add_dependencies(test_unit_pbs_flesh pbskin_cholmod)
 endif()

@@ -4,13 +4,10 @@ if(NOT TARGET reference_fem)
 endif()
 
 pbs_tests(unit reference_fem_laws FOLDERS reference_fem/laws LIBRARIES reference_fem_laws)
-pbs_tests(unit reference_fem BLAS SUITES FOLDERS reference_fem EXCEPT reference_fem/laws
-    ALONE reference_fem/linear_elasticity reference_fem/newton/newton reference_fem/assembly
-    LIBRARIES reference_fem_verification)
+pbs_tests(unit reference_fem BLAS FOLDERS reference_fem EXCEPT reference_fem/laws LIBRARIES reference_fem_verification)
 pbs_tests(verification reference_fem_laws FILES reference_fem/laws LIBRARIES reference_fem_laws)
-pbs_tests(verification reference_fem BLAS SUITES FOLDERS reference_fem
+pbs_tests(verification reference_fem BLAS FOLDERS reference_fem
     EXCEPT reference_fem/laws
-    ALONE reference_fem/attachment reference_fem/linear_response
     LIBRARIES reference_fem_verification)
 if(NOT TARGET fem_verification)
     return()
@@ -23,11 +20,10 @@ endif()
 if(NOT PBS_WITH_RIG_IMPORT OR NOT PBS_WITH_CGAL OR NOT PBS_WITH_MESH_IO)
     list(APPEND left_out experiments/deformers/fem/bodies)
 endif()
-pbs_tests(unit experiments_fem BLAS SUITES FOLDERS experiments/deformers/fem
+pbs_tests(unit experiments_fem BLAS FOLDERS experiments/deformers/fem
     EXCEPT experiments/deformers/fem/fem_module
     LIBRARIES fem_deformer pbs_character reference_fem_verification)
-pbs_tests(verification experiments_fem BLAS SUITES FOLDERS experiments/deformers/fem
+pbs_tests(verification experiments_fem BLAS FOLDERS experiments/deformers/fem
     FILES experiments/studies/stability/broken_fem_starts experiments/studies/verification/calculix experiments/verification_record
     EXCEPT ${left_out}
-    ALONE experiments/deformers/fem/elastic_bar
     LIBRARIES fem_verification experiments)

@@ -6,6 +6,7 @@
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
+#include "experiments/run/region_record.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/pose.hpp"
 

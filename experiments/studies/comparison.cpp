@@ -35,7 +35,7 @@ std::string study_of(const std::string& name)
 // A folder of results with the tables of its finished runs: of one run, of the studies with their plans, or of other runs in its folders.
 struct Results {
     Results(const std::string& folder, const ComparedFolders& compared)
-        : stated(folder), opened(folder), root(opened.folder()), excluded_bodies(compared.excluded_bodies)
+        : stated(folder), opened(folder, compared.studies), root(opened.folder()), excluded_bodies(compared.excluded_bodies)
     {
         const auto& studies = compared.studies;
         if (!fs::is_directory(root)) throw pbs::InputError(folder, 0, "", "", "expected a folder of results");

@@ -78,7 +78,9 @@ void write_repeated(const ResultComparison& compared, const std::map<std::string
 // The record's verdicts on the claims of these studies. A study that the record lacks is judged by the results.
 std::vector<analysis::Verdict> on_record(const LastScreen& screen, const std::string& records)
 {
-    const OpenedRecords opened(records);
+    std::vector<std::string> studies;
+    for (const analysis::Verdict& verdict : screen.here) studies.push_back(verdict.claim.study);
+    const OpenedRecords opened(records, studies);
     std::map<std::string, analysis::Records> of_studies;
     std::vector<analysis::Verdict> verdicts = screen.here;
     for (analysis::Verdict& verdict : verdicts) {

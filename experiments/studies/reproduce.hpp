@@ -37,7 +37,8 @@ void write_study_plan(const std::string& folder, const StudyPlan& plan);
 // kind (experiments/records/keep.py), with a folder each. These are temporary and have what verdicts are computed from.
 class OpenedRecords {
 public:
-    explicit OpenedRecords(const std::string& folder);
+    // studies: those whose runs are needed; nothing: all.
+    explicit OpenedRecords(const std::string& folder, const std::optional<std::vector<std::string>>& studies = {});
     const std::string& folder() const { return folder_; }
 
 private:

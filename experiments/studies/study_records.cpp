@@ -174,14 +174,18 @@ std::string kept_text(const std::string& file)
     return text;
 }
 
-OpenedRecords::OpenedRecords(const std::string& folder) : folder_(folder)
+OpenedRecords::OpenedRecords(const std::string& folder, const std::optional<std::vector<std::string>>& studies) : folder_(folder)
 {
+    const auto is_needed = [&](const std::string& name) {  // of a study, or of a run in it
+        return !studies || std::ranges::count(*studies, name.substr(0, name.find('/'))) > 0;
+    };
     const std::string provenance = analysis::path_in(folder, "provenance.json"), all_plans = analysis::path_in(folder, "plans.json");
     if (!fs::exists(provenance)) return;
     const fs::path opened = scratch_.emplace().path();
     analysis::from_record(all_plans, [&](const nlohmann::json& plans) {
         for (const auto& [study, plan] : plans.items()) {
             require_below(study, all_plans);
+            if (!is_needed(study)) continue;
             fs::create_directories(opened / study);
             write_scratch(plan_file((opened / study).string()), plan.dump());
             if (const fs::path merged = fs::path(folder) / study / "runs"; fs::is_directory(merged))
@@ -192,6 +196,7 @@ OpenedRecords::OpenedRecords(const std::string& folder) : folder_(folder)
         for (const nlohmann::json& origin : record.at("origins"))
             for (const std::string run : origin.at("runs")) {
                 require_below(run, provenance);
+                if (!is_needed(run)) continue;
                 fs::create_directories(opened / run);
                 write_scratch(opened / run / "run.json", nlohmann::json{{"schema", origin.at("schema")}}.dump());
             }

@@ -60,6 +60,8 @@ class BuildTest(unittest.TestCase):
 def files_naming(prefix, path):
     """Installed files that contain that path, without links. The same letters within a longer path or an address do not count."""
     begins = rb"(?:(?<![\w./)}@*-])|(?<=-[IL])|(?<=file://))"
-    named = re.compile(begins + re.escape(os.fsencode(path)) + rb"(?![\w.-])")
-    return [str(file.relative_to(prefix)) for file in sorted(prefix.rglob("*"))
-            if file.is_file() and not file.is_symlink() and named.search(file.read_bytes())]
+    letters = os.fsencode(path)
+    named = re.compile(begins + re.escape(letters) + rb"(?![\w.-])")
+    contents = ((file, file.read_bytes()) for file in sorted(prefix.rglob("*")) if file.is_file() and not file.is_symlink())
+    # The search for the letters alone takes a fiftieth of the time.
+    return [str(file.relative_to(prefix)) for file, content in contents if letters in content and named.search(content)]

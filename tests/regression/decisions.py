@@ -8,9 +8,11 @@ standard library alone. Reference: the rules in analysis/statistics/paired_compa
     decisions.py               the attacks, then the kept records if they have these tables
 """
 import argparse
+import bisect
 import collections
 import csv
 import dataclasses
+import functools
 import itertools
 import math
 import pathlib
@@ -54,7 +56,10 @@ def sign_test(wins, losses):
 
 def holm(p):
     """The largest product, over all smaller or equal p, of such a p with the number of those that are not smaller than it."""
-    return [min(1.0, max(smaller * sum(other >= smaller for other in p) for smaller in p if smaller <= own)) for own in p]
+    ascending = sorted(p)
+    products = (smaller * (len(p) - bisect.bisect_left(ascending, smaller)) for smaller in ascending)
+    largest = dict(zip(ascending, itertools.accumulate(products, max)))
+    return [min(1.0, largest[own]) for own in p]
 
 
 def compared(first, second, own_error):
@@ -84,32 +89,37 @@ def is_quantile(end, means, sign=1):
     return below <= 0.045 * REPLICATES and not_above >= 0.005 * REPLICATES
 
 
+@functools.cache
+def replicates(bodies):
+    """Of bodies, drawn with replacement, and of poses in each of them; another generator and seed than those of the record. bodies: the
+    poses of each body."""
+    draw = random.Random(1).choices
+    return [[pose for body in draw(bodies, k=len(bodies)) for pose in draw(body, k=len(body))] for _ in range(REPLICATES)]
+
+
+@functools.cache
+def sorted_means(log_ratio, bodies):
+    """Of the logarithms, one for each replicate. log_ratio: pairs of a pose and its logarithm."""
+    value = dict(log_ratio).__getitem__
+    return sorted(sum(map(value, drawn)) / len(drawn) for drawn in replicates(bodies))
+
+
 class Comparison:
     """All pairs of one table: {(first, second): {member: Member}}."""
     def __init__(self, errors, own_errors, body_of, pairs):
         """errors: {method: {member: {pose: number}}}; own_errors: {member: {pose: number}}; body_of: {pose: body}."""
-        self.body_of, self.draws = body_of, {}
+        self.body_of = body_of
         self.pairs = {(a, b): {name: compared(errors[a][name], errors[b][name], u) for name, u in own_errors.items()} for a, b in pairs}
         for name in own_errors:
             members = [of_pair[name] for of_pair in self.pairs.values()]
             for member, adjusted in zip(members, holm([member.p for member in members])):
                 member.p_holm = adjusted
 
-    def replicates(self, poses):
-        """Of bodies, drawn with replacement, and of poses in each of them; another generator and seed than those of the record."""
-        if poses not in self.draws:
-            draw, by_body = random.Random(1).choices, collections.defaultdict(list)
-            for pose in poses:
-                by_body[self.body_of[pose]].append(pose)
-            bodies = list(by_body.values())
-            self.draws[poses] = [[pose for body in draw(bodies, k=len(bodies)) for pose in draw(body, k=len(body))]
-                                 for _ in range(REPLICATES)]
-        return self.draws[poses]
-
     def means(self, member):
-        """Of the logarithms, sorted, one for each replicate."""
-        value = member.log_ratio.__getitem__
-        return sorted(sum(map(value, drawn)) / len(drawn) for drawn in self.replicates(tuple(member.log_ratio)))
+        bodies = collections.defaultdict(list)
+        for pose in member.log_ratio:
+            bodies[self.body_of[pose]].append(pose)
+        return sorted_means(tuple(member.log_ratio.items()), tuple(map(tuple, bodies.values())))
 
     def range_of(self, member):
         return ends(self.means(member))

@@ -16,6 +16,7 @@
 #include <random>
 #include <set>
 
+namespace attacks_tests {
 namespace {
 
 using namespace analysis;
@@ -337,3 +338,4 @@ TEST(AttackTable, NamesEveryClaim)
 }
 
 }  // namespace
+}  // namespace attacks_tests

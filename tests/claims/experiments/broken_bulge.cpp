@@ -22,6 +22,7 @@
 #include <cmath>
 #include <vector>
 
+namespace broken_bulge_tests {
 namespace {
 
 using namespace analysis;
@@ -279,3 +280,4 @@ TEST(BrokenBulge, WithoutBindOrStretchTheOthersStillTakeItBack)
 }
 
 }  // namespace
+}  // namespace broken_bulge_tests

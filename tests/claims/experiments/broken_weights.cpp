@@ -22,6 +22,7 @@
 #include <set>
 #include <sstream>
 
+namespace broken_weights_tests {
 namespace {
 
 using namespace test_support;
@@ -230,3 +231,4 @@ TEST(BrokenWeights, NothingProjectedIsLbs)
 }
 
 }  // namespace
+}  // namespace broken_weights_tests

@@ -15,6 +15,7 @@
 #include <map>
 #include <tuple>
 
+namespace jiggle_tests {
 namespace {
 
 using namespace analysis;
@@ -247,3 +248,4 @@ TEST(JiggleControls, OfTheStudyBehave)
 }
 
 }  // namespace
+}  // namespace jiggle_tests

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+namespace momentum_tests {
 namespace {
 
 using namespace experiments;
@@ -149,3 +150,4 @@ TEST(BrokenMomentum, AClassThatIsNotProjectedIsNotConserved)
 }
 
 }  // namespace
+}  // namespace momentum_tests

@@ -10,6 +10,7 @@
 
 #include <cmath>
 
+namespace stiffness_tests {
 namespace {
 
 using namespace analysis;
@@ -113,3 +114,4 @@ TEST(BrokenStiffness, ForgottenMultipliersAreStiffenedByIterationsAndSoftenedByS
 }
 
 }  // namespace
+}  // namespace stiffness_tests

@@ -124,7 +124,7 @@ class TrialFiles(TrialTest):
                 # Three components of the first normal, of its change of up to 2, and of their sum.
                 self.assertLess(abs(numpy.linalg.norm(normals, axis=2) - 1).max(), 4 * numpy.sqrt(3) * 2.0 ** -24)
 
-    def test_a_trial_that_was_interrupted_runs_again(self):
+    def test_a_trial_that_was_interrupted_runs_again_and_is_kept_from_another_model(self):
         command = [program.PBSKIN, "try", self.rig(animations=(), extra=[("Slow", turned(60))]), "-o", self.path("out"), "--no-reference"]
         with subprocess.Popen([*command, "--frames", "3000", "--vertices", "300"], stderr=subprocess.PIPE, text=True) as process:
             while process.poll() is None and not os.path.exists(self.path("out", "frames", "lbs_000001.vtu")):
@@ -139,9 +139,6 @@ class TrialFiles(TrialTest):
         self.assertEqual({row["frame"] for row in self.rows("out", "metrics.csv")}, set(map(str, range(frames))))
         self.tried(self.path("rig.glb"))
         self.assertEqual(self.json("out", "run.json")["outcome"]["frames"], 3)
-
-    def test_the_folder_of_another_model_is_refused_and_kept(self):
-        self.tried(self.rig())
         other, before = rig_files.write("two_animations", self.path("other.glb")), self.read("out", "try.json")
         message = self.refused("try", other, "-o", self.path("out"), "--no-reference")
         self.assertIn("character.model = ../rig.glb: the folder has the trial of this model: expected another folder (-o)", message)

@@ -3,6 +3,7 @@ marker or colour than looks.toml states; in which anything has a colour that is 
 style.py; or in which two labels of a panel overlap. The tests that draw figures import it."""
 import itertools
 import re
+import unittest.mock
 
 from drawing import style
 from matplotlib import colors, text
@@ -57,7 +58,7 @@ def strange_sizes(figure):
 
 def overlaps(figure):
     """The pairs of labels of a panel of which one covers a part of the other."""
-    figure.canvas.draw()
+    figure.draw_without_rendering()  # computes the places of all words
     found = []
     for axes in (axes for axes in figure.axes if axes.get_visible()):
         words = [axes.title, axes.xaxis.label, axes.yaxis.label, *axes.texts, *(axes.get_legend().get_texts() if axes.get_legend() else ())]
@@ -75,7 +76,9 @@ def save_checked(figure, stem, *rest, save=style.save, **options):
                          ("no size of letters of style.py", strange_sizes(figure)), ("labels that overlap", overlaps(figure))):
         if wrong:
             raise AssertionError(f"{stem.name}: {words}: {', '.join(map(str, wrong))}")
-    save(figure, stem, *rest, **options)
+    figure.set_layout_engine("none")  # what was checked is saved: its layout and words are not computed again
+    with unittest.mock.patch.object(style, "break_words"):
+        save(figure, stem, *rest, **{"dpi": 60, **options})
 
 
 style.save = save_checked

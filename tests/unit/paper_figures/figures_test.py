@@ -62,7 +62,7 @@ class Figures(ResultsTest):
         self.assertIn("verification left out: the study verification was not run", said)
         self.assertFalse(old.exists())
         for name in ("volume_over_angle", "volume_over_clip", "volume_over_iterations"):
-            for ending in ("png", "pdf"):
+            for ending in ("png", "pdf", "svg"):
                 self.assertIn(synthetic_records.revision.encode(), (self.results / "figures" / f"{name}.{ending}").read_bytes())
         rows = [row for row in self.rows("volume_over_angle") if row["deformer"] == "lbs" and row["scene"] == "limb_twist"]
         self.assertEqual([float(row["volume_change_pct"]) for row in rows], [-angle / 10 for angle in range(0, 181, 5)])

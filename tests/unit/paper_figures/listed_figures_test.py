@@ -14,7 +14,7 @@ import tomllib
 import unittest
 from unittest import mock
 
-from results_case import ResultsTest, root
+from results_case import FORMATS, ResultsTest, root
 import synthetic_records
 from records import entries, whole_file
 from words import captions
@@ -60,7 +60,7 @@ class Listing(ResultsTest):
         about_font = [line for line in said.splitlines() if "fonts-dejavu-core" in line]
         self.assertEqual(len(about_font), 1, said)
         self.assertIn("volume_over_angle", about_font[0])
-        self.make_all("volume_over_angle")
+        self.make_all("volume_over_angle", formats=FORMATS)
         self.assertFalse((self.results / "figures" / "volume_over_angle.cause.txt").exists())
 
 
@@ -100,14 +100,14 @@ class Planned(ResultsTest):
 
     def test_without_a_plan_and_with_all_on_record_nothing_is_absent(self):
         self.assertEqual(self.entry["error_against_time"].absent(self.results), ([], 3))
-        self.assertEqual(self.make_all("error_against_time")[1], "")
+        self.assertEqual(self.make_all("error_against_time", formats=FORMATS)[1], "")
         self.assertNotIn("without records", (self.results / "figures" / "error_against_time.caption.txt").read_text())
         (self.results / "work_precision" / "plan.json").unlink()
         self.assertEqual(self.entry["error_against_time"].absent(self.results), ([], 0))
 
     def test_what_is_not_on_record_stands_in_the_caption(self):
         self.plan("limb", "human", "played_01_01", "man", "lady")
-        self.assertEqual(self.make_all("error_against_time")[1], "")
+        self.assertEqual(self.make_all("error_against_time", formats=FORMATS)[1], "")
         self.assertTrue((self.results / "figures" / "error_against_time.caption.txt").read_text()
                         .endswith(" Planned runs without records, 2 of 5: man, lady.\n"))
 
@@ -143,7 +143,7 @@ class Staleness(ResultsTest):
     def test_two_revisions_in_one_figure(self):
         synthetic_records.write_origin(self.volume / "limb_bend", of="f" * 40)
         self.assert_stale(f"of revision 0123456789, {self.volume / 'limb_bend'} of ffffffffff")
-        self.make_all("volume_over_clip")  # all runs have one revision
+        self.make_all("volume_over_clip", formats=FORMATS)  # all runs have one revision
 
     def test_a_dirty_tree_is_another_revision(self):
         run = self.volume / "limb_bend" / "run.json"

@@ -22,10 +22,6 @@ still = (120, 90)  # size of a picture [px]
 
 
 class Plots(ResultsTest):
-    def setUp(self):
-        super().setUp()
-        style.matplotlib.rcParams["savefig.dpi"] = 60  # makes the tests quick
-
     def drawn(self, name):
         self.stem = self.results / "figures" / name
         return super().drawn(name)
@@ -70,9 +66,9 @@ class Plots(ResultsTest):
         synthetic_records.write_error_split(self.results / "ensemble")
         axes, save = [], style.save
 
-        def kept(figure, *others):
+        def kept(figure, *others, **options):
             axes.extend(figure.axes)
-            save(figure, *others)
+            save(figure, *others, **options)
 
         with unittest.mock.patch.object(style, "save", kept):
             rows = self.drawn("error_split")

@@ -415,10 +415,12 @@ class ReportRecords(ReportTest):
                 self.assertIn(f"pbskin: {self.results / name}: {words}", said)
 
     def test_no_value_of_any_kind_ends_in_a_traceback(self):
+        """PBS_LONG tries all values in every place. Otherwise each place has every third value, and neighbours have others."""
+        step = 1 if os.environ.get("PBS_LONG") else 3
         for name in (RUN, PLAN, CLAIMS, REPEATED):
             whole = self.record(name)
-            for place in parts(whole):
-                for value in ANYTHING:
+            for number, place in enumerate(parts(whole)):
+                for value in ANYTHING[number % step::step]:
                     with self.subTest(f"{name} {place} {value}"):
                         self.put(name, changed(whole, place, value))
                         status, said, there = self.made()

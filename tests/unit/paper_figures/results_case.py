@@ -1,8 +1,10 @@
 """What the tests of figures and pages share. Importing this module makes the modules of paper_figures known."""
 import contextlib
 import csv
+import functools
 import html
 import io
+import os
 import pathlib
 import re
 import sys
@@ -15,6 +17,9 @@ sys.path.insert(0, str(root / "paper_figures"))
 
 import records  # noqa: E402
 import synthetic_records  # noqa: E402
+
+ALL_FORMATS = ("pdf", "png", "svg")
+FORMATS = ALL_FORMATS if os.environ.get("PBS_LONG") else ("svg",)  # of most figures: figures_test.py draws three of them in all formats
 
 
 @contextlib.contextmanager
@@ -50,18 +55,19 @@ class ResultsTest(unittest.TestCase):
         """The rows of the table behind a figure."""
         return list(csv.DictReader(io.StringIO((self.results / "figures" / f"{name}.csv").read_text(encoding="utf-8"))))
 
-    def make_all(self, name=None, status=0):
+    def make_all(self, name=None, status=0, formats=ALL_FORMATS):
         """What the script of all figures prints, as output and as errors; deformers are drawn as looks.toml states."""
         import checked_looks  # noqa: F401
+        from drawing import style
         import make_all
-        with listening() as (said, complaints):
+        with listening() as (said, complaints), unittest.mock.patch.object(style, "save", functools.partial(style.save, formats=formats)):
             self.assertEqual(make_all.main(self.results, name), status, complaints.getvalue())
         return said.getvalue(), complaints.getvalue()
 
     def drawn(self, name):
         """The rows behind a figure that is drawn now, with the revision of its records in each file."""
-        self.make_all(name)
-        for ending in ("pdf", "png", "svg"):
+        self.make_all(name, formats=FORMATS)
+        for ending in FORMATS:
             file = self.results / "figures" / f"{name}.{ending}"
             self.assertIn(synthetic_records.revision.encode(), file.read_bytes())
         return self.rows(name)

@@ -17,6 +17,7 @@
 #include <random>
 #include <set>
 
+namespace assembly_tests {
 namespace {
 
 using namespace reference_fem;
@@ -252,3 +253,4 @@ TEST(Material, LameParametersReturnYoungsModulusAndPoissonsRatioOfAStableMateria
 }
 
 }  // namespace
+}  // namespace assembly_tests

@@ -6,6 +6,7 @@
 #include "tests/support/refusal.hpp"
 #include "tests/support/structured_bar.hpp"
 
+namespace linear_elasticity_tests {
 namespace {
 
 using namespace reference_fem;
@@ -140,3 +141,4 @@ TEST(TractionLoad, OfAUniformPressureAddsUpToNothingAndOnlyTheFacesThatAreAskedF
 }
 
 }  // namespace
+}  // namespace linear_elasticity_tests

@@ -5,6 +5,8 @@ targets, and three joints below each other move it. Each is in error by a few ti
 import csv
 import glob
 import os
+import shutil
+import tempfile
 import unittest
 
 import numpy
@@ -40,16 +42,28 @@ def rms(a, b):
 
 
 class BakedCorrectivesTest(program.ProgramTest):
-    def baked(self, *arguments):
+    """Tests that read one trial with --bake, or change a copy of it."""
+    shared = baking = None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.shared = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.shared.cleanup)
+
+    def setUp(self):
+        self.folder = self.shared.name
+        if not self.baking:
+            type(self).baking = self.tried("out", "--bake", "--paraview")
+
+    def tried(self, into, *arguments):
         model = rig_files.write("plain", self.path("rig.glb"))
-        return self.succeeds("try", model, "-o", self.path("out"), "--frames", FRAMES, "--vertices", "300", *arguments)
+        return self.succeeds("try", model, "-o", self.path(into), "--frames", FRAMES, "--vertices", "300", *arguments)
 
     def surface(self, deformer, frame):
         return points_of(self.path("out", "frames", f"{deformer}_surface_{frame:06d}.vtp"))
 
     def test_the_exported_file_moves_as_the_program_states_and_nearer_to_the_reference_than_lbs(self):
-        process = self.baked("--bake", "--paraview")
-        self.assertIn("Correctives were learned from", process.stdout + process.stderr)
+        self.assertIn("Correctives were learned from", self.baking.stdout + self.baking.stderr)
         model = Blended(self.path("out", "frames", "correctives.glb"))
         rest = self.surface("lbs", 0)
         size = numpy.linalg.norm(rest.max(axis=0) - rest.min(axis=0))
@@ -68,7 +82,6 @@ class BakedCorrectivesTest(program.ProgramTest):
         self.assertGreater(without, 100 * EXACT * size, "the targets change what 1e-6 would not show")
 
     def test_the_fitted_file_is_a_deformer_of_scenes_that_is_nearer_to_the_reference_than_lbs(self):
-        self.baked("--bake")
         facts = self.json("out", "try.json")["correctives"]
         self.assertEqual(facts["held_out"], 2)  # frames 1 and 4 of seven
         self.assertGreater(facts["trained"], 5)
@@ -89,17 +102,17 @@ class BakedCorrectivesTest(program.ProgramTest):
         self.assertLess(max(errors["baked"]), 0.5 * max(errors["lbs"]))
 
     def test_a_trial_without_it_removes_what_an_earlier_one_has_learned(self):
-        self.baked("--bake")
-        files = lambda: sorted(os.path.basename(file) for file in glob.glob(self.path("out", "frames", "correctives*")))
-        self.assertEqual(files(), ["correctives.glb", "correctives.toml"])
-        self.baked("--no-reference")
-        self.assertEqual(files(), [])
+        shutil.copytree(self.path("out"), self.path("copy"))
+        files = lambda names: sorted(os.path.basename(file) for file in glob.glob(self.path("copy", "frames", names)))
+        self.assertEqual(files("correctives.*"), ["correctives.glb", "correctives.toml"])
+        self.tried("copy", "--no-reference")
+        self.assertEqual(files("correctives*"), [])
 
     def test_there_is_nothing_to_learn_from_without_a_reference(self):
         model = rig_files.write("plain", self.path("rig.glb"))
-        process = program.run("try", model, "-o", self.path("out"), "--bake", "--no-reference")
+        process = program.run("try", model, "-o", self.path("none"), "--bake", "--no-reference")
         self.assertEqual(process.returncode, 2)
-        self.assertFalse(os.path.exists(self.path("out")))
+        self.assertFalse(os.path.exists(self.path("none")))
 
 
 if __name__ == "__main__":

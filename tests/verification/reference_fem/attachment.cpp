@@ -16,6 +16,7 @@
 #include <numeric>
 #include <set>
 
+namespace attachment_tests {
 namespace {
 
 using namespace reference_fem;
@@ -302,3 +303,4 @@ TEST_P(RigidRotation, SwellsFreeFleshBySineSquared)
 INSTANTIATE_TEST_SUITE_P(Degrees, RigidRotation, testing::Values(1.0, 10.0, 45.0));
 
 }  // namespace
+}  // namespace attachment_tests

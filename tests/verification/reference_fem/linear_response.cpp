@@ -5,6 +5,7 @@
 #include "tests/support/fem_rounding.hpp"
 #include "tests/support/structured_bar.hpp"
 
+namespace linear_response_tests {
 namespace {
 
 using namespace reference_fem;
@@ -135,3 +136,4 @@ TEST_P(LinearResponse, NumberingOfVerticesAndTetsDoesNotMatter)
 INSTANTIATE_TEST_SUITE_P(ElementOrder, LinearResponse, testing::Values(1, 2));
 
 }  // namespace
+}  // namespace linear_response_tests

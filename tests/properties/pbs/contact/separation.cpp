@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+namespace separation_tests {
 namespace {
 
 using namespace test_support;
@@ -134,3 +135,4 @@ TEST(Contact, NumberOfThreadsChangesNoBit)
 }
 
 }  // namespace
+}  // namespace separation_tests

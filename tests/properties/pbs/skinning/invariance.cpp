@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+namespace skinning_invariance_tests {
 namespace {
 
 using namespace test_support;
@@ -208,3 +209,4 @@ TYPED_TEST(PackedBlends, AreThePlainOnesInAntipodalAndFarPosesAndInAnyUnit)
 }
 
 }  // namespace
+}  // namespace skinning_invariance_tests

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 
+namespace solver_invariance_tests {
 namespace {
 
 using namespace test_support;
@@ -148,3 +149,4 @@ TEST(StepInvariance, LinearMomentumOfStretchAndVolumeIsConserved)
 }
 
 }  // namespace
+}  // namespace solver_invariance_tests

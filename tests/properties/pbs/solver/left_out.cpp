@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+namespace left_out_tests {
 namespace {
 
 using namespace pbs;
@@ -171,3 +172,4 @@ INSTANTIATE_TEST_SUITE_P(Orders, Sleep, testing::Values(Order::ordered, Order::g
                          [](const auto& order) { return order.param == Order::ordered ? "ordered" : "grouped"; });
 
 }  // namespace
+}  // namespace left_out_tests

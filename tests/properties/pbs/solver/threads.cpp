@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <set>
 
+namespace threads_tests {
 namespace {
 
 using namespace test_support;
@@ -170,3 +171,4 @@ TEST(Threads, SlabsOfOneParityMayComeInAnyOrder)
 }
 
 }  // namespace
+}  // namespace threads_tests

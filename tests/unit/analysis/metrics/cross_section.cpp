@@ -238,7 +238,7 @@ Prisms prisms(int count)
     return prisms;
 }
 
-double share(const Prisms& cut, const std::vector<int>& vertices)
+double cut_share(const Prisms& cut, const std::vector<int>& vertices)
 {
     std::vector<bool> chosen(cut.positions.rows());
     for (const int v : vertices) chosen[v] = true;
@@ -248,17 +248,17 @@ double share(const Prisms& cut, const std::vector<int>& vertices)
 TEST(OutlineSkin, IsSharedByLengthAmongTheNearerVerticesOfTheEdges)
 {
     const Prisms one = prisms(1), two = prisms(2);
-    EXPECT_EQ(share(one, {0, 2, 4}), 1.0);  // 0.9 below, 1 above
-    EXPECT_EQ(share(one, {1, 3, 5}), 0.0);
-    EXPECT_DOUBLE_EQ(share(one, {0}), 3.5 / 12.0);
-    EXPECT_DOUBLE_EQ(share(one, {2}), 4.5 / 12.0);
-    EXPECT_DOUBLE_EQ(share(one, {2, 4}), 8.5 / 12.0);
-    EXPECT_EQ(share(two, {6, 8, 10}), 0.0) << "another part that the plane cuts too";
-    EXPECT_EQ(share(two, {0, 2, 4}), 1.0);
+    EXPECT_EQ(cut_share(one, {0, 2, 4}), 1.0);  // 0.9 below, 1 above
+    EXPECT_EQ(cut_share(one, {1, 3, 5}), 0.0);
+    EXPECT_DOUBLE_EQ(cut_share(one, {0}), 3.5 / 12.0);
+    EXPECT_DOUBLE_EQ(cut_share(one, {2}), 4.5 / 12.0);
+    EXPECT_DOUBLE_EQ(cut_share(one, {2, 4}), 8.5 / 12.0);
+    EXPECT_EQ(cut_share(two, {6, 8, 10}), 0.0) << "another part that the plane cuts too";
+    EXPECT_EQ(cut_share(two, {0, 2, 4}), 1.0);
     Prisms without_length = one;
     for (const int corners : {1, 0}) {
         without_length.outline = Positions(one.outline.topRows(corners));
-        EXPECT_EQ(share(without_length, {}), 1.0) << "all of it is the limb's";
+        EXPECT_EQ(cut_share(without_length, {}), 1.0) << "all of it is the limb's";
     }
 }
 

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 
+namespace error_norms_tests {
 namespace {
 
 using analysis::ErrorDomain;
@@ -215,3 +216,4 @@ TEST(Smoothness, BendingOfASkinThatIsTurnedAboutOneEdge)
 }
 
 }  // namespace
+}  // namespace error_norms_tests

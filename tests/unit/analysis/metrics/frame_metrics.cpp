@@ -8,6 +8,7 @@
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
 
+namespace frame_metrics_tests {
 namespace {
 
 using analysis::FrameMetrics;
@@ -226,3 +227,4 @@ TEST(SurfaceVolume, RefusesSurfacesThatAreNotClosed)
 }
 
 }  // namespace
+}  // namespace frame_metrics_tests

@@ -18,6 +18,7 @@ struct analysis::EnumNames<Ending> {
         {{Ending::finished, "finished"}, {Ending::not_finite, "not_finite"}}};
 };
 
+namespace tables_tests {
 namespace {
 
 using analysis::CsvTable;
@@ -246,3 +247,4 @@ TEST(TypedTable, AColumnsNameEndsWithItsUnit)
 }
 
 }  // namespace
+}  // namespace tables_tests

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+namespace claims_tests {
 namespace {
 
 using namespace analysis;
@@ -118,3 +119,4 @@ TEST(Claims, BrokenFilesAreNamedWithTheirLine)
 }
 
 }  // namespace
+}  // namespace claims_tests

@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+namespace verdict_tests {
 namespace {
 
 using namespace analysis;
@@ -471,3 +472,4 @@ TEST(ClaimsReport, TheTerminalsTableNamesWhatIsMissingOnceBelowTheClaims)
 }
 
 }  // namespace
+}  // namespace verdict_tests

@@ -13,6 +13,7 @@
 #include <limits>
 #include <numbers>
 
+namespace frame_measurement_tests {
 namespace {
 
 using namespace experiments;
@@ -221,3 +222,4 @@ TEST(LimbStations, MoveWithTheirBonesAndHaveANormalAtAJointFoldedBack)
 }
 
 }  // namespace
+}  // namespace frame_measurement_tests

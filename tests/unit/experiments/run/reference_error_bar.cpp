@@ -12,6 +12,7 @@
 
 #include <cmath>
 
+namespace reference_error_bar_tests {
 namespace {
 
 using namespace experiments;
@@ -144,3 +145,4 @@ TEST_F(ErrorBarOfALimb, OfASolutionThatBrokeDownIsNone)
 }
 
 }  // namespace
+}  // namespace reference_error_bar_tests

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+namespace recorded_settings_tests {
 namespace {
 
 using namespace experiments;
@@ -150,3 +151,4 @@ TEST(RecordedSettings, OfATimedSceneHaveTheRefinementsOfItsMesh)
 }
 
 }  // namespace
+}  // namespace recorded_settings_tests

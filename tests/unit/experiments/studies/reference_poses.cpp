@@ -13,6 +13,7 @@
 #include <numbers>
 #include <set>
 
+namespace reference_poses_tests {
 namespace {
 
 using namespace experiments;
@@ -123,3 +124,4 @@ TEST(MembersOfAPose, AreTheWholeFamilyOrTheTwoThatArePlayed)
 }
 
 }  // namespace
+}  // namespace reference_poses_tests

@@ -13,6 +13,7 @@
 #include <numbers>
 #include <set>
 
+namespace bone_capsules_tests {
 namespace {
 
 using namespace pbs;
@@ -272,3 +273,4 @@ TEST(JiggleZoneContents, TwoEndsAreTwoPiecesAndTogetherTheWholeZone)
 }
 
 }  // namespace
+}  // namespace bone_capsules_tests

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 
+namespace character_tests {
 namespace {
 
 using namespace pbs;
@@ -160,3 +161,4 @@ TEST(RefinedCharacter, CarriesTheSameSurface)
 }
 
 }  // namespace
+}  // namespace character_tests

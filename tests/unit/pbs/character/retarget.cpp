@@ -10,6 +10,7 @@
 
 #include <cmath>
 
+namespace retarget_tests {
 namespace {
 
 using namespace pbs;
@@ -250,3 +251,4 @@ TEST(LargestRotation, IsThatOfAnyBoneFromTheFirstPose)
 }
 
 }  // namespace
+}  // namespace retarget_tests

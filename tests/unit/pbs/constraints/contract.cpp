@@ -16,6 +16,7 @@
 #include <cmath>
 #include <numeric>
 
+namespace constraint_contract_tests {
 namespace {
 
 using pbs::Vec3;
@@ -390,3 +391,4 @@ TEST(MomentumUnweighted, IsLostWithUnequalMasses)
 }
 
 }  // namespace
+}  // namespace constraint_contract_tests

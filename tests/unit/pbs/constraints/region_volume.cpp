@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+namespace region_volume_tests {
 namespace {
 
 using namespace test_support;
@@ -77,3 +78,4 @@ TEST(RegionVolume, FlattenedRegionIsInflatedAndAMirroredOneTurnedBack)
 }
 
 }  // namespace
+}  // namespace region_volume_tests

@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+namespace volume_printed_tests {
 namespace {
 
 using pbs::Printed;
@@ -117,3 +118,4 @@ TEST(VolumePrinted, DegenerateTetsStay)
 }
 
 }  // namespace
+}  // namespace volume_printed_tests

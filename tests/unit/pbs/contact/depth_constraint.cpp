@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+namespace depth_constraint_tests {
 namespace {
 
 using namespace test_support;
@@ -103,3 +104,4 @@ TEST(DepthConstraint, MovesNothingWhereItHoldsOrAllIsPinned)
 }
 
 }  // namespace
+}  // namespace depth_constraint_tests

@@ -13,6 +13,7 @@
 
 #include <set>
 
+namespace self_contact_tests {
 namespace {
 
 using namespace test_support;
@@ -188,3 +189,4 @@ TEST(SelfContact, MeshWithoutTetsHasNone)
 }
 
 }  // namespace
+}  // namespace self_contact_tests

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+namespace bone_springs_tests {
 namespace {
 
 using pbs::Positions;
@@ -188,3 +189,4 @@ TEST(HoldModes, NoSpringsAreNoModes)
 }
 
 }  // namespace
+}  // namespace bone_springs_tests

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+namespace flesh_contact_tests {
 namespace {
 
 using namespace test_support;
@@ -226,3 +227,4 @@ TEST(FleshContact, StaysFiniteFromCollapsedMirroredAndTornStates)
 }
 
 }  // namespace
+}  // namespace flesh_contact_tests

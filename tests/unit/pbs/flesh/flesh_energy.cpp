@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+namespace flesh_energy_tests {
 namespace {
 
 using pbs::Positions;
@@ -220,3 +221,4 @@ TEST(NeoHookeanConstraints, ATetCollapsedToAPointHasNoGradientsAndAtRestIsRefuse
 }
 
 }  // namespace
+}  // namespace flesh_energy_tests

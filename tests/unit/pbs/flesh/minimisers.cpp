@@ -19,6 +19,7 @@
 #include <limits>
 #include <optional>
 
+namespace minimisers_tests {
 namespace {
 
 using pbs::Positions;
@@ -373,3 +374,4 @@ TYPED_TEST(Minimiser, ASliverDoesNotMoveTheMinimum)
 }
 
 }  // namespace
+}  // namespace minimisers_tests

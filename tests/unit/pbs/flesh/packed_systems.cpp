@@ -15,6 +15,7 @@
 #include <limits>
 #include <set>
 
+namespace packed_systems_tests {
 namespace {
 
 using pbs::Positions;
@@ -181,7 +182,7 @@ double step_rounding(const HeldBar& body, const Positions& x, double unit)
 }
 
 template <typename Scalar>
-Positions swept(pbs::VertexSweep<Scalar>& sweep, const HeldBar& body, Positions x, int sweeps)
+Positions positions_after(pbs::VertexSweep<Scalar>& sweep, const HeldBar& body, Positions x, int sweeps)
 {
     pbs::Rows<Scalar> rows = sweep.rows();
     sweep.set_centres(body.centres);
@@ -198,7 +199,7 @@ struct VertexSweeps {
     template <typename Scalar>
     Positions swept(bool packed, int threads, const Positions& x, int sweeps) const
     {
-        return ::swept<Scalar>(*pbs::make_vertex_sweep<Scalar>(bar.bent.mesh, bar.energy, packed, threads), bar, x, sweeps);
+        return positions_after<Scalar>(*pbs::make_vertex_sweep<Scalar>(bar.bent.mesh, bar.energy, packed, threads), bar, x, sweeps);
     }
     template <typename Scalar>
     std::vector<Positions> results(int threads, const Positions& x) const
@@ -409,3 +410,4 @@ TEST(PackedXpbd, VisitsEveryConstraintOnce)
 }
 
 }  // namespace
+}  // namespace packed_systems_tests

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <limits>
 
+namespace projective_dynamics_tests {
 namespace {
 
 using pbs::Positions;
@@ -272,3 +273,4 @@ TEST(VolumeProjection, NotFiniteIsNoShape)
 }
 
 }  // namespace
+}  // namespace projective_dynamics_tests

@@ -13,6 +13,7 @@
 #include <limits>
 #include <numeric>
 
+namespace quasi_newton_tests {
 namespace {
 
 using pbs::Positions;
@@ -155,3 +156,4 @@ TEST(Cholesky, OfOneNumberAndAnIndefiniteMatrixHasNone)
 }
 
 }  // namespace
+}  // namespace quasi_newton_tests

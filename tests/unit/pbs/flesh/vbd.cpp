@@ -12,6 +12,7 @@
 
 #include <limits>
 
+namespace vbd_tests {
 namespace {
 
 using pbs::Positions;
@@ -255,3 +256,4 @@ TEST(VertexBlockDescent, RefusesFactorsThatCannotConverge)
 }
 
 }  // namespace
+}  // namespace vbd_tests

@@ -12,6 +12,7 @@
 #include <limits>
 #include <numeric>
 
+namespace warped_newton_tests {
 namespace {
 
 using pbs::Positions;
@@ -198,3 +199,4 @@ TEST(WarpedNewton, NeitherThreadsNorRepetitionChangeABit)
 }
 
 }  // namespace
+}  // namespace warped_newton_tests

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+namespace xpbd_neo_hookean_tests {
 namespace {
 
 using pbs::Positions;
@@ -246,3 +247,4 @@ TEST(PlainXpbd, OneVisitSolvesTheEquationOfASpring)
 }
 
 }  // namespace
+}  // namespace xpbd_neo_hookean_tests

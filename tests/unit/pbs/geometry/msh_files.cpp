@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+namespace msh_files_tests {
 namespace {
 
 struct Node {
@@ -248,3 +249,4 @@ TEST_F(Msh, AsTextMayHaveAByteOrderMarkTabsAndLineEndsOfWindows)
 }
 
 }  // namespace
+}  // namespace msh_files_tests

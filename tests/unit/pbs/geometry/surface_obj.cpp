@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+namespace surface_obj_tests {
 namespace {
 
 using Obj = test_support::FolderTest;
@@ -86,3 +87,4 @@ TEST_F(Obj, AClosedCavityIsNamedWithItsVolume)
 #endif
 
 }  // namespace
+}  // namespace surface_obj_tests

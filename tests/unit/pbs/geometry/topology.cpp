@@ -14,6 +14,7 @@
 #include <optional>
 #include <random>
 
+namespace topology_tests {
 namespace {
 
 using pbs::Tets;
@@ -249,3 +250,4 @@ TEST(Quality, OfNothingIsZeros)
 }
 
 }  // namespace
+}  // namespace topology_tests

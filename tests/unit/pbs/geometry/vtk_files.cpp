@@ -9,6 +9,7 @@
 
 #include <string>
 
+namespace vtk_files_tests {
 namespace {
 
 using VtkFiles = test_support::FolderTest;
@@ -102,3 +103,4 @@ TEST_F(VtkFiles, OfCollectionsAreListedByTime)
 }
 
 }  // namespace
+}  // namespace vtk_files_tests

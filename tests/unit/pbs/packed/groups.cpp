@@ -7,6 +7,7 @@
 
 #include <set>
 
+namespace groups_tests {
 namespace {
 
 using namespace test_support;
@@ -196,3 +197,4 @@ TEST(ConstraintGroups, OfABarInAnyNumberingAreFew)
 }
 
 }  // namespace
+}  // namespace groups_tests

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+namespace vertex_order_tests {
 namespace {
 
 using namespace test_support;
@@ -163,3 +164,4 @@ TEST(VertexColours, AreAtMostOneMoreThanTheLargestNumberOfNeighboursAndFourOfOne
 }
 
 }  // namespace
+}  // namespace vertex_order_tests

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+namespace surface_reader_tests {
 namespace {
 
 using Surface = test_support::FolderTest;
@@ -323,3 +324,4 @@ TEST_F(SurfaceFormats, PackedColladaIsReadAsTheUnpackedOne)
 }
 
 }  // namespace
+}  // namespace surface_reader_tests

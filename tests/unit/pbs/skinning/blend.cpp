@@ -12,6 +12,7 @@
 #include <numbers>
 #include <tuple>
 
+namespace blend_tests {
 namespace {
 
 using pbs::BlendSkinning;
@@ -294,3 +295,4 @@ TYPED_TEST(BlendSkinningOf, BonesWithoutVertices)  // bones 0 and 2 of four
 }
 
 }  // namespace
+}  // namespace blend_tests

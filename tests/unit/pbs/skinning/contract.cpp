@@ -7,6 +7,7 @@
 
 #include <numeric>
 
+namespace skinner_contract_tests {
 namespace {
 
 using namespace test_support;
@@ -164,3 +165,4 @@ TYPED_TEST(Skinner, NotANumberIsNoRotation)
 }
 
 }  // namespace
+}  // namespace skinner_contract_tests

@@ -11,6 +11,7 @@
 
 #include <Eigen/Cholesky>
 
+namespace correctives_tests {
 namespace {
 
 using namespace pbs;
@@ -304,3 +305,4 @@ TEST(Correctives, OptionsOutOfRangeAreRefused)
 }
 
 }  // namespace
+}  // namespace correctives_tests

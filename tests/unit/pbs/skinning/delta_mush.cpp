@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+namespace delta_mush_tests {
 namespace {
 
 using namespace test_support;
@@ -177,3 +178,4 @@ TEST(DirectDeltaMush, OptionsOutOfRangeAreRefused)
 }
 
 }  // namespace
+}  // namespace delta_mush_tests

@@ -7,6 +7,7 @@
 
 #include <numbers>
 
+namespace pose_tests {
 namespace {
 
 // Reference: the bones that meet at each point, read from the drawing.
@@ -133,3 +134,4 @@ TEST(Motion, CountsFramesBySteps)
 }
 
 }  // namespace
+}  // namespace pose_tests

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+namespace pose_path_tests {
 namespace {
 
 using pbs::PosePath;
@@ -201,3 +202,4 @@ TEST(FramesAfterTheFirst, OfAStretchBeyondTheRecordingAreRefusedByFile)
 }
 
 }  // namespace
+}  // namespace pose_path_tests

@@ -14,6 +14,7 @@
 
 // Reference: projections on segments along the axes, by hand. Tolerances: the rounding of motions.
 
+namespace weights_tests {
 namespace {
 
 using pbs::Vec3;
@@ -310,3 +311,4 @@ TEST(DiffusedWeights, JumpLessFromVertexToVertex)
 }
 
 }  // namespace
+}  // namespace weights_tests

@@ -10,6 +10,7 @@
 
 #include <cmath>
 
+namespace constraint_set_tests {
 namespace {
 
 using pbs::ConstraintSet;
@@ -249,3 +250,4 @@ TEST(ConstraintSet, BindInTheJigglingZoneMayHaveAStiffnessOfItsOwn)
 }
 
 }  // namespace
+}  // namespace constraint_set_tests

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+namespace pbs_solver_tests {
 namespace {
 
 using pbs::Outcome;
@@ -236,3 +237,4 @@ TEST(PosesSolver, RefusesWhatPosesCannotDifferIn)
 }
 
 }  // namespace
+}  // namespace pbs_solver_tests

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+namespace projection_tests {
 namespace {
 
 using pbs::Vec3;
@@ -109,3 +110,4 @@ TEST(ReorderedProjection, TakesTheClassesInTheOrderOfItsNameWhichMatters)
 }
 
 }  // namespace
+}  // namespace projection_tests

@@ -10,6 +10,7 @@
 
 #include <limits>
 
+namespace steps_tests {
 namespace {
 
 using namespace test_support;
@@ -175,3 +176,4 @@ TEST(XpbdSolver, RefusesNumbersBelowOneAndPoissonsRatiosThatSpringsCannotHave)
 }
 
 }  // namespace
+}  // namespace steps_tests

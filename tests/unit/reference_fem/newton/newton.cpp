@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <limits>
 
+namespace newton_tests {
 namespace {
 
 using namespace reference_fem;
@@ -367,3 +368,4 @@ TEST(LoadPath, StopsAtAWallInTheLastConvergedState)
 }
 
 }  // namespace
+}  // namespace newton_tests

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+namespace reading_values_tests {
 namespace {
 
 using namespace experiments;
@@ -112,3 +113,4 @@ TEST(ReadingValues, OfSectionsAreOnePerPoseBesideTheReferenceUnlessTheReadingBre
 }
 
 }  // namespace
+}  // namespace reading_values_tests

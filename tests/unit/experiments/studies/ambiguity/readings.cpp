@@ -15,6 +15,7 @@
 #include <limits>
 #include <stdexcept>
 
+namespace readings_tests {
 namespace {
 
 using namespace experiments;
@@ -375,3 +376,4 @@ TEST(FrameTimes, OfReadingsAreOneTimeEachAndStateABreakdown)
 }
 
 }  // namespace
+}  // namespace readings_tests

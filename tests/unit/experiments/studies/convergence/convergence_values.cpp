@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+namespace convergence_values_tests {
 namespace {
 
 using namespace experiments;
@@ -256,3 +257,4 @@ TEST(Starts, ThePreviousFrameIsWhatTheSolverMadeOfTheOneBeforeWithSeveralStepsAF
 }
 
 }  // namespace
+}  // namespace convergence_values_tests

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 
+namespace iteration_path_tests {
 namespace {
 
 using namespace test_support;
@@ -256,3 +257,4 @@ TEST(ConstraintSequence, RandomIsAPermutationThatDependsOnTheSeedAlone)
 }
 
 }  // namespace
+}  // namespace iteration_path_tests

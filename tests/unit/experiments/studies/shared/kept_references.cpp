@@ -20,6 +20,7 @@
 #include <functional>
 #include <tuple>
 
+namespace kept_references_tests {
 namespace {
 
 using namespace experiments;
@@ -239,3 +240,4 @@ TEST(OtherTets, AreThoseThatTheReferencesOfTheBodyWereNotSolvedOn)
 }
 
 }  // namespace
+}  // namespace kept_references_tests

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <set>
 
+namespace stability_cells_tests {
 namespace {
 
 using namespace experiments;
@@ -299,3 +300,4 @@ TEST(BrokenStart, IsNotReachedByTooFewIterationsOrBeyondTheLimitOfTheMethod)
 }
 
 }  // namespace
+}  // namespace stability_cells_tests

@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+namespace stiffness_ratios_tests {
 namespace {
 
 using namespace experiments;
@@ -123,3 +124,4 @@ TEST(StiffnessRatios, TellTheMethodsApart)
 }
 
 }  // namespace
+}  // namespace stiffness_ratios_tests

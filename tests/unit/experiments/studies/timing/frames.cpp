@@ -10,6 +10,7 @@
 
 #include <map>
 
+namespace frames_tests {
 namespace {
 
 using namespace experiments;
@@ -149,3 +150,4 @@ TEST(RealTime, EndsByWallTimeOfTheLadder)
 }
 
 }  // namespace
+}  // namespace frames_tests

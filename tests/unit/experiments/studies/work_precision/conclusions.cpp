@@ -12,6 +12,7 @@
 #include <set>
 #include <tuple>
 
+namespace conclusions_tests {
 namespace {
 
 using namespace experiments;
@@ -460,3 +461,4 @@ TEST(ChosenSettings, AreFiniteInAllPosesOfAllBodies)
 }
 
 }  // namespace
+}  // namespace conclusions_tests

@@ -22,6 +22,7 @@
 #include <memory>
 #include <numeric>
 
+namespace measuring_tests {
 namespace {
 
 using namespace experiments;
@@ -333,3 +334,4 @@ TEST(MeasuredMotion, BeginsEachFrameAtTheOneBefore)
 }
 
 }  // namespace
+}  // namespace measuring_tests

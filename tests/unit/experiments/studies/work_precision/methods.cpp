@@ -26,6 +26,7 @@
 #include <memory>
 #include <set>
 
+namespace methods_tests {
 namespace {
 
 using namespace experiments;
@@ -512,3 +513,4 @@ TEST_F(ExternalMethods, HaveNoNameOfAnotherStart)
 }
 
 }  // namespace
+}  // namespace methods_tests

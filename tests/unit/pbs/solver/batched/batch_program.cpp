@@ -11,6 +11,7 @@
 
 #include <set>
 
+namespace batch_program_tests {
 namespace {
 
 using namespace test_support;
@@ -202,3 +203,4 @@ TYPED_TEST(BatchPrograms, ConstraintsInTheOrderOfProjection)
 }
 
 }  // namespace
+}  // namespace batch_program_tests

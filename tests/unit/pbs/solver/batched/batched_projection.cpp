@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+namespace batched_projection_tests {
 namespace {
 
 using namespace test_support;
@@ -175,3 +176,4 @@ TEST(ProjectionBytes, OfOnePoseAndOfMany)
 }
 
 }  // namespace
+}  // namespace batched_projection_tests

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 
+namespace kernels_tests {
 namespace {
 
 using namespace test_support;
@@ -431,3 +432,4 @@ TYPED_TEST(KernelsIn, WithoutAGradientTheMultiplierStays)
 }
 
 }  // namespace
+}  // namespace kernels_tests

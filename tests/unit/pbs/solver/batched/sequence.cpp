@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <map>
 
+namespace sequence_tests {
 namespace {
 
 using namespace test_support;
@@ -193,3 +194,4 @@ TYPED_TEST(Sequence, HeldVerticesKeepTheirBits)
 }
 
 }  // namespace
+}  // namespace sequence_tests

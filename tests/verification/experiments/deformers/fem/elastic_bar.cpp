@@ -3,6 +3,7 @@
 #include "tests/support/fem_bar.hpp"
 #include "tests/support/newton_rounding.hpp"
 
+namespace elastic_bar_tests {
 namespace {
 
 using namespace experiments;
@@ -132,3 +133,4 @@ TEST_F(YoungCancelsSprings, OnlyBecauseTheirDensityGoesWithIt)
 }
 
 }  // namespace
+}  // namespace elastic_bar_tests

@@ -7,6 +7,7 @@
 #include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +32,7 @@ EnsembleCase split_limb(const std::string& scene, int frame)
 }
 
 // The row from LBS, with PBS in double.
-RateRow row_of_convergence(const EnsembleCase& as)
+RateRow row_of_convergence(const EnsembleCase& as, const std::string& solutions)
 {
     ConvergenceCase of;
     of.scene = as.scene;
@@ -41,17 +42,19 @@ RateRow row_of_convergence(const EnsembleCase& as)
     of.most_iterations = 24;
     of.reference = as.flesh;
     of.effort = as.effort;
-    return rate_rows(measure_convergence(of)).front();
+    return rate_rows(measure_convergence(of, solutions)).front();
 }
 
-// The parts, after a check that convergence, which has another solver, measures the same errors after these iterations.
+// The parts, after a check that convergence, which has another solver, measures the same errors after these iterations. Both find the
+// solutions of one reference.
 PartsRow checked_parts(const EnsembleCase& of)
 {
-    const EnsembleRecords records = measure_ensemble(of);
+    const test_support::ScratchFolder solutions;
+    const EnsembleRecords records = measure_ensemble(of, solutions.path());
     EXPECT_EQ(records.parts.size(), 1u);
     const PartsRow& parts = records.parts.at(0);
     const double rounding = 1e-12 * parts.whole_joint_pct;  // sums over the vertices, in another order
-    const RateRow row = row_of_convergence(of);
+    const RateRow row = row_of_convergence(of, solutions.path());
     EXPECT_GT(parts.error_joint_pct, 0.0);
     EXPECT_NEAR(row.paper.error_joint_pct, parts.error_joint_pct, rounding);
     EXPECT_NEAR(row.paper.whole_joint_pct, parts.whole_joint_pct, rounding);
