@@ -32,8 +32,7 @@ pbs_tests(unit pbs_files
 pbs_tests(unit pbs_rig FOLDERS pbs/rig EXCEPT ${left_out} LIBRARIES pbs_rig pbs_mesh_io)
 pbs_tests(unit pbs_character FOLDERS pbs/character EXCEPT ${left_out} LIBRARIES pbs_character pbs_mesh_io)
 if(TARGET pbskin_cholmod)
-    pbs_tests(unit pbs_flesh FOLDERS pbs/flesh
-        LIBRARIES pbs_flesh ${threads})
+    pbs_tests(unit pbs_flesh FOLDERS pbs/flesh LIBRARIES pbs_flesh ${threads})
     add_dependencies(test_unit_pbs_flesh pbskin_cholmod)
 endif()
 if(TARGET pbskin_cholmod)  # a module that is loaded

@@ -6,9 +6,7 @@ endif()
 pbs_tests(unit reference_fem_laws FOLDERS reference_fem/laws LIBRARIES reference_fem_laws)
 pbs_tests(unit reference_fem BLAS FOLDERS reference_fem EXCEPT reference_fem/laws LIBRARIES reference_fem_verification)
 pbs_tests(verification reference_fem_laws FILES reference_fem/laws LIBRARIES reference_fem_laws)
-pbs_tests(verification reference_fem BLAS FOLDERS reference_fem
-    EXCEPT reference_fem/laws
-    LIBRARIES reference_fem_verification)
+pbs_tests(verification reference_fem BLAS FOLDERS reference_fem EXCEPT reference_fem/laws LIBRARIES reference_fem_verification)
 if(NOT TARGET fem_verification)
     return()
 endif()
@@ -27,3 +25,8 @@ pbs_tests(verification experiments_fem BLAS FOLDERS experiments/deformers/fem
     FILES experiments/studies/stability/broken_fem_starts experiments/studies/verification/calculix experiments/verification_record
     EXCEPT ${left_out}
     LIBRARIES fem_verification experiments)
+target_sources(test_verification_experiments_fem PRIVATE support/blas_main.cpp)
+foreach(target unit_reference_fem verification_reference_fem unit_experiments_fem)
+    target_sources(test_${target} PRIVATE support/blas_main.cpp ${PROJECT_SOURCE_DIR}/experiments/process/machine.cpp)
+    target_link_libraries(test_${target} PRIVATE pbs_module shared_headers)
+endforeach()

@@ -139,8 +139,6 @@ class Pages(program.ProgramTest):
         self.assertLessEqual({"pbs_author", "external"}, set(pages))
         pages |= {study: readme_pages.studies / study / "README.md" for study in self.studies()}
         pages |= {claim: readme_pages.claim_pages / f"{sentences.page_of(claim)}.md" for claim in self.claims()}
-        if not os.environ.get("PBS_LONG"):
-            del pages["artefacts"]  # its cost takes 5 s; robustness/experiments/command_line.py requires that each study is explained
         for name, page in sorted(pages.items()):
             printed = self.explained(name)
             for section in sections(page.read_text(encoding="utf-8")):

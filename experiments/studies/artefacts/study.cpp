@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 namespace experiments {
@@ -36,18 +37,31 @@ std::string look_and_record(const ArtefactCase& artefact_case, const std::string
     return records.breakdown;
 }
 
+// The bodies of cases without their surfaces, whose embedding takes most of the time. Each is made once.
+class CaseBodies {
+public:
+    const pbs::Character& of(const pbs::CharacterSource& source)
+    {
+        auto& made = made_[{source.body, source.vertices}];
+        if (!made) made = pbs::make_character({.body = source.body, .vertices = source.vertices, .surface = false});
+        return *made;
+    }
+
+private:
+    std::map<std::pair<std::string, int>, std::optional<pbs::Character>> made_;
+};
+
 // A joint that turns by step_deg from pose to pose, without the rest pose, one pose of a clip, or a movement halfway and
 // at its end.
-ArtefactCase case_of(const StudyCase& study_case, const std::string& movement = "")
+ArtefactCase case_of(const StudyCase& study_case, CaseBodies& bodies, const std::string& movement = "")
 {
     ArtefactCase made;
     made.joint = study_case.value<std::string>("joint", "");
     made.vertices = study_case.value<std::vector<int>>("vertices", {});
     made.second_order_poses = study_case.value("second_order_poses", 0);
     const double finer = study_case.value("finer", 0.0);  // a further mesh, by its size over that of the body's own
-    std::optional<pbs::Character> character;
-    if (finer > 0.0 || !made.joint.empty()) character = pbs::make_character(study_case.scene().character);
-    if (finer > 0.0) made.vertices.push_back(static_cast<int>(finer * static_cast<double>(character->mesh.rest.rows())));
+    const auto character = [&]() -> const pbs::Character& { return bodies.of(study_case.scene().character); };
+    if (finer > 0.0) made.vertices.push_back(static_cast<int>(finer * static_cast<double>(character().mesh.rest.rows())));
     Overrides overrides;
     if (study_case.has("frame"))
         made.poses = {{study_case.value<int>("frame"),
@@ -70,12 +84,12 @@ ArtefactCase case_of(const StudyCase& study_case, const std::string& movement = 
                                   fmt::format("{}_{}_deg", what, i * step_deg),
                                   {.motion = what, .angle_deg = double(i * step_deg)}});
         if (!made.joint.empty()) {
-            const std::vector<LimbJoint> joints = limb_joints(*character);
+            const std::vector<LimbJoint> joints = limb_joints(character());
             const auto joint = std::ranges::find(joints, made.joint, &LimbJoint::name);
             if (joint == joints.end())
-                throw pbs::InputError(character->name, 0, "joint", made.joint, "expected it among the body's joints");
-            const pbs::Vec3 axis = what == "twist" ? twist_axis(character->skeleton, *joint) : hinge_axis(character->skeleton, *joint);
-            overrides.push_back("motion.joint=" + character->skeleton.bones[joint->child].name);
+                throw pbs::InputError(character().name, 0, "joint", made.joint, "expected it among the body's joints");
+            const pbs::Vec3 axis = what == "twist" ? twist_axis(character().skeleton, *joint) : hinge_axis(character().skeleton, *joint);
+            overrides.push_back("motion.joint=" + character().skeleton.bones[joint->child].name);
             overrides.push_back(fmt::format("motion.axis=[{:.9f},{:.9f},{:.9f}]", axis.x(), axis.y(), axis.z()));
         }
     }
@@ -86,7 +100,8 @@ ArtefactCase case_of(const StudyCase& study_case, const std::string& movement = 
 // C04 or C05 of readings: sections in the poses of a sweep all steps of which are taken, and one reference.
 std::vector<ReadingValues> read_sections(const StudyCase& study_case, const std::vector<Overrides>& readings)
 {
-    const ArtefactCase base = case_of(study_case);
+    CaseBodies bodies;
+    const ArtefactCase base = case_of(study_case, bodies);
     const ArtefactBody body(base);
     const pbs::Character& character = body.posed.character();
     const pbs::Motion motion = make_motion(base.scene.motion, character.skeleton, base.scene.file);
@@ -115,12 +130,13 @@ std::vector<ReadingValues> read_sections(const StudyCase& study_case, const std:
 
 StudyPlan plan(bool full)
 {
-    return plan_of_cases("artefacts", full, [](const StudyCase& study_case, StudyPlan& plan) {
+    CaseBodies bodies;
+    return plan_of_cases("artefacts", full, [&bodies](const StudyCase& study_case, StudyPlan& plan) {
         if (!study_case.has("movements"))
-            plan.runs.push_back(work_run(study_case.name, case_of(study_case), study_case.cost_s, look_and_record));
+            plan.runs.push_back(work_run(study_case.name, case_of(study_case, bodies), study_case.cost_s, look_and_record));
         for (const auto& movement : study_case.value<std::vector<std::string>>("movements", {}))
             plan.runs.push_back(
-                work_run(study_case.name + "_" + movement, case_of(study_case, movement), study_case.cost_s, look_and_record));
+                work_run(study_case.name + "_" + movement, case_of(study_case, bodies, movement), study_case.cost_s, look_and_record));
     });
 }
 
