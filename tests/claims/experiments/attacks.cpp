@@ -32,7 +32,7 @@ const Records& kept(const std::string& study)
 {
     static std::map<std::string, Records> all;
     if (const auto found = all.find(study); found != all.end()) return found->second;
-    const experiments::OpenedRecords opened(PBS_KEPT_RECORDS);
+    const experiments::OpenedRecords opened(PBS_KEPT_RECORDS, {{study}});
     Records records = experiments::read_study_records((std::filesystem::path(opened.folder()) / study).string(), opened.folder());
     for (const CaseRecord& record : records.cases)
         for (Measurement& one : frame_measurements(record)) records.measurements.push_back(std::move(one));

@@ -3,10 +3,10 @@
 // and where they come from. The record can fail: with an error of 5 % in the solver's lambda, which the compared values do not have, named
 // rows do not hold.
 #include "reference_fem/verification/problems.hpp"
+#include "tests/support/long_form.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <functional>
 #include <map>
 #include <ranges>
@@ -14,9 +14,6 @@
 namespace {
 
 using namespace reference_fem;
-
-const char* const long_form = std::getenv("PBS_LONG");
-const bool is_long = long_form && *long_form;
 
 const std::map<std::string, std::function<VerificationRows(const Effort&)>> problems = {
     {"laws", laws_rows},
@@ -30,7 +27,7 @@ const std::map<std::string, std::function<VerificationRows(const Effort&)>> prob
     {"cooks_membrane", cooks_membrane_rows},
     {"cooks_membrane_finite_strain", cooks_membrane_finite_strain_rows},
     {"twisted_beam", twisted_beam_rows},
-    {"half_turn", [](const Effort&) { return half_turn_rows({.full = is_long}); }},
+    {"half_turn", [](const Effort&) { return half_turn_rows({.full = test_support::is_long_form()}); }},
     {"thick_plate", thick_plate_rows},
     {"dynamics", dynamics_rows},
     {"moving_skeleton", moving_skeleton_rows},
