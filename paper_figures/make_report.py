@@ -1,6 +1,6 @@
 """Writes DIR's records and the figures drawn from them as one self-contained page, DIR/report.html, and prints what is missing in it; and
 the pages of studies, DIR/STUDY/STUDY.md. Exit status 2 if DIR holds no records, or damaged ones; 3 if the page of a run lacks the moving
-model and --needs-model asks for it.
+model and --needs-model asks for it; 4 if this Python cannot import what draws.
 
     python3 paper_figures/make_report.py results/reproduce
     python3 paper_figures/make_report.py --picture RUN    # only RUN/picture.png: the values of a single run over its frames
@@ -8,6 +8,13 @@ model and --needs-model asks for it.
 import argparse
 import pathlib
 import sys
+
+try:
+    import matplotlib
+    import numpy
+except ImportError as error:
+    print(f"{sys.executable}: {error}", file=sys.stderr)
+    sys.exit(4)
 
 import pages
 import report

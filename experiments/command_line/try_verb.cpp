@@ -33,16 +33,6 @@ fs::path page_maker()
     return fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/pbskin/paper_figures/make_report.py";
 }
 
-// Debian's python3 comes first, for one of a version manager on the PATH often lacks the packages that the figures need.
-std::string python_that_draws()
-{
-    const analysis::ScratchFolder scratch;
-    for (const char* python : {"/usr/bin/python3", "python3"})
-        if (run_program({python, "-c", "import numpy, matplotlib"}, scratch.path()).succeeded()) return python;
-    throw pbs::InputError("", 0, "report", "",
-                          "no python3 that can import numpy and matplotlib: install python3-numpy and python3-matplotlib");
-}
-
 constexpr double most_glb_bytes = 33e6, most_skin_bytes = 12e6;  // with the page and the tables, a trial takes at most 60 MB
 
 // Runs the scene that was just written. If it is refused before the run has written anything, the folder is left as it was.
@@ -69,7 +59,8 @@ RunResult run_new_scene(const std::string& scene_file, const std::string& earlie
     }
 }
 
-constexpr int page_without_model = 3;  // of make_report.py --needs-model: it has written the page without the moving model
+// Of make_report.py: with --needs-model, it has written the page without the moving model; this Python lacks the packages that draw.
+constexpr int page_without_model = 3, python_without_packages = 4;
 
 // Writes `folder`/report.html by the scripts of paper_figures. The page maker runs as a process of its own, which reports what is missing.
 // Returns its exit status. InputErrors: no such folder, no python3 with the packages that draw, no page maker.
@@ -81,12 +72,17 @@ int write_report_page(const std::string& folder, bool quiet, bool needs_model)
         throw pbs::InputError(page_maker().string(), 0, "", "",
                               "not found: the page is made by scripts that are installed with the program");
     const pbs::Stage stage("making the page " + (fs::path(folder) / "report.html").string());
-    std::vector<std::string> words = {python_that_draws(), "-B", page_maker().string(), folder};
+    std::vector<std::string> words = {"", "-B", page_maker().string(), folder};
     if (quiet) words.push_back("--quiet");
     if (needs_model) words.push_back("--needs-model");
-    const ProgramRun page = run_program(words, std::nullopt);
-    if (!page.started) throw pbs::InputError("", 0, "report", words.front(), "cannot be started");
-    return page.status >= 0 ? page.status : 128 - page.status;
+    // Debian's python3 comes first, for one of a version manager on the PATH often lacks the packages that the figures need.
+    for (const char* python : {"/usr/bin/python3", "python3"}) {
+        words.front() = python;
+        const ProgramRun page = run_program(words, std::nullopt);
+        if (page.started && page.status != python_without_packages) return page.status >= 0 ? page.status : 128 - page.status;
+    }
+    throw pbs::InputError("", 0, "report", "",
+                          "no python3 that can import numpy and matplotlib: install python3-numpy and python3-matplotlib");
 }
 
 // A trial leaves the page, the tables, the .glb files and the artist's surface. The frames for ParaView take most of the space; once the

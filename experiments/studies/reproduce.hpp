@@ -37,7 +37,7 @@ void write_study_plan(const std::string& folder, const StudyPlan& plan);
 // kind (experiments/records/keep.py), with a folder each. These are temporary and have what verdicts are computed from.
 class OpenedRecords {
 public:
-    // studies: those whose runs are needed; nothing: all.
+    // Without `studies`, the runs of all are opened; otherwise only those of these studies.
     explicit OpenedRecords(const std::string& folder, const std::optional<std::vector<std::string>>& studies = {});
     const std::string& folder() const { return folder_; }
 

@@ -176,7 +176,7 @@ std::string kept_text(const std::string& file)
 
 OpenedRecords::OpenedRecords(const std::string& folder, const std::optional<std::vector<std::string>>& studies) : folder_(folder)
 {
-    const auto is_needed = [&](const std::string& name) {  // of a study, or of a run in it
+    const auto is_needed = [&](const std::string& name) {  // STUDY, or STUDY/RUN
         return !studies || std::ranges::count(*studies, name.substr(0, name.find('/'))) > 0;
     };
     const std::string provenance = analysis::path_in(folder, "provenance.json"), all_plans = analysis::path_in(folder, "plans.json");

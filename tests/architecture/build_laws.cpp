@@ -45,7 +45,7 @@ bool is_below(const std::string& path, const std::string& folder)
     return folder == "." || path == folder || path.starts_with(folder + "/");
 }
 
-// pbs_tests(KIND NAME FOLDERS FOLDER... FILES FILE... EXCEPT PATH... ALONE FILE...) compiles KIND/test.cpp. A variable holds the files that
+// pbs_tests(KIND NAME FOLDERS FOLDER... FILES FILE... EXCEPT PATH...) compiles KIND/test.cpp. A variable holds the files that
 // an option leaves out; it is not evaluated here.
 bool compiles(const std::vector<std::string>& call, const std::string& kind, const std::string& test)
 {
@@ -53,7 +53,7 @@ bool compiles(const std::vector<std::string>& call, const std::string& kind, con
     std::string section;
     bool in_folder = false, by_name = false, left_out = false;
     for (const std::string& word : call) {
-        if (word == "FOLDERS" || word == "FILES" || word == "EXCEPT" || word == "ALONE" || word == "LIBRARIES")
+        if (word == "FOLDERS" || word == "FILES" || word == "EXCEPT" || word == "LIBRARIES")
             section = word;
         else if (section == "FOLDERS")
             in_folder |= is_below(test, word);

@@ -91,7 +91,7 @@ def is_quantile(end, means, sign=1):
 
 @functools.cache
 def replicates(bodies):
-    """Of bodies, drawn with replacement, and of poses in each of them; another generator and seed than those of the record. bodies: the
+    """Draws bodies with replacement, and poses in each of them, with another generator and seed than those of the record. bodies: the
     poses of each body."""
     draw = random.Random(1).choices
     return [[pose for body in draw(bodies, k=len(bodies)) for pose in draw(body, k=len(body))] for _ in range(REPLICATES)]
@@ -99,7 +99,7 @@ def replicates(bodies):
 
 @functools.cache
 def sorted_means(log_ratio, bodies):
-    """Of the logarithms, one for each replicate. log_ratio: pairs of a pose and its logarithm."""
+    """Returns the mean logarithm of each replicate. log_ratio: pairs of a pose and its logarithm."""
     value = dict(log_ratio).__getitem__
     return sorted(sum(map(value, drawn)) / len(drawn) for drawn in replicates(bodies))
 

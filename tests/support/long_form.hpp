@@ -1,4 +1,4 @@
-// Whether `./check --long` runs the tests. It sets PBS_LONG, so that tests do what takes long.
+// `./check --long` sets PBS_LONG: tests then run the cases that take long too.
 #pragma once
 
 #include <cstdlib>

@@ -1,25 +1,14 @@
-"""The files below a folder of records: whether each is complete, and its content except time and provenance.
-
-limb_alone() runs the study `frames` without the human: whole scene runs, with state hashes and frames on disk, in seconds. The study has no
-such option. In a mount namespace of its own, it sees an empty folder in place of the installed motions."""
+"""The files below a folder of records: whether each is complete, and its content except time and provenance."""
 import csv
-import functools
 import io
 import json
 import os
 import pathlib
 import re
-import subprocess
-import tempfile
-import unittest
 from xml.etree import ElementTree
 
 import program
 
-MOTIONS = "/usr/share/assimp/models/BVH"
-HIDE = f'mount --bind "$0" {MOTIONS} && exec "$@"'
-EMPTY = tempfile.TemporaryDirectory()
-NAMESPACES = [["unshare", "--mount"], ["unshare", "--map-root-user", "--mount"]]
 TIME_COLUMNS = re.compile(r"step_ms|.*cpu_s|.*wall_s|.*seconds|.*_ns|ms_.*|ns_.*")
 TIMED = "analyse|assemble|assembly|character|cost|cpu|factor|mesh|records|set_?up|solve|timing|total|wall"
 TIME_KEYS = re.compile(rf"provenance|peak_memory_mb|.*seconds|.*_utc|(.*_)?({TIMED})_s|.*frames_per_s|gb_s")
@@ -81,21 +70,6 @@ def records(folder, left_out=()):
     """Name below the folder -> content of the file."""
     named = ((str(path.relative_to(folder)), path) for path in files(folder))
     return {name: said(path) for name, path in named if not name.endswith(tuple(left_out))}
-
-
-@functools.cache
-def limb_alone():
-    """The words to be put before those of pbskin, which replaces their process. The test is skipped if no namespace is available."""
-    if not os.path.isdir(MOTIONS):
-        return []
-    for namespace in NAMESPACES:
-        words = [*namespace, "sh", "-c", HIDE, EMPTY.name]
-        try:
-            if subprocess.run([*words, "true"], capture_output=True).returncode == 0:
-                return words
-        except FileNotFoundError:
-            pass
-    raise unittest.SkipTest("no mount namespace can be had here, and the whole study takes minutes")
 
 
 def state_hashes(records):

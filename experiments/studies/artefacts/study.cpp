@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace experiments {
 namespace {
@@ -40,15 +41,17 @@ std::string look_and_record(const ArtefactCase& artefact_case, const std::string
 // The bodies of cases without their surfaces, whose embedding takes most of the time. Each is made once.
 class CaseBodies {
 public:
-    const pbs::Character& of(const pbs::CharacterSource& source)
+    const pbs::Character& body(const Scene& scene)
     {
-        auto& made = made_[{source.body, source.vertices}];
-        if (!made) made = pbs::make_character({.body = source.body, .vertices = source.vertices, .surface = false});
-        return *made;
+        pbs::CharacterSource source = scene.character;
+        source.surface = false;
+        auto& body = bodies_[{source.body, source.vertices}];  // the cases of this study state nothing else of a body
+        if (!body) body = pbs::make_character(source);
+        return *body;
     }
 
 private:
-    std::map<std::pair<std::string, int>, std::optional<pbs::Character>> made_;
+    std::map<std::pair<std::string, int>, std::optional<pbs::Character>> bodies_;
 };
 
 // A joint that turns by step_deg from pose to pose, without the rest pose, one pose of a clip, or a movement halfway and
@@ -60,7 +63,7 @@ ArtefactCase case_of(const StudyCase& study_case, CaseBodies& bodies, const std:
     made.vertices = study_case.value<std::vector<int>>("vertices", {});
     made.second_order_poses = study_case.value("second_order_poses", 0);
     const double finer = study_case.value("finer", 0.0);  // a further mesh, by its size over that of the body's own
-    const auto character = [&]() -> const pbs::Character& { return bodies.of(study_case.scene().character); };
+    const auto character = [&]() -> const pbs::Character& { return bodies.body(study_case.scene()); };
     if (finer > 0.0) made.vertices.push_back(static_cast<int>(finer * static_cast<double>(character().mesh.rest.rows())));
     Overrides overrides;
     if (study_case.has("frame"))

@@ -108,7 +108,7 @@ class SameRecords(program.ProgramTest):
         self.expect_same(first, self.run_once(*short, "--threads", 4), but_threads=True)
 
     def records_of_jobs(self, jobs):
-        """The records of two studies with this number of concurrent runs; of `frames`, only the limb is run."""
+        """The records of two studies with this number of concurrent runs. Of `frames`, only the limb is run."""
         runs = ["limb", "human", "limb_bend", "limb_bend_rigid", *(["limb_twist"] if LONG else [])]
         folder = self.path(str(jobs))
         subprocess.run([program.PBSKIN, "reproduce", "momentum", "frames", *(word for run in runs for word in ("--only", run)),

@@ -55,9 +55,13 @@ def is_pbskin(process):
         return False
 
 
+LIMB = ["limb_bend", "limb_bend_rigid", "limb_twist"]
+
+
 def begin_of_command(studies):
     """Of the study `frames`, only the limb is run."""
-    return [*(run_records.limb_alone() if "frames" in studies else ()), program.PBSKIN, "reproduce", *studies]
+    only = [word for run in LIMB for word in ("--only", run)] if "frames" in studies else []
+    return [program.PBSKIN, "reproduce", *studies, *only]
 
 
 @functools.cache

@@ -142,7 +142,7 @@ class OwnCharacter(TrialTest):
     # Warnings.
 
     def test_warnings(self):
-        """Three at a time, which is the most. The test of the gravest has the one of inverted tets."""
+        """A trial gives three warnings at most. The test of the gravest ones covers inverted tets."""
         facts, printed = self.tried(self.rig("centimetres", animations=(), extra=[("Still", turned(0))], tiny_tip=True))
         for words in ("no joint moves", "unlikely units", "are without flesh"):
             self.remarked(facts, printed, words)

@@ -19,7 +19,7 @@ import records  # noqa: E402
 import synthetic_records  # noqa: E402
 
 ALL_FORMATS = ("pdf", "png", "svg")
-FORMATS = ALL_FORMATS if os.environ.get("PBS_LONG") else ("svg",)  # of most figures: figures_test.py draws three of them in all formats
+FORMATS = ALL_FORMATS if os.environ.get("PBS_LONG") else ("svg",)  # figures_test.py draws three figures in all
 
 
 @contextlib.contextmanager

@@ -20,11 +20,13 @@ MODEL = {"file": "hero.glb", "meshes": ["body", "hat"], "extent_m": 1.75, "metre
          "joints_dropped": [{"name": "IK <target>", "reason": "no weight"}], "bind_pose_deg": 12.5, "animations": ["Walk", "Run"],
          "joints": ["hips", "knee"], "weights_transferred_pct": 98.7}
 
-figures = {}  # the section of figures by the records that it shows: most pages here have the same
+figures = {}  # most pages here have the same section of figures, which is made once
 
 
 def figures_once(found, section=run_page.figures_section):
-    shown = (found.folder / "metrics.csv").read_bytes(), json.dumps(found.record["scene"]), found.judges_volume()
+    """Makes the section of figures anew where anything differs that it shows."""
+    shown = ((found.folder / "metrics.csv").read_bytes(), json.dumps([found.record["scene"], found.record["provenance"]]),
+             str(found.name), found.judges_volume())
     if shown not in figures:
         figures[shown] = section(found)
     return figures[shown]

@@ -94,14 +94,14 @@ TEST(PreparedSolver, ReportsWhatItCannotSolve)
 }
 
 // Open MPI's own variables would make an mpirun in a child process fail.
-TEST(PreparedSolver, StartingMpiLeavesTheEnvironmentAsItWas)
+TEST(StartOfMpi, LeavesTheEnvironmentAsItWas)
 {
     const auto count = [] {
         int variables = 0;
         for (char** variable = environ; *variable; ++variable) ++variables;
         return variables;
     };
-    const int before = count();  // if this test runs alone, as in ctest, MPI starts below
+    const int before = count();  // ctest starts this suite alone, so that MPI starts below
     prepare(spring_chain(4, 1.0), LinearSolver::cg_ml);
     EXPECT_EQ(count(), before);
     EXPECT_EQ(std::getenv("PMIX_RANK"), nullptr);

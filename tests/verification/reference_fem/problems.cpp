@@ -1,7 +1,7 @@
-// The verification problems that need neither a character nor another program, in their quick form; in ./check --long, half_turn with every
-// law (laws.cpp verifies each by itself). Reference: what each row cites (closed forms, published benchmarks); the row states its bounds
-// and where they come from. The record can fail: with an error of 5 % in the solver's lambda, which the compared values do not have, named
-// rows do not hold.
+// The verification problems that need neither a character nor another program run in their quick form. Only ./check --long turns half_turn
+// with every law; laws.cpp verifies each law by itself. Reference: what each row cites (closed forms, published benchmarks); the row states
+// its bounds and where they come from. The record can fail: with an error of 5 % in the solver's lambda, which the compared values do not
+// have, named rows do not hold.
 #include "reference_fem/verification/problems.hpp"
 #include "tests/support/long_form.hpp"
 

@@ -235,8 +235,11 @@ TEST(CacheFolder, FollowsTheVariablesInTheirOrder)
     ::unsetenv("PBSKIN_CACHE");
     EXPECT_EQ(cache_folder(), "/b/pbskin");
     ::unsetenv("XDG_CACHE_HOME");
+    const char* home = std::getenv("HOME");
+    const std::string before = home ? home : "";
     ::setenv("HOME", "/c", 1);
     EXPECT_EQ(cache_folder(), "/c/.cache/pbskin");
+    ::setenv("HOME", before.c_str(), 1);
 }
 
 TEST(ContentHash, IsXxh3)

@@ -45,8 +45,8 @@ RateRow row_of_convergence(const EnsembleCase& as, const std::string& solutions)
     return rate_rows(measure_convergence(of, solutions)).front();
 }
 
-// The parts, after a check that convergence, which has another solver, measures the same errors after these iterations. Both find the
-// solutions of one reference.
+// The parts, after a check that convergence, which has another solver, measures the same errors after these iterations. Both read the same
+// solved reference.
 PartsRow checked_parts(const EnsembleCase& of)
 {
     const test_support::ScratchFolder solutions;
