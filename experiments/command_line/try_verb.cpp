@@ -59,8 +59,9 @@ RunResult run_new_scene(const std::string& scene_file, const std::string& earlie
     }
 }
 
-// Of make_report.py: with --needs-model, it has written the page without the moving model; this Python lacks the packages that draw.
-constexpr int page_without_model = 3, python_without_packages = 4;
+// Exit statuses of make_report.py. With --needs-model, 3 means that it has written the page without the moving model.
+constexpr int page_without_model = 3;
+constexpr int python_without_packages = 4;  // numpy or matplotlib cannot be imported
 
 // Writes `folder`/report.html by the scripts of paper_figures. The page maker runs as a process of its own, which reports what is missing.
 // Returns its exit status. InputErrors: no such folder, no python3 with the packages that draw, no page maker.
