@@ -6,8 +6,11 @@ model and --needs-model asks for it; 4 if this Python cannot import what draws.
     python3 paper_figures/make_report.py --picture RUN    # only RUN/picture.png: the values of a single run over its frames
 """
 import argparse
+import os
 import pathlib
 import sys
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # its other threads would wait for work without sleeping
 
 try:
     import matplotlib

@@ -1,4 +1,4 @@
-"""Random changes to the rigs of rig_files.py, 29 with fixed seeds and 1,000 in ./check --long. Each ends in time: refused with
+"""Random changes to the rigs of rig_files.py, 24 with fixed seeds and 1,000 in ./check --long. Each ends in time: refused with
 the file and a rule, or tried with a sound result. Sound: every number of the tables is finite, the artist's surface is that of the format's
 formula (skin_formula.py), and flesh that does not follow it has a warning."""
 import math
@@ -14,10 +14,11 @@ import rig_files
 import skin_formula
 from written_frames import points_of
 
-# 28, 35, 37 and 40 have the changes that the first seeds lack. Mesh_3 is asked to insert a point of seed 56 twice. Seed 16 ends like it,
-# without tets, and each of them takes 25 s.
-SEEDS = range(1000) if os.environ.get("PBS_LONG") else [*range(16), *range(17, 25), 28, 35, 37, 40, 56]
-COUNTED, SOUND = 25, 15  # so many of the first seeds have a sound result with CGAL 6.0.1, and one more with 5.5.1
+# 28, 35, 37, 40 and 45 have the changes that the others lack. The open surfaces of 6, 16, 17 and 56 take 14 to 27 s each; meshing_ends.py
+# and foreign_surfaces.py have others. CGAL 5.5.1 fills seed 6 with sound tets, 6.0.1 does not; at seed 56, Mesh_3 is asked to insert a
+# point twice.
+SEEDS = range(1000) if os.environ.get("PBS_LONG") else [*range(5), *range(7, 16), 18, *range(21, 25), 28, 35, 37, 40, 45]
+CLOSED_SOUND = {1, 3, 7, 10, 11, 14, 15, 18, 21, 22, 23}  # with CGAL 5.5.1 and 6.0.1
 NUMBERED = re.compile(r"animation \d+")  # the name of an animation without one
 FAR_FROM_ARTIST_PCT = 2.0
 MOST_PROCESSOR_S = 60.0  # which other work stretches less than the wall time; run() has a limit on that
@@ -162,7 +163,7 @@ class ChangedRigs(program.ProgramTest):
                     self.assertEqual(process.returncode, 2, process.stderr)
                     self.assertRegex(process.stderr.splitlines()[-1], r"^pbskin: .*rig\.glb\b.*: .")
         self.assertEqual(seen, set(CHANGE))
-        self.assertGreaterEqual(sum(number < COUNTED for number in sound), SOUND)
+        self.assertLessEqual(CLOSED_SOUND, set(sound))
         self.assertLess(program.most_memory_bytes(), program.MOST_BYTES)
 
 

@@ -8,6 +8,7 @@ import unittest
 
 import character_rigs
 import program
+import rig_files
 
 FRAMES = 8
 
@@ -48,8 +49,7 @@ class MovingCharacterTest(program.ProgramTest):
     def test_an_interrupted_trial_ends_with_a_page_and_goes_on(self):
         """An interruption ends the solving of the reference alone."""
         self.write("viewer.js", "// a viewer")
-        words = ["try", character_rigs.WRITERS["slime"](self.path("slime.glb")), "-o", self.path("slime"), "--frames", "12", "--vertices",
-                 "400"]
+        words = ["try", rig_files.write("plain", self.path("rig.glb")), "-o", self.path("out"), "--frames", "5", "--vertices", "300"]
         environment = {**os.environ, "PBS_VIEWER_BUILD": self.folder}
         for sent in (signal.SIGINT, signal.SIGTERM):
             with self.subTest(sent), subprocess.Popen([program.PBSKIN, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
@@ -64,16 +64,16 @@ class MovingCharacterTest(program.ProgramTest):
                 self.assertEqual(trial.wait(), 130, printed)
                 self.assertIn("interrupted; what is finished is written now (a second interruption ends this too)", printed)
                 self.assertIn("report.html has what was finished, and the same command goes on from there", printed)
-                facts = self.json("slime", "try.json")
+                facts = self.json("out", "try.json")
                 self.assertTrue(facts["interrupted"])
-                self.assertEqual(facts["frames"], 12)  # of the methods
-                self.assertLess(facts["reference_frames"]["solved"], 12)
-                self.assertIn("<html", self.read("slime", "report.html"))
+                self.assertEqual(facts["frames"], 5)  # of the methods
+                self.assertLess(facts["reference_frames"]["solved"], 5)
+                self.assertIn("<html", self.read("out", "report.html"))
         solved = facts["reference_frames"]["solved"]
         self.succeeds(*words, env=environment)
-        facts = self.json("slime", "try.json")
+        facts = self.json("out", "try.json")
         self.assertFalse(facts["interrupted"])
-        self.assertEqual((facts["reference_frames"]["kept"], facts["reference_frames"]["solved"]), (solved, 12))
+        self.assertEqual((facts["reference_frames"]["kept"], facts["reference_frames"]["solved"]), (solved, 5))
 
 
 if __name__ == "__main__":

@@ -119,7 +119,7 @@ class Human(program.ProgramTest):
 
     def test_the_surface_at_rest_is_that_of_the_file_and_the_clip_moves_it(self):
         self.succeeds("try", HUMAN, "--skeleton", "human", "--animation", CLIP, "-o", self.path("out"), "--no-reference", "--frames", "3",
-                      "--paraview")
+                      "--vertices", "600", "--paraview")
         expected = collada_points(HUMAN)
         found = points_of(self.path("out", "surface_rest.vtp"))
         tolerance = 1e-6 * numpy.linalg.norm(numpy.ptp(expected, axis=0))
