@@ -4,7 +4,7 @@ if(NOT TARGET reference_fem)
 endif()
 
 pbs_tests(unit reference_fem_laws FOLDERS reference_fem/laws LIBRARIES reference_fem_laws)
-pbs_tests(unit reference_fem BLAS FOLDERS reference_fem EXCEPT reference_fem/laws LIBRARIES reference_fem_verification)
+pbs_tests(unit reference_fem BLAS AT_ONCE FOLDERS reference_fem EXCEPT reference_fem/laws LIBRARIES reference_fem_verification)
 pbs_tests(verification reference_fem_laws FILES reference_fem/laws LIBRARIES reference_fem_laws)
 pbs_tests(verification reference_fem BLAS FOLDERS reference_fem EXCEPT reference_fem/laws LIBRARIES reference_fem_verification)
 if(NOT TARGET fem_verification)
@@ -18,7 +18,7 @@ endif()
 if(NOT PBS_WITH_RIG_IMPORT OR NOT PBS_WITH_CGAL OR NOT PBS_WITH_MESH_IO)
     list(APPEND left_out experiments/deformers/fem/bodies)
 endif()
-pbs_tests(unit experiments_fem BLAS FOLDERS experiments/deformers/fem
+pbs_tests(unit experiments_fem BLAS AT_ONCE FOLDERS experiments/deformers/fem
     EXCEPT experiments/deformers/fem/fem_module
     LIBRARIES fem_deformer pbs_character reference_fem_verification)
 pbs_tests(verification experiments_fem BLAS FOLDERS experiments/deformers/fem
