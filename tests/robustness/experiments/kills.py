@@ -55,7 +55,7 @@ def is_pbskin(process):
         return False
 
 
-LIMB = ["limb_bend", "limb_bend_rigid", "limb_twist"]
+LIMB = ["limb_bend_rigid", "limb_twist"]
 
 
 def begin_of_command(studies):
