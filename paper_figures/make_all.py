@@ -14,7 +14,7 @@ import pathlib
 import shutil
 import sys
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # its other threads would wait for work without sleeping
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # OpenBLAS's idle threads would keep the processors busy
 
 import records
 from drawing import style

@@ -32,13 +32,26 @@ std::string file_of(void (*function)())
     return realpath(info.dli_fname, resolved) ? resolved : info.dli_fname;
 }
 
-// CHOLMOD 3 shares the assembly of every supernode among four threads, whatever number OpenMP is told. Waking them takes as long as all the
-// rest: on two processors, Newton's method on the half turn of a block took 12.8 s instead of 6.7. No sum depends on it.
-// Of the calling thread alone.
-void use_one_openmp_thread()
-{
-    if (auto* set_levels = find<void(int)>("omp_set_max_active_levels")) set_levels(0);
-}
+// CHOLMOD 3 shares the assembly of every supernode among four threads, whatever number OpenMP is told. Waking them takes as long as the
+// whole factorisation on one thread. No sum is shared among threads, so that the result is the same. While this exists, the parallel
+// regions of the calling thread have one thread.
+class OneOpenMpThread {
+public:
+    OneOpenMpThread()
+    {
+        if (set_levels_) set_levels_(0);
+    }
+    ~OneOpenMpThread()
+    {
+        if (set_levels_) set_levels_(before_);
+    }
+    OneOpenMpThread(const OneOpenMpThread&) = delete;
+    OneOpenMpThread& operator=(const OneOpenMpThread&) = delete;
+
+private:
+    void (*set_levels_)(int) = find<void(int)>("omp_set_max_active_levels");
+    int before_ = set_levels_ ? find<int()>("omp_get_max_active_levels")() : 0;
+};
 
 static_assert(sizeof(SuiteSparse_long) == sizeof(SparseMatrix::StorageIndex));
 
@@ -114,7 +127,7 @@ public:
     {
         usable_ = matrix_.rows() == 0;  // nothing to solve for
         if (!factor_) return;
-        use_one_openmp_thread();
+        const OneOpenMpThread alone;
         cholmod_sparse sparse = view(matrix_);
         const pbs::Stopwatch factorisation;
         cholmod_l_factorize(&sparse, factor_, &common_);

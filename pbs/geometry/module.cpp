@@ -31,7 +31,7 @@ Module open_module(const std::string& name)
         looked_in += (looked_in.empty() ? "" : ", ") + folder.string();
         std::error_code ignored;
         if (!fs::exists(path, ignored)) continue;
-        // Lazily: a quarter of the time to load deal.II goes into functions that are never called.
+        // Functions are bound at their first call. Binding those that are never called takes a quarter of the time to load deal.II.
         if (void* handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL)) return {path.string(), handle};
         throw InputError(path.string(), 0, "", "", std::string("this module cannot be loaded: ") + dlerror());
     }

@@ -32,7 +32,8 @@ private:
     void* handle_;
 };
 
-// Loaded once and kept to the end of the program; may be called from any thread. An InputError where it is not there or does not load.
+// Loaded once and kept to the end of the program; may be called from any thread. An InputError where it is not there or does not load. A
+// function that its libraries lack is noticed only when it is called: the loader then ends the program.
 const Module& load_module(const std::string& name);
 
 }  // namespace pbs

@@ -1,6 +1,6 @@
 """A checker finds nothing in the project's sources, except what is disabled where it is named, and it does find planted errors: cppcheck
-(suppressions: cmake/cppcheck_suppressions.txt; one that is no longer needed is a finding too) in the C++, which only ./check --long
-searches, shellcheck in the scripts."""
+(suppressions: cmake/cppcheck_suppressions.txt; one that is no longer needed is a finding too) in the C++, shellcheck in the scripts. Only
+`./check --long` searches the C++."""
 import os
 import pathlib
 import re

@@ -115,9 +115,9 @@ def turned(name, axis, degrees):
     return name, "rotation", [rig_files.turn(axis, angle) for angle in degrees]
 
 
-def swung(name, axis, amplitude, phase=0.0, cycles=2, middle=0.0, keys=33):
+def swung(name, axis, amplitude, phase=0.0, cycles=2, middle=0.0):
     """A joint that swings about an axis: middle + amplitude sin(phase + cycles turns)."""
-    return turned(name, axis, middle + amplitude * numpy.sin(phase + 2 * numpy.pi * cycles * numpy.linspace(0.0, 1.0, keys)))
+    return turned(name, axis, middle + amplitude * numpy.sin(phase + 2 * numpy.pi * cycles * numpy.linspace(0.0, 1.0, 33)))
 
 
 def both(name, *arguments, phase, **options):
@@ -126,7 +126,7 @@ def both(name, *arguments, phase, **options):
 
 
 def written(path, figure, points, triangles, weights, motion, seconds):
-    """weights: #P x #joints. motion: (joint's name, rotation or translation, values evenly spread)."""
+    """weights: #P x #joints. motion: (joint's name, "rotation", values evenly spread)."""
     gltf = rig_files.Gltf()
     nodes = rig_files.add_joints(gltf, [(*joint, {}) for joint in figure.joints])
     gltf.node(name="body", mesh=rig_files.add_mesh(gltf, points, triangles, weights, 1.0, False), skin=0)
@@ -191,6 +191,3 @@ def write_far_first_pose(path, seconds=2.0, step=0.008, first_deg=165.0):
     motion += [turned(f"fin_tip.{side}", (0.0, 0.0, -sign), 25 + 10 * swim) for side, sign in (("L", 1), ("R", -1))]
     points, triangles = figure.surface(step, 0.025)
     return written(path, figure, points, triangles, figure.weights(points, 0.08), motion, seconds)
-
-
-WRITERS = {"thin_walker": write_thin_walker, "far_first_pose": write_far_first_pose}

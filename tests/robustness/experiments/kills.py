@@ -55,13 +55,14 @@ def is_pbskin(process):
         return False
 
 
-LIMB = ["limb_bend_rigid", "limb_twist"]
+LIMB = ["limb_bend_rigid", "limb_twist", *(["limb_bend"] if LONG else [])]
 
 
 def begin_of_command(studies):
-    """Of the study `frames`, only the limb is run."""
-    only = [word for run in LIMB for word in ("--only", run)] if "frames" in studies else []
-    return [program.PBSKIN, "reproduce", *studies, *only]
+    """Of the study `frames`, only the limb is run, and one run waits for another. The runs of the other studies go side by side."""
+    if "frames" in studies:
+        return [program.PBSKIN, "reproduce", *studies, "-j", "1", *(word for run in LIMB for word in ("--only", run))]
+    return [program.PBSKIN, "reproduce", *studies, "-j", "2"]
 
 
 @functools.cache
@@ -70,7 +71,7 @@ def undisturbed(*studies):
     temporary = tempfile.TemporaryDirectory()
     unittest.addModuleCleanup(temporary.cleanup)
     start = time.monotonic()
-    subprocess.run([*begin_of_command(studies), "-o", temporary.name, "-j", "2"], check=True, **QUIET)
+    subprocess.run([*begin_of_command(studies), "-o", temporary.name], check=True, **QUIET)
     return pathlib.Path(temporary.name), time.monotonic() - start
 
 
@@ -89,7 +90,7 @@ class Kills(program.ProgramTest):
         self.chance.shuffle(self.ways)
 
     def command(self, folder):
-        return [*begin_of_command(self.studies), "-o", str(folder), "-j", "2", "--resume"]
+        return [*begin_of_command(self.studies), "-o", str(folder), "--resume"]
 
     def begin(self, folder):
         """The process, once it executes pbskin."""

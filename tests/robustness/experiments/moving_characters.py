@@ -2,13 +2,10 @@
 within its range has room for all of its tets, so that no method needs to invert one."""
 import csv
 import os
-import signal
-import subprocess
 import unittest
 
 import character_rigs
 import program
-import rig_files
 
 FRAMES = 8
 
@@ -20,10 +17,10 @@ class MovingCharacterTest(program.ProgramTest):
             rows = list(csv.DictReader(file))
         return {name: [int(row["inverted_tets"]) for row in rows if row["deformer"] == name] for name in {row["deformer"] for row in rows}}
 
-    def tried(self, name, *arguments):
+    def tried(self, name, write, *arguments):
         """Inverted tets, and what was printed."""
         self.write("viewer.js", "// a viewer")
-        model = character_rigs.WRITERS[name](self.path(name + ".glb"))
+        model = write(self.path(name + ".glb"))
         process = self.succeeds("try", model, "-o", self.path(name), "--frames", FRAMES, "--no-reference", *arguments,
                                 env={**os.environ, "PBS_VIEWER_BUILD": self.folder})
         return self.inverted(name), process.stdout + process.stderr
@@ -32,48 +29,18 @@ class MovingCharacterTest(program.ProgramTest):
         """PBS follows it from rest, although LBS, from which it would project, inverts the roots of the fins in every frame. A few tets may
         be left, which depends on the mesh: 0 to 2 on eight meshes of 1,850 to 2,300 vertices, where LBS inverts 37 or more, and projecting
         from there leaves up to 11."""
-        inverted, printed = self.tried("far_first_pose")
+        inverted, printed = self.tried("far_first_pose", character_rigs.write_far_first_pose)
         self.assertGreater(min(inverted["lbs"]), 20)
         self.assertLess(10 * max(inverted["pbs"]), min(inverted["lbs"]))
         self.assertIn("pbs goes to each frame in steps from there", printed)
 
     def test_legs_three_tets_thick(self):
         """Delta mush inverts no more tets than LBS, from which it begins; with the published frames it does."""
-        inverted, _ = self.tried("thin_walker")
+        inverted, _ = self.tried("thin_walker", character_rigs.write_thin_walker)
         self.assertTrue(all(mush <= lbs for mush, lbs in zip(inverted["delta_mush"], inverted["lbs"])), inverted)
         self.succeeds("run", self.path("thin_walker", "scene.toml"), "-o", self.path("published"), "--set", "output.frames_every=0",
                       "--set", "delta_mush.unsmoothed_share=0")
         self.assertGreater(max(self.inverted("published")["delta_mush"]), 10)
-
-    @unittest.skipUnless(program.HAS_FEM, "built without the finite elements")
-    def test_an_interrupted_trial_ends_with_a_page_and_goes_on(self):
-        """An interruption ends the solving of the reference alone."""
-        self.write("viewer.js", "// a viewer")
-        words = ["try", rig_files.write("plain", self.path("rig.glb")), "-o", self.path("out"), "--frames", "5", "--vertices", "300"]
-        environment = {**os.environ, "PBS_VIEWER_BUILD": self.folder}
-        for sent in (signal.SIGINT, signal.SIGTERM):
-            with self.subTest(sent), subprocess.Popen([program.PBSKIN, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                                                      text=True, env=environment) as trial:
-                printed = ""
-                while "solving the reference" not in printed:
-                    line = trial.stderr.readline()
-                    self.assertTrue(line, printed)
-                    printed += line
-                trial.send_signal(sent)
-                printed += trial.stderr.read()
-                self.assertEqual(trial.wait(), 130, printed)
-                self.assertIn("interrupted; what is finished is written now (a second interruption ends this too)", printed)
-                self.assertIn("report.html has what was finished, and the same command goes on from there", printed)
-                facts = self.json("out", "try.json")
-                self.assertTrue(facts["interrupted"])
-                self.assertEqual(facts["frames"], 5)  # of the methods
-                self.assertLess(facts["reference_frames"]["solved"], 5)
-                self.assertIn("<html", self.read("out", "report.html"))
-        solved = facts["reference_frames"]["solved"]
-        self.succeeds(*words, env=environment)
-        facts = self.json("out", "try.json")
-        self.assertFalse(facts["interrupted"])
-        self.assertEqual((facts["reference_frames"]["kept"], facts["reference_frames"]["solved"]), (solved, 5))
 
 
 if __name__ == "__main__":

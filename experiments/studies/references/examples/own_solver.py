@@ -6,11 +6,13 @@
 
 FOLDER is what `pbskin references export -o FOLDER` wrote; its README.md states the problem. The error must be the member's
 linear_distance_pct where no skin touches. This takes some ten seconds."""
+import os
 import pathlib
 import sys
 import tomllib
 import xml.etree.ElementTree as xml
 
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # OpenBLAS's idle threads would keep the processors busy
 import numpy as np
 import scipy.sparse as sparse
 from scipy.sparse.linalg import splu
@@ -93,7 +95,8 @@ x = rest.copy()
 largest_turn = max(Rotation.from_matrix(transform[:3, :3]).magnitude() for transform in transforms)
 stages = max(1, int(np.ceil(np.degrees(largest_turn) / 15)))
 for stage in range(1, stages + 1):
-    target, accurate_m = targets(stage / stages), 1e-7 if stage == stages else 1e-3
+    target = targets(stage / stages)
+    tolerance_m = 1e-7 if stage == stages else 1e-3  # the stages before the last one give it an initial state
     for iteration in range(200):
         step, slope = newton_step(x, target, False)
         if slope >= 0:
@@ -102,7 +105,7 @@ for stage in range(1, stages + 1):
         while energy(x + length * step, target) > before + 1e-4 * length * slope and length > 1e-10:
             length /= 2
         x += length * step
-        if np.abs(step).max() < accurate_m:
+        if np.abs(step).max() < tolerance_m:
             break
     print(f"stage {stage} of {stages}: {iteration + 1} steps, energy {energy(x, target):.6f} J", flush=True)
 
