@@ -3,7 +3,8 @@
 function(figures_test name file kind)
     add_test(NAME ${kind}/paper_figures${name}
         COMMAND ${ARGN} ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/unit/paper_figures/${file}_test.py)
-    set_tests_properties(${kind}/paper_figures${name} PROPERTIES LABELS ${kind} TIMEOUT 300 COST 20)
+    set_tests_properties(${kind}/paper_figures${name} PROPERTIES LABELS ${kind} TIMEOUT 300 COST 20
+        ENVIRONMENT OPENBLAS_NUM_THREADS=1)  # OpenBLAS's idle threads would keep the processors busy
 endfunction()
 figures_test("" figures drawing)
 figures_test(/listed listed_figures drawing)
