@@ -147,6 +147,17 @@ TEST(PreparedSolver, ThreadsOfTheBlasChangeTheSolutionByLessThanTheContractSays)
     set_threads(1);
 }
 
+// A deformer of the user may have parallel regions of its own on the same thread.
+TEST(PreparedSolver, LeavesOpenMpAsItWas)
+{
+    const auto levels = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "omp_get_max_active_levels"));
+    if (!levels) GTEST_SKIP() << "without OpenMP";
+    const int before = levels();
+    prepare(spring_chain(4, 1.0), LinearSolver::cholmod);
+    EXPECT_EQ(levels(), before);
+    EXPECT_GT(before, 0);
+}
+
 TEST(PreparedSolver, HasTheSameSolutionWhetherNodesOrRowsAreOrdered)
 {
     const SparseMatrix matrix = bar_on_springs();
