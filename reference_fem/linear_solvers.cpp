@@ -32,9 +32,9 @@ std::string file_of(void (*function)())
     return realpath(info.dli_fname, resolved) ? resolved : info.dli_fname;
 }
 
-// CHOLMOD 3 shares the assembly of every supernode among four threads, whatever number OpenMP is told. Waking them takes as long as the
-// whole factorisation on one thread. No sum is shared among threads, so that the result is the same. While this exists, the parallel
-// regions of the calling thread have one thread.
+// While this exists, OpenMP gives the calling thread no other threads. CHOLMOD 3 would share the assembly of every supernode among four of
+// them, and OMP_NUM_THREADS does not change that number. It takes as long to wake them as to factorise with one thread. The threads share
+// no sum, so that the result is the same.
 class OneOpenMpThread {
 public:
     OneOpenMpThread()
