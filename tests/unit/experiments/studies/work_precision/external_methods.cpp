@@ -1,5 +1,6 @@
 // The file with deformers of the user's own: what is read, and each wrong input with its file, line, field, value and rule.
 #include "experiments/deformers/external/external_deformers.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/studies/work_precision/methods.hpp"
 #include "pbs/character/bodies.hpp"
 #include "tests/support/scratch_folder.hpp"
