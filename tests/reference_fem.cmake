@@ -6,7 +6,7 @@ endif()
 pbs_tests(unit reference_fem_laws FOLDERS reference_fem/laws LIBRARIES reference_fem_laws)
 pbs_tests(unit reference_fem BLAS AT_ONCE FOLDERS reference_fem EXCEPT reference_fem/laws LIBRARIES reference_fem_verification)
 pbs_tests(verification reference_fem_laws FILES reference_fem/laws LIBRARIES reference_fem_laws)
-pbs_tests(verification reference_fem BLAS FOLDERS reference_fem EXCEPT reference_fem/laws LIBRARIES reference_fem_verification)
+pbs_tests(verification reference_fem BLAS AT_ONCE FOLDERS reference_fem EXCEPT reference_fem/laws LIBRARIES reference_fem_verification)
 if(NOT TARGET fem_verification)
     return()
 endif()
@@ -21,7 +21,7 @@ endif()
 pbs_tests(unit experiments_fem BLAS AT_ONCE FOLDERS experiments/deformers/fem
     EXCEPT experiments/deformers/fem/fem_module
     LIBRARIES fem_deformer pbs_character reference_fem_verification)
-pbs_tests(verification experiments_fem BLAS FOLDERS experiments/deformers/fem
+pbs_tests(verification experiments_fem BLAS AT_ONCE FOLDERS experiments/deformers/fem
     FILES experiments/studies/stability/broken_fem_starts experiments/studies/verification/calculix experiments/verification_record
     EXCEPT ${left_out}
     LIBRARIES fem_verification experiments)

@@ -1,7 +1,7 @@
 """The numbers behind a figure's points, in its SVG: an invisible circle over each point has the title "label: x, y", which browsers show
 under the pointer. The circles of a panel are in a group of class "values" that names its axes (data-x, data-y). A drawing of a body, true
 to scale, has no such circles, since its coordinates are not data."""
-from xml.sax.saxutils import escape, quoteattr
+from html import escape
 
 import numpy
 from matplotlib.collections import PathCollection
@@ -24,7 +24,7 @@ def group_of(axes, dpi, height):
     circles = [circle for points in points_of(axes) for circle in circles_of(axes, *points, dpi, height)]
     if not circles:
         return ""
-    x, y = (quoteattr(" ".join(name.split())) for name in (axes.get_xlabel(), axes.get_ylabel()))
+    x, y = (f'"{escape(" ".join(name.split()))}"' for name in (axes.get_xlabel(), axes.get_ylabel()))
     names = f"data-x={x} data-y={y}"
     return f'<g class="values" fill="none" pointer-events="all" {names}>\n' + "\n".join(circles) + "\n</g>\n"
 

@@ -241,7 +241,7 @@ def save(figure, stem, provenance, table, formats=("pdf", "png", "svg"), dpi=300
                 "png": {"Title": stem.name, "Source": source, "Copyright": rights, "Software": "pbskin paper_figures"},
                 "svg": {"Title": stem.name, "Source": source, "Rights": rights, "Creator": "pbskin paper_figures", "Date": None}}
     break_words(figure)
-    figure.canvas.draw()
+    figure.draw_without_rendering()
     figure.set_layout_engine("none")  # the layout is computed once, so that it is the same in every format and in hover_titles
     for ending in formats:
         with whole_file.beside(stem.with_suffix("." + ending)) as path:

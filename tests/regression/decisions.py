@@ -1,5 +1,5 @@
-"""The decisions between pairs of methods follow from the errors that a study recorded. This is a second computation of them, with the
-standard library alone. Reference: the rules in analysis/statistics/paired_comparison.hpp.
+"""The decisions between pairs of methods follow from the errors that a study recorded. This is a second computation of them, which shares
+no code with the program. Reference: the rules in analysis/statistics/paired_comparison.hpp.
 
     decisions.py FOLDER        the attacks, then errors.csv, references.csv, pairs.csv and decisions.csv of the study's folder, or of
                                work_precision in a folder of studies
@@ -20,6 +20,8 @@ import random
 import statistics
 import sys
 import unittest
+
+import numpy
 
 KEPT = pathlib.Path(__file__).resolve().parents[2] / "experiments" / "records" / "full"
 STUDY = "work_precision"
@@ -91,17 +93,19 @@ def is_quantile(end, means, sign=1):
 
 @functools.cache
 def replicates(bodies):
-    """Draws bodies with replacement, and poses in each of them, with another generator and seed than those of the record. bodies: the
-    poses of each body."""
+    """Draws bodies with replacement, and poses in each of them, with another generator and seed than those of the record. Returns how often
+    each replicate has each pose, REPLICATES x #poses. bodies: the poses of each body."""
     draw = random.Random(1).choices
-    return [[pose for body in draw(bodies, k=len(bodies)) for pose in draw(body, k=len(body))] for _ in range(REPLICATES)]
+    drawn = ([pose for body in draw(bodies, k=len(bodies)) for pose in draw(body, k=len(body))] for _ in range(REPLICATES))
+    return numpy.array([[counted[pose] for body in bodies for pose in body] for counted in map(collections.Counter, drawn)])
 
 
 @functools.cache
 def sorted_means(log_ratio, bodies):
     """Returns the mean logarithm of each replicate. log_ratio: pairs of a pose and its logarithm."""
-    value = dict(log_ratio).__getitem__
-    return sorted(sum(map(value, drawn)) / len(drawn) for drawn in replicates(bodies))
+    value, counted = dict(log_ratio), replicates(bodies)
+    sums = (counted * [value[pose] for body in bodies for pose in body]).sum(axis=1)
+    return numpy.sort(sums / counted.sum(axis=1)).tolist()
 
 
 class Comparison:

@@ -12,7 +12,7 @@ import tomllib
 
 import numpy
 
-LENGTH, RADIUS, RINGS, SIDES = 1.0, 0.06, 25, 16  # of the tube along x [m]; the meshing of a thicker one takes longer
+LENGTH, RADIUS, RINGS, SIDES = 1.0, 0.045, 25, 16  # of the tube along x [m]; the meshing of a thicker or thinner one takes longer
 JOINTS = ("root", "elbow", "tip")
 PLACES = ((0.0, 0.0, 0.0), (0.45, 0.0, 0.0), (0.8, 0.0, 0.0))
 FLOAT, UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT = 5126, 5121, 5123, 5125

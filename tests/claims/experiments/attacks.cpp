@@ -5,6 +5,7 @@
 //   build/release/tests/test_claims_experiments --gtest_filter='Attacks.*'
 #include "analysis/records/record_files.hpp"
 #include "analysis/statistics/fits.hpp"
+#include "tests/support/long_form.hpp"
 #include "tests/support/study_claims.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +23,7 @@ namespace {
 using namespace analysis;
 using enum VerdictKind;
 
-constexpr int permutations = 2000;
+const int permutations = test_support::is_long_form() ? 2000 : 500;
 constexpr double least_lost = 0.99;  // of the permutations
 
 using Rows = std::vector<Measurement>;

@@ -81,7 +81,7 @@ class Breakdown(foreign_arm.ArmTest):
         budget of time such a frame is left out."""
         slide = [(2, "translation", [0.0, 1.0], [[0.35, 0.0, 0.0], [1e8, 0.0, 0.0]], "LINEAR")]
         model = rig_files.write("plain", self.path("rig.glb"), animations=(), extra=[("Slide", slide)])
-        command = ("try", model, "-o", self.path("out"), "--frames", "2", "--vertices", "150", "--reference-seconds")
+        command = ("try", model, "-o", self.path("out"), "--frames", "2", "--vertices", "300", "--reference-seconds")
         self.ends(0, *command, "3", says="the reference did not reach 1 of 2 frames, which have no errors")
         self.assertEqual([frame["frame"] for frame in self.outcome()["reference_frames"]["not_reached"]], [1])
         self.ends(3, *command, "0", says="pose not reached: nh_p1 is not converged in frame 1: worst tet")

@@ -56,8 +56,7 @@ class TrialFiles(TrialTest):
 
     @unittest.skipUnless(program.HAS_FEM, "the finite elements are not installed")
     def test_the_error_of_the_reference_itself_can_be_bounded(self):
-        facts, printed = self.tried(self.rig(animations=(), extra=[("Bend", turned(15))]), "--error-bar", without=(), vertices="150",
-                                    frames=2)
+        facts, printed = self.tried(self.rig(animations=(), extra=[("Bend", turned(15))]), "--error-bar", without=(), frames=2)
         bounds = [float(row["reference_error_joint_pct"]) for row in self.rows("out", "metrics.csv") if row["deformer"] == "pbs"]
         bar = facts["error_bar"]
         self.assertEqual((bar["frames"], bar["of"], bar["largest_pct"]), (2, 2, max(bounds)))

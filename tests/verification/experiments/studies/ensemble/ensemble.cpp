@@ -66,7 +66,7 @@ PartsRow checked_parts(const EnsembleCase& of)
 // Where the limb is creased, the error outside the mask is not that of the whole body.
 TEST(ErrorSplit, HasTheSameErrorAsConvergenceAndLeavesOutTheTipOfACrease)
 {
-    const PartsRow twisted = checked_parts(split_limb("limb_twist", 18)), bent = checked_parts(split_limb("limb_bend", 24));  // 90, 120 deg
+    const PartsRow twisted = checked_parts(split_limb("limb_twist", 6)), bent = checked_parts(split_limb("limb_bend", 18));  // 30, 90 deg
     EXPECT_EQ(twisted.masked_share_pct, 0.0);
     EXPECT_EQ(twisted.error_joint_pct, twisted.whole_joint_pct);
     EXPECT_GT(bent.masked_share_pct, 0.0);
