@@ -22,6 +22,7 @@ function(fuzz_target target library)
         list(APPEND folders ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/findings/${name})
     endif()
     add_executable(replay_${name} ${target} fuzz/replay.cpp)
+    # The precompiled header of the tests includes GoogleTest and JSON.
     target_link_libraries(replay_${name} PRIVATE ${library} nlohmann_json::nlohmann_json GTest::gtest)
     target_precompile_headers(replay_${name} REUSE_FROM ${PBS_TEST_HEADERS})
     unity_build(replay_${name})

@@ -1,6 +1,6 @@
 """Stills of recorded bodies, rendered by VTK: the paper's Figures 1, 3, 5, 8, 9 and 10, the jump as a clip, its tets at four moments, and
 folds cut open. A figure is a grid of stills, with facts from metrics.csv below each."""
-from xml.sax.saxutils import escape
+from html import escape
 
 import matplotlib
 import numpy

@@ -1,5 +1,5 @@
-"""The decisions between pairs of methods follow from the errors that a study recorded. This is a second computation of them, which shares
-no code with the program. Reference: the rules in analysis/statistics/paired_comparison.hpp.
+"""The decisions between pairs of methods follow from the errors that a study recorded. This is a second computation of them, which
+needs numpy and shares no code with the program. Reference: the rules in analysis/statistics/paired_comparison.hpp.
 
     decisions.py FOLDER        the attacks, then errors.csv, references.csv, pairs.csv and decisions.csv of the study's folder, or of
                                work_precision in a folder of studies

@@ -28,7 +28,7 @@ ACROSS = ("--gravity", 0, 0, -9.81, "--traction", 0, 0, -1000)
 
 
 def run(ranks, *arguments, **environment):
-    """The finished process; 0 ranks: started without mpirun."""
+    """The finished process; 0 ranks: started without mpirun. environment: variables beside those of ENVIRONMENT."""
     start = MPIRUN + [str(ranks)] if ranks else []
     return subprocess.run([*start, PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=200,
                           env=ENVIRONMENT | environment)
@@ -39,7 +39,8 @@ def of_residuals(serial, record):
 
 
 class Distributed(program.ProgramTest):
-    kernels = {}  # of OpenBLAS, as the first run selects them: the others need not start again for them
+    # OpenBLAS's core type in the first run. The later runs of this class get it in their environment, so that they do not start twice.
+    kernels = {}
 
     def solve(self, ranks, *arguments):
         """Record, nodes (two vertices each) and displacements [m]."""

@@ -5,6 +5,7 @@
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 #include "tests/support/bar_character.hpp"
+#include "tests/support/environment_variable.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -14,7 +15,6 @@
 #include <zlib.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -194,7 +194,7 @@ TEST(KeptReferences, OfOtherTetsAreRefusedByNameWithTheCommandThatSolvesThem)
 TEST(KeptReferences, AreReadByTheNameAndTheBonesOfTheirPose)
 {
     const test_support::ScratchFolder folder;
-    ::setenv("PBSKIN_REFERENCES", folder.path().c_str(), 1);
+    const test_support::EnvironmentVariable in_use("PBSKIN_REFERENCES", folder.path());
     const KeptReferences references = bent_bar();
     const std::string file = folder.file("bar_bend_70.ref", packed(references, bar));
     folder.file("renamed.ref", packed(references, bar));
@@ -211,7 +211,6 @@ TEST(KeptReferences, AreReadByTheNameAndTheBonesOfTheirPose)
     expect_refused("bar_bend_80", references.bones, "bar_bend_80.ref: does not exist: ", solve);
     expect_refused("renamed", references.bones, "renamed.ref: pose = bar_bend_70: ", "expected the references of renamed");
     expect_refused("bar_bend_70", elsewhere, "bar_bend_70.ref: bones = forearm: ", solve);
-    ::unsetenv("PBSKIN_REFERENCES");
 }
 
 // The tets of a body that are not kept come from the mesher of the system. Here the cache has some of them.
@@ -219,8 +218,7 @@ TEST(OtherTets, AreThoseThatTheReferencesOfTheBodyWereNotSolvedOn)
 {
     const test_support::ScratchFolder folder;
     const std::string name = "bar-1800-v2-", kept = folder.path() / "tets";
-    ::setenv("PBSKIN_REFERENCES", folder.path().c_str(), 1);
-    ::setenv("PBSKIN_CACHE", folder.path().c_str(), 1);
+    const test_support::EnvironmentVariable references("PBSKIN_REFERENCES", folder.path()), cache("PBSKIN_CACHE", folder.path());
     write_tet_mesh(folder / "bar.vtu", bar.mesh);
     std::filesystem::rename(folder / "bar.vtu", folder / (name + pbs::hash_of_file(folder / "bar.vtu") + ".vtu"));
 
@@ -236,7 +234,6 @@ TEST(OtherTets, AreThoseThatTheReferencesOfTheBodyWereNotSolvedOn)
     std::ofstream(kept + "/" + name + std::string(32, '0') + ".vtu") << "";
     const std::string damaged = refusal_of([] { why_other_tets("bar"); });
     EXPECT_NE(damaged.find("0.vtu: is damaged: the hash in its name is not that of its bytes"), std::string::npos) << damaged;
-    for (const char* variable : {"PBSKIN_REFERENCES", "PBSKIN_CACHE"}) ::unsetenv(variable);
 }
 
 }  // namespace

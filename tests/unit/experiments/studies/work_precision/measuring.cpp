@@ -9,6 +9,7 @@
 #include "experiments/studies/shared/posed_character.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/files.hpp"
+#include "tests/support/environment_variable.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
 
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -35,13 +35,11 @@ class MeasuredLimb : public testing::Test {
 protected:
     MeasuredLimb()
     {
-        ::setenv("PBSKIN_REFERENCES", references.path().c_str(), 1);
         of.body = "limb";
         of.poses = {{"limb_twist_60", {.body = "limb"}, Stratum::movement, read_scene("limb_twist", small_limb), 30},
                     {"limb_bend_60", {.body = "limb"}, Stratum::fold, read_scene("limb_bend", small_limb), 30}};
         for (const ReferencePose& pose : of.poses) keep(pose);
     }
-    ~MeasuredLimb() override { ::unsetenv("PBSKIN_REFERENCES"); }
 
     void keep(const ReferencePose& pose)
     {
@@ -76,6 +74,7 @@ protected:
     }
 
     test_support::ScratchFolder references;
+    test_support::EnvironmentVariable in_use{"PBSKIN_REFERENCES", references.path()};
     ComparisonCase of;
 };
 
@@ -294,7 +293,7 @@ TEST(MeasuredMotion, BeginsEachFrameAtTheOneBefore)
 {
     const test_support::ScratchFolder references;
     std::filesystem::create_symlink(std::filesystem::path(pbs::references_folder()) / "tets", references / "tets");
-    ::setenv("PBSKIN_REFERENCES", references.path().c_str(), 1);
+    const test_support::EnvironmentVariable in_use("PBSKIN_REFERENCES", references.path());
     ComparisonCase of{.body = "human", .what = Measured::played, .clip = "01_01"};
     of.poses = {{"human_played", {.body = "human", .motion = "01_01"}, Stratum::played, read_scene("human_01_01", {}), 50}};
     of.settings = {{1.0, "lbs", ""}, {1.0, "quasi_newton", "quasi_newton.iterations=4"}};
@@ -330,7 +329,6 @@ TEST(MeasuredMotion, BeginsEachFrameAtTheOneBefore)
         EXPECT_LT(newton.error_joint_pct.value(), 0.5 * newton_cold.error_joint_pct.value());
         EXPECT_LT(newton.skin_mm.value(), newton_cold.skin_mm.value());
     }
-    ::unsetenv("PBSKIN_REFERENCES");
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ struct Kernel {
     int vertices;
     std::vector<std::vector<int>> links;  // the vertices of each constraint
     void (*project)(Sixteen<Scalar>&);
-    // Only groups: the sum of squares of the errors l / l0 - 1 and V / V0 - 1, and the largest in each lane.
+    // Groups alone have it. It returns the sum of squares of the errors l / l0 - 1 and V / V0 - 1, and the largest in each lane.
     std::pair<double, std::array<Scalar, lanes>> (*errors)(const Sixteen<Scalar>&) = nullptr;
     RandomPoints random{31};
 
@@ -181,14 +181,14 @@ struct Kernel {
 };
 
 template <typename Of>
-Kernel<typename Of::Scalar> kernel(const char* name)
+Kernel<typename Of::Scalar> kernel_of(const char* name)
 {
     return {name, Of::one_body, Of::compliant, Of::vertices, Of::links(), [](auto& on) { Of::project(on); }};
 }
 template <typename S, pbs::GroupKind kind>
-Kernel<S> group(const char* name)
+Kernel<S> group_of(const char* name)
 {
-    auto group = kernel<Groups<S, kind>>(name);
+    auto group = kernel_of<Groups<S, kind>>(name);
     group.errors = [](const Sixteen<S>& on) {
         const auto batch = Groups<S, kind>::packed(on);
         std::array<S, lanes> largest;
@@ -202,19 +202,19 @@ Kernel<S> group(const char* name)
 template <typename S>
 std::vector<Kernel<S>> kernels()
 {
-    return {group<S, edge>("edge"),
-            group<S, edge_wedge>("edge_wedge"),
-            group<S, edge_triangle>("edge_triangle"),
-            group<S, edge_tet>("edge_tet"),
-            group<S, tet>("tet"),
-            group<S, tet_fan_2>("tet_fan_2"),
-            group<S, tet_fan_3>("tet_fan_3"),
-            kernel<Compliant<S, edge>>("compliant edge"),
-            kernel<Compliant<S, tet>>("compliant tet"),
-            kernel<BindBatches<S>>("bind batches"),
-            kernel<Poses<S, 1>>("binds of poses"),
-            kernel<Poses<S, 2>>("edges of poses"),
-            kernel<Poses<S, 4>>("tets of poses")};
+    return {group_of<S, edge>("edge"),
+            group_of<S, edge_wedge>("edge_wedge"),
+            group_of<S, edge_triangle>("edge_triangle"),
+            group_of<S, edge_tet>("edge_tet"),
+            group_of<S, tet>("tet"),
+            group_of<S, tet_fan_2>("tet_fan_2"),
+            group_of<S, tet_fan_3>("tet_fan_3"),
+            kernel_of<Compliant<S, edge>>("compliant edge"),
+            kernel_of<Compliant<S, tet>>("compliant tet"),
+            kernel_of<BindBatches<S>>("bind batches"),
+            kernel_of<Poses<S, 1>>("binds of poses"),
+            kernel_of<Poses<S, 2>>("edges of poses"),
+            kernel_of<Poses<S, 4>>("tets of poses")};
 }
 
 template <typename Scalar>
@@ -360,7 +360,8 @@ TYPED_TEST(KernelContract, GroupErrorsAreThoseOfThePlainForm)
         }
 }
 
-// Whichever vertex is not finite, the error of its group is not below a tolerance. The errors of the other lanes do not change.
+// Whichever vertex is not finite, in the first constraint or in the last, the error of its group is not below a tolerance. The errors of
+// the other lanes do not change.
 TYPED_TEST(KernelContract, AGroupThatIsNotANumberIsNeverSatisfied)
 {
     for (auto& kernel : kernels<TypeParam>()) {

@@ -5,12 +5,12 @@
 #include "experiments/studies/verification/problem.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/body_cache.hpp"
+#include "tests/support/environment_variable.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -87,7 +87,7 @@ TEST(CalculixDisplacements, ThatAreDamagedOrOfOtherNodesAreRefused)
     const test_support::ScratchFolder folder;
     const std::string file = folder / ("calculix/" + limb.problem() + ".f64");
     std::filesystem::copy(pbs::references_folder() + "/calculix", folder / "calculix");
-    ::setenv("PBSKIN_REFERENCES", folder.path().c_str(), 1);
+    const test_support::EnvironmentVariable in_use("PBSKIN_REFERENCES", folder.path());
     const auto refusal = [&](const pbs::Character& body) {
         return test_support::refusal_of([&] { calculix_row(body, limb, held_body(body, limb, calculix_flesh)); });
     };
@@ -96,7 +96,6 @@ TEST(CalculixDisplacements, ThatAreDamagedOrOfOtherNodesAreRefused)
                                   std::to_string(other.mesh.rest.rows()) + " nodes x 3 numbers of 8 bytes");
     std::ofstream(file, std::ios::binary | std::ios::app) << "x";
     EXPECT_EQ(refusal(character), file + ": damaged: expected the hash that answers.csv states");
-    ::unsetenv("PBSKIN_REFERENCES");
 }
 
 }  // namespace

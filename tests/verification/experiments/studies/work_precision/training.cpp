@@ -6,12 +6,12 @@
 #include "experiments/studies/work_precision/measuring.hpp"
 #include "pbs/character/body_cache.hpp"
 #include "pbs/character/skinning_weights.hpp"
+#include "tests/support/environment_variable.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -24,7 +24,7 @@ using namespace experiments;
 TEST(Training, TriesAllSettingsWithTheFleshOfTheTrainingMembers)
 {
     const test_support::ScratchFolder references;
-    ::setenv("PBSKIN_REFERENCES", references.path().c_str(), 1);
+    const test_support::EnvironmentVariable in_use("PBSKIN_REFERENCES", references.path());
     ComparisonCase of{.body = "limb", .what = Measured::training, .rounds = 1};
     of.poses = {{"limb_twist_30", {.body = "limb"}, Stratum::training, read_scene("limb_twist", {"character.vertices=300"}), 6}};
     const ReferencePose& pose = of.poses.front();
@@ -42,7 +42,6 @@ TEST(Training, TriesAllSettingsWithTheFleshOfTheTrainingMembers)
     std::filesystem::create_directory(references / "correctives");
     references.file("correctives/limb.toml", text_of(pbs::fit_correctives(limb.skeleton, limb.mesh.rest, diffused.weights, {}), diffused));
     const Measurements measurements = measure(of);
-    ::unsetenv("PBSKIN_REFERENCES");
 
     // smooth, nu_0.49 and rigid_capsules
     const auto is_training_member = [](std::size_t m) { return m == 0 || m == 5 || m == 6; };
