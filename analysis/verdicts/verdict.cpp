@@ -13,11 +13,13 @@ bool is_selected(const Selection& selection, const CaseKey& key, const Measureme
     return std::ranges::count(selection.quantities, measured.quantity) > 0 && matches(measured.of, key);
 }
 
-std::vector<Measurement> selected(const Selection& selection, const CaseKey& key, const std::vector<Measurement>& measured)
+using Values = std::vector<const Measurement*>;
+
+Values selected(const Selection& selection, const CaseKey& key, const std::vector<Measurement>& measured)
 {
-    std::vector<Measurement> found;
-    std::ranges::copy_if(measured, std::back_inserter(found),
-                         [&](const Measurement& measurement) { return is_selected(selection, key, measurement); });
+    Values found;
+    for (const Measurement& measurement : measured)
+        if (is_selected(selection, key, measurement)) found.push_back(&measurement);
     return found;
 }
 
@@ -63,8 +65,6 @@ bool is_undecided(const JudgedCase& tested)
     if (!tested.threshold.contains(tested.value)) return above ? tested.value < tested.threshold.low : tested.value > tested.threshold.high;
     return std::isfinite(above ? tested.threshold.high : tested.threshold.low);
 }
-
-using Values = std::vector<const Measurement*>;
 
 double mean_of(Mean mean_kind, const Values& values)
 {
@@ -316,8 +316,8 @@ void judge_values(const std::vector<Measurement>& measured, const Verdict* other
     }
     verdict.readings = readings_of(claim, measured);
     std::set<std::string> runs;
-    for (const Measurement& measurement : selected(claim.own, claim.own.of, measured))
-        if (!measurement.run.empty()) runs.insert(measurement.run);
+    for (const Measurement* measurement : selected(claim.own, claim.own.of, measured))
+        if (!measurement->run.empty()) runs.insert(measurement->run);
     verdict.runs.assign(runs.begin(), runs.end());
     if (claim.rule == ClaimRule::single)
         judge_single(verdict);
@@ -354,24 +354,25 @@ void judge_measured(const Records& records, Verdict& verdict)
 
 Judged judged(const Claim& claim, const Selection& selection, const std::vector<Measurement>& measured)
 {
-    const std::vector<Measurement> own = selected(selection, selection.of, measured), over = selected(selection, selection.over, measured);
+    const Values own = selected(selection, selection.of, measured), over = selected(selection, selection.over, measured);
     std::vector<JudgedCase> cases;
     std::vector<Values> values, base;
-    const auto place_of = [&](const Measurement& measurement) {
-        const JudgedCase tested = case_of(claim, measurement);
-        return std::ranges::find_if(cases, [&](const JudgedCase& other) { return other.is_same(tested); }) - cases.begin();
+    const auto place_of = [&](const JudgedCase& tested) {
+        const auto found = std::ranges::find_if(cases, [&](const JudgedCase& other) { return other.is_same(tested); });
+        return static_cast<std::size_t>(found - cases.begin());
     };
-    for (const Measurement& measurement : own) {
-        const auto place = static_cast<std::size_t>(place_of(measurement));
+    for (const Measurement* measurement : own) {
+        JudgedCase tested = case_of(claim, *measurement);
+        const std::size_t place = place_of(tested);
         if (place == cases.size()) {
-            cases.push_back(case_of(claim, measurement));
+            cases.push_back(std::move(tested));
             values.emplace_back();
         }
-        values[place].push_back(&measurement);
+        values[place].push_back(measurement);
     }
     base.resize(cases.size());
-    for (const Measurement& measurement : over)
-        if (const auto place = static_cast<std::size_t>(place_of(measurement)); place < cases.size()) base[place].push_back(&measurement);
+    for (const Measurement* measurement : over)
+        if (const std::size_t place = place_of(case_of(claim, *measurement)); place < cases.size()) base[place].push_back(measurement);
     for (auto* lists : {&values, &base})
         for (Values& of_case : *lists) drop_those_beside(of_case);
     Judged result{.selection = selection};
