@@ -71,7 +71,7 @@ class MeshingEnds(program.ProgramTest):
     def test_a_surface_that_cannot_be_meshed_is_refused(self):
         self.refused(flat_tube(), "--vertices", "300")
 
-    @unittest.skipUnless(LONG, "takes 40 s; seed 4 of changed_rigs.py has more vertices than the bound as well")
+    @unittest.skipUnless(LONG, "takes 40 s")
     def test_a_surface_that_reaches_the_bounds_is_refused(self):
         self.refused(open_boxes())
 
