@@ -15,8 +15,7 @@ import skin_formula
 from written_frames import points_of
 
 # 28, 35, 37, 40 and 45 have the changes that the others lack; 5, 19 and 20 repeat those of others. The open surfaces of 6, 16, 17 and 56
-# take 9 to 21 s each; meshing_ends.py has one. CGAL 5.5.1 fills seed 6 with sound tets, 6.0.1 does not; at seeds 16 and 56, Mesh_3 is
-# asked to insert a point twice.
+# take 9 to 21 s each; meshing_ends.py has one. At seeds 16 and 56, Mesh_3 is asked to insert a point twice.
 SEEDS = range(1000) if os.environ.get("PBS_LONG") else [*range(5), *range(7, 16), 18, *range(21, 25), 28, 35, 37, 40, 45]
 CLOSED_SOUND = {1, 3, 7, 10, 11, 14, 15, 18, 21, 22, 23}  # with CGAL 5.5.1 and 6.0.1
 NUMBERED = re.compile(r"animation \d+")  # the name of an animation without one
