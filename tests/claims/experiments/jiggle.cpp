@@ -120,7 +120,7 @@ TEST(JiggleVerdict, OtherReadingsDoNotTurnIt)
     for (const char* id : {"C09a", "C09b"}) EXPECT_EQ(verdict(id, otherwise).kind, VerdictKind::holds) << id;
 }
 
-// C09 from a small limb jolted along its bones by 2 mm, with the correct solver and with broken ones. Reference:
+// C09 from a small limb jolted along its bones by 2 mm, with the correct solver in the order plain and with broken ones. Reference:
 // - nothing projected: nothing pulls the flesh after the skeleton, so it lags behind by the whole jolt for ever and swings at no setting.
 // - stretch dropped: k_stretch has nothing to act on, so every value of it gives the same series, to the bit.
 // - volume sign: the projections add energy, so at no setting does the flesh come to rest as well as with the correct solver.
@@ -129,7 +129,7 @@ TEST(JiggleVerdict, OtherReadingsDoNotTurnIt)
 // - any: half the time step still gives twice the frequency, since Algorithm 1 contains steps but no time.
 
 const JoltCase small_limb{.scene = "limb_twist",
-                          .overrides = {"character.vertices=400", "pbs.k_stretch=1", "pbs.jiggle.k_stretch=0.1", "pbs.jiggle.k_bind=1",
+                          .overrides = {"character.vertices=300", "pbs.k_stretch=1", "pbs.jiggle.k_stretch=0.1", "pbs.jiggle.k_bind=1",
                                         "pbs.order=plain", "pbs.precision=f64"},
                           .settings = {{},
                                        {"pbs.jiggle.k_stretch=0.05"},
@@ -208,12 +208,12 @@ TEST(BrokenJiggle, WithoutStretchKStretchSaysNothing)
 
 TEST(BrokenJiggle, TheSignTurnedRoundDoesNotComeToRest)
 {
-    const auto &turned = jolted(Broken::volume_sign), &sound = jolted(Broken::nothing_in_plain_order);
+    const auto &turned = jolted(Broken::volume_sign), &sound = jolted(Broken::nothing);
     for (std::size_t i = 0; i < sound.size(); ++i) {
         const bool rests = turned[i].response.left_over_peak <= sound[i].response.left_over_peak;
         EXPECT_FALSE(turned[i].response.finished && rests) << text_of(key_of("limb", sound[i]));
     }
-    EXPECT_TRUE(holds("C09a", Broken::nothing_in_plain_order));
+    EXPECT_TRUE(holds("C09a", Broken::nothing));
     EXPECT_FALSE(holds("C09a", Broken::volume_sign));
 }
 

@@ -129,12 +129,12 @@ TEST(Orders, GroupedHasABiasOfItsOwn)
 // Precision is not an order: in each order, residuals in float and double differ by rounding alone.
 TEST(Orders, PrecisionsAgreeInEachOrder)
 {
+    const TwoBoneLimb body = twisted_and_bent(pbs::mesh_limb(600));
     for (const Order order : {Order::plain, Order::ordered, Order::grouped, Order::spread}) {
         PbsOptions options;
         options.order = order;
-        const ResidualRounding rounding = residual_rounding(limb(), options);
-        const pbs::Residuals f32 = residuals_after_24(limb(), order, Precision::f32),
-                             f64 = residuals_after_24(limb(), order, Precision::f64);
+        const ResidualRounding rounding = residual_rounding(body, options);
+        const pbs::Residuals f32 = residuals_after_24(body, order, Precision::f32), f64 = residuals_after_24(body, order, Precision::f64);
         EXPECT_NEAR(f32.stretch_rms, f64.stretch_rms, rounding.stretch_rms);
         EXPECT_NEAR(f32.volume_rms, f64.volume_rms, rounding.volume_rms);
     }

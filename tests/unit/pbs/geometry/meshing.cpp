@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -73,9 +74,18 @@ double depth(const pbs::Vec3& p)
     return radius - (p - pbs::Vec3(std::clamp(p(0), -1.0, 1.0), 0, 0)).norm();
 }
 
+// Meshed once for all tests of a suite.
+const pbs::TetMesh& limb_of(int vertices)
+{
+    static std::map<int, pbs::TetMesh> meshes;
+    const auto [mesh, is_new] = meshes.try_emplace(vertices);
+    if (is_new) mesh->second = pbs::mesh_limb(vertices);
+    return mesh->second;
+}
+
 TEST(Limb, IsSoundAtTheWantedSizeAndHasTheDefaultsSize)
 {
-    for (const int vertices : {300, 500, 1000}) expect_sound(pbs::mesh_limb(vertices), vertices);
+    for (const int vertices : {300, 500, 1000}) expect_sound(limb_of(vertices), vertices);
     const pbs::Quality quality = pbs::quality_of(pbs::mesh_limb(1775));
     EXPECT_NEAR(quality.vertices, 1775, 0.05 * 1775);
     EXPECT_NEAR(quality.tets, 7600, 0.05 * 7600);
@@ -83,7 +93,7 @@ TEST(Limb, IsSoundAtTheWantedSizeAndHasTheDefaultsSize)
 
 TEST(Limb, HasItsSkinOnTheCapsule)
 {
-    const pbs::TetMesh limb = pbs::mesh_limb(500);
+    const pbs::TetMesh& limb = limb_of(500);
     const std::vector<bool> on_skin = pbs::boundary_vertices(limb.tets, limb.rest.rows());
     for (Eigen::Index i = 0; i < limb.rest.rows(); ++i)
         if (on_skin[std::size_t(i)]) {
@@ -96,7 +106,7 @@ TEST(Limb, HasItsSkinOnTheCapsule)
 TEST(Limb, HasTheVolumeOfTheCapsuleLessWhatItsFacetsCutOff)
 {
     for (const int vertices : {500, 1000}) {
-        const pbs::TetMesh limb = pbs::mesh_limb(vertices);
+        const pbs::TetMesh& limb = limb_of(vertices);
         const pbs::Triangles boundary = pbs::boundary_of(limb.tets);
         double cut = 0.0;
         for (Eigen::Index f = 0; f < boundary.rows(); ++f) {
@@ -238,7 +248,7 @@ TEST(SurfaceToTets, BadInputIsRefused)
 // Reference: the mesh itself. Facets lie within a twentieth of the mean edge of its boundary, 0.1 m, which bounds the change of the volume.
 TEST(OtherTets, FillTheSameBoundaryAndRepeatAndDifferBySeed)
 {
-    const pbs::TetMesh limb = pbs::mesh_limb(600), one = pbs::mesh_anew(limb, {.seed = 1}), other = pbs::mesh_anew(limb, {.seed = 2});
+    const pbs::TetMesh &limb = limb_of(600), one = pbs::mesh_anew(limb, {.seed = 1}), other = pbs::mesh_anew(limb, {.seed = 2});
     expect_sound(one, static_cast<int>(one.rest.rows()));
     EXPECT_NEAR(static_cast<double>(one.rest.rows()), static_cast<double>(limb.rest.rows()), 0.2 * static_cast<double>(limb.rest.rows()));
     EXPECT_EQ(pbs::mesh_anew(limb, {.seed = 1}).tets, one.tets);
@@ -251,7 +261,7 @@ TEST(OtherTets, FillTheSameBoundaryAndRepeatAndDifferBySeed)
 // moved to improve the tets, or reach out of the ball, they are larger; half of the ball's radius is left out for them.
 TEST(OtherTets, HaveAFinerSkinInABall)
 {
-    const pbs::TetMesh limb = pbs::mesh_limb(600);
+    const pbs::TetMesh& limb = limb_of(600);
     const pbs::FineBall ball{pbs::Vec3(0.0, radius, 0.0), 0.1, 0.02};
     const pbs::TetMesh fine = pbs::mesh_anew(limb, {.fine = {ball}});
     const pbs::Triangles skin = pbs::boundary_of(fine.tets);
@@ -270,7 +280,7 @@ TEST(OtherTets, HaveAFinerSkinInABall)
 // triangles of its edge length has pi 0.1^2 / (0.866 0.02^2) = 90 vertices. Where the sizes of the seeds were the same, all were the same.
 TEST(OtherTets, TakeOtherPointsInABallWithAnotherSeed)
 {
-    const pbs::TetMesh limb = pbs::mesh_limb(600);
+    const pbs::TetMesh& limb = limb_of(600);
     const pbs::FineBall ball{pbs::Vec3(0.0, radius, 0.0), 0.1, 0.02};
     std::set<std::array<double, 3>> points[2], own;
     for (const auto& p : limb.rest.rowwise()) own.insert({p(0), p(1), p(2)});
