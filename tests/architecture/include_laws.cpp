@@ -169,7 +169,7 @@ Violations deformers_tested_by_name(const SourceTree& tree)
         return (is_cpp(path) || path.ends_with(".py")) && starts_with_any(path, {"experiments/", "analysis/", "paper_figures/"}) &&
                !path.starts_with("experiments/deformers/");
     };
-    return in_lines(tree, concerns, compares, "depends on the name of a deformer's kind: ask its traits or options");
+    return in_lines(tree, concerns, compares, "depends on the name of a deformer's kind: ask its traits or options", {"kind"});
 }
 
 Violations heavy_headers(const SourceTree& tree)

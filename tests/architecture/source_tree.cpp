@@ -76,6 +76,11 @@ bool ends_with_any(std::string_view text, const std::vector<std::string>& suffix
     return std::ranges::any_of(suffixes, [text](const std::string& suffix) { return text.ends_with(suffix); });
 }
 
+bool contains_any(std::string_view text, const std::vector<std::string>& parts)
+{
+    return std::ranges::any_of(parts, [text](const std::string& part) { return text.find(part) != std::string_view::npos; });
+}
+
 bool is_cpp(const std::string& path)
 {
     return ends_with_any(path, {".cpp", ".hpp"});
@@ -99,7 +104,8 @@ std::vector<Include> includes_of(const std::string& text)
     for (const std::string& line : lines_of(text)) {
         ++number;
         std::smatch match;
-        if (std::regex_search(line, match, directive)) includes.push_back({number, match[2], match[1] == "\""});
+        if (contains_any(line, {"include"}) && std::regex_search(line, match, directive))
+            includes.push_back({number, match[2], match[1] == "\""});
     }
     return includes;
 }
@@ -131,11 +137,11 @@ Violations in_lines(const SourceTree& tree, const std::function<bool(const std::
 }
 
 Violations in_lines(const SourceTree& tree, const std::function<bool(const std::string&)>& concerns, const std::regex& forbidden,
-                    const std::string& what)
+                    const std::string& what, const std::vector<std::string>& parts)
 {
     return in_lines(tree, concerns, [&](const std::string& line) {
         std::smatch match;
-        return std::regex_search(line, match, forbidden) ? what + ": '" + match.str() + "'" : "";
+        return contains_any(line, parts) && std::regex_search(line, match, forbidden) ? what + ": '" + match.str() + "'" : "";
     });
 }
 
