@@ -25,7 +25,6 @@ std::vector<std::string> lines_of(const std::string& text);
 std::string folder_of(const std::string& path);
 bool starts_with_any(std::string_view text, const std::vector<std::string>& prefixes);
 bool ends_with_any(std::string_view text, const std::vector<std::string>& suffixes);
-bool contains_any(std::string_view text, const std::vector<std::string>& parts);
 bool is_cpp(const std::string& path);         // .cpp or .hpp
 bool is_cmake_file(const std::string& path);  // CMakeLists.txt or .cmake
 bool is_command(const std::string& path);     // a script without a suffix that users start
@@ -45,7 +44,8 @@ std::string at(const std::string& path, int line, const std::string& what);
 // The offence of each line of the files that the law concerns; "" if there is none.
 Violations in_lines(const SourceTree& tree, const std::function<bool(const std::string& path)>& concerns,
                     const std::function<std::string(const std::string& line)>& offence);
-// The offence is what the line should not have, where it matches. parts: every match contains one of them, which is searched first.
+// The offence is what the line should not have, where it matches. Every match contains one of `parts`. They are searched first, since a
+// regular expression takes longer.
 Violations in_lines(const SourceTree& tree, const std::function<bool(const std::string& path)>& concerns, const std::regex& forbidden,
                     const std::string& what, const std::vector<std::string>& parts = {""});
 

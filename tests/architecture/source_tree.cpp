@@ -37,6 +37,11 @@ void collect_foreign(const SourceTree& tree, const std::string& path, std::set<s
     }
 }
 
+bool contains_any(const std::string& text, const std::vector<std::string>& parts)
+{
+    return std::ranges::any_of(parts, [&](const std::string& part) { return text.find(part) != std::string::npos; });
+}
+
 }  // namespace
 
 SourceTree read_source_tree()
@@ -76,11 +81,6 @@ bool ends_with_any(std::string_view text, const std::vector<std::string>& suffix
     return std::ranges::any_of(suffixes, [text](const std::string& suffix) { return text.ends_with(suffix); });
 }
 
-bool contains_any(std::string_view text, const std::vector<std::string>& parts)
-{
-    return std::ranges::any_of(parts, [text](const std::string& part) { return text.find(part) != std::string_view::npos; });
-}
-
 bool is_cpp(const std::string& path)
 {
     return ends_with_any(path, {".cpp", ".hpp"});
@@ -104,7 +104,7 @@ std::vector<Include> includes_of(const std::string& text)
     for (const std::string& line : lines_of(text)) {
         ++number;
         std::smatch match;
-        if (contains_any(line, {"include"}) && std::regex_search(line, match, directive))
+        if (line.find("include") != std::string::npos && std::regex_search(line, match, directive))
             includes.push_back({number, match[2], match[1] == "\""});
     }
     return includes;

@@ -120,7 +120,7 @@ TEST(JiggleVerdict, OtherReadingsDoNotTurnIt)
     for (const char* id : {"C09a", "C09b"}) EXPECT_EQ(verdict(id, otherwise).kind, VerdictKind::holds) << id;
 }
 
-// C09 from a small limb jolted along its bones by 2 mm, with the correct solver in the order plain and with broken ones. Reference:
+// C09 from a small limb jolted along its bones by 2 mm, with the correct solver and with broken ones, all in the order plain. Reference:
 // - nothing projected: nothing pulls the flesh after the skeleton, so it lags behind by the whole jolt for ever and swings at no setting.
 // - stretch dropped: k_stretch has nothing to act on, so every value of it gives the same series, to the bit.
 // - volume sign: the projections add energy, so at no setting does the flesh come to rest as well as with the correct solver.

@@ -1,8 +1,8 @@
 // The verification problems that need neither a character nor another program run in their quick form. Only ./check --long runs
-// thick_sphere, as ./reproduce --full does, and half_turn, with every law: it compares with an earlier implementation, ./reproduce turns
-// three laws, and laws.cpp verifies each law by itself. Reference: what each row cites (closed forms, published benchmarks); the row states
-// its bounds and where they come from. The record can fail: with an error of 5 % in the solver's lambda, which the compared values do not
-// have, named rows do not hold.
+// thick_sphere and half_turn, which take long. half_turn then turns every law. It is a regression test, since it compares with an earlier
+// implementation of ours; laws.cpp verifies each law by itself. Reference: what each row cites (closed forms, published benchmarks); the
+// row states its bounds and where they come from. The record can fail: with an error of 5 % in the solver's lambda, which the compared
+// values do not have, named rows do not hold.
 #include "reference_fem/verification/problems.hpp"
 #include "tests/support/long_form.hpp"
 
@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,8 @@ const std::map<std::string, std::function<VerificationRows(const Effort&)>> prob
     {"dynamics", dynamics_rows},
     {"moving_skeleton", moving_skeleton_rows},
     {"contact", contact_rows}};
+
+const std::set<std::string> take_long = {"thick_sphere", "half_turn"};
 
 class VerificationProblem : public testing::TestWithParam<std::string> {};
 
@@ -60,7 +63,7 @@ std::vector<std::string> names_to_run()
 {
     std::vector<std::string> names;
     for (const auto& [name, rows] : problems)
-        if (test_support::is_long_form() || (name != "thick_sphere" && name != "half_turn")) names.push_back(name);
+        if (test_support::is_long_form() || !take_long.contains(name)) names.push_back(name);
     return names;
 }
 INSTANTIATE_TEST_SUITE_P(Quick, VerificationProblem, testing::ValuesIn(names_to_run()), [](const auto& info) { return info.param; });

@@ -74,13 +74,12 @@ double depth(const pbs::Vec3& p)
     return radius - (p - pbs::Vec3(std::clamp(p(0), -1.0, 1.0), 0, 0)).norm();
 }
 
-// Meshed once for all tests of a suite.
+// Each size is meshed once for all tests of a suite.
 const pbs::TetMesh& limb_of(int vertices)
 {
     static std::map<int, pbs::TetMesh> meshes;
-    const auto [mesh, is_new] = meshes.try_emplace(vertices);
-    if (is_new) mesh->second = pbs::mesh_limb(vertices);
-    return mesh->second;
+    if (!meshes.contains(vertices)) meshes.emplace(vertices, pbs::mesh_limb(vertices));
+    return meshes.at(vertices);
 }
 
 TEST(Limb, IsSoundAtTheWantedSizeAndHasTheDefaultsSize)

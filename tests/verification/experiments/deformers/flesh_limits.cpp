@@ -95,6 +95,7 @@ TEST_P(FleshLimits, OfTheTwistedLimb)
         expect_convergence(reference, GetParam(), method);
 }
 
+// The twisted limb has both Poisson's ratios, so that other poses and bodies need only one.
 TEST(FleshLimitsOfBodies, OfTheBentLimbAndOfTheHumansCrouch)
 {
     const double poisson = 0.45;

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <string>
 
 namespace {
 
@@ -33,8 +33,15 @@ EnsembleCase split_limb(const std::string& scene, int frame)
     return of;
 }
 
+// The tests of a suite keep their solved references in this folder, so that each is solved once.
+std::string solutions()
+{
+    static const test_support::ScratchFolder folder;
+    return folder.path().string();
+}
+
 // The row from LBS, with PBS in double.
-RateRow row_of_convergence(const EnsembleCase& as, const std::string& solutions)
+RateRow row_of_convergence(const EnsembleCase& as)
 {
     ConvergenceCase of;
     of.scene = as.scene;
@@ -44,14 +51,7 @@ RateRow row_of_convergence(const EnsembleCase& as, const std::string& solutions)
     of.most_iterations = 24;
     of.reference = as.flesh;
     of.effort = as.effort;
-    return rate_rows(measure_convergence(of, solutions)).front();
-}
-
-// Where the tests keep their solved references.
-std::filesystem::path solutions()
-{
-    static const test_support::ScratchFolder folder;
-    return folder.path();
+    return rate_rows(measure_convergence(of, solutions())).front();
 }
 
 // The parts, after a check that convergence, which has another solver, measures the same errors after these iterations. Both read the same
@@ -62,7 +62,7 @@ PartsRow checked_parts(const EnsembleCase& of)
     EXPECT_EQ(records.parts.size(), 1u);
     const PartsRow& parts = records.parts.at(0);
     const double rounding = 1e-12 * parts.whole_joint_pct;  // sums over the vertices, in another order
-    const RateRow row = row_of_convergence(of, solutions());
+    const RateRow row = row_of_convergence(of);
     EXPECT_GT(parts.error_joint_pct, 0.0);
     EXPECT_NEAR(row.paper.error_joint_pct, parts.error_joint_pct, rounding);
     EXPECT_NEAR(row.paper.whole_joint_pct, parts.whole_joint_pct, rounding);

@@ -85,6 +85,7 @@ void expect_the_lowest_energy_and_the_distance_of_other_tets(const PosedReferenc
 TEST(PosedReference, IsTheFinestOfFourNestedSolutionsAndItsBoundCoversAFinerOne)
 {
     const pbs::Pose pose = bent(40.0);
+    // This bar is coarser than `bar`, since tets cut into 64 are solved, too.
     const pbs::Character coarse = test_support::bar_character({6, 2, 2});
     const PosedReference reference(coarse, flesh(), pose, time_step_s, ReferenceEffort::refined);
     const auto& solutions = reference.solutions();
@@ -110,7 +111,7 @@ TEST(PosedReference, IsTheFinestOfFourNestedSolutionsAndItsBoundCoversAFinerOne)
     RecordProperty("bound_pct", std::to_string(reference.bound().joint_pct));
     RecordProperty("to_a_finer_one_pct", std::to_string(to_a_finer_one));
 
-    if (!test_support::is_long_form()) return;  // other tets take as long again
+    if (!test_support::is_long_form()) return;  // other tets take long
     const PosedReference with_other_tets(coarse, flesh(), pose, time_step_s);
     expect_the_lowest_energy_and_the_distance_of_other_tets(with_other_tets);
     EXPECT_GT(with_other_tets.bound().joint_pct, with_other_tets.error_of(finer).joint_pct);

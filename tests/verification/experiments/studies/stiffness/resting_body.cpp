@@ -119,22 +119,23 @@ TEST(RestingBody, HalfTheStepIsFourTimesTheStiffness)
 TEST(RestingBody, XpbdIteratedToTheEndKnowsNeitherIterationsNorStep)
 {
     const LoadedBody body = limb(RestOfBody::held);
-    struct Found {
-        double stiffness_n_m, error;
+    struct Estimate {
+        double stiffness_n_m, relative_error;
     };
     StiffnessSetting setting{.method = Method::xpbd, .iterations = 400};
-    const auto find = [&] {
+    const auto estimate = [&] {
         const pbs::RestingState rest = rest_near_rest(body, setting);
         EXPECT_TRUE(rest.converged);
-        const double found_n_m = effective_stiffness_n_m(body, rest.displacement, 1.0);
+        const double stiffness_n_m = effective_stiffness_n_m(body, rest.displacement, 1.0);
         StiffnessSetting fewer = setting;
         fewer.iterations = setting.iterations / 2;
-        return Found{found_n_m, solve_error(body, setting, rest) + std::abs(found_n_m / stiffness(body, fewer) - 1.0)};
+        const double of_iterations = std::abs(stiffness_n_m / stiffness(body, fewer) - 1.0);
+        return Estimate{stiffness_n_m, solve_error(body, setting, rest) + of_iterations};
     };
-    const Found once = find();
+    const Estimate once = estimate();
     const auto expect = [&](double ratio) {
-        const Found found = find();
-        EXPECT_NEAR(found.stiffness_n_m / once.stiffness_n_m, ratio, ratio * (once.error + found.error));
+        const Estimate other = estimate();
+        EXPECT_NEAR(other.stiffness_n_m / once.stiffness_n_m, ratio, ratio * (once.relative_error + other.relative_error));
     };
     setting.iterations = 800;
     expect(1.0);
