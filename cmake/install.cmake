@@ -22,8 +22,8 @@ function(pbs_install_headers component)
         if(component STREQUAL "method")
             list(FILTER headers EXCLUDE REGEX "/(mesh_io|meshing|module)[a-z_]*\\.hpp$")
         endif()
-        set(no_call_for_users  # headers internal to readers and meshers, to text and files, to solvers, and to parts of bodies
-            "mesh_io_|meshing_|child_process|content_format|guarded_reading"
+        set(no_call_for_users  # headers internal to readers and meshers, to text, files and signals, to solvers, and to parts of bodies
+            "mesh_io_|meshing_|child_process|content_format|deferred_sigterm|guarded_reading"
             "flesh/(local_shape|packed_|projective_|vbd|xpbd_)"
             "packed/(groups|lanes|parallel|vertex_order)"
             "solver/(algorithm_1|project_plain)"

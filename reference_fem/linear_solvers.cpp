@@ -1,6 +1,7 @@
 #include "reference_fem/linear_solvers.hpp"
 
 #include "pbs/geometry/cost.hpp"
+#include "pbs/geometry/deferred_sigterm.hpp"
 
 #include <cholmod.h>
 #include <dlfcn.h>
@@ -176,6 +177,7 @@ private:
             common_.method[1].ordering = CHOLMOD_METIS;
         }
         cholmod_sparse sparse = view(blocks);
+        const pbs::DeferredSigterm deferred;
         cholmod_factor* factor = cholmod_l_analyze(&sparse, &common_);
         if (!factor) return {};
         is_metis_ = factor->ordering == CHOLMOD_METIS;
@@ -204,7 +206,10 @@ public:
         control_[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;  // half the fill and time of AMD on P2
         control_[UMFPACK_IRSTEP] = 0;                         // refinement took thrice the time for half the residual
         const pbs::Stopwatch analysis;
-        umfpack_dl_symbolic(matrix.rows(), matrix.cols(), columns(), rows(), matrix.valuePtr(), &symbolic_, control_, nullptr);
+        {
+            const pbs::DeferredSigterm deferred;
+            umfpack_dl_symbolic(matrix.rows(), matrix.cols(), columns(), rows(), matrix.valuePtr(), &symbolic_, control_, nullptr);
+        }
         analyse_s_ = analysis.seconds();
         refactor();
     }

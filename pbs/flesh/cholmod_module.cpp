@@ -2,6 +2,8 @@
 // same for each of its kernels and each number of its threads.
 #include "pbs/flesh/flesh_system.hpp"
 
+#include "pbs/geometry/deferred_sigterm.hpp"
+
 #include <cholmod.h>
 
 namespace {
@@ -54,7 +56,11 @@ void pbskin_cholmod_ordered_factor(const Eigen::SparseMatrix<double>& lower, con
         common.method[0].ordering = CHOLMOD_GIVEN;
         common.postorder = 0;
     }
-    cholmod_factor* cholmod = cholmod_analyze_p(&matrix, order.empty() ? nullptr : const_cast<int*>(order.data()), nullptr, 0, &common);
+    cholmod_factor* cholmod = nullptr;
+    {
+        const pbs::DeferredSigterm deferred;
+        cholmod = cholmod_analyze_p(&matrix, order.empty() ? nullptr : const_cast<int*>(order.data()), nullptr, 0, &common);
+    }
     if (cholmod) cholmod_factorize(&matrix, cholmod, &common);
     if (cholmod && common.status == CHOLMOD_OK && cholmod->minor == cholmod->n) copy(*cholmod, factor);
     if (cholmod) cholmod_free_factor(&cholmod, &common);

@@ -1,5 +1,6 @@
 #include "reference_fem/distributed/distributed_space.hpp"
 
+#include "pbs/geometry/deferred_sigterm.hpp"
 #include "reference_fem/linear_solvers.hpp"
 
 #include <deal.II/base/mpi.h>
@@ -62,6 +63,7 @@ void distribute(const pbs::TetMesh& mesh, const std::vector<int>& held_vertices,
         mark_boundary(flags(held_vertices, mesh.rest.rows()), flags(pulled_vertices, mesh.rest.rows()), whole);
     };
     const auto cut = [&](Triangulation<3>& whole, const MPI_Comm&, unsigned int) {
+        const pbs::DeferredSigterm deferred;
         dealii::GridTools::partition_triangulation(ranks, whole, dealii::SparsityTools::Partitioner::metis);
     };
     triangulation.create_triangulation(dealii::TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<3, 3>(

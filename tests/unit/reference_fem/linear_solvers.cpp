@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <limits>
 
@@ -118,6 +119,28 @@ SparseMatrix bar_on_springs()
     const double springs = 1e-3 * stiffness.diagonal().mean();
     for (Eigen::Index i = 0; i < stiffness.rows(); ++i) stiffness.coeffRef(i, i) += springs;
     return stiffness;
+}
+
+void ignore(int)
+{
+}
+
+// METIS has a handler of its own while it orders, and puts back one that handles a single signal.
+TEST(PreparedSolver, LeavesTheHandlerOfSigtermAsItIs)
+{
+    struct sigaction own = {}, before, after;
+    own.sa_handler = ignore;
+    own.sa_flags = SA_RESTART;
+    sigaction(SIGTERM, &own, &before);
+    const SparseMatrix matrix = bar_on_springs();
+    for (const bool is_cholmod : {true, false}) {
+        is_cholmod ? prepare_cholmod(matrix, 3) : prepare_umfpack(matrix);
+        sigaction(SIGTERM, nullptr, &after);
+        EXPECT_EQ(after.sa_handler, own.sa_handler);
+        EXPECT_TRUE(after.sa_flags & SA_RESTART);
+        EXPECT_FALSE(after.sa_flags & SA_RESETHAND);
+    }
+    sigaction(SIGTERM, &before, nullptr);
 }
 
 // Reference: one thread. The contract says 1e-10 of the displacements; rounding, by the condition of some 1e4, explains no more than that.
