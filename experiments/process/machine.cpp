@@ -1,5 +1,6 @@
 #include "experiments/process/machine.hpp"
 
+#include "pbs/geometry/deferred_sigterm.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <dlfcn.h>
@@ -161,6 +162,7 @@ void select_blas_kernels()
     static std::once_flag once;
     std::call_once(once, [] {
         if (user_selects() || loaded_library()) return;
+        const pbs::DeferredSigterm deferred;  // for its threads
         void* library = dlopen(library_file, RTLD_NOW | RTLD_LOCAL);
         Text* core_type = openblas_text(library, "openblas_get_corename");
         const std::string better = core_type ? better_core_type(core_type(), this_processor()) : "";

@@ -35,7 +35,8 @@ struct Failure {
 Failure caught_failure();
 
 // SIGINT and SIGTERM end this process and its child processes at once, with exit_interrupted: records are written whole or not at all.
-// Unfinished files are removed. The names of long stages are printed.
+// Unfinished files are removed. SIGTERM waits while METIS orders a matrix (pbs/geometry/deferred_sigterm.hpp). The names of long stages are
+// printed.
 void watch_interrupts();
 
 // While it exists, the first signal is only noted, for work that looks for it several times a second. The next one ends the process. Child

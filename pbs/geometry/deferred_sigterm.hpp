@@ -1,12 +1,15 @@
-// Keeps SIGTERM from METIS. While METIS 5.1 orders a matrix, its own handler gives up the ordering at a SIGTERM, which the program would
-// then not notice. What it puts back afterwards handles a single signal (gk_siguntrap calls signal() with the semantics of System V).
+// METIS 5.1 has its own handler of SIGTERM while it orders a matrix or cuts a mesh. At the signal it gives up its work, and the program's
+// handler is not called. Afterwards gk_siguntrap puts the program's handler back by signal() with the semantics of System V: that handler
+// then handles only one signal, and system calls that it interrupts are not restarted.
 #pragma once
 
 #include <csignal>
 
 namespace pbs {
 
-// While this exists, the calling thread takes no SIGTERM. The signal comes afterwards, to the handler that there was before.
+// While this exists, the calling thread takes no SIGTERM. A pending one is handled afterwards, by the handler that there was before.
+// Threads that are started meanwhile never take it. Other threads must not take it either, since they would run METIS's handler: libraries
+// that start threads when they are loaded are loaded under this guard. Only one thread at a time may call METIS.
 //   const DeferredSigterm deferred;
 //   cholmod_analyze(...);
 class DeferredSigterm {

@@ -1,5 +1,5 @@
-// The verification problems that need neither a character nor another program run in their quick form. Only ./check --long runs
-// thick_sphere and half_turn, which take long. half_turn then turns every law. It is a regression test, since it compares with an earlier
+// The verification problems that need neither a character nor another program run in their quick form. thick_sphere and half_turn take
+// long: only ./check --long runs them, half_turn with every law. half_turn is a regression test, since it compares with an earlier
 // implementation of ours; laws.cpp verifies each law by itself. Reference: what each row cites (closed forms, published benchmarks); the
 // row states its bounds and where they come from. The record can fail: with an error of 5 % in the solver's lambda, which the compared
 // values do not have, named rows do not hold.
@@ -36,7 +36,7 @@ const std::map<std::string, std::function<VerificationRows(const Effort&)>> prob
     {"moving_skeleton", moving_skeleton_rows},
     {"contact", contact_rows}};
 
-const std::set<std::string> take_long = {"thick_sphere", "half_turn"};
+const std::set<std::string> long_problems = {"thick_sphere", "half_turn"};
 
 class VerificationProblem : public testing::TestWithParam<std::string> {};
 
@@ -63,7 +63,7 @@ std::vector<std::string> names_to_run()
 {
     std::vector<std::string> names;
     for (const auto& [name, rows] : problems)
-        if (test_support::is_long_form() || !take_long.contains(name)) names.push_back(name);
+        if (test_support::is_long_form() || !long_problems.contains(name)) names.push_back(name);
     return names;
 }
 INSTANTIATE_TEST_SUITE_P(Quick, VerificationProblem, testing::ValuesIn(names_to_run()), [](const auto& info) { return info.param; });

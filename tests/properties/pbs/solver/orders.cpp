@@ -126,8 +126,8 @@ TEST(Orders, GroupedHasABiasOfItsOwn)
         }
 }
 
-// Precision is not an order: in each order, residuals in float and double differ by rounding alone. The bound of the rounding takes many
-// steps, so that the limb is coarse.
+// Precision is not an order: in each order, residuals in float and double differ by rounding alone. The limb is coarse, since the bound of
+// the rounding needs many steps.
 TEST(Orders, PrecisionsAgreeInEachOrder)
 {
     const TwoBoneLimb body = twisted_and_bent(pbs::mesh_limb(600));

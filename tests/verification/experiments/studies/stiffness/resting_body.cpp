@@ -129,8 +129,8 @@ TEST(RestingBody, XpbdIteratedToTheEndKnowsNeitherIterationsNorStep)
         const double stiffness_n_m = effective_stiffness_n_m(body, rest.displacement, 1.0);
         StiffnessSetting fewer = setting;
         fewer.iterations = setting.iterations / 2;
-        const double of_iterations = std::abs(stiffness_n_m / stiffness(body, fewer) - 1.0);
-        return Estimate{stiffness_n_m, solve_error(body, setting, rest) + of_iterations};
+        const double iteration_error = std::abs(stiffness_n_m / stiffness(body, fewer) - 1.0);
+        return Estimate{stiffness_n_m, solve_error(body, setting, rest) + iteration_error};
     };
     const Estimate once = estimate();
     const auto expect = [&](double ratio) {
