@@ -1,5 +1,7 @@
 #include "reference_fem/assembly.hpp"
 
+#include "pbs/geometry/deferred_sigterm.hpp"
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_simplex_p.h>
@@ -143,6 +145,7 @@ SimplexSpace::SimplexSpace(const pbs::TetMesh& mesh, int element_order) : elemen
 {
     require(element_order == 1 || element_order == 2, "element_order", element_order, "expected 1 or 2");
     check_mesh(mesh);
+    const pbs::DeferredSigterm deferred;  // deal.II starts threads
     elements_ = std::make_unique<Elements>(element_order);
     fill_triangulation(mesh, elements_->triangulation);
     elements_->dof_handler.distribute_dofs(elements_->element);

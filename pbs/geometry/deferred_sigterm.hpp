@@ -7,19 +7,26 @@
 
 namespace pbs {
 
+// From now on the calling thread, and threads that it starts, take no SIGTERM.
+inline void block_sigterm(sigset_t* blocked_before = nullptr)
+{
+    sigset_t sigterm;
+    sigemptyset(&sigterm);
+    sigaddset(&sigterm, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &sigterm, blocked_before);
+}
+
 // While this exists, the calling thread takes no SIGTERM. A pending one is handled afterwards, by the handler that there was before.
-// Threads that are started meanwhile never take it. Other threads must not take it either, since they would run METIS's handler: libraries
-// that start threads when they are loaded are loaded under this guard. Only one thread at a time may call METIS.
+// Threads that are started meanwhile never take it. Other threads must not take it either, since they would run METIS's handler: what
+// starts threads (OpenBLAS, deal.II) is called under this guard, and workers of oneTBB block the signal. Only one thread at a time may call
+// METIS.
 //   const DeferredSigterm deferred;
 //   cholmod_analyze(...);
 class DeferredSigterm {
 public:
     DeferredSigterm()
     {
-        sigset_t sigterm;
-        sigemptyset(&sigterm);
-        sigaddset(&sigterm, SIGTERM);
-        pthread_sigmask(SIG_BLOCK, &sigterm, &blocked_before_);
+        block_sigterm(&blocked_before_);
         sigaction(SIGTERM, nullptr, &action_before_);
     }
     ~DeferredSigterm()

@@ -1,6 +1,9 @@
 #include "pbs/packed/parallel.hpp"
 
+#include "pbs/geometry/deferred_sigterm.hpp"
+
 #include <algorithm>
+#include <utility>
 
 #ifdef PBS_TELL_THREAD_SANITIZER
 #include <sanitizer/tsan_interface.h>
@@ -10,6 +13,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_scheduler_observer.h>
 #endif
 
 namespace pbs {
@@ -33,11 +37,26 @@ void take([[maybe_unused]] void* place)
 #endif
 }
 
+// Workers take no SIGTERM, so that none of them runs METIS's handler.
+class Workers : public tbb::task_scheduler_observer {
+public:
+    explicit Workers(tbb::task_arena& arena) : task_scheduler_observer(arena) { observe(true); }
+    ~Workers() override { observe(false); }
+    Workers(const Workers&) = delete;
+    Workers& operator=(const Workers&) = delete;
+
+    void on_scheduler_entry(bool is_worker) override
+    {
+        thread_local bool is_blocked = false;
+        if (is_worker && !std::exchange(is_blocked, true)) block_sigterm();
+    }
+};
+
 }  // namespace
 
 class Parallel::Arena {
 public:
-    explicit Arena(int threads) : arena_(std::min(threads, allowed())) {}
+    explicit Arena(int threads) : arena_(std::min(threads, allowed())), workers_(arena_) {}
 
     void for_each(int count, const std::function<void(int)>& task)
     {
@@ -60,6 +79,7 @@ private:
     static int allowed() { return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)); }
 
     tbb::task_arena arena_;
+    Workers workers_;
 };
 #else
 class Parallel::Arena {

@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <csignal>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -61,6 +64,25 @@ TEST_P(ParallelTasks, WhatOneThrowsReachesTheCallerAndTheNextOnesRun)
         }
     EXPECT_THROW(parallel_.for_each(10, [](int) { throw std::runtime_error("sick"); }), std::runtime_error);
     EXPECT_EQ(runs_of_each(parallel_, 10), std::vector<int>(10, 1));
+}
+
+// A task that sleeps leaves the others to workers. The caller's thread goes on taking the signal.
+TEST_P(ParallelTasks, AreSharedWithWorkersThatTakeNoSigterm)
+{
+    const std::thread::id caller = std::this_thread::get_id();
+    std::atomic<int> by_workers = 0, differ = 0;
+    parallel_.for_each(64, [&](int) {
+        const bool is_worker = std::this_thread::get_id() != caller;
+        sigset_t blocked;
+        pthread_sigmask(SIG_BLOCK, nullptr, &blocked);
+        by_workers += is_worker;
+        differ += is_worker != (sigismember(&blocked, SIGTERM) == 1);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    });
+    EXPECT_EQ(differ, 0);
+#ifdef PBS_WITH_THREADS
+    EXPECT_EQ(by_workers > 0, GetParam() > 1);
+#endif
 }
 
 TEST_P(ParallelTasks, MovedStillRun)
