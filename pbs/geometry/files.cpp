@@ -73,17 +73,6 @@ std::string random_letters(int count)
     return text;
 }
 
-// Like mkstemp(3), with the permissions of any new file: an existing entry, such as a link, is not opened.
-int open_new(const std::string& beginning, std::string& name)
-{
-    for (int tries = 0; tries < 100; ++tries) {
-        name = beginning + random_letters(6);
-        const int file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (file >= 0 || errno != EEXIST) return file;
-    }
-    return -1;
-}
-
 // The names of the first files that are being written; a signal handler may read them at any time.
 std::array<std::atomic<const char*>, 64> unfinished = {};
 
@@ -91,6 +80,21 @@ void exchange_unfinished(const char* name, const char* by)
 {
     for (auto& entry : unfinished)
         if (const char* expected = name; entry.compare_exchange_strong(expected, by)) return;
+}
+
+// Like mkstemp(3), with the permissions of any new file: an existing entry, such as a link, is not opened. The name is among the unfinished
+// ones before the file exists, since a signal may come before open() returns.
+int open_new(const std::string& beginning, std::string& name)
+{
+    for (int tries = 0; tries < 100; ++tries) {
+        name = beginning + random_letters(6);
+        exchange_unfinished(nullptr, name.c_str());
+        const int file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file >= 0) return file;
+        exchange_unfinished(name.c_str(), nullptr);
+        if (errno != EEXIST) return -1;
+    }
+    return -1;
 }
 
 // The new name survives a loss of power, too. File systems that cannot flush a folder keep no such promise.
@@ -154,7 +158,6 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path)
     require_no_device(path);
     file_ = open_new(beginning_of_temporary(path), temporary_);
     if (file_ < 0) refuse(errno);
-    exchange_unfinished(nullptr, temporary_.c_str());
 }
 
 AtomicFile::~AtomicFile()
