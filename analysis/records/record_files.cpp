@@ -60,6 +60,30 @@ void require_writable(const std::string& path)
     if (reason != 0) throw pbs::InputError(path, 0, "", "", "cannot be written: " + std::generic_category().message(reason));
 }
 
+namespace {
+
+bool is_same_file(const std::string& one, const std::string& other)
+{
+    std::error_code error;
+    if (fs::equivalent(one, other, error)) return true;
+    return fs::weakly_canonical(fs::absolute(one), error) == fs::weakly_canonical(fs::absolute(other), error);
+}
+
+}  // namespace
+
+void require_separate(const std::vector<OutputFile>& outputs, const std::vector<std::string>& inputs)
+{
+    for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+        if (output->path.empty()) continue;
+        for (const std::string& input : inputs)
+            if (is_same_file(output->path, input))
+                throw pbs::InputError("", 0, output->option, output->path, "expected another file than the input " + input);
+        for (auto earlier = outputs.begin(); earlier != output; ++earlier)
+            if (!earlier->path.empty() && is_same_file(output->path, earlier->path))
+                throw pbs::InputError("", 0, output->option, output->path, "expected another file than that of " + earlier->option);
+    }
+}
+
 void remove_abandoned_files(const std::string& folder, bool and_below)
 {
     std::error_code ignored;

@@ -34,6 +34,14 @@ void write_text_atomically(const std::string& path, const std::string& text);
 // it.
 void require_writable(const std::string& path);
 
+// Checks before long work that no output replaces an input or another output. Two names of one file are recognised by its device and inode,
+// so that links count. An output that was not asked for has an empty path. InputError with the option and the other file.
+//   require_separate({{"--csv", arguments.csv}, {"--junit", arguments.junit}}, {arguments.rest});
+struct OutputFile {
+    std::string option, path;
+};
+void require_separate(const std::vector<OutputFile>& outputs, const std::vector<std::string>& inputs);
+
 // Removes the half-written files that killed writers left in a folder and in those below it: temporary files whose process no longer
 // exists. A folder that does not exist holds none.
 void remove_abandoned_files(const std::string& folder, bool and_below = true);

@@ -72,11 +72,37 @@ std::optional<double> number_in(const std::string& cell)
     return value;
 }
 
-bool has_text(const CsvTable& table, const std::string& column)
+// How many cells of a column are numbers, and how many are texts. Empty cells are neither.
+struct CellKinds {
+    int numbers = 0, texts = 0;
+};
+
+CellKinds kinds_of(const CsvTable& table, const std::string& column)
 {
+    CellKinds kinds;
     for (int row = 0; row < table.rows(); ++row)
-        if (const std::string& cell = table.text_at(row, column); !cell.empty() && !number_in(cell)) return true;
-    return false;
+        if (const std::string& cell = table.text_at(row, column); !cell.empty()) ++(number_in(cell) ? kinds.numbers : kinds.texts);
+    return kinds;
+}
+
+void refuse_decimal_commas(const CsvTable& table, const std::string& column)
+{
+    for (int row = 0; row < table.rows(); ++row) {
+        std::string cell = table.text_at(row, column);
+        if (std::ranges::count(cell, ',') != 1) continue;
+        std::ranges::replace(cell, ',', '.');
+        if (number_in(cell)) table.refuse(row, column, "expected a decimal point instead of a comma");
+    }
+}
+
+// A column of texts, by most of its cells: a single text among numbers is a result that differs. InputError for decimal commas where one of
+// the tables has numbers.
+bool is_of_texts(const CsvTable& first, const CsvTable& second, const std::string& column)
+{
+    const CellKinds one = kinds_of(first, column), other = kinds_of(second, column);
+    if (one.texts > 0 && other.numbers > 0) refuse_decimal_commas(first, column);
+    if (other.texts > 0 && one.numbers > 0) refuse_decimal_commas(second, column);
+    return one.texts + other.texts > one.numbers + other.numbers;
 }
 
 // The columns of both tables: by which rows are found, and which are compared.
@@ -97,7 +123,7 @@ Shared shared_columns(const std::string& file, const CsvTable& first, const CsvT
     Shared shared;
     for (const std::string& column : first.columns()) {
         if (!second.has_column(column) || is_among(own.not_compared, column)) continue;
-        const bool is_text = !is_a_time(column) && (has_text(first, column) || has_text(second, column));
+        const bool is_text = !is_a_time(column) && is_of_texts(first, second, column);
         const bool is_setting = is_among(own.settings, column) ||
                                 (!is_among(own.results, column) && (is_among(settings, column) || (is_text && !is_among(results, column))));
         if (is_setting)
@@ -217,6 +243,7 @@ Agreement agreement(const std::string& first, const std::string& second, double 
 {
     if (first == second) return Agreement::equal;
     const std::optional<double> one = number_in(first), other = number_in(second);
+    if (one && other && std::isnan(*one) && std::isnan(*other)) return Agreement::equal;  // also -nan, as x86 prints it
     if (!one || !other || !std::isfinite(*one) || !std::isfinite(*other)) return Agreement::differing;
     const double apart = std::abs(*one - *other), rounding = is_rounded ? rounding_of(first, second, *one) : 0.0;
     if (apart <= rounding) return Agreement::equal;

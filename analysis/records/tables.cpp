@@ -234,9 +234,13 @@ CsvTable read_csv(const std::string& path)
 CsvTable parse_csv(const std::string& text, const std::string& file)
 {
     if (text.empty()) throw pbs::InputError(file, 0, "", "", "the file is empty: expected a line of column names");
+    if (text.starts_with("\xef\xbb\xbf"))
+        throw pbs::InputError(file, 1, "", "", "begins with a byte order mark, as a spreadsheet writes it: expected UTF-8 without one");
     RecordReader reader(text, file);
     CsvTable table(reader.next());
     table.file_ = file;
+    if (table.columns_.size() == 1 && table.columns_.front().find(';') != std::string::npos)
+        refuse(file, 1, 1, "", "the separator is a semicolon: expected commas between fields and points in decimals");
     std::set<std::string> names;
     for (std::size_t i = 0; i < table.columns_.size(); ++i)
         if (!names.insert(table.columns_[i]).second) refuse(file, 1, i + 1, table.columns_[i], "expected each column once");

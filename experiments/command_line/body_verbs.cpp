@@ -206,6 +206,7 @@ int mesh(const MeshArguments& arguments)
     warn(remarks);
     pbs::require_tet_mesh_format(arguments.tets);
     analysis::require_writable(arguments.tets);
+    analysis::require_separate({{"--output", arguments.tets}}, {arguments.surface});
     const pbs::TetMesh mesh = meshed(arguments, surface);
     pbs::write_tet_mesh(arguments.tets, mesh);
     fmt::print("{}", pbs::describe(pbs::quality_of(mesh)));

@@ -21,6 +21,7 @@
 #include <regex>
 #include <set>
 #include <span>
+#include <string_view>
 #include <tuple>
 
 namespace experiments {
@@ -252,8 +253,21 @@ std::vector<std::string> in_folder(const std::string& folder, bool of_surfaces)
     return files;
 }
 
-std::vector<std::string> globbed(const std::string& pattern)
+// A folder of that name exists although brackets in it could be a pattern: they are escaped for glob.
+std::string with_existing_folder_escaped(const std::string& pattern)
 {
+    const fs::path folder = fs::path(pattern).parent_path();
+    std::error_code none;
+    if (folder.empty() || !fs::is_directory(folder, none)) return pattern;
+    std::string escaped;
+    for (const char c : folder.string())
+        escaped += std::string_view("*?[\\").find(c) == std::string_view::npos ? std::string{c} : std::string{'\\', c};
+    return escaped + "/" + name_of(pattern);
+}
+
+std::vector<std::string> globbed(const std::string& argument)
+{
+    const std::string pattern = with_existing_folder_escaped(argument);
     glob_t found = {};
     std::vector<std::string> files;
     if (glob(pattern.c_str(), 0, nullptr, &found) == 0) files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);

@@ -80,7 +80,7 @@ bool is_plain(const pugi::xml_node& array)
 
 }  // namespace
 
-void write_plain_vtu(const std::string& path, const pbs::TetMesh& mesh, const PlainFields& fields)
+std::string plain_vtu(const pbs::TetMesh& mesh, const PlainFields& fields)
 {
     std::string text =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
@@ -98,7 +98,7 @@ void write_plain_vtu(const std::string& path, const pbs::TetMesh& mesh, const Pl
     text += "</Points>\n";
     add_cells(text, mesh.tets);
     text += "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-    analysis::write_text_atomically(path, text);
+    return text;
 }
 
 PlainFields read_plain_fields(const std::string& path)

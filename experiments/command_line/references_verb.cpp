@@ -157,17 +157,16 @@ public:
             write_springs(kept.body, character, flesh, reference.member);
             if (reference.is_reached()) write_reference(analysis::path_in(folder, reference.member.name + ".vtu"), character, reference);
         }
-        analysis::write_text_atomically(analysis::path_in(folder, "pose.toml"), text);
-        const auto reached = std::ranges::count_if(kept.members, &KeptReference::is_reached);
-        table_ += fmt::format("| `{}` | {} | {} | {} of {} |\n", pose.name, kept.body, name_of(pose.stratum), reached, kept.members.size());
+        write(analysis::path_in(folder, "pose.toml"), text);
         ++poses_;
     }
 
-    // Last, so that a folder with it is whole.
-    void write_manual() const
+    // Last, so that a folder with it is whole. It lists also the poses that an earlier call has exported there.
+    void write_manual()
     {
         analysis::remove_abandoned_files(folder_);
-        analysis::write_text_atomically(analysis::path_in(folder_, "own_solver.py"), exported::own_solver_py);
+        write(analysis::path_in(folder_, "own_solver.py"), exported::own_solver_py);
+        const std::string poses = table_of_poses();
         std::string text = exported::exported_references_md +
                            "\n## Bodies\n\n| body | vertices | tets | bones | diagonal at rest [m] |\n"
                            "|---|---|---|---|---|\n";
@@ -177,14 +176,47 @@ public:
             text += fmt::format("| `{}` | {} | {} | {} | {:.4f} |\n", name, rest.rows(), character.mesh.tets.rows(),
                                 character.skeleton.bones.size(), pbs::diagonal_m(rest));
         }
-        text += "\n## Poses\n\n| pose | body | stratum | members that were reached |\n|---|---|---|---|\n" + table_;
-        analysis::write_text_atomically(analysis::path_in(folder_, "README.md"), text);
+        text += "\n## Poses\n\n| pose | body | stratum | members that were reached |\n|---|---|---|---|\n" + poses;
+        const std::string manual = analysis::path_in(folder_, "README.md");
+        const bool is_own = !fs::exists(manual) || analysis::read_text(manual).starts_with(exported::exported_references_md);
+        if (is_own)
+            analysis::write_text_atomically(manual, text);
+        else
+            kept_.push_back(manual);
+        if (!kept_.empty())
+            warn({fmt::format("{}: differs from what this program writes, and is kept; without it the same command writes it anew",
+                              fmt::join(kept_, ", "))});
     }
 
     int poses() const { return poses_; }
     std::size_t bodies() const { return written_bodies_.size(); }
 
 private:
+    // A file of the folder that was changed since, by its user or by another version of the program, is kept.
+    void write(const std::string& path, const std::string& text)
+    {
+        if (!fs::exists(path))
+            analysis::write_text_atomically(path, text);
+        else if (analysis::read_text(path) != text)
+            kept_.push_back(path);
+    }
+
+    // A row per pose in the folder; their bodies belong to the other table.
+    std::string table_of_poses()
+    {
+        std::string table;
+        for (const ReferencePose& pose : reference_poses()) {
+            if (!fs::exists(fs::path(folder_) / pose.name / "pose.toml")) continue;
+            const pbs::Character& character = body_of(pose);
+            const KeptReferences kept = read_references(pose.name, character, bones_in(pose, character.skeleton));
+            const auto reached = std::ranges::count_if(kept.members, &KeptReference::is_reached);
+            table +=
+                fmt::format("| `{}` | {} | {} | {} of {} |\n", pose.name, kept.body, name_of(pose.stratum), reached, kept.members.size());
+            written_bodies_.insert(kept.body);
+        }
+        return table;
+    }
+
     const pbs::Character& body_of(const ReferencePose& pose)
     {
         const auto known = bodies_.find(pose.of.body);
@@ -192,16 +224,16 @@ private:
                                       : bodies_.emplace(pose.of.body, pbs::make_character(pose.scene.character)).first->second;
     }
 
-    void write_body(const std::string& name, const pbs::Character& character) const
+    void write_body(const std::string& name, const pbs::Character& character)
     {
         analysis::make_output_folder(fs::path(folder_) / "bodies");
         PlainFields fields = error_fields(character);
         fields.labels_of_points["nearest_bone"] = character.binding.bone;
         fields.labels_of_tets["held_by_bone"] = pbs::bones_that_move_alone(character);
-        write_plain_vtu(body_file(name + ".vtu"), character.mesh, fields);
-        analysis::write_text_atomically(body_file(name + ".skeleton.toml"), skeleton_text(character.skeleton));
-        weights_table(character).write(body_file(name + ".weights.csv"));
-        capsules_table(character).write(body_file(name + ".capsules.csv"));
+        write(body_file(name + ".vtu"), plain_vtu(character.mesh, fields));
+        write(body_file(name + ".skeleton.toml"), skeleton_text(character.skeleton));
+        write(body_file(name + ".weights.csv"), weights_table(character).text());
+        write(body_file(name + ".capsules.csv"), capsules_table(character).text());
     }
 
     void write_springs(const std::string& body, const pbs::Character& character, const FemOptions& flesh, const EnsembleMember& member)
@@ -209,10 +241,10 @@ private:
         const std::string file = springs_file(body, member);
         if (!written_springs_.insert(file).second) return;
         const pbs::CapsuleSprings held = pbs::bone_springs(character, spring_placement(flesh.attachment), spring_options(flesh));
-        springs_table(character, held.springs).write(body_file(file));
+        write(body_file(file), springs_table(character, held.springs).text());
     }
 
-    static void write_reference(const std::string& path, const pbs::Character& character, const KeptReference& reference)
+    void write_reference(const std::string& path, const pbs::Character& character, const KeptReference& reference)
     {
         PlainFields fields = error_fields(character);
         fields.of_points["bone_distance_m"] = rounded(character.binding.distance);
@@ -220,7 +252,7 @@ private:
         fields.labels_of_points["at_tips"] = {reference.at_tips.begin(), reference.at_tips.end()};
         if (std::isfinite(reference.own_error_pct())) fields.facts["own_error_pct"] = reference.own_error_pct();
         if (reference.energy_j) fields.facts["energy_j"] = *reference.energy_j;
-        write_plain_vtu(path, {rounded(character.mesh.rest), character.mesh.tets}, fields);
+        write(path, plain_vtu({rounded(character.mesh.rest), character.mesh.tets}, fields));
     }
 
     static ordered_json member_facts(const std::string& body, const pbs::Character& character, const FemOptions& flesh,
@@ -252,7 +284,8 @@ private:
 
     std::string body_file(const std::string& name) const { return (fs::path(folder_) / "bodies" / name).string(); }
 
-    std::string folder_, table_;
+    std::string folder_;
+    std::vector<std::string> kept_;  // files that differ
     std::map<std::string, pbs::Character> bodies_;
     std::set<std::string> written_bodies_, written_springs_;
     int poses_ = 0;

@@ -52,6 +52,8 @@ int check(CheckArguments arguments, const CheckReports& reports, const CommonOpt
     if (!reports.junit.empty()) std::filesystem::create_directories(arguments.folder, reported_by_the_run);  // the report may go there
     require_writable(reports);
     if (!arguments.write_baseline.empty()) analysis::require_writable(arguments.write_baseline);
+    analysis::require_separate({{"--write-baseline", arguments.write_baseline}, {"--junit", reports.junit}}, {arguments.bounds});
+    analysis::require_separate({{"--junit", reports.junit}}, {arguments.baseline});
     const CheckResult result = run_check(arguments);
     if (!common.quiet) fmt::print("{}", analysis::check_table(result.suites));
     report_failures(result.suites);

@@ -69,14 +69,18 @@ int write_report_page(const std::string& folder, bool quiet, bool needs_model)
 {
     if (!fs::is_directory(folder))
         throw pbs::InputError(folder, 0, "", "", "no such folder: expected one that `pbskin try`, `run` or `reproduce` wrote");
+    if (!analysis::is_utf8(folder))
+        throw pbs::InputError(folder, 0, "", "", "expected a name in UTF-8: the libraries that draw the page open no others");
     if (!fs::is_regular_file(page_maker()))
         throw pbs::InputError(page_maker().string(), 0, "", "",
                               "not found: the page is made by scripts that are installed with the program");
     const pbs::Stage stage("making the page " + (fs::path(folder) / "report.html").string());
-    std::vector<std::string> words = {"", "-B", page_maker().string(), folder};
+    std::vector<std::string> words = {"", "-E", "-s", "-B", page_maker().string(), folder};
     if (quiet) words.push_back("--quiet");
     if (needs_model) words.push_back("--needs-model");
-    // Debian's python3 comes first, for one of a version manager on the PATH often lacks the packages that the figures need.
+    // Modules of other environments are not imported: -E ignores PYTHONPATH and PYTHONHOME, -s the packages of the user. (-I would also
+    // hide the modules of the page maker itself.) Debian's python3 comes first, for one of a version manager on the PATH often lacks the
+    // packages that the figures need.
     for (const char* python : {"/usr/bin/python3", "python3"}) {
         words.front() = python;
         const ProgramRun page = run_program(words, std::nullopt);
@@ -197,11 +201,11 @@ void add_try_verb(CommandLine& line)
         "--error-bar", options->error_bar,
         "also bounds the reference's own error, by three further solutions per frame, two of them on tets cut into eight. With 2,000 "
         "vertices each frame takes minutes, and the run needs 6 GB: choose a few --frames");
-    auto* seconds = verb->add_option("--reference-seconds", options->reference_seconds,
-                                     "processor time of the finite elements; 0: no limit")
-                        ->check(CLI::Range(0.0, 1e7))
-                        ->capture_default_str()
-                        ->excludes(error_bar);
+    auto* seconds =
+        verb->add_option("--reference-seconds", options->reference_seconds, "processor time of the finite elements; 0: no limit")
+            ->check(CLI::Range(0.0, 1e7))
+            ->capture_default_str()
+            ->excludes(error_bar);
     verb->add_flag_callback(
             "--no-reference", [options] { options->reference = false; }, "leaves out the finite elements, which take most of the time")
         ->excludes(error_bar)

@@ -12,8 +12,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <set>
+#include <string_view>
 
 namespace experiments {
 namespace {
@@ -52,11 +55,19 @@ struct Results {
     {
         if (fs::exists(study / "run.json")) return add_run(study);
         if (!has_study_plan(study.string())) {
+            if (study == root) return;
+            if (fs::exists(study / frames_table)) unfinished.insert(study.lexically_relative(root).string());
             for (const fs::path& run : fs::directory_iterator(study))
-                if (study != root && fs::exists(run / "run.json")) add_run(run);
+                if (fs::exists(run / "run.json"))
+                    add_run(run);
+                else if (fs::exists(run / frames_table))
+                    unfinished.insert(run.lexically_relative(root).string());
             return;
         }
-        for (const std::string& run : finished_runs(study.string()).folders) add_run(run);
+        const FinishedRuns finished = finished_runs(study.string());
+        for (const std::string& run : finished.folders) add_run(run);
+        for (const std::string& run : finished.missing)
+            if (fs::exists(study / run / frames_table)) unfinished.insert((study.filename() / run).string());
         const fs::path in_stated = fs::path(stated) / study.filename();  // kept records have the tables of studies themselves
         for (const char* table : tables_by_case)
             if (fs::exists(in_stated / table)) tables[(study.filename() / table).string()] = in_stated / table;
@@ -76,9 +87,41 @@ struct Results {
     OpenedRecords opened;
     fs::path root;
     std::vector<std::string> excluded_bodies;
-    std::set<std::string> runs;
+    std::set<std::string> runs, unfinished;  // with and without run.json
     std::map<std::string, fs::path> tables;
 };
+
+// Runs that were ended before they wrote their record. One that the other result has finished is named as a run that is missing here.
+void name_unfinished_runs(const Results& first, const Results& second, ResultComparison& to)
+{
+    std::set<std::string> unfinished = first.unfinished;
+    unfinished.insert(second.unfinished.begin(), second.unfinished.end());
+    for (const std::string& run : unfinished)
+        if (!first.runs.contains(run) && !second.runs.contains(run))
+            to.not_compared.push_back(run + ": no run.json: the run was not finished");
+}
+
+// A frame for ParaView ends with its root element. Its numbers are those of the tables.
+bool is_broken_frame(const fs::path& file)
+{
+    constexpr std::string_view end = "</VTKFile>";
+    constexpr std::streamoff most = 64;
+    std::ifstream frame(file, std::ios::binary | std::ios::ate);
+    const std::streamoff size = frame.tellg();
+    frame.seekg(std::max<std::streamoff>(0, size - most));
+    return std::string(std::istreambuf_iterator<char>(frame), {}).find(end) == std::string::npos;
+}
+
+void name_broken_frames(const Results& results, ResultComparison& to)
+{
+    for (const std::string& run : results.runs) {
+        const fs::path folder = results.root / run / "frames";
+        if (!fs::is_directory(folder)) continue;
+        for (const fs::path& file : analysis::files_in(folder))
+            if (file.extension() == ".vtu" && is_broken_frame(file))
+                to.not_compared.push_back(file.string() + ": the frame is cut off: expected </VTKFile> at its end");
+    }
+}
 
 // Studies that one of two lists of runs lacks altogether are named once.
 std::vector<std::string> runs_without(const std::set<std::string>& runs, const std::set<std::string>& other)
@@ -170,6 +213,8 @@ void compare_tables_of(const Results& first, const Results& second, ResultCompar
         // Only values that decide claims are kept with all digits.
         const bool is_exact = table == "measurements.csv" || table == "printed.csv" || name.find('/') == name.rfind('/');
         const bool is_rounded = !is_exact && (first.is_kept() || second.is_kept());
+        if (table == frames_table && (one.rows() == 0 || other.rows() == 0))
+            to.not_compared.push_back(fmt::format("{}: {} has no row", name, one.rows() == 0 ? "that of A" : "that of B"));
         ComparedTable compared{name, analysis::compare_tables(table, one, other, {is_part, is_rounded})};
         count_claims(file, one, compared.rows, to.claims);
         if (!is_part) name_rows(name, compared.rows.only_first, to.only_first);
@@ -325,7 +370,7 @@ int ResultComparison::differing() const
 
 bool ResultComparison::agrees() const
 {
-    return differing() == 0 && only_first.empty() && only_second.empty() && other_verdicts.empty();
+    return differing() == 0 && only_first.empty() && only_second.empty() && other_verdicts.empty() && not_compared.empty();
 }
 
 ResultComparison compare_results(const ComparedFolders& folders)
@@ -336,12 +381,17 @@ ResultComparison compare_results(const ComparedFolders& folders)
     compared.only_second = runs_without(second.runs, first.runs);
     if (folders.second_is_part)  // no record is kept of some studies
         std::erase_if(compared.only_second, [&](const std::string& name) {
-            return std::ranges::none_of(first.runs, [&](const std::string& run) { return study_of(run) == study_of(name); });
+            return has_study_plan((second.root / study_of(name)).string()) &&
+                   std::ranges::none_of(first.runs, [&](const std::string& run) { return study_of(run) == study_of(name); });
         });
+    name_unfinished_runs(first, second, compared);
+    name_broken_frames(first, compared);
+    name_broken_frames(second, compared);
     compare_tables_of(first, second, compared);
     compare_settings(first, second, compared);
     if (folders.excluded_bodies.empty()) compare_verdicts(first, second, compared);
-    if (!folders.studies && compared.tables.empty() && compared.only_first.empty() && compared.only_second.empty())
+    if (!folders.studies && compared.tables.empty() && compared.only_first.empty() && compared.only_second.empty() &&
+        compared.not_compared.empty())
         throw pbs::InputError(folders.second, 0, "", "", "no number in common with " + folders.first);
     return compared;
 }
@@ -356,6 +406,7 @@ std::string comparison_text(const ResultComparison& compared, int lines)
     add_list("other numbers, A | B", differences_in(compared), lines, text);
     add_list("only in A = " + compared.folders.first, compared.only_first, lines, text);
     add_list("only in B = " + compared.folders.second, compared.only_second, lines, text);
+    add_list("not compared", compared.not_compared, lines, text);
     return text;
 }
 
@@ -407,6 +458,7 @@ nlohmann::json to_json(const ResultComparison& compared)
             {"claims", claims},
             {"only_first", compared.only_first},
             {"only_second", compared.only_second},
+            {"not_compared", compared.not_compared},
             {"other_settings", compared.other_settings},
             {"other_verdicts", compared.other_verdicts}};
 }
@@ -433,6 +485,7 @@ std::vector<analysis::CheckSuite> suites_of(const ResultComparison& compared)
     }
     for (const std::string& name : compared.only_first) add("only in A", name, false, "only in " + compared.folders.first);
     for (const std::string& name : compared.only_second) add("only in B", name, false, "only in " + compared.folders.second);
+    for (const std::string& text : compared.not_compared) add("not compared", text, false, text);
     for (const std::string& text : compared.other_verdicts) add("verdicts", study_of(text), false, text);
     return suites;
 }

@@ -44,6 +44,7 @@ struct ResultComparison {
     ComparedFolders folders;
     std::vector<ComparedTable> tables = {};                      // that both have
     std::vector<std::string> only_first = {}, only_second = {};  // studies, runs, tables and rows
+    std::vector<std::string> not_compared = {};                  // runs without a record, tables without rows, frames that are broken
     std::vector<std::string> other_settings = {};                // of a run: "pbs.k_stretch = 0.2 | 0.5"
     std::vector<std::string> other_verdicts = {};                // "C04: holds | fails"
     std::map<std::string, ComparedClaim> claims = {};            // by id

@@ -60,6 +60,15 @@ bool is_binary_stl(const std::string& path)
     return fs::file_size(path, code) == before_triangles + of_triangle * static_cast<std::uintmax_t>(triangles);
 }
 
+// USD as text, in binary form, or as a .usdz archive, whose first file is a .usd, .usda or .usdc. No reader here takes it.
+bool is_usd(const std::string& path, const std::string& beginning)
+{
+    const bool is_archive = beginning.starts_with("PK\x03\x04");
+    constexpr std::size_t of_first_name = 300;
+    return beginning.starts_with("#usda") || beginning.starts_with("PXR-USDC") ||
+           (is_archive && (holds(beginning.substr(0, of_first_name), ".usd") || lower_extension(path) == ".usdz"));
+}
+
 std::string extension_by_first_bytes(const std::string& beginning)
 {
     if (beginning.starts_with("glTF")) return ".glb";
@@ -92,6 +101,7 @@ std::string content_extension(const std::string& path)
 {
     const SourceFile file(path);
     const std::string beginning = as_utf8(file.beginning());
+    if (is_usd(path, beginning)) return ".usd";
     if (const std::string extension = extension_by_first_bytes(beginning); !extension.empty()) return extension;
     if (is_binary_stl(path)) return ".stl";
     if (holds(beginning, "; FBX ") || holds(beginning, "FBXHeaderExtension")) return ".fbx";

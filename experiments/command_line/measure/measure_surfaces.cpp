@@ -205,6 +205,7 @@ int measure_surfaces(const MeasureArguments& arguments)
 {
     const std::vector<std::string> paths = frame_files(arguments.frames, {.any_step = arguments.any_step, .of_surfaces = true}),
                                    names = frame_names(paths);
+    require_separate_outputs(arguments, paths);
     std::set<std::string> shown;  // remarks, which most frames share
     const auto warn_once = [&](const std::string& path, const std::vector<std::string>& remarks) {
         for (const std::string& remark : remarks)
@@ -226,6 +227,7 @@ int measure_surfaces(const MeasureArguments& arguments)
 
 int measure_rig(const MeasureArguments& arguments)
 {
+    require_separate_outputs(arguments, {});
     const pbs::Rig rig = pbs::read_rig(arguments.rest);
     const pbs::RigAnimation& animation = animation_of(arguments, rig);
     const pbs::RiggedBody body = pbs::make_rigged_body(rig, &animation, 1.0);

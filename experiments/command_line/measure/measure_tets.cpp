@@ -74,6 +74,7 @@ void print_errors(const std::vector<MeasuredRow>& rows)
 int measure_tets(const MeasureArguments& arguments)
 {
     const std::vector<std::string> paths = frame_files(arguments.frames, {.any_step = arguments.any_step}), names = frame_names(paths);
+    require_separate_outputs(arguments, paths);
     const pbs::MeshReading reading = pbs::read_tet_mesh(arguments.rest, false);
     warn(pbs::remarks_on(arguments.rest, reading));
     const RestMesh rest(reading, arguments.displacement);

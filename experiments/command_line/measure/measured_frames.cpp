@@ -1,5 +1,6 @@
 #include "experiments/command_line/measure/measured_frames.hpp"
 
+#include "analysis/records/record_files.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/terminal.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -34,6 +35,15 @@ std::string next_step(const MeasureArguments& arguments, const std::string& expl
 }
 
 }  // namespace
+
+void require_separate_outputs(const MeasureArguments& arguments, const std::vector<std::string>& frames)
+{
+    std::vector<std::string> inputs = frames;
+    inputs.push_back(arguments.rest);
+    if (!arguments.reference.empty())
+        for (const std::string& reference : frame_files({arguments.reference})) inputs.push_back(reference);
+    analysis::require_separate({{"--csv", arguments.csv}, {"--shells", arguments.shells}, {"--junit", arguments.reports.junit}}, inputs);
+}
 
 MeasuredFrames measure_each(const MeasureArguments& arguments, const std::vector<std::string>& paths, const std::vector<std::string>& names,
                             const std::function<analysis::FrameValues(std::size_t)>& measure_frame)

@@ -30,6 +30,9 @@ struct MeasuredFrames {
     pbs::Stopwatch stopwatch = {};
 };
 
+// InputError if --csv, --shells or --junit names the rest, a frame, a reference or one file twice.
+void require_separate_outputs(const MeasureArguments& arguments, const std::vector<std::string>& frames);
+
 // measure_frame returns the values of a frame and prints its row; an InputError of it is reported, and the other frames are measured.
 // paths: of the frames in messages; names: in reports.
 MeasuredFrames measure_each(const MeasureArguments& arguments, const std::vector<std::string>& paths, const std::vector<std::string>& names,
