@@ -18,6 +18,7 @@ namespace {
 // A closed shell that encloses less than this part of (its area)^(3/2) is a sheet: 0.09 for a sphere, 0.001 for a plate of 1 : 300, and
 // some 1e-8 for the rounding of coordinates in single precision.
 constexpr double least_enclosed = 1e-6;
+constexpr double most_capped = 0.5;  // area of the caps over that of the shell: 0.5 for a hemisphere, 1 for a sheet
 constexpr double same_place = 1e-6;  // of the surface's diagonal: coordinates in single precision
 
 // An edge of a triangle: its points, ascending, and whether the triangle passes it from the first to the second.
@@ -168,7 +169,77 @@ double area_of(const pbs::Positions& points, const pbs::Triangles& triangles)
     return area;
 }
 
-Shell measured_shell(const pbs::Positions& points, pbs::Triangles triangles)
+// The rims of a surface whose triangles face to one side: each hole's points, in the direction in which a cap passes them. Empty where a
+// point belongs to several rims, or an edge to several triangles on one side.
+std::vector<std::vector<int>> rims_of(const pbs::Triangles& triangles)
+{
+    std::map<int, int> next;
+    bool is_simple = true;
+    for_each_edge(sides_of(triangles), [&](auto first, auto last) {
+        if (is_balanced(first, last)) return;
+        const auto& [a, b] = first->points;
+        is_simple = is_simple && last - first == 1 && next.emplace(first->forward ? b : a, first->forward ? a : b).second;
+    });
+    std::vector<std::vector<int>> rims;
+    while (is_simple && !next.empty()) {
+        std::vector<int>& rim = rims.emplace_back();
+        for (auto at = next.begin(); at != next.end(); at = next.find(rim.back())) {
+            rim.push_back(at->second);
+            next.erase(at);
+        }
+    }
+    if (!is_simple) return {};
+    return rims;
+}
+
+pbs::Vec3 middle_of(const pbs::Positions& points, const std::vector<int>& rim)
+{
+    return points(rim, Eigen::all).colwise().mean();
+}
+
+// Calls body(a, b, c) with the corners of each triangle of a cap.
+template <typename Body>
+void for_each_of_cap(const pbs::Positions& points, const std::vector<int>& rim, Body body)
+{
+    const pbs::Vec3 middle = middle_of(points, rim);
+    for (std::size_t i = 0; i < rim.size(); ++i)
+        body(middle, pbs::Vec3(points.row(rim[i])), pbs::Vec3(points.row(rim[(i + 1) % rim.size()])));
+}
+
+double cap_area(const pbs::Positions& points, const std::vector<int>& rim)
+{
+    double area_m2 = 0.0;
+    for_each_of_cap(points, rim, [&](const auto& a, const auto& b, const auto& c) { area_m2 += 0.5 * (b - a).cross(c - a).norm(); });
+    return area_m2;
+}
+
+// With its caps [m^3].
+double volume_of(const pbs::Positions& points, const Shell& shell)
+{
+    double volume_m3 = signed_volume(points, shell.triangles);
+    const pbs::Vec3 origin = points.row(shell.triangles(0, 0));  // that of signed_volume
+    for (const auto& rim : shell.caps)
+        for_each_of_cap(points, rim, [&](const auto& a, const auto& b, const auto& c) { volume_m3 += pbs::tet_volume(origin, a, b, c); });
+    return volume_m3;
+}
+
+// The largest distance of the rim's points from the best rigid motion of the rim from rest.
+double distance_from_rigid(const pbs::Positions& rest, const pbs::Positions& points, const std::vector<int>& rim)
+{
+    const Eigen::MatrixX3d before = rest(rim, Eigen::all), after = points(rim, Eigen::all);
+    const Eigen::Affine3d rigid(Eigen::umeyama(before.transpose(), after.transpose(), false));
+    return ((rigid * before.transpose()).transpose() - after).rowwise().norm().maxCoeff();
+}
+
+void cap_holes(const pbs::Positions& points, Shell& shell)
+{
+    shell.caps = rims_of(shell.triangles);
+    double caps_m2 = 0.0;
+    for (const auto& rim : shell.caps) caps_m2 += cap_area(points, rim);
+    if (caps_m2 >= most_capped * shell.area_m2) shell.caps.clear();
+}
+
+Shell measured_shell(const pbs::Positions& points, pbs::Triangles triangles, Holes holes)
 {
     Shell shell;
     shell.area_m2 = area_of(points, triangles);
@@ -177,12 +248,12 @@ Shell measured_shell(const pbs::Positions& points, pbs::Triangles triangles)
         if (is_balanced(first, last)) return;
         if (shell.open_edges++ == 0) shell.first_open_edge = {first->points[0], first->points[1]};
     });
-    if (shell.open_edges == 0) {
-        shell.volume_m3 = signed_volume(points, triangles);
-        const bool is_flat = !(std::abs(shell.volume_m3) > least_enclosed * std::pow(shell.area_m2, 1.5));
-        shell.role = is_flat ? ShellRole::flat : ShellRole::body;
-    }
     shell.triangles = std::move(triangles);
+    if (shell.open_edges > 0 && holes == Holes::cap) cap_holes(points, shell);
+    if (shell.open_edges > 0 && shell.caps.empty()) return shell;
+    shell.volume_m3 = volume_of(points, shell);
+    const bool is_flat = !(std::abs(shell.volume_m3) > least_enclosed * std::pow(shell.area_m2, 1.5));
+    shell.role = is_flat ? ShellRole::flat : ShellRole::body;
     return shell;
 }
 
@@ -200,19 +271,19 @@ pbs::Triangles without_copies(const pbs::Triangles& triangles)
 }
 
 // Copies are left out where what remains is closed: a sheet with two sides, and bodies that share a face, need theirs.
-Shell shell_of(const pbs::Positions& points, const pbs::Triangles& triangles)
+Shell shell_of(const pbs::Positions& points, const pbs::Triangles& triangles, Holes holes)
 {
     const pbs::Triangles single = without_copies(triangles);
     if (single.rows() < triangles.rows())
-        if (Shell shell = measured_shell(points, single); shell.role == ShellRole::body) {
+        if (Shell shell = measured_shell(points, single, Holes::leave_open); shell.role == ShellRole::body) {
             shell.copies = static_cast<int>(triangles.rows() - single.rows());
             return shell;
         }
-    return measured_shell(points, triangles);
+    return measured_shell(points, triangles, holes);
 }
 
 // Triangles that shared edges join, in the order of their first triangles.
-std::vector<Shell> shells_of(const pbs::Positions& points, const pbs::Triangles& triangles)
+std::vector<Shell> shells_of(const pbs::Positions& points, const pbs::Triangles& triangles, Holes holes)
 {
     pbs::Classes classes(static_cast<std::size_t>(triangles.rows()));
     for_each_edge(sides_of(triangles), [&](auto first, auto last) {
@@ -226,7 +297,7 @@ std::vector<Shell> shells_of(const pbs::Positions& points, const pbs::Triangles&
         members[entry->second].push_back(f);
     }
     std::vector<Shell> shells;
-    for (const std::vector<int>& rows : members) shells.push_back(shell_of(points, picked(triangles, rows)));
+    for (const std::vector<int>& rows : members) shells.push_back(shell_of(points, picked(triangles, rows), holes));
     return shells;
 }
 
@@ -270,15 +341,17 @@ void set_roles(const pbs::Positions& points, std::vector<Shell>& shells, std::ve
         if (faces_outwards[s] == (shell.role != ShellRole::cavity)) continue;
         shell.turned += static_cast<int>(shell.triangles.rows());
         for (int f = 0; f < shell.triangles.rows(); ++f) turn(shell.triangles, f);
+        for (auto& rim : shell.caps) std::ranges::reverse(rim);
         shell.volume_m3 = -shell.volume_m3;
     }
 }
 
 }  // namespace
 
-ClosedShells::ClosedShells(const pbs::Positions& rest, const pbs::Triangles& triangles) : joined_(joined_points(rest, triangles))
+ClosedShells::ClosedShells(const pbs::Positions& rest, const pbs::Triangles& triangles, Holes holes)
+    : rest_(rest), joined_(joined_points(rest, triangles))
 {
-    shells_ = shells_of(rest, with_area(triangles, joined_));
+    shells_ = shells_of(rest, with_area(triangles, joined_), holes);
     std::vector<int> closed;
     for (int s = 0; s < static_cast<int>(shells_.size()); ++s)
         if (shells_[s].role == ShellRole::body) closed.push_back(s);
@@ -298,7 +371,7 @@ ClosedShells::ClosedShells(const pbs::Positions& rest, const pbs::Triangles& tri
 Eigen::VectorXd ClosedShells::volumes(const pbs::Positions& points) const
 {
     Eigen::VectorXd volumes(static_cast<Eigen::Index>(counted_.size()));
-    for (Eigen::Index c = 0; c < volumes.size(); ++c) volumes(c) = signed_volume(points, shells_[counted_[c]].triangles);
+    for (Eigen::Index c = 0; c < volumes.size(); ++c) volumes(c) = volume_of(points, shells_[counted_[c]]);
     return volumes;
 }
 
@@ -307,6 +380,15 @@ double ClosedShells::largest_gap_m(const pbs::Positions& points) const
     double largest_m = 0.0;
     for (std::size_t p = 0; p < joined_.size(); ++p) largest_m = std::max(largest_m, (points.row(p) - points.row(joined_[p])).norm());
     return largest_m;
+}
+
+double ClosedShells::cap_bound_m3(const pbs::Positions& points) const
+{
+    double bound_m3 = 0.0;
+    for (const int s : counted_)
+        for (const auto& rim : shells_[s].caps)
+            bound_m3 += std::max(cap_area(rest_, rim), cap_area(points, rim)) * distance_from_rigid(rest_, points, rim);
+    return bound_m3;
 }
 
 double ClosedShells::counted_share() const

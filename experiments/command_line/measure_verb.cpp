@@ -34,6 +34,7 @@ void require_effect(const MeasureArguments& arguments, bool is_rig, analysis::Me
     refuse_where(measured == analysis::Measured::surface && !arguments.reference.empty(), "--reference",
                  "expected tets: a surface has no errors");
     refuse_where(measured == analysis::Measured::tets && !arguments.shells.empty(), "--shells", "expected a surface: tets have no shells");
+    refuse_where(measured == analysis::Measured::tets && arguments.closed_only, "--closed-only", "expected a surface: tets have no shells");
 }
 
 int measure(MeasureArguments& arguments, bool quiet)
@@ -83,6 +84,7 @@ void add_measure_verb(CommandLine& line)
         ->type_name("FILE");
     verb->add_option("--csv", arguments->csv, "write the values as CSV, a row per frame")->type_name("FILE");
     verb->add_option("--shells", arguments->shells, "the same for each closed shell of a surface")->type_name("FILE");
+    verb->add_flag("--closed-only", arguments->closed_only, "of a surface: excludes open shells, whose holes are capped otherwise");
     for (analysis::FrameBound& bound : arguments->bounds)
         verb->add_option(bound.option, bound.value, bound.meaning)->type_name(bound.unit.empty() ? "N" : "PCT");
     verb->add_option("--junit", arguments->reports.junit, "write a JUnit report with one test case per bound")->type_name("FILE");

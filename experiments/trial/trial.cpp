@@ -178,6 +178,7 @@ const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs
         why = fmt::format("which moves most: none turns a joint by more than {} degrees", least_turn_deg);
     }
     const pbs::RigAnimation& taken = animations[moving - motions.begin()];
+    if (!moves_nodes(taken)) return nullptr;  // morph targets alone do not move a bone
     std::vector<std::string> others;
     for (const pbs::RigAnimation& animation : animations)
         if (&animation != &taken) others.push_back(animation.name);

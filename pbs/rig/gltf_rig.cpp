@@ -26,11 +26,12 @@ public:
         mesh_.name = source_.name;
     }
 
-    RigMesh read(int joints)
+    RigMesh read(const tinygltf::Node& node, int joints)
     {
         for (std::size_t p = 0; p < source_.primitives.size(); ++p)
             add(source_.primitives[p], field_ + "/primitives/" + std::to_string(p), joints);
         mesh_.points = Eigen::Map<const Positions>(points_.data(), static_cast<Eigen::Index>(points_.size() / 3), 3);
+        add_morphs(node);
         mesh_.triangles = Eigen::Map<const Triangles>(triangles_.data(), static_cast<Eigen::Index>(triangles_.size() / 3), 3);
         if (joints > 0)
             mesh_.skin = normalised_skin(with_weights_of_neighbours(shares_, mesh_, rig_.file, rig_.remarks), rig_.file, mesh_.name,
@@ -56,10 +57,7 @@ private:
             rig_.remarks.push_back("mesh " + source_.name + ": points and lines are left out");
             return;
         }
-        if (!primitive.targets.empty())
-            rig_.remarks.push_back("mesh " + source_.name + ": " + std::to_string(primitive.targets.size()) +
-                                   " morph targets are left out");
-        const auto [range, is_new] = points_of_.try_emplace(primitive.attributes);
+        const auto [range, is_new] = points_of_.try_emplace({primitive.attributes, primitive.targets});
         if (is_new) range->second = add_points(primitive, field, joints);
         add_triangles(primitive, range->second, field);
         mesh_.look.material.resize(triangles_.size() / 3, primitive.material);
@@ -74,7 +72,40 @@ private:
         for (int set = 0; primitive.attributes.count("TEXCOORD_" + std::to_string(set)) > 0; ++set)
             add_look(primitive, "TEXCOORD_" + std::to_string(set), range, 3 + 2 * set, field);
         if (joints > 0) add_weights(primitive, range.count, joints, field);
+        for (std::size_t k = 0; k < primitive.targets.size(); ++k) add_target(primitive.targets[k], k, range, field);
         return range;
+    }
+
+    // The displacements of a morph target. Primitives without it are not moved.
+    void add_target(const std::map<std::string, int>& target, std::size_t k, const PointRange& points, const std::string& field)
+    {
+        auto& targets = mesh_.morphs.displacements;
+        targets.resize(std::max(targets.size(), k + 1));
+        const auto position = target.find("POSITION");
+        if (position == target.end()) return;
+        const std::string name = field + "/targets/" + std::to_string(k) + "/POSITION";
+        const AccessorNumbers rows = accessor_numbers(model_, position->second, 3, rig_.file, name);
+        if (rows.rows() != points.count)
+            throw InputError(rig_.file, 0, name, std::to_string(rows.rows()),
+                             "expected as many as there are points, " + std::to_string(points.count));
+        targets[k].conservativeResizeLike(Positions::Zero(points.first + points.count, 3));
+        targets[k].bottomRows(points.count) = rows;
+    }
+
+    // A node's weights come before those of its mesh. The shape that they make is that of the body at rest.
+    void add_morphs(const tinygltf::Node& node)
+    {
+        RigMorphs& morphs = mesh_.morphs;
+        const std::vector<double>& stated = node.weights.empty() ? source_.weights : node.weights;
+        if (stated.size() > morphs.displacements.size())
+            throw InputError(rig_.file, 0, field_ + "/weights", std::to_string(stated.size()),
+                             "expected one for each of the " + std::to_string(morphs.displacements.size()) + " morph targets");
+        morphs.rest_weights = stated;
+        morphs.rest_weights.resize(morphs.displacements.size(), 0.0);
+        for (std::size_t k = 0; k < morphs.displacements.size(); ++k) {
+            morphs.displacements[k].conservativeResizeLike(Positions::Zero(mesh_.points.rows(), 3));
+            mesh_.points += morphs.rest_weights[k] * morphs.displacements[k];
+        }
     }
 
     AccessorNumbers attribute(const tinygltf::Primitive& primitive, const std::string& name, int components, const std::string& field,
@@ -155,7 +186,8 @@ private:
     Rig& rig_;
     RigMesh mesh_;
     std::vector<double> points_;
-    std::map<std::map<std::string, int>, PointRange> points_of_;  // primitives with the same attributes have the same points
+    using Attributes = std::map<std::string, int>;
+    std::map<std::pair<Attributes, std::vector<Attributes>>, PointRange> points_of_;  // primitives with the same ones have the same points
     std::vector<int> triangles_;
     std::vector<std::vector<JointShare>> shares_;  // of the points, if they are weighted
 };
@@ -192,7 +224,7 @@ std::vector<SkinJoint> joints_of(const tinygltf::Model& model, int skin_index, c
 }
 
 // The mesh of node `gltf_node` of the file with all its primitives of triangles. rig_node: the number of each of the file's nodes in the
-// rig. Appends to `rig.meshes`, and to `rig.remarks` what was left out: points, lines, morph targets.
+// rig. Appends to `rig.meshes`, and to `rig.remarks` what was left out: points and lines.
 void add_gltf_mesh(const tinygltf::Model& model, int gltf_node, const std::vector<int>& rig_node, Rig& rig)
 {
     const tinygltf::Node& node = model.nodes[gltf_node];
@@ -200,7 +232,7 @@ void add_gltf_mesh(const tinygltf::Model& model, int gltf_node, const std::vecto
         throw InputError(rig.file, 0, "nodes/" + std::to_string(gltf_node) + "/mesh", std::to_string(node.mesh), "does not exist");
     std::vector<SkinJoint> joints;
     if (node.skin >= 0) joints = joints_of(model, node.skin, rig_node, rig.file);
-    RigMesh mesh = MeshReader(model, node.mesh, rig).read(static_cast<int>(joints.size()));
+    RigMesh mesh = MeshReader(model, node.mesh, rig).read(node, static_cast<int>(joints.size()));
     if (mesh.triangles.rows() == 0) return;
     if (mesh.name.empty()) mesh.name = node.name;
     mesh.node = rig_node[gltf_node];
@@ -216,21 +248,28 @@ Interpolation interpolation_of(const std::string& name, const std::string& path,
     throw InputError(path, 0, field + "/interpolation", name, "expected LINEAR, STEP or CUBICSPLINE");
 }
 
+std::vector<double> key_times(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler, const std::string& path,
+                              const std::string& field)
+{
+    const AccessorNumbers times = accessor_numbers(model, sampler.input, 1, path, field + "/input");
+    if (times.rows() == 0) throw InputError(path, 0, field + "/input", "", "expected at least one key");
+    if (!std::is_sorted(times.data(), times.data() + times.size()))
+        throw InputError(path, 0, field + "/input", "", "expected times that do not go back");
+    return {times.data(), times.data() + times.size()};
+}
+
 KeyTrack track_of(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler, int components, const std::string& path,
                   const std::string& field)
 {
     KeyTrack track;
     track.interpolation = interpolation_of(sampler.interpolation, path, field);
-    const AccessorNumbers times = accessor_numbers(model, sampler.input, 1, path, field + "/input");
+    track.times_s = key_times(model, sampler, path, field);
     const AccessorNumbers values = accessor_numbers(model, sampler.output, components, path, field + "/output");
     const Eigen::Index per_key = track.interpolation == Interpolation::cubic_spline ? 3 : 1;
-    if (times.rows() == 0) throw InputError(path, 0, field + "/input", "", "expected at least one key");
-    if (values.rows() != per_key * times.rows())
+    const auto keys = static_cast<Eigen::Index>(track.times_s.size());
+    if (values.rows() != per_key * keys)
         throw InputError(path, 0, field + "/output", std::to_string(values.rows()),
-                         "expected " + std::to_string(per_key * times.rows()) + " for " + std::to_string(times.rows()) + " keys");
-    track.times_s.assign(times.data(), times.data() + times.size());
-    if (!std::is_sorted(track.times_s.begin(), track.times_s.end()))
-        throw InputError(path, 0, field + "/input", "", "expected times that do not go back");
+                         "expected " + std::to_string(per_key * keys) + " for " + std::to_string(keys) + " keys");
     for (Eigen::Index v = 0; v < values.rows(); ++v) {
         track.values.emplace_back(Eigen::Vector4d::Zero());
         track.values.back().head(components) = values.row(v).transpose();
@@ -241,18 +280,38 @@ KeyTrack track_of(const tinygltf::Model& model, const tinygltf::AnimationSampler
     return track;
 }
 
+// The tracks of the weights of all morph targets of a mesh. For each key the file has those of all targets; for a spline it has first all
+// in-tangents, then all weights, then all out-tangents.
+std::vector<KeyTrack> morph_tracks(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler, std::size_t targets,
+                                   const std::string& path, const std::string& field)
+{
+    KeyTrack track;
+    track.interpolation = interpolation_of(sampler.interpolation, path, field);
+    track.times_s = key_times(model, sampler, path, field);
+    const AccessorNumbers weights = accessor_numbers(model, sampler.output, 1, path, field + "/output");
+    const std::size_t per_target = (track.interpolation == Interpolation::cubic_spline ? 3 : 1) * track.times_s.size();
+    if (static_cast<std::size_t>(weights.rows()) != per_target * targets)
+        throw InputError(path, 0, field + "/output", std::to_string(weights.rows()),
+                         "expected " + std::to_string(per_target) + " for each of " + std::to_string(targets) + " morph targets");
+    std::vector<KeyTrack> tracks(targets, track);
+    for (Eigen::Index w = 0; w < weights.rows(); ++w)
+        tracks[static_cast<std::size_t>(w) % targets].values.emplace_back(weights(w, 0), 0.0, 0.0, 0.0);
+    return tracks;
+}
+
 void check(const tinygltf::AnimationChannel& channel, const tinygltf::Model& model, std::size_t samplers, const std::string& path,
            const std::string& field)
 {
     if (channel.target_node >= static_cast<int>(model.nodes.size()))
         throw InputError(path, 0, field + "/target/node", std::to_string(channel.target_node), "expected a node of the file");
-    if (!model.nodes[channel.target_node].matrix.empty())
+    const bool is_of_weights = channel.target_path == "weights";
+    if (!is_of_weights && !model.nodes[channel.target_node].matrix.empty())
         throw InputError(path, 0, field + "/target/node", std::to_string(channel.target_node),
                          "expected a node without a matrix, whose translation, rotation or scale the animation replaces: export the "
                          "model with these three");
     if (channel.sampler < 0 || channel.sampler >= static_cast<int>(samplers))
         throw InputError(path, 0, field + "/sampler", std::to_string(channel.sampler), "expected a sampler of the animation");
-    if (channel.target_path != "translation" && channel.target_path != "rotation" && channel.target_path != "scale")
+    if (!is_of_weights && channel.target_path != "translation" && channel.target_path != "rotation" && channel.target_path != "scale")
         throw InputError(path, 0, field + "/target/path", channel.target_path, "expected translation, rotation, scale or weights");
 }
 
@@ -265,30 +324,40 @@ RigAnimation animation_of(const tinygltf::Model& model, std::size_t index, const
     animation.start_s = std::numeric_limits<double>::max();
     animation.end_s = std::numeric_limits<double>::lowest();  // times may be negative
     std::map<int, NodeTracks> tracks_of;                      // by node
-    bool morphs = false;
+    const auto targets_of = [&](int node) {
+        const auto mesh = std::ranges::find(rig.meshes, node, &RigMesh::node);
+        return mesh == rig.meshes.end() ? std::size_t{0} : mesh->morphs.displacements.size();
+    };
     for (std::size_t c = 0; c < source.channels.size(); ++c) {
         const tinygltf::AnimationChannel& channel = source.channels[c];
-        if (channel.target_path == "weights") {
-            if (!std::exchange(morphs, true))
-                rig.remarks.push_back("animation " + animation.name + ": the changes of morph targets are left out");
-            continue;
-        }
         if (channel.target_node < 0) continue;  // to be ignored (glTF 2.0, Sec. 3.11)
         check(channel, model, source.samplers.size(), rig.file, field + "/channels/" + std::to_string(c));
+        const tinygltf::AnimationSampler& sampler = source.samplers[channel.sampler];
+        const std::string sampler_field = field + "/samplers/" + std::to_string(channel.sampler);
+        const int moved = rig_node[channel.target_node];
+        const auto include = [&](const KeyTrack& track) {
+            animation.start_s = std::min(animation.start_s, track.times_s.front());
+            animation.end_s = std::max(animation.end_s, track.times_s.back());
+            tracks_of[moved].node = moved;
+        };
+        if (channel.target_path == "weights") {
+            if (targets_of(moved) == 0) continue;  // of a mesh without triangles or outside of the scene
+            auto tracks = morph_tracks(model, sampler, targets_of(moved), rig.file, sampler_field);
+            include(tracks.front());
+            tracks_of[moved].morph_weights = std::move(tracks);
+            continue;
+        }
         const bool rotation = channel.target_path == "rotation";
-        KeyTrack track = track_of(model, source.samplers[channel.sampler], rotation ? 4 : 3, rig.file,
-                                  field + "/samplers/" + std::to_string(channel.sampler));
-        animation.start_s = std::min(animation.start_s, track.times_s.front());
-        animation.end_s = std::max(animation.end_s, track.times_s.back());
-        NodeTracks& node = tracks_of[rig_node[channel.target_node]];
-        node.node = rig_node[channel.target_node];
+        KeyTrack track = track_of(model, sampler, rotation ? 4 : 3, rig.file, sampler_field);
+        include(track);
+        NodeTracks& node = tracks_of[moved];
         (rotation ? node.rotation : channel.target_path == "scale" ? node.scale : node.translation) = std::move(track);
     }
     for (auto& [node, tracks] : tracks_of) animation.nodes.push_back(std::move(tracks));
     return animation;
 }
 
-// Appends to `rig.animations` those that move a node, and to `rig.remarks` what was left out. An animation without a name gets
+// Appends to `rig.animations` those that move a node or a morph target. An animation without a name gets
 // "animation N".
 void add_gltf_animations(const tinygltf::Model& model, const std::vector<int>& rig_node, Rig& rig)
 {
@@ -296,6 +365,14 @@ void add_gltf_animations(const tinygltf::Model& model, const std::vector<int>& r
         RigAnimation animation = animation_of(model, index, rig_node, rig);
         if (!animation.nodes.empty()) rig.animations.push_back(std::move(animation));
     }
+    const auto is_morphed = [&](const RigMesh& mesh) {
+        return std::ranges::any_of(rig.animations, [&](const RigAnimation& animation) {
+            return std::ranges::any_of(animation.nodes,
+                                       [&](const NodeTracks& tracks) { return tracks.node == mesh.node && !tracks.morph_weights.empty(); });
+        });
+    };
+    for (RigMesh& mesh : rig.meshes)
+        if (!is_morphed(mesh)) mesh.morphs = {};
 }
 
 Vec3 vec3_or(const std::vector<double>& numbers, const Vec3& otherwise)

@@ -47,7 +47,8 @@ struct KeyTrack {
 struct NodeTracks {
     int node = -1;
     std::optional<KeyTrack> translation = {}, rotation = {}, scale = {};
-    FbxTracks fbx = {};  // in place of them: of a node of an FBX file
+    FbxTracks fbx = {};                        // in place of them: of a node of an FBX file
+    std::vector<KeyTrack> morph_weights = {};  // of each morph target of the node's mesh: the first number of each value; empty: none moves
 };
 
 struct RigAnimation {
@@ -80,6 +81,13 @@ struct RigMaterials {
     std::vector<std::string> remarks = {};  // what the file has and this lacks
 };
 
+// The morph targets of a mesh, of which an animation moves the weights. Each adds its displacements times its weight to the mesh's points
+// before the joints move them (glTF 2.0, Sec. 3.7.2.2).
+struct RigMorphs {
+    std::vector<Positions> displacements;  // of each target, #P x 3
+    std::vector<double> rest_weights;      // which are contained in the mesh's points, #targets
+};
+
 // A mesh of a node with all its primitives. Points are those of the bind pose, in the mesh's own coordinates and the file's unit.
 struct RigMesh {
     std::string name;
@@ -89,9 +97,13 @@ struct RigMesh {
     std::vector<SkinJoint> joints;  // of its skin, weighted or not; empty: it is moved by its node
     Weights skin;                   // of the points; `bone` is an index into `joints`; not read where there are no joints
     RigLook look = {};
+    RigMorphs morphs = {};                           // empty unless an animation moves them
     std::vector<double> dual_quaternion_share = {};  // how far each point is moved by dual quaternions instead of linear blending, 0 to 1,
                                                      // #P; empty: linear blending
 };
+
+// Whether an animation moves more than morph targets.
+bool moves_nodes(const RigAnimation& animation);
 
 struct Rig {
     std::string file;

@@ -61,4 +61,8 @@ RigMaterials read_assimp_materials(const std::string& path);
 const aiScene& read_assimp_scene(Assimp::Importer& importer, const std::string& path, const std::string& text = "");
 Rig rig_of_scene(const aiScene& scene, const std::string& path);
 
+// On coordinates in single precision so far from the origin that their rounding shows in a volume: the surface is smaller than 1e5 steps
+// between two floats there. Empty otherwise, and where a coordinate has more digits than a float. points: #P x 3, in any unit.
+std::string remark_on_single_precision(const Positions& points, const Triangles& triangles);
+
 }  // namespace pbs

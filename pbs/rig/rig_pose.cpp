@@ -61,6 +61,11 @@ FbxPlacement placed(const RigNode& node, const NodeTracks* tracks, double time_s
     return placement;
 }
 
+bool moves_node(const NodeTracks& tracks)
+{
+    return tracks.morph_weights.empty() || tracks.translation || tracks.rotation || tracks.scale;
+}
+
 // Nodes that move meshes: joints of skins, and nodes that an animation moves.
 std::set<int> moving_nodes(const Rig& rig)
 {
@@ -68,7 +73,8 @@ std::set<int> moving_nodes(const Rig& rig)
     for (const RigMesh& mesh : rig.meshes)
         for (const SkinJoint& joint : mesh.joints) nodes.insert(joint.node);
     for (const RigAnimation& animation : rig.animations)
-        for (const NodeTracks& tracks : animation.nodes) nodes.insert(tracks.node);
+        for (const NodeTracks& tracks : animation.nodes)
+            if (moves_node(tracks)) nodes.insert(tracks.node);
     return nodes;
 }
 
@@ -113,7 +119,7 @@ std::vector<RigMesh> moved_meshes(const Rig& rig, const std::vector<Eigen::Affin
             remarks.push_back("mesh " + mesh.name + " is left out: its node " + rig.nodes[carrier].name + " has scale 0 at rest");
         else if (carrier >= 0)
             meshes.push_back(carried_by(carrier, mesh, rest));
-        else if (moving.empty())
+        else if (moving.empty() || !mesh.morphs.displacements.empty())
             meshes.push_back(carried_by(mesh.node, mesh, rest));
         else
             remarks.push_back("mesh " + mesh.name + " is moved by no joint; it is left out");
@@ -137,13 +143,13 @@ Eigen::Affine3d mesh_to_rest(const RigMesh& mesh, const RigBinding& binding, con
     return rest[root.node] * root.inverse_bind;
 }
 
-Positions blended(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& of_joint)
+Positions blended(const Positions& points, const Weights& skin, const std::vector<Eigen::Affine3d>& of_joint)
 {
-    Positions points = Positions::Zero(mesh.points.rows(), 3);
-    for (int p = 0; p < mesh.skin.vertices(); ++p)
-        for (int e = mesh.skin.first[p]; e < mesh.skin.first[p + 1]; ++e)
-            points.row(p) += mesh.skin.weight[e] * (of_joint[mesh.skin.bone[e]] * Vec3(mesh.points.row(p))).transpose();
-    return points;
+    Positions moved = Positions::Zero(points.rows(), 3);
+    for (int p = 0; p < skin.vertices(); ++p)
+        for (int e = skin.first[p]; e < skin.first[p + 1]; ++e)
+            moved.row(p) += skin.weight[e] * (of_joint[skin.bone[e]] * Vec3(points.row(p))).transpose();
+    return moved;
 }
 
 // The size of a pose over that of the bind pose: that of the joint with as much weight on smaller joints as on larger ones, for a single
@@ -172,7 +178,7 @@ double size_of_pose(const Rig& rig, const RigAnimation* animation, const RigBind
 }
 
 // With scales as linear blending has them, and by dual quaternions of the rotations and translations.
-Positions blended_by_dual_quaternions(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& from_mesh)
+Positions blended_by_dual_quaternions(const Positions& points, const Weights& skin, const std::vector<Eigen::Affine3d>& from_mesh)
 {
     Pose pose;
     std::vector<Eigen::Affine3d> scales;
@@ -182,9 +188,9 @@ Positions blended_by_dual_quaternions(const RigMesh& mesh, const std::vector<Eig
         pose.push_back(Eigen::Translation3d(joint.translation()) * Eigen::Quaterniond(rotation));
         scales.emplace_back(scale);
     }
-    Positions points;
-    dual_quaternion_skinning(blended(mesh, scales), mesh.skin, pose, points);
-    return points;
+    Positions moved;
+    dual_quaternion_skinning(blended(points, skin, scales), skin, pose, moved);
+    return moved;
 }
 
 void add_bind_pose(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& rest, RigBinding& binding)
@@ -269,19 +275,41 @@ std::vector<Eigen::Affine3d> node_transforms(const Rig& rig, const RigAnimation*
     return transforms;
 }
 
+bool moves_nodes(const RigAnimation& animation)
+{
+    return std::ranges::any_of(animation.nodes, moves_node);
+}
+
+Positions morphed_points(const RigMesh& mesh, const RigAnimation* animation, double time_s)
+{
+    Positions points = mesh.points;
+    if (!animation || mesh.morphs.displacements.empty()) return points;
+    for (const NodeTracks& tracks : animation->nodes) {
+        if (tracks.node != mesh.node) continue;
+        for (std::size_t k = 0; k < tracks.morph_weights.size(); ++k)
+            points += (vector_at(tracks.morph_weights[k], time_s).x() - mesh.morphs.rest_weights[k]) * mesh.morphs.displacements[k];
+    }
+    return points;
+}
+
 Positions skinned_points(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& node_transforms)
 {
-    Positions moved(mesh.points.rows(), 3);
+    return skinned_points(mesh, node_transforms, mesh.points);
+}
+
+Positions skinned_points(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& node_transforms, const Positions& points)
+{
+    Positions moved(points.rows(), 3);
     if (mesh.joints.empty()) {
-        for (Eigen::Index p = 0; p < mesh.points.rows(); ++p) moved.row(p) = node_transforms[mesh.node] * Vec3(mesh.points.row(p));
+        for (Eigen::Index p = 0; p < points.rows(); ++p) moved.row(p) = node_transforms[mesh.node] * Vec3(points.row(p));
         return moved;
     }
     std::vector<Eigen::Affine3d> from_mesh;  // W_j B_j^-1
     for (const SkinJoint& joint : mesh.joints) from_mesh.push_back(node_transforms[joint.node] * joint.inverse_bind);
-    moved = blended(mesh, from_mesh);
+    moved = blended(points, mesh.skin, from_mesh);
     if (mesh.dual_quaternion_share.empty()) return moved;
     const Eigen::Map<const Eigen::VectorXd> share(mesh.dual_quaternion_share.data(), moved.rows());
-    return moved + share.asDiagonal() * (blended_by_dual_quaternions(mesh, from_mesh) - moved);
+    return moved + share.asDiagonal() * (blended_by_dual_quaternions(points, mesh.skin, from_mesh) - moved);
 }
 
 RigBinding bind_rig(const Rig& rig, const RigAnimation* animation, double scale)
@@ -302,7 +330,7 @@ Positions rest_points(const RigMesh& mesh, const RigBinding& binding)
 {
     std::vector<Eigen::Affine3d> to_rest;
     for (const SkinJoint& joint : mesh.joints) to_rest.push_back(binding.bind.at(joint.node) * joint.inverse_bind);
-    return blended(mesh, to_rest);
+    return blended(mesh.points, mesh.skin, to_rest);
 }
 
 }  // namespace pbs

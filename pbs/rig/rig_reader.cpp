@@ -160,6 +160,9 @@ Rig read_rig(const std::string& path)
     Rig rig = read_any_rig(path);
     leave_out_second_sides_and_unused_points(rig);
     if (rig.meshes.empty()) throw InputError(path, 0, "meshes", "0", "expected a mesh with triangles");
+    for (const RigMesh& mesh : rig.meshes)
+        if (const std::string remark = remark_on_single_precision(mesh.points, mesh.triangles); !remark.empty())
+            rig.remarks.push_back("mesh " + mesh.name + ": " + remark);
     return rig;
 }
 

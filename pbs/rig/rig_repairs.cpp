@@ -106,6 +106,7 @@ struct TwoSided {
     }
 
     bool is_doubled() const { return side[0].size() == 1 && side[1].size() == 1; }
+    bool is_single() const { return side[0].size() + side[1].size() == 1; }
 };
 
 // The shells of a surface, joined at edges of two triangles, and which side of each triangle faces outward.
@@ -127,7 +128,7 @@ public:
         }
     }
 
-    // Of each triangle whether it is on the second side of a shell, #F.
+    // Of each triangle whether it is on the second side of a nearly closed shell, all of which or a part of which has two sides, #F.
     std::vector<bool> second_sides()
     {
         std::vector<bool> is_second(static_cast<std::size_t>(triangles_.rows()));
@@ -138,10 +139,11 @@ public:
         for (std::size_t f = 0; f < faces_.size(); ++f) {
             if (facing_[f] >= 0) continue;
             const std::vector<std::size_t> shell = shell_from(f);
-            if (!std::ranges::all_of(shell, [&](std::size_t face) { return faces_[face].is_doubled(); })) continue;
-            if (!is_nearly_closed(shell)) continue;
-            const int inner = encloses(shell) ? 1 : 0;
-            for (const std::size_t face : shell) is_second[faces_[face].side[facing_[face] ^ inner].front()] = true;
+            const auto is_known = [&](std::size_t face) { return faces_[face].is_doubled() || faces_[face].is_single(); };
+            if (!std::ranges::all_of(shell, is_known) || !is_nearly_closed(shell)) continue;
+            const int inner = is_outward(shell) ? 1 : 0;
+            for (const std::size_t face : shell)
+                if (faces_[face].is_doubled()) is_second[faces_[face].side[facing_[face] ^ inner].front()] = true;
         }
         return is_second;
     }
@@ -184,13 +186,19 @@ private:
         return open * open <= most_open * area;
     }
 
-    // Whether the sides that face as the first one does enclose a volume, or are inside out.
-    bool encloses(const std::vector<std::size_t>& shell) const
+    // Whether the sides that face as the first one does are the first sides: those of most triangles that have one side alone. Where all
+    // have two, they are those that enclose a volume and are not inside out.
+    bool is_outward(const std::vector<std::size_t>& shell) const
     {
+        long as_first = 0;
         Triangles facing(static_cast<Eigen::Index>(shell.size()), 3);
-        for (std::size_t f = 0; f < shell.size(); ++f)
-            facing.row(static_cast<Eigen::Index>(f)) = triangles_.row(faces_[shell[f]].side[facing_[shell[f]]].front());
-        return fan_volume(points_, facing) >= 0.0;
+        for (std::size_t f = 0; f < shell.size(); ++f) {
+            const TwoSided& face = faces_[shell[f]];
+            const int side = facing_[shell[f]];
+            if (face.is_single()) as_first += face.side[side].empty() ? -1 : 1;
+            facing.row(static_cast<Eigen::Index>(f)) << face.corners[0], face.corners[1 + side], face.corners[2 - side];
+        }
+        return as_first != 0 ? as_first > 0 : fan_volume(points_, facing) >= 0.0;
     }
 
     const Positions& points_;
@@ -218,6 +226,7 @@ void keep_points(const std::vector<int>& kept, RigMesh& mesh)
         mesh.look.numbers = decltype(mesh.look.numbers)(mesh.look.numbers(kept, Eigen::all));
     }
     mesh.points = Positions(mesh.points(kept, Eigen::all));
+    for (Positions& displacements : mesh.morphs.displacements) displacements = Positions(displacements(kept, Eigen::all));
     if (mesh.joints.empty()) return;
     Weights skin;
     skin.first.push_back(0);

@@ -245,7 +245,7 @@ std::vector<std::string> containers_of(const Rig& rig, const RigBinding& binding
 
 bool is_rigged(const Rig& rig)
 {
-    return !rig.animations.empty() ||
+    return std::ranges::any_of(rig.animations, moves_nodes) ||
            std::any_of(rig.meshes.begin(), rig.meshes.end(), [](const RigMesh& mesh) { return !mesh.joints.empty(); });
 }
 
@@ -320,12 +320,14 @@ RiggedBody make_rigged_body(const Rig& rig, const RigAnimation* animation, doubl
     return body;
 }
 
-Positions artist_points(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms)
+Positions artist_points(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms, const RigAnimation* animation,
+                        double time_s)
 {
     Positions points(body.surface.rows(), 3);
     Eigen::Index first = 0;
     for (const RigMesh& mesh : body.binding.meshes) {
-        points.middleRows(first, mesh.points.rows()) = body.binding.metres_per_unit * skinned_points(mesh, node_transforms);
+        points.middleRows(first, mesh.points.rows()) =
+            body.binding.metres_per_unit * skinned_points(mesh, node_transforms, morphed_points(mesh, animation, time_s));
         first += mesh.points.rows();
     }
     return points;
@@ -380,7 +382,7 @@ RigMotion rig_motion(const Rig& rig, const RiggedBody& body, const RigAnimation&
 Positions artist_frame(const Rig& rig, const RiggedBody& body, const RigAnimation& animation, const MotionSampling& sampling, int frame)
 {
     const double time_s = animation.start_s + sampling.start_s + frame * steps_per_frame(sampling) * sampling.time_step_s;
-    return artist_points(body, node_transforms(rig, &animation, time_s));
+    return artist_points(body, node_transforms(rig, &animation, time_s), &animation, time_s);
 }
 
 }  // namespace pbs

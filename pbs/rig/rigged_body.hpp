@@ -24,6 +24,11 @@ Eigen::Quaterniond rotation_at(const KeyTrack& track, double time_s);
 // B_j^-1; W_node v of a mesh without a skin. Where RigMesh::dual_quaternion_share is above 0, the same by dual quaternion linear blending
 // of the rotations and translations, with the scales of the sum, to that share. #P x 3, in the scene's coordinates and the file's unit.
 Positions skinned_points(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& node_transforms);
+Positions skinned_points(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& node_transforms, const Positions& points);
+
+// The mesh's points with its morph targets at a time of the animation, before its skin moves them: #P x 3, in the mesh's coordinates and
+// the file's unit. animation null: at rest.
+Positions morphed_points(const RigMesh& mesh, const RigAnimation* animation, double time_s);
 
 // How the meshes of a rig are attached to its nodes in the bind pose: the joints that move them, and one rest space for all of them. That
 // is the file's scene in the bind pose, in metres: where the root joint of the largest skin is at rest, the bind pose is attached to it.
@@ -66,8 +71,10 @@ struct RiggedBody {
 // such joint above it. Bones are named as the joints; a name that occurs twice gets a number.
 RiggedBody make_rigged_body(const Rig& rig, const RigAnimation* animation, double scale);
 
-// The surface as the artist's own skinning moves it: the format's formula with scale and shear, [m], #P x 3.
-Positions artist_points(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms);
+// The surface as the artist's own skinning moves it: the format's formula with scale and shear, [m], #P x 3. With an animation, also its
+// morph targets at that time.
+Positions artist_points(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms,
+                        const RigAnimation* animation = nullptr, double time_s = 0.0);
 
 // The same for a pose of the skeleton, whose bones move rigidly: each joint with weight follows its bone.
 Positions artist_points(const RiggedBody& body, const Pose& pose);

@@ -6,11 +6,14 @@
 #include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
+#include "pbs/rig/rig_formats.hpp"
 #include "pbs/rig/rig_reader.hpp"
 #include "pbs/rig/rigged_body.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <string_view>
 
@@ -138,10 +141,35 @@ SurfaceReading checked_surface(const std::string& path, const std::string& mesh_
         surface.mesh =
             read_guarded(path, "surface " + mesh_name, [&](const std::string& file) { return read_by_library(file, mesh_name); });
     check_raw_surface(path, surface.mesh);
+    if (!is_rig_extension(extension))  // the readers of rigs look at each mesh before its node moves it
+        if (const std::string remark = remark_on_single_precision(surface.mesh.points, surface.mesh.triangles); !remark.empty())
+            surface.remarks.push_back(remark);
     return surface;
 }
 
 }  // namespace
+
+std::string remark_on_single_precision(const Positions& points, const Triangles& triangles)
+{
+    constexpr double steps_of_a_good_body = 1e5;
+    const auto is_single = [](double x) { return static_cast<double>(static_cast<float>(x)) == x; };
+    if (points.rows() == 0 || !points.reshaped().unaryExpr(is_single).all()) return "";
+    const double farthest = points.cwiseAbs().maxCoeff();
+    const double step = std::ldexp(1.0, std::ilogb(farthest) - std::numeric_limits<float>::digits + 1);
+    const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+    if (!(size < steps_of_a_good_body * step)) return "";
+    double area = 0.0;
+    for (const auto& triangle : triangles.rowwise()) {
+        const Vec3 a = points.row(triangle(0)), b = points.row(triangle(1)), c = points.row(triangle(2));
+        area += 0.5 * (b - a).cross(c - a).norm();
+    }
+    // Each point is up to half a step off in each direction, and the volume by at most the area times that distance.
+    const double volume_pct = 100.0 * area * 0.5 * std::sqrt(3.0) * step / std::abs(fan_volume(points, triangles));
+    return "coordinates in single precision up to " + number_text(farthest, 3) + " from the origin, where they are multiples of " +
+           number_text(step, 2) + ": the size of " + number_text(size, 3) + " has only " + number_text(size / step, 1) +
+           " steps, and the volume is known to " + number_text(volume_pct, 1) +
+           " %; move the model to the origin before it is exported, or use a format in double precision";
+}
 
 bool is_surface_file(const std::string& path)
 {

@@ -70,8 +70,10 @@ public:
     {
         warn(rest.remarks());
         if (arguments.quiet) return;
-        fmt::print("{}: {} closed shell{}, {:.6g} m^3, {} pairs of triangles meet\n", arguments.rest, volumes_m3_.size(),
-                   volumes_m3_.size() == 1 ? "" : "s", volumes_m3_.sum(), text_of(rest.self_intersections(rest.points())));
+        const auto capped = std::ranges::count_if(rest.shells().counted(), [&](int s) { return !rest.shells().all()[s].caps.empty(); });
+        fmt::print("{}: {} closed shell{}{}, {:.6g} m^3, {} pairs of triangles meet\n", arguments.rest, volumes_m3_.size(),
+                   volumes_m3_.size() == 1 ? "" : "s", capped > 0 ? fmt::format(" ({} by caps)", capped) : "", volumes_m3_.sum(),
+                   text_of(rest.self_intersections(rest.points())));
         fmt::print("{:<32} {:>14} {:>14} {:>14} {:>18} {:>12}\n", "frame", "volume m^3", "volume %", "volume abs %", "self-intersections",
                    "edge strain");
     }
@@ -93,18 +95,35 @@ public:
             gap_frame_ = name;
         }
         moves_ = moves_ || points != rest_.points();
+        const double bound_pct = 100.0 * rest_.shells().cap_bound_m3(points) / rest_m3;
+        if (bound_pct > cap_bound_pct_) {
+            cap_bound_pct_ = bound_pct;
+            cap_frame_ = name;
+        }
         if (!arguments_.quiet)
             fmt::print("{:<32} {:>14.6g} {:>14.6f} {:>14.6f} {:>18} {:>12.6f}\n", name, row.volume_m3, row.volume_change_pct,
                        row.volume_abs_change_pct, text_of(row.self_intersections), row.edge_strain_max);
         rows_.push_back(row);
-        return {.metrics = {.volume_change_pct = row.volume_change_pct, .volume_abs_change_pct = row.volume_abs_change_pct},
-                .edge_strain_max = row.edge_strain_max,
-                .self_intersections = row.self_intersections ? *row.self_intersections : std::numeric_limits<double>::quiet_NaN()};
+        const analysis::FrameValues values = {
+            .metrics = {.volume_change_pct = row.volume_change_pct, .volume_abs_change_pct = row.volume_abs_change_pct},
+            .edge_strain_max = row.edge_strain_max,
+            .self_intersections = row.self_intersections ? *row.self_intersections : std::numeric_limits<double>::quiet_NaN()};
+        note_undecided_limits(name, values, bound_pct);
+        return values;
     }
 
     // Prints the shells, writes the tables, and warns of what is seen only in all frames together.
-    void finish(bool has_times) const
+    void finish(bool has_times, MeasuredFrames& measured) const
     {
+        if (cap_bound_pct_ > 0.0)
+            warn(
+                {fmt::format("{}: the surface in the holes is not known: the changes of the volume are right to {:.2g} points of a per "
+                             "cent, the widest in frame {} (the area of the caps times the distance of the rims from a rigid motion)",
+                             arguments_.rest, cap_bound_pct_, cap_frame_)});
+        measured.properties = {{"measured_share_of_area_pct", fmt::format("{:.1f}", 100.0 * rest_.shells().counted_share())},
+                               {"cap_bound_pct", fmt::format("{:.4g}", cap_bound_pct_)}};
+        measured.not_judged = rest_.not_whole();
+        if (measured.not_judged.empty()) measured.not_judged = undecided_;
         if (!arguments_.quiet && volumes_m3_.size() > 1) print_shells();
         if (!arguments_.csv.empty())
             table_of(has_times ? frame_column + time_column + surface_columns : frame_column + surface_columns, rows_)
@@ -126,6 +145,18 @@ public:
     }
 
 private:
+    // Limits that hold for the caps as they are, and might not hold for another surface in the holes.
+    void note_undecided_limits(const std::string& name, const analysis::FrameValues& values, double bound_pct)
+    {
+        analysis::FrameValues widest = values;
+        widest.metrics.volume_change_pct += std::copysign(bound_pct, values.metrics.volume_change_pct);
+        widest.metrics.volume_abs_change_pct += bound_pct;
+        for (const analysis::FrameBound& bound : arguments_.bounds)
+            if (undecided_.empty() && broken_text(bound, values).empty() && !broken_text(bound, widest).empty())
+                undecided_ = fmt::format("in frame {} {} would not hold for every surface in the holes, whose bound is {:.2g} %", name,
+                                         bound.option, bound_pct);
+    }
+
     void add_shells(const std::string& name, const Eigen::VectorXd& volumes_m3)
     {
         const auto& counted = rest_.shells().counted();
@@ -163,8 +194,8 @@ private:
     Eigen::VectorXd volumes_m3_;  // at rest, of each closed shell
     std::vector<SurfaceRow> rows_;
     std::vector<ShellRow> shell_rows_;
-    double gap_m_ = 0.0;
-    std::string gap_frame_;
+    double gap_m_ = 0.0, cap_bound_pct_ = 0.0;
+    std::string gap_frame_, cap_frame_, undecided_;
     bool moves_ = false;
 };
 
@@ -178,11 +209,12 @@ const pbs::RigAnimation& animation_of(const MeasureArguments& arguments, const p
     const pbs::RigAnimation* taken = moving_animation(options, rig, pbs::make_rigged_body(rig, nullptr, 1.0), choice);
     warn(choice.remarks.notes);
     if (taken) return *taken;
+    if (!rig.animations.empty()) return rig.animations.front();  // which moves morph targets
     warn(rig.remarks);
     throw pbs::InputError(
         arguments.rest, 0, "animations", "0",
-        "expected one that moves nodes or joints, to measure along it; deformed surfaces, as of morph targets, are measured "
-        "as frames (pbskin measure REST FRAME...)");
+        "expected one that moves nodes, joints or morph targets of glTF, to measure along it; other deformed surfaces are measured as "
+        "frames (pbskin measure REST FRAME...)");
 }
 
 std::vector<NamedPoints> meshes_of(const pbs::RiggedBody& body)
@@ -194,6 +226,11 @@ std::vector<NamedPoints> meshes_of(const pbs::RiggedBody& body)
         first += mesh.points.rows();
     }
     return meshes;
+}
+
+analysis::Holes holes_of(const MeasureArguments& arguments)
+{
+    return arguments.closed_only ? analysis::Holes::leave_open : analysis::Holes::cap;
 }
 
 constexpr int most_frames_of_a_rig = 60;
@@ -213,15 +250,15 @@ int measure_surfaces(const MeasureArguments& arguments)
     };
     pbs::SurfaceReading reading = pbs::read_surface_frame(arguments.rest);
     warn_once(arguments.rest, reading.remarks);
-    const RestSurface rest(arguments.rest, std::move(reading.mesh));
+    const RestSurface rest(arguments.rest, std::move(reading.mesh), holes_of(arguments));
     SurfaceMeasurement measurement(arguments, rest);
-    const MeasuredFrames measured = measure_each(arguments, paths, names, [&](std::size_t i) {
+    MeasuredFrames measured = measure_each(arguments, paths, names, [&](std::size_t i) {
         std::vector<std::string> remarks;
         const pbs::Positions points = rest.read_frame(paths[i], arguments.displacement, remarks);
         warn_once(paths[i], remarks);
         return measurement.measure(names[i], points);
     });
-    measurement.finish(false);
+    measurement.finish(false, measured);
     return reported(arguments, measured, explanation);
 }
 
@@ -234,7 +271,7 @@ int measure_rig(const MeasureArguments& arguments)
     std::vector<std::string> remarks;
     for (const std::string& remark : body.remarks) remarks.push_back(arguments.rest + ": " + remark);
     warn(remarks);
-    const RestSurface rest(arguments.rest, {body.surface, body.triangles}, meshes_of(body));
+    const RestSurface rest(arguments.rest, {body.surface, body.triangles}, holes_of(arguments), meshes_of(body));
     SurfaceMeasurement measurement(arguments, rest);
     const double duration_s = animation.end_s - animation.start_s;
     const double rate_hz = trial_rate_hz(duration_s, arguments.most_frames.value_or(most_frames_of_a_rig), arguments.rest);
@@ -248,7 +285,7 @@ int measure_rig(const MeasureArguments& arguments)
     }
     pbs::Positions first = rest.points();  // with which an animation of a single pose is compared
     bool moves = false;
-    const MeasuredFrames measured = measure_each(arguments, paths, names, [&](std::size_t i) {
+    MeasuredFrames measured = measure_each(arguments, paths, names, [&](std::size_t i) {
         const int frame = static_cast<int>(i);
         const pbs::Positions points = pbs::artist_frame(rig, body, animation, sampling, frame);
         if (frame == 0 && last > 0) first = points;
@@ -257,9 +294,9 @@ int measure_rig(const MeasureArguments& arguments)
     });
     if (!moves && measured.refused.empty())
         throw pbs::InputError(arguments.rest, 0, "animation", animation.name,
-                              "expected one that moves the surface by its nodes or joints; what morph targets move can be measured as "
-                              "deformed surfaces (pbskin measure REST FRAME...)");
-    measurement.finish(true);
+                              "expected one that moves the surface; deformed surfaces can be measured as frames (pbskin measure REST "
+                              "FRAME...)");
+    measurement.finish(true, measured);
     return reported(arguments, measured, explanation);
 }
 

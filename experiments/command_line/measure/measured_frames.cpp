@@ -25,11 +25,15 @@ bool report_broken(const std::vector<analysis::FrameBound>& bounds, const std::s
     return all_hold;
 }
 
+bool has_bound(const MeasureArguments& arguments)
+{
+    return std::ranges::any_of(arguments.bounds, [](const analysis::FrameBound& bound) { return bound.value.has_value(); });
+}
+
 // An option that was not given.
 std::string next_step(const MeasureArguments& arguments, const std::string& explanation)
 {
-    if (std::ranges::none_of(arguments.bounds, [](const analysis::FrameBound& bound) { return bound.value.has_value(); }))
-        return explanation + "; --max-volume-change 0.5 holds the volume to a bound";
+    if (!has_bound(arguments)) return explanation + "; --max-volume-change 0.5 holds the volume to a bound";
     if (arguments.reports.junit.empty()) return explanation + "; --junit FILE writes a report for continuous integration";
     return explanation + (arguments.csv.empty() ? "; --csv FILE writes the values" : "");
 }
@@ -64,9 +68,15 @@ MeasuredFrames measure_each(const MeasureArguments& arguments, const std::vector
 int reported(const MeasureArguments& arguments, const MeasuredFrames& measured, const std::string& explanation)
 {
     const std::string suite = std::filesystem::path(arguments.rest).filename().string();
-    write_reports(arguments.reports,
-                  {frame_suite(suite, arguments.bounds, measured.frames, measured.refused, measured.stopwatch.seconds())});
-    if (!arguments.quiet) fmt::print("{}\n", frame_summary(arguments.bounds, measured.frames, measured.refused.size()));
+    analysis::CheckSuite report = frame_suite(suite, arguments.bounds, measured.frames, measured.refused, measured.stopwatch.seconds());
+    report.properties = measured.properties;
+    const bool is_judged = measured.not_judged.empty() || !has_bound(arguments);
+    if (!is_judged) report.cases.push_back({suite, "whole body", analysis::CheckState::refused, measured.not_judged});
+    write_reports(arguments.reports, {report});
+    if (!arguments.quiet)
+        fmt::print("{}{}\n", is_judged ? "" : "what was measured ",
+                   frame_summary(arguments.bounds, measured.frames, measured.refused.size()));
+    if (!is_judged) throw pbs::InputError(arguments.rest, 0, "", "", "the whole body was not judged: " + measured.not_judged);
     if (!measured.refused.empty()) return exit_input;
     say_next(next_step(arguments, explanation));
     return measured.all_hold ? exit_finished : exit_bound;

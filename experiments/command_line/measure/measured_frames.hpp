@@ -19,6 +19,7 @@ struct MeasureArguments {
     std::vector<std::string> frames;
     std::optional<int> most_frames = {};  // of an animation; nothing: 60
     bool any_step = false, quiet = false;
+    bool closed_only = false;  // of a surface: open shells are excluded, and limits judge the others
     std::vector<analysis::FrameBound> bounds = analysis::known_frame_bounds();
     CheckReports reports;
 };
@@ -27,6 +28,8 @@ struct MeasuredFrames {
     std::vector<analysis::MeasuredFrame> frames;
     std::vector<analysis::RefusedFrame> refused;
     bool all_hold = true;
+    std::string not_judged = {};                                       // why the limits say nothing of the whole body; empty: they do
+    std::vector<std::pair<std::string, std::string>> properties = {};  // of the report: name, value
     pbs::Stopwatch stopwatch = {};
 };
 

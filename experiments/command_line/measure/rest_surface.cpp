@@ -90,11 +90,12 @@ std::string place_text(const pbs::Positions& points, int point)
 
 }  // namespace
 
-RestSurface::RestSurface(std::string path, pbs::SurfaceMesh surface, std::vector<NamedPoints> meshes)
+RestSurface::RestSurface(std::string path, pbs::SurfaceMesh surface, analysis::Holes holes, std::vector<NamedPoints> meshes)
     : path_(std::move(path)),
       surface_(std::move(surface)),
       meshes_(std::move(meshes)),
-      shells_(surface_.points, surface_.triangles),
+      holes_(holes),
+      shells_(surface_.points, surface_.triangles, holes),
       edges_(edge_rows(shells_.triangles()))
 {
     if (!shells_.counted().empty()) return;
@@ -172,6 +173,16 @@ std::string RestSurface::listed(const std::vector<int>& shells) const
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
+std::string RestSurface::not_whole() const
+{
+    const auto open = std::ranges::count(shells_.all(), ShellRole::open, &Shell::role);
+    if (holes_ == analysis::Holes::leave_open || open == 0) return "";
+    return fmt::format(
+        "closed and capped shells are {:.0f} % of the surface's area, and {} open shell{} excluded: close the holes of the "
+        "body, measure tets (pbskin mesh), or judge the closed shells alone (--closed-only)",
+        100.0 * shells_.counted_share(), open, open == 1 ? " is" : "s are");
+}
+
 std::vector<std::string> RestSurface::remarks() const
 {
     const auto& all = shells_.all();
@@ -185,7 +196,10 @@ std::vector<std::string> RestSurface::remarks() const
                 fmt::format("{}: {} = {} of {} shells ({}): {}", path_, field, shells.size(), all.size(), listed(shells), treatment));
     };
     const auto has_role = [](ShellRole role) { return [role](const Shell& shell) { return shell.role == role; }; };
-    add("open shells", has_role(ShellRole::open), "excluded, for they enclose no volume");
+    add(
+        "open shells", [](const Shell& shell) { return !shell.caps.empty(); }, "their holes are capped (--closed-only excludes them)");
+    add("open shells", has_role(ShellRole::open),
+        holes_ == analysis::Holes::cap ? "excluded, for their holes are half as large as they are, or no simple loops" : "excluded");
     add("shells without thickness", has_role(ShellRole::flat), "excluded, for they enclose no volume");
     add("copies of another shell", has_role(ShellRole::copy), "excluded");
     add("cavities", has_role(ShellRole::cavity), "their volume is subtracted from that of the shell around them");
