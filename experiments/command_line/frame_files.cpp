@@ -253,26 +253,32 @@ std::vector<std::string> in_folder(const std::string& folder, bool of_surfaces)
     return files;
 }
 
-// A folder of that name exists although brackets in it could be a pattern: they are escaped for glob.
-std::string with_existing_folder_escaped(const std::string& pattern)
+// A pattern for glob in which these characters stand for themselves.
+std::string escaped(const std::string& text, std::string_view characters)
 {
-    const fs::path folder = fs::path(pattern).parent_path();
-    std::error_code none;
-    if (folder.empty() || !fs::is_directory(folder, none)) return pattern;
-    std::string escaped;
-    for (const char c : folder.string())
-        escaped += std::string_view("*?[\\").find(c) == std::string_view::npos ? std::string{c} : std::string{'\\', c};
-    return escaped + "/" + name_of(pattern);
+    std::string pattern;
+    for (const char c : text) pattern += characters.find(c) == std::string_view::npos ? std::string{c} : std::string{'\\', c};
+    return pattern;
 }
 
-std::vector<std::string> globbed(const std::string& argument)
+std::vector<std::string> matching(const std::string& pattern)
 {
-    const std::string pattern = with_existing_folder_escaped(argument);
     glob_t found = {};
     std::vector<std::string> files;
     if (glob(pattern.c_str(), 0, nullptr, &found) == 0) files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
     globfree(&found);
     return files;
+}
+
+// Brackets in the name of a folder that exists are no pattern, and neither are those of a file's name where nothing matches otherwise.
+std::vector<std::string> globbed(const std::string& argument)
+{
+    const fs::path folder = fs::path(argument).parent_path();
+    std::error_code none;
+    const bool is_folder = !folder.empty() && fs::is_directory(folder, none);
+    const std::string before = is_folder ? escaped(folder.string(), "*?[\\") + "/" : "", name = is_folder ? name_of(argument) : argument;
+    std::vector<std::string> files = matching(before + name);
+    return files.empty() ? matching(before + escaped(name, "[")) : files;
 }
 
 // frames_%04d.vtu as C's printf writes it: the files whose number is written just so; %g and %f: any number.

@@ -1,5 +1,6 @@
 // Tets with fields as a .vtu in plain text: VTK's XML with arrays in ASCII, which any language reads without a library.
-//   analysis::write_text_atomically("limb.vtu", plain_vtu(mesh, {.of_points = {{"displacement", displacement}}, .facts = {{"own_error_pct", 0.4}}}));
+//   analysis::write_text_atomically("limb.vtu",
+//                                   plain_vtu(mesh, {.of_points = {{"displacement", displacement}}, .facts = {{"own_error_pct", 0.4}}}));
 //   const PlainFields fields = read_plain_fields("limb.vtu");
 // Other files are read by pbs/geometry/mesh_io.hpp, which reads the points and tets of these, too.
 #pragma once

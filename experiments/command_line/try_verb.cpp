@@ -131,6 +131,7 @@ int try_model(TrialOptions options, const CommonOptions& common)
     nlohmann::json facts = trial_facts(options.folder);
     facts["animations"] = made.animations;
     facts["summary"] = trial_sentence(facts);
+    facts["nearest_sentence"] = nearest_sentence(facts);
     const auto write_facts = [&] {
         analysis::write_text_atomically((fs::path(options.folder) / "try.json").string(), analysis::record_text(facts));
     };

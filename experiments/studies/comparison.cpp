@@ -27,6 +27,9 @@ namespace fs = std::filesystem;
 constexpr const char* tables_by_case[] = {"errors.csv", "verification.csv"};
 // Frames are kept of those deformers alone that claims select.
 constexpr const char* frames_table = "metrics.csv";
+// Tables that have a row of every finished run.
+constexpr const char* tables_with_rows[] = {"metrics.csv",    "frame_statistics.csv", "bones.csv",
+                                            "bones_rest.csv", "binding.csv",          "measurements.csv"};
 // Summaries of frames, of which a part has fewer.
 constexpr const char* summary_of_frames = "frame_statistics.csv";
 
@@ -110,6 +113,28 @@ bool is_broken_frame(const fs::path& file)
     const std::streamoff size = frame.tellg();
     frame.seekg(std::max<std::streamoff>(0, size - most));
     return std::string(std::istreambuf_iterator<char>(frame), {}).find(end) == std::string::npos;
+}
+
+std::set<std::string> frames_of(const fs::path& run)
+{
+    std::set<std::string> names;
+    if (fs::is_directory(run / "frames"))
+        for (const fs::path& file : analysis::files_in(run / "frames"))
+            if (file.extension() == ".vtu") names.insert(file.filename().string());
+    return names;
+}
+
+// Frames that one result has and the other lacks, where both have some.
+void name_missing_frames(const Results& first, const Results& second, ResultComparison& to)
+{
+    for (const std::string& run : first.runs) {
+        const std::set<std::string> one = frames_of(first.root / run), other = frames_of(second.root / run);
+        if (!second.runs.contains(run) || one.empty() || other.empty()) continue;
+        std::vector<std::string> missing;
+        std::ranges::set_symmetric_difference(one, other, std::back_inserter(missing));
+        for (const std::string& name : missing)
+            (one.contains(name) ? to.only_first : to.only_second).push_back((fs::path(run) / "frames" / name).string());
+    }
 }
 
 void name_broken_frames(const Results& results, ResultComparison& to)
@@ -213,7 +238,7 @@ void compare_tables_of(const Results& first, const Results& second, ResultCompar
         // Only values that decide claims are kept with all digits.
         const bool is_exact = table == "measurements.csv" || table == "printed.csv" || name.find('/') == name.rfind('/');
         const bool is_rounded = !is_exact && (first.is_kept() || second.is_kept());
-        if (table == frames_table && (one.rows() == 0 || other.rows() == 0))
+        if (std::ranges::count(tables_with_rows, table) > 0 && (one.rows() == 0 || other.rows() == 0))
             to.not_compared.push_back(fmt::format("{}: {} has no row", name, one.rows() == 0 ? "that of A" : "that of B"));
         ComparedTable compared{name, analysis::compare_tables(table, one, other, {is_part, is_rounded})};
         count_claims(file, one, compared.rows, to.claims);
@@ -385,13 +410,14 @@ ResultComparison compare_results(const ComparedFolders& folders)
                    std::ranges::none_of(first.runs, [&](const std::string& run) { return study_of(run) == study_of(name); });
         });
     name_unfinished_runs(first, second, compared);
+    if (!folders.second_is_part) name_missing_frames(first, second, compared);
     name_broken_frames(first, compared);
     name_broken_frames(second, compared);
     compare_tables_of(first, second, compared);
     compare_settings(first, second, compared);
     if (folders.excluded_bodies.empty()) compare_verdicts(first, second, compared);
-    if (!folders.studies && compared.tables.empty() && compared.only_first.empty() && compared.only_second.empty() &&
-        compared.not_compared.empty())
+    const bool states_what_differs = !folders.second_is_part && !(compared.only_first.empty() && compared.only_second.empty());
+    if (!folders.studies && compared.tables.empty() && compared.not_compared.empty() && !states_what_differs)
         throw pbs::InputError(folders.second, 0, "", "", "no number in common with " + folders.first);
     return compared;
 }

@@ -59,12 +59,13 @@ std::string earlier_trial_scene(const TrialOptions& options);
 //   deforms       whether some flesh changes its shape in some frame
 //   joints        the two joints (of a bone and its parent) at which lbs loses most volume, with the mean change there of lbs and pbs
 //                 [% of the joints' volume]
-//   nearer        at the joints (over the body where there is none) and over the skin, each: the number of frames in which pbs is nearer to
-//                 the reference than lbs, of how many that can be compared because an error is at least 0.01 %; best_other: the same
-//                 against the one of the other deformers whose median error is smallest. Null without a reference, and where pbs
-//                 is inverting
-//   inverting     the deformers that have more inverted tets than lbs in some frame, with the number of such frames and the most inverted
-//                 tets in one of them: none of them is called nearest or best
+//   nearest       at the joints, or over the body where there is none (place): the methods by the median of their errors, the least first
+//                 (methods: deformer, median_pct, and nearest_in, the number of frames in which it has the least error), over so many
+//                 frames, in which all have an error and one of them is at least 0.01 %. Null without a reference
+//   doubtful_reference  why nobody is called nearest: lag, where a bone turns by more than 5 degrees against flesh that it alone moves;
+//                 far_from_all, where the median error of every method is above 50 %; null: there is no doubt
+//   inverting     the deformers with inverted tets: the most in a frame, their share of the tets [%], and whether the method is excluded
+//                 from `nearest` (is_excluded), because it has more than lbs by 0.5 % of the tets in more than a tenth of the frames
 //   skin          distance of the skin from the reference on a body whose largest extent is 1.7 m, rms over the frames, under lbs (lbs_mm)
 //                 and pbs (pbs_mm); the share of lbs's that pbs removes (removed_pct); null without a reference, and where lbs's is below
 //                 0.01 % of the body's diagonal
@@ -84,10 +85,13 @@ std::string earlier_trial_scene(const TrialOptions& options);
 // An InputError where the run's records are missing or damaged.
 nlohmann::json trial_facts(const std::string& folder);
 
-// Compares PBS with LBS and with the best other method, at the joints and over the skin, and names the methods that turn tets inside out
-// instead of comparing them. Where bones are stretched it leaves out the volume, for a warning says why. The error of FEM itself is stated
-// where it was estimated. The last sentence is that for whoever decides: what PBS changes on this model, by how much, at what cost, and
-// which frame to look at.
+// The first two sentences of the summary, which the page shows first: the nearest method and the next one, and which methods turn tets
+// inside out. Where the reference is doubtful, why, and what to do.
+std::string nearest_sentence(const nlohmann::json& facts);
+
+// The nearest method, then the joints, where bones are not stretched, since a warning says why the volume is not judged there, and the
+// error of FEM itself where it was estimated. The last sentence is that for whoever decides: what PBS changes on this model, by how much,
+// at what cost, and which frame to look at.
 std::string trial_sentence(const nlohmann::json& facts);
 
 // What was learned with --bake, in how many seconds, how near it is in the frames that were held out, and where it is. correctives: the

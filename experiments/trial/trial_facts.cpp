@@ -100,64 +100,87 @@ FrameErrors errors_of(const CsvTable& metrics, const std::string& column)
     return errors;
 }
 
-// Methods with more inverted tets than lbs has in the same frame: the number of such frames, and the most inverted tets in one of them.
-nlohmann::json inverting_methods(const CsvTable& metrics)
+// A method turns too much inside out if its inverted tets exceed those of lbs by more than this share of the tets in more than this share
+// of the frames. A few of thousands of tets say nothing about the distance from the reference.
+constexpr double most_inverted_share = 0.005, most_inverted_frames = 0.1;
+
+// Of each method the most inverted tets in a frame, and whether it is excluded for them.
+nlohmann::json inverting_methods(const CsvTable& metrics, long long tets)
 {
     std::map<long long, long long> of_lbs;
     for (int row = 0; row < metrics.rows(); ++row)
         if (metrics.text_at(row, "deformer") == "lbs") of_lbs[metrics.integer(row, "frame")] = metrics.integer(row, "inverted_tets");
-    nlohmann::json methods = nlohmann::json::object();
+    struct Inverted {
+        long long most = 0;
+        int frames = 0, beyond = 0;
+    };
+    std::map<std::string, Inverted> methods;
     for (int row = 0; row < metrics.rows(); ++row) {
-        const std::string& name = metrics.text_at(row, "deformer");
         const auto lbs = of_lbs.find(metrics.integer(row, "frame"));
         const auto inverted = metrics.integer(row, "inverted_tets");
-        if (name == reference_name || lbs == of_lbs.end() || inverted <= lbs->second) continue;
-        nlohmann::json& method = methods[name];
-        if (method.is_null()) method = {{"frames", 0}, {"most_inverted_tets", 0}};
-        method["frames"] = method["frames"].get<int>() + 1;
-        method["most_inverted_tets"] = std::max(method["most_inverted_tets"].get<long long>(), inverted);
+        if (metrics.text_at(row, "deformer") == reference_name || lbs == of_lbs.end()) continue;
+        Inverted& method = methods[metrics.text_at(row, "deformer")];
+        method.most = std::max(method.most, inverted);
+        ++method.frames;
+        method.beyond += static_cast<double>(inverted - lbs->second) > most_inverted_share * static_cast<double>(tets);
     }
-    return methods;
+    nlohmann::json facts = nlohmann::json::object();
+    for (const auto& [name, method] : methods)
+        if (method.most > 0)
+            facts[name] = {{"most_inverted_tets", method.most},
+                           {"share_of_tets_pct", 100.0 * static_cast<double>(method.most) / static_cast<double>(tets)},
+                           {"is_excluded", method.beyond > most_inverted_frames * method.frames}};
+    return facts;
 }
 
-// Frames in which both have an error, and those of them in which that of pbs is smaller; null without such frames.
-nlohmann::json nearer_than(const std::string& other, const FrameErrors& errors)
+// The methods that are not excluded, the least median error first, with the frames in which each of them is nearest. A method that fails
+// in the hard frames would look best by the others: only frames in which all have an error count. Null without such a frame.
+nlohmann::json ranking(const FrameErrors& errors, const nlohmann::json& inverting)
 {
-    int compared = 0, nearer = 0;
-    for (const auto& [frame, error] : errors) {
-        if (error.count(other) == 0 || error.count("pbs") == 0) continue;
-        ++compared;
-        nearer += error.at("pbs") < error.at(other);
-    }
-    if (compared == 0) return nullptr;
-    return {{"deformer", other}, {"frames", nearer}, {"of", compared}};
-}
-
-// pbs against lbs, and against the one of the others whose median error is smallest. A method that turns tets inside out is not compared.
-nlohmann::json nearer_frames(const FrameErrors& errors, const nlohmann::json& inverting)
-{
-    if (inverting.contains("pbs")) return nullptr;
-    nlohmann::json nearer = nearer_than("lbs", errors);
-    if (nearer.is_null()) return nullptr;
-    // A method that fails in the hard frames would look best by the others: only frames in which all have an error count.
     const auto most = std::ranges::max_element(errors, {}, [](const auto& frame) { return frame.second.size(); });
-    std::map<std::string, std::vector<double>> others;
-    for (const auto& [frame, errors_of_frame] : errors)
-        for (const auto& [deformer, error] : errors_of_frame)
-            if (errors_of_frame.size() == most->second.size() && deformer != "pbs" && deformer != "lbs" && !inverting.contains(deformer))
-                others[deformer].push_back(error);
-    const auto best = std::ranges::min_element(others, {}, [](const auto& other) { return analysis::median(other.second); });
-    nearer["best_other"] = best == others.end() ? nlohmann::json() : nearer_than(best->first, errors);
-    return nearer;
+    std::map<std::string, std::vector<double>> own;
+    std::map<std::string, int> nearest_in;
+    int frames = 0;
+    for (const auto& [frame, errors_of_frame] : errors) {
+        if (errors_of_frame.size() < most->second.size()) continue;
+        std::map<double, std::string> compared;
+        for (const auto& [deformer, error] : errors_of_frame) {
+            const auto inverted = inverting.find(deformer);
+            if (inverted != inverting.end() && inverted->at("is_excluded").get<bool>()) continue;
+            own[deformer].push_back(error);
+            compared.emplace(error, deformer);
+        }
+        if (compared.empty()) continue;
+        ++frames;
+        ++nearest_in[compared.begin()->second];
+    }
+    if (frames == 0) return nullptr;
+    std::vector<std::pair<double, std::string>> sorted;
+    for (const auto& [deformer, errors_of_method] : own) sorted.emplace_back(analysis::median(errors_of_method), deformer);
+    std::ranges::sort(sorted);
+    nlohmann::json methods = nlohmann::json::array();
+    for (const auto& [median_pct, deformer] : sorted)
+        methods.push_back({{"deformer", deformer}, {"median_pct", median_pct}, {"nearest_in", nearest_in[deformer]}});
+    return {{"frames", frames}, {"methods", methods}};
 }
 
-// At the joints, or over the body where no frame has an error there, and over the skin.
-nlohmann::json nearer_facts(const CsvTable& metrics, const nlohmann::json& inverting)
+// At the joints, or over the body where no frame has an error there.
+nlohmann::json nearest_facts(const CsvTable& metrics, const nlohmann::json& inverting)
 {
     const FrameErrors at_joints = errors_of(metrics, "error_joint_pct");
-    return {{at_joints.empty() ? "body" : "joints",
-             nearer_frames(at_joints.empty() ? errors_of(metrics, "error_l2_pct") : at_joints, inverting)},
-            {"skin", nearer_frames(errors_of(metrics, "skin_rms_pct"), inverting)}};
+    nlohmann::json nearest = ranking(at_joints.empty() ? errors_of(metrics, "error_l2_pct") : at_joints, inverting);
+    if (!nearest.is_null()) nearest["place"] = at_joints.empty() ? "body" : "joints";
+    return nearest;
+}
+
+// Why the reference may be another pose than the motion's, so that no method is called nearest: far_from_all or lag; null: it is not.
+nlohmann::json doubt_of_reference(const nlohmann::json& nearest, const nlohmann::json& lag)
+{
+    constexpr double most_error_pct = 50.0, most_lag_deg = 5.0;
+    if (!lag.is_null() && lag.at("largest_turn_deg").get<double>() > most_lag_deg) return "lag";
+    if (!nearest.is_null() && nearest.at("place") == "joints" && nearest.at("methods").front().at("median_pct") > most_error_pct)
+        return "far_from_all";
+    return nullptr;
 }
 
 // The skin's distance from the reference under lbs and pbs, rms over the frames in which both have one.
@@ -245,8 +268,9 @@ nlohmann::json trial_facts(const std::string& folder)
     const CsvTable metrics = analysis::read_csv(folder + "/metrics.csv"), regions = analysis::read_csv(folder + "/regions.csv"),
                    bones = analysis::read_csv(folder + "/bones_rest.csv");
     const std::string distances = folder + "/distances.csv";
-    const nlohmann::json inverting = inverting_methods(metrics);
     const nlohmann::json &outcome = run.at("outcome"), &character = run.at("character");
+    const nlohmann::json inverting = inverting_methods(metrics, run.at(character, "tets").get<long long>());
+    const nlohmann::json nearest = nearest_facts(metrics, inverting), lag = outcome.value("reference_lag", nlohmann::json());
     return {{"schema", 1},
             {"model", run.at(character, "model")},
             {"tets", run.at(character, "tets")},
@@ -259,7 +283,8 @@ nlohmann::json trial_facts(const std::string& folder)
             {"deforms", deforms(metrics)},
             {"volume", volume_facts(metrics)},
             {"joints", joint_facts(regions, bones)},
-            {"nearer", nearer_facts(metrics, inverting)},
+            {"nearest", nearest},
+            {"doubtful_reference", doubt_of_reference(nearest, lag)},
             {"inverting", inverting},
             {"skin", skin_facts(metrics)},
             {"widest_frame", fs::exists(distances) ? widest_frame(analysis::read_csv(distances)) : nullptr},
@@ -267,7 +292,7 @@ nlohmann::json trial_facts(const std::string& folder)
             {"error_bar", error_bar_facts(metrics, run)},
             {"reference_frames", outcome.value("reference_frames", nlohmann::json())},
             {"interrupted", outcome.value("interrupted", false)},
-            {"reference_lag", outcome.value("reference_lag", nlohmann::json())},
+            {"reference_lag", lag},
             {"control", fs::exists(folder + "/skin/artist.pvd") ? nlohmann::json("skin/artist_*.vtp") : nullptr}};
 }
 

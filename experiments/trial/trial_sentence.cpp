@@ -48,26 +48,10 @@ std::string time_of(const std::string& deformer, const nlohmann::json& facts)
     return ms < 10.0 ? fmt::format("{:.2g} ms", ms) : fmt::format("{:.0f} ms", ms);
 }
 
-// In one place: "At the joints, PBS is nearer ...".
-std::string nearer_words(const std::string& place, const nlohmann::json& nearer, const nlohmann::json& facts)
+// 12, 8.4
+std::string two_digits(const nlohmann::json& value)
 {
-    const auto frames = [](const nlohmann::json& counted) {
-        return fmt::format("{} of {} frames", counted.at("frames").get<int>(), counted.at("of").get<int>());
-    };
-    std::string text = fmt::format("{}, PBS is nearer to FEM than LBS in {}", place, frames(nearer));
-    if (const nlohmann::json& best = nearer.at("best_other"); !best.is_null())
-        text += fmt::format(", and than {}, the best of the other methods ({} per frame), in {}", shown_name(best.at("deformer")),
-                            time_of(best.at("deformer"), facts), frames(best));
-    return text + ". ";
-}
-
-std::string nearer_words(const nlohmann::json& facts)
-{
-    std::string text;
-    for (const auto& [key, place] : {std::pair("joints", "At the joints"), {"body", "Over the body"}, {"skin", "Over the skin"}})
-        if (const nlohmann::json nearer = facts.at("nearer").value(key, nlohmann::json()); !nearer.is_null())
-            text += nearer_words(place, nearer, facts);
-    return text;
+    return value >= 99.5 ? fmt::format("{:.0f}", value.get<double>()) : fmt::format("{:.2g}", value.get<double>());
 }
 
 std::string tets(const nlohmann::json& count)
@@ -75,23 +59,53 @@ std::string tets(const nlohmann::json& count)
     return fmt::format("{} {}", count.get<long long>(), count.get<long long>() == 1 ? "tet" : "tets");
 }
 
-// Methods with more inverted tets than LBS are not compared, and PBS is not praised if it has any.
-std::string inverting_words(const nlohmann::json& facts)
+std::string capitalised(std::string text)
 {
-    const nlohmann::json &inverting = facts.at("inverting"), &volume = facts.at("volume");
-    std::string text;
-    for (const auto& [deformer, of] : inverting.items())
-        text += fmt::format(fmt::runtime(text.empty() ? "{} turns up to {} inside out" : ", {} up to {}"), shown_name(deformer),
-                            tets(of.at("most_inverted_tets")));
     if (!text.empty()) text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-    if (!text.empty())
-        text += fmt::format(", {}more than LBS in the same frame: {} called nearest or best. ", inverting.size() == 1 ? "" : "each ",
-                            inverting.size() == 1 ? "it is not" : "none of them is");
-    const nlohmann::json& of_pbs = volume.at("pbs").at("most_inverted_tets");
-    if (of_pbs > 0 && !inverting.contains("pbs"))
-        text += fmt::format("PBS turns up to {} inside out, and LBS up to {}. ", tets(of_pbs),
-                            volume.at("lbs").at("most_inverted_tets").get<long long>());
     return text;
+}
+
+std::string doubt_words(const nlohmann::json& facts)
+{
+    if (facts.at("doubtful_reference") == "lag") {
+        const nlohmann::json& lag = facts.at("reference_lag");
+        return fmt::format(
+            "No method is called nearest: in the reference, flesh that {} alone moves lags behind it by {} degrees in frame {}. Hold it "
+            "(attachment = \"held\" in scene.toml), or give it to fewer bones. ",
+            lag.at("bone").get<std::string>(), two_digits(lag.at("largest_turn_deg")), lag.at("frame").get<int>());
+    }
+    return fmt::format(
+        "No method is called nearest: the reference lies elsewhere, {} % from the nearest of them (the median over the frames). Flesh that "
+        "hangs free of the bones, such as a cape or a skirt, follows them in another way than the artist meant: give it the weights of one "
+        "bone, or leave it out. ",
+        two_digits(facts.at("nearest").at("methods").front().at("median_pct")));
+}
+
+// "Delta mush is nearest to FEM (12 %, in 7 of 9 frames), PBS next (18 %). "
+std::string ranking_words(const nlohmann::json& nearest)
+{
+    const nlohmann::json &methods = nearest.at("methods"), &best = methods.front();
+    std::string text = fmt::format("{} is nearest to FEM ({} % {}, in {} of {} frames)", shown_name(best.at("deformer")),
+                                   two_digits(best.at("median_pct")), nearest.at("place") == "joints" ? "at the joints" : "over the body",
+                                   best.at("nearest_in").get<int>(), nearest.at("frames").get<int>());
+    if (methods.size() > 1)
+        text += fmt::format(", {} next ({} %)", shown_name(methods[1].at("deformer")), two_digits(methods[1].at("median_pct")));
+    return capitalised(text) + ". ";
+}
+
+// "Delta mush turns up to 20 tets (0.4 %) inside out, LBS 33. "
+std::string inverting_words(const nlohmann::json& inverting)
+{
+    std::string text, excluded;
+    for (const auto& [deformer, of] : inverting.items()) {
+        const std::string share = two_digits(of.at("share_of_tets_pct"));
+        text += text.empty()
+                    ? fmt::format("{} turns up to {} ({} %) inside out", shown_name(deformer), tets(of.at("most_inverted_tets")), share)
+                    : fmt::format(", {} {} ({} %)", shown_name(deformer), of.at("most_inverted_tets").get<long long>(), share);
+        if (of.at("is_excluded").get<bool>()) excluded += (excluded.empty() ? "" : ", ") + shown_name(deformer);
+    }
+    if (!excluded.empty()) excluded = fmt::format("Excluded for inverted tets: {}. ", excluded);
+    return text.empty() ? "" : capitalised(text) + ". " + excluded;
 }
 
 std::string error_bar_words(const nlohmann::json& bar)
@@ -127,14 +141,13 @@ std::string decisive_sentence(const nlohmann::json& facts)
     if (judges_volume(facts))
         parts.push_back(
             fmt::format("changes the volume {}, where LBS changes it {}", volume_range(volume.at("pbs")), volume_range(volume.at("lbs"))));
-    if (!skin.is_null() && !facts.at("inverting").contains("pbs")) parts.push_back(skin_words(skin));
+    if (!skin.is_null() && facts.at("doubtful_reference").is_null()) parts.push_back(skin_words(skin));
     parts.push_back(
         fmt::format("{}takes {} per frame instead of {}", parts.empty() ? "" : "and ", time_of("pbs", facts), time_of("lbs", facts)));
     std::string text =
         fmt::format("On {}, PBS {}", std::filesystem::path(facts.at("model").at("file").get<std::string>()).filename().string(),
                     fmt::join(parts, ", "));
-    const bool is_compared = std::ranges::any_of(facts.at("nearer"), [](const auto& place) { return !place.is_null(); });
-    if (skin.is_null() && !is_compared && !facts.at("frame_ms").contains("nh_p1"))
+    if (skin.is_null() && facts.at("nearest").is_null() && !facts.at("frame_ms").contains("nh_p1"))
         text += "; which of the two is closer to elastic flesh was not measured";
     return text + (widest.is_null() ? "." : fmt::format("; look at frame {}, where the two differ most.", widest.get<int>()));
 }
@@ -158,13 +171,21 @@ std::string bake_sentence(const nlohmann::json& correctives, const std::string& 
         distance_words(correctives.at("beyond"), "outside"), folder, folder);
 }
 
+std::string nearest_sentence(const nlohmann::json& facts)
+{
+    if (!facts.at("deforms").get<bool>()) return "";
+    const std::string inverted = inverting_words(facts.at("inverting"));
+    if (!facts.at("doubtful_reference").is_null()) return doubt_words(facts) + inverted;
+    return (facts.at("nearest").is_null() ? "" : ranking_words(facts.at("nearest"))) + inverted;
+}
+
 std::string trial_sentence(const nlohmann::json& facts)
 {
     const nlohmann::json &volume = facts.at("volume"), &joints = facts.at("joints"), &bar = facts.at("error_bar");
     if (!volume.contains("pbs") || !volume.contains("lbs")) return "PBS or LBS broke down in every frame.";
     if (!facts.at("deforms").get<bool>())
         return "No flesh deforms: it rests or moves rigidly in every frame, so that there is nothing to compare.";
-    return (joints.is_null() || !judges_volume(facts) ? "" : joint_words(joints)) + nearer_words(facts) + inverting_words(facts) +
+    return nearest_sentence(facts) + (joints.is_null() || !judges_volume(facts) ? "" : joint_words(joints)) +
            (bar.is_null() ? "" : error_bar_words(bar)) + decisive_sentence(facts);
 }
 

@@ -27,7 +27,8 @@ moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "notes?": [shapes.
 shape = shapes.run | {"scene": shapes.scene | {"name": shapes.text}, "outcome": moved}
 MODEL = 'id="viewer-block"'  # of the element of the page that has what the viewer shows
 animation = {"name": shapes.text, "duration_s": shapes.number, "largest_rotation_deg": shapes.number}
-trial = {"summary": shapes.text, "warnings": [shapes.text], "notes?": [shapes.text], "animations?": [animation]}
+trial = {"summary": shapes.text, "nearest_sentence?": shapes.text, "doubtful_reference?": shapes.text_or_none,
+         "inverting?": {"*": {"is_excluded": shapes.truth}}, "warnings": [shapes.text], "notes?": [shapes.text], "animations?": [animation]}
 
 
 class RunRecords:
@@ -81,16 +82,14 @@ def errors_of(found):
 least_visible_pct = 0.01  # an error below it is no difference between two methods, as in experiments/trial/trial.cpp
 
 
-def inverting(found):
-    """The deformers that have more inverted tets than LBS in some frame: none of them is called nearest."""
-    of_lbs = {row["frame"]: number(row, "inverted_tets") for row in (found.rows("lbs") if "lbs" in found.labels() else [])}
-    return {label for label in found.labels() for row in found.rows(label)
-            if (number(row, "inverted_tets") or 0) > of_lbs.get(row["frame"], math.inf)}
+def excluded(found):
+    """The deformers that a trial has excluded for their inverted tets."""
+    return {label for label, of in (found.trial or {}).get("inverting", {}).items() if of["is_excluded"]}
 
 
 def methods_of(found):
     """What the first card has of each deformer, the nearest one first and the reference last; without errors in their own order."""
-    errors, methods, not_compared = errors_of(found), [], inverting(found)
+    errors, methods, not_compared = errors_of(found), [], excluded(found)
     frames = {frame for of in errors.values() for frame, error in of.items() if error >= least_visible_pct}
     compared = {label: of for label, of in errors.items() if label not in not_compared}
     nearest = [min((of[frame], label) for label, of in compared.items() if frame in of)[1] for frame in frames
@@ -131,7 +130,9 @@ def lines(found):
     away = each("{} mm with {}", "skin_rms_mm", rms) if has_errors(found) else ""
     far = f"The skin is {away} from the finite elements (rms over skin and frames, on a body of 1.7 m)." if away else ""
     cost = each("{} ms with {}", "step_ms", lambda values: figure(statistics.median(values)))
-    return [answers.answer("What changes?", found.trial["summary"] if found.trial else changed),
+    if found.trial:  # the first card has the first sentences
+        changed = found.trial["summary"].removeprefix(found.trial.get("nearest_sentence", ""))
+    return [answers.answer("What changes?", changed),
             answers.answer("How far from simulated flesh?", far or "No distance from finite elements is known."),
             answers.answer("At what cost?", f"A frame takes {cost} (median)." if cost else "No time is known.")]
 
@@ -153,7 +154,8 @@ def summary(found):
         shown = [*([error] if errors else []), *([of["change"]] if volume else [])]
         return [name, *shown, figure(of["step_ms"]), f"{of['inverted']:.0f}"]
 
-    sentence = methods_of_run.nearest_method(methods)
+    of_trial = (found.trial or {}).get("nearest_sentence")
+    sentence = methods_of_run.nearest_method(methods) if of_trial is None else of_trial
     shown = [element("p", f"{sentence[:1].upper()}{sentence[1:]}")] if sentence else []
     note = element("p", note_of_card.format(note_on_volume if volume else ""), class_="under")
     return answers.card("summary", "Which method is nearest?" if errors else "The methods",
@@ -252,8 +254,9 @@ def over_frames(found):
     for panel, (column, name) in zip(axes[:, 0], shown):
         for label, of in rows.items():
             x, unit = abscissa(of)
-            values = [math.nan if number(row, column) is None else number(row, column) for row in of]
-            panel.plot(x, values, **style.as_of(label, markevery=max(1, len(x) // 9)))
+            # A frame without a value, as one whose reference was not solved, is no gap: a point between two gaps would not be seen.
+            points = [(at, number(row, column)) for at, row in zip(x, of) if known([row], column)]
+            panel.plot(*zip(*points) if points else ([], []), **style.as_of(label, markevery=max(1, len(points) // 9)))
         panel.set_ylabel(name)
         panel.margins(x=0)
     axes[-1][0].set_xlabel(unit)
@@ -298,6 +301,8 @@ def figures_section(found):
     title = methods_of_run.largest_change(methods) if found.judges_volume() else "Errors and inverted tets over the frames"
     parts = [drawn(found, "over-frames", over_frames(found), title, caption)]
     against_time, message = error_against_time(found), methods_of_run.error_and_time(methods)
+    if message and (found.trial or {}).get("doubtful_reference"):
+        message = "Error and time of each method"
     if against_time and message:
         caption = "The median over the frames of the error at the joints and of the time of a step."
         parts.append(drawn(found, "error-against-time", against_time, message, caption))

@@ -1,11 +1,9 @@
 """Sentences on the methods of a single run: which one is nearest to the reference, how they change the volume, and what they cost.
 
 A method is a dict of name, error_pct (median over the frames; None without one), volume_pct (of the frame in which it changes most, None
-where it is not judged), step_ms, nearest_in (frames), is_compared (False: it turns more tets inside out than LBS) and inverted (the most
-tets that it turns inside out in a frame).
+where it is not judged), step_ms, nearest_in (frames), is_compared (False: a trial has excluded it for its inverted tets) and inverted
+(the most tets that it turns inside out in a frame).
 """
-import math
-
 from words.number_words import counted, figure, listed
 
 
@@ -14,17 +12,12 @@ def two_digits(value):
 
 
 def nearest_method(methods):
-    """delta mush is nearest to FEM in all 19 frames, 15 %, before PBS, 28 %; it loses 3.7 % of the volume, PBS 1.1 %. A method that
-    turns a tet inside out in some frame is not called nearest."""
-    known = sorted((method for method in methods if method["error_pct"] is not None), key=lambda method: method["error_pct"])
-    best = next((method for method in known if method["is_compared"] and not method["inverted"]), None)
-    least_pct = best["error_pct"] if best else math.inf
-    aside = [f"{method['name']} turns up to {counted(int(method['inverted']), 'tet')} inside out" for method in known
-             if method["inverted"] and (method["error_pct"] < least_pct or not method["is_compared"])]
-    if not best:
-        return f"No method is called nearest to FEM: {listed(aside)}." if aside else ""
-    aside = f" {listed(aside)}, and {'is' if len(aside) == 1 else 'are'} not called nearest." if aside else ""
-    others = [method for method in known if method["is_compared"] and method is not best and method["error_pct"] >= least_pct]
+    """delta mush is nearest to FEM in all 19 frames, 15 %, before PBS, 28 %; it loses 3.7 % of the volume, PBS 1.1 %."""
+    known = sorted((method for method in methods if method["error_pct"] is not None and method["is_compared"]),
+                   key=lambda method: method["error_pct"])
+    if not known:
+        return ""
+    best, others = known[0], known[1:]
     other = next((method for method in others if method["name"] == "PBS"), next(iter(others), None))  # PBS is what is examined
     frames = sum(method["nearest_in"] for method in methods)
     extent = f"all {counted(frames, 'frame')}" if best["nearest_in"] == frames else f"{best['nearest_in']} of {counted(frames, 'frame')}"
@@ -35,7 +28,7 @@ def nearest_method(methods):
     if len(words) == 2:
         is_same = (changes[0][1] < 0) == (changes[1][1] < 0)
         words[1] = f"{other['name']} {words[1].removesuffix(' of the volume').split(' ', 1)[1] if is_same else words[1]}"
-    return (f"{text}; it {', '.join(words)}." if words else f"{text}.") + aside
+    return f"{text}; it {', '.join(words)}." if words else f"{text}."
 
 
 def largest_change(methods):

@@ -80,12 +80,13 @@ def stl(points, faces):
                                    for face in triangles_of(faces)) + "endsolid box\n"
 
 
-def write_glb_with_morph_target(path, points, faces):
+def write_glb_with_lines(path, points, faces):
     gltf = rig_files.Gltf()
     place = gltf.put(points, "VEC3", rig_files.FLOAT)
     indices = gltf.put(numpy.array(faces).reshape(-1, 1), "SCALAR", rig_files.UNSIGNED_INT)
-    primitive = {"attributes": {"POSITION": place}, "indices": indices, "targets": [{"POSITION": place}]}
-    gltf.document["meshes"].append({"primitives": [primitive]})
+    primitive = {"attributes": {"POSITION": place}, "indices": indices}
+    lines = {"attributes": {"POSITION": place}, "mode": 1}
+    gltf.document["meshes"].append({"primitives": [primitive, lines]})
     gltf.node(mesh=0)
     rig_files.write_glb(path, *gltf.written())
 
@@ -170,14 +171,50 @@ class ForeignSurfaces(program.ProgramTest):
                 self.assertEqual(shells, [("1", "body", 64), ("2", "cavity", -1), ("3", "body", 1)])
 
     def test_a_surface_without_a_closed_shell_is_refused(self):
-        self.write_surface("open.obj", box(), QUADS[:5])
+        self.write_surface("open.obj", box(), QUADS[:1])
         self.measure(2, "open.obj", "open.obj", says="closed shells = 0 of 1: expected a surface that encloses a volume; its largest "
                      "shell, 1, has 4 edges that do not lie between two triangles, first from")
 
     def test_a_small_closed_part_of_an_open_surface_is_named(self):
-        points, faces = joined((box(edge=10.0), QUADS[:5]), (box((20, 0, 0)), QUADS))
+        points, faces = joined((box(edge=10.0), QUADS[:1]), (box((20, 0, 0)), QUADS))  # a sheet of 100 m^2 and a box of 6
         self.write_surface("rest.obj", points, faces)
-        self.measure(0, "rest.obj", "rest.obj", says="closed shells = 1 % of the surface's area")
+        self.measure(0, "rest.obj", "rest.obj", says="closed shells = 6 % of the surface's area")
+
+    def test_a_limit_does_not_hold_for_what_was_not_measured(self):
+        """A box without its lid is capped; a sheet next to it cannot be. The lid's rim is stretched with the box."""
+        sheet = box((5, 0, 0), edge=2.0), QUADS[:1]
+        for name, parts in (("box", [QUADS[:5]]), ("with_sheet", [QUADS[:5], sheet])):
+            rest = joined(*[(box(), part) if part is not sheet else part for part in parts])
+            self.write_surface(f"{name}.obj", *rest)
+            self.write_surface(f"{name}_moved.obj", rest[0] + 3.0, rest[1])
+            self.write_surface(f"{name}_wider.obj", stretched(rest[0], 10.0), rest[1])
+        self.assertAlmostEqual(self.changes("box.obj", "box_wider.obj")[0], 10.0, places=6)
+        limit = "--max-volume-change", "11"
+        self.measure(0, "box.obj", "box_moved.obj", *limit, "--junit", "r.xml")  # rigidly
+        self.assertIn('name="measured_share_of_area_pct" value="100.0"', self.read("r.xml"))
+        self.measure(2, "with_sheet.obj", "with_sheet_moved.obj", *limit, "--junit", "r.xml", says="the whole body was not judged: closed "
+                     "and capped shells are 56 % of the surface's area, and 1 open shell is excluded")
+        self.assertIn('errors="1"', self.read("r.xml"))
+        self.write_surface("box_and_closed.obj", *joined((box(), QUADS[:5]), (box((5, 0, 0)), QUADS)))
+        self.measure(0, "box_and_closed.obj", "box_and_closed.obj", *limit, "--closed-only", says="open shells = 1 of 2")
+
+    def test_an_output_that_is_an_input_is_refused(self):
+        self.write_surface("rest.obj", box(), QUADS)
+        before = self.read("rest.obj")
+        os.link(self.path("rest.obj"), self.path("link.obj"))
+        for output in ("rest.obj", "./rest.obj", "link.obj"):
+            self.measure(2, "rest.obj", "rest.obj", "--csv", output, says=f"--csv = {output}: expected another file than the input")
+        self.measure(2, "rest.obj", "rest.obj", "--csv", "x", "--junit", "./x", says="expected another file than that of --csv")
+        self.assertEqual(self.read("rest.obj"), before)
+
+    def test_coordinates_of_single_precision_far_from_the_origin_are_named(self):
+        """At 2^22 m the step between floats is 0.5 m."""
+        far = box() + [2.0 ** 22, 0, 0]
+        self.write_surface("far.obj", far, QUADS)
+        self.measure(0, "far.obj", "far.obj", says="coordinates in single precision up to 4.19e+06 from the origin, where they are "
+                     "multiples of 0.5")
+        self.write_surface("exact.obj", far + [0.1, 0.1, 0.1], QUADS)
+        self.assertNotIn("single precision", self.measure(0, "exact.obj", "exact.obj").stderr)
 
     def test_every_column_is_explained(self):
         self.write_surface("rest.vtp", box(), QUADS)
@@ -226,9 +263,9 @@ class ForeignSurfaces(program.ProgramTest):
     def test_a_remark_that_frames_share_is_shown_once(self):
         self.write_surface("rest.obj", box(), triangles_of(QUADS))
         for number in range(3):
-            write_glb_with_morph_target(self.path(f"f_{number}.glb"), stretched(box(), number), triangles_of(QUADS))
+            write_glb_with_lines(self.path(f"f_{number}.glb"), stretched(box(), number), triangles_of(QUADS))
         process = self.measure(0, "rest.obj", "f_%d.glb")
-        self.assertEqual(process.stderr.count("morph targets"), 1)
+        self.assertEqual(process.stderr.count("points and lines"), 1)
 
 
 if __name__ == "__main__":

@@ -52,7 +52,7 @@ class TrialFiles(TrialTest):
     def test_a_root_on_the_ground_is_left_out_of_the_reference(self):
         facts, printed = self.tried(self.rig(on_ground=True), without=())
         self.remarked(facts, printed, "nh_p1 leaves out 1 of 4 bones, whose middle lies outside the flesh: ground")
-        self.assertEqual(facts["nearer"]["joints"]["of"], 2)  # the first frame is at rest
+        self.assertEqual(facts["nearest"]["frames"], 2)  # the first frame is at rest
 
     @unittest.skipUnless(program.HAS_FEM, "the finite elements are not installed")
     def test_the_error_of_the_reference_itself_can_be_bounded(self):

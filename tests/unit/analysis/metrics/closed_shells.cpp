@@ -91,6 +91,32 @@ TEST(ClosedShells, ASeamWithARoundingInItIsJoinedAndAWiderOneIsOpen)
     }
 }
 
+// A cube of 2 m without the face at x = 2 m, whose triangles have the corners 4 to 7. Its cap is that face of 4 m^2.
+TEST(ClosedShells, AHoleIsCapped)
+{
+    Surface surface = cube({0, 0, 0}, 2);
+    std::vector<int> kept;
+    for (int f = 0; f < surface.triangles.rows(); ++f)
+        if (surface.triangles.row(f).minCoeff() < 4) kept.push_back(f);
+    surface.triangles = pbs::Triangles(surface.triangles(kept, Eigen::all));
+    EXPECT_TRUE(shells_of(surface).counted().empty()) << "without caps";
+    const ClosedShells shells(surface.points, surface.triangles, analysis::Holes::cap);
+    ASSERT_EQ(shells.counted().size(), 1u);
+    EXPECT_NEAR(shells.volumes(surface.points)(0), 8.0, rounding_error(16, 8.0));
+    EXPECT_DOUBLE_EQ(shells.counted_share(), 1.0);
+
+    pbs::Positions moved = surface.points;
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.0, pbs::Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    moved = (moved * turn.transpose()).rowwise() + Eigen::RowVector3d(3, 4, 5);
+    EXPECT_NEAR(shells.volumes(moved)(0), 8.0, 1e-13);
+    EXPECT_NEAR(shells.cap_bound_m3(moved), 0.0, 1e-13) << "a rigid rim";
+    pbs::Positions wider = surface.points;
+    wider.bottomRows(4).rightCols(2) = (1.5 * (wider.bottomRows(4).rightCols(2).array() - 1.0) + 1.0).matrix();  // the rim about its middle
+    EXPECT_NEAR(shells.cap_bound_m3(wider), 9.0 * 0.5 * std::sqrt(2.0), 1e-12) << "a cap of 9 m^2 whose corners have moved by 0.5 (1, 1) m";
+    surface.triangles = surface.triangles.topRows(2).eval();
+    EXPECT_TRUE(ClosedShells(surface.points, surface.triangles, analysis::Holes::cap).counted().empty()) << "a sheet";
+}
+
 TEST(ClosedShells, ACavityIsSubtractedAndANestedBodyAdded)
 {
     for (const auto& [inward, is_inside_out] : {std::pair(true, false), {false, false}, {true, true}, {false, true}}) {
