@@ -8,8 +8,6 @@
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
 #include "experiments/studies/study.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -48,7 +46,7 @@ struct Point {
 };
 
 struct Case {
-    std::map<std::string, std::vector<Point>> series;  // by order and mesh; file order on the wanted meshes comes first
+    std::map<std::pair<int, bool>, std::vector<Point>> series;  // by order and "tenth finer"; file order on the wanted meshes comes first
     int left_out = 0;
 };
 
@@ -87,7 +85,7 @@ std::map<analysis::CaseKey, Case> cases_of(const std::vector<StiffnessRow>& rows
         Case& own = cases[key_of(row, varied)];
         const bool usable = row.converged && std::isfinite(row.stiffness_n_m) && row.stiffness_n_m > 0.0;
         own.left_out += !usable;
-        if (usable) own.series[fmt::format("{} {}", row.setting.order_seed, row.mesh)].push_back({x_of(row, varied), row.stiffness_n_m});
+        if (usable) own.series[{row.setting.order_seed, row.mesh != "wanted"}].push_back({x_of(row, varied), row.stiffness_n_m});
     }
     for (auto& [key, own] : cases)
         for (auto& [order_and_mesh, points] : own.series) std::ranges::sort(points, {}, &Point::x);
