@@ -45,6 +45,14 @@ def broken_links(page):
     return broken
 
 
+class Versions(unittest.TestCase):
+    def test_the_citation_and_the_changelog_name_the_version_of_the_build(self):
+        version, = re.findall(r"^project\(\S+ VERSION (\d+\.\d+\.\d+) ", (source / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE)
+        self.assertIn(f"version: {version}\n", (source / "CITATION.cff").read_text(encoding="utf-8"))
+        heading = re.search(r"^## .*$", (source / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)[0]
+        self.assertIn(version, re.findall(r"\d+\.\d+\.\d+", heading), "the topmost section of CHANGELOG.md")
+
+
 class Readme(unittest.TestCase):
     readme = source / "README.md"
 
