@@ -154,7 +154,14 @@ def earlier_studies(kept_records, new, scratch):
     shutil.rmtree(expanded)
 
 
-def merge(results, target):
+def concluded_later(kept_records, new):
+    """Studies whose conclusions follow from kept rows at a later revision than that which measured them, until they are measured anew."""
+    file = kept_records / "provenance.json"
+    concluded = json.loads(file.read_text(encoding="utf-8")).get("concluded_again", []) if file.is_file() else []
+    return [of for of in concluded if of["study"] not in new]
+
+
+def merge(results, target, concluded_again):
     """From a folder per run to one table per study and kind (paper_figures/records/kept.py reads it)."""
     origins, plans, tables = {}, {}, {}
     for file in sorted(results.rglob("*")):
@@ -180,7 +187,7 @@ def merge(results, target):
         else:
             (target / f"{name}.gz").write_bytes(gzip.compress(text, 9, mtime=0))
     measured = [json.loads(text) | {"runs": runs} for text, runs in origins.items()]
-    for name, content in (("plans.json", plans), ("provenance.json", {"origins": measured})):
+    for name, content in (("plans.json", plans), ("provenance.json", {"origins": measured, "concluded_again": concluded_again})):
         (target / name).write_text(json.dumps(content, indent=1, sort_keys=True) + "\n", encoding="utf-8")
 
 
@@ -198,7 +205,7 @@ def keep(results, target):
         for study in sorted(new):
             keep_study(results / study, pathlib.Path(scratch) / study)
         shutil.copyfile(results / "claims.md", pathlib.Path(scratch) / "claims.md")  # claims.json is longer, and --judge writes it again
-        merge(pathlib.Path(scratch), beside)
+        merge(pathlib.Path(scratch), beside, concluded_later(target, new))
     size = sum(file.stat().st_size for file in beside.rglob("*") if file.is_file())
     if size > MOST_BYTES:
         sys.exit(f"keep: {size / 1e6:.2f} MB in {beside}, more than {MOST_BYTES / 1e6:g}")

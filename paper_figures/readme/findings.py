@@ -28,7 +28,7 @@ def stated(claims, name, sentence):
     """sentence(claim, the numbers of its cases); without numbers, a sentence that states why there are none."""
     claim = of(claims, name)
     values = [case["value"] for case in sentences.counting(claim) if case["value"] is not None]
-    return sentence(claim, values) if values else f"{name} is {sentences.names[claim['verdict']]}: {'; '.join(sentences.facts(claim))}."
+    return sentence(claim, values) if values else f"{name} is {sentences.names[claim['verdict']]}. {sentences.in_line(claim)}."
 
 
 def span(values, digits=0, unit=""):

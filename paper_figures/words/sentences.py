@@ -1,7 +1,7 @@
 """Every sentence about a claim, composed from the facts of claims.json. The README, the claims' pages and the report all use these.
 
     for claim in sentences.claims_of(results / "claims.json"):
-        print(claim["id"], "; ".join(sentences.facts(claim)))
+        print(claim["id"], sentences.in_line(claim))
 
 A claim is judged by its cases: 28 of 29 cases hold, share 0.966 [0.822, 0.999]; 0.067 to 1.02, threshold 0.95 or more. In brackets stands
 only the interval of the share; ranges over meshes, frames or orders of projection have these names.
@@ -249,9 +249,8 @@ def facts(claim):
 
 
 def in_line(claim):
-    """All facts in one line, for a table or a paragraph."""
-    text = "; ".join(facts(claim))
-    return text[:1].upper() + text[1:]
+    """One sentence per fact, for a table or a paragraph; the last one without its full stop."""
+    return ". ".join(text[:1].upper() + text[1:] for text in facts(claim))
 
 
 def one_number(claim):
@@ -268,7 +267,9 @@ def basis(claim):
     fields = ", ".join(case_words.of_field("case_field", field) for field in claim["case_fields"])
     between = " or " if "quantity" in claim["case_fields"] else " and "
     number = between.join(number_of(claim, quantity) for quantity in claim["quantities"])
-    told = [f"The number of a case ({fields}) is the {number}; threshold: {', '.join(expected(claim))} ({claim['source']})"]
+    thresholds = expected(claim)
+    told = [f"The number of a case ({fields}) is the {number}",
+            f"The {'threshold is' if len(thresholds) == 1 else 'thresholds are'} {', '.join(thresholds)} ({claim['source']})"]
     if claim["chance"] is not None:
         told += [f"If each case held with probability q = {figure(claim['q'])}, at least as many would hold by chance with probability "
                  f"{figure(claim['chance'])}",
@@ -291,11 +292,11 @@ def both_verdicts(claim):
 
 
 def on_held_out_cases(claim):
-    """The verdict on the cases that were recorded after the thresholds were fixed, with the facts behind it: one sentence, or none."""
+    """The verdict on the cases that were recorded after the thresholds were fixed, with the facts behind it, or nothing."""
     later = held_out(claim)
     mended = "" if claim["fixed_at"] == claim["thresholds_fixed_at"] else " and before the rule was mended"
     return [f"On the held-out cases, which were recorded after the thresholds were fixed{mended}, the verdict is "
-            f"{names[later['verdict']]!r}: {'; '.join(facts(later))}"] if later else []
+            f"{names[later['verdict']]!r}. {in_line(later)}"] if later else []
 
 
 def in_words(parts):

@@ -47,9 +47,11 @@ def broken_links(page):
 
 class Versions(unittest.TestCase):
     def test_the_citation_and_the_changelog_name_the_version_of_the_build(self):
-        version, = re.findall(r"^project\(\S+ VERSION (\d+\.\d+\.\d+) ", (source / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE)
-        self.assertIn(f"version: {version}\n", (source / "CITATION.cff").read_text(encoding="utf-8"))
-        heading = re.search(r"^## .*$", (source / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)[0]
+        build, citation, changelog = ((source / name).read_text(encoding="utf-8")
+                                      for name in ("CMakeLists.txt", "CITATION.cff", "CHANGELOG.md"))
+        version, = re.findall(r"^project\(\S+ VERSION (\d+\.\d+\.\d+) ", build, re.MULTILINE)
+        self.assertIn(f"version: {version}\n", citation)
+        heading = re.search(r"^## .*$", changelog, re.MULTILINE)[0]
         self.assertIn(version, re.findall(r"\d+\.\d+\.\d+", heading), "the topmost section of CHANGELOG.md")
 
 

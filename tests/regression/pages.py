@@ -30,6 +30,7 @@ KEPT = kept.opened(RECORDS)
 STUDY_SECTIONS = ["Cases", "Records", "Claims, figures, cost", "What it cannot show"]
 CLAIM_SECTIONS = ["What the paper says", "What was measured", "What would refute it", "What it depends on", "Result"]
 MOST_WORDS = 150  # of a claim's page, without its generated part
+MOST_WORDS_OF_A_SENTENCE = 45  # that the generator writes
 WRITTEN = {"metrics.csv", "measurements.csv", "printed.csv"}  # these files are written by runs
 
 
@@ -249,6 +250,8 @@ class KeptVerdicts(unittest.TestCase):
         for page, lines in readme_pages.pages(judged).items():
             with self.subTest(page.relative_to(SOURCE)):
                 self.assertEqual(readme_part.cut(page, "kept")[1].splitlines()[1:], lines, "python3 paper_figures/make_readme.py writes it")
+                for sentence in re.split(r"(?<=[.?!]) +|\n", re.sub(r"^\|.*$", "", "\n".join(lines), flags=re.MULTILINE)):
+                    self.assertLessEqual(len(sentence.split()), MOST_WORDS_OF_A_SENTENCE, sentence)
         for name, lines_of in (("claims", readme_tables.claims_lines), ("findings", readme_findings.lines_of),
                                ("methods", readme_findings.methods_lines)):
             _, stated, _ = readme_part.cut(SOURCE / "README.md", name)

@@ -46,7 +46,7 @@ struct Point {
 };
 
 struct Case {
-    std::map<std::pair<int, bool>, std::vector<Point>> series;  // by order and "tenth finer"; file order on the wanted meshes comes first
+    std::map<std::pair<int, bool>, std::vector<Point>> series;  // by order and "tenth finer"; the first is file order on the wanted meshes
     int left_out = 0;
 };
 

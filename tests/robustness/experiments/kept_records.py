@@ -61,7 +61,7 @@ class KeptRecords(program.ProgramTest):
         for name, text in (tables | runs | {"study/plan.json": '{"runs": []}'}).items():
             (results / name).parent.mkdir(parents=True, exist_ok=True)
             (results / name).write_text(text)
-        keep.merge(results, merged)
+        keep.merge(results, merged, [])
         kept_records.expand(merged, opened)
         columns_of_both = {"study/one/a.csv": "x,y,z\n1,\"p,q\",\n2,r,\n", "study/two/a.csv": "x,y,z\n,s,3\n"}
         for name, text in (tables | columns_of_both).items():

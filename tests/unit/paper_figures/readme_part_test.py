@@ -50,9 +50,9 @@ class ClaimPage(unittest.TestCase):
                       q=0.2, controls=[selection("LBS", [case(0.5, False)], "negative_control")],
                       compared=[selection("DQS|2", [case(-0.4, False)])])
         self.assertEqual(readme_pages.claim_lines(shown), [
-            "**C04: holds.** Volume is kept.", "", "5 of 5 cases hold, share 1 [0.48, 1]; radius: 1, threshold 0.95 or more.", "",
-            "The number of a case (body) is the radius; threshold: 0.95 or more (Sec. 4). If each case held with probability q = 0.2, at "
-            "least as many would hold by chance with probability 0.001. This q is the share of the negative control, by the rule of "
+            "**C04: holds.** Volume is kept.", "", "5 of 5 cases hold, share 1 [0.48, 1]. Radius: 1, threshold 0.95 or more.", "",
+            "The number of a case (body) is the radius. The threshold is 0.95 or more (Sec. 4). If each case held with "
+            "probability q = 0.2, at least as many would hold by chance with probability 0.001. This q is the share of the negative control, by the rule of "
             "succession, or one half.", "",
             "| control | role | cases that hold | numbers | as it must |", "|---|---|---|---|---|",
             "| LBS | negative control | 0 of 1 case, share 0 | 0.5 | yes |", "",
@@ -182,7 +182,7 @@ class Tables(ReadmeTest):
         self.assertEqual(text, "**Artefacts: gone.** No candy wrapper of LBS is left in 28 of 29 poses, and no bulge of DQS in 5 of 5 "
                          "poses.")
         text = readme_findings.volume([claim("C02a", "inconclusive", why_inconclusive="too_few_cases")])
-        self.assertIn("C02a is inconclusive: no case is on record.", text)
+        self.assertIn("C02a is inconclusive. No case is on record.", text)
 
     def test_convergence_counts_the_cases(self):
         text = readme_findings.convergence([claim("C12a", "fails", [case(11.0)] * 2 + [case(61.0, False)])])

@@ -77,7 +77,7 @@ class Numbers(unittest.TestCase):
         self.assertEqual(sentences.numbers(judged),
                          ["damping: 0.2 to 0.4, threshold 0.1 or more", "what is left: 0.01 to 0.07, threshold 0.05 or less"])
         self.assertEqual(sentences.spans(judged, judged), "damping: 0.2 to 0.4; what is left: 0.01 to 0.07")
-        self.assertIn("is the damping and what is left; threshold: ", sentences.basis(judged))
+        self.assertIn("is the damping and what is left. The thresholds are damping: ", sentences.basis(judged))
 
     def test_ranges_that_cross_the_bound_are_named(self):
         cases = [case(1.0, low=0.9, high=1.1, body=body) for body in ("limb", "man", "lady")] + [case(1.0), case(0.5, low=0.4, high=0.6)]
@@ -139,7 +139,7 @@ class Facts(unittest.TestCase):
     def test_a_definition_has_its_reason_and_its_numbers(self):
         cases = [case(factor, threshold_low=None) for factor in (1.85, 5.98)]
         judged = claim("C11", "definition", cases, rule="definition", reason="it defines k", titles={"ratio": "factor"}, thresholds=[])
-        self.assertEqual(sentences.in_line(judged), "It defines k; factor: 1.85 to 5.98")
+        self.assertEqual(sentences.in_line(judged), "It defines k. Factor: 1.85 to 5.98")
 
     def test_verdicts_are_counted_in_one_sentence(self):
         kinds = ["holds", "holds", "fails", "definition", "inconclusive", "untestable"]
@@ -155,9 +155,9 @@ class Basis(unittest.TestCase):
                        source="Fig. 8")
         self.assertEqual(
             sentences.basis(judged),
-            "The number of a case (body, angle) is the radius, over that of the reference; threshold: 0.95 or more (Fig. 8). If each case "
-            "held with probability q = 0.0625, at least as many would hold by chance with probability 0.001. This q is the share of the "
-            "negative control, by the rule of succession, or one half. Rule and threshold are of revision 0123456789ab.")
+            "The number of a case (body, angle) is the radius, over that of the reference. The threshold is 0.95 or more (Fig. 8). "
+            "If each case held with probability q = 0.0625, at least as many would hold by chance with probability 0.001. "
+            "This q is the share of the negative control, by the rule of succession, or one half. Rule and threshold are of revision 0123456789ab.")
         self.assertEqual(sentences.basis(claim("C13", "holds", rule="printed")), "")
 
     def test_when_threshold_and_rule_were_fixed_is_stated(self):
@@ -217,7 +217,7 @@ class Basis(unittest.TestCase):
         judged = claim("C04", "holds", [case(1.0)] * 5, held_out=later, titles={"ratio": "section radius"})
         self.assertEqual(sentences.both_verdicts(judged), "holds; on the held-out cases: fails")
         told, = sentences.on_held_out_cases(judged)
-        self.assertIn("the verdict is 'fails': 1 of 2 cases hold, share 0.5 [0.01, 0.99]; section radius", told)
+        self.assertIn("the verdict is 'fails'. 1 of 2 cases hold, share 0.5 [0.01, 0.99]. Section radius", told)
         self.assertEqual((sentences.both_verdicts(later), sentences.on_held_out_cases(later)), ("fails", []))
         self.assertEqual(sentences.both_verdicts(claim("C04", "holds", held_out=2)), "holds", "older records count these cases")
         self.assertEqual(case_words.of({"body": "human", "motion": "range_of_motion", "pose": "elbow_flexion+supination"}),

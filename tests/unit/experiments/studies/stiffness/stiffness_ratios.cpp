@@ -100,6 +100,26 @@ TEST(StiffnessRatios, OfHalfTheTimeStepAndOfMeshesThatAreNotQuiteTwiceEachOther)
     for (const double value : {of_meshes.low, of_meshes.high}) EXPECT_NEAR(value, 0.5, doubling_error(0.5, 2 + 1, 1));
 }
 
+// The second series of meshes widens the range alone: ratio and exponent are those of the wanted meshes.
+TEST(StiffnessRatios, AreThoseOfTheWantedMeshes)
+{
+    std::vector<StiffnessRow> meshes;
+    for (const int vertices : {330, 660, 1320}) {
+        meshes.push_back(row(24, 1.0 / (double(vertices) * vertices)));
+        meshes.back().mesh = "tenth_finer";
+        meshes.back().vertices = vertices;
+    }
+    for (const int vertices : {300, 600, 1200}) {
+        meshes.push_back(row(24, 1.0 / vertices));
+        meshes.back().vertices = vertices;
+    }
+    const auto ratio = stiffness_ratios(meshes, Varied::resolution).at(0);
+    EXPECT_NEAR(ratio.value, 0.5, doubling_error(0.5, 2, 0));
+    EXPECT_NEAR(ratio.low, 0.25, doubling_error(0.25, 4, 0));
+    EXPECT_NEAR(stiffness_exponents(meshes, Varied::resolution).at(0).exponent, -1.0,
+                test_support::exponent_error({300.0, 600.0, 1200.0}, {1.0 / 300.0, 1.0 / 600.0, 1.0 / 1200.0}, -1.0, 1));
+}
+
 // All five run at the same settings, and none is mistaken for another.
 TEST(StiffnessRatios, TellTheMethodsApart)
 {
