@@ -52,8 +52,8 @@ class ClaimPage(unittest.TestCase):
         self.assertEqual(readme_pages.claim_lines(shown), [
             "**C04: holds.** Volume is kept.", "", "5 of 5 cases hold, share 1 [0.48, 1]. Radius: 1, threshold 0.95 or more.", "",
             "The number of a case (body) is the radius. The threshold is 0.95 or more (Sec. 4). If each case held with "
-            "probability q = 0.2, at least as many would hold by chance with probability 0.001. This q is the share of the negative control, by the rule of "
-            "succession, or one half.", "",
+            "probability q = 0.2, at least as many would hold by chance with probability 0.001. This q is the share of the "
+            "negative control, by the rule of succession, or one half.", "",
             "| control | role | cases that hold | numbers | as it must |", "|---|---|---|---|---|",
             "| LBS | negative control | 0 of 1 case, share 0 | 0.5 | yes |", "",
             "| for comparison | cases within the threshold | numbers |", "|---|---|---|", "| DQS\\|2 | 0 of 1 case, share 0 | -0.4 |"])

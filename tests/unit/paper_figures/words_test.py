@@ -157,7 +157,8 @@ class Basis(unittest.TestCase):
             sentences.basis(judged),
             "The number of a case (body, angle) is the radius, over that of the reference. The threshold is 0.95 or more (Fig. 8). "
             "If each case held with probability q = 0.0625, at least as many would hold by chance with probability 0.001. "
-            "This q is the share of the negative control, by the rule of succession, or one half. Rule and threshold are of revision 0123456789ab.")
+            "This q is the share of the negative control, by the rule of succession, or one half. "
+            "Rule and threshold are of revision 0123456789ab.")
         self.assertEqual(sentences.basis(claim("C13", "holds", rule="printed")), "")
 
     def test_when_threshold_and_rule_were_fixed_is_stated(self):
