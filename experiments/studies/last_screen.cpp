@@ -4,6 +4,7 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/tables.hpp"
 #include "analysis/verdicts/sensitivity.hpp"
+#include "experiments/deformers/registry.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/studies/reproduce.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -16,6 +17,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <set>
 
 namespace experiments {
 namespace {
@@ -93,31 +96,47 @@ std::vector<analysis::Verdict> on_record(const LastScreen& screen, const std::st
     return verdicts;
 }
 
-// A method within 1 ms per frame, where material and springs of each reference variant are known.
+// A method within a time per frame, where material and springs of each reference variant are known.
 struct Method {
     std::string name;
-    double share_pct = 0.0, skin_mm = 0.0;
+    bool is_own = false, is_within = false;  // of the user's own; within the time on this machine
+    double budget_ms = 0.0, ms = 0.0, share_pct = 0.0, low_pct = 0.0, high_pct = 0.0, skin_mm = 0.0;
     long long poses = 0;
 };
 
-std::vector<Method> methods_within_1_ms(const std::string& records)
+std::vector<Method> compared_methods(const std::string& records)
 {
-    std::vector<Method> methods;
+    std::vector<Method> found;
     const std::string file = (fs::path(records) / "work_precision" / "methods.csv").string();
-    if (!fs::exists(file)) return methods;
+    if (!fs::exists(file)) return found;
     const analysis::CsvTable table = analysis::read_csv(file);
     for (int row = 0; row < table.rows(); ++row)
-        if (table.text_at(row, "table") == "known" && table.number(row, "budget_ms") == 1.0 && table.text_at(row, "within") != "no")
-            methods.push_back({table.text_at(row, "method"), 100.0 * table.number(row, "share"),
-                               table.number_or_nothing(row, "skin_mm").value_or(0.0), table.integer(row, "poses")});
-    return methods;
+        if (const std::string name = table.text_at(row, "method"); table.text_at(row, "table") == "known")
+            found.push_back({.name = name,
+                             .is_own = table.text_at(row, "setting").empty() && !find_deformer_kind(name),
+                             .is_within = table.text_at(row, "within") != "no",
+                             .budget_ms = table.number(row, "budget_ms"),
+                             .ms = table.number_or_nothing(row, "ms").value_or(0.0),
+                             .share_pct = 100.0 * table.number(row, "share"),
+                             .low_pct = 100.0 * table.number(row, "share_low"),
+                             .high_pct = 100.0 * table.number(row, "share_high"),
+                             .skin_mm = table.number_or_nothing(row, "skin_mm").value_or(0.0),
+                             .poses = table.integer(row, "poses")});
+    return found;
 }
 
 std::string title_of(const std::string& method)
 {
-    static const std::map<std::string, std::string> titles = {
-        {"quasi_newton", "quasi-Newton"},        {"vbd", "vertex block descent"},          {"warped_newton", "warped Newton"},
-        {"correctives", "LBS with correctives"}, {"xpbd_neo_hookean", "neo-Hookean XPBD"}, {"xpbd", "XPBD"}};
+    static const std::map<std::string, std::string> titles = {{"lbs", "LBS"},
+                                                              {"dqs", "DQS"},
+                                                              {"pbs", "PBS"},
+                                                              {"delta_mush", "delta mush"},
+                                                              {"quasi_newton", "quasi-Newton"},
+                                                              {"vbd", "vertex block descent"},
+                                                              {"warped_newton", "warped Newton"},
+                                                              {"correctives", "LBS with correctives"},
+                                                              {"xpbd_neo_hookean", "neo-Hookean XPBD"},
+                                                              {"xpbd", "XPBD"}};
     const auto found = titles.find(method);
     return found == titles.end() ? method : found->second;
 }
@@ -125,7 +144,8 @@ std::string title_of(const std::string& method)
 // How far LBS and PBS are from flesh, and which method is nearest within 1 ms, by the record of work_precision. Empty without one.
 std::string answers_text(const std::string& records)
 {
-    const std::vector<Method> methods = methods_within_1_ms(records);
+    std::vector<Method> methods = compared_methods(records);
+    std::erase_if(methods, [](const Method& method) { return method.budget_ms != 1.0 || !method.is_within; });
     const auto find_method = [&](const std::string& name) { return std::ranges::find(methods, name, &Method::name); };
     const auto best = std::ranges::min_element(methods, {}, &Method::share_pct), lbs = find_method("lbs"), pbs = find_method("pbs"),
                mush = find_method("delta_mush");
@@ -134,6 +154,41 @@ std::string answers_text(const std::string& records)
         "Distance from flesh: the skin of a body of 1.7 m is {:.2g} mm away with LBS, {:.2g} mm with PBS ({} poses).\n"
         "1 ms per frame: {} leaves {:.0f} % of LBS's error if the material is known, PBS {:.0f} %, delta mush {:.0f} %.\n",
         lbs->skin_mm, pbs->skin_mm, pbs->poses, title_of(best->name), best->share_pct, pbs->share_pct, mush->share_pct);
+}
+
+// "0.1 to 10 ms": the times of the tables that are shorter than the time of a method. Empty: it has a row at each of them.
+std::string too_slow_text(std::vector<double> shorter_ms, double ms)
+{
+    std::erase_if(shorter_ms, [&](double time_ms) { return time_ms >= ms; });
+    if (shorter_ms.empty()) return "";
+    const std::string first = shorter_ms.size() > 1 ? fmt::format("{:g} to ", shorter_ms.front()) : "";
+    return fmt::format("; too slow for {}{:g} ms", first, shorter_ms.back());
+}
+
+// One line for each deformer of the user's own, at the shortest time that it keeps, with familiar methods at that time.
+std::string own_methods_text(const std::string& results)
+{
+    const std::vector<Method> methods = compared_methods(results);
+    std::set<double> times_ms;
+    for (const Method& method : methods)
+        if (std::isfinite(method.budget_ms)) times_ms.insert(method.budget_ms);
+    std::map<std::string, Method> own;  // methods.csv has the shortest time first
+    for (const Method& method : methods)
+        if (method.is_own) own.try_emplace(method.name, method);
+    std::string text;
+    for (const auto& [name, method] : own) {
+        text += fmt::format("{}: {:.3g} ms per frame, {:.0f} % of LBS's error [{:.0f}, {:.0f}] in {} poses", name, method.ms,
+                            method.share_pct, method.low_pct, method.high_pct, method.poses);
+        std::vector<std::string> shares;
+        for (const char* familiar : {"dqs", "delta_mush", "pbs"})
+            for (const Method& other : methods)
+                if (other.name == familiar && other.budget_ms == method.budget_ms)
+                    shares.push_back(fmt::format("{} {:.0f} %", title_of(familiar), other.share_pct));
+        if (!shares.empty() && !times_ms.empty())
+            text += fmt::format("; with at most {:g} ms: {}", std::min(method.budget_ms, *times_ms.rbegin()), fmt::join(shares, ", "));
+        text += too_slow_text({times_ms.begin(), times_ms.end()}, method.ms) + ".\n";
+    }
+    return text;
 }
 
 }  // namespace
@@ -156,7 +211,7 @@ bool show_last_screen(LastScreen screen)
     if (!has_record) {
         fmt::print("There is no kept record at {}: nothing was compared.\n", records);
         write_verdicts(screen.here, screen.folder);
-        fmt::print("{}", analysis::claims_table(screen.here, width, terminal_has_colours()));
+        fmt::print("{}{}", analysis::claims_table(screen.here, width, terminal_has_colours()), own_methods_text(screen.folder));
         return true;
     }
     const ResultComparison compared = compare_results({.first = records,
@@ -175,7 +230,8 @@ bool show_last_screen(LastScreen screen)
         if (verdict.kind == analysis::VerdictKind::not_computable)
             fmt::print("{} cannot be computed here: no record of {}\n", verdict.claim.id, fmt::join(verdict.missing, ", "));
     if (!verdicts.empty()) fmt::print("\n{}", analysis::claims_table(verdicts, width, terminal_has_colours(), repeated));
-    fmt::print("{}", answers_text(records));
+    const std::string own = own_methods_text(screen.folder);
+    fmt::print("{}", own.empty() ? answers_text(records) : own);
     return compared.agrees();
 }
 

@@ -71,7 +71,7 @@ def error_against_time(results):
 
 def facts_rows(compared, folder):
     """What the caption states: the sentences, the number of poses, and the clocks of deformers of the user's own."""
-    rows = [{"shown": "answer", "text": text} for text in compared.answers()]
+    rows = [{"shown": "answer", "text": text} for text in [*compared.own_answers(), *compared.answers()]]
     rows.append({"shown": "poses", "text": max(int(row["poses"]) for row in compared.methods)})
     return rows + [{"shown": "clock", "method": method, "text": clock_words[clock]}
                    for method, clock in compared_methods.own_clocks(folder).items() if clock in clock_words]

@@ -3,7 +3,7 @@ other initial guesses and wrong materials are worth, and the same along a clip."
 import pages
 import records
 from words import case_words, compared_methods
-from words.compared_methods import percent
+from words.compared_methods import percent, time_name
 from words.number_words import counted
 
 small_error_pct = 1.0  # of a reference
@@ -13,10 +13,6 @@ table_notes = {"known": "Methods that take flesh are given that of each referenc
                           "of their own."}
 decision_words = {"first_is_nearer": "{first} is nearer", "second_is_nearer": "{second} is nearer", "level": "level", "depends": "depends",
                   "open": "open"}
-
-
-def at(ms):
-    return f"{ms:g} ms"
 
 
 def names_of(row):
@@ -41,9 +37,9 @@ def limits(compared, folder):
 
 def shares(compared, table):
     """The movement poses, and the deep folds in columns of their own."""
-    folds = ([fold_cell(compared.row(table, ms, method)) for ms in compared.times_ms] for method in compared.ranked(table))
+    folds = ([fold_cell(compared.row(table, ms, method)) for ms in compared.columns_ms] for method in compared.ranked(table))
     rows = [cells + of_folds for cells, of_folds in zip(compared.table(table), folds)]
-    heads = ["method", "takes", *map(at, compared.times_ms), *(f"deep folds, {at(ms)}" for ms in compared.times_ms)]
+    heads = ["method", "takes", *map(time_name, compared.columns_ms), *(f"deep folds, {time_name(ms)}" for ms in compared.columns_ms)]
     return pages.table(rows, {head: lambda row, place=place: row[place] for place, head in enumerate(heads)})
 
 
@@ -56,10 +52,10 @@ def fold_cell(row):
 def times(compared, table):
     """The distance of the skin, and the time with its multiple of PBS."""
     columns = {"method": compared_methods.name}
-    for ms in compared.times_ms:
-        columns[f"skin, {at(ms)} [mm]"] = lambda method, ms=ms: cell_of(compared.row(table, ms, method), skin)
-    for ms in compared.times_ms:
-        columns[f"time, {at(ms)} [ms] (\u00d7 PBS)"] = lambda method, ms=ms: cell_of(compared.row(table, ms, method), time_cell)
+    for ms in compared.columns_ms:
+        columns[f"skin, {time_name(ms)} [mm]"] = lambda method, ms=ms: cell_of(compared.row(table, ms, method), skin)
+    for ms in compared.columns_ms:
+        columns[f"time, {time_name(ms)} [ms] (\u00d7 PBS)"] = lambda method, ms=ms: cell_of(compared.row(table, ms, method), time_cell)
     return pages.table(compared.ranked(table), columns)
 
 
@@ -93,15 +89,15 @@ def decisions(compared):
     """How many pairs are decided, and which of them depend on the flesh."""
     counts, depending = [], []
     for table, heading in table_words.items():
-        for ms in compared.times_ms:
+        for ms in compared.columns_ms:
             rows = [row for row in compared_methods.of_time(compared.decisions, table, ms) if not row["without_body"]]
             kinds = [row["decision"] for row in rows]
-            counts.append({"table": heading.lower(), "time": at(ms), "pairs": len(kinds),
+            counts.append({"table": heading.lower(), "time": time_name(ms), "pairs": len(kinds),
                            "decided": sum(kind.endswith("is_nearer") for kind in kinds),
                            **{kind: kinds.count(kind) for kind in ("level", "depends", "open")}})
             for row in (row for row in rows if row["decision"] == "depends"):
                 for one, other in ((row["first"], row["second"]), (row["second"], row["first"])):
-                    depending.append(f"- {heading.lower()}, {at(ms)}: {compared_methods.name(one)} is nearer than "
+                    depending.append(f"- {heading.lower()}, {time_name(ms)}: {compared_methods.name(one)} is nearer than "
                                      f"{compared_methods.name(other)} if {compared.conditions(table, ms, one, other)}.\n")
     return ("\n## Decisions\n\nTwo methods are level if on each variant their errors differ by less than the reference's own error in 80 % "
             "of the poses, or by less than a tenth in the mean. A decision depends on the flesh if two variants decide in opposite "
@@ -117,7 +113,7 @@ def without_a_body(compared):
     for (table, ms, *_), rows in of_pair.items():
         others = [f"without {body}: {shown(row)}" for body, row in rows.items() if row["decision"] != rows[""]["decision"]]
         if others:
-            changed.append(names_of(rows[""]) | {"table": table_words[table].lower(), "time": at(ms), "all": shown(rows[""]),
+            changed.append(names_of(rows[""]) | {"table": table_words[table].lower(), "time": time_name(ms), "all": shown(rows[""]),
                                                  "others": "; ".join(others)})
     text = f"\n## Decisions that change if a body is excluded: {len(changed)} of {len(of_pair)}\n\n"
     return text + (pages.table(changed, "without_body") if changed else "None.\n")
@@ -133,7 +129,7 @@ def starts(folder):
     columns = {"method": lambda method: compared_methods.name(of_method[method]),
                "change": lambda method: case_words.of_field("other_start", method.removeprefix(f"{of_method[method]}_"))}
     for ms in sorted({ms for _, ms in cells}):
-        columns[at(ms)] = lambda method, ms=ms: cells.get((method, ms), "")
+        columns[time_name(ms)] = lambda method, ms=ms: cells.get((method, ms), "")
     poses = max(int(row["poses"]) for row in rows)
     return (f"\n## What the initial guess and the right material are worth\n\nThe share of LBS's error [%] in {poses} poses, of the "
             "method's setting and after the change alone, against the first variant.\n\n" + pages.table(of_method, columns))
@@ -151,7 +147,7 @@ def motion(compared):
     columns = {"clip": lambda key: key[0], "reference": lambda key: case_words.in_plain(key[1]),
                "method": lambda key: compared_methods.name(key[2])}
     for ms in compared.times_ms:
-        columns[at(ms)] = lambda key, ms=ms: cells.get((key, ms), "")
+        columns[time_name(ms)] = lambda key, ms=ms: cells.get((key, ms), "")
     keys = sorted({key for key, _ in cells}, key=lambda key: (*key[:2], ranked.index(key[2])))
     frames = max(int(row["frames"]) for row in compared.motion)
     return (f"\n## Posed and played\n\nThe share of LBS's error and the distance of the skin in {frames} frames of each clip: each frame "
@@ -173,7 +169,7 @@ def settings(compared):
     """The settings that the training poses chose."""
     columns = {"method": compared_methods.name}
     for ms in compared.times_ms:
-        columns[at(ms)] = lambda method, ms=ms: cell_of(compared.row("guessed", ms, method), lambda row: f"`{row['setting']}`")
+        columns[time_name(ms)] = lambda method, ms=ms: cell_of(compared.row("guessed", ms, method), lambda row: f"`{row['setting']}`")
     return "\n## Settings\n\nOther poses than those above have chosen them.\n\n" + pages.table(compared.ranked("guessed"), columns)
 
 
@@ -185,7 +181,8 @@ def own_deformers(folder):
 
 def page(folder):
     compared = compared_methods.Compared(folder)
-    answers = "\n".join([f"**{compared.headline()}**", "", *(f"- {answer}" for answer in compared.answers())])
+    own = [f"**{answer}**\n" for answer in compared.own_answers()]
+    answers = "\n".join([*own, f"**{compared.headline()}**", "", *(f"- {answer}" for answer in compared.answers())])
     return (f"# Error against run time\n\n{answers}\n\n{limits(compared, folder)}" + of_tables(compared) + decisions(compared)
             + without_a_body(compared) + starts(folder) + motion(compared) + own_errors(folder) + settings(compared)
             + own_deformers(folder))

@@ -118,7 +118,7 @@ def methods_lines(results):
     """The answer for a reader who has to choose, and the table of the methods."""
     compared, processor = compared_methods.Compared(results / "work_precision"), origin_of_picture(results)["cpu_model"]
     processor = processor.replace("(R)", "").removesuffix(" Processor")
-    head = ["method", "takes", *(f"{ms:g} ms" for ms in compared.times_ms)]
+    head = ["method", "takes", *map(compared_methods.time_name, compared.columns_ms)]
     rows = [tables.line(*cells) for cells in compared.table("known")]
     poses = compared.row("known", compared.times_ms[0], "lbs")["poses"]
     marks = {"\u2020": "too slow on a machine half as fast", "\u2021": "on this one"}

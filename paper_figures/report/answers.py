@@ -35,9 +35,13 @@ def card(anchor, heading, parts):
 
 
 def compared(found):
-    """The methods of the study work_precision, or None without their tables."""
-    folder = found.judging / "work_precision"
-    return compared_methods.Compared(folder) if (folder / "methods.csv").is_file() else None
+    """The methods of the study work_precision, or None without their tables. A run with deformers of the user's own answers by itself."""
+    for results in (found.results, found.judging):
+        folder = results / "work_precision"
+        methods = compared_methods.Compared(folder) if (folder / "methods.csv").is_file() else None
+        if methods and (methods.own() or results == found.judging):
+            return methods
+    return None
 
 
 def how_far(found):
@@ -53,7 +57,7 @@ def which_method(found):
     methods = compared(found)
     if not methods:
         return answer(question, element("span", f"The nearest method is {not_run(found, 'work_precision')}.", class_="missing"))
-    return answer(question, joined([methods.headline(), *methods.answers()], Markup("<br>")))
+    return answer(question, joined([*methods.own_answers(), methods.headline(), *methods.answers()], Markup("<br>")))
 
 
 def first_screen(viewer, answers):
@@ -70,7 +74,7 @@ def distances(found):
     methods = compared(found)
     if not methods:
         return ""
-    head = ["method", "takes", *(f"{ms:g} ms" for ms in methods.times_ms)]
+    head = ["method", "takes", *map(compared_methods.time_name, methods.columns_ms)]
     return joined([table("Error at the joints in per cent of that of LBS, with known flesh [range over the reference variants]", head,
                          methods.table("known")), element("p", compared_methods.legend)])
 

@@ -8,6 +8,8 @@ figures, the README, the study's page and the report all have theirs from here.
 A share is the error at the joints over that of LBS: the median over the reference variants, with the range over them. In the table `known`,
 methods that take flesh are given that of each reference; in `guessed`, they have the same flesh whatever the reference is.
 """
+import math
+
 import records
 from words import case_words, looks
 from words.number_words import figure
@@ -54,8 +56,20 @@ def assumed(members):
     return conjoined([case_words.of_field("member", member) for member in members], "or")
 
 
+def is_own(row):
+    """A deformer of the user's own has no setting and no look."""
+    return not row["setting"] and row["method"] not in looks.listed
+
+
+def time_name(ms):
+    """10 ms; a budget of inf has the row of each deformer of the user's own that needs more than the longest time."""
+    return "any time" if math.isinf(ms) else f"{ms:g} ms"
+
+
 def taken(row):
-    """What a method is given of the reference."""
+    """What a method is given of the reference. A deformer of the user's own does not state it."""
+    if is_own(row):
+        return "not stated"
     return ", ".join(case_words.of_field("takes", word) for word in row["takes"].split()) or "nothing"
 
 
@@ -86,7 +100,8 @@ class Compared:
         self.methods = records.table(folder / "methods.csv", method_columns)
         self.decisions, self.pairs = (records.read_rows(folder / f"{table}.csv") for table in ("decisions", "pairs"))
         self.motion = records.rows_if_any(folder / "motion.csv")  # the quick form has no clips
-        self.times_ms = sorted({float(row["budget_ms"]) for row in self.methods})
+        self.columns_ms = sorted({float(row["budget_ms"]) for row in self.methods})  # of the tables; inf: any time
+        self.times_ms = [ms for ms in self.columns_ms if not math.isinf(ms)]
         self.decided = {}  # (table, time): (first, second, decision) of all bodies
         for row in self.decisions:
             if not row["without_body"]:
@@ -102,12 +117,12 @@ class Compared:
 
     def ranked(self, table):
         """All methods of a table, by their share within the longest time."""
-        return list(dict.fromkeys(row["method"] for ms in self.times_ms[::-1] for row in self.rows(table, ms)))
+        return list(dict.fromkeys(row["method"] for ms in self.columns_ms[::-1] for row in self.rows(table, ms)))
 
     def table(self, table):
         """The cells of each method: its name, what it takes, and its share within each time."""
         for method in self.ranked(table):
-            rows = [self.row(table, ms, method) for ms in self.times_ms]
+            rows = [self.row(table, ms, method) for ms in self.columns_ms]
             yield [name(method), taken(next(filter(None, rows))), *map(cell, rows)]
 
     def against(self, table, ms, method):
@@ -124,7 +139,7 @@ class Compared:
     def nearest(self, table, ms, takes_nothing=False):
         """The least share, unless another method is decided to be nearer. A method that misses the time on this machine is no answer.
         takes_nothing: among the methods that are given nothing of the reference."""
-        rows = [row for row in self.rows(table, ms) if row["within"] != "no" and not (takes_nothing and row["takes"])]
+        rows = [row for row in self.rows(table, ms) if row["within"] != "no" and not (takes_nothing and taken(row) != "nothing")]
         beaten = {row["method"]: self.against(table, ms, row["method"])["farther"] for row in rows}
         return next((row for row in rows if not set(beaten[row["method"]]) & set(beaten)), rows[0] if rows else None)
 
@@ -206,7 +221,7 @@ class Compared:
         method, share, error, on_body = row["method"], percent(row["share"]), " of LBS's error", " from flesh on a body of 1.7 m"
         against = self.against(table, ms, method)
         if takes_nothing:
-            against = {decision: [other for other in others if not self.row(table, ms, other)["takes"]]
+            against = {decision: [other for other in others if taken(self.row(table, ms, other)) == "nothing"]
                        for decision, others in against.items()}
         text = "no method is nearer than LBS" if method == "lbs" else f"{name(method)} leaves {share} %{error if is_first else ''}"
         notes = [f"{millimetres(row['skin_mm'])} mm{on_body if is_first else ''}",
@@ -247,14 +262,39 @@ class Compared:
         return [f"Played along a clip, each frame from the one before, {' and '.join(parts)} within {played_ms:g} ms; {frames} of each "
                 "clip have a reference."]
 
+    def own(self):
+        """{deformer of the user's own: its row with known flesh at the shortest time that it keeps}"""
+        return {row["method"]: row for ms in self.columns_ms[::-1] for row in self.rows("known", ms) if is_own(row)}
+
+    def own_answers(self):
+        """The sentences on the deformers of the user's own."""
+        return [self.own_answer(row) for row in self.own().values()]
+
+    def own_answer(self, row):
+        """mine leaves 98 % [93, 103] of the error of LBS in 190 ms per frame (40 poses); with at most 10 ms, DQS leaves 69 %."""
+        method, ms = row["method"], float(row["budget_ms"])
+        others = [(other, self.row("known", ms, other)) for other in ("dqs", "delta_mush", "pbs")]
+        shares = conjoined([f"{name(other)} leaves {percent(of['share'])} %" for other, of in others if of], "and")
+        text = (f"{name(method)} leaves {percent(row['share'])} % [{percent(row['share_low'])}, {percent(row['share_high'])}] of the error "
+                f"of LBS in {figure(float(row['ms']))} ms per frame ({row['poses']} poses)")
+        if shares:
+            text += f"; with at most {min(ms, self.times_ms[-1]):g} ms, {shares}"
+        short = [time for time in self.times_ms if time < float(row["ms"])]
+        span = " to ".join(f"{time:g}" for time in dict.fromkeys([*short[:1], *short[-1:]]))
+        against = self.against("known", ms, method)
+        decided = [f"{named(others)} {'is' if len(others) == 1 else 'are'} {decision}" for decision, others in
+                   (("nearer", against["farther"]), ("farther", against["nearer"])) if others]
+        return (f"{text}." + (f" It is too slow for {span} ms." if short else "")
+                + (f" Decided: {'; '.join(decided)}." if decided else " No comparison with another method is decided."))
+
     def answers(self):
         """One sentence for each time, and one for clips."""
         return [*map(self.answer, self.times_ms), *self.played()]
 
 
 def own_clocks(folder):
-    """{deformer of the user's own: its clock}; they have no settings and no look."""
-    own = {row["method"] for row in records.read_rows(folder / "methods.csv") if not row["setting"] and row["method"] not in looks.listed}
+    """{deformer of the user's own: its clock}"""
+    own = {row["method"] for row in records.read_rows(folder / "methods.csv") if is_own(row)}
     points = (row for file in sorted(folder.glob("*/points.csv")) for row in records.read_rows(file)) if own else ()
     return {row["method"]: row["clock"] for row in points if row["method"] in own}
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -34,6 +35,7 @@ const Columns<MotionRow> motion_columns =
 namespace {
 
 constexpr const char* baseline = "lbs";
+constexpr double any_time_ms = std::numeric_limits<double>::infinity();
 constexpr double targets_pct[] = {20.0, 35.0, 50.0};  // of LBS's error
 
 struct Spread {
@@ -161,16 +163,29 @@ std::vector<Entry> entries_of(const PosesOfTable& poses, const std::vector<Point
         analysis::MethodErrors errors = poses.errors(name, rows);
         entries.push_back({method, setting, std::move(rows), std::move(errors)});
     };
+    const double chosen_for_ms = std::min(budget_ms, comparison_times().budgets_ms.back());
     for (const ComparedMethod& method : methods()) {
         if (!method.is_in(name_of(table))) continue;
         for (const ChosenSetting& chosen : settings)
-            if (chosen.method == method.name && chosen.budget_ms == budget_ms) add(&method, method.name, chosen.setting);
+            if (chosen.method == method.name && chosen.budget_ms == chosen_for_ms) add(&method, method.name, chosen.setting);
     }
     for (const std::string& name : external_names(points)) {
         const auto ms = median_of(poses.rows(name, "", table), [](const PointRow& row) { return row.ms; });
         if (ms && *ms <= budget_ms) add(nullptr, name, "");
     }
     return entries;
+}
+
+// The times of a table. If a deformer of the user's own needs more than the longest of them, any time follows.
+std::vector<double> times_of(const PosesOfTable& poses, const std::vector<PointRow>& points, ComparisonTable table)
+{
+    std::vector<double> times_ms = comparison_times().budgets_ms;
+    const double longest_ms = times_ms.back();
+    const bool is_slow = std::ranges::any_of(external_names(points), [&](const std::string& name) {
+        return median_of(poses.rows(name, "", table), [](const PointRow& row) { return row.ms; }).value_or(0.0) > longest_ms;
+    });
+    if (is_slow) times_ms.push_back(any_time_ms);
+    return times_ms;
 }
 
 MethodRow method_row(const Entry& entry, const Entry& lbs, const PosesOfTable& poses, ComparisonTable table, double budget_ms)
@@ -330,7 +345,8 @@ Comparison concluded(const std::vector<PointRow>& points, const std::vector<OwnE
     Comparison comparison;
     const PosesOfTable poses(points, own);
     for (const ComparisonTable table : {ComparisonTable::known, ComparisonTable::guessed})
-        for (const double budget_ms : comparison_times().budgets_ms) {
+        for (const double budget_ms : times_of(poses, points, table)) {
+            const bool is_any_time = budget_ms == any_time_ms;
             const std::vector<Entry> entries = entries_of(poses, points, settings, table, budget_ms);
             const auto lbs = std::ranges::find(entries, baseline, [](const Entry& entry) { return entry.errors.method; });
             if (lbs == entries.end()) continue;
@@ -340,10 +356,11 @@ Comparison concluded(const std::vector<PointRow>& points, const std::vector<OwnE
                 const MethodRow& row = rows.back();
                 comparison.curves.push_back(
                     {table, row.method, budget_ms, row.setting, row.ms.value_or(not_known), row.share, row.share_low, row.share_high});
+                if (is_any_time) continue;  // a profile is a function of the time
                 for (const double target_pct : targets_pct)
                     comparison.profiles.push_back({table, target_pct, row.method, budget_ms, solved_pct(entry, *lbs, poses, target_pct)});
             }
-            if (std::ranges::count(comparison_times().tables_ms, budget_ms) == 0) continue;
+            if (!is_any_time && std::ranges::count(comparison_times().tables_ms, budget_ms) == 0) continue;
             for (const Entry& entry : entries)
                 for (const PointRow* point : entry.rows)
                     if (point) comparison.errors.push_back({table, budget_ms, *point});

@@ -34,7 +34,8 @@ struct ComparedRow {
 extern const analysis::Columns<ComparedRow> compared_columns;
 
 // methods.csv. A share is the geometric mean over poses of the error over that of LBS with the weights that training has chosen: the median
-// over the members, and the range over them.
+// over the members, and the range over them. A budget of inf is any time: it is there if a deformer of the user's own needs more than the
+// longest time, and the other methods then have the settings of the longest time.
 struct MethodRow {
     ComparisonTable table = ComparisonTable::known;
     double budget_ms = 0.0;

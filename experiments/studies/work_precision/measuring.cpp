@@ -3,6 +3,7 @@
 #include "analysis/metrics/error_norms.hpp"
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/metrics/skin_error.hpp"
+#include "analysis/statistics/paired_comparison.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/deformers/correctives.hpp"
 #include "experiments/deformers/external/external_deformers.hpp"
@@ -17,6 +18,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -49,6 +51,7 @@ namespace {
 constexpr int frames_of_memory = 24;  // before the pose
 constexpr int played_frames = 120;    // before a frame that is compared: two seconds
 constexpr double played_rate_hz = 60.0;
+constexpr std::size_t first_poses = 4;  // of the quick answer on deformers of the user's own
 
 struct ComparedPose {
     const ReferencePose* pose;
@@ -346,6 +349,39 @@ void play(const ComparisonCase& comparison, const ComparedBody& body, const Sett
     }
 }
 
+// A quick answer before the whole: what the deformers of the user's own leave of LBS's error in the first poses by movement, against the
+// first reference variant, with the quick methods of the longest time for comparison.
+void print_first_answers(const ComparisonCase& comparison, const ComparedBody& body)
+{
+    std::vector<std::size_t> places;
+    std::set<std::string> only;
+    for (std::size_t pose = 0; pose < body.poses().size() && places.size() < first_poses; ++pose)
+        if (body.poses()[pose].pose->stratum == Stratum::movement) {
+            places.push_back(pose);
+            only.insert(body.poses()[pose].pose->name);
+        }
+    const auto errors_pct = [&](const PosedShapes& posed) {
+        std::vector<double> errors;
+        for (const std::size_t pose : places)
+            errors.push_back(body.error_joint_pct(pose, 0, posed.shapes[pose]).value_or(analysis::not_known));
+        return errors;
+    };
+    std::map<std::string, std::vector<double>> familiar;
+    for (const char* name : {"lbs", "dqs", "delta_mush"})
+        for (const Setting& setting : settings_of(comparison, *std::ranges::find(methods(), name, &ComparedMethod::name)))
+            familiar[name] = errors_pct(body.posed(body.spec(setting, family().front()), false, only));
+    const std::vector<double>& lbs = familiar["lbs"];
+    if (lbs.empty()) return;
+    for (const ComparedMethod& method : comparison.external) {
+        const PosedShapes posed = body.posed(body.spec({&method}, family().front()), true, only);
+        std::string others;
+        for (const auto& [name, title] : {std::pair("dqs", "DQS"), std::pair("delta_mush", "delta mush")})
+            if (!familiar[name].empty()) others += fmt::format("; {} {:.0f} %", title, 100.0 * analysis::share(familiar[name], lbs));
+        spdlog::info("first answer, {} poses of {}: {}: {:.3g} ms per frame, {:.0f} % of LBS's error{}", places.size(), comparison.body,
+                     method.name, analysis::median(posed.ms), 100.0 * analysis::share(errors_pct(posed), lbs), others);
+    }
+}
+
 }  // namespace
 
 nlohmann::json to_json(const ComparisonCase& comparison)
@@ -369,6 +405,7 @@ Measurements measure(const ComparisonCase& comparison)
 {
     const ComparedBody body(comparison);
     Measurements measurements;
+    if (!comparison.external.empty()) print_first_answers(comparison, body);
     for (const ComparedMethod& method : comparison.external) evaluate(body, {&method}, measurements);
     if (comparison.what == Measured::training) train(body, measurements);
     std::optional<pbs::Motion> motion;

@@ -59,6 +59,27 @@ class ComparedMethods(ResultsTest):
         self.assertIn("quasi-Newton leaves 32 % with the flesh known (3.8 mm; level with vertex block descent, neo-Hookean XPBD, XPBD, "
                       "projective dynamics and 4 more). With", self.changed("decisions", level).answer(1.0))
 
+    def test_a_slow_deformer_of_the_users_own_has_a_column_and_a_sentence(self):
+        """30 ms; PBS is decided to be nearer, and nothing is decided between it and LBS."""
+        file = self.folder / "methods.csv"
+        rows = [dict(row) for row in records.read_rows(file)]
+        longest = [row | {"budget_ms": "inf"} for row in rows if row["table"] == "known" and float(row["budget_ms"]) == 10.0]
+        mine = {"method": "mine", "takes": "", "setting": "", "ms": 30.0, "share": 0.98, "share_low": 0.93, "share_high": 1.03,
+                "within": "doubled", "letters": "z"}
+        write_table(file, rows + longest + [longest[0] | mine])
+        decisions = [dict(row) for row in records.read_rows(self.folder / "decisions.csv")]
+        write_table(self.folder / "decisions.csv", decisions + [decisions[0] | {
+            "table": "known", "budget_ms": "inf", "without_body": "", "first": "mine", "second": "pbs", "decision": "second_is_nearer"}])
+        compared = compared_methods.Compared(self.folder)
+        shares = {method: compared_methods.percent(compared.row("known", 10.0, method)["share"]) for method in ("dqs", "delta_mush", "pbs")}
+        self.assertEqual(compared.own_answers(), [
+            f"mine leaves 98 % [93, 103] of the error of LBS in 30 ms per frame ({rows[0]['poses']} poses); with at most 10 ms, DQS leaves "
+            "{dqs} %, delta mush leaves {delta_mush} % and PBS leaves {pbs} %. It is too slow for 0.1 to 10 ms. Decided: PBS is "
+            "nearer.".format(**shares)])
+        self.assertIn(["mine", "not stated", "", "", "", "98 [93, 103] z"], list(compared.table("known")))
+        self.assertEqual([compared_methods.time_name(ms) for ms in compared.columns_ms], ["0.1 ms", "1 ms", "10 ms", "any time"])
+        self.assertNotEqual(compared.nearest("known", 10.0, takes_nothing=True)["method"], "mine")
+
     def test_what_is_the_same_with_known_and_with_guessed_flesh_is_stated_once(self):
         def same(row):
             row["share"], row["skin_mm"] = (0.3, 4.0) if row["method"] == "pbs" else (0.6, 7.0)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -320,6 +321,24 @@ TEST(Conclusions, HaveAMethodOfTheUsersOwnWithinTimesThatItKeeps)
     EXPECT_EQ(decision(comparison, "pbs", "mine"), Decision::second_is_nearer);
     EXPECT_EQ(decision(comparison, "quasi_newton", "mine"), Decision::first_is_nearer);
     EXPECT_EQ(decision(comparison, "quasi_newton", "mine", guessed), Decision::depends);
+}
+
+// 190 ms are more than each time: the table of any time has the method, beside the others with their settings of the longest time.
+TEST(Conclusions, HaveASlowMethodOfTheUsersOwnAtAnyTime)
+{
+    constexpr double any_time_ms = std::numeric_limits<double>::infinity();
+    Rows rows = four_methods(comparison_times().budgets_ms);
+    EXPECT_TRUE(ranked(rows.concluded(), known, any_time_ms).empty()) << "without a slow method there is no such table";
+    rows.add_points("mine", "", 190.0, everywhere(0.2), GivenFlesh::none);
+    rows.add_points("quick", "", 0.5, everywhere(0.9), GivenFlesh::none);
+    const Comparison comparison = rows.concluded();
+    EXPECT_NEAR(method_row(comparison, known, any_time_ms, "mine").share, 0.2, rounding);
+    EXPECT_EQ(method_row(comparison, known, any_time_ms, "pbs").setting, "of_pbs");
+    EXPECT_EQ(ranked(comparison, known, any_time_ms).size(), ranked(comparison, known, 10.0).size() + 1);
+    EXPECT_NEAR(method_row(comparison, guessed, any_time_ms, "quick").share, 0.9, rounding);
+    EXPECT_EQ(decision(comparison, "pbs", "mine", known, "", any_time_ms), Decision::second_is_nearer);
+    EXPECT_EQ(std::ranges::count(comparison.curves, "mine", &MethodCurveRow::method), 2) << "one point in each table";
+    EXPECT_EQ(std::ranges::count(comparison.profiles, any_time_ms, &SolvedRow::budget_ms), 0);
 }
 
 TEST(Conclusions, HaveACurveOverAllTimes)
