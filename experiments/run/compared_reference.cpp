@@ -11,6 +11,14 @@ namespace {
 
 constexpr double much_lag_deg = 5.0;  // of a part that one bone alone moves
 
+const char* remedy_of_lag(const DeformerSpec& reference)
+{
+    const auto* fem = options_if<FemOptions>(reference);
+    return fem && fem->attachment == FemAttachment::held
+               ? "finer tets (character.vertices, --vertices of a trial) or weights of 1 in a wider band let tets belong to that bone alone"
+               : "attachment = \"held\" of [[fem]] ties such flesh to its bone";
+}
+
 // No deformer is compared with inverted flesh. The linear model is a negative control, which inverts tets at large rotations.
 bool can_be_compared_with(const Runner& reference, const FrameMeasurer& measurer)
 {
@@ -113,13 +121,13 @@ nlohmann::json ComparedReference::record() const
 pbs::RemarkList ComparedReference::remarks() const
 {
     pbs::RemarkList remarks;
-    // A head that is longer than its bone is not held by springs around the bone.
+    // A head that is longer than its bone is not held by springs around the bone, and a band that is thinner than two tets not at all.
     if (largest_lag_.bone >= 0 && largest_lag_.turn_deg > much_lag_deg)
         remarks.push_back(
             {pbs::Gravity::comparison_wrong,
-             fmt::format("{}: in the reference, the flesh that {} alone moves is turned by up to {:.0f} degrees against it, in frame {}; "
-                         "attachment = \"held\" of [[fem]] ties such flesh to its bone",
-                         scene_.file, bone_that_lags(), largest_lag_.turn_deg, largest_lag_.frame)});
+             fmt::format(
+                 "{}: in the reference, the flesh that {} alone moves is turned by up to {:.0f} degrees against it, in frame {}; {}",
+                 scene_.file, bone_that_lags(), largest_lag_.turn_deg, largest_lag_.frame, remedy_of_lag(runner_.spec))});
     if (const SpreadReference::Outcome* outcome = spread())
         for (const pbs::Remark& remark : remarks_on(*outcome, scene_.file)) remarks.push_back(remark);
     if (frames_with_overlap_ > 0)

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <map>
 #include <vector>
 
 namespace experiments {
@@ -21,7 +22,9 @@ struct PartLag {
 
 class PartsOfOneBone {
 public:
-    // A part consists of the tets of pbs::bones_that_move_alone.
+    // A part consists of the tets of pbs::bones_that_move_alone. Where such a part is thinner than two tets, only the artist's surface
+    // shows it: further parts are the connected points of a rigged model that one bone alone moves, if they lie in flesh that follows it
+    // too. The character outlives this.
     explicit PartsOfOneBone(const pbs::Character& character);
 
     // The largest angle between a bone's rotation and the one that fits its part best: the least squares over the part's vertices, each
@@ -34,7 +37,14 @@ private:
         std::vector<int> vertices;
         Eigen::Matrix3Xd arms;  // share (X - mean X) of each vertex at rest [m]
     };
-    std::vector<Part> parts_;
+    using Shares = std::map<int, double>;  // of the vertices of a part: volume, or 1 of a point of the surface
+
+    void add_parts_of_surface();
+    static Part part_of(int bone, const Shares& shares, const pbs::Positions& rest);
+    static PartLag largest_lag_of(const std::vector<Part>& parts, const pbs::Positions& positions, const pbs::Pose& pose);
+
+    const pbs::Character& character_;
+    std::vector<Part> parts_, parts_of_surface_;
 };
 
 }  // namespace experiments

@@ -200,6 +200,11 @@ std::string motion(const TrialOptions& options, TrialScene& made)
         taken = &*named;
     else if (!options.animation.empty())
         return clip_motion(options, named_clip(options, rig), body.skeleton);
+    const auto moves_morphs = [](const pbs::NodeTracks& tracks) { return !tracks.morph_weights.empty(); };
+    if (taken && std::ranges::any_of(taken->nodes, moves_morphs))
+        made.remarks.notes.push_back(fmt::format(
+            "{}: animation {} also moves morph targets: the artist's surface follows them, and the flesh keeps their weights at rest",
+            options.model, taken->name));
     if (taken) return fmt::format("animation = {}\n", quoted(taken->name)) + sampled(taken->end_s - taken->start_s, options, options.model);
     if (body.skeleton.bones.empty())
         throw pbs::InputError(options.model, 0, "skins", "0",

@@ -70,8 +70,8 @@ std::string doubt_words(const nlohmann::json& facts)
     if (facts.at("doubtful_reference") == "lag") {
         const nlohmann::json& lag = facts.at("reference_lag");
         return fmt::format(
-            "No method is called nearest: in the reference, flesh that {} alone moves lags behind it by {} degrees in frame {}. Hold it "
-            "(attachment = \"held\" in scene.toml), or give it to fewer bones. ",
+            "No method is called nearest: in the reference, flesh that {} alone moves lags behind it by {} degrees in frame {}. Finer "
+            "tets (--vertices) or weights of 1 in a wider band let tets belong to that bone alone. ",
             lag.at("bone").get<std::string>(), two_digits(lag.at("largest_turn_deg")), lag.at("frame").get<int>());
     }
     return fmt::format(

@@ -17,6 +17,7 @@ namespace {
 constexpr double farthest = 1e9;  // [file's units]
 // Weights of 8 bits, four per point, sum to one within 4/255 at worst and 1e-3 where they are rounded well.
 constexpr double sum_tolerance = 1e-3;
+constexpr double negative_rounding = 1e-3;  // of exporters: a weight between it and 0 is 0
 
 template <typename Numbers>
 bool bounded(const Numbers& numbers)
@@ -211,10 +212,15 @@ Weights normalised_skin(const std::vector<std::vector<JointShare>>& points, cons
     Weights skin;
     skin.first.push_back(0);
     int without_weight = 0, other_sums = 0;
+    double lowest = 0.0;
     for (std::size_t p = 0; p < points.size(); ++p) {
-        const std::vector<JointShare> shares = merged(points[p]);
+        std::vector<JointShare> shares = merged(points[p]);
         double sum = 0.0;
-        for (const JointShare& share : shares) {
+        for (JointShare& share : shares) {
+            if (share.weight < 0.0 && share.weight > -negative_rounding) {
+                lowest = std::min(lowest, share.weight);
+                share.weight = 0.0;
+            }
             if (!(share.weight >= 0.0 && std::isfinite(share.weight)))
                 throw InputError(file, 0, "mesh " + mesh + ", weight of point " + std::to_string(p), number_text(share.weight),
                                  "expected a finite number of 0 or more");
@@ -235,6 +241,8 @@ Weights normalised_skin(const std::vector<std::vector<JointShare>>& points, cons
     const std::string of_mesh = " of the " + std::to_string(points.size()) + " points of mesh " + mesh;
     if (without_weight > 0)
         remarks.push_back(std::to_string(without_weight) + of_mesh + " have no weight; they follow the first joint of the skin");
+    if (lowest < 0.0)
+        notes.push_back("negative weights of mesh " + mesh + ", down to " + number_text(lowest, 2) + ", are taken as 0, as a rounding");
     if (other_sums > 0)
         notes.push_back("the weights of " + std::to_string(other_sums) + of_mesh + " do not sum to one; they were divided by their sum");
     return skin;
