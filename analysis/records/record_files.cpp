@@ -76,7 +76,7 @@ void require_separate(const std::vector<OutputFile>& outputs, const std::vector<
     for (auto output = outputs.begin(); output != outputs.end(); ++output) {
         if (output->path.empty()) continue;
         for (const std::string& input : inputs)
-            if (is_same_file(output->path, input))
+            if (!input.empty() && is_same_file(output->path, input))
                 throw pbs::InputError("", 0, output->option, output->path, "expected another file than the input " + input);
         for (auto earlier = outputs.begin(); earlier != output; ++earlier)
             if (!earlier->path.empty() && is_same_file(output->path, earlier->path))

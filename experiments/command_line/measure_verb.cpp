@@ -70,8 +70,8 @@ void add_measure_verb(CommandLine& line)
         "deformed frames, the same vertices in the same order: files, a .pvd, 'frame_%04d.vtu', 'frame_*.vtu' or a folder with one "
         "sequence");
     verb->add_option("--displacement", arguments->displacement,
-                     "vector of the points, such as u (also of ux, uy, uz or u:0, u:1, u:2), that deforms the frames of finite element "
-                     "programs; none: frames are at rest")
+                     "vector of the points, such as u (also of ux, uy, uz or u:0, u:1, u:2), that deforms the frames; none: they are at "
+                     "rest")
         ->type_name("NAME");
     verb->add_flag("--any-step", arguments->any_step, "accepts a sequence in which numbers are missing, or whose steps differ");
     verb->add_option("--animation", arguments->animation, "of a rigged model; by default the one that `try` takes")->type_name("NAME");

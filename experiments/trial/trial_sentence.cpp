@@ -123,8 +123,8 @@ std::string skin_words(const nlohmann::json& skin)
     const std::string change = removed_pct > 0.0   ? fmt::format("removes {:.0f} % of {}", removed_pct, distance)
                                : removed_pct < 0.0 ? fmt::format("adds {:.0f} % to {}", -removed_pct, distance)
                                                    : "changes " + distance + " by less than 1 %";
-    return fmt::format("{} (FEM; {:.2g} mm instead of {:.2g} mm over the skin of a body of 1.7 m)", change, skin.at("pbs_mm").get<double>(),
-                       skin.at("lbs_mm").get<double>());
+    return fmt::format("{} (FEM; {} mm instead of {} mm over the skin of a body of 1.7 m)", change, two_digits(skin.at("pbs_mm")),
+                       two_digits(skin.at("lbs_mm")));
 }
 
 // Where joints move apart, the artist changes the volume.

@@ -112,6 +112,20 @@ export class Run {
         return !this.deformer(label).not_reached.includes(at);
     }
 
+    // What a panel says of a frame without a solution: the frame whose shape it shows, if that is another one.
+    unreached_words(label, at) {
+        const shown = this.deformer(label).states?.[at] ?? this.frames[at];
+        return shown === this.frames[at] ? "pose not reached" : `not solved: the pose of frame ${shown}`;
+    }
+
+    // The frame that is played after this one: one with a solution of the reference, if that has two or more.
+    played_after(at) {
+        const places = this.frames.map((_, place) => place);
+        const solved = this.labels.includes(this.reference) ? places.filter((place) => this.reached(this.reference, place)) : places;
+        const played = solved.length > 1 ? solved : places;
+        return played.find((place) => place > at) ?? played[0];
+    }
+
     // Whether a distance of this deformer from the reference is meaningful: both reached the pose of the frame.
     has_errors(label, at) {
         return this.labels.includes(this.reference) && this.reached(label, at) && this.reached(this.reference, at);

@@ -30,7 +30,7 @@ class Viewer {
                                  cut: null, claim: null, playing: false, follow: true, shifting: false });
         this.build();
         this.state.on_change((now, changed) => this.update(now, changed));
-        play(this.state, () => this.run.times_s, () => this.is_seen);
+        play(this.state, () => this.run, () => this.is_seen);
         this.update(this.state.now, new Set(Object.keys(this.state.now)));
         this.open(location.hash, false);
         window.addEventListener("hashchange", () => this.open(location.hash, true));
@@ -110,6 +110,7 @@ class Viewer {
         now.panels.forEach((label, at) => {
             this.panels[at].update(mesh, label, now, this.palette, this.shades);
             this.panel_elements[at].mark.classList.toggle("vw-hidden", run.reached(label, now.at));
+            this.panel_elements[at].mark.textContent = run.unreached_words(label, now.at);
             draw_figures(this.panel_elements[at].numbers, run, label, now.at);
             this.panel_elements[at].first.textContent = first_numbers(run, label, now.at);
         });

@@ -55,13 +55,14 @@ export function range_of_sight(distance_m, radius_m) {
 }
 
 // Plays the recorded frames in a loop, as long as they are seen: at the speed of the motion, but each for a thirtieth to a sixth of a
-// second, and the last one for half a second.
-export function play(state, times_s, is_seen) {
-    const shown_s = (at, times) => at + 1 < times.length ? Math.min(1 / 6, Math.max(1 / 30, times[at + 1] - times[at])) : 0.5;
+// second, and the last one for half a second. Frames that the reference has no solution of are left out.
+export function play(state, run_of, is_seen) {
+    const shown_s = (at, next, times) => next > at ? Math.min(1 / 6, Math.max(1 / 30, times[next] - times[at])) : 0.5;
     const run = (since) => requestAnimationFrame((time) => {
         if (!state.now.playing) return;
-        const times = times_s(), due = is_seen() && time - since >= 1000 * shown_s(state.now.at, times);
-        if (due) state.set({ at: (state.now.at + 1) % times.length });
+        const { at } = state.now, next = run_of().played_after(at);
+        const due = is_seen() && time - since >= 1000 * shown_s(at, next, run_of().times_s);
+        if (due) state.set({ at: next });
         run(due ? time : since);
     });
     state.on_change((now, changed) => { if (changed.has("playing") && now.playing) run(performance.now()); });

@@ -217,6 +217,16 @@ test("no distance where the deformer or the reference did not reach the frame's 
     assert.deepEqual([0, 1, 2].map((at) => run.has_errors("nh_p1", at)), [true, true, false]);
 });
 
+test("frames that the reference has no solution of are not played, and name the pose that they show", () => {
+    const deformers = [{ label: "pbs", not_reached: [] }, { label: "nh_p1", not_reached: [1, 2, 4], states: [0, 0, 0, 30, 30] }];
+    const run = Object.assign(Object.create(Run.prototype),
+                              { reference: "nh_p1", labels: ["pbs", "nh_p1"], deformers, frames: [0, 10, 20, 30, 40] });
+    assert.deepEqual([0, 1, 2, 3, 4].map((at) => run.played_after(at)), [3, 3, 3, 0, 0]);
+    assert.equal(run.unreached_words("nh_p1", 2), "not solved: the pose of frame 0");
+    run.reference = "none";
+    assert.deepEqual([0, 4].map((at) => run.played_after(at)), [1, 0]);
+});
+
 test("listeners hear what changed, and nothing when nothing did", () => {
     const state = new State({ at: 0, colour: "skin" }), heard = [];
     state.on_change((now, changed) => heard.push([now.at, ...changed]));

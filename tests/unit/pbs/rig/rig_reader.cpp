@@ -139,7 +139,9 @@ TEST_F(RigReader, TheNameOfAGltfDoesNotMatterAndRemarksReachTheCaller)
     for (const char* name : {"arm.glb", "arm.fbx", "arm"})
         EXPECT_EQ(read_rig(folder.file(name, "\n " + two_joint_document().text())).meshes.at(0).joints.size(), 2u) << name;
     GltfDocument gltf = two_joint_document();
-    gltf.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
+    auto& primitives = gltf.json["meshes"][0]["primitives"];
+    primitives.push_back(primitives[0]);
+    primitives[1]["mode"] = 1;  // lines
     EXPECT_EQ(read_rig(folder.file("a.gltf", gltf.text())).remarks.size(), 1u);
 }
 
@@ -182,13 +184,23 @@ TEST(SkinWeights, APointWithoutAnyFollowsTheFirstJointWithARemark)
     }
 }
 
+TEST(SkinWeights, ARoundingBelowZeroIsZeroAndNamed)
+{
+    std::vector<std::string> remarks, notes;
+    const std::vector<std::vector<JointShare>> points = {{{0, 1.0}, {1, -5.6e-5}}};
+    EXPECT_EQ(normalised_skin(points, "a.fbx", "arm", remarks, notes).weight, std::vector<double>{1.0});
+    EXPECT_TRUE(remarks.empty());
+    EXPECT_EQ(notes, std::vector<std::string>{"negative weights of mesh arm, down to -5.6e-05, are taken as 0, as a rounding"});
+}
+
 TEST(SkinWeights, ThatAreNegativeNotFiniteOrNoneAreRefused)
 {
     std::vector<std::string> none;
     const std::vector<JointShare> zero = {{1, 0.0}};
     expect_input_error([&] { weights_of_one_point(zero, none); }, "a.glb: mesh arm, weights = 0: ", "expected a point with a weight");
     constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-    for (const auto& [weight, text] : {std::pair(-0.5, "-0.5"), std::pair(nan, "nan"), std::pair(infinity, "inf")}) {
+    for (const auto& [weight, text] :
+         {std::pair(-0.5, "-0.5"), std::pair(-1e-3, "-0.001"), std::pair(nan, "nan"), std::pair(infinity, "inf")}) {
         const std::vector<std::vector<JointShare>> points = {{{0, 1.0}}, {{0, 1.0}, {1, weight}}};
         expect_input_error([&] { normalised_skin(points, "a.glb", "arm", none, none); },
                            std::string("a.glb: mesh arm, weight of point 1 = ") + text + ": ", "expected a finite number of 0 or more");

@@ -110,12 +110,17 @@ TEST_F(SecondSides, OfABodyWithASmallOpeningAreLeftOut)
     EXPECT_EQ(mesh.look.material, materials);
 }
 
-TEST_F(SecondSides, OfASheetAndOfAPartOfABodyStay)
+TEST_F(SecondSides, OfAPartOfABodyAreLeftOutWhicheverComesFirst)
+{
+    const Triangles bowl = below(ball, 0.0);
+    EXPECT_EQ(left_of(ball.points, stacked(ball.triangles, reversed(bowl))).triangles, ball.triangles);
+    EXPECT_EQ(left_of(ball.points, stacked(reversed(bowl), ball.triangles)).triangles, ball.triangles);
+}
+
+TEST_F(SecondSides, OfASheetStay)
 {
     const Triangles bowl = below(ball, 0.0), bowl_twice = stacked(bowl, reversed(bowl));
     EXPECT_EQ(left_of(ball.points, bowl_twice).triangles.rows(), bowl_twice.rows());
-    const Triangles inner_bowl = stacked(ball.triangles, reversed(bowl));
-    EXPECT_EQ(left_of(ball.points, inner_bowl).triangles.rows(), inner_bowl.rows());
     const Triangles twice_the_same = stacked(ball.triangles, ball.triangles);
     EXPECT_EQ(left_of(ball.points, twice_the_same).triangles.rows(), twice_the_same.rows());
     EXPECT_TRUE(remarks.empty());
