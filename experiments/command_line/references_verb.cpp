@@ -184,7 +184,7 @@ public:
         else
             kept_.push_back(manual);
         if (!kept_.empty())
-            warn({fmt::format("{}: differs from what this program writes, and is kept; without it the same command writes it anew",
+            warn({fmt::format("{}: not replaced: differs from what this program writes (remove a file to have it written anew)",
                               fmt::join(kept_, ", "))});
     }
 

@@ -106,6 +106,51 @@ class Compare(program.ProgramTest):
         self.add_table("section,radius_m,area_m2\nelbow,0.5,1\n", "section,radius_m,area_m2\nelbow,0.5,\n")  # not measured
         self.succeeds("compare", "--part", self.first, self.second)
 
+    def test_a_text_among_numbers_is_a_number_that_differs(self):
+        numbers = "".join(f"s{at},{at}.5\n" for at in range(1, 4))
+        self.add_table("section,radius_m\n" + numbers, "section,radius_m\n" + numbers.replace("2.5", "n/a"))
+        self.differs("audit/print/radii.csv: s2: radius_m = 2.5 | n/a")
+        self.add_table("section,radius_m\ns0,n/a\n" + numbers, "section,radius_m\ns0,n/a\n" + numbers.replace("3.5", "3.5000001"))
+        self.differs("radius_m = 3.5 | 3.5000001")  # the tolerance is that of a column of numbers
+        self.add_table("section,radius_m\nelbow,nan\n", "section,radius_m\nelbow,-nan\n")
+        self.succeeds("compare", self.first, self.second)
+
+    def test_what_a_spreadsheet_makes_of_a_table_is_named(self):
+        good = "section,radius_m\nelbow,0.5\n"
+        for text, words in (("\ufeff" + good, "byte order mark"), (good.replace(",", ";"), "separator is a semicolon"),
+                            (good.replace("0.5", '"0,5"'), "expected a decimal point instead of a comma")):
+            self.add_table(good, text)
+            self.refuses(words, "compare", self.first, self.second)
+
+    def test_what_was_not_compared_is_no_agreement(self):
+        """Runs without a record in both folders, tables without a row, and frames that are cut off or missing."""
+        runs = [pathlib.Path(self.path(side, "walk")) for side in "ab"]
+        for run in runs:
+            self.succeeds("run", "limb_twist", "--quiet", "-o", run, "--set", "motion.frames=2", "--set", 'deformers.use=["lbs"]', "--set",
+                          'reference.name=""', "--set", "output.frames_every=1")
+            shutil.copytree(run, run.parent / "killed")
+        first, second = (run.parent for run in runs)
+        self.succeeds("compare", first, second)
+        for folder in (first, second):
+            (folder / "killed" / "run.json").unlink()
+        self.assertIn("killed: no run.json", self.ends(1, "compare", first, second).stdout)
+        for folder in (first, second):
+            shutil.rmtree(folder / "killed")
+        frame = sorted(runs[1].glob("frames/*.vtu"))[0]
+        whole = frame.read_bytes()
+        frame.write_bytes(whole[:len(whole) // 2])
+        self.assertIn(f"{frame.name}: the frame is cut off", self.ends(1, "compare", first, second).stdout)
+        frame.unlink()
+        self.assertIn(f"frames/{frame.name}", self.ends(1, "compare", first, second).stdout)
+        frame.write_bytes(whole)
+        for run in runs:
+            table = run / "metrics.csv"
+            table.write_text(table.read_text().splitlines(keepends=True)[0])
+        self.assertIn("metrics.csv: that of A has no row", self.ends(1, "compare", first, second).stdout)
+        shutil.copytree(runs[1], second / "more")
+        self.assertIn("more", self.ends(1, "compare", "--part", first, second).stdout)
+        self.refuses("expected another file than the input", "compare", first, second, "--json", runs[0] / "metrics.csv")
+
     def test_runs_beside_the_plan_do_not_count(self):
         shutil.copytree(self.second / "momentum" / "limb", self.second / "momentum" / "stale")
         self.succeeds("compare", self.first, self.second)

@@ -65,6 +65,18 @@ class FullDisk(foreign_arm.ArmTest):
         count = len(tables + frames)
         reliability.tell("full_disk", "limits on a file's size: the file named, nothing half-written", count, count)
 
+    @unittest.skipUnless(program.HAS_FEM, "the finite elements are not installed")
+    @unittest.skipIf(b"__asan_init" in pathlib.Path(program.PBSKIN).read_bytes(), "the address sanitizer reserves terabytes")
+    def test_little_memory_ends_with_a_result_or_a_message(self):
+        """Threads of OpenBLAS that find no memory ask for it for ever."""
+        scene = self.write("newton.toml", pathlib.Path(self.scene).read_text())
+        for megabytes in (100, 150, 200, 250):
+            limit = megabytes * 1_000_000
+            ended = program.run("run", scene, "-o", self.path("newton"), "--set", 'deformers.use=["lbs","warped_newton"]',
+                                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))  # within its 800 s
+            self.assertIn(ended.returncode, (0, 2), ended.stderr)
+            self.assertTrue(ended.returncode == 0 or "pbskin: " in ended.stderr, ended.stderr)
+
     def test_a_study_goes_on_where_there_is_room_again(self):
         whole, folder = pathlib.Path(self.path("whole")), pathlib.Path(self.path("out"))
         self.succeeds("reproduce", "momentum", "-o", whole)

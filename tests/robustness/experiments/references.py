@@ -205,6 +205,16 @@ class References(program.ProgramTest):
         self.refuses("action: exprot not in {export}", "references", "exprot", "-o", self.path("kit"))
         self.assertFalse(os.path.exists(self.path("kit")))
 
+    def test_a_changed_file_is_kept_and_named(self):
+        self.export(0, POSE)
+        solver, rest = (pathlib.Path(self.path("kit", *path)) for path in (["own_solver.py"], ["bodies", "limb.vtu"]))
+        for file in (solver, rest):
+            file.write_text(file.read_text() + "<!-- mine -->\n")
+        mine = solver.read_text()
+        said = self.export(0, POSE, says="not replaced: differs from what this program writes").stderr
+        self.assertIn("bodies/limb.vtu, " + str(solver) + ": not replaced", said)
+        self.assertEqual(solver.read_text(), mine)
+
     def test_a_full_disk(self):
         sizes = sorted({path.stat().st_size for path in run_records.files(self.kit)})
         for size in (100, 9 * sizes[-1] // 10):
