@@ -100,8 +100,30 @@ void add_skin(const RiggedModel& model, const std::string& file, Character& char
     character.artist->is_cut = !flesh.cuts.empty();
 }
 
+// The size of the joints over that of the surface; 1 for fewer than three joints, and for
+// joints at one place, which state no size.
+double relative_size_of_skeleton(const RiggedBody& body)
+{
+    const auto joints = static_cast<Eigen::Index>(body.skeleton.bones.size());
+    if (joints < 3) return 1.0;
+    Positions heads(joints, 3);
+    for (Eigen::Index b = 0; b < joints; ++b) heads.row(b) = body.skeleton.bones[static_cast<std::size_t>(b)].head;
+    const double size_m = diagonal_m(heads);
+    return size_m > 0.0 ? size_m / diagonal_m(body.surface) : 1.0;
+}
+
+// A skeleton of another size is the cause of what else is wrong with sizes.
 void add_size(const RiggedBody& body, const std::string& file, RemarkList& remarks)
 {
+    constexpr double most_apart = 50.0;
+    const double relative = relative_size_of_skeleton(body);
+    if (relative < 1.0 / most_apart || relative > most_apart) {
+        remarks.push_back({Gravity::results_wrong,
+                           file + ": the skeleton is " + number_text(relative, 2) +
+                               " times as large as the mesh in the bind pose: one of them was scaled after the mesh was bound; apply the "
+                               "scales of armature and mesh in the program that made the model, and export it again"});
+        return;
+    }
     const double size_m = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).maxCoeff();
     if (size_m >= smallest_m && size_m <= largest_m) return;
     remarks.push_back({Gravity::part_left_out, file + ": unlikely units: the body's largest extent is " + number_text(size_m, 4) +

@@ -72,6 +72,24 @@ TEST(ModelRemarks, AnExtentBelowFiveCentimetresOrAboveTwentyMetresSpeaksForOther
     }
 }
 
+TEST(ModelRemarks, ASkeletonOfAnotherSizeThanItsMeshIsNamedAsTheCause)
+{
+    for (const auto& [scale, is_named] :
+         {std::pair(1.0, false), std::pair(1.0 / 16000.0, true), std::pair(1000.0, true), std::pair(0.0, false)}) {
+        BoxModel box;
+        box.body.skeleton.bones.resize(3, box.body.skeleton.bones.front());
+        for (std::size_t b = 0; b < 3; ++b) {
+            Bone& bone = box.body.skeleton.bones[b];
+            bone.head = scale * Vec3(0.1, 0.1, 0.1 + 0.3 * static_cast<double>(b));
+            bone.tail = bone.head + scale * Vec3(0.0, 0.0, 0.1);
+        }
+        std::string all;
+        for (const std::string& remark : box.remarks()) all += remark + "\n";
+        EXPECT_EQ(all.find(" times as large as the mesh in the bind pose") != std::string::npos, is_named) << scale << all;
+        EXPECT_EQ(all.find("unlikely units"), std::string::npos) << all;
+    }
+}
+
 TEST(ModelRemarks, BonesOutsideTheBodyAreNamed)
 {
     BoxModel box;
