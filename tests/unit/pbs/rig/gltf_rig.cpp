@@ -1,12 +1,14 @@
 // Reference: glTF 2.0, Sec. 3.5 (scenes and nodes), on small trees.
 
 #include "pbs/rig/rig_formats.hpp"
+#include "pbs/rig/rigged_body.hpp"
 #include "tests/support/gltf_document.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace {
@@ -232,19 +234,35 @@ TEST_F(GltfMeshes, PointsLinesAndMorphTargetsAreLeftOutWithARemark)
     gltf = test_support::two_joint_document();
 }
 
-// A target whose displacements are the points themselves: with the weight w the points are (1 + w) times as far from the origin.
-TEST_F(GltfMeshes, AreMovedByMorphTargets)
+// Theory: glTF 2.0, Sec. 3.7.2.2: points + sum_t w_t displacement_t, with the weights of the animation, else of the node,
+// else of the mesh.
+TEST_F(GltfMeshes, AreMovedByTheirMorphTargetsBeforeTheirSkin)
 {
-    primitive()["targets"] = {{{"POSITION", 0}}, {{"POSITION", 0}}};
-    EXPECT_EQ(read().meshes.at(0).points.row(0), Eigen::RowVector3d(1, 0, 0)) << "without weights";
-    gltf.json["meshes"][0]["weights"] = {0.5, 0.25};
-    const Rig shaped = read();
-    EXPECT_EQ(shaped.meshes.at(0).points.row(0), Eigen::RowVector3d(1.75, 0, 0)) << "by the weights of the mesh";
-    EXPECT_TRUE(shaped.meshes.at(0).morphs.displacements.empty()) << "which nothing moves";
-    gltf.json["nodes"][2]["weights"] = {0.0, -0.5};
-    EXPECT_EQ(read().meshes.at(0).points.row(0), Eigen::RowVector3d(0.5, 0, 0)) << "those of the node come first";
-    gltf.json["nodes"][2]["weights"] = {0.0, 0.0, 1.0};
-    EXPECT_THROW(read(), InputError) << "more weights than targets";
+    const Positions plain = read_mesh().points;
+    std::vector<float> up;
+    for (Eigen::Index p = 0; p < plain.rows(); ++p) up.insert(up.end(), {0.0F, static_cast<float>(p), 1.0F});
+    const int target = gltf.put("VEC3", up);
+    primitive()["targets"] = {{{"POSITION", 0}}, {{"POSITION", target}}};
+    const auto expect_weights = [&](const Positions& points, double first, double second) {
+        const Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>> second_target(up.data(), plain.rows(), 3);
+        EXPECT_LE((points - (1.0 + first) * plain - second * second_target.cast<double>()).cwiseAbs().maxCoeff(), 1e-6);
+    };
+    gltf.json["meshes"][0]["weights"] = {0.25, 0.5};
+    expect_weights(read_mesh().points, 0.25, 0.5);
+    json& node = *std::ranges::find_if(gltf.json["nodes"], [](const json& other) { return other.contains("mesh"); });
+    node["weights"] = {0.0, 2.0};
+    expect_weights(read_mesh().points, 0.0, 2.0);
+
+    animation()["samplers"] = {
+        {{"input", gltf.put("SCALAR", std::vector<float>{0, 1})}, {"output", gltf.put("SCALAR", std::vector<float>{0, 2, 1, 4})}}};
+    const auto number = std::distance(gltf.json["nodes"].begin(), std::ranges::find(gltf.json["nodes"], node));
+    animation()["channels"] = {{{"sampler", 0}, {"target", {{"node", number}, {"path", "weights"}}}}};
+    const Rig rig = read();
+    expect_weights(rig.meshes.at(0).points, 0.0, 2.0);
+    expect_weights(morphed_points(rig.meshes.at(0), &rig.animations.at(0), 0.25), 0.25, 2.5);
+    EXPECT_TRUE(rig.remarks.empty());
+    node["weights"] = {1.0, 1.0, 1.0};
+    expect_refused("meshes/0/weights = 3", "expected one for each of the 2 morph targets");
 }
 
 TEST_F(GltfMeshes, HaveTheSkinOfTheirNode)
