@@ -49,9 +49,9 @@ public:
     const pbs::Triangles& triangles() const { return triangles_; }  // of the counted shells, #F x 3
     Eigen::VectorXd volumes(const pbs::Positions& points) const;    // signed [m^3], one per counted shell; points: #P x 3
     double largest_gap_m(const pbs::Positions& points) const;       // between points that were joined at rest; 0 without any
-    // By how much the change of the volumes from rest [m^3] may differ because the surface in the holes is not known. A surface that moves
-    // rigidly with the rim of its hole encloses the same volume; its points move by at most as much more as those of the rim do, so that
-    // the bound is the cap's area times the largest distance of the rim from its best rigid motion. 0 without caps.
+    // By how much the change of the volumes from rest [m^3] may differ because the surface in the holes is not known, if that surface moves
+    // with the rim of its hole. Where the rim moves rigidly, it then encloses the same volume; otherwise its points move by at most as much
+    // more as those of the rim do. The bound is the cap's area times the largest distance of the rim from its best rigid motion.
     double cap_bound_m3(const pbs::Positions& points) const;
     double counted_share() const;  // of the surface's area that encloses a volume, 0 to 1
 

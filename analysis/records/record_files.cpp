@@ -66,7 +66,8 @@ bool is_same_file(const std::string& one, const std::string& other)
 {
     std::error_code error;
     if (fs::equivalent(one, other, error)) return true;
-    return fs::weakly_canonical(fs::absolute(one), error) == fs::weakly_canonical(fs::absolute(other), error);
+    const fs::path first = fs::weakly_canonical(fs::absolute(one), error);
+    return !error && first == fs::weakly_canonical(fs::absolute(other), error) && !error;
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ struct PlainFields {
     std::map<std::string, double> facts = {};                       // of the whole, in <FieldData>
 };
 
-// Numbers read back to the bit. Atomic; InputError if the file cannot be written.
+// The text of the file. Its numbers read back to the bit.
 std::string plain_vtu(const pbs::TetMesh& mesh, const PlainFields& fields);
 
 // The fields of points, labels among them as #V x 1, and the facts. None of a file of another format, and none of an array that is not in

@@ -100,7 +100,7 @@ void name_unfinished_runs(const Results& first, const Results& second, ResultCom
     std::set<std::string> unfinished = first.unfinished;
     unfinished.insert(second.unfinished.begin(), second.unfinished.end());
     for (const std::string& run : unfinished)
-        if (!first.runs.contains(run) && !second.runs.contains(run))
+        if (const bool is_named = !to.folders.second_is_part && (first.runs.contains(run) || second.runs.contains(run)); !is_named)
             to.not_compared.push_back(run + ": no run.json: the run was not finished");
 }
 

@@ -62,7 +62,7 @@ std::string earlier_trial_scene(const TrialOptions& options);
 //   nearest       at the joints, or over the body where there is none (place): the methods by the median of their errors, the least first
 //                 (methods: deformer, median_pct, and nearest_in, the number of frames in which it has the least error), over so many
 //                 frames, in which all have an error and one of them is at least 0.01 %. Null without a reference
-//   doubtful_reference  why nobody is called nearest: lag, where a bone turns by more than 5 degrees against flesh that it alone moves;
+//   doubtful_reference  why no method is called nearest: lag, where a bone turns by more than 5 degrees against flesh that it alone moves;
 //                 far_from_all, where the median error of every method is above 50 %; null: there is no doubt
 //   inverting     the deformers with inverted tets: the most in a frame, their share of the tets [%], and whether the method is excluded
 //                 from `nearest` (is_excluded), because it has more than lbs by 0.5 % of the tets in more than a tenth of the frames

@@ -75,9 +75,8 @@ std::string doubt_words(const nlohmann::json& facts)
             lag.at("bone").get<std::string>(), two_digits(lag.at("largest_turn_deg")), lag.at("frame").get<int>());
     }
     return fmt::format(
-        "No method is called nearest: the reference lies elsewhere, {} % from the nearest of them (the median over the frames). Flesh that "
-        "hangs free of the bones, such as a cape or a skirt, follows them in another way than the artist meant: give it the weights of one "
-        "bone, or leave it out. ",
+        "No method is called nearest: the reference lies elsewhere, {} % from the nearest of them (the median over the frames). A frequent "
+        "cause is flesh that hangs free of the bones, such as a cape or a skirt: give it the weights of one bone, or leave it out. ",
         two_digits(facts.at("nearest").at("methods").front().at("median_pct")));
 }
 
@@ -141,7 +140,8 @@ std::string decisive_sentence(const nlohmann::json& facts)
     if (judges_volume(facts))
         parts.push_back(
             fmt::format("changes the volume {}, where LBS changes it {}", volume_range(volume.at("pbs")), volume_range(volume.at("lbs"))));
-    if (!skin.is_null() && facts.at("doubtful_reference").is_null()) parts.push_back(skin_words(skin));
+    const bool is_excluded = facts.at("inverting").value("pbs", nlohmann::json::object()).value("is_excluded", false);
+    if (!skin.is_null() && !is_excluded && facts.at("doubtful_reference").is_null()) parts.push_back(skin_words(skin));
     parts.push_back(
         fmt::format("{}takes {} per frame instead of {}", parts.empty() ? "" : "and ", time_of("pbs", facts), time_of("lbs", facts)));
     std::string text =

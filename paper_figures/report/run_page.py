@@ -28,7 +28,8 @@ shape = shapes.run | {"scene": shapes.scene | {"name": shapes.text}, "outcome": 
 MODEL = 'id="viewer-block"'  # of the element of the page that has what the viewer shows
 animation = {"name": shapes.text, "duration_s": shapes.number, "largest_rotation_deg": shapes.number}
 trial = {"summary": shapes.text, "nearest_sentence?": shapes.text, "doubtful_reference?": shapes.text_or_none,
-         "inverting?": {"*": {"is_excluded": shapes.truth}}, "warnings": [shapes.text], "notes?": [shapes.text], "animations?": [animation]}
+         "inverting?": {"*": {"is_excluded?": shapes.truth}},
+         "warnings": [shapes.text], "notes?": [shapes.text], "animations?": [animation]}
 
 
 class RunRecords:
@@ -84,7 +85,7 @@ least_visible_pct = 0.01  # an error below it is no difference between two metho
 
 def excluded(found):
     """The deformers that a trial has excluded for their inverted tets."""
-    return {label for label, of in (found.trial or {}).get("inverting", {}).items() if of["is_excluded"]}
+    return {label for label, of in (found.trial or {}).get("inverting", {}).items() if of.get("is_excluded", True)}
 
 
 def methods_of(found):

@@ -31,7 +31,7 @@ public:
         for (std::size_t p = 0; p < source_.primitives.size(); ++p)
             add(source_.primitives[p], field_ + "/primitives/" + std::to_string(p), joints);
         mesh_.points = Eigen::Map<const Positions>(points_.data(), static_cast<Eigen::Index>(points_.size() / 3), 3);
-        add_morphs(node);
+        if (!triangles_.empty()) add_morphs(node);
         mesh_.triangles = Eigen::Map<const Triangles>(triangles_.data(), static_cast<Eigen::Index>(triangles_.size() / 3), 3);
         if (joints > 0)
             mesh_.skin = normalised_skin(with_weights_of_neighbours(shares_, mesh_, rig_.file, rig_.remarks), rig_.file, mesh_.name,

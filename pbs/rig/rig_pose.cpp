@@ -119,7 +119,7 @@ std::vector<RigMesh> moved_meshes(const Rig& rig, const std::vector<Eigen::Affin
             remarks.push_back("mesh " + mesh.name + " is left out: its node " + rig.nodes[carrier].name + " has scale 0 at rest");
         else if (carrier >= 0)
             meshes.push_back(carried_by(carrier, mesh, rest));
-        else if (moving.empty() || !mesh.morphs.displacements.empty())
+        else if (moving.empty() || (!mesh.morphs.displacements.empty() && scale_of(rest[mesh.node]) > 0.0))
             meshes.push_back(carried_by(mesh.node, mesh, rest));
         else
             remarks.push_back("mesh " + mesh.name + " is moved by no joint; it is left out");

@@ -155,6 +155,7 @@ std::string remark_on_single_precision(const Positions& points, const Triangles&
     const auto is_single = [](double x) { return static_cast<double>(static_cast<float>(x)) == x; };
     if (points.rows() == 0 || !points.reshaped().unaryExpr(is_single).all()) return "";
     const double farthest = points.cwiseAbs().maxCoeff();
+    if (!(farthest > 0.0)) return "";
     const double step = std::ldexp(1.0, std::ilogb(farthest) - std::numeric_limits<float>::digits + 1);
     const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
     if (!(size < steps_of_a_good_body * step)) return "";

@@ -116,10 +116,10 @@ public:
     void finish(bool has_times, MeasuredFrames& measured) const
     {
         if (cap_bound_pct_ > 0.0)
-            warn(
-                {fmt::format("{}: the surface in the holes is not known: the changes of the volume are right to {:.2g} points of a per "
-                             "cent, the widest in frame {} (the area of the caps times the distance of the rims from a rigid motion)",
-                             arguments_.rest, cap_bound_pct_, cap_frame_)});
+            warn({fmt::format(
+                "{}: if what lies in the holes moves with their rims, the changes of the volume are right to {:.2g} points of a per "
+                "cent, the widest in frame {} (the area of the caps times the distance of the rims from a rigid motion)",
+                arguments_.rest, cap_bound_pct_, cap_frame_)});
         measured.properties = {{"measured_share_of_area_pct", fmt::format("{:.1f}", 100.0 * rest_.shells().counted_share())},
                                {"cap_bound_pct", fmt::format("{:.4g}", cap_bound_pct_)}};
         measured.not_judged = rest_.not_whole();
