@@ -284,7 +284,7 @@ std::string resolved_blas()
 
 void use_one_blas_thread()
 {
-    const pbs::DeferredSigterm deferred;  // after a fork OpenBLAS starts its threads anew
+    const pbs::SigtermTakenElsewhere elsewhere;  // after a fork OpenBLAS starts its threads anew
     if (auto* set_threads = find<void(int)>("openblas_set_num_threads")) set_threads(1);
 }
 

@@ -87,25 +87,6 @@ bool user_selects()
 
 std::atomic<bool> selected_here = false;
 
-// While this exists, OpenBLAS is loaded with one thread, which the reference uses anyway (run_blas_on_one_thread). Where the address space
-// is limited (ulimit -v), its further threads find no memory and ask for it for ever, and whoever loads or unloads the library waits for
-// them. Programs that are started later get the user's variable.
-class OneBlasThreadWhileLoading {
-public:
-    OneBlasThreadWhileLoading()
-    {
-        if (const char* number = std::getenv(variable)) before_ = number;
-        setenv(variable, "1", 1);
-    }
-    ~OneBlasThreadWhileLoading() { before_ ? setenv(variable, before_->c_str(), 1) : unsetenv(variable); }
-    OneBlasThreadWhileLoading(const OneBlasThreadWhileLoading&) = delete;
-    OneBlasThreadWhileLoading& operator=(const OneBlasThreadWhileLoading&) = delete;
-
-private:
-    static constexpr const char* variable = "OPENBLAS_NUM_THREADS";
-    std::optional<std::string> before_;
-};
-
 }  // namespace
 
 PeakMemory peak_memory_of(const std::function<void()>& work)
@@ -182,8 +163,8 @@ void select_blas_kernels()
     static std::once_flag once;
     std::call_once(once, [] {
         if (user_selects() || loaded_library()) return;
-        const pbs::DeferredSigterm deferred;  // for threads of other libraries
-        const OneBlasThreadWhileLoading one_thread;
+        const pbs::SigtermTakenElsewhere elsewhere;  // OpenBLAS starts its threads
+        const pbs::OneBlasThreadWhileLoading one_thread;
         void* library = dlopen(library_file, RTLD_NOW | RTLD_LOCAL);
         Text* core_type = openblas_text(library, "openblas_get_corename");
         const std::string better = core_type ? better_core_type(core_type(), this_processor()) : "";
@@ -198,7 +179,6 @@ void select_blas_kernels()
 const pbs::Module& load_module_with_blas(const std::string& name)
 {
     select_blas_kernels();
-    const OneBlasThreadWhileLoading one_thread;
     const pbs::Module& module = pbs::load_module(name);
     if (std::strcmp(module.function<decltype(pbskin_headers)>("pbskin_headers")(), pbskin_headers()) != 0)
         throw pbs::InputError(module.path(), 0, "", "", "was built from other headers than this program: build both again");

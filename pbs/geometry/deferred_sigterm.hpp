@@ -4,16 +4,24 @@
 #pragma once
 
 #include <csignal>
+#include <semaphore>
+#include <system_error>
+#include <thread>
 
 namespace pbs {
 
-// From now on the calling thread, and threads that it starts, take no SIGTERM.
-inline void block_sigterm(sigset_t* blocked_before = nullptr)
+inline void mask_sigterm(int how, sigset_t* blocked_before = nullptr)
 {
     sigset_t sigterm;
     sigemptyset(&sigterm);
     sigaddset(&sigterm, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &sigterm, blocked_before);
+    pthread_sigmask(how, &sigterm, blocked_before);
+}
+
+// From now on the calling thread, and threads that it starts, take no SIGTERM.
+inline void block_sigterm(sigset_t* blocked_before = nullptr)
+{
+    mask_sigterm(SIG_BLOCK, blocked_before);
 }
 
 // While this exists, the calling thread takes no SIGTERM. A pending one is handled afterwards, by the handler that there was before.
@@ -40,6 +48,36 @@ public:
 private:
     sigset_t blocked_before_;
     struct sigaction action_before_;
+};
+
+// The same for a library that starts threads while it is loaded, except that a thread of this object takes the signal at once: the library
+// may never return, as OpenBLAS where its threads find no memory. METIS must not run meanwhile.
+//   const SigtermTakenElsewhere elsewhere;
+//   dlopen(...);
+class SigtermTakenElsewhere {
+public:
+    SigtermTakenElsewhere()
+    {
+        try {
+            taker_ = std::thread([this] {
+                mask_sigterm(SIG_UNBLOCK);
+                is_loaded_.acquire();
+            });
+        } catch (const std::system_error&) {  // too little memory for a thread: the signal waits
+        }
+    }
+    ~SigtermTakenElsewhere()
+    {
+        is_loaded_.release();
+        if (taker_.joinable()) taker_.join();
+    }
+    SigtermTakenElsewhere(const SigtermTakenElsewhere&) = delete;
+    SigtermTakenElsewhere& operator=(const SigtermTakenElsewhere&) = delete;
+
+private:
+    const DeferredSigterm deferred_;
+    std::binary_semaphore is_loaded_{0};
+    std::thread taker_;
 };
 
 }  // namespace pbs

@@ -32,7 +32,8 @@ Module open_module(const std::string& name)
         looked_in += (looked_in.empty() ? "" : ", ") + folder.string();
         std::error_code ignored;
         if (!fs::exists(path, ignored)) continue;
-        const DeferredSigterm deferred;  // OpenBLAS starts its threads while it is loaded
+        const SigtermTakenElsewhere elsewhere;  // OpenBLAS starts its threads while it is loaded
+        const OneBlasThreadWhileLoading one_thread;
         // Functions are bound at their first call. Binding those that are never called takes a quarter of the time to load deal.II.
         if (void* handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL)) return {path.string(), handle};
         throw InputError(path.string(), 0, "", "", std::string("this module cannot be loaded: ") + dlerror());

@@ -6,6 +6,8 @@
 // ../lib (a build) and ../lib/pbskin (an installation). A module that is not there is an InputError saying where it was looked for.
 #pragma once
 
+#include <cstdlib>
+#include <optional>
 #include <string>
 
 namespace pbs {
@@ -35,5 +37,24 @@ private:
 // Loaded once and kept to the end of the program; may be called from any thread. An InputError where it is not there or does not load. A
 // function that its libraries lack is noticed only when it is called: the loader then ends the program.
 const Module& load_module(const std::string& name);
+
+// While this exists, OpenBLAS is loaded with one thread; the reference sets it to one anyway. Where the address space
+// is limited (ulimit -v), its further threads find no memory and ask for it for ever, and whoever loads or unloads the library waits for
+// them. Programs that are started later get the user's variable.
+class OneBlasThreadWhileLoading {
+public:
+    OneBlasThreadWhileLoading()
+    {
+        if (const char* number = std::getenv(variable)) before_ = number;
+        setenv(variable, "1", 1);
+    }
+    ~OneBlasThreadWhileLoading() { before_ ? setenv(variable, before_->c_str(), 1) : unsetenv(variable); }
+    OneBlasThreadWhileLoading(const OneBlasThreadWhileLoading&) = delete;
+    OneBlasThreadWhileLoading& operator=(const OneBlasThreadWhileLoading&) = delete;
+
+private:
+    static constexpr const char* variable = "OPENBLAS_NUM_THREADS";
+    std::optional<std::string> before_;
+};
 
 }  // namespace pbs

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include <atomic>
 #include <csignal>
+#include <thread>
 
 namespace {
 
@@ -26,6 +30,23 @@ TEST(DeferredSigterm, LeavesTheSignalToTheHandlerThatThereWasBefore)
     EXPECT_EQ(handled, 2) << "no longer deferred";
     sigaction(SIGTERM, &before, &after);
     EXPECT_EQ(after.sa_flags & (SA_RESTART | SA_RESETHAND), SA_RESTART);
+}
+
+// A library that never returns; the handler says that it was called in another thread.
+TEST(SigtermTakenElsewhere, HandlesTheSignalWhileTheCallingThreadTakesNone)
+{
+    static std::atomic<std::thread::id> taken_by;
+    struct sigaction own = {}, before = {};
+    own.sa_handler = [](int) { taken_by = std::this_thread::get_id(); };
+    own.sa_flags = SA_RESTART;
+    sigaction(SIGTERM, &own, &before);
+    {
+        const pbs::SigtermTakenElsewhere elsewhere;
+        kill(getpid(), SIGTERM);
+        while (taken_by.load() == std::thread::id()) std::this_thread::yield();
+    }
+    EXPECT_NE(taken_by.load(), std::this_thread::get_id());
+    sigaction(SIGTERM, &before, nullptr);
 }
 
 }  // namespace
