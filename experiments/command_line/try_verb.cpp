@@ -35,7 +35,7 @@ fs::path page_maker()
 
 constexpr double most_glb_bytes = 33e6, most_skin_bytes = 12e6;  // with the page and the tables, a trial takes at most 60 MB
 
-// Runs the scene that was just written. If it is refused before the run has written anything, the folder is left as it was.
+// Runs the scene that was just written. If the run fails, the folder keeps the results of an earlier trial and their scene.
 RunResult run_new_scene(const std::string& scene_file, const std::string& earlier_scene, const TrialOptions& options, bool folder_is_new,
                         int threads, const Remarks& remarks, std::optional<pbs::SourceFile> model)
 {
@@ -48,7 +48,7 @@ RunResult run_new_scene(const std::string& scene_file, const std::string& earlie
             scene.output.most_skin_bytes = most_skin_bytes;
         }
         return run_scene(scene, options.folder, remarks, WhenInterrupted::finish_early, std::move(model));
-    } catch (const pbs::InputError&) {
+    } catch (...) {
         std::error_code code;
         if (!earlier_scene.empty())
             analysis::write_text_atomically(scene_file, earlier_scene);
@@ -124,9 +124,9 @@ int try_model(TrialOptions options, const CommonOptions& common)
     const bool is_new = analysis::make_output_folder(options.folder);
     const std::string scene_file = (fs::path(options.folder) / "scene.toml").string(), earlier_scene = earlier_trial_scene(options);
     analysis::write_text_atomically(scene_file, made.text);
-    analysis::remove_record(fs::path(options.folder) / "frames" / "correctives.toml");  // of an earlier trial
 
     const RunResult result = run_new_scene(scene_file, earlier_scene, options, is_new, common.threads, made.remarks, std::move(model));
+    analysis::remove_record(fs::path(options.folder) / "frames" / "correctives.toml");  // of an earlier trial
     for (const auto& line : result.lines) spdlog::info("{}", line);
     nlohmann::json facts = trial_facts(options.folder);
     facts["animations"] = made.animations;

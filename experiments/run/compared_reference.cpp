@@ -9,8 +9,6 @@
 namespace experiments {
 namespace {
 
-constexpr double much_lag_deg = 5.0;  // of a part that one bone alone moves
-
 const char* remedy_of_lag(const DeformerSpec& reference)
 {
     const auto* fem = options_if<FemOptions>(reference);

@@ -22,6 +22,8 @@
 
 namespace experiments {
 
+constexpr double much_lag_deg = 5.0;  // of a part that one bone alone moves: the reference is doubtful
+
 class ComparedReference {
 public:
     // runner: the first one of the scene, which is its reference if it has one. All arguments must outlive this object.

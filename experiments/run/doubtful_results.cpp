@@ -11,6 +11,9 @@
 #include <algorithm>
 
 namespace experiments {
+
+using nlohmann::literals::operator""_json_pointer;
+
 namespace {
 
 constexpr double many_inverted_pct = 1.0;    // of the tets, in the first frame
@@ -71,6 +74,13 @@ pbs::RemarkList remarks_on_set_up(const Scene& scene, const pbs::Character& char
             remarks.push_back({pbs::Gravity::part_left_out,
                                fmt::format("{}: {} leaves out {} of {} bones, whose middle lies outside the flesh: {}", scene.file,
                                            runner.spec.label, without.size(), character.skeleton.bones.size(), pbs::name_list(without))});
+        if (const int loose = record.is_object() ? record.value("/attachment/loose_parts"_json_pointer, 0) : 0; loose > 0)
+            remarks.push_back(
+                {pbs::Gravity::part_left_out,
+                 fmt::format("{}: no bone holds {} separate part{} of the flesh, {:.2g} % of its volume: in {}, linear blend skinning "
+                             "moves {}",
+                             scene.file, loose, loose == 1 ? "" : "s", record.at("/attachment/loose_pct"_json_pointer).get<double>(),
+                             runner.spec.label, loose == 1 ? "it" : "them")});
         if (!record.contains("weakened_slivers")) continue;
         slivers = record.at("weakened_slivers").get<int>();
         with_soft_slivers.push_back(runner.spec.label);

@@ -1,5 +1,6 @@
 #include "experiments/run/frame_measurement.hpp"
 
+#include "pbs/character/model_character.hpp"
 #include "pbs/geometry/extent.hpp"
 
 #include <fmt/format.h>
@@ -198,8 +199,7 @@ FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const F
     if (!positions.allFinite()) return measured;
     if (!stations_.empty()) measured.min_section_pct = min_section_pct(positions, *context.pose);
     if (surface_volume_)
-        measured.surface_volume_change_pct =
-            surface_volume_->change_pct(pbs::embedded_positions(*character_.surface, positions, character_.mesh.tets));
+        measured.surface_volume_change_pct = surface_volume_->change_pct(pbs::surface_positions(character_, positions, *context.pose));
     return measured;
 }
 

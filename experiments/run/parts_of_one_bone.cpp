@@ -21,13 +21,6 @@ constexpr double follows = 0.5;          // the mean weight of that bone in the 
 constexpr std::size_t fewest = 8;        // points of a part: fewer, or points near a line, do not show a rotation
 constexpr double least_of_widths = 0.1;  // the second width of a part over its first one
 
-double weight_of(const pbs::Weights& weights, int vertex, int bone)
-{
-    for (int e = weights.first[vertex]; e < weights.first[vertex + 1]; ++e)
-        if (weights.bone[e] == bone) return weights.weight[e];
-    return 0.0;
-}
-
 }  // namespace
 
 PartsOfOneBone::PartsOfOneBone(const pbs::Character& character) : character_(character)
@@ -54,11 +47,12 @@ void PartsOfOneBone::add_parts_of_surface()
         for (int e = body.skin.first[p]; e < body.skin.first[p + 1]; ++e) {
             double in_tet = 0.0;
             for (const int v : character_.mesh.tets.row(surface.tet(p)))
-                in_tet += weight_of(character_.artist->weights, v, body.skin.bone[e]) / 4.0;
+                in_tet += character_.artist->weights.of(v, body.skin.bone[e]) / 4.0;
             if (body.skin.weight[e] > alone && in_tet > follows) bone_of[static_cast<std::size_t>(p)] = body.skin.bone[e];
         }
     pbs::Classes classes(bone_of.size());
-    for (const auto& triangle : surface.triangles.rowwise())
+    const pbs::Triangles across_seams = pbs::joined_triangles(body.surface, surface.triangles);
+    for (const auto& triangle : across_seams.rowwise())
         for (int k = 0; k < 3; ++k)
             if (const int a = triangle(k), b = triangle((k + 1) % 3); bone_of[a] >= 0 && bone_of[a] == bone_of[b]) classes.unite(a, b);
     std::map<int, Shares> members;

@@ -70,6 +70,7 @@ CaseMotion read_motion(const Scene& scene, pbs::Character& character, RunRemarks
 {
     const pbs::InputFile clip(scene.motion.clip);
     CaseMotion motion = make_case_motion(scene.motion, character, scene.file);
+    take_bones_that_move_as_one(motion.motion, character);
     remarks.add(motion.remarks);
     remarks.add(pbs::Gravity::information, motion.notes);
     for (const int frame : scene.output.frames)
@@ -114,6 +115,7 @@ public:
             remarks_.add(pbs::Gravity::information,
                          {scene.file + ": surface_volume_change_pct is empty: the rendered surface is open or encloses no volume"});
         remarks_.add(remarks_on_set_up(scene, character_, runners_));
+        remarks_.set_words_of_interruption(words_on_earlier_results());
     }
 
     RunResult run()
@@ -125,6 +127,8 @@ public:
             play();
         } catch (const Interrupted&) {
             folder_.write_tables(true);
+            if (frames_ > 0 && !words_on_earlier_results().empty()) warn({words_on_earlier_results()});
+            if (frames_ > 0) folder_.keep_earlier_aside();
             throw;
         }
         return finish();
@@ -219,7 +223,8 @@ private:
         if (step.outcome != pbs::Outcome::finished || runner.has_inverted_flesh(measurer_)) record_breakdown(runner, frame, step.outcome);
         if (scene_.output.writes(frame))
             cost_.time("frames", [&] {
-                folder_.write_frame(runner.spec, frame, time_s, character_, positions, measurer_, prescribed_vertices(*runner.deformer));
+                folder_.write_frame(runner.spec, frame, time_s, *context.pose, character_, positions, measurer_,
+                                    prescribed_vertices(*runner.deformer));
             });
         runner.steps = {};
     }
@@ -232,6 +237,12 @@ private:
         const int step = static_cast<int>(runner.steps.worst_step());
         if (step != frame * motion_.motion.steps_per_frame) broken.step = step;
         broken_.add(runner.spec.label, broken, runner.traits.is_negative_control);
+    }
+
+    std::string words_on_earlier_results() const
+    {
+        const std::string earlier = folder_.earlier_results();
+        return earlier.empty() ? "" : earlier + ": has the results of the earlier run until another one is finished";
     }
 
     RunResult finish()
@@ -256,6 +267,7 @@ private:
         for (const Runner& runner : runners_)
             if (const auto record = runner.deformer->record(); !record.is_null()) records[runner.spec.label] = record;
         folder_.finish(character_, records, outcome, cost_, reference_.error_method());
+        remarks_.set_words_of_interruption("");
         return {frames_, stopwatch_.seconds(), broken_.breakdown(), broken_.bad_frame(frames_), summary(), was_interrupted_};
     }
 
@@ -279,7 +291,7 @@ private:
     std::vector<Runner> runners_;
     FrameMeasurer measurer_;
     ComparedReference reference_;
-    RunFolder folder_;  // made after all that may refuse the scene, for it removes the records of an earlier run
+    RunFolder folder_;  // made after all that may refuse the scene, for it puts the records of an earlier run aside
     BrokenFrames broken_;
     int frames_ = 0;
 };

@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <regex>
 
 namespace experiments {
 namespace {
@@ -69,13 +68,6 @@ bool has_artist_skin(const pbs::Character& character)
     return character.artist && character.artist->model && !character.artist->model->body.skeleton.bones.empty();
 }
 
-// The files in frames/: LABEL_000123.vtu, LABEL_surface_000123.vtp, LABEL.pvd and LABEL.glb.
-bool is_own_frame(const fs::path& file)
-{
-    static const std::regex own("[A-Za-z0-9_]+_[0-9]{6}\\.vt[up]|[A-Za-z0-9_]+\\.(pvd|glb)");
-    return std::regex_match(file.filename().string(), own);
-}
-
 }  // namespace
 
 nlohmann::json model_record(const pbs::Character& character)
@@ -111,16 +103,9 @@ RunFolder::RunFolder(const Scene& scene, const pbs::Character& character, const 
     std::error_code error;
     fs::create_directories(fs::path(folder) / "frames", error);
     if (error) throw pbs::InputError(folder, 0, "", "", "the output folder cannot be made: " + error.message());
-    for (const char* old : {"run.json", "metrics.csv", "frame_statistics.csv", "distances.csv", "iterations.csv", "regions.csv",
-                            "bones.csv", "bones_rest.csv", "binding.csv", "surface_rest.vtp", "embedding.csv", "try.json", "report.html"})
-        analysis::remove_record(fs::path(folder) / old);
+    earlier_.emplace(folder);
     analysis::remove_abandoned_files(folder, false);
     analysis::remove_abandoned_files((fs::path(folder) / "frames").string(), false);
-    for (const fs::path& file : analysis::files_in(fs::path(folder) / "frames"))
-        if (is_own_frame(file)) analysis::remove_record(file);
-    if (fs::is_directory(fs::path(folder) / "skin"))
-        for (const fs::path& file : analysis::files_in(fs::path(folder) / "skin"))
-            if (is_own_frame(file)) analysis::remove_record(file);
     if (has_artist_skin(character)) fs::create_directories(fs::path(folder) / "skin", error);
     if (scene.output.glb && character.artist && character.artist->model) {
         const pbs::RiggedModel& model = *character.artist->model;
@@ -137,7 +122,7 @@ void RunFolder::add_frame(const DeformerSpec& spec, int frame, double time_s, co
         iterations_.add_row(cells_of(iteration_columns, {spec.label, frame, static_cast<int>(k) + 1, step.history[k]}));
 }
 
-void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Character& character,
+void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Pose& pose, const pbs::Character& character,
                             const pbs::Positions& positions, FrameMeasurer& measurer, const std::vector<bool>& prescribed)
 {
     pbs::FrameFields fields;
@@ -154,7 +139,7 @@ void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, 
     const fs::path frames = fs::path(folder_) / "frames";
     pbs::write_vtu((frames / frame_file(name, frame, ".vtu")).string(), positions, character.mesh.tets, fields);
     if (character.surface) {
-        const pbs::Positions rendered = pbs::embedded_positions(*character.surface, positions, character.mesh.tets);
+        const pbs::Positions rendered = pbs::surface_positions(character, positions, pose);
         if (scene_.output.surface_files)
             pbs::write_vtp((frames / frame_file(name + "_surface", frame, ".vtp")).string(), rendered, character.surface->triangles);
         distances_.add(frame, time_s, name, "rendered surface", rendered);
@@ -204,7 +189,7 @@ void RunFolder::write_artist_skin(int frame, double time_s, const pbs::Character
 void remove_frames(const std::string& folder)
 {
     for (const fs::path& file : analysis::files_in(fs::path(folder) / "frames"))
-        if (is_own_frame(file) && file.extension() != ".glb" && file.extension() != ".toml") analysis::remove_record(file);
+        if (is_own_frame(file) && file.extension() != ".glb") analysis::remove_record(file);
 }
 
 void RunFolder::write_tables(bool with_moving_surfaces)
@@ -257,6 +242,7 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
     if (!reference_error_method.is_null()) run["reference_error_method"] = reference_error_method;
     run["cost"] = cost.json();
     analysis::write_text_atomically((fs::path(folder_) / "run.json").string(), analysis::record_text(run));
+    earlier_->replace();
 }
 
 }  // namespace experiments

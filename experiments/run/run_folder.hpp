@@ -9,6 +9,7 @@
 #include "experiments/deformers/registry.hpp"
 #include "experiments/run/cost_record.hpp"
 #include "experiments/run/drawn_frames.hpp"
+#include "experiments/run/earlier_results.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/region_record.hpp"
 #include "experiments/scene/scene.hpp"
@@ -18,6 +19,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,12 +33,12 @@ nlohmann::json model_record(const pbs::Character& character);
 
 class RunFolder {
 public:
-    // Removes the records of an earlier run. frames: of the motion.
+    // Puts the records of an earlier run aside. frames: of the motion.
     RunFolder(const Scene& scene, const pbs::Character& character, const std::string& folder, int frames);
 
     void add_frame(const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured, const pbs::StepSummary& step);
-    void write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Character& character, const pbs::Positions& positions,
-                     FrameMeasurer& measurer, const std::vector<bool>& prescribed);
+    void write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Pose& pose, const pbs::Character& character,
+                     const pbs::Positions& positions, FrameMeasurer& measurer, const std::vector<bool>& prescribed);
     // For a frame that is written.
     void write_pose(int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose)
     {
@@ -66,6 +68,9 @@ public:
     // need to be written once.
     void write_tables(bool with_moving_surfaces);
 
+    std::string earlier_results() const { return earlier_->path(); }  // as EarlierResults::path
+    void keep_earlier_aside() { earlier_->keep_aside(); }             // of a run that was interrupted, whose tables stay
+
     // A sentence on the frames that are left out to stay within the sizes of OutputSpec; empty: none.
     std::string words_on_left_out_frames() const;
 
@@ -79,6 +84,7 @@ private:
 
     const Scene& scene_;
     std::string folder_;
+    std::optional<EarlierResults> earlier_;
     analysis::CsvTable metrics_, iterations_;
     std::vector<PosedBone> bones_;
     RegionRecord regions_;

@@ -56,7 +56,13 @@ void RunRemarks::announce() const
     std::string text;
     for (std::size_t e = 0; e < entries_.size() && spdlog::should_log(spdlog::level::warn); ++e)
         if (!entries_[e].is_said) text += fmt::format("pbskin: {}: {}\n", kind_of(e), entries_[e].remark.text);
-    say_when_interrupted(text);
+    say_when_interrupted(text + of_interruption_);
+}
+
+void RunRemarks::set_words_of_interruption(const std::string& words)
+{
+    of_interruption_ = words.empty() ? "" : fmt::format("pbskin: {}\n", words);
+    announce();
 }
 
 void RunRemarks::say_all()

@@ -29,6 +29,9 @@ public:
 
     void say_all();  // prints what was not printed yet
 
+    // A sentence that an interruption prints, too; empty: none.
+    void set_words_of_interruption(const std::string& words);
+
     // For records, which name files without folders of the machine: "folder/hero.glb: no joint moves" -> "hero.glb: no joint moves".
     std::vector<std::string> warnings() const;
     std::vector<std::string> notes() const;  // what would be a warning if there were fewer comes first
@@ -44,6 +47,7 @@ private:
     const char* kind_of(std::size_t entry) const;
     std::size_t warning_count() const;
 
+    std::string of_interruption_;
     std::vector<Entry> entries_;  // the gravest first, otherwise in order of time
 };
 

@@ -25,6 +25,7 @@ std::string reference_key(const DeformerSpec& spec, const pbs::Character& charac
         add(bone.tail.data(), 3);
         add(&bone.parent, 1);
     }
+    add(character.moves_with.data(), character.moves_with.size());
     for (const pbs::Weights* weights : {&character.weights, character.artist ? &character.artist->weights : nullptr}) {
         if (!weights) continue;
         add(weights->bone.data(), weights->bone.size());

@@ -2,6 +2,7 @@
 
 #include "experiments/scene/movements.hpp"
 #include "pbs/character/model_character.hpp"
+#include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/input_error.hpp"
 
@@ -72,8 +73,10 @@ CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& characte
             made.remarks.push_back({pbs::Gravity::results_wrong, note});
         else
             made.notes.push_back(note);
-    made.time_zero = "start of the clip after its first frame, a T pose, plus motion.start_s";
-    made.time_zero_s = clip.frame_time_s + spec.start_s;
+    const int first = pbs::first_frame_of_motion(clip);
+    made.time_zero =
+        first > 0 ? "start of the clip after its first frame, a rest pose, plus motion.start_s" : "start of the clip plus motion.start_s";
+    made.time_zero_s = first * clip.frame_time_s + spec.start_s;
     made.clip_joints = match.moving - match.small;
     made.matched_joints = match.matched;
     for (const pbs::Remark& remark : remarks_on_match(match, spec.clip)) made.remarks.push_back(remark);
@@ -150,6 +153,12 @@ pbs::Motion make_motion(const MotionSpec& spec, const pbs::Skeleton& skeleton, c
         return pbs::joint_sweep(skeleton, joint, spec.axis.normalized(), spec.angle_deg, spec.frames, spec.time_step_s);
     }
     return pbs::retarget(pbs::read_clip(spec.clip, spec.animation), skeleton, clip_sampling(spec));
+}
+
+void take_bones_that_move_as_one(const pbs::Motion& motion, pbs::Character& character)
+{
+    if (pbs::has_artist_weights(character))
+        character.moves_with = pbs::bones_that_move_as_one(character.skeleton, motion.steps, pbs::diagonal_m(character.mesh.rest));
 }
 
 CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& character, const std::string& scene_file)

@@ -59,6 +59,9 @@ struct CaseMotion {
 };
 CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& character, const std::string& scene_file);
 
+// Bones of a model from a rigged file that the motion never moves apart are one bone to what is held (Character::moves_with).
+void take_bones_that_move_as_one(const pbs::Motion& motion, pbs::Character& character);
+
 // The moving joints of a clip that move a bone of the skeleton. An InputError if there are none, or if the scene does not allow it and they
 // are fewer than one half or leave out a half of a limb. Fingers, toes and the like of a clip whose scheme of names is known do not count
 // where the skeleton lacks them.

@@ -78,7 +78,7 @@ const OptionFields<MotionSpec>& motion_fields()
                              "fingers, "
                              "toes and the like aside where the names are known ones"})
             .add("start_s", &MotionSpec::start_s,
-                 {.unit = "s", .range = {0, 1e6}, .meaning = "start of the motion in the clip, without the T-pose of its first frame"})
+                 {.unit = "s", .range = {0, 1e6}, .meaning = "start of the motion in the clip, after a T or A pose in its first frame"})
             .add("duration_s", &MotionSpec::duration_s,
                  {.unit = "s", .range = {0, 1e6}, .meaning = "duration of the motion; 0: to the end of the clip"})
             .add("rate_hz", &MotionSpec::rate_hz,

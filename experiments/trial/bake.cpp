@@ -78,8 +78,10 @@ std::vector<pbs::CorrectiveSample> training_of(const Scene& scene, const pbs::Ch
     DrawnPoses drawn;
     const double coordinates = 3.0 * static_cast<double>(character.surface->tet.size());
     drawn.count = std::clamp(static_cast<int>(most_coordinates / coordinates), fewest_drawn, drawn.count);
+    pbs::Character moving_apart = character;
+    moving_apart.moves_with.clear();  // the poses that are drawn turn every joint
     for (pbs::CorrectiveSample& sample :
-         solved_on_linear_elements(character, options_of<FemOptions>(*spec),
+         solved_on_linear_elements(moving_apart, options_of<FemOptions>(*spec),
                                    drawn_poses(character.skeleton, rotations_in(character.skeleton, frames), drawn), seconds))
         samples.push_back(std::move(sample));
     return samples;
@@ -130,7 +132,7 @@ Eigen::Index write_surface(const pbs::Character& character, const pbs::Motion& m
     const pbs::Tets& tets = character.mesh.tets;
     const pbs::RiggedModel& model = *character.artist->model;
     const pbs::Positions rest = pbs::embedded_positions(surface, character.mesh.rest, tets);
-    for (pbs::CorrectiveSample& sample : samples) sample.shape = pbs::embedded_positions(surface, sample.shape, tets);
+    for (pbs::CorrectiveSample& sample : samples) sample.shape = pbs::surface_positions(character, sample.shape, sample.pose);
     pbs::GlbWriter writer(frames_folder + "/correctives.glb", "correctives", surface.triangles, model.body.look,
                           pbs::read_materials(model.rig.file));
     writer.add_frame(0.0, rest);
@@ -187,8 +189,9 @@ nlohmann::json bake_correctives(const Scene& scene, const std::string& folder, c
     const pbs::Stage stage("learning correctives of " + scene.name);
     pbs::CharacterSource source = scene.character;
     source.surface = true;
-    const pbs::Character character = pbs::make_character(source);
+    pbs::Character character = pbs::make_character(source);
     const pbs::Motion motion = make_case_motion(scene.motion, character, scene.file).motion;
+    take_bones_that_move_as_one(motion, character);
     const std::vector<SolvedPose> solved = solved_frames(scene, character, frames_of(motion), folder, options.seconds);
     const std::vector<pbs::CorrectiveSample> training = training_of(scene, character, solved, options.seconds);
     if (training.empty())

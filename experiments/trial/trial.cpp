@@ -27,6 +27,7 @@ namespace fs = std::filesystem;
 constexpr double lowest_rate_hz = 1e-3, highest_rate_hz = 30.0;  // of a scene; of a motion that is shorter than its frames
 constexpr double lowest_scale = 1e-6, highest_scale = 1e6, shortest_motion_s = 1e-3;
 constexpr double bend_deg = 60.0, least_turn_deg = 5.0;  // of a model without a motion; of a joint in an animation that is worth a trial
+constexpr double least_motion = 1e-3;                    // rad, or over the size of the model: no one sees less
 constexpr int frames_looked_at = 31;                     // of each animation, to find the one that moves
 // The last line of a trial's scene, with the hash of all lines before it: the scene was written by a trial and not changed since.
 constexpr const char* seal = "# As `pbskin try` wrote it: ";
@@ -69,7 +70,7 @@ std::string clip_motion(const TrialOptions& options, const NamedClip& named, con
     return fmt::format("clip = {}\n", quoted(name)) +
            (named.animation.empty() ? "" : fmt::format("animation = {}\n", quoted(named.animation))) +
            (options.allow_partial ? "allow_partial = true\n" : "") +
-           sampled((clip.frames() - 2) * clip.frame_time_s, options, named.file);  // the first frame is a T pose
+           sampled((clip.frames() - 1 - pbs::first_frame_of_motion(clip)) * clip.frame_time_s, options, named.file);
 }
 
 // The bone with a parent that moves most of the skin together with all bones below it.
@@ -87,17 +88,17 @@ int bone_to_bend(const pbs::RiggedBody& body)
     return most;
 }
 
-std::string bending(const TrialOptions& options, const pbs::RiggedBody& body, std::vector<std::string>& notes)
+std::string bending(const TrialOptions& options, const pbs::RiggedBody& body, bool has_animations, std::vector<std::string>& notes)
 {
     const int bone = bone_to_bend(body);
     if (bone < 0)
         throw pbs::InputError(options.model, 0, "animation", "",
-                              "the model has no animation, and no joint has a parent about which it could be bent: "
+                              "the model has no animation that moves a joint, and no joint has a parent about which it could be bent: "
                               "expected --animation CLIP");
     const pbs::Bone& bent = body.skeleton.bones[bone];
     const pbs::Vec3 axis = (bent.tail - bent.head).unitOrthogonal();
-    notes.push_back(fmt::format("{}: it has no animation: the joint {} is bent by {} degrees (--animation CLIP takes a motion)",
-                                options.model, bent.name, bend_deg));
+    notes.push_back(fmt::format("{}: it has no animation{}: the joint {} is bent by {} degrees (--animation CLIP takes a motion)",
+                                options.model, has_animations ? " that moves a joint" : "", bent.name, bend_deg));
     return fmt::format("joint = {}\naxis = [{}, {}, {}]\nangle_deg = {:.1f}\nframes = {}\n", quoted(bent.name), axis.x(), axis.y(),
                        axis.z(), bend_deg, options.frames);
 }
@@ -175,10 +176,11 @@ const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs
     std::string why = fmt::format("the first one that turns a joint by more than {} degrees", least_turn_deg);
     if (moving == motions.end()) {
         moving = std::ranges::max_element(motions, {}, &std::pair<double, double>::second);
+        const bool is_still = moving->second <= least_motion;  // takes without keys, poses, and those that move morph targets alone
+        if (is_still && (bone_to_bend(body) >= 0 || !moves_nodes(animations[moving - motions.begin()]))) return nullptr;
         why = fmt::format("which moves most: none turns a joint by more than {} degrees", least_turn_deg);
     }
     const pbs::RigAnimation& taken = animations[moving - motions.begin()];
-    if (!moves_nodes(taken)) return nullptr;  // morph targets alone do not move a bone
     std::vector<std::string> others;
     for (const pbs::RigAnimation& animation : animations)
         if (&animation != &taken) others.push_back(animation.name);
@@ -209,7 +211,7 @@ std::string motion(const TrialOptions& options, TrialScene& made)
     if (body.skeleton.bones.empty())
         throw pbs::InputError(options.model, 0, "skins", "0",
                               "the model has no joints and no animation: expected --skeleton FILE and --animation CLIP");
-    return bending(options, body, made.remarks.notes);
+    return bending(options, body, !rig.animations.empty(), made.remarks.notes);
 }
 
 // The settings of the built-in scenes, except for delta mush: a model may be thinner than their bodies.

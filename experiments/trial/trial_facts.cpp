@@ -3,6 +3,7 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/tables.hpp"
 #include "analysis/statistics/statistics.hpp"
+#include "experiments/run/compared_reference.hpp"
 #include "experiments/trial/trial.hpp"
 #include "pbs/character/json_file.hpp"
 
@@ -134,7 +135,7 @@ nlohmann::json inverting_methods(const CsvTable& metrics, long long tets)
 }
 
 // The methods that are not excluded, the least median error first, with the frames in which each of them is nearest. A method that fails
-// in the hard frames would look best by the others: only frames in which all have an error count. Null without such a frame.
+// in the hard frames would look best by the others: only frames in which all have an error count.
 nlohmann::json ranking(const FrameErrors& errors, const nlohmann::json& inverting)
 {
     const auto most = std::ranges::max_element(errors, {}, [](const auto& frame) { return frame.second.size(); });
@@ -154,7 +155,6 @@ nlohmann::json ranking(const FrameErrors& errors, const nlohmann::json& invertin
         ++frames;
         ++nearest_in[compared.begin()->second];
     }
-    if (frames == 0) return nullptr;
     std::vector<std::pair<double, std::string>> sorted;
     for (const auto& [deformer, errors_of_method] : own) sorted.emplace_back(analysis::median(errors_of_method), deformer);
     std::ranges::sort(sorted);
@@ -164,21 +164,23 @@ nlohmann::json ranking(const FrameErrors& errors, const nlohmann::json& invertin
     return {{"frames", frames}, {"methods", methods}};
 }
 
-// At the joints, or over the body where no frame has an error there.
+// At the joints, or over the body where no frame has an error there. Null where no frame has an error; without methods where all are
+// excluded.
 nlohmann::json nearest_facts(const CsvTable& metrics, const nlohmann::json& inverting)
 {
-    const FrameErrors at_joints = errors_of(metrics, "error_joint_pct");
-    nlohmann::json nearest = ranking(at_joints.empty() ? errors_of(metrics, "error_l2_pct") : at_joints, inverting);
-    if (!nearest.is_null()) nearest["place"] = at_joints.empty() ? "body" : "joints";
+    const FrameErrors at_joints = errors_of(metrics, "error_joint_pct"), over_body = errors_of(metrics, "error_l2_pct");
+    if (at_joints.empty() && over_body.empty()) return nullptr;
+    nlohmann::json nearest = ranking(at_joints.empty() ? over_body : at_joints, inverting);
+    nearest["place"] = at_joints.empty() ? "body" : "joints";
     return nearest;
 }
 
 // Why the reference may be another pose than the motion's, so that no method is called nearest: far_from_all or lag; null: it is not.
 nlohmann::json doubt_of_reference(const nlohmann::json& nearest, const nlohmann::json& lag)
 {
-    constexpr double most_error_pct = 50.0, most_lag_deg = 5.0;
-    if (!lag.is_null() && lag.at("largest_turn_deg").get<double>() > most_lag_deg) return "lag";
-    if (!nearest.is_null() && nearest.at("place") == "joints" && nearest.at("methods").front().at("median_pct") > most_error_pct)
+    constexpr double most_error_pct = 50.0;
+    if (!lag.is_null() && lag.at("largest_turn_deg").get<double>() > much_lag_deg) return "lag";
+    if (!nearest.is_null() && !nearest.at("methods").empty() && nearest.at("methods").front().at("median_pct") > most_error_pct)
         return "far_from_all";
     return nullptr;
 }

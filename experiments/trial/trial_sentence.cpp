@@ -83,7 +83,9 @@ std::string doubt_words(const nlohmann::json& facts)
 // "Delta mush is nearest to FEM (12 %, in 7 of 9 frames), PBS next (18 %). "
 std::string ranking_words(const nlohmann::json& nearest)
 {
-    const nlohmann::json &methods = nearest.at("methods"), &best = methods.front();
+    const nlohmann::json& methods = nearest.at("methods");
+    if (methods.empty()) return "No method is called nearest: each of them turns too many tets inside out. ";
+    const nlohmann::json& best = methods.front();
     std::string text = fmt::format("{} is nearest to FEM ({} % {}, in {} of {} frames)", shown_name(best.at("deformer")),
                                    two_digits(best.at("median_pct")), nearest.at("place") == "joints" ? "at the joints" : "over the body",
                                    best.at("nearest_in").get<int>(), nearest.at("frames").get<int>());
@@ -115,15 +117,27 @@ std::string error_bar_words(const nlohmann::json& bar)
                        bar.at("seconds").get<double>());
 }
 
-std::string skin_words(const nlohmann::json& skin)
+// Over the skin also count points away from the joints, where flesh should move rigidly.
+std::string otherwise_at_joints(const nlohmann::json& nearest, double removed_pct)
+{
+    std::map<std::string, double> medians;
+    if (!nearest.is_null() && nearest.at("place") == "joints")
+        for (const nlohmann::json& method : nearest.at("methods")) medians[method.at("deformer")] = method.at("median_pct");
+    if (medians.count("pbs") == 0 || medians.count("lbs") == 0) return "";
+    const double nearer_by = medians.at("lbs") - medians.at("pbs");
+    if (nearer_by * removed_pct >= 0.0) return "";
+    return fmt::format(", although PBS is {} than LBS at the joints", nearer_by > 0.0 ? "nearer" : "farther");
+}
+
+std::string skin_words(const nlohmann::json& skin, const nlohmann::json& nearest)
 {
     const std::string distance = "the distance of LBS from elastic flesh";
     const double removed_pct = std::round(skin.at("removed_pct").get<double>());
     const std::string change = removed_pct > 0.0   ? fmt::format("removes {:.0f} % of {}", removed_pct, distance)
                                : removed_pct < 0.0 ? fmt::format("adds {:.0f} % to {}", -removed_pct, distance)
                                                    : "changes " + distance + " by less than 1 %";
-    return fmt::format("{} (FEM; {} mm instead of {} mm over the skin of a body of 1.7 m)", change, two_digits(skin.at("pbs_mm")),
-                       two_digits(skin.at("lbs_mm")));
+    return fmt::format("{} (FEM; {} mm instead of {} mm over the skin of a body of 1.7 m{})", change, two_digits(skin.at("pbs_mm")),
+                       two_digits(skin.at("lbs_mm")), otherwise_at_joints(nearest, removed_pct));
 }
 
 // Where joints move apart, the artist changes the volume.
@@ -141,7 +155,7 @@ std::string decisive_sentence(const nlohmann::json& facts)
         parts.push_back(
             fmt::format("changes the volume {}, where LBS changes it {}", volume_range(volume.at("pbs")), volume_range(volume.at("lbs"))));
     const bool is_excluded = facts.at("inverting").value("pbs", nlohmann::json::object()).value("is_excluded", false);
-    if (!skin.is_null() && !is_excluded && facts.at("doubtful_reference").is_null()) parts.push_back(skin_words(skin));
+    if (!skin.is_null() && !is_excluded && facts.at("doubtful_reference").is_null()) parts.push_back(skin_words(skin, facts.at("nearest")));
     parts.push_back(
         fmt::format("{}takes {} per frame instead of {}", parts.empty() ? "" : "and ", time_of("pbs", facts), time_of("lbs", facts)));
     std::string text =

@@ -5,9 +5,13 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 
 namespace pbs {
@@ -88,40 +92,104 @@ public:
 
     void add(const Vec3& point, int bone, double density, double stiffness_m)
     {
-        points_.insert(points_.end(), {point.x(), point.y(), point.z()});
+        points_.push_back(point);
         stiffness_m_.push_back(stiffness_m);
         held_.springs.bone.push_back(bone);
         held_.density.push_back(density);
     }
+    const std::vector<Vec3>& points() const { return points_; }
     void end()
     {
         const auto springs = static_cast<Eigen::Index>(stiffness_m_.size());
-        held_.springs.points = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(points_.data(), springs, 3);
+        held_.springs.points.resize(springs, 3);
+        for (Eigen::Index s = 0; s < springs; ++s) held_.springs.points.row(s) = points_[static_cast<std::size_t>(s)];
         held_.springs.stiffness = Eigen::VectorXd::Map(stiffness_m_.data(), springs);
     }
 
 private:
     CapsuleSprings& held_;
-    std::vector<double> points_, stiffness_m_;
+    std::vector<Vec3> points_;
+    std::vector<double> stiffness_m_;
 };
 
-// Each tet has four springs, at the points of the quadrature rule of degree 2 (Hammer, Marlowe, Stroud 1956).
-void hold_what_one_bone_moves(const Character& character, SpringList& springs)
+// The points of the quadrature rule of degree 2 in a tet (Hammer, Marlowe, Stroud 1956): each is near one corner.
+constexpr double near = 0.585410196624968515, far = 0.138196601125010504;  // (5 + 3 sqrt 5) / 20, (5 - sqrt 5) / 20
+
+Eigen::Matrix<double, 4, 3> quadrature_points(const TetMesh& mesh, Eigen::Index tet)
 {
-    constexpr double near = 0.585410196624968515, far = 0.138196601125010504;  // (5 + 3 sqrt 5) / 20, (5 - sqrt 5) / 20
-    const Character& coarse = character.unrefined ? *character.unrefined : character;
-    const std::vector<BoneCapsule> rigid = bone_capsules(coarse, rigid_core_radius);
+    Eigen::Matrix<double, 4, 3> corners;
+    for (int i = 0; i < 4; ++i) corners.row(i) = mesh.rest.row(mesh.tets(tet, i));
+    return ((near - far) * corners).rowwise() + far * corners.colwise().sum();
+}
+
+double rigid_stiffness_m(const BoneCapsule& capsule, double volume_m3)
+{
+    return rigid_spring_factor / (capsule.radius_m * capsule.radius_m) * volume_m3 / 4.0;
+}
+
+void hold_what_one_bone_moves(const Character& coarse, const std::vector<BoneCapsule>& rigid, SpringList& springs)
+{
     const std::vector<int> alone = bones_that_move_alone(coarse);
     const Eigen::VectorXd volumes_m3 = tet_volumes(coarse.mesh.rest, coarse.mesh.tets);
     for (std::size_t tet = 0; tet < alone.size(); ++tet) {
         if (alone[tet] < 0) continue;
-        Eigen::Matrix<double, 4, 3> corners;
-        for (int i = 0; i < 4; ++i) corners.row(i) = coarse.mesh.rest.row(coarse.mesh.tets(tet, i));
-        const double radius_m = rigid[alone[tet]].radius_m;
-        const double stiffness_m = rigid_spring_factor / (radius_m * radius_m) * volumes_m3(tet) / 4.0;
-        for (int i = 0; i < 4; ++i)
-            springs.add(far * corners.colwise().sum() + (near - far) * corners.row(i), alone[tet], 1.0, stiffness_m);
+        const double stiffness_m = rigid_stiffness_m(rigid[alone[tet]], volumes_m3(tet));
+        const Eigen::Matrix<double, 4, 3> points = quadrature_points(coarse.mesh, tet);
+        for (int i = 0; i < 4; ++i) springs.add(points.row(i), alone[tet], 1.0, stiffness_m);
     }
+}
+
+// The separate parts whose springs do not span a plane, so that they could turn freely, of parts_of.
+std::set<int> loose_parts(const TetMesh& mesh, const std::vector<int>& part, const SpringList& springs)
+{
+    constexpr double rounding = 1e-12;
+    struct Held {
+        double points = 0.0;
+        Vec3 sum = Vec3::Zero();
+        Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+    };
+    std::map<int, Held> held;
+    const PointLocation location(mesh);
+    for (const Vec3& point : springs.points())
+        if (const Eigen::Index tet = location.locate(point).tet; tet >= 0) {
+            Held& of_part = held[part[static_cast<std::size_t>(tet)]];
+            ++of_part.points;
+            of_part.sum += point;
+            of_part.squares += point * point.transpose();
+        }
+    std::set<int> loose(part.begin(), part.end());
+    for (const auto& [own, of_part] : held) {
+        const Eigen::Matrix3d scatter = of_part.squares - of_part.sum * of_part.sum.transpose() / of_part.points;
+        const Vec3 spread = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
+        if (spread(1) > rounding * of_part.squares.trace()) loose.erase(own);
+    }
+    return loose;
+}
+
+// Springs of all bones at one point, as stiff as their weights are large, are one to the point's place by linear blend skinning.
+void hold_loose_parts(const Character& coarse, const std::vector<BoneCapsule>& rigid, SpringList& springs, CapsuleSprings& held)
+{
+    const std::vector<int> part = parts_of(coarse.mesh.tets);
+    if (std::ranges::count(part, 0) == std::ranges::ssize(part)) return;
+    const std::set<int> loose = loose_parts(coarse.mesh, part, springs);
+    const Eigen::VectorXd volumes_m3 = tet_volumes(coarse.mesh.rest, coarse.mesh.tets);
+    const Weights& weights = coarse.artist->weights;
+    for (Eigen::Index tet = 0; tet < coarse.mesh.tets.rows(); ++tet) {
+        if (!loose.contains(part[static_cast<std::size_t>(tet)])) continue;
+        held.loose_share += volumes_m3(tet) / volumes_m3.sum();
+        const Eigen::Matrix<double, 4, 3> points = quadrature_points(coarse.mesh, tet);
+        for (int i = 0; i < 4; ++i) {
+            std::map<int, double> at_point;
+            for (int corner = 0; corner < 4; ++corner)
+                for (int v = coarse.mesh.tets(tet, corner), e = weights.first[v]; e < weights.first[v + 1]; ++e)
+                    at_point[weights.bone[e]] += (corner == i ? near : far) * weights.weight[e];
+            const int heaviest = std::ranges::max_element(at_point, {}, [](const auto& entry) { return entry.second; })->first;
+            const double stiffness_m = rigid_stiffness_m(rigid[heaviest], volumes_m3(tet));
+            for (const auto& [bone, weight] : at_point)
+                if (weight > 0.0) springs.add(points.row(i), bone, weight, weight * stiffness_m);
+        }
+    }
+    held.loose_parts = static_cast<int>(loose.size());
 }
 
 }  // namespace
@@ -206,7 +274,9 @@ double smooth_density(const BoneCapsule& capsule, AttachmentKernel kernel, doubl
 
 std::vector<int> bones_that_move_alone(const Character& character)
 {
-    const Weights weights = character.artist ? character.artist->weights : weights_by(WeightKind::diffused, character);
+    Weights weights = character.artist ? character.artist->weights : weights_by(WeightKind::diffused, character);
+    if (!character.moves_with.empty())
+        for (int& bone : weights.bone) bone = character.moves_with[static_cast<std::size_t>(bone)];
     std::vector<int> of_tet;
     for (const auto corners : character.mesh.tets.rowwise()) {
         const auto is_moved_alone_by = [&](int bone) {
@@ -222,7 +292,7 @@ std::vector<int> bones_that_move_alone(const Character& character)
 
 CapsuleSprings bone_springs(const Character& character, SpringPlacement placement, const SmoothSpringOptions& options)
 {
-    CapsuleSprings held{bone_capsules(character, options.core_radius), {}, {}};
+    CapsuleSprings held{.capsules = bone_capsules(character, options.core_radius), .springs = {}, .density = {}};
     SpringList springs(held);
     const PointLocation location(character.mesh);
     const auto may_hold = [&](const Vec3& point, int bone) {
@@ -243,7 +313,12 @@ CapsuleSprings bone_springs(const Character& character, SpringPlacement placemen
             springs.add(point, static_cast<int>(j), density, on_axis * density * capsule.volume_m3() / static_cast<double>(points.rows()));
         }
     }
-    if (placement == SpringPlacement::held) hold_what_one_bone_moves(character, springs);
+    if (placement == SpringPlacement::held) {
+        const Character& coarse = character.unrefined ? *character.unrefined : character;
+        const std::vector<BoneCapsule> rigid = bone_capsules(coarse, rigid_core_radius);
+        hold_what_one_bone_moves(coarse, rigid, springs);
+        if (has_artist_weights(coarse)) hold_loose_parts(coarse, rigid, springs, held);
+    }
     springs.end();
     return held;
 }

@@ -54,6 +54,8 @@ struct CapsuleSprings {
     std::vector<BoneCapsule> capsules;  // #bones
     BoneSprings springs;
     std::vector<double> density;  // #springs, relative
+    int loose_parts = 0;          // parts that follow linear blend skinning, for no bone could hold them
+    double loose_share = 0.0;     // of the volume
 };
 
 // Where the springs are.
@@ -61,7 +63,8 @@ struct CapsuleSprings {
 //   embedded  in the capsules, of one density: bones that are rigid capsules in the flesh
 //   held      as smooth, and stiff ones (rigid_spring_factor over the square of rigid_core_radius) throughout the tets that one bone alone
 //             moves, as a skull holds a head: its weight is above weight_alone at all four corners. The weights are the artist's, or
-//             those of Eq. 2 smoothed over the mesh's edges
+//             those of Eq. 2 smoothed over the mesh's edges. Of a model from a rigged file, a separate part in which no springs span a
+//             plane follows linear blend skinning by the artist's weights
 enum class SpringPlacement { smooth, embedded, held };
 inline constexpr double rigid_spring_factor = 1e4, rigid_core_radius = 0.35, weight_alone = 0.99;
 
@@ -69,7 +72,8 @@ inline constexpr double rigid_spring_factor = 1e4, rigid_core_radius = 0.35, wei
 //   const BoneSprings springs = bone_springs(character, SpringPlacement::smooth, {}).springs;
 CapsuleSprings bone_springs(const Character& character, SpringPlacement placement, const SmoothSpringOptions& options);
 
-// The bone that alone moves each tet, #T; -1: none.
+// The bone that alone moves each tet, #T; -1: none. Bones that move as one (Character::moves_with) are one bone, the first of them: a cape
+// that is tied to hips and thighs stands as stiffly as those while they stand still.
 std::vector<int> bones_that_move_alone(const Character& character);
 
 // The paper's jiggling zone (Sec. 4: vertices farther from the nearest bone than the mean over all vertices) on a body: its share of the

@@ -24,7 +24,9 @@ struct ArtistSkin {
     Weights weights = {};                           // the artist's weights in the tets, #V; none of a file without joints
     std::shared_ptr<const RiggedModel> model = {};  // the file with its animations (model_character.hpp)
     double largest_distance_m = 0.0;                // from a vertex of the tets' boundary to the surface of the model
-    bool is_cut = false;                            // between parts that move apart: only bones with a weight in flesh hold it
+    bool is_cut = false;  // between parts that move apart, or joints have no flesh: only bones with a weight in flesh hold it
+    // Points of the surface without flesh of their own, and the share by which joints carry them instead of the tets.
+    std::vector<std::pair<int, double>> of_joints = {};
 };
 
 // make_character returns a whole one; whoever fills one in directly is responsible for matching sizes.
@@ -43,6 +45,7 @@ struct Character {
     WeightKind weight_kind = WeightKind::paper;               // the rule that `weights` obey, on finer tets too
     int refinements = 0;                                      // how often its tets were cut into eight; see `refined`
     std::shared_ptr<const Character> unrefined;               // whose bones' sizes it keeps, on finer or other tets; null: itself
+    std::vector<int> moves_with;  // the first of the bones that move as one with each bone, #bones; empty: each moves alone
 };
 
 // Vertices farther from their nearest bone than the mean over all (Sec. 4), #V.

@@ -177,6 +177,7 @@ void add_joints(const Rig& rig, const std::set<int>& moved, Clip& clip)
             name = rig.nodes[n].name + " (" + std::to_string(number) + ")";
         clip.joints.push_back(name);
         clip.parent.push_back(rig.nodes[n].parent);
+        clip.body_parts.push_back(rig.nodes[n].body_part);
     }
 }
 
@@ -201,7 +202,7 @@ Clip clip_of_rig(const std::string& path, const std::string& name)
     clip.holds.assign(rig.nodes.size(), false);
     for (const NodeTracks& tracks : animation.nodes) clip.holds[tracks.node] = holds(tracks);
 
-    const std::vector<Eigen::Affine3d> zero = zero_pose_of(rig, body_joints(clip.joints));
+    const std::vector<Eigen::Affine3d> zero = zero_pose_of(rig, body_joints(clip));
     const Rotations zero_rotations = rotations_of(zero);
     clip.zero_pose = places_of(zero);
     clip.frame_time_s = 1.0 / key_rate_hz;

@@ -21,6 +21,7 @@ struct Clip {
     std::vector<std::vector<Eigen::Quaterniond>> local;  // relative to the parent, identities in the zero pose, #frames x #joints
     std::vector<Positions> places;                       // joint positions in each frame [clip's units], #frames of #joints x 3
     std::vector<bool> holds = {};                        // joints whose keys are steps, #joints; empty: none
+    std::vector<std::string> body_parts = {};            // as Bone::body_part, #joints; empty: the file has no table
     std::vector<std::string> remarks = {};               // what the reader chose or corrected, a sentence each
     // 1 or more of a clip that was read.
     int frames() const { return static_cast<int>(local.size()); }
@@ -43,9 +44,13 @@ Clip read_bvh(const std::string& text, const std::string& path);
 // length, a frame time that no motion can have. read_clip has called it.
 void check_clip(const Clip& clip);
 
+// The frame with which the motion of a clip begins: 1 where the first frame is the zero pose or a T or A pose, as in cgspeed's conversions,
+// else 0.
+int first_frame_of_motion(const Clip& clip);
+
 // The stretch of a clip that is taken; start_s is after the dropped frame.
 struct ClipSampling : MotionSampling {
-    bool drop_first_frame = true;  // cgspeed's conversions begin with a T pose
+    bool drops_rest_pose = true;  // with which the clip may begin: first_frame_of_motion
 };
 
 // The angle between a part of the posed body and the same part of the clip.
@@ -58,7 +63,7 @@ struct PartAngle {
 // carries the axes of the clip's body into those of the skeleton's (body_axes.hpp), and A is the least rotation from the bone's rest
 // direction to the joint's limb in the rest pose (none where the joint branches). joint_map() determines the joint of each bone; bones
 // without one follow their parent. Rotations only, so that bones keep their lengths; the path of the joint that moves the root bone is
-// scaled by leg length, and the clip's first frame (the T pose dropped) is at the skeleton's rest place. Poses between frames by slerp.
+// scaled by leg length, and the clip's first frame (a rest pose dropped) is at the skeleton's rest place. Poses between frames by slerp.
 // InputErrors: a clip none of whose names match; one whose rest pose cannot be known; a first frame in which the body's trunk or hips point
 // more than 30 degrees away from the clip's; a stretch of time it does not hold, one without a frame after the dropped one; a rate_hz or
 // time_step_s that is not positive, and a product of the two that is not 1 / n with n from 1 to 100,000. angles: the parts whose joints are
@@ -85,12 +90,13 @@ struct BodyJoints {
     std::array<int, 2> upper_arm = {-1, -1}, forearm = {-1, -1}, hand = {-1, -1}, thigh = {-1, -1}, shin = {-1, -1}, foot = {-1, -1};
 };
 
-// Those of these names. Unknown where no scheme knows thighs and shins of them.
-BodyJoints body_joints(const std::vector<std::string>& names);
+// Those of the clip's names, or of its own table of them. Unknown where no scheme knows thighs and shins of them.
+BodyJoints body_joints(const Clip& clip);
 
 // A bone follows the joint of the same name. Where there is none, and clip and skeleton have the names of two schemes that are known (the
 // table in joint_names.cpp), it follows the joint of the same part of the body. For all others, names are compared without capitals,
 // separators, namespaces, a prefix or a number at the end that all names have, and the spelling of the side (LeftHand, hand_l, L.Hand).
+// What a file's own table calls a joint (VRM) counts in place of its name.
 struct JointMap {
     std::vector<JointMapping> bones;  // #bones
     std::vector<bool> is_small;       // fingers, toes and the like of a clip with a known scheme, #joints

@@ -296,6 +296,14 @@ BodyJoints joints_of_scheme(const std::vector<JointKey>& keys, int scheme)
     return body;
 }
 
+std::vector<std::string> known_names(const Clip& clip)
+{
+    std::vector<std::string> names = clip.joints;
+    for (std::size_t j = 0; j < clip.body_parts.size(); ++j)
+        if (!clip.body_parts[j].empty()) names[j] = clip.body_parts[j];
+    return names;
+}
+
 // What a name means decides between schemes: the hip of one is the thigh of another. Parts of the trunk are told apart by their names
 // alone.
 bool is_same_part(int part_of_bone, int part_of_joint)
@@ -342,17 +350,17 @@ std::vector<std::string> torn_limbs(const Clip& clip, const Skeleton& skeleton, 
 
 }  // namespace
 
-BodyJoints body_joints(const std::vector<std::string>& names)
+BodyJoints body_joints(const Clip& clip)
 {
-    const std::vector<JointKey> keys = keys_of(names);
+    const std::vector<JointKey> keys = keys_of(known_names(clip));
     return joints_of_scheme(keys, scheme_of(keys));
 }
 
 JointMap joint_map(const Clip& clip, const Skeleton& skeleton)
 {
     std::vector<std::string> bone_names;
-    for (const Bone& bone : skeleton.bones) bone_names.push_back(bone.name);
-    const std::vector<JointKey> joints = keys_of(clip.joints), bones = keys_of(bone_names);
+    for (const Bone& bone : skeleton.bones) bone_names.push_back(bone.body_part.empty() ? bone.name : bone.body_part);
+    const std::vector<JointKey> joints = keys_of(known_names(clip)), bones = keys_of(bone_names);
     const int own = scheme_of(bones), of_clip = scheme_of(joints);
     const bool is_known = own >= 0 && of_clip >= 0, by_parts = is_known && own != of_clip;
     JointMap map;

@@ -76,6 +76,66 @@ std::string words_on_cuts(const std::vector<Cut>& cuts, const Skeleton& skeleton
     return words;
 }
 
+CarriedWeight carried_weight_of(const RiggedBody& body, const Character& character)
+{
+    return carried_weight(body.skin, character.artist->weights, *character.surface, character.mesh.tets,
+                          static_cast<int>(body.skeleton.bones.size()));
+}
+
+// Of each joint whether the tets carry at most half of its weight.
+std::vector<bool> joints_without_flesh(const CarriedWeight& weight)
+{
+    std::vector<bool> without;
+    for (std::size_t b = 0; b < weight.carried.size(); ++b)
+        without.push_back(weight.of_artist[b] > 0.0 && weight.carried[b] <= 0.5 * weight.of_artist[b]);
+    return without;
+}
+
+// Of each point whether it belongs to a separate shell whose weights the tets around it carry to at most one half, such as a cape that was
+// left out of the tets. The larger part of a body is no such shell.
+std::vector<bool> in_shells_without_flesh(const RiggedBody& body, const CarriedWeight& weight)
+{
+    const std::size_t points = weight.at_point.size();
+    Classes shells(points);
+    for (const Triangles& triangles : {body.triangles, joined_triangles(body.surface, body.triangles)})
+        for (const auto& triangle : triangles.rowwise())
+            for (const int corner : triangle) shells.unite(triangle(0), corner);
+    std::vector<double> size(points, 0.0), carried(points, 0.0);
+    for (std::size_t p = 0; p < points; ++p) {
+        const auto shell = static_cast<std::size_t>(shells.find(static_cast<int>(p)));
+        size[shell] += 1.0;
+        carried[shell] += weight.at_point[p];
+    }
+    std::vector<bool> is_without;
+    for (std::size_t p = 0; p < points; ++p) {
+        const auto shell = static_cast<std::size_t>(shells.find(static_cast<int>(p)));
+        is_without.push_back(carried[shell] <= 0.5 * size[shell] && 2.0 * size[shell] < static_cast<double>(points));
+    }
+    return is_without;
+}
+
+// Flesh of other parts would carry these points elsewhere.
+std::vector<std::pair<int, double>> points_of_joints(const RiggedBody& body, const CarriedWeight& weight)
+{
+    const std::vector<bool> without = joints_without_flesh(weight), in_shell = in_shells_without_flesh(body, weight);
+    std::vector<std::pair<int, double>> points;
+    for (int p = 0; p < body.skin.vertices(); ++p) {
+        double share = 0.0;
+        for (int e = body.skin.first[p]; e < body.skin.first[p + 1]; ++e)
+            if (in_shell[p] || without[body.skin.bone[e]]) share += body.skin.weight[e];
+        if (share > 0.0) points.emplace_back(p, std::min(share, 1.0));
+    }
+    return points;
+}
+
+void take_weights(const RiggedBody& body, const std::function<bool(Eigen::Index, const SurfacePoint&)>& may_move, Character& character)
+{
+    const TransferredWeights transferred =
+        transfer_weights(character.mesh, body.surface, body.triangles, body.skin, static_cast<int>(body.skeleton.bones.size()), may_move);
+    character.artist->weights = transferred.weights;
+    character.artist->largest_distance_m = transferred.largest_distance_m;
+}
+
 // Cuts the flesh between parts that the skeleton moves apart. Surface and weights follow; without a cut they are those of the nearest
 // points.
 void add_skin(const RiggedModel& model, const std::string& file, Character& character, RemarkList& remarks)
@@ -93,11 +153,22 @@ void add_skin(const RiggedModel& model, const std::string& file, Character& char
         remarks.push_back({Gravity::information, file + ": " + words_on_cuts(flesh.cuts, body.skeleton)});
     }
     character.surface = embed(body.surface, body.triangles, character.mesh, may_carry);
-    const TransferredWeights transferred =
-        transfer_weights(character.mesh, body.surface, body.triangles, body.skin, static_cast<int>(body.skeleton.bones.size()), may_move);
-    character.artist->weights = transferred.weights;
-    character.artist->largest_distance_m = transferred.largest_distance_m;
-    character.artist->is_cut = !flesh.cuts.empty();
+    take_weights(body, may_move, character);
+    const CarriedWeight weight = carried_weight_of(body, character);
+    const auto without_flesh = std::ranges::count(joints_without_flesh(weight), true);
+    character.artist->is_cut = !flesh.cuts.empty() || without_flesh > 0;
+    character.artist->of_joints = points_of_joints(body, weight);
+    if (character.artist->of_joints.empty()) return;
+    // Points that joints carry do not move the flesh of other parts either.
+    Eigen::VectorXd of_joints = Eigen::VectorXd::Zero(body.surface.rows());
+    for (const auto& [p, share] : character.artist->of_joints) of_joints(p) = share;
+    take_weights(
+        body,
+        [&](Eigen::Index v, const SurfacePoint& point) {
+            const Eigen::Vector3d shares = of_joints(body.triangles.row(point.triangle).transpose());
+            return point.barycentric.dot(shares) < 0.5 && (!may_move || may_move(v, point));
+        },
+        character);
 }
 
 // The size of the joints over that of the surface; 1 for fewer than three joints, and for
@@ -161,8 +232,9 @@ int handles_of(const Triangles& triangles)
 }
 
 // What the verb `mesh` refuses: tets of another volume or another shape than the surface. A surface without volume has its own remark.
-void add_shape(const RiggedBody& body, const TetMesh& mesh, const std::string& file, RemarkList& remarks)
+void add_shape(const RiggedBody& body, const Character& character, const std::string& file, RemarkList& remarks)
 {
+    const TetMesh& mesh = character.mesh;
     if (sheet_offset_m({body.surface, body.triangles}) > 0.0) return;
     const double ratio = tet_volumes(mesh.rest, mesh.tets).sum() / std::abs(fan_volume(body.surface, body.triangles));
     if (ratio < 0.5 || ratio > 2.0)
@@ -174,21 +246,29 @@ void add_shape(const RiggedBody& body, const TetMesh& mesh, const std::string& f
     const Topology shape = topology_of(mesh.tets, mesh.rest.rows());
     const int handles = shape.boundary_components - shape.boundary_euler / 2,
               own = handles_of(joined_triangles(body.surface, body.triangles));
-    if (handles > own)
-        remarks.push_back(
-            {Gravity::results_wrong,
-             file + ": the boundary of the tets has the Euler number " + std::to_string(shape.boundary_euler) + ", " +
-                 std::to_string(handles) + " handles, and the model has " + std::to_string(own) +
-                 ": parts that nearly touch have grown together; --vertices (character.vertices in a scene) asks for finer tets"});
+    if (handles <= own) return;
+    constexpr double nearly_all_pct = 95.0;  // what grew together moves as the artist wants it, then
+    const bool does_no_harm = !body.skeleton.bones.empty() && carried_weight_of(body, character).share_pct() > nearly_all_pct;
+    remarks.push_back({does_no_harm ? Gravity::information : Gravity::results_wrong,
+                       file + ": the tets have " + std::to_string(handles) + " handles and the model has " + std::to_string(own) +
+                           " (by their Euler numbers): parts that nearly touch have grown together; --vertices (character.vertices in a "
+                           "scene) asks for finer tets"});
 }
 
 void add_bones_outside(const RiggedBody& body, const TetMesh& mesh, const std::string& file, RemarkList& remarks)
 {
+    constexpr double little = 0.01;  // of the skin: an end joint that only gives its parent a direction
+    std::vector<double> moved(body.skeleton.bones.size(), 0.0);
+    for (std::size_t e = 0; e < body.skin.bone.size(); ++e)
+        moved[static_cast<std::size_t>(body.skin.bone[e])] += body.skin.weight[e] / body.skin.vertices();
+    const auto is_end = [&](std::size_t b) {
+        return moved[b] < little && std::ranges::count(body.skeleton.bones, static_cast<int>(b), &Bone::parent) == 0;
+    };
     std::vector<std::string> outside;
     std::vector<bool> is_inside(body.skeleton.bones.size(), false);
     for (const auto& [bone, tet] : bones_in_tets(mesh, body.skeleton, 1.0 / 6.0)) is_inside[static_cast<std::size_t>(bone)] = true;
     for (std::size_t b = 0; b < is_inside.size(); ++b)
-        if (!is_inside[b]) outside.push_back(body.skeleton.bones[b].name);
+        if (!is_inside[b] && !is_end(b)) outside.push_back(body.skeleton.bones[b].name);
     const bool is_layer = outside.size() == body.skeleton.bones.size() && !is_watertight(joined_triangles(body.surface, body.triangles));
     if (!outside.empty())
         remarks.push_back(
@@ -205,16 +285,16 @@ void add_distance(const RiggedBody& body, double distance_m, const std::string& 
 
 void add_joints_without_flesh(const RiggedBody& body, const Character& character, const std::string& file, RemarkList& remarks)
 {
-    const std::vector<Bone>& bones = body.skeleton.bones;
-    const CarriedWeight weight =
-        carried_weight(body.skin, character.artist->weights, *character.surface, character.mesh.tets, static_cast<int>(bones.size()));
+    const std::vector<bool> is_without = joints_without_flesh(carried_weight_of(body, character));
     std::vector<std::string> without;
-    for (std::size_t b = 0; b < bones.size(); ++b)
-        if (weight.carried[b] <= 0.5 * weight.of_artist[b]) without.push_back(bones[b].name);
+    for (std::size_t b = 0; b < is_without.size(); ++b)
+        if (is_without[b]) without.push_back(body.skeleton.bones[b].name);
     if (!without.empty())
         remarks.push_back(
-            {Gravity::part_left_out, file + ": " + std::to_string(without.size()) + " of " + std::to_string(bones.size()) +
-                                         " joints are without flesh: the tets are too coarse for what they move: " + name_list(without)});
+            {Gravity::part_left_out,
+             file + ": " + std::to_string(without.size()) + " of " + std::to_string(is_without.size()) +
+                 " joints are without flesh, for the tets are too coarse for what they move, and the surface alone follows them: " +
+                 name_list(without)});
 }
 
 // The mesher does not know the name of the file.
@@ -276,10 +356,19 @@ Character make_model_character(const ModelSource& source, RemarkList& remarks)
         add_skin(*model, source.file, character, remarks);
     else
         character.surface = embed(body.surface, body.triangles, character.mesh);
-    add_shape(body, character.mesh, source.file, remarks);
+    add_shape(body, character, source.file, remarks);
     const RemarkList on_model = remarks_on_model(body, character, source.file);
     remarks.insert(remarks.end(), on_model.begin(), on_model.end());
     return character;
+}
+
+Positions surface_positions(const Character& character, const Positions& positions, const Pose& pose)
+{
+    Positions points = embedded_positions(*character.surface, positions, character.mesh.tets);
+    if (!character.artist || character.artist->of_joints.empty()) return points;
+    const Positions by_joints = artist_points(character.artist->model->body, pose);
+    for (const auto& [p, share] : character.artist->of_joints) points.row(p) = (1.0 - share) * points.row(p) + share * by_joints.row(p);
+    return points;
 }
 
 RemarkList remarks_on_model(const RiggedBody& body, const Character& character, const std::string& file)

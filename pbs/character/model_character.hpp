@@ -35,6 +35,10 @@ std::shared_ptr<const RiggedModel> read_model(const std::string& file, const std
 // those of read_rig and mesh_surface, and a file without joints if there is no other skeleton.
 Character make_model_character(const ModelSource& source, RemarkList& remarks);
 
+// The rendered surface [m], #S x 3, from deformed tet vertices [m], #V x 3: carried by the tets, and by the joints in this pose where it
+// has no flesh of its own (ArtistSkin::of_joints). The character has a surface.
+Positions surface_positions(const Character& character, const Positions& positions, const Pose& pose);
+
 // Remarks on a character from a rigged model: what the reader left out or corrected, and what is probably wrong: an unlikely size, a
 // surface without volume or far from the tets, bones outside the body, joints without flesh. The character is made of the body and has its
 // surface and its artist's weights.

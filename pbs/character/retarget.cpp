@@ -196,9 +196,17 @@ double twist_angle(const Eigen::Quaterniond& rotation, const Vec3& axis)
     return angle;
 }
 
+int first_frame_of_motion(const Clip& clip)
+{
+    const auto is_unturned = [](const Eigen::Quaterniond& turn) {
+        return turn.angularDistance(Eigen::Quaterniond::Identity()) <= same_rotation_rad;
+    };
+    return std::ranges::all_of(clip.local.front(), is_unturned) || is_t_or_a_pose(clip.places.front(), body_joints(clip)) ? 1 : 0;
+}
+
 Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& sampling, std::vector<PartAngle>* angles)
 {
-    const int first = sampling.drop_first_frame ? 1 : 0;
+    const int first = sampling.drops_rest_pose ? first_frame_of_motion(clip) : 0;
     if (clip.frames() <= first) throw InputError(clip.name, 0, "Frames", std::to_string(clip.frames()), "no frame is left after the first");
     const JointMap map = joint_map(clip, skeleton);
     const RetargetPlan plan = plan_retargeting(clip, skeleton, map);
@@ -272,7 +280,7 @@ double largest_displacement_m(const Motion& motion, const Skeleton& skeleton)
 
 Skeleton skeleton_from_clip(const Clip& clip, double scale)
 {
-    const Positions& rest = rest_places(clip, rest_frame(clip, body_joints(clip.joints)));
+    const Positions& rest = rest_places(clip, rest_frame(clip, body_joints(clip)));
     const std::vector<int> child = first_children(clip, rest);
     std::vector<int> bone_of(clip.joints.size(), -1);  // of the joint, or of the next joint above that has one
     Skeleton skeleton;

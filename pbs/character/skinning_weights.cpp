@@ -147,11 +147,31 @@ Character with_weights(WeightKind kind, Character character)
     return character;
 }
 
+namespace {
+
+// Of each vertex whether another one is at the same place: both are on a cut through the flesh, and not on the skin.
+std::vector<bool> vertices_at_cuts(const Positions& points)
+{
+    const auto before = [&](int a, int b) {
+        return std::ranges::lexicographical_compare(points.row(a).reshaped(), points.row(b).reshaped());
+    };
+    std::vector<int> order(static_cast<std::size_t>(points.rows()));
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, before);
+    std::vector<bool> at_cut(order.size(), false);
+    for (std::size_t k = 1; k < order.size(); ++k)
+        if (points.row(order[k - 1]) == points.row(order[k]))
+            at_cut[static_cast<std::size_t>(order[k - 1])] = at_cut[static_cast<std::size_t>(order[k])] = true;
+    return at_cut;
+}
+
+}  // namespace
+
 TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surface, const Triangles& triangles, const Weights& skin,
                                     int bones, const std::function<bool(Eigen::Index, const SurfacePoint&)>& may_move)
 {
     const SurfaceTree tree(surface, triangles);
-    const std::vector<bool> on_boundary = boundary_vertices(mesh.tets, mesh.rest.rows());
+    const std::vector<bool> on_boundary = boundary_vertices(mesh.tets, mesh.rest.rows()), at_cut = vertices_at_cuts(mesh.rest);
     Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(mesh.rest.rows(), bones);
     TransferredWeights transferred;
     for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v) {
@@ -161,7 +181,7 @@ TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surfac
         if (may_move && !may_move(v, nearest)) {  // at a cut, which lies in the flesh
             const SurfacePoint other = tree.nearest(point, [&](const SurfacePoint& candidate) { return may_move(v, candidate); });
             if (other.triangle >= 0) nearest = other;
-        } else {
+        } else if (!at_cut[static_cast<std::size_t>(v)]) {
             transferred.largest_distance_m = std::max(transferred.largest_distance_m, nearest.distance_m);
         }
         for (int corner = 0; corner < 3; ++corner) {
@@ -176,7 +196,7 @@ TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surfac
 
 CarriedWeight carried_weight(const Weights& skin, const Weights& in_tets, const EmbeddedSurface& surface, const Tets& tets, int bones)
 {
-    CarriedWeight weight{std::vector<double>(bones, 0.0), std::vector<double>(bones, 0.0)};
+    CarriedWeight weight{std::vector<double>(bones, 0.0), std::vector<double>(bones, 0.0), std::vector<double>(skin.vertices(), 0.0)};
     for (int point = 0; point < skin.vertices(); ++point) {
         std::map<int, double> of_tets;
         for (int corner = 0; corner < 4; ++corner) {
@@ -185,8 +205,10 @@ CarriedWeight carried_weight(const Weights& skin, const Weights& in_tets, const 
                 of_tets[in_tets.bone[e]] += surface.barycentric(point, corner) * in_tets.weight[e];
         }
         for (int e = skin.first[point]; e < skin.first[point + 1]; ++e) {
+            const double carried = std::clamp(of_tets[skin.bone[e]], 0.0, skin.weight[e]);
             weight.of_artist[skin.bone[e]] += skin.weight[e];
-            weight.carried[skin.bone[e]] += std::clamp(of_tets[skin.bone[e]], 0.0, skin.weight[e]);
+            weight.carried[skin.bone[e]] += carried;
+            weight.at_point[point] += carried;
         }
     }
     return weight;

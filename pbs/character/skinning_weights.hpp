@@ -36,7 +36,7 @@ std::optional<WeightKind> weights_named(const std::string& name);  // null for a
 // An artist's skin weights in the flesh.
 struct TransferredWeights {
     Weights weights;                  // of the tets' vertices, #V
-    double largest_distance_m = 0.0;  // from a vertex of the tets' boundary to the surface
+    double largest_distance_m = 0.0;  // from a vertex of the tets' boundary to the surface, without cuts
 };
 
 // A vertex on the boundary of the tets gets the weights of the surface's nearest point (linear in its triangle), a vertex inside their
@@ -50,6 +50,7 @@ TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surfac
 // the tets have there.
 struct CarriedWeight {
     std::vector<double> of_artist, carried;  // sums over the points, #bones
+    std::vector<double> at_point;            // the sum over the bones at each point of the surface, 0 to 1
     double share_pct() const;                // 100: the tets move every point as the artist does
 };
 CarriedWeight carried_weight(const Weights& skin, const Weights& in_tets, const EmbeddedSurface& surface, const Tets& tets, int bones);

@@ -341,7 +341,11 @@ RigAnimation animation_of(const tinygltf::Model& model, std::size_t index, const
             tracks_of[moved].node = moved;
         };
         if (channel.target_path == "weights") {
-            if (targets_of(moved) == 0) continue;  // of a mesh without triangles or outside of the scene
+            if (targets_of(moved) == 0) {
+                rig.remarks.push_back("animation " + animation.name + ": its weights of node " + model.nodes[channel.target_node].name +
+                                      " are left out, for no mesh with morph targets is shown there");
+                continue;
+            }
             auto tracks = morph_tracks(model, sampler, targets_of(moved), rig.file, sampler_field);
             include(tracks.front());
             tracks_of[moved].morph_weights = std::move(tracks);
@@ -440,6 +444,36 @@ std::vector<int> add_nodes(const tinygltf::Model& model, Rig& rig)
     return rig_node;
 }
 
+// Null where the value is no object or lacks the key.
+const tinygltf::Value& member(const tinygltf::Value& value, const std::string& key)
+{
+    static const tinygltf::Value none;
+    return value.Has(key) ? value.Get(key) : none;
+}
+
+void take_body_part(const tinygltf::Value& node, const std::string& part, const std::vector<int>& rig_node, Rig& rig)
+{
+    const int number = node.IsInt() ? node.GetNumberAsInt() : -1;
+    if (number < 0 || number >= static_cast<int>(rig_node.size()))
+        throw InputError(rig.file, 0, "humanoid/humanBones/" + part + "/node", node.IsInt() ? std::to_string(number) : "",
+                         "expected a node of the file");
+    rig.nodes[static_cast<std::size_t>(rig_node[static_cast<std::size_t>(number)])].body_part = part;
+}
+
+// The table in which VRM states which node is which part of a body: a list in its version 0, an object by parts since then.
+void take_body_parts(const tinygltf::Model& model, const std::vector<int>& rig_node, Rig& rig)
+{
+    for (const char* extension : {"VRM", "VRMC_vrm", "VRMC_vrm_animation"}) {
+        const auto found = model.extensions.find(extension);
+        if (found == model.extensions.end()) continue;
+        const tinygltf::Value& bones = member(member(found->second, "humanoid"), "humanBones");
+        for (std::size_t b = 0; bones.IsArray() && b < bones.ArrayLen(); ++b)
+            if (const tinygltf::Value& part = member(bones.Get(static_cast<int>(b)), "bone"); part.IsString())
+                take_body_part(member(bones.Get(static_cast<int>(b)), "node"), part.Get<std::string>(), rig_node, rig);
+        for (const std::string& part : bones.Keys()) take_body_part(member(bones.Get(part), "node"), part, rig_node, rig);
+    }
+}
+
 // The file's nodes that its scene shows.
 std::vector<int> nodes_of_scene(const tinygltf::Model& model, const std::string& path)
 {
@@ -476,6 +510,7 @@ Rig read_gltf_rig(const std::string& path)
     const std::vector<int> rig_node = add_nodes(model, rig);
     for (const int node : nodes_of_scene(model, path))
         if (model.nodes[node].mesh >= 0) add_gltf_mesh(model, node, rig_node, rig);
+    take_body_parts(model, rig_node, rig);
     add_gltf_animations(model, rig_node, rig);
     return rig;
 }

@@ -30,6 +30,7 @@ struct RigNode {
     int parent = -1;                       // index into Rig::nodes, -1 for a root; parents precede their children
     NodeTransform rest;                    // where no animation says otherwise
     std::optional<FbxTransform> fbx = {};  // in place of `rest`: a node of an FBX file
+    std::string body_part = {};            // as the file's own table calls it (VRM: leftUpperArm); empty: it is in none
 };
 
 // How a property changes between two keys (glTF 2.0, Appendix C).

@@ -184,7 +184,7 @@ std::map<int, int> add_bones(const Rig& rig, RiggedBody& body)
         const Vec3 head = body.binding.bind.at(node).translation();
         const int parent = bone_above(node, rig, bone_of_node);
         bone_of_node[node] = static_cast<int>(body.skeleton.bones.size());
-        body.skeleton.bones.push_back({name, parent, head, head});
+        body.skeleton.bones.push_back({name, parent, head, head, rig.nodes[node].body_part});
         body.node.push_back(node);
     }
     return bone_of_node;

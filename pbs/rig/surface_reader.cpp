@@ -168,8 +168,8 @@ std::string remark_on_single_precision(const Positions& points, const Triangles&
     const double volume_pct = 100.0 * area * 0.5 * std::sqrt(3.0) * step / std::abs(fan_volume(points, triangles));
     return "coordinates in single precision up to " + number_text(farthest, 3) + " from the origin, where they are multiples of " +
            number_text(step, 2) + ": the size of " + number_text(size, 3) + " has only " + number_text(size / step, 1) +
-           " steps, and the volume is known to " + number_text(volume_pct, 1) +
-           " %; move the model to the origin before it is exported, or use a format in double precision";
+           " steps, and the volume is " + (volume_pct < 100.0 ? "known to " + number_text(volume_pct, 1) + " %" : "not known") +
+           "; move the model to the origin before it is exported, or use a format in double precision";
 }
 
 bool is_surface_file(const std::string& path)

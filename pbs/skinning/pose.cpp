@@ -36,6 +36,26 @@ constexpr double rounding = 1e-6;  // of a step or frame: times given in decimal
 
 }  // namespace
 
+std::vector<int> bones_that_move_as_one(const Skeleton& skeleton, const std::vector<Pose>& poses, double size_m)
+{
+    constexpr double most_apart = 1e-3;  // over the size
+    Vec3 centre = Vec3::Zero();
+    for (const Bone& bone : skeleton.bones) centre += bone.head / static_cast<double>(skeleton.bones.size());
+    const auto moves_with = [&](std::size_t bone, std::size_t other) {
+        return std::ranges::all_of(poses, [&](const Pose& pose) {
+            const double turned_m = (pose[bone].linear() - pose[other].linear()).norm() * size_m;  // the Frobenius norm bounds the turn
+            return turned_m + (pose[bone] * centre - pose[other] * centre).norm() <= most_apart * size_m;
+        });
+    };
+    std::vector<int> first;
+    for (std::size_t bone = 0; bone < skeleton.bones.size(); ++bone) {
+        std::size_t other = 0;
+        while (other < bone && !(first[other] == static_cast<int>(other) && moves_with(bone, other))) ++other;
+        first.push_back(static_cast<int>(other));
+    }
+    return first;
+}
+
 int find_bone(const Skeleton& skeleton, const std::string& name)
 {
     const auto found = std::ranges::find(skeleton.bones, name, &Bone::name);

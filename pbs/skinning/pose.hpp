@@ -15,10 +15,11 @@ namespace pbs {
 
 // Skeletons from files have names given once, bones with a length, and at least one root; those made by hand are not checked.
 struct Bone {
-    std::string name;  // what clips, weights files and find_bone know it by
-    int parent = -1;   // index into Skeleton::bones, -1 for a root; parents precede their children
-    Vec3 head;         // s_j [m]
-    Vec3 tail;         // d_j [m]
+    std::string name;            // what clips, weights files and find_bone know it by
+    int parent = -1;             // index into Skeleton::bones, -1 for a root; parents precede their children
+    Vec3 head;                   // s_j [m]
+    Vec3 tail;                   // d_j [m]
+    std::string body_part = {};  // as the file's own table calls it (VRM: leftUpperArm), whatever its name; empty: it is in none
 };
 
 // The order of bones is that of a Pose's transforms and of the indices in weights and bindings.
@@ -49,6 +50,10 @@ struct Motion {
     // Whole frames; 0 where there is no step.
     int frames() const { return steps.empty() ? 0 : static_cast<int>((steps.size() - 1) / steps_per_frame) + 1; }
 };
+
+// Of each bone the first bone with which it moves as one in all poses, #bones: within `size_m` of the mean of the joints they move every
+// point the same way, up to 1e-3 of size_m.
+std::vector<int> bones_that_move_as_one(const Skeleton& skeleton, const std::vector<Pose>& poses, double size_m);
 
 // Pose from local joint rotations about the heads (parent's frame = world axes) and a translation [m] of the roots.
 // local_rotations: one per bone, of any non-zero length (#bones, unchecked). Parents precede their children.

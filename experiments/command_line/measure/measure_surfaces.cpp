@@ -123,7 +123,7 @@ public:
         measured.properties = {{"measured_share_of_area_pct", fmt::format("{:.1f}", 100.0 * rest_.shells().counted_share())},
                                {"cap_bound_pct", fmt::format("{:.4g}", cap_bound_pct_)}};
         measured.not_judged = rest_.not_whole();
-        if (measured.not_judged.empty()) measured.not_judged = undecided_;
+        if (measured.not_judged.empty() && !breaks_for_all_) measured.not_judged = undecided_;
         if (!arguments_.quiet && volumes_m3_.size() > 1) print_shells();
         if (!arguments_.csv.empty())
             table_of(has_times ? frame_column + time_column + surface_columns : frame_column + surface_columns, rows_)
@@ -145,16 +145,24 @@ public:
     }
 
 private:
-    // Limits that hold for the caps as they are, and might not hold for another surface in the holes.
+    // Limits that hold for some surfaces in the holes and not for others. One that holds for none in some frame is decided by that.
     void note_undecided_limits(const std::string& name, const analysis::FrameValues& values, double bound_pct)
     {
-        analysis::FrameValues widest = values;
-        widest.metrics.volume_change_pct += std::copysign(bound_pct, values.metrics.volume_change_pct);
-        widest.metrics.volume_abs_change_pct += bound_pct;
-        for (const analysis::FrameBound& bound : arguments_.bounds)
-            if (undecided_.empty() && broken_text(bound, values).empty() && !broken_text(bound, widest).empty())
-                undecided_ = fmt::format("in frame {} {} would not hold for every surface in the holes, whose bound is {:.2g} %", name,
+        const auto moved_by = [&](double pct) {
+            const auto moved = [&](double change_pct) { return std::copysign(std::max(0.0, std::abs(change_pct) + pct), change_pct); };
+            analysis::FrameValues other = values;
+            other.metrics.volume_change_pct = moved(values.metrics.volume_change_pct);
+            other.metrics.volume_abs_change_pct = moved(values.metrics.volume_abs_change_pct);
+            return other;
+        };
+        const analysis::FrameValues least = moved_by(-bound_pct), most = moved_by(bound_pct);
+        for (const analysis::FrameBound& bound : arguments_.bounds) {
+            const bool holds_for_some = broken_text(bound, least).empty(), holds_for_all = broken_text(bound, most).empty();
+            breaks_for_all_ = breaks_for_all_ || !holds_for_some;
+            if (undecided_.empty() && holds_for_some && !holds_for_all)
+                undecided_ = fmt::format("in frame {} {} holds for some surfaces in the holes alone, whose bound is {:.2g} %", name,
                                          bound.option, bound_pct);
+        }
     }
 
     void add_shells(const std::string& name, const Eigen::VectorXd& volumes_m3)
@@ -196,7 +204,7 @@ private:
     std::vector<ShellRow> shell_rows_;
     double gap_m_ = 0.0, cap_bound_pct_ = 0.0;
     std::string gap_frame_, cap_frame_, undecided_;
-    bool moves_ = false;
+    bool moves_ = false, breaks_for_all_ = false;
 };
 
 // The animation of that name, or else the one that `pbskin try` takes. InputError for a model without any.
@@ -209,7 +217,11 @@ const pbs::RigAnimation& animation_of(const MeasureArguments& arguments, const p
     const pbs::RigAnimation* taken = moving_animation(options, rig, pbs::make_rigged_body(rig, nullptr, 1.0), choice);
     warn(choice.remarks.notes);
     if (taken) return *taken;
-    if (!rig.animations.empty()) return rig.animations.front();  // which moves morph targets
+    const auto moves_morphs = [](const pbs::RigAnimation& animation) {
+        return std::ranges::any_of(animation.nodes, [](const pbs::NodeTracks& tracks) { return !tracks.morph_weights.empty(); });
+    };
+    if (const auto first = std::ranges::find_if(rig.animations, moves_morphs); first != rig.animations.end()) return *first;
+    if (!rig.animations.empty()) return rig.animations.front();
     warn(rig.remarks);
     throw pbs::InputError(
         arguments.rest, 0, "animations", "0",

@@ -66,6 +66,8 @@ void tie_springs(const pbs::Character& character, const FemOptions& options, Bon
     bones.attachment.spring_stiffness = options.young_pa * held.springs.stiffness;
     bones.spring_bone = std::move(held.springs.bone);
     bones.spring_density = std::move(held.density);
+    bones.loose_parts = held.loose_parts;
+    bones.loose_share = held.loose_share;
 }
 
 }  // namespace

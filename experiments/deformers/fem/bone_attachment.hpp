@@ -16,6 +16,8 @@ struct BoneAttachment {
     std::vector<int> vertex_bone;            // #V, -1: not prescribed
     std::vector<int> tet_bone;               // of each prescribed tet
     pbs::BoneBinding binding;                // of bound vertices; otherwise empty
+    int loose_parts = 0;                     // as of pbs::CapsuleSprings
+    double loose_share = 0.0;
 };
 
 // By options.attachment:

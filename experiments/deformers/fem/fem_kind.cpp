@@ -51,7 +51,8 @@ void add_attachment_fields(OptionFields<FemOptions>& fields)
              "smooth: springs whose density decreases smoothly to zero from the bone's axis to the surface of a capsule around it; "
              "embedded: bones as rigid capsules tied to the flesh by stiff springs; nodes: whole tets inside the capsules "
              "prescribed; bind: the paper's bind constraint as an energy on every vertex, for nonlinear models; held: as smooth, and "
-             "each bone also holds, by stiff springs, the tets that it alone moves, as a skull holds a head"});
+             "each bone also holds, by stiff springs, the tets that it alone moves, as a skull holds a head; of a model, bones that the "
+             "motion never moves apart are one bone for this, and loose parts follow linear blend skinning"});
     // The value 0 of the next two stands for the attachment's own, which records state.
     fields.add(
         "core_radius", &FemOptions::core_radius,

@@ -110,6 +110,7 @@ nlohmann::json FemDeformer::recorded(const reference_fem::SetupSummary& setup) c
 {
     nlohmann::json attachment = attachment_json(options_);
     attachment["bones"] = grips_;
+    if (bones_.loose_parts > 0) attachment.update({{"loose_parts", bones_.loose_parts}, {"loose_pct", 100.0 * bones_.loose_share}});
     for (std::size_t j = 0; j < grips_.size(); ++j) {
         if (grips_[j].contains("samples")) attachment["bones"][j]["grip_error_rms_m"] = grip_error_m_[j];
         if (grips_[j].contains("bound_vertices")) attachment["bones"][j]["bind_error_rms_m"] = grip_error_m_[j];

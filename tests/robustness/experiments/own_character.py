@@ -143,7 +143,8 @@ class OwnCharacter(TrialTest):
 
     def test_warnings(self):
         """A trial gives three warnings at most. The test of the gravest ones covers inverted tets."""
-        facts, printed = self.tried(self.rig("centimetres", animations=(), extra=[("Still", turned(0))], tiny_tip=True))
+        facts, printed = self.tried(self.rig("centimetres", animations=(), extra=[("Still", turned(0))], tiny_tip=True),
+                                    "--animation", "Still")
         for words in ("no joint moves", "unlikely units", "are without flesh"):
             self.remarked(facts, printed, words)
         facts, printed = self.tried(self.rig("two_animations", surface=reversed_by_a_third(), shifted_m=(0.0, 3.0, 0.0)))
@@ -228,6 +229,8 @@ class OwnCharacter(TrialTest):
     def test_an_animation_of_one_key_is_a_pose(self):
         model = self.rig(animations=(), extra=[("Pose", [(1, "rotation", [0.0], [rig_files.turn((0, 0, 1), 60)], "LINEAR")])])
         facts, printed = self.tried(model)
+        self.remarked(facts, printed, "it has no animation that moves a joint: the joint elbow is bent", "note")
+        facts, printed = self.tried(model, "--animation", "Pose")
         self.remarked(facts, printed, "the motion is one pose, in which the bones are turned by up to 60 degrees from the rest pose")
         self.assertNotIn("no joint moves", printed)
         [found] = self.points("skin", "artist_*.vtp")

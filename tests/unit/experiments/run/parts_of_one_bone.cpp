@@ -2,6 +2,8 @@
 
 #include "experiments/run/parts_of_one_bone.hpp"
 #include "pbs/character/bodies.hpp"
+#include "pbs/character/model_character.hpp"
+#include "pbs/geometry/topology.hpp"
 
 #include <gtest/gtest.h>
 
@@ -45,6 +47,34 @@ TEST_F(LagOfTheLimb, IsTheTurnOfTheBoneThatTheFleshDoesNotFollow)
         EXPECT_EQ(lag.bone, static_cast<int>(bone));
         EXPECT_NEAR(lag.turn_deg, 36.0, rounding_deg);
     }
+}
+
+// The tets are thicker than what one bone alone moves, so that only the artist's points show that they stay behind. The second copy of
+// every point, as along a texture seam, belongs to the same part.
+TEST(LagOfAPart, IsMeasuredOnTheArtistsPointsWhereNoTetBelongsToOneBone)
+{
+    pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 400});
+    auto model = std::make_shared<pbs::RiggedModel>();
+    const Eigen::Index points = limb.mesh.rest.rows();
+    model->body.surface = limb.mesh.rest.replicate(2, 1);
+    model->body.triangles = pbs::boundary_of(limb.mesh.tets);
+    for (Eigen::Index f = 0; f < model->body.triangles.rows(); f += 2) model->body.triangles.row(f).array() += static_cast<int>(points);
+    pbs::Weights& weights = limb.artist.emplace().weights;
+    weights.first = model->body.skin.first = {0};
+    for (Eigen::Index p = 0; p < 2 * points; ++p) {
+        model->body.skin.add(0, 1.0);
+        model->body.skin.end_vertex();
+        if (p >= points) continue;
+        for (const auto& [bone, weight] : {std::pair(0, 0.9), std::pair(1, 0.1)}) weights.add(bone, weight);
+        weights.end_vertex();
+    }
+    limb.surface = pbs::embed(model->body.surface, model->body.triangles, limb.mesh);
+    limb.artist->model = model;
+    pbs::Pose pose(limb.skeleton.bones.size(), Eigen::Isometry3d::Identity());
+    pose[0] = turned(36.0);
+    const PartLag lag = PartsOfOneBone(limb).largest_lag(limb.mesh.rest, pose);
+    EXPECT_EQ(lag.bone, 0);
+    EXPECT_NEAR(lag.turn_deg, 36.0, 1e-6);
 }
 
 // Every vertex is blended between both bones.

@@ -85,6 +85,15 @@ TEST_F(TrialSceneTest, TakesTheFirstAnimationThatTurnsAJoint)
                                                              "5 degrees (--animation NAME takes another one: Idle, Blink)"));
 }
 
+TEST_F(TrialSceneTest, BendsAModelWhoseAnimationsMoveNothingUnlessOneIsNamed)
+{
+    TrialOptions options = options_for(test_support::write_rigged_gltf(folder, "still.gltf", {"Take", "Pose"}, 2.0f, {0.0f, 0.05f}));
+    EXPECT_EQ(read(options).motion.joint, "elbow");
+    EXPECT_NE(trial_scene(options).remarks.notes.at(0).find("no animation that moves a joint"), std::string::npos);
+    options.animation = "Pose";
+    EXPECT_EQ(read(options).motion.animation, "Pose");
+}
+
 TEST_F(TrialSceneTest, ReplacesOnlyTheTrialOfTheSameModel)
 {
     TrialOptions options = options_for(test_support::write_rigged_gltf(folder, "arm.gltf", {"Bend"}));
@@ -268,6 +277,10 @@ TEST_F(TrialSummary, AMethodIsExcludedForAShareOfTheBodyInATenthOfTheFrames)
     EXPECT_EQ(sentence_with(2, 9),
               "PBS is nearest to FEM (3 % at the joints, in 10 of 10 frames), LBS next (8 %). Delta mush turns up to 9 tets (0.9 %) inside "
               "out, LBS 3 (0.3 %). Excluded for inverted tets: delta mush. ");
+    folder.file("metrics.csv", metrics_header + "lbs,0,-4,0,1,8\npbs,0,-1,9,2,3\ndelta_mush,0,0,9,1.5,1\n");
+    EXPECT_TRUE(nearest_sentence(facts()).starts_with("LBS is nearest"));
+    folder.file("metrics.csv", metrics_header + "lbs,0,-4,0,1,\npbs,0,-1,9,2,3\ndelta_mush,0,0,9,1.5,1\n");
+    EXPECT_TRUE(nearest_sentence(facts()).starts_with("No method is called nearest: each of them turns too many tets inside out. "));
 }
 
 TEST_F(TrialSummary, NobodyIsNearestToADoubtfulReference)
@@ -275,6 +288,9 @@ TEST_F(TrialSummary, NobodyIsNearestToADoubtfulReference)
     folder.file("metrics.csv", metrics_header + "lbs,1,-4,0,0.5,60\npbs,1,-0.5,0,1,51\n");
     EXPECT_EQ(facts().at("doubtful_reference"), "far_from_all");
     EXPECT_TRUE(nearest_sentence(facts()).starts_with("No method is called nearest: the reference lies elsewhere, 51 % from the nearest"));
+    folder.file("metrics.csv",
+                "deformer,frame,volume_change_pct,inverted_tets,step_ms,error_l2_pct\nlbs,1,-4,0,0.5,60\npbs,1,-0.5,0,1,51\n");
+    EXPECT_EQ(facts().at("doubtful_reference"), "far_from_all") << "without joints";
     folder.file("metrics.csv", metrics_header + "lbs,1,-4,0,0.5,60\npbs,1,-0.5,0,1,50\n");
     EXPECT_TRUE(facts().at("doubtful_reference").is_null()) << "50 % is not above 50 %";
     const auto write_lag = [&](double degrees) {
@@ -325,6 +341,14 @@ TEST_F(TrialSummary, StatesTheShareOfTheSkinsDistanceThatPbsRemoves)
     expect_words(", changes the distance of LBS from elastic flesh by less than 1 % (");
     folder.file("metrics.csv", header + "lbs,0,-1,0,1,2,0.009\npbs,0,-1,0,2,3,1\n");
     EXPECT_TRUE(facts().at("skin").is_null()) << "lbs is not visibly away";
+    const auto with_errors = [&](const char* lbs_pct, const char* pbs_pct) {
+        const std::string both = "deformer,frame,volume_change_pct,inverted_tets,step_ms,skin_rms_mm,skin_rms_pct,error_joint_pct\n";
+        folder.file("metrics.csv", both + "lbs,0,-1,0,1,2,1," + lbs_pct + "\npbs,0,-1,0,2,3,1," + pbs_pct + "\n");
+    };
+    with_errors("8", "4");
+    expect_words("3 mm instead of 2 mm over the skin of a body of 1.7 m, although PBS is nearer than LBS at the joints), and");
+    with_errors("4", "8");
+    expect_words("3 mm instead of 2 mm over the skin of a body of 1.7 m), and");
 }
 
 // PBS and LBS are farthest apart in frame 1: frame 2 of another pair, and a frame that broke down, do not count.

@@ -121,6 +121,18 @@ TEST(RestPose, IsTheZeroPoseOrATPoseInTheFirstFrame)
                        "legs that point 180 degrees");
 }
 
+TEST(RestPose, InFrontOfAClipIsNoFrameOfItsMotion)
+{
+    Clip clip = still_clip(body(), body(-60.0));
+    EXPECT_EQ(first_frame_of_motion(clip), 1) << "without a turn, whatever the pose";
+    clip.local.front()[elbow_l] = Eigen::AngleAxisd(0.01, Vec3::UnitX());
+    EXPECT_EQ(first_frame_of_motion(clip), 0);
+    clip.places.front() = body(20.0);
+    EXPECT_EQ(first_frame_of_motion(clip), 1) << "an A pose of turned joints";
+    clip.joints.assign(joint_count, "joint");
+    EXPECT_EQ(first_frame_of_motion(clip), 0) << "unknown parts";
+}
+
 Skeleton skeleton_of(const Positions& points)
 {
     Skeleton skeleton;

@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -196,6 +198,42 @@ TEST(BonesThatMoveAlone, AreThoseOfWeightsAboveTheThresholdAtAllCorners)
                 if (x > part.from && x < part.to) expected = bone;
         EXPECT_EQ(alone[tet], expected) << "tet " << tet << ", x = " << x;
     }
+}
+
+TEST(BonesThatMoveAlone, CountAsOneWhereTheyMoveAsOne)
+{
+    pbs::Character character = bar_of_known_parts();
+    character.moves_with = {0, 0};
+    EXPECT_EQ(bones_that_move_alone(character), std::vector<int>(static_cast<std::size_t>(character.mesh.tets.rows()), 0));
+}
+
+// A second bar of the same tets, away from the bones, is moved by a quarter of the one and three quarters of the other.
+TEST(BoneSprings, OfAPartThatNoBoneHoldsPullItToItsPlaceByLinearBlendSkinning)
+{
+    pbs::Character character = bar_of_known_parts();
+    const TetMesh own = character.mesh;
+    const auto vertices = own.rest.rows(), tets = own.tets.rows();
+    character.mesh.rest = own.rest.replicate(2, 1);
+    character.mesh.rest.bottomRows(vertices).rowwise() += Eigen::RowVector3d(0, 5, 0);
+    character.mesh.tets = own.tets.replicate(2, 1);
+    character.mesh.tets.bottomRows(tets).array() += static_cast<int>(vertices);
+    for (Eigen::Index v = 0; v < vertices; ++v) {
+        character.artist->weights.add(0, 0.25);
+        character.artist->weights.add(1, 0.75);
+        character.artist->weights.end_vertex();
+    }
+    bind_by_paper(character);
+    const CapsuleSprings held = bone_springs(character, SpringPlacement::held, {});
+    EXPECT_EQ(held.loose_parts, 1);
+    EXPECT_NEAR(held.loose_share, 0.5, test_support::rounding_error(2.0 * static_cast<double>(tets), 0.5));
+    const PointLocation location(character.mesh);
+    std::map<int, std::array<double, 2>> of_tet;  // the stiffness of the springs of each bone
+    for (Eigen::Index s = 0; s < held.springs.points.rows(); ++s)
+        if (held.springs.points(s, 1) > 2.5)
+            of_tet[static_cast<int>(location.locate(held.springs.points.row(s)).tet)][held.springs.bone[s]] += held.springs.stiffness(s);
+    ASSERT_EQ(of_tet.size(), static_cast<std::size_t>(tets));
+    for (const auto& [tet, stiffness] : of_tet)
+        EXPECT_NEAR(stiffness[1], 3.0 * stiffness[0], test_support::rounding_error(60, stiffness[1])) << tet;
 }
 
 // The rule of four points integrates polynomials of degree 2 exactly.

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 namespace {
 
@@ -155,6 +156,23 @@ TEST(JointNames, ABoneOfAModelFollowsTheSamePartOfAnotherScheme)
     const JointMap map = joint_map(clip, model);
     for (std::size_t part = 0; part < 19; ++part)
         EXPECT_EQ(clip.joints.at(map.bones.at(find_bone(model, of_model[part])).joint), on_both_sides(schemes[unreal])[part]);
+}
+
+// Names that say nothing, beside a table as VRM has it, on either side.
+TEST(JointNames, TheTableOfAFileCountsInPlaceOfItsNames)
+{
+    const Names parts = on_both_sides(schemes[unreal]);
+    Clip clip = clip_of(parts);
+    Skeleton model = skeleton_from_clip(clip, 1.0);
+    const Clip mixamo_clip = clip_of(on_both_sides(schemes[mixamo]));
+    const Skeleton mixamo_model = skeleton_from_clip(mixamo_clip, 1.0);
+    for (std::size_t b = 0; b < model.bones.size(); ++b)
+        model.bones[b].body_part = std::exchange(model.bones[b].name, "bone" + std::to_string(b * b));
+    clip.body_parts = clip.joints;
+    for (std::size_t j = 0; j < clip.joints.size(); ++j) clip.joints[j] = "joint" + std::to_string(j * j);
+    EXPECT_EQ(match_of(mixamo_clip, model).matched, 19);
+    EXPECT_EQ(match_of(clip, mixamo_model).matched, 19);
+    EXPECT_EQ(body_joints(clip).shin, body_joints(clip_of(parts)).shin);
 }
 
 // LeftShoulder is the collar bone of one scheme and the upper arm of another; Spine and Neck are called alike where schemes differ.

@@ -71,7 +71,7 @@ Clip bending_clip(int frames, const Vec3& direction = Vec3::UnitX())
 ClipSampling whole_clip()
 {
     ClipSampling sampling;
-    sampling.drop_first_frame = false;
+    sampling.drops_rest_pose = false;
     return sampling;
 }
 
@@ -109,6 +109,16 @@ TEST(Retarget, TheDroppedFrameIsNotTheFirst)
     ASSERT_EQ(motion.steps.size(), 4u);
     EXPECT_NEAR(angle_about_z_deg(motion.steps[0][1]), 10.0, of_angles_deg);
     EXPECT_LT(motion.steps[0][0].translation().norm(), of_rotations);
+}
+
+TEST(Retarget, AFirstFrameInMotionIsKept)
+{
+    Clip clip = bending_clip(5);
+    clip.local.erase(clip.local.begin());
+    clip.places.erase(clip.places.begin());
+    const Motion motion = retarget(clip, limb, ClipSampling{});
+    ASSERT_EQ(motion.steps.size(), 4u);
+    EXPECT_NEAR(angle_about_z_deg(motion.steps[0][1]), 10.0, of_angles_deg);
 }
 
 TEST(Retarget, AlignsTheRestDirections)
@@ -204,7 +214,7 @@ TEST(Retarget, RefusesWhatItCannotDo)
     refused([](auto& s, auto&) { s.time_step_s = 0.0; }, "time_step_s = 0", "> 0");
     refused([](auto& s, auto&) { s.time_step_s = 0.015; }, "rate_hz * time_step_s = 1.5", "1 / n");
     refused([](auto& s, auto&) { s.time_step_s = 0.004; }, "rate_hz * time_step_s = 0.4", "1 / n");
-    refused([](auto& s, auto& c) { c = bending_clip(1), s.drop_first_frame = true; }, "bending.bvh: Frames = 1", "no frame is left");
+    refused([](auto& s, auto& c) { c = bending_clip(1), s.drops_rest_pose = true; }, "bending.bvh: Frames = 1", "no frame is left");
     refused([](auto&, auto& c) { c.joints = {"a", "b", "c"}; }, "bending.bvh: joints = a, b, c: ", "(bones: upper, forearm)");
 }
 

@@ -25,6 +25,20 @@ pbs::Skeleton body()
              {"thigh.L", 2, {-0.1, 0.95, 0}, {-0.1, 0.5, 0}}}};
 }
 
+// One pose that parts two bones is enough; a motion of the whole body parts none, nor does a thousandth of its size.
+TEST(BonesThatMoveAsOne, AreThoseThatNoPoseMovesApart)
+{
+    const pbs::Pose rest(5, Eigen::Isometry3d::Identity());
+    pbs::Pose moved = rest, spine_turned = rest, thigh_shifted = rest;
+    for (Eigen::Isometry3d& bone : moved) bone = Eigen::Translation3d(0.0, 3.0, 0.0) * Eigen::AngleAxisd(1.0, pbs::Vec3::UnitX());
+    spine_turned[1].rotate(Eigen::AngleAxisd(0.002, pbs::Vec3::UnitZ()));
+    for (const auto& [shift, own] : {std::pair(0.0009, 0), std::pair(0.0011, 4)}) {
+        thigh_shifted[4].translation() = pbs::Vec3(2.0 * shift, 0.0, 0.0);
+        EXPECT_EQ(pbs::bones_that_move_as_one(body(), {rest, moved, thigh_shifted, spine_turned}, 2.0), (Indices{0, 1, 0, 0, own}));
+    }
+    EXPECT_EQ(pbs::bones_that_move_as_one(body(), {rest, moved}, 2.0), Indices(5, 0));
+}
+
 TEST(FindBone, ByName)
 {
     EXPECT_EQ(pbs::find_bone(body(), "hip.R"), 3);

@@ -34,7 +34,7 @@ test_support::GltfDocument ellipsoid_document(int balls, bool with_skin)
         const auto first = static_cast<int>(points.size() / 3);
         for (const auto& p : sphere.points.rowwise()) {
             const Vec3 place =
-                body == 0 ? Vec3(short_m * p(0), long_m * p(1), short_m * p(2)) : Vec3(0.1 * p.transpose() + Vec3(0.8 * body, 0, 0));
+                body == 0 ? Vec3(short_m * p(0), long_m * p(1), short_m * p(2)) : Vec3(0.1 * p.transpose() + Vec3(0.8 * body, 0.3, 0));
             const double upper = body == 0 ? upper_weight(place.y()) : 0.0;
             for (int axis = 0; axis < 3; ++axis) points.push_back(float(place(axis)));
             for (const double weight : {1.0 - upper, upper, 0.0, 0.0}) weights.push_back(float(weight));
@@ -104,6 +104,23 @@ TEST_F(ModelCharacter, PartsWithoutABoneAreLeftOutWithARemark)
     ASSERT_EQ(remarks.size(), 1u);
     EXPECT_NE(remarks[0].text.find("1 of 2 separate parts have no bone inside; they are left out"), std::string::npos) << remarks[0].text;
     EXPECT_LT(hero.mesh.rest.col(0).maxCoeff(), 0.5);
+}
+
+// The ball follows the root, and the flesh next to it mostly the elbow.
+TEST_F(ModelCharacter, TheSurfaceOfAPartThatIsLeftOutFollowsItsJoint)
+{
+    const Character hero = made_from(folder, ellipsoid_document(1, true), remarks);
+    const Positions& rest = hero.artist->model->body.surface;
+    Pose pose(2, Eigen::Isometry3d::Identity());
+    pose[1].rotate(Eigen::AngleAxisd(M_PI / 2.0, Vec3::UnitX()));
+    const Positions moved = surface_positions(hero, hero.mesh.rest * 2.0, pose);
+    int balls = 0;
+    for (Eigen::Index p = 0; p < rest.rows(); ++p) {
+        const bool is_ball = rest(p, 0) > 0.5;
+        balls += is_ball;
+        EXPECT_LE((moved.row(p) - (is_ball ? 1.0 : 2.0) * rest.row(p)).norm(), 1e-6) << p;  // the file's points are floats
+    }
+    EXPECT_EQ(balls, 42);
 }
 
 TEST_F(ModelCharacter, WithoutJointsNeedsASkeleton)
