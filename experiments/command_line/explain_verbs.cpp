@@ -342,10 +342,10 @@ void add_list_verb(CommandLine& line)
 
 void add_explain_verb(CommandLine& line)
 {
-    auto name = std::make_shared<std::string>();
+    auto words = std::make_shared<std::vector<std::string>>();
     CLI::App* verb = line.add("explain", "explains a term, metric, claim, key, study, deformer, scene or verb", "pbskin explain C02",
-                              [&app = line.app, name] { return explain(app, *name); });
-    verb->add_option("name", *name, "its name, e.g. PBS, volume_change_pct, C02, pbs.k_volume, measure")->required();
+                              [&app = line.app, words] { return explain(app, fmt::format("{}", fmt::join(*words, " "))); });
+    verb->add_option("name", *words, "its name, e.g. PBS, volume_change_pct, C02, pbs.k_volume, measure")->required();
 }
 
 }  // namespace experiments

@@ -29,6 +29,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -178,8 +179,7 @@ public:
         }
         text += "\n## Poses\n\n| pose | body | stratum | members that were reached |\n|---|---|---|---|\n" + poses;
         const std::string manual = analysis::path_in(folder_, "README.md");
-        const bool is_own = !fs::exists(manual) || analysis::read_text(manual).starts_with(exported::exported_references_md);
-        if (is_own)
+        if (!fs::exists(manual) || is_manual(analysis::read_text(manual)))
             analysis::write_text_atomically(manual, text);
         else
             kept_.push_back(manual);
@@ -192,6 +192,16 @@ public:
     std::size_t bodies() const { return written_bodies_.size(); }
 
 private:
+    // What the user added to a manual, or changed in it, makes it another one. Its tables change with the poses in the folder.
+    static bool is_manual(const std::string& text)
+    {
+        if (!text.starts_with(exported::exported_references_md)) return false;
+        std::istringstream tables(text.substr(std::string(exported::exported_references_md).size()));
+        for (std::string line; std::getline(tables, line);)
+            if (!line.empty() && !line.starts_with("|") && line != "## Bodies" && line != "## Poses") return false;
+        return true;
+    }
+
     // A file of the folder that was changed since, by its user or by another version of the program, is kept.
     void write(const std::string& path, const std::string& text)
     {

@@ -27,8 +27,10 @@ moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "notes?": [shapes.
 shape = shapes.run | {"scene": shapes.scene | {"name": shapes.text}, "outcome": moved}
 MODEL = 'id="viewer-block"'  # of the element of the page that has what the viewer shows
 animation = {"name": shapes.text, "duration_s": shapes.number, "largest_rotation_deg": shapes.number}
+ranking = {"place": shapes.one_of("joints", "body"), "methods": [{"deformer": shapes.text, "median_pct": shapes.number,
+                                                                   "nearest_in": shapes.whole}]}
 trial = {"summary": shapes.text, "nearest_sentence?": shapes.text, "doubtful_reference?": shapes.text_or_none,
-         "inverting?": {"*": {"is_excluded?": shapes.truth}},
+         "inverting?": {"*": {"is_excluded?": shapes.truth}}, "nearest?": lambda value: shapes.anything if value is None else ranking,
          "warnings": [shapes.text], "notes?": [shapes.text], "animations?": [animation]}
 
 
@@ -72,15 +74,30 @@ def known(rows, column):
     return [value for value in (number(row, column) for row in rows) if value is not None and math.isfinite(value)]
 
 
+def place_of_errors(found):
+    """The column of the errors, and where they are measured: over the body where no joint has one. None for a run without errors."""
+    nearest = (found.trial or {}).get("nearest") or {}
+    places = {"joints": ("error_joint_pct", "at the joints"), "body": ("error_l2_pct", "over the body")}
+    return next((place for name, place in places.items() if nearest.get("place", name) == name and known(found.run.rows, place[0])), None)
+
+
 def errors_of(found):
-    """label -> its errors at the joints [%] by frame; a reference has none."""
+    """label -> its errors [%] by frame; a reference has none."""
     reference = found.record["scene"].get("reference", {}).get("name")
-    errors = {label: {row["frame"]: number(row, "error_joint_pct") for row in found.rows(label)} for label in found.labels()}
+    column, _ = place_of_errors(found) or ("error_joint_pct", "")
+    errors = {label: {row["frame"]: number(row, column) for row in found.rows(label)} for label in found.labels()}
     return {label: {frame: error for frame, error in of.items() if error is not None and math.isfinite(error)}
             for label, of in errors.items() if label != reference}
 
 
-least_visible_pct = 0.01  # an error below it is no difference between two methods, as in experiments/trial/trial.cpp
+least_visible_pct = 0.01  # an error below it is no difference between two methods, as in experiments/trial/trial_facts.cpp
+
+
+def compared_frames(errors):
+    """The frames in which all methods have an error that is seen: a method that fails in the hard ones would look best by the others."""
+    of_frames = {frame: [of[frame] for of in errors.values() if frame in of] for frame in set().union(*errors.values())}
+    seen = {frame: len(of) for frame, of in of_frames.items() if max(of) >= least_visible_pct}
+    return {frame for frame, count in seen.items() if count == max(seen.values())}
 
 
 def excluded(found):
@@ -89,26 +106,25 @@ def excluded(found):
 
 
 def methods_of(found):
-    """What the first card has of each deformer, the nearest one first and the reference last; without errors in their own order."""
+    """What the first card has of each deformer, the nearest one first and the reference last; without errors in their own order. A trial
+    has ranked its methods."""
     errors, methods, not_compared = errors_of(found), [], excluded(found)
-    frames = {frame for of in errors.values() for frame, error in of.items() if error >= least_visible_pct}
+    frames = compared_frames(errors)
+    ranked = {of["deformer"]: of for of in ((found.trial or {}).get("nearest") or {}).get("methods", ())}
     compared = {label: of for label, of in errors.items() if label not in not_compared}
     nearest = [min((of[frame], label) for label, of in compared.items() if frame in of)[1] for frame in frames
                if any(frame in of for of in compared.values())]
     for label in found.labels():
         rows, own = found.rows(label), [error for frame, error in errors.get(label, {}).items() if frame in frames]
         change, step = (known(rows, column) for column in ("volume_change_pct", "step_ms"))
-        methods.append({"name": looks.of(label).name, "is_reference": label not in errors, "change": span_of_thousandths(change),
+        rank = ranked.get(label, {"median_pct": statistics.median(own) if own else None, "nearest_in": nearest.count(label)})
+        methods.append({"label": label, "name": looks.of(label).name, "is_reference": label not in errors,
+                        "change": span_of_thousandths(change), "is_compared": label not in not_compared,
                         "volume_pct": max(change, key=abs, default=None) if found.judges_volume() else None,
-                        "is_compared": label not in not_compared, "inverted": max(known(rows, "inverted_tets"), default=0),
-                        "error_pct": statistics.median(own) if own else None, "largest_pct": max(own, default=None),
-                        "step_ms": statistics.median(step) if step else None, "nearest_in": nearest.count(label)})
+                        "inverted": max(known(rows, "inverted_tets"), default=0), "error_pct": rank["median_pct"],
+                        "largest_pct": max(own, default=None), "step_ms": statistics.median(step) if step else None,
+                        "nearest_in": rank["nearest_in"]})
     return sorted(methods, key=lambda of: (of["is_reference"], math.inf if of["error_pct"] is None else of["error_pct"]))
-
-
-def has_errors(found):
-    """Whether some frame has an error at the joints: a body without a joint has none, nor has a run without a reference."""
-    return bool(known(found.run.rows, "error_joint_pct"))
 
 
 def lines(found):
@@ -128,7 +144,7 @@ def lines(found):
     volume = each("{} % with {}", "volume_change_pct", span_of_thousandths) if found.judges_volume() else ""
     changed = f"The volume changes by {volume}." if volume else "No volume is known." if found.judges_volume() else (
         "Joints move apart, so that volume is not judged.")
-    away = each("{} mm with {}", "skin_rms_mm", rms) if has_errors(found) else ""
+    away = each("{} mm with {}", "skin_rms_mm", rms) if place_of_errors(found) else ""
     far = f"The skin is {away} from the finite elements (rms over skin and frames, on a body of 1.7 m)." if away else ""
     cost = each("{} ms with {}", "step_ms", lambda values: figure(statistics.median(values)))
     if found.trial:  # the first card has the first sentences
@@ -138,14 +154,9 @@ def lines(found):
             answers.answer("At what cost?", f"A frame takes {cost} (median)." if cost else "No time is known.")]
 
 
-note_of_card = ("Error at the joints: its median and, in brackets, its largest value. {}Time: the median. "
-                "Inverted tets: the most in a frame.")
-note_on_volume = "Volume: the range of its change. "
-
-
 def summary(found):
     """The first card: the nearest method in one sentence, and one row per method."""
-    methods, errors, volume = methods_of(found), has_errors(found), found.judges_volume()
+    methods, errors, volume = methods_of(found), place_of_errors(found), found.judges_volume()
     header = ["method", *(["error [%]"] if errors else []), *(["volume [%]"] if volume else []), "ms per frame", "inverted tets"]
 
     def row(of):
@@ -158,7 +169,9 @@ def summary(found):
     of_trial = (found.trial or {}).get("nearest_sentence")
     sentence = methods_of_run.nearest_method(methods) if of_trial is None else of_trial
     shown = [element("p", f"{sentence[:1].upper()}{sentence[1:]}")] if sentence else []
-    note = element("p", note_of_card.format(note_on_volume if volume else ""), class_="under")
+    notes = [*([f"Error {errors[1]}: its median and, in brackets, its largest value."] if errors else []),
+             *(["Volume: the range of its change."] if volume else []), "Time: the median.", "Inverted tets: the most in a frame."]
+    note = element("p", " ".join(notes), class_="under")
     return answers.card("summary", "Which method is nearest?" if errors else "The methods",
                         [*shown, table("Over all frames", header, map(row, methods)), note])
 
@@ -236,9 +249,6 @@ def model(found):
 
 # The figures: the numbers over the frames, and error against run time.
 
-measures = (("volume_change_pct", "volume change [%]"), ("error_joint_pct", "error at the joints [%]"), ("inverted_tets", "inverted tets"))
-
-
 def abscissa(rows):
     """Angles of a sweep, or times."""
     angles = [number(row, "angle_deg") for row in rows]
@@ -249,15 +259,19 @@ def abscissa(rows):
 
 def over_frames(found):
     rows = {label: found.rows(label) for label in found.labels()}
-    judged = measures if found.judges_volume() else measures[1:]
-    shown = [(column, name) for column, name in judged if any(value for of in rows.values() for value in known(of, column))] or judged[:1]
+    column, where = place_of_errors(found) or ("error_joint_pct", "at the joints")
+    measures = [*([("volume_change_pct", "volume change [%]")] if found.judges_volume() else []), (column, f"error {where} [%]"),
+                ("inverted_tets", "inverted tets")]
+    shown = [(column, name) for column, name in measures if any(value for of in rows.values() for value in known(of, column))]
+    shown = shown or measures[:1]
     figure, axes = style.panels(len(shown), 1, height_in=1.7, sharex=True)
     for panel, (column, name) in zip(axes[:, 0], shown):
         for label, of in rows.items():
             x, unit = abscissa(of)
-            # A frame without a value, as one whose reference was not solved, is no gap: a point between two gaps would not be seen.
-            points = [(at, number(row, column)) for at, row in zip(x, of) if known([row], column)]
-            panel.plot(*zip(*points) if points else ([], []), **style.as_of(label, markevery=max(1, len(points) // 9)))
+            y = [next(iter(known([row], column)), math.nan) for row in of]
+            # Between two frames without a value, as where the reference was not solved, a point has no line and is seen by its marker.
+            marked = 1 if any(map(math.isnan, y)) else max(1, len(y) // 9)
+            panel.plot(x, y, **style.as_of(label, markevery=marked))
         panel.set_ylabel(name)
         panel.margins(x=0)
     axes[-1][0].set_xlabel(unit)
@@ -265,21 +279,16 @@ def over_frames(found):
     return figure
 
 
-def error_against_time(found):
-    """One point per deformer; None if the run has no errors."""
-    points = {}
-    for label in found.labels():
-        rows = found.rows(label)
-        errors, times_ms = [error for error in known(rows, "error_joint_pct") if error], known(rows, "step_ms")
-        if errors and times_ms:
-            points[label] = statistics.median(times_ms), statistics.median(errors)
+def error_against_time(methods, where):
+    """One point per method that has an error and a time; None without any."""
+    points = [of for of in methods if not of["is_reference"] and of["error_pct"] is not None and of["step_ms"] is not None]
     if not points:
         return None
     figure, axes = style.panels(1, 1, height_in=2.6)
-    for label, (ms, error) in points.items():
-        axes[0][0].plot([ms], [error], **style.as_of(label, linestyle="none", markersize=6))
+    for of in points:
+        axes[0][0].plot([of["step_ms"]], [of["error_pct"]], **style.as_of(of["label"], linestyle="none", markersize=6))
     style.decades(axes[0][0].xaxis)
-    axes[0][0].set(xlabel="median time of a step [ms]", ylabel="median error at the joints [%]")
+    axes[0][0].set(xlabel="median time of a step [ms]", ylabel=f"median error {where} [%]")
     axes[0][0].set_ylim(bottom=0)
     style.key_below(figure)
     return figure
@@ -301,12 +310,13 @@ def figures_section(found):
     caption = "The numbers of metrics.csv over the frames."
     title = methods_of_run.largest_change(methods) if found.judges_volume() else "Errors and inverted tets over the frames"
     parts = [drawn(found, "over-frames", over_frames(found), title, caption)]
-    against_time, message = error_against_time(found), methods_of_run.error_and_time(methods)
-    if message and (found.trial or {}).get("doubtful_reference"):
-        message = "Error and time of each method"
-    if against_time and message:
-        caption = "The median over the frames of the error at the joints and of the time of a step."
-        parts.append(drawn(found, "error-against-time", against_time, message, caption))
+    _, where = place_of_errors(found) or (None, "")
+    against_time = error_against_time(methods, where)
+    if against_time:
+        is_doubtful = (found.trial or {}).get("doubtful_reference")
+        title = "" if is_doubtful else methods_of_run.error_and_time(methods)
+        caption = f"The median over the frames of the error {where} and of the time of a step."
+        parts.append(drawn(found, "error-against-time", against_time, title or "Error and time of each method", caption))
     told = element("p", "Values are shown next to the pointer or the finger.")
     return joined([told, element("div", joined(parts, "\n"), class_="figures")], "\n")
 

@@ -377,8 +377,13 @@ void print_first_answers(const ComparisonCase& comparison, const ComparedBody& b
         std::string others;
         for (const auto& [name, title] : {std::pair("dqs", "DQS"), std::pair("delta_mush", "delta mush")})
             if (!familiar[name].empty()) others += fmt::format("; {} {:.0f} %", title, 100.0 * analysis::share(familiar[name], lbs));
-        spdlog::info("first answer, {} poses of {}: {}: {:.3g} ms per frame, {:.0f} % of LBS's error{}", places.size(), comparison.body,
-                     method.name, analysis::median(posed.ms), 100.0 * analysis::share(errors_pct(posed), lbs), others);
+        const double share = analysis::share(errors_pct(posed), lbs);
+        spdlog::info("first answer, {} poses of {}: {}: {:.3g} ms per frame, {}{}", places.size(), comparison.body, method.name,
+                     analysis::median(posed.ms),
+                     std::isfinite(share) ? fmt::format("{:.0f} % of LBS's error", 100.0 * share)
+                                          : "without an error in one of them, where "
+                                            "its positions are no numbers",
+                     others);
     }
 }
 

@@ -72,6 +72,7 @@ class CommandLine(foreign_arm.ArmTest):
             self.assertEqual(self.succeeds("explain", other).stdout.splitlines()[:2], told[:2])
 
     def test_explains_a_verb_as_its_help_does(self):
+        self.assertEqual(self.succeeds("explain", "warped", "Newton").stdout, self.succeeds("explain", "warped Newton").stdout)
         for verb in ("measure", "explain"):
             self.assertEqual(self.succeeds("explain", verb).stdout, self.succeeds(verb, "--help").stdout)
         self.assertIn("character.mesh (scene key)", self.succeeds("explain", "mesh").stdout)  # a verb has this name too
@@ -168,11 +169,26 @@ class CommandLine(foreign_arm.ArmTest):
         self.refuses(f"{other}: was built from other headers than this program", "run", "limb_twist", "-o", self.path("out"),
                      env=os.environ | {"PBSKIN_MODULES": self.folder})
 
-    def test_interrupt_keeps_whole_files(self):
+    def test_sigterm_ends_the_loading_of_a_module_that_never_returns(self):
+        source = self.write("waits.c", "#include <unistd.h>\n__attribute__((constructor)) void wait_for_ever(void) { for (;;) pause(); }\n")
+        subprocess.run(["cc", "-shared", "-fPIC", source, "-o", self.path("libpbskin_fem.so")], check=True)
+        process = subprocess.Popen([program.PBSKIN, "run", "limb_twist", "-o", self.path("out")], stderr=subprocess.PIPE, text=True,
+                                   env=os.environ | {"PBSKIN_MODULES": self.folder})
+        maps, deadline = pathlib.Path(f"/proc/{process.pid}/maps"), time.monotonic() + 60
+        while "libpbskin_fem.so" not in maps.read_text() and time.monotonic() < deadline:
+            time.sleep(0.05)
+        process.terminate()
+        self.assertIn("interrupted", process.communicate(timeout=60)[1])
+        self.assertEqual(process.returncode, 130)
+
+    def test_interrupt_keeps_whole_files_and_the_earlier_results(self):
+        out = pathlib.Path(self.path("out"))
+        self.succeeds("run", self.scene, "-o", out)
+        earlier = {path.relative_to(out): path.read_bytes() for path in run_records.files(out)}
         process = subprocess.Popen([program.PBSKIN, "run", self.scene, "-o", self.path("out"), "--set", "motion.frames=100000",
                                     "--set", "output.frames_every=1"], stderr=subprocess.PIPE, text=True)
-        tables, deadline = self.path("out", "metrics.csv"), time.monotonic() + 60  # which are written each second
-        while not os.path.exists(tables) and process.poll() is None and time.monotonic() < deadline:
+        aside, tables, deadline = out / ".earlier", out / "metrics.csv", time.monotonic() + 60  # tables are written each second
+        while not (aside.exists() and tables.exists()) and process.poll() is None and time.monotonic() < deadline:
             time.sleep(0.05)
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
@@ -181,6 +197,10 @@ class CommandLine(foreign_arm.ArmTest):
         left = run_records.files(self.path("out"))
         self.assertIn("metrics.csv", [path.name for path in left])
         self.assertEqual([path for path in left if run_records.is_temporary(path) or run_records.what_is_torn(path)], [])
+        self.assertIn(f"{aside}: has the results of the earlier run", errors)
+        self.assertEqual({path.relative_to(aside): path.read_bytes() for path in run_records.files(aside)}, earlier)
+        self.succeeds("run", self.scene, "-o", out)
+        self.assertFalse(aside.exists())
 
     def test_a_rerun_after_a_kill_leaves_no_half_of_a_file(self):
         gone = subprocess.Popen(["true"])

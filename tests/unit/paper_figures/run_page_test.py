@@ -1,6 +1,7 @@
 """The page of a single run. Reference: its records, which are written here with numbers that can be predicted. Each number of a table is
 that of a record, warnings are shown, and except the frames nothing is missing that the run was not asked for."""
 import json
+import math
 import re
 import sys
 import unittest
@@ -85,6 +86,26 @@ class RunPage(ResultsTest):
         self.assertIn("<p>Mine is nearest. </p>", text)
         self.assertIn(">On hero.glb, PBS is slow.<", text)
         self.assertNotIn("LBS is the fastest", text)
+
+    def test_the_table_and_the_figure_have_the_ranking_of_a_trial(self):
+        """Which differs here from that of the rows."""
+        self.write(error_l2_pct=3.0)
+        methods = [{"deformer": label, "median_pct": error, "nearest_in": 1} for label, error in (("mine", 0.75), ("lbs", 4.5))]
+        trial = {"summary": "", "warnings": [], "nearest": {"place": "body", "methods": methods}, "inverting": {"pbs": {}}}
+        (self.results / "try.json").write_text(json.dumps(trial))
+        text = self.page()
+        rows = tables_of(text)["Over all frames"][1:]
+        self.assertEqual([row[:2] for row in rows], [["mine", "0.75 (3)"], ["PBS", "3 (3)"], ["LBS", "4.5 (3)"], ["FEM", "the reference"]])
+        self.assertIn("Error over the body: its median", text)
+        self.assertIn("Mine has the least error, 0.75 %", text)
+
+    def test_frames_that_one_method_lacks_do_not_count(self):
+        """LBS would be nearest by its first frame alone."""
+        self.addCleanup(numbers.update, dict(numbers))
+        numbers["lbs"] = lambda i: (0.0, 0, 0.01, 0.1 if i == 0 else 50.0)
+        numbers["pbs"] = lambda i: (0.0, 0, 1.0, "" if i == 0 else 2.0)
+        self.write(labels=("lbs", "pbs", "nh_p1"))
+        self.assertIn("<p>PBS is nearest to FEM in all 4 frames, 2 %, before LBS, 50 %", self.page())
 
     def test_joints_are_sorted_by_the_loss_of_the_first_deformer(self):
         self.write()
@@ -250,7 +271,7 @@ class RunPage(ResultsTest):
 
     def test_error_against_time_has_the_medians_of_each_deformer(self):
         self.write()
-        axes = run_page.error_against_time(run_page.RunRecords(self.results)).axes[0]
+        axes = run_page.error_against_time(run_page.methods_of(run_page.RunRecords(self.results)), "at the joints").axes[0]
         points = {line.get_label(): (line.get_xdata()[0], line.get_ydata()[0]) for line in axes.lines}
         self.assertEqual(points, {"LBS": (0.03, 7.0), "PBS": (3.0, 2.0), "mine": (18.0, 2.5)})
 
@@ -263,6 +284,14 @@ class RunPage(ResultsTest):
                 lines = {line.get_label(): line for line in axes.lines}
                 self.assertEqual(list(lines["mine"].get_xdata()), x)
                 self.assertEqual(list(lines["mine"].get_ydata()), [numbers["mine"](frame)[at] for frame in range(FRAMES)])
+
+    def test_no_line_joins_points_over_frames_without_a_value(self):
+        self.addCleanup(numbers.update, dict(numbers))
+        numbers["mine"] = lambda i: (0.5, 0, 20.0, 3.0 if i in (1, 3, 4) else "")
+        self.write()
+        lines = {line.get_label(): line for line in run_page.over_frames(run_page.RunRecords(self.results)).axes[1].lines}
+        self.assertEqual([math.isfinite(y) for y in lines["mine"].get_ydata()], [False, True, False, True, True])
+        self.assertEqual(lines["mine"].get_markevery(), 1)
 
     def test_deformers_that_are_not_of_this_project_look_different(self):
         with unittest.mock.patch.dict(numbers, {"one": numbers["mine"], "two": numbers["mine"]}):
