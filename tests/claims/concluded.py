@@ -204,5 +204,202 @@ class Volume(Concluded):
         self.assertGreater(self.compared, 14_000)
 
 
+class Stability(Concluded):
+    """Each share of a sweep's cells. The sweeps of a body with and without the jiggling zone are counted together, as cells.csv does
+    not tell them apart. It has the motion in the last step alone: a cell moves in the last ten steps if it moves in this one."""
+    SWEEP = ("run", "body", "precision", "factor", "second_factor")
+    MAP = ("factor", "value", "unit", "second_factor", "second_value", "second_unit", "precision", "outcome", "steps", "last_inverted_tets",
+           "recovery_steps")
+
+    def test_shares_are_those_of_the_outcomes(self):
+        cells = [row | {"deformer": "pbs" if row["as_published"] == "yes" else row["model"]}
+                 for row in table("stability/runs/cells.csv") if row["named"] != "not_used"]
+        cells = grouped(cells, *self.SWEEP, "deformer")
+        for sweep, rows in grouped(table("stability/runs/measurements.csv"), *self.SWEEP, "deformer", "quantity").items():
+            ends = {"small_steps": (0.0, 0.1), "large_steps": (0.05, math.inf)}
+            first, last = next((span for name, span in ends.items() if sweep[-1].endswith(name)), (0.0, math.inf))
+            own = [cell for cell in cells[sweep[:-1]] if first <= float(cell["time_step_s"]) <= last]
+            self.assertEqual(sum(int(row["n"]) for row in rows), len(own), sweep)
+            least, most = (sum(map(counts, own)) for counts in self.counts(sweep[-1].removeprefix("share_of_cells_")))
+            counted = math.fsum(float(row["value"]) * int(row["n"]) for row in rows)
+            self.assertTrue(least - LAST_DIGITS <= counted <= most + LAST_DIGITS, f"{sweep}: {counted}, not {least} to {most}")
+            self.compared += least == most
+        self.assertGreater(self.compared, 400)
+
+    @staticmethod
+    def counts(share):
+        """Which cells are certainly and which are possibly counted."""
+        def is_one_of(*outcomes):
+            return lambda cell: cell["outcome"] in outcomes
+
+        def moves(cell):
+            return cell["outcome"] in ("bounded", "inverted") and float(cell["last_motion_diagonals"]) > 1e-5
+        exact = {"diverged": ("diverged", "not_finite"), "inverted": ("inverted",), "at_rest": ("converged",)}
+        if share in exact:
+            return 2 * (is_one_of(*exact[share]),)
+        if share == "in_motion":
+            return moves, is_one_of("bounded", "inverted")
+        return is_one_of("converged"), lambda cell: is_one_of("converged", "bounded", "inverted")(cell) and not moves(cell)
+
+    def test_intervals_are_those_of_clopper_and_pearson(self):
+        for row in table("stability/runs/measurements.csv"):
+            n, held = int(row["n"]), round(float(row["value"]) * int(row["n"]))
+            low, high = float(row["low"]), float(row["high"])
+            self.near(row, "value", held / n)
+            if row["quantity"].removeprefix("share_of_cells_") in ("inverted", "in_motion", "at_rest"):
+                for end, is_trivial, counts in ((low, held == 0, range(held, n + 1)), (high, held == n, range(held + 1))):
+                    tail = math.fsum(math.comb(n, k) * end ** k * (1.0 - end) ** (n - k) for k in counts)
+                    self.assertAlmostEqual(tail, 1.0 if is_trivial else 0.025, 9, row)
+            else:
+                self.assertEqual((low, high), 2 * (float(row["value"]),))
+        self.assertGreater(self.compared, 600)
+
+    def test_maps_have_the_cells_of_two_factors(self):
+        cells = grouped(table("stability/runs/cells.csv"), "factor", "second_factor")
+        for factors in (("time_step", "k_stretch"), ("iterations", "twist")):
+            of_map = [key(row, *self.MAP) for row in table(f"stability/map_{'_'.join(factors)}.csv")]
+            self.assertEqual(of_map, [key(row, *self.MAP) for row in cells[factors]])
+            self.assertGreater(len(of_map), 60)
+
+
+class Convergence(Concluded):
+    """The values on the meshes of about one size: that of the scene's own mesh, and the range. On a ladder each mesh has its own."""
+    PATHS = ("run", "pose", "order", "precision", "k_stretch")
+
+    def test_values_follow_from_the_paths(self):
+        paths = grouped(table("convergence/runs/rates.csv"), *self.PATHS)
+        for row in table("convergence/runs/measurements.csv"):
+            if row["deformer"] == "pbs" and row["initial_guess"] not in ("lbs", "random") and not row["vertices_to"]:  # rates.csv lacks controls
+                rows = grouped(paths[key(row | {"pose": self.pose_of(row)}, *self.PATHS)], "start", "vertices")
+                meshes = [mesh for guess, mesh in rows if guess == "lbs" and (mesh == key(row, "vertices")[0] or "ladder" not in row["run"])]
+                meshes.sort(key=lambda mesh: mesh != key(row, "vertices")[0])
+                guesses = [(rows[row["initial_guess"] or "lbs", mesh][0], rows["lbs", mesh][0]) for mesh in meshes]
+                values = [self.value(row, *pair) for pair in guesses]
+                known = [value for value, _ in values if math.isfinite(value)]
+                lacks = sum(limit is None for _, limit in values)
+                low, high = (0.0, math.inf) if lacks else (min(known), max(known))
+                self.range_near(row, values[0][0], low, high, 2.1 * ROUNDING if row["quantity"].startswith("error") else LAST_DIGITS)
+                self.assertEqual((row["limit"], row["not_reached"]), (values[0][1], str(lacks or "")), row)
+        self.assertGreater(self.compared, 8000)
+
+    @staticmethod
+    def pose_of(row):
+        if row["motion"] == "range_of_motion":
+            return row["pose"]
+        named = (("", row["angle_deg"], ""), ("at_", row["time_s"], "_s"), ("", row["pose"], ""))
+        return "_".join([row["motion"], *(before + six(cell) + after for before, cell, after in named if cell)])
+
+    @staticmethod
+    def value(row, guess, lbs):
+        """A value, and what it bounds; None: there is no value."""
+        if row["quantity"].startswith("error"):
+            return number(guess["error_24_pct"]) / number(lbs["error_24_pct"]), ""
+        one, other = ((int(of[f"iterations_to_{row['tolerance']}"]), of[f"{row['tolerance']}_reached"] == "1") for of in (guess, lbs))
+        if row["quantity"].startswith("iterations_to_tolerance"):
+            return one[0], "" if one[1] else "more_than"
+        if not one[1] and not other[1]:
+            return math.nan, None
+        return max(one[0], 1) / max(other[0], 1), "at_least" if not one[1] else "" if other[1] else "at_most"
+
+    def test_exponents_are_slopes_along_a_ladder(self):
+        rows = table("convergence/runs/measurements.csv")
+        ladder = ("run", "body", "motion", "angle_deg", "pose", "deformer", "order", "precision", "k_stretch", "tolerance", "initial_guess")
+        sizes = grouped((row for row in rows if row["quantity"].startswith("iterations_to") and not row["limit"]), *ladder)
+        for row in (row for row in rows if row["vertices_to"]):
+            points = sorted((float(of["vertices"]), float(of["value"])) for of in sizes[key(row, *ladder)] if float(of["value"]) > 0.0)
+            self.range_near(row, *fitted_slope(points, 0.99, 0.0)[0])
+            self.assertEqual((points[0][0], points[-1][0]), (float(row["vertices"]), float(row["vertices_to"])))
+        self.assertGreater(self.compared, 12)
+
+    def test_the_floor_is_the_least_last_residual(self):
+        for rows in grouped(table("convergence/runs/rates.csv"), *self.PATHS, "vertices").values():
+            floor = min(float(row["last_residual"]) for row in rows if row["outcome"] == "finished")
+            for row in rows:
+                self.near(row, "floor", floor)
+        self.assertGreater(self.compared, 2000)
+
+
+def over(one, other, names=("value", "low", "high")):
+    """The ratio of two measurements with its range."""
+    (a, a_low, a_high), (b, b_low, b_high) = ([float(of[name]) for name in names] for of in (one, other))
+    return a / b, a_low / b_high, a_high / b_low
+
+
+def rank_correlation(x, y):
+    ranks = [[statistics.fmean(k for k, other in enumerate(sorted(values)) if other == value) for value in values] for values in (x, y)]
+    return statistics.correlation(*ranks) if all(min(own) < max(own) for own in ranks) else math.nan
+
+
+class Jiggle(Concluded):
+    SOLVER = ("run", "deformer", "order", "precision", "masses", "k_bind")
+    SETTING = (*SOLVER, "k_stretch", "iterations", "time_step_s")
+
+    def setUp(self):
+        self.by_quantity = collections.defaultdict(list)
+        for row in table("jiggle/runs/measurements.csv"):
+            self.by_quantity[row["quantity"]].append(row)
+
+    def test_values_are_those_of_the_responses(self):
+        responses = table("jiggle/runs/responses.csv")
+        for row in responses:
+            row |= {"order": "plain", "precision": "f64", "time_step_s": six(1e-3 * float(row["time_step_ms"])),
+                    "k_bind": "" if row["k_bind"] == "1" else row["k_bind"]}
+        responses = grouped(responses, *self.SETTING)
+        columns = {"amplitude": 3 * ["overshoot_over_jolt"], "last_share_of_peak": 3 * ["left_over_peak"],
+                   "damping_ratio": ["damping_ratio", "damping_low", "damping_high"],
+                   "frequency_hz": ["frequency_hz", "frequency_low_hz", "frequency_high_hz"]}
+        columns["damping_ratio_in_other_readings"] = columns["damping_ratio"]
+        for quantity, names in columns.items():
+            for row in self.by_quantity[quantity]:
+                for response in responses.get(key(row, *self.SETTING), []):
+                    self.range_near(row, *(number(response[name]) for name in names), 1.1 * ROUNDING)
+        references = {key(row, "k_stretch", "iterations"): row for rows in responses.values() for row in rows if row["deformer"] == "nh_p1"}
+        for row in self.by_quantity["frequency_over_reference"]:
+            own, = responses[key(row, *self.SETTING)]
+            ratio = over(own, references[key(row, "k_stretch", "iterations")], columns["frequency_hz"])
+            self.range_near(row, *ratio, 2.1 * ROUNDING)
+        self.assertGreater(self.compared, 900)
+
+    def test_shares_and_ratios_of_frequencies(self):
+        swings = {key(row, *self.SETTING) for row in self.by_quantity["damping_ratio"]}
+        settings = grouped((row for row in self.by_quantity["last_share_of_peak"] if key(row, "order", "precision") == ("plain", "f64")), "run")
+        for row in self.by_quantity["share_of_settings_that_swing"]:
+            own = [key(of, *self.SETTING) in swings for of in settings[key(row, "run")]]
+            self.range_near(row, *3 * [statistics.fmean(own)])
+            self.assertEqual(int(row["n"]), len(own))
+        frequencies = {key(row, *self.SETTING): row for row in self.by_quantity["frequency_hz"]}
+        for row in self.by_quantity["frequency_ratio_at_twice_iterations"]:
+            twice = frequencies[key(row | {"iterations": 2.0 * float(row["iterations"])}, *self.SETTING)]
+            self.range_near(row, *over(twice, frequencies[key(row, *self.SETTING)]))
+        for row in self.by_quantity["frequency_ratio_at_half_time_step"]:
+            halves = [(of, frequencies.get(key(of | {"time_step_s": 0.5 * number(of["time_step_s"])}, *self.SETTING)))
+                      for of in frequencies.values() if of["run"] == row["run"]]
+            ratios = {key(of, *self.SETTING): over(half, of)[0] for of, half in halves if half}
+            self.range_near(row, ratios[key(row, *self.SETTING)], min(ratios.values()), max(ratios.values()))
+        self.assertGreater(self.compared, 60)
+
+    def test_ratios_and_correlations_over_the_stiffness(self):
+        for quantity, of in (("amplitude", "amplitude"), ("frequency", "frequency_hz")):
+            series = [rows for rows in grouped(self.by_quantity[of], *self.SOLVER, "iterations", "time_step_s").values() if len(rows) > 1]
+            series = {key(rows[0], *self.SOLVER): sorted(rows, key=self.stiffness) for rows in series}
+            for row in self.by_quantity[f"{quantity}_ratio_over_k_stretch"] + self.by_quantity[f"rank_correlation_of_{quantity}_and_k_stretch"]:
+                papers = {"deformer": "pbs", "order": "plain", "precision": "f64", "masses": "unit"} if quantity == "frequency" else {}
+                rows = series[key(row | papers, *self.SOLVER)]
+                points = [(self.stiffness(one), float(one["value"])) for one in rows]
+                values = [value for _, value in points]
+                if row["quantity"] == "frequency_ratio_over_k_stretch":
+                    self.range_near(row, *over(rows[-1], rows[0]))
+                elif "ratio" in row["quantity"]:
+                    self.range_near(row, *3 * [max(values) / min(values) if min(values) else math.nan])
+                else:
+                    every = [rank_correlation(*zip(*points[:out], *points[out + 1:])) for out in range(len(points) + 1)]
+                    self.range_near(row, every[-1], min(every), max(every))
+        self.assertGreater(self.compared, 100)
+
+    @staticmethod
+    def stiffness(row):
+        return number(row["k_stretch"] or row["young_pa"])
+
+
 if __name__ == "__main__":
     unittest.main()
