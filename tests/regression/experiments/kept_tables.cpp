@@ -19,12 +19,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <set>
 #include <sstream>
 #include <tuple>
@@ -241,121 +238,7 @@ TEST(KeptTables, OfConclusionsFollowFromTheMeasuredValues)
         EXPECT_GE(concluded[study], at_least) << study;
 }
 
-// Values that several studies measure are the same in all of them.
-
-using Wanted = std::map<std::string, std::string>;
-
-struct KeptValue {
-    std::string file;  // STUDY/RUN/TABLE, which the kept records have in STUDY/runs/TABLE
-    Wanted wanted;     // cells of its row
-    std::string column = "error_joint_pct";
-};
-
-bool is_wanted(const analysis::CsvTable& table, int row, const Wanted& wanted)
-{
-    return std::ranges::all_of(wanted, [&](const auto& cell) { return table.text_at(row, cell.first) == cell.second; });
-}
-
-// Nothing if there is no such row, or more than one.
-std::optional<double> only_value(const KeptValue& of)
-{
-    const fs::path file = of.file, run = file.parent_path();
-    const analysis::CsvTable table = whole_table(PBS_KEPT_RECORDS / run.parent_path() / "runs" / file.filename());
-    Wanted wanted = of.wanted;
-    wanted["run"] = run.filename().string();
-    std::vector<double> found;
-    for (int row = 0; row < table.rows(); ++row)
-        if (is_wanted(table, row, wanted)) found.push_back(table.number(row, of.column));
-    return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
-}
-
 const double six_digits = 1e-5;  // relative: half a unit of the last kept digit on either side
-
-void expect_same_values(const std::vector<KeptValue>& values)
-{
-    const std::optional<double> first = only_value(values.front());
-    ASSERT_TRUE(first) << values.front().file;
-    for (const KeptValue& of : values) {
-        const std::optional<double> value = only_value(of);
-        ASSERT_TRUE(value) << of.file;
-        EXPECT_NEAR(*value, *first, six_digits * *first) << of.file << " and " << values.front().file;
-    }
-}
-
-const Wanted after_24_iterations = {{"k_stretch", "0.2"}, {"iterations", "24"}};
-
-// The row of the study convergence whose reference is solved on the same tets.
-KeptValue of_convergence(const std::string& run, const std::string& pose, const std::string& column)
-{
-    return {"convergence/" + run + "/rates.csv",
-            {{"pose", pose}, {"own_mesh", "1"}, {"order", "ordered"}, {"precision", "f32"}, {"k_stretch", "0.2"}, {"start", "lbs"}},
-            column};
-}
-
-// PBS after 24 iterations, on the scene's own tets, relative to the same reference.
-TEST(KeptValues, OfPbsInATwistBy90DegreesAreTheSameInEachStudy)
-{
-    expect_same_values(
-        {{"ensemble/limb_twist_90/parts.csv", after_24_iterations}, of_convergence("limb_twist", "twist_90", "error_24_pct")});
-}
-
-TEST(KeptValues, OfTheBoundOnAReferenceAreTheSameInEachStudy)
-{
-    for (const auto& [pose, run, pose_in_run] :
-         std::vector<std::array<std::string, 3>>{{"limb_twist_90", "limb_twist", "twist_90"}, {"limb_bend_60", "limb_bend", "bend_60"}})
-        expect_same_values({{"ensemble/" + pose + "/parts.csv", after_24_iterations, "discretisation_pct"},
-                            of_convergence(run, pose_in_run, "reference_bound_pct")});
-}
-
-// The comparison has the own errors of the references as they were solved.
-TEST(KeptValues, OfTheReferencesOwnErrorsAreTheSameInEachStudy)
-{
-    const auto own_errors = [](const std::string& file) {
-        std::map<std::pair<std::string, std::string>, std::string> of;  // by pose and member
-        const analysis::CsvTable table = kept_table(file);
-        for (int row = 0; row < table.rows(); ++row)
-            of[{table.text_at(row, "pose"), table.text_at(row, "member")}] =
-                table.text_at(row, "outcome") + " " + table.text_at(row, "stratum") + " " + table.text_at(row, "own_error_pct");
-        return of;
-    };
-    const auto solved = own_errors("references/references.csv"), compared = own_errors("work_precision/references.csv");
-    EXPECT_GT(compared.size(), 300u);
-    for (const auto& [key, own_error] : compared) {
-        ASSERT_TRUE(solved.contains(key)) << key.first << ", " << key.second;
-        EXPECT_EQ(own_error, solved.at(key)) << key.first << ", " << key.second;
-    }
-}
-
-// The geometric mean over the poses by movement of the error over that of LBS: the median over the members, the least and the largest.
-TEST(KeptValues, OfTheSharesFollowFromTheErrors)
-{
-    const auto rows = rows_of(experiments::compared_columns, kept_table("work_precision/errors.csv"));
-    using Key = std::tuple<experiments::ComparisonTable, double, std::string>;  // a method in a table at a time
-    std::map<Key, std::map<std::string, experiments::MemberErrors>> errors;     // by pose
-    for (const experiments::ComparedRow& row : rows)
-        if (row.point.stratum == experiments::Stratum::movement)
-            errors[{row.table, row.budget_ms, row.point.method}][row.point.pose] = row.point.errors;
-    const auto methods = rows_of(experiments::method_columns, kept_table("work_precision/methods.csv"));
-    EXPECT_EQ(methods.size(), errors.size());
-    for (const experiments::MethodRow& method : methods) {
-        const auto& own = errors.at({method.table, method.budget_ms, method.method});
-        const auto& lbs = errors.at({method.table, method.budget_ms, "lbs"});
-        std::vector<double> shares;
-        for (std::size_t m = 0; m < experiments::members_of_family; ++m) {
-            double sum = 0.0;
-            int poses = 0;
-            for (const auto& [pose, of_members] : own)
-                if (of_members[m] && lbs.at(pose)[m]) sum += std::log(*of_members[m] / *lbs.at(pose)[m]), ++poses;
-            shares.push_back(std::exp(sum / poses));
-        }
-        std::ranges::sort(shares);
-        const double middle = (shares[3] + shares[4]) / 2.0;
-        const std::string where = method.method + " within " + std::to_string(method.budget_ms) + " ms";
-        EXPECT_NEAR(method.share, middle, six_digits * middle) << where;
-        EXPECT_NEAR(method.share_low, shares.front(), six_digits * shares.front()) << where;
-        EXPECT_NEAR(method.share_high, shares.back(), six_digits * shares.back()) << where;
-    }
-}
 
 TEST(KeptValues, OfMotionFollowFromThePlayedFrames)
 {
