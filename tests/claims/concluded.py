@@ -45,6 +45,10 @@ def grouped(rows, *names):
     return groups
 
 
+def indexed(rows, *names):
+    return {key(row, *names): row for row in rows}
+
+
 def student_quantile(freedom, level):
     """The t that |t| does not exceed with this probability (Abramowitz and Stegun 26.7.3 and 26.7.4)."""
     def within(angle):
@@ -79,10 +83,6 @@ def fitted_slope(points, level=0.95, rounding=ROUNDING):
     return (slope, slope - half, slope + half), moved + per_residual * rounding * math.sqrt(len(x))
 
 
-def indexed(rows, *names):
-    return {key(row, *names): row for row in rows}
-
-
 def geometric_mean(ratios):
     """Without those that are not known."""
     logs = [math.log(ratio) for ratio in ratios if not math.isnan(ratio)]
@@ -96,7 +96,7 @@ class Concluded(unittest.TestCase):
         stated = number(row[name])
         is_near = stated == value or math.isnan(stated) and math.isnan(value) or abs(stated - value) <= relative * abs(value) + absolute
         self.assertTrue(is_near, f"{name}: {value}, {row}")
-        self.compared += 1
+        self.compared += not math.isnan(value)
 
     def range_near(self, row, value, low, high, relative=LAST_DIGITS):
         for name, wanted in (("value", value), ("low", low), ("high", high)):
@@ -300,7 +300,7 @@ class Stability(Concluded):
             counted = math.fsum(float(row["value"]) * int(row["n"]) for row in rows) - certain
             self.assertTrue(-LAST_DIGITS <= counted <= possible + LAST_DIGITS, f"{sweep}: {counted} more than {certain}")
             self.compared += possible == 0
-        self.assertGreater(self.compared, 400)
+        self.assertGreater(self.compared, 500)
 
     def test_intervals_are_those_of_clopper_and_pearson(self):
         for row in table("stability/runs/measurements.csv"):
@@ -310,10 +310,10 @@ class Stability(Concluded):
             if row["quantity"].removeprefix("share_of_cells_") in ("inverted", "in_motion", "at_rest"):
                 for end, is_trivial, counts in ((low, held == 0, range(held, n + 1)), (high, held == n, range(held + 1))):
                     tail = math.fsum(math.comb(n, k) * end ** k * (1.0 - end) ** (n - k) for k in counts)
-                    self.assertAlmostEqual(tail, 1.0 if is_trivial else 0.025, 9, row)
+                    self.assertTrue(end == (held == n) if is_trivial else abs(tail - 0.025) <= LAST_DIGITS, row)
             else:
                 self.assertEqual((low, high), 2 * (float(row["value"]),))
-        self.assertGreater(self.compared, 600)
+        self.assertGreater(self.compared, 800)
 
     def test_maps_have_the_cells_of_two_factors(self):
         cells = grouped(table("stability/runs/cells.csv"), "factor", "second_factor")
@@ -340,7 +340,7 @@ class Convergence(Concluded):
                 low, high = (0.0, math.inf) if lacks else (min(known), max(known))
                 self.range_near(row, values[0][0], low, high, 2.1 * ROUNDING if "error" in row["quantity"] else LAST_DIGITS)
                 self.assertEqual((row["limit"], row["not_reached"]), (values[0][1], str(lacks or "")), row)
-        self.assertGreater(self.compared, 8000)
+        self.assertGreater(self.compared, 8300)
 
     @staticmethod
     def pose_of(row):
@@ -369,7 +369,7 @@ class Convergence(Concluded):
             points = sorted((float(of["vertices"]), float(of["value"])) for of in sizes[key(row, *ladder)] if float(of["value"]) > 0.0)
             self.range_near(row, *fitted_slope(points, 0.99, 0.0)[0])
             self.assertEqual((points[0][0], points[-1][0]), (float(row["vertices"]), float(row["vertices_to"])))
-        self.assertGreater(self.compared, 12)
+        self.assertGreater(self.compared, 14)
 
     def test_the_floor_is_the_least_last_residual(self):
         for rows in grouped(table("convergence/runs/rates.csv"), *self.PATHS, "vertices").values():
@@ -455,7 +455,7 @@ class Jiggle(Concluded):
                 else:
                     every = [rank_correlation(*zip(*points[:out], *points[out + 1:])) for out in range(len(points) + 1)]
                     self.range_near(row, every[-1], min(every), max(every))
-        self.assertGreater(self.compared, 100)
+        self.assertGreater(self.compared, 90)
 
     @staticmethod
     def stiffness(row):
@@ -490,7 +490,7 @@ class Timing(Concluded):
             for name, sequence in (("speedup_to_plain", "file"), ("speedup_to_plain_spread", "spread")):
                 plain = targets[key(row | {"order": "plain", "sequence": sequence}, *names)]
                 self.near(row, name, number(plain["ms"]) / number(own["ms"]), 2.1 * ROUNDING)
-        self.assertGreater(self.compared, 550)
+        self.assertGreater(self.compared, 500)
 
     def test_rates_and_ratios_follow_from_the_times(self):
         printed = indexed(table("audit/runs/printed.csv"), "model", "quantity")
@@ -561,7 +561,7 @@ class Ambiguity(Concluded):
                     self.assertEqual([row["holds_a"], row["holds_b"]], own, row)
                     if all(own):
                         self.assertEqual(row["verdict_flips"], "no" if own[0] == own[1] else "yes", row)
-        self.assertGreater(self.compared, 2000)
+        self.assertGreater(self.compared, 1600)
 
 
 class Fit(Concluded):
@@ -601,7 +601,7 @@ class Verification(Concluded):
                     low, high = number(row["low"] or "-inf"), number(row["high"] or "inf")
                     holds = low <= value <= high and not abs(number(row["observed_order"]) - number(row["expected_order"])) > 0.1
                     self.assertEqual(row["holds"], "yes" if holds else "no", row)
-        self.assertGreater(self.compared, 100)
+        self.assertGreater(self.compared, 200)
 
 
 if __name__ == "__main__":
