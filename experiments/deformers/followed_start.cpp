@@ -2,6 +2,7 @@
 // better beginning: what the iterations leave of one frame would add up over the motion.
 #include "experiments/deformers/deformer_kind.hpp"
 #include "pbs/geometry/cost.hpp"
+#include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/blend.hpp"
 
 #include <algorithm>
@@ -13,6 +14,7 @@ namespace experiments {
 namespace {
 
 constexpr double far_turn_deg = 90.0;      // of a joint in the first pose: twice what a step may turn
+constexpr double most_inside_out = 5e-4;   // of the tets, in the first frame
 constexpr double largest_turn_deg = 45.0;  // of a bone in a step, as for the reference
 
 // The largest angle of a bone against its parent. A body that turns as a whole is not far from its bind pose.
@@ -35,19 +37,24 @@ public:
     void reset(const pbs::Character& character) override
     {
         character_ = &character;
-        follows_ = has_start_ = false;
+        follows_ = decides_ = has_start_ = false;
         wrapped().reset(character);
     }
     void foresee(const std::vector<pbs::Pose>& poses) override
     {
-        const bool is_far = !poses.empty() && largest_joint_turn_deg(character_->skeleton, poses.front()) > far_turn_deg;
-        follows_ = character_->artist && is_far && !wrapped().has_memory();
+        const bool may_follow = character_->artist && !poses.empty() && !wrapped().has_memory();
+        follows_ = may_follow && largest_joint_turn_deg(character_->skeleton, poses.front()) > far_turn_deg;
+        decides_ = may_follow && !follows_;
         if (!follows_) wrapped().foresee(poses);
     }
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override
     {
-        if (follows_ && !std::exchange(has_start_, false)) return follow(pose, dt_s);
-        return wrapped().advance(pose, dt_s);
+        const bool has_start = std::exchange(has_start_, false);
+        if (follows_ && !has_start) return follow(pose, dt_s);
+        const pbs::StepSummary summary = wrapped().advance(pose, dt_s);
+        if (!std::exchange(decides_, false) || has_start || !keeps_inside_out()) return summary;
+        follows_ = true;
+        return follow(pose, dt_s);
     }
     void start_from(const pbs::Positions& shape) override
     {
@@ -62,6 +69,12 @@ public:
     }
 
 private:
+    // Such as thin fins, which the blend of the first pose turns inside out.
+    bool keeps_inside_out() const
+    {
+        const Eigen::VectorXd volumes_m3 = pbs::tet_volumes(wrapped().positions(), character_->mesh.tets);
+        return static_cast<double>((volumes_m3.array() <= 0.0).count()) > most_inside_out * static_cast<double>(volumes_m3.size());
+    }
     pbs::StepSummary follow(const pbs::Pose& pose, double dt_s)
     {
         const pbs::Stopwatch stopwatch;
@@ -91,7 +104,7 @@ private:
     }
 
     const pbs::Character* character_ = nullptr;
-    bool follows_ = false, has_start_ = false;
+    bool follows_ = false, decides_ = false, has_start_ = false;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <limits>
 
 namespace experiments {
 
@@ -47,16 +48,16 @@ const std::string& bone_of_inverted_tets(const pbs::Character& character, const 
 pbs::RemarkList remarks_on_inverted_start(const Scene& scene, const pbs::Character& character, const std::vector<Runner>& runners)
 {
     std::vector<std::string> counts;
-    int most = 0;
+    int least = std::numeric_limits<int>::max();  // weights of another rule may be the cause under one method alone
     for (const Runner& runner : runners) {
-        if (!runner.traits.blends_linearly || runner.most_inverted == 0) continue;
-        counts.push_back(fmt::format("{} has {}", runner.spec.label, runner.most_inverted));
-        most = std::max(most, runner.most_inverted);
+        if (!runner.traits.blends_linearly) continue;
+        least = std::min(least, runner.most_inverted);
+        if (runner.most_inverted > 0) counts.push_back(fmt::format("{} has {}", runner.spec.label, runner.most_inverted));
     }
     if (counts.empty()) return {};
     const Eigen::Index tets = character.mesh.tets.rows();
     const std::string text = fmt::format("{}: {} inverted tets in the first frame, of {}", scene.file, fmt::join(counts, " and "), tets);
-    if (most > many_inverted_pct / 100.0 * static_cast<double>(tets))
+    if (least > many_inverted_pct / 100.0 * static_cast<double>(tets))
         return {{pbs::Gravity::results_wrong, text + ": its pose is far from the bind pose, or the weights do not fit the joints"}};
     return {{pbs::Gravity::information, text}};
 }
@@ -103,10 +104,11 @@ pbs::RemarkList remarks_on_first_frame(const Scene& scene, const pbs::Character&
     if (!motion.is_far_from_clip()) remarks = remarks_on_inverted_start(scene, character, runners);
     for (const Runner& runner : runners) {
         if (const nlohmann::json record = runner.deformer->record(); record.is_object() && record.contains("follows_from_rest"))
-            remarks.push_back({pbs::Gravity::information,
-                               fmt::format("{}: the first frame turns a joint by more than 90 degrees from the bind pose: {} goes to each "
-                                           "frame in steps from there",
-                                           scene.file, runner.spec.label)});
+            remarks.push_back(
+                {pbs::Gravity::information,
+                 fmt::format("{}: the first frame turns a joint by more than 90 degrees from the bind pose, or a blend of its "
+                             "pose leaves tets inside out: {} goes to each frame in steps from the bind pose",
+                             scene.file, runner.spec.label)});
         if (runner.traits.iterations && !runner.traits.solves_equations && runner.most_inverted > 0)
             remarks.push_back(
                 {pbs::Gravity::information,

@@ -137,8 +137,14 @@ double largest_turn_deg(pbs::Motion motion, const pbs::Skeleton& skeleton)
     return pbs::largest_rotation_deg(motion);
 }
 
-// The largest turn of a joint [deg], and the larger of it [rad] and the largest displacement over the size of the model.
-std::pair<double, double> motion_of(const pbs::Rig& rig, const pbs::RiggedBody& body, const pbs::RigAnimation& animation)
+// How an animation moves a model.
+struct Movement {
+    double turn_deg = 0.0;  // the largest one of a joint
+    double size = 0.0;      // the larger of it [rad] and the largest displacement over the size of the model
+    double pose_deg = 0.0;  // the largest turn of a joint from the file's rest pose in the first frame
+};
+
+Movement movement_of(const pbs::Rig& rig, const pbs::RiggedBody& body, const pbs::RigAnimation& animation)
 {
     pbs::MotionSampling sampling;
     sampling.rate_hz = (frames_looked_at - 1) / std::max(animation.end_s - animation.start_s, shortest_motion_s);
@@ -146,7 +152,9 @@ std::pair<double, double> motion_of(const pbs::Rig& rig, const pbs::RiggedBody& 
     const pbs::Motion motion = pbs::rig_motion(rig, body, animation, sampling).motion;
     const double size_m = pbs::diagonal_m(body.surface);
     const double turn_deg = largest_turn_deg(motion, body.skeleton);
-    return {turn_deg, std::max(turn_deg * M_PI / 180.0, pbs::largest_displacement_m(motion, body.skeleton) / size_m)};
+    const pbs::Pose at_rest = pbs::rig_motion(rig, body, {.name = "", .nodes = {}}, sampling).motion.steps.front();
+    return {turn_deg, std::max(turn_deg * M_PI / 180.0, pbs::largest_displacement_m(motion, body.skeleton) / size_m),
+            largest_turn_deg({.steps = {at_rest, motion.steps.front()}}, body.skeleton)};
 }
 
 }  // namespace
@@ -163,22 +171,26 @@ double trial_rate_hz(double duration_s, int frames, const std::string& file)
 const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs::Rig& rig, const pbs::RiggedBody& body, TrialScene& made)
 {
     const auto& animations = rig.animations;
-    std::vector<std::pair<double, double>> motions;
+    std::vector<Movement> motions;
     made.animations = nlohmann::json::array();
     for (const pbs::RigAnimation& animation : animations) {
-        motions.push_back(motion_of(rig, body, animation));
+        motions.push_back(movement_of(rig, body, animation));
         made.animations.push_back({{"name", animation.name},
                                    {"duration_s", animation.end_s - animation.start_s},
-                                   {"largest_rotation_deg", motions.back().first}});
+                                   {"largest_rotation_deg", motions.back().turn_deg}});
     }
     if (animations.empty()) return nullptr;
-    auto moving = std::ranges::find_if(motions, [](const auto& motion) { return motion.first > least_turn_deg; });
+    auto moving = std::ranges::find_if(motions, [](const Movement& motion) { return motion.turn_deg > least_turn_deg; });
     std::string why = fmt::format("the first one that turns a joint by more than {} degrees", least_turn_deg);
     if (moving == motions.end()) {
-        moving = std::ranges::max_element(motions, {}, &std::pair<double, double>::second);
-        const bool is_still = moving->second <= least_motion;  // takes without keys, poses, and those that move morph targets alone
-        if (is_still && (bone_to_bend(body) >= 0 || !moves_nodes(animations[moving - motions.begin()]))) return nullptr;
+        moving = std::ranges::max_element(motions, {}, &Movement::size);
         why = fmt::format("which moves most: none turns a joint by more than {} degrees", least_turn_deg);
+    }
+    if (moving->size <= least_motion) {  // takes without keys, poses, and those that move morph targets alone
+        moving = std::ranges::max_element(motions, {}, &Movement::pose_deg);
+        why = "a pose: none moves a joint";
+        const bool is_pose = moving->pose_deg > least_turn_deg;
+        if (!is_pose && (bone_to_bend(body) >= 0 || !moves_nodes(animations[moving - motions.begin()]))) return nullptr;
     }
     const pbs::RigAnimation& taken = animations[moving - motions.begin()];
     std::vector<std::string> others;

@@ -257,18 +257,15 @@ void add_shape(const RiggedBody& body, const Character& character, const std::st
 
 void add_bones_outside(const RiggedBody& body, const TetMesh& mesh, const std::string& file, RemarkList& remarks)
 {
-    constexpr double little = 0.01;  // of the skin: an end joint that only gives its parent a direction
+    constexpr double little = 0.01;  // of the skin: an end joint, or a root on the ground
     std::vector<double> moved(body.skeleton.bones.size(), 0.0);
     for (std::size_t e = 0; e < body.skin.bone.size(); ++e)
         moved[static_cast<std::size_t>(body.skin.bone[e])] += body.skin.weight[e] / body.skin.vertices();
-    const auto is_end = [&](std::size_t b) {
-        return moved[b] < little && std::ranges::count(body.skeleton.bones, static_cast<int>(b), &Bone::parent) == 0;
-    };
     std::vector<std::string> outside;
     std::vector<bool> is_inside(body.skeleton.bones.size(), false);
     for (const auto& [bone, tet] : bones_in_tets(mesh, body.skeleton, 1.0 / 6.0)) is_inside[static_cast<std::size_t>(bone)] = true;
     for (std::size_t b = 0; b < is_inside.size(); ++b)
-        if (!is_inside[b] && !is_end(b)) outside.push_back(body.skeleton.bones[b].name);
+        if (!is_inside[b] && moved[b] >= little) outside.push_back(body.skeleton.bones[b].name);
     const bool is_layer = outside.size() == body.skeleton.bones.size() && !is_watertight(joined_triangles(body.surface, body.triangles));
     if (!outside.empty())
         remarks.push_back(

@@ -8,8 +8,6 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <queue>
-#include <unordered_map>
 
 namespace pbs {
 namespace {
@@ -168,6 +166,10 @@ SkinParts::SkinParts(const RiggedBody& body, std::vector<Pose> poses)
             ways_[static_cast<std::size_t>(to)].push_back({from, length_m});
             vertices_[static_cast<std::size_t>(body.triangles(t, corner))] = {static_cast<int>(t), Vec3::Unit(corner), 0.0};
         }
+    Classes shells(ways_.size());
+    for (const auto& triangle : joined_.rowwise())
+        for (const int vertex : triangle) shells.unite(triangle(0), vertex);
+    for (int vertex = 0; vertex < std::ssize(ways_); ++vertex) shell_.push_back(shells.find(vertex));
 }
 
 SurfacePoint SkinParts::at_vertex(Eigen::Index vertex) const
@@ -234,12 +236,38 @@ double SkinParts::moved_apart_m(const SurfacePoint& a, const SurfacePoint& b) co
     return most_m;
 }
 
-// Dijkstra's algorithm over the edges, from the corners of one triangle to those of the other. Edges make a way longer than it is, by up to
-// about an edge at its ends.
+// Dijkstra's algorithm over the edges, from the corners of the point's triangle.
+const SkinParts::Ways& SkinParts::ways_from(const SurfacePoint& point, double longest_m) const
+{
+    Ways& ways = last_ways_;
+    if (ways.from.triangle != point.triangle || ways.from.barycentric != point.barycentric) {
+        ways = {.from = point, .least_m = {}, .next = {}};
+        for (int corner = 0; corner < 3; ++corner) {
+            const int vertex = joined_(point.triangle, corner);
+            ways.next.emplace(ways.least_m[vertex] = (body_.surface.row(vertex).transpose() - place(point)).norm(), vertex);
+        }
+    }
+    while (!ways.next.empty() && ways.next.top().first <= longest_m) {
+        const auto [way_m, vertex] = ways.next.top();
+        ways.next.pop();
+        if (way_m > ways.least_m.at(vertex)) continue;
+        for (const Way& way : ways_[static_cast<std::size_t>(vertex)]) {
+            const auto [known, is_new] = ways.least_m.try_emplace(way.to, way_m + way.length_m);
+            if (!is_new && known->second <= way_m + way.length_m) continue;
+            known->second = way_m + way.length_m;
+            ways.next.emplace(known->second, way.to);
+        }
+    }
+    return ways;
+}
+
+// From the corners of one triangle to those of the other. Edges make a way longer than it is, by up to about an edge at its ends.
 bool SkinParts::are_near_along_skin(const SurfacePoint& a, const SurfacePoint& b) const
 {
-    const Vec3 from = place(a), to = place(b);
-    std::unordered_map<int, double> after_m, least_m;
+    const auto shell_of = [&](const SurfacePoint& point) { return shell_[static_cast<std::size_t>(joined_(point.triangle, 0))]; };
+    if (shell_of(a) != shell_of(b)) return false;
+    const Vec3 to = place(b);
+    std::map<int, double> after_m;
     double edge_m = 0.0;
     for (int corner = 0; corner < 3; ++corner) {
         const int of_a = joined_(a.triangle, corner), of_b = joined_(b.triangle, corner);
@@ -247,27 +275,14 @@ bool SkinParts::are_near_along_skin(const SurfacePoint& a, const SurfacePoint& b
         for (const auto& [triangle, vertex] : {std::pair(a.triangle, of_a), std::pair(b.triangle, of_b)})
             edge_m += (body_.surface.row(vertex) - body_.surface.row(joined_(triangle, (corner + 1) % 3))).norm() / 6.0;
     }
-    const double longest_m = longest_way * (from - to).norm() + edge_m;
-    using Reached = std::pair<double, int>;
-    std::priority_queue<Reached, std::vector<Reached>, std::greater<>> next;
-    for (int corner = 0; corner < 3; ++corner) {
-        const int vertex = joined_(a.triangle, corner);
-        if (after_m.contains(vertex)) return true;  // neighbours
-        next.emplace(least_m[vertex] = (body_.surface.row(vertex).transpose() - from).norm(), vertex);
-    }
-    while (!next.empty() && next.top().first <= longest_m) {
-        const auto [way_m, vertex] = next.top();
-        next.pop();
-        if (way_m > least_m.at(vertex)) continue;
-        if (const auto end = after_m.find(vertex); end != after_m.end() && way_m + end->second <= longest_m) return true;
-        for (const Way& way : ways_[static_cast<std::size_t>(vertex)]) {
-            const auto [known, is_new] = least_m.try_emplace(way.to, way_m + way.length_m);
-            if (!is_new && known->second <= way_m + way.length_m) continue;
-            known->second = way_m + way.length_m;
-            next.emplace(known->second, way.to);
-        }
-    }
-    return false;
+    for (int corner = 0; corner < 3; ++corner)
+        if (after_m.contains(joined_(a.triangle, corner))) return true;  // neighbours
+    const double longest_m = longest_way * (place(a) - to).norm() + edge_m;
+    const Ways& ways = ways_from(a, longest_m);
+    return std::ranges::any_of(after_m, [&](const auto& end) {
+        const auto way = ways.least_m.find(end.first);
+        return way != ways.least_m.end() && way->second + end.second <= longest_m;
+    });
 }
 
 SeparatedFlesh separate_parts(const TetMesh& mesh, const SkinParts& parts, const Skeleton& skeleton)

@@ -5,6 +5,8 @@
 #include "pbs/character/model_character.hpp"
 
 #include <functional>
+#include <queue>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -38,7 +40,14 @@ private:
         int to;
         double length_m;
     };
+    // The ways along the skin from one point, as far as they were asked for: many points are compared with the same one.
+    struct Ways {
+        SurfacePoint from;
+        std::unordered_map<int, double> least_m;  // by vertex; final below the first one of `next`
+        std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> next;
+    };
     Vec3 place(const SurfacePoint& point) const;
+    const Ways& ways_from(const SurfacePoint& point, double longest_m) const;
     double moved_apart_m(const SurfacePoint& a, const SurfacePoint& b) const;
     bool are_near_along_skin(const SurfacePoint& a, const SurfacePoint& b) const;
 
@@ -47,8 +56,10 @@ private:
     SurfaceTree tree_;
     Triangles joined_;                    // with one number for points at one place that move alike
     std::vector<std::vector<Way>> ways_;  // along the edges of the surface, by these numbers
+    std::vector<int> shell_;              // of each vertex, by these numbers
     std::vector<SurfacePoint> vertices_;
     double diagonal_m_ = 0.0;
+    mutable Ways last_ways_;  // not for several threads
 };
 
 // A cut between what two bones move, and its area [m^2].

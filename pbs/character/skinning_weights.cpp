@@ -4,6 +4,7 @@
 #include "pbs/geometry/topology.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -149,19 +150,24 @@ Character with_weights(WeightKind kind, Character character)
 
 namespace {
 
-// Of each vertex whether another one is at the same place: both are on a cut through the flesh, and not on the skin.
-std::vector<bool> vertices_at_cuts(const Positions& points)
+// Of each vertex whether it is on a cut through the flesh, and not on the skin: faces of the boundary come in pairs at one place there.
+std::vector<bool> vertices_at_cuts(const TetMesh& mesh)
 {
-    const auto before = [&](int a, int b) {
-        return std::ranges::lexicographical_compare(points.row(a).reshaped(), points.row(b).reshaped());
+    using Corner = std::array<double, 3>;
+    using Face = std::array<Corner, 3>;
+    const auto place_of = [&](const auto& triangle) {
+        Face place;
+        for (int k = 0; k < 3; ++k) Eigen::RowVector3d::Map(place[static_cast<std::size_t>(k)].data()) = mesh.rest.row(triangle(k));
+        std::ranges::sort(place);
+        return place;
     };
-    std::vector<int> order(static_cast<std::size_t>(points.rows()));
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, before);
-    std::vector<bool> at_cut(order.size(), false);
-    for (std::size_t k = 1; k < order.size(); ++k)
-        if (points.row(order[k - 1]) == points.row(order[k]))
-            at_cut[static_cast<std::size_t>(order[k - 1])] = at_cut[static_cast<std::size_t>(order[k])] = true;
+    const Triangles boundary = boundary_of(mesh.tets);
+    std::map<Face, int> faces;
+    for (const auto& triangle : boundary.rowwise()) ++faces[place_of(triangle)];
+    std::vector<bool> at_cut(static_cast<std::size_t>(mesh.rest.rows()), false);
+    for (const auto& triangle : boundary.rowwise())
+        if (faces.at(place_of(triangle)) > 1)
+            for (const int v : triangle) at_cut[static_cast<std::size_t>(v)] = true;
     return at_cut;
 }
 
@@ -171,7 +177,7 @@ TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surfac
                                     int bones, const std::function<bool(Eigen::Index, const SurfacePoint&)>& may_move)
 {
     const SurfaceTree tree(surface, triangles);
-    const std::vector<bool> on_boundary = boundary_vertices(mesh.tets, mesh.rest.rows()), at_cut = vertices_at_cuts(mesh.rest);
+    const std::vector<bool> on_boundary = boundary_vertices(mesh.tets, mesh.rest.rows()), at_cut = vertices_at_cuts(mesh);
     Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(mesh.rest.rows(), bones);
     TransferredWeights transferred;
     for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v) {

@@ -32,7 +32,7 @@ class MovingCharacterTest(program.ProgramTest):
         inverted, printed = self.tried("far_first_pose", character_rigs.write_far_first_pose)
         self.assertGreater(min(inverted["lbs"]), 20)
         self.assertLess(10 * max(inverted["pbs"]), min(inverted["lbs"]))
-        self.assertIn("pbs goes to each frame in steps from there", printed)
+        self.assertIn("pbs goes to each frame in steps from the bind pose", printed)
 
     def test_legs_three_tets_thick(self):
         """Delta mush inverts no more tets than LBS, from which it begins; with the published frames it does."""

@@ -54,6 +54,22 @@ TEST_P(FollowedStart, FarFramesAreReachedWithoutInvertedTets)
         EXPECT_EQ(inverted(bar, played(GetParam(), bar, frames, true)), 0) << frames.size() << " frames";
 }
 
+// Rigid weights draw the joint's tets through each other at a bend of 88 degrees, which is less than what is far.
+TEST(FollowedStartOfPbs, GoesInStepsWhereTheFirstFrameKeepsTetsInsideOut)
+{
+    pbs::Character bar = rigged_bar();
+    bar.weights = pbs::rigid_weights(bar.binding);
+    const std::vector<pbs::Pose> bent = {pbs::joint_sweep(bar.skeleton, 1, pbs::Vec3::UnitZ(), 88.0, 2, 0.01).steps.back()};
+    for (const bool is_foreseen : {false, true}) {
+        const auto deformer = make_deformer(default_spec("pbs"));
+        deformer->reset(bar);
+        if (is_foreseen) deformer->foresee(bent);
+        deformer->advance(bent.front(), 0.01);
+        EXPECT_EQ(inverted(bar, deformer->positions()) == 0, is_foreseen);
+        EXPECT_EQ(deformer->record().is_object() && deformer->record().contains("follows_from_rest"), is_foreseen);
+    }
+}
+
 TEST_P(FollowedStart, NearFramesAndNamedBodiesKeepTheirBits)
 {
     pbs::Character bar = rigged_bar();
