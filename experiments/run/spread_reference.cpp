@@ -27,6 +27,8 @@ namespace {
 constexpr int shares_of_what_is_left = 8;
 constexpr double longest_over_mean = 3.0;
 constexpr int least_held_up = 2, held_up_of = 4;  // so many frames, and more than one of so many
+constexpr int coarsest = 4;                       // every so-manieth frame first, so that an interruption leaves spread ones
+constexpr int hopeless = 4;                       // so many frames in vain, and at most the one at rest reached
 constexpr int few_frames = 5;                     // on which a comparison rests
 constexpr double between_writings_s = 1.0;
 
@@ -80,8 +82,9 @@ void SpreadReference::foresee(const std::vector<pbs::Pose>& poses)
         if (!is_solved(number)) left.insert(number);
     const NotedInterrupts noted;
     try {
-        while (!left.empty() && has_time_left()) pass(left);
-        const std::vector<NotReached> again = std::exchange(outcome_.not_reached, {});
+        for (int least = coarsest; !left.empty() && has_time_left(); least = std::max(1, least / 2)) pass(left, least);
+        const bool is_tried_again = !outcome_.is_hopeless();
+        const std::vector<NotReached> again = is_tried_again ? std::exchange(outcome_.not_reached, {}) : std::vector<NotReached>();
         for (std::size_t k = 0; k < again.size(); ++k) {
             const auto count = static_cast<int>(again.size() - k);
             if (has_time_left()) solve(again[k].frame, count);
@@ -97,7 +100,7 @@ void SpreadReference::foresee(const std::vector<pbs::Pose>& poses)
 }
 
 // Once through those that are left, which loses each one that is tried.
-void SpreadReference::pass(std::set<int>& left)
+void SpreadReference::pass(std::set<int>& left, int least_stride)
 {
     for (auto next = left.begin(); next != left.end() && has_time_left();) {
         const auto after = [&] { return static_cast<int>(std::distance(next, left.end())); };
@@ -110,9 +113,9 @@ void SpreadReference::pass(std::set<int>& left)
         }
         next = left.erase(next);
         if (has_time_left())
-            std::advance(
-                next,
-                std::min(after(), stride(after(), (outcome_.seconds - spent_before_s_) / tried_, budget_.seconds - outcome_.seconds) - 1));
+            std::advance(next, std::min(after(), std::max(least_stride, stride(after(), (outcome_.seconds - spent_before_s_) / tried_,
+                                                                               budget_.seconds - outcome_.seconds)) -
+                                                     1));
     }
 }
 
@@ -140,7 +143,12 @@ void SpreadReference::do_without_contact()
 
 bool SpreadReference::has_time_left() const
 {
-    return !outcome_.was_interrupted && outcome_.seconds < budget_.seconds;
+    return !outcome_.was_interrupted && !outcome_.is_hopeless() && outcome_.seconds < budget_.seconds;
+}
+
+bool SpreadReference::Outcome::is_hopeless() const
+{
+    return solved <= 1 && std::ssize(not_reached) >= hopeless;
 }
 
 void SpreadReference::solve(int number, int frames_left)
@@ -323,6 +331,9 @@ pbs::RemarkList remarks_on(const SpreadReference::Outcome& outcome, const std::s
         fmt::format("the reference has {} of {} frames{}: {}", outcome.solved, outcome.frames,
                     outcome.solved > 0 ? ", and only they have errors" : ", so that no method has an error",
                     outcome.was_interrupted ? "it was interrupted"
+                    : outcome.is_hopeless() ? fmt::format("after {} frames in vain the others were not tried; --reference-seconds "
+                                                          "(reference.seconds) gives each of them more time",
+                                                          outcome.not_reached.size())
                                             : fmt::format("they are spread over the motion as evenly as {:.0f} s of processor time allow "
                                                           "(--reference-seconds, reference.seconds)",
                                                           outcome.seconds)));

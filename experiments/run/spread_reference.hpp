@@ -1,6 +1,7 @@
 // The reference of a run that has a budget of processor time for it (reference.seconds): it passes through the motion, and as soon as all
 // frames would take longer than what is left, it leaves frames out, so that those which are solved are evenly spread up to the end. In the
-// time that is left then it passes through the others, and tries those that were not reached once more. A frame continues from the last
+// time that is left then it passes through the others, and tries those that were not reached once more. After four frames in vain, and none
+// but the one at rest reached, it gives up. A frame continues from the last
 // one, or from the solved one before or after it or from rest, whichever pose is most similar. What is solved is kept in a file, from which
 // the same run goes on.
 //
@@ -67,6 +68,8 @@ public:
         double seconds = 0.0;                         // that were spent
         std::optional<NotReached> with_contact = {};  // the frame for which contact was given up
         bool was_interrupted = false;
+
+        bool is_hopeless() const;  // so many frames were tried in vain that the others are not
     };
     const Outcome& outcome() const { return outcome_; }
 
@@ -82,7 +85,7 @@ private:
         std::optional<Solution> solution = {};
     };
 
-    void pass(std::set<int>& left);
+    void pass(std::set<int>& left, int least_stride);
     bool is_solved(int number) const { return frames_[static_cast<std::size_t>(number)].solution.has_value(); }
     bool is_held_up_by_contact() const;
     void do_without_contact();

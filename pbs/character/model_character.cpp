@@ -4,6 +4,7 @@
 #include "pbs/character/named_bodies.hpp"
 #include "pbs/character/separated_parts.hpp"
 #include "pbs/character/skinning_weights.hpp"
+#include "pbs/character/thin_shells.hpp"
 #include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -136,12 +137,12 @@ void take_weights(const RiggedBody& body, const std::function<bool(Eigen::Index,
     character.artist->largest_distance_m = transferred.largest_distance_m;
 }
 
-// Cuts the flesh between parts that the skeleton moves apart. Surface and weights follow; without a cut they are those of the nearest
-// points.
-void add_skin(const RiggedModel& model, const std::string& file, Character& character, RemarkList& remarks)
+// of_flesh: the model's body without the triangles that the tets leave out. Cuts the flesh between parts that the skeleton moves apart.
+// Surface and weights follow; without a cut they are those of the nearest points.
+void add_skin(const RiggedModel& model, const RiggedBody& of_flesh, const std::string& file, Character& character, RemarkList& remarks)
 {
     const RiggedBody& body = model.body;
-    const SkinParts parts(body, sampled_poses(model));
+    const SkinParts parts(of_flesh, sampled_poses(model));
     const SeparatedFlesh flesh = separate_parts(character.mesh, parts, body.skeleton);
     character.mesh = flesh.mesh;
     const auto skin_of = [&](int tet) { return flesh.skin_of_tet[static_cast<std::size_t>(tet)]; };
@@ -153,7 +154,7 @@ void add_skin(const RiggedModel& model, const std::string& file, Character& char
         remarks.push_back({Gravity::information, file + ": " + words_on_cuts(flesh.cuts, body.skeleton)});
     }
     character.surface = embed(body.surface, body.triangles, character.mesh, may_carry);
-    take_weights(body, may_move, character);
+    take_weights(of_flesh, may_move, character);
     const CarriedWeight weight = carried_weight_of(body, character);
     const auto without_flesh = std::ranges::count(joints_without_flesh(weight), true);
     character.artist->is_cut = !flesh.cuts.empty() || without_flesh > 0;
@@ -163,9 +164,9 @@ void add_skin(const RiggedModel& model, const std::string& file, Character& char
     Eigen::VectorXd of_joints = Eigen::VectorXd::Zero(body.surface.rows());
     for (const auto& [p, share] : character.artist->of_joints) of_joints(p) = share;
     take_weights(
-        body,
+        of_flesh,
         [&](Eigen::Index v, const SurfacePoint& point) {
-            const Eigen::Vector3d shares = of_joints(body.triangles.row(point.triangle).transpose());
+            const Eigen::Vector3d shares = of_joints(of_flesh.triangles.row(point.triangle).transpose());
             return point.barycentric.dot(shares) < 0.5 && (!may_move || may_move(v, point));
         },
         character);
@@ -294,14 +295,58 @@ void add_joints_without_flesh(const RiggedBody& body, const Character& character
                  name_list(without)});
 }
 
-// The mesher does not know the name of the file.
-Character meshed(const SurfaceBody& surface, const ModelSource& source)
+// The tets of this part of the body's surface, which depend on the surface alone: other animations, weights or joints in the file leave
+// them as they are. The mesher does not know the name of the file.
+Character meshed(const SurfaceMesh& part, double offset_m, const Skeleton& skeleton, const ModelSource& source)
 {
+    std::string made_from = std::to_string(model_version) + "|" + std::to_string(part.points.rows()) + "|";
+    made_from.append(reinterpret_cast<const char*>(part.points.data()), part.points.size() * sizeof(double));
+    made_from.append(reinterpret_cast<const char*>(part.triangles.data()), part.triangles.size() * sizeof(int));
+    if (offset_m > 0.0) made_from += "|" + number_text(offset_m, 17);
+    const SurfaceBody surface{
+        .name = file_name(source.file),
+        .made_from = made_from,
+        .skeleton = skeleton.bones.empty() ? source.skeleton : skeleton,
+        .surface = [&] { return part; },
+        // The model may have any number of handles and parts, and its joints may lie outside.
+        .meshing = {.wrap_offset_m = offset_m, .boundary_euler = {}, .is_closed = false, .is_one_piece = false, .inside = {}}};
     try {
         return make_surface_body(surface, source.vertices > 0 ? source.vertices : default_model_vertices, false);
+    } catch (const TooManyTets& error) {
+        throw TooManyTets(InputError(source.file, 0, "", "", error.what()));
     } catch (const InputError& error) {
         throw InputError(source.file, 0, "", "", error.what());
     }
+}
+
+// Where parts are too thin for the tets, separate ones are left out of them and of `body`, and what is still too thin is wrapped at a
+// distance.
+Character meshed(RiggedBody& body, const ModelSource& source, RemarkList& remarks)
+{
+    const SurfaceMesh whole = {body.surface, body.triangles};
+    try {
+        return meshed(whole, 0.0, body.skeleton, source);
+    } catch (const TooManyTets&) {
+    }
+    const ThickShells thick = thick_shells(whole, source.vertices > 0 ? source.vertices : default_model_vertices);
+    body.triangles = thick.triangles;
+    const SurfaceMesh part = used_part({body.surface, body.triangles});
+    if (thick.left_out > 0) {
+        remarks.push_back({Gravity::part_left_out, source.file + ": " + std::to_string(thick.left_out) +
+                                                       " separate parts of the surface are thinner than the tets, and left out of them"});
+        try {
+            return meshed(part, 0.0, body.skeleton, source);
+        } catch (const TooManyTets&) {
+        }
+    }
+    constexpr double distance = 1.0 / 85.0;  // over the size: the largest one at which an open surface is wrapped
+    Character character = meshed(part, distance * diagonal_m(part.points), body.skeleton, source);
+    remarks.push_back({Gravity::results_wrong, source.file +
+                                                   ": parts of the body are thinner than the tets, which enclose it at a distance of " +
+                                                   number_text(100.0 * distance, 2) +
+                                                   " % of its size: the flesh is that much thicker than the model; --vertices "
+                                                   "(character.vertices in a scene) asks for finer tets"});
+    return character;
 }
 
 }  // namespace
@@ -330,30 +375,18 @@ Character make_model_character(const ModelSource& source, RemarkList& remarks)
                          "expected no other skeleton (character.skeleton, --skeleton): the model has joints of its own");
 
     const auto hashed = input.hashed();
-    // The tets depend on the surface alone: other animations, weights or joints in the file leave them as they are.
-    std::string made_from = std::to_string(model_version) + "|" + std::to_string(body.surface.rows()) + "|";
-    made_from.append(reinterpret_cast<const char*>(body.surface.data()), body.surface.size() * sizeof(double));
-    made_from.append(reinterpret_cast<const char*>(body.triangles.data()), body.triangles.size() * sizeof(int));
-    const SurfaceBody surface{.name = file_name(source.file),
-                              .made_from = made_from,
-                              .skeleton = rigged ? body.skeleton : source.skeleton,
-                              .surface =
-                                  [&] {
-                                      return SurfaceMesh{body.surface, body.triangles};
-                                  },
-                              // The model may have any number of handles and parts, and its joints may lie outside.
-                              .meshing = {.boundary_euler = {}, .is_closed = false, .is_one_piece = false, .inside = {}}};
-    Character character = meshed(surface, source);
+    RiggedBody of_flesh = body;
+    Character character = meshed(of_flesh, source, remarks);
     const Stage weighting("carrying the weights of " + source.file + " to the tets");
     leave_out_parts_without_bone(character, source.file, remarks);
     character.inputs = hashed;
     character.artist.emplace();
     character.artist->model = model;
     if (rigged)
-        add_skin(*model, source.file, character, remarks);
+        add_skin(*model, of_flesh, source.file, character, remarks);
     else
         character.surface = embed(body.surface, body.triangles, character.mesh);
-    add_shape(body, character, source.file, remarks);
+    add_shape(of_flesh, character, source.file, remarks);
     const RemarkList on_model = remarks_on_model(body, character, source.file);
     remarks.insert(remarks.end(), on_model.begin(), on_model.end());
     return character;

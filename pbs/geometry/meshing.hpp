@@ -4,6 +4,7 @@
 // The same call gives the same mesh to the bit: seeds are fixed and no limit depends on time.
 #pragma once
 
+#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io.hpp"
 
 #include <array>
@@ -18,6 +19,11 @@ namespace pbs {
 TetMesh mesh_limb(int vertices);
 TetMesh mesh_bar(int vertices);
 // InputError of both for fewer vertices than that, where CGAL's perturbation has no end, and in a build without CGAL.
+
+// The InputError of mesh_surface where parts are so thin that the tets would be many times as many as wanted.
+struct TooManyTets : InputError {
+    explicit TooManyTets(const InputError& error) : InputError(error) {}
+};
 
 // A closed or nearly closed surface [m] -> tets of about the wanted number of vertices: wrapped (alpha_wrap_3), meshed with a cell
 // size proportional to the local thickness, perturbed and exuded, checked, tried again with another facet distance where the check fails.

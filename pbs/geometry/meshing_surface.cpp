@@ -464,6 +464,7 @@ TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
         if (growth > 1.0 && (!is_open || (growth < 6.0 && is_exceeded))) continue;
         if (const auto mesh = mesh_wrapped(surface, alpha, growth * offset, is_open, options, is_exceeded, why)) return *mesh;
     }
+    if (is_exceeded) throw TooManyTets(*why);
     throw InputError(*why);
 }
 
