@@ -4,6 +4,7 @@
 #include "analysis/verdicts/verdict.hpp"
 #include "experiments/studies/reproduce.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/geometry/mesh_io.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,7 +17,6 @@
 #include <iterator>
 #include <optional>
 #include <set>
-#include <string_view>
 
 namespace experiments {
 namespace {
@@ -104,17 +104,6 @@ void name_unfinished_runs(const Results& first, const Results& second, ResultCom
             to.not_compared.push_back(run + ": no run.json: the run was not finished");
 }
 
-// A frame for ParaView ends with its root element. Its numbers are those of the tables.
-bool is_broken_frame(const fs::path& file)
-{
-    constexpr std::string_view end = "</VTKFile>";
-    constexpr std::streamoff most = 64;
-    std::ifstream frame(file, std::ios::binary | std::ios::ate);
-    const std::streamoff size = frame.tellg();
-    frame.seekg(std::max<std::streamoff>(0, size - most));
-    return std::string(std::istreambuf_iterator<char>(frame), {}).find(end) == std::string::npos;
-}
-
 std::set<std::string> frames_of(const fs::path& run)
 {
     std::set<std::string> names;
@@ -137,15 +126,26 @@ void name_missing_frames(const Results& first, const Results& second, ResultComp
     }
 }
 
-void name_broken_frames(const Results& results, ResultComparison& to)
+bool have_the_same_bytes(const fs::path& one, const fs::path& other)
 {
-    for (const std::string& run : results.runs) {
-        const fs::path folder = results.root / run / "frames";
-        if (!fs::is_directory(folder)) continue;
-        for (const fs::path& file : analysis::files_in(folder))
-            if (file.extension() == ".vtu" && is_broken_frame(file))
-                to.not_compared.push_back(file.string() + ": the frame is cut off: expected </VTKFile> at its end");
-    }
+    std::error_code missing;
+    return fs::file_size(one, missing) == fs::file_size(other, missing) && !missing &&
+           analysis::read_text(one.string()) == analysis::read_text(other.string());
+}
+
+// The numbers of frames for ParaView are those of the tables. A frame with other bytes than that of the other result is read, in case that
+// it is damaged.
+void name_broken_frames(const Results& results, const Results& others, ResultComparison& to)
+{
+    for (const std::string& run : results.runs)
+        for (const std::string& name : frames_of(results.root / run)) {
+            const fs::path file = results.root / run / "frames" / name;
+            try {
+                if (!have_the_same_bytes(file, others.root / run / "frames" / name)) pbs::read_tet_frame(file.string());
+            } catch (const pbs::InputError& error) {
+                to.not_compared.push_back(error.what());
+            }
+        }
 }
 
 // Studies that one of two lists of runs lacks altogether are named once.
@@ -411,8 +411,8 @@ ResultComparison compare_results(const ComparedFolders& folders)
         });
     name_unfinished_runs(first, second, compared);
     if (!folders.second_is_part) name_missing_frames(first, second, compared);
-    name_broken_frames(first, compared);
-    name_broken_frames(second, compared);
+    name_broken_frames(first, second, compared);
+    name_broken_frames(second, first, compared);
     compare_tables_of(first, second, compared);
     compare_settings(first, second, compared);
     if (folders.excluded_bodies.empty()) compare_verdicts(first, second, compared);

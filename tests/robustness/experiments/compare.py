@@ -138,8 +138,10 @@ class Compare(program.ProgramTest):
             shutil.rmtree(folder / "killed")
         frame = sorted(runs[1].glob("frames/*.vtu"))[0]
         whole = frame.read_bytes()
-        frame.write_bytes(whole[:len(whole) // 2])
-        self.assertIn(f"{frame.name}: the frame is cut off", self.ends(1, "compare", first, second).stdout)
+        at = 2 * len(whole) // 3
+        for damaged in (whole[:len(whole) // 2], whole[:at] + bytes(byte ^ 21 for byte in whole[at:at + 40]) + whole[at + 40:]):
+            frame.write_bytes(damaged)
+            self.assertIn(f"{frame.name}: VTK: ", self.ends(1, "compare", first, second).stdout)
         frame.unlink()
         self.assertIn(f"frames/{frame.name}", self.ends(1, "compare", first, second).stdout)
         frame.write_bytes(whole)
