@@ -22,8 +22,6 @@
 
 namespace experiments {
 
-constexpr double much_lag_deg = 5.0;  // of a part that one bone alone moves: the reference is doubtful
-
 class ComparedReference {
 public:
     // runner: the first one of the scene, which is its reference if it has one. All arguments must outlive this object.
@@ -59,6 +57,7 @@ private:
     CostRecord& cost_;
     std::optional<ReferenceErrorBar> error_bar_;
     std::optional<PartsOfOneBone> parts_;  // from the first frame that is compared
+    double largest_lagging_share_ = 0.0;   // of the body, in a frame
     PartLag largest_lag_;
     int frames_ = 0, frames_with_overlap_ = 0, first_frame_with_overlap_ = 0;
     double largest_masked_share_pct_ = 0.0;

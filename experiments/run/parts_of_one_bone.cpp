@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
+#include <algorithm>
 #include <numbers>
 #include <utility>
 
@@ -21,6 +22,17 @@ constexpr double follows = 0.5;          // the mean weight of that bone in the 
 constexpr std::size_t fewest = 8;        // points of a part: fewer, or points near a line, do not show a rotation
 constexpr double least_of_widths = 0.1;  // the second width of a part over its first one
 
+// A third of each triangle at each of its corners [m^2], #S.
+Eigen::VectorXd areas_of_points(const pbs::Positions& points, const pbs::Triangles& triangles)
+{
+    Eigen::VectorXd areas_m2 = Eigen::VectorXd::Zero(points.rows());
+    for (const auto& triangle : triangles.rowwise()) {
+        const pbs::Vec3 a = points.row(triangle(0)), b = points.row(triangle(1)), c = points.row(triangle(2));
+        for (const int corner : triangle) areas_m2(corner) += (b - a).cross(c - a).norm() / 6.0;
+    }
+    return areas_m2;
+}
+
 }  // namespace
 
 PartsOfOneBone::PartsOfOneBone(const pbs::Character& character) : character_(character)
@@ -32,6 +44,7 @@ PartsOfOneBone::PartsOfOneBone(const pbs::Character& character) : character_(cha
     for (std::size_t tet = 0; tet < bones.size(); ++tet)
         if (bones[tet] >= 0)
             for (const int v : mesh.tets.row(static_cast<Eigen::Index>(tet))) shares[bones[tet]][v] += volumes_m3(tet) / 4.0;
+    volume_m3_ = volumes_m3.sum();
     for (const auto& [bone, share] : shares) parts_.push_back(part_of(bone, share, mesh.rest));
     if (character.surface && character.artist && character.artist->model && !character.artist->weights.first.empty())
         add_parts_of_surface();
@@ -55,9 +68,11 @@ void PartsOfOneBone::add_parts_of_surface()
     for (const auto& triangle : across_seams.rowwise())
         for (int k = 0; k < 3; ++k)
             if (const int a = triangle(k), b = triangle((k + 1) % 3); bone_of[a] >= 0 && bone_of[a] == bone_of[b]) classes.unite(a, b);
+    const Eigen::VectorXd areas_m2 = areas_of_points(body.surface, across_seams);
+    area_m2_ = areas_m2.sum();
     std::map<int, Shares> members;
     for (int p = 0; p < static_cast<int>(bone_of.size()); ++p)
-        if (bone_of[p] >= 0) members[classes.find(p)][p] = 1.0;
+        if (bone_of[p] >= 0 && areas_m2(p) > 0.0) members[classes.find(p)][p] = areas_m2(p);
     const pbs::Positions rest = pbs::embedded_positions(surface, character_.mesh.rest, character_.mesh.tets);
     for (const auto& [first, shares] : members) {
         if (shares.size() < fewest) continue;
@@ -76,7 +91,7 @@ PartsOfOneBone::Part PartsOfOneBone::part_of(int bone, const Shares& shares, con
         mean += share * rest.row(v).transpose();
     }
     mean /= total;
-    Part part{.bone = bone, .vertices = {}, .arms = Eigen::Matrix3Xd(3, shares.size())};
+    Part part{.bone = bone, .size = total, .vertices = {}, .arms = Eigen::Matrix3Xd(3, shares.size())};
     for (const auto& [v, share] : shares) {
         part.arms.col(static_cast<Eigen::Index>(part.vertices.size())) = share / total * (rest.row(v).transpose() - mean);
         part.vertices.push_back(v);
@@ -86,16 +101,19 @@ PartsOfOneBone::Part PartsOfOneBone::part_of(int bone, const Shares& shares, con
 
 PartLag PartsOfOneBone::largest_lag(const pbs::Positions& positions, const pbs::Pose& pose) const
 {
-    const PartLag of_tets = largest_lag_of(parts_, positions, pose);
+    const PartLag of_tets = largest_lag_of(parts_, volume_m3_, positions, pose);
     if (parts_of_surface_.empty()) return of_tets;
     const pbs::Positions surface = pbs::embedded_positions(*character_.surface, positions, character_.mesh.tets);
-    const PartLag of_surface = largest_lag_of(parts_of_surface_, surface, pose);
-    return of_tets.bone < 0 || of_surface.turn_deg > of_tets.turn_deg ? of_surface : of_tets;
+    const PartLag of_surface = largest_lag_of(parts_of_surface_, area_m2_, surface, pose);
+    PartLag largest = of_tets.bone < 0 || of_surface.turn_deg > of_tets.turn_deg ? of_surface : of_tets;
+    largest.share = std::max(of_tets.share, of_surface.share);
+    return largest;
 }
 
-PartLag PartsOfOneBone::largest_lag_of(const std::vector<Part>& parts, const pbs::Positions& positions, const pbs::Pose& pose)
+PartLag PartsOfOneBone::largest_lag_of(const std::vector<Part>& parts, double body, const pbs::Positions& positions, const pbs::Pose& pose)
 {
     PartLag largest;
+    double lagging = 0.0;
     for (const Part& part : parts) {
         Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // the arms add up to zero, so that the mean of x drops out
         for (std::size_t i = 0; i < part.vertices.size(); ++i)
@@ -103,7 +121,9 @@ PartLag PartsOfOneBone::largest_lag_of(const std::vector<Part>& parts, const pbs
         const Eigen::AngleAxisd turn(pbs::nearest_rotation(covariance) * pose[part.bone].linear().transpose());
         const double turn_deg = turn.angle() * 180.0 / std::numbers::pi;
         if (turn_deg > largest.turn_deg || largest.bone < 0) largest = {.turn_deg = turn_deg, .bone = part.bone};
+        if (turn_deg > much_lag_deg) lagging += part.size;
     }
+    if (lagging > 0.0) largest.share = lagging / body;
     return largest;
 }
 

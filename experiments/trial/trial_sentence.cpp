@@ -70,9 +70,10 @@ std::string doubt_words(const nlohmann::json& facts)
     if (facts.at("doubtful_reference") == "lag") {
         const nlohmann::json& lag = facts.at("reference_lag");
         return fmt::format(
-            "No method is called nearest: in the reference, flesh that {} alone moves lags behind it by {} degrees in frame {}. Finer "
-            "tets (--vertices) or weights of 1 in a wider band let tets belong to that bone alone. ",
-            lag.at("bone").get<std::string>(), two_digits(lag.at("largest_turn_deg")), lag.at("frame").get<int>());
+            "No method is called nearest: in the reference, flesh that {} alone moves lags behind it by {} degrees in frame {}, and {} % "
+            "of the body lag by more than 5. Finer tets (--vertices) or weights of 1 in a wider band let tets belong to that bone alone. ",
+            lag.at("bone").get<std::string>(), two_digits(lag.at("largest_turn_deg")), lag.at("frame").get<int>(),
+            two_digits(lag.at("largest_share_pct")));
     }
     return fmt::format(
         "No method is called nearest: the reference lies elsewhere, {} % from the nearest of them (the median over the frames). A frequent "

@@ -46,6 +46,8 @@ TEST_F(LagOfTheLimb, IsTheTurnOfTheBoneThatTheFleshDoesNotFollow)
         const PartLag lag = parts.largest_lag(limb.mesh.rest, pose);
         EXPECT_EQ(lag.bone, static_cast<int>(bone));
         EXPECT_NEAR(lag.turn_deg, 36.0, rounding_deg);
+        EXPECT_GT(lag.share, 0.0);
+        EXPECT_LT(lag.share, 0.5) << "one of two bones, without the joint";
     }
 }
 
@@ -75,6 +77,9 @@ TEST(LagOfAPart, IsMeasuredOnTheArtistsPointsWhereNoTetBelongsToOneBone)
     const PartLag lag = PartsOfOneBone(limb).largest_lag(limb.mesh.rest, pose);
     EXPECT_EQ(lag.bone, 0);
     EXPECT_NEAR(lag.turn_deg, 36.0, 1e-6);
+    EXPECT_NEAR(lag.share, 1.0, 1e-12) << "all of the surface";
+    pose[0] = turned(4.9);
+    EXPECT_EQ(PartsOfOneBone(limb).largest_lag(limb.mesh.rest, pose).share, 0.0);
 }
 
 // Every vertex is blended between both bones.
