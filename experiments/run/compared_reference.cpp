@@ -85,7 +85,8 @@ void ComparedReference::find_lag(int frame, const pbs::Positions& positions, con
     if (!parts_) parts_.emplace(character_);
     PartLag lag = parts_->largest_lag(positions, pose);
     lag.frame = frame;
-    largest_lagging_share_ = std::max(largest_lagging_share_, lag.share);
+    ++frames_searched_for_lag_;
+    frames_with_lag_ += lag.share >= much_lagging_share;
     if (lag.bone >= 0 && (largest_lag_.bone < 0 || lag.turn_deg > largest_lag_.turn_deg)) largest_lag_ = lag;
 }
 
@@ -111,7 +112,8 @@ nlohmann::json ComparedReference::record() const
         record["reference_lag"] = {{"largest_turn_deg", largest_lag_.turn_deg},
                                    {"bone", bone_that_lags()},
                                    {"frame", largest_lag_.frame},
-                                   {"largest_share_pct", 100.0 * largest_lagging_share_}};
+                                   {"lagging_frames", frames_with_lag_},
+                                   {"frames", frames_searched_for_lag_}};
     record["reference_frames"] = nullptr;
     if (spread()) {
         record["reference_frames"] = *spread();
@@ -125,12 +127,12 @@ pbs::RemarkList ComparedReference::remarks() const
     pbs::RemarkList remarks;
     // A head that is longer than its bone is not held by springs around the bone, and a band that is thinner than two tets not at all.
     if (largest_lag_.bone >= 0 && largest_lag_.turn_deg > much_lag_deg)
-        remarks.push_back(
-            {pbs::Gravity::comparison_wrong, fmt::format("{}: in the reference, the flesh that {} alone moves is turned by up to {:.0f} "
-                                                         "degrees against it, in frame {} ({:.2g} % of the "
-                                                         "body lag by more than {:.0f} degrees); {}",
-                                                         scene_.file, bone_that_lags(), largest_lag_.turn_deg, largest_lag_.frame,
-                                                         100.0 * largest_lagging_share_, much_lag_deg, remedy_of_lag(runner_.spec))});
+        remarks.push_back({pbs::Gravity::comparison_wrong,
+                           fmt::format("{}: in the reference, the flesh that {} alone moves is turned by up to {:.0f} degrees against it, "
+                                       "in frame {}; in {} of {} "
+                                       "frames, {:.0f} % of the body or more lag by more than {:.0f} degrees; {}",
+                                       scene_.file, bone_that_lags(), largest_lag_.turn_deg, largest_lag_.frame, frames_with_lag_,
+                                       frames_searched_for_lag_, 100.0 * much_lagging_share, much_lag_deg, remedy_of_lag(runner_.spec))});
     if (const SpreadReference::Outcome* outcome = spread())
         for (const pbs::Remark& remark : remarks_on(*outcome, scene_.file)) remarks.push_back(remark);
     if (frames_with_overlap_ > 0)

@@ -57,7 +57,7 @@ private:
     CostRecord& cost_;
     std::optional<ReferenceErrorBar> error_bar_;
     std::optional<PartsOfOneBone> parts_;  // from the first frame that is compared
-    double largest_lagging_share_ = 0.0;   // of the body, in a frame
+    int frames_with_lag_ = 0, frames_searched_for_lag_ = 0;
     PartLag largest_lag_;
     int frames_ = 0, frames_with_overlap_ = 0, first_frame_with_overlap_ = 0;
     double largest_masked_share_pct_ = 0.0;

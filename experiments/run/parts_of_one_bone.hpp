@@ -14,7 +14,8 @@
 
 namespace experiments {
 
-constexpr double much_lag_deg = 5.0;  // of a part
+constexpr double much_lag_deg = 5.0;         // of a part
+constexpr double much_lagging_share = 0.01;  // of the body: the end of a thumb decides no comparison
 
 struct PartLag {
     double turn_deg = 0.0;

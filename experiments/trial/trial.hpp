@@ -74,8 +74,8 @@ std::string earlier_trial_scene(const TrialOptions& options);
 //   error_bar     of the reference: the number of frames in which its own error is bounded, of how many, the largest bound at the joints
 //                 [%] and the wall time of the further solutions [s]; null without an error bar
 //   reference_lag the largest angle between a bone and the flesh that it alone moves, in the reference (largest_turn_deg), the bone and the
-//                 frame, and the largest share of the body that lags by more than 5 degrees in a frame (largest_share_pct); null without a
-//                 reference, and where no bone moves a tet alone
+//                 frame, and in how many of the compared frames 1 % of the body or more lag by more than 5 degrees (lagging_frames,
+//                 frames); null without a reference, and where no bone moves a tet alone
 //   reference_frames  what the budget of time allowed: frames of the motion, solved, kept (solved by an earlier trial), cpu_seconds,
 //                 budget_s, contact, not_reached [{frame, cpu_seconds, bone that held it up}]; null without a budget
 //   interrupted   whether the trial was interrupted and has only what was finished by then

@@ -177,8 +177,8 @@ nlohmann::json nearest_facts(const CsvTable& metrics, const nlohmann::json& inve
 // Why the reference may be another pose than the motion's, so that no method is called nearest: far_from_all or lag; null: it is not.
 nlohmann::json doubt_of_reference(const nlohmann::json& nearest, const nlohmann::json& lag)
 {
-    constexpr double most_error_pct = 50.0, much_lagging_pct = 1.0;  // of the body: the end of a thumb decides no comparison
-    if (!lag.is_null() && lag.at("largest_share_pct").get<double>() >= much_lagging_pct) return "lag";
+    constexpr double most_error_pct = 50.0, most_lagging_frames = 0.1;
+    if (!lag.is_null() && lag.at("lagging_frames").get<double>() > most_lagging_frames * lag.at("frames").get<double>()) return "lag";
     if (!nearest.is_null() && !nearest.at("methods").empty() && nearest.at("methods").front().at("median_pct") > most_error_pct)
         return "far_from_all";
     return nullptr;

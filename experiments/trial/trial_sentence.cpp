@@ -70,10 +70,12 @@ std::string doubt_words(const nlohmann::json& facts)
     if (facts.at("doubtful_reference") == "lag") {
         const nlohmann::json& lag = facts.at("reference_lag");
         return fmt::format(
-            "No method is called nearest: in the reference, flesh that {} alone moves lags behind it by {} degrees in frame {}, and {} % "
-            "of the body lag by more than 5. Finer tets (--vertices) or weights of 1 in a wider band let tets belong to that bone alone. ",
+            "No method is called nearest: in the reference, flesh that {} alone moves lags behind it by {} degrees in frame {}. In {} of "
+            "{} "
+            "frames, 1 % of the body or more lag by more than 5 degrees. Finer tets (--vertices) or weights of 1 in a wider band let tets "
+            "belong to that bone alone. ",
             lag.at("bone").get<std::string>(), two_digits(lag.at("largest_turn_deg")), lag.at("frame").get<int>(),
-            two_digits(lag.at("largest_share_pct")));
+            lag.at("lagging_frames").get<int>(), lag.at("frames").get<int>());
     }
     return fmt::format(
         "No method is called nearest: the reference lies elsewhere, {} % from the nearest of them (the median over the frames). A frequent "

@@ -293,18 +293,18 @@ TEST_F(TrialSummary, NobodyIsNearestToADoubtfulReference)
     EXPECT_EQ(facts().at("doubtful_reference"), "far_from_all") << "without joints";
     folder.file("metrics.csv", metrics_header + "lbs,1,-4,0,0.5,60\npbs,1,-0.5,0,1,50\n");
     EXPECT_TRUE(facts().at("doubtful_reference").is_null()) << "50 % is not above 50 %";
-    const auto write_lag = [&](double degrees, double share_pct) {
+    const auto write_lag = [&](double degrees, int lagging) {
         folder.file("run.json", fmt::format(R"({{"character": {{"model": {{"file": "hero.glb"}}, "tets": 7, "vertices": 5}},
             "outcome": {{"motion": {{}}, "frames": 3, "warnings": [], "notes": [],
-                         "reference_lag": {{"largest_turn_deg": {}, "largest_share_pct": {}, "bone": "upper", "frame": 2}}}}}})",
-                                            degrees, share_pct));
+                         "reference_lag": {{"largest_turn_deg": {}, "lagging_frames": {}, "frames": 20, "bone": "upper", "frame": 2}}}}}})",
+                                            degrees, lagging));
     };
-    write_lag(27.0, 0.9);
+    write_lag(27.0, 2);
     EXPECT_TRUE(facts().at("doubtful_reference").is_null());
-    write_lag(12.4, 3.6);
-    EXPECT_TRUE(
-        trial_sentence(facts()).starts_with("No method is called nearest: in the reference, flesh that upper alone moves lags behind "
-                                            "it by 12 degrees in frame 2, and 3.6 % of the body lag by more than 5. "));
+    write_lag(12.4, 3);
+    EXPECT_TRUE(trial_sentence(facts()).starts_with(
+        "No method is called nearest: in the reference, flesh that upper alone moves lags behind "
+        "it by 12 degrees in frame 2. In 3 of 20 frames, 1 % of the body or more lag by more than 5 degrees. "));
 }
 
 TEST_F(TrialSummary, WhereBonesAreStretchedVolumeIsNotJudged)

@@ -135,6 +135,21 @@ TEST(TransferredWeights, LinearOnesOnTheTetsOwnSurfaceAreReproducedInTheFlesh)
     }
 }
 
+// Two halves of one body, whose vertices between them exist twice.
+TEST(TransferredWeights, AtACutThroughTheFleshAreNotFarFromTheSurface)
+{
+    const TetMesh whole = test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {4, 2, 2}),
+                  half = test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {2, 2, 2});
+    TetMesh halves = half;
+    halves.rest.conservativeResize(2 * half.rest.rows(), 3);
+    halves.rest.bottomRows(half.rest.rows()) = half.rest.rowwise() + Eigen::RowVector3d(1, 0, 0);
+    halves.tets.conservativeResize(2 * half.tets.rows(), 4);
+    halves.tets.bottomRows(half.tets.rows()) = half.tets.array() + static_cast<int>(half.rest.rows());
+    const Triangles skin = boundary_of(whole.tets);
+    EXPECT_DOUBLE_EQ(transfer_weights(half, whole.rest, skin, linear_weights(whole.rest), 2).largest_distance_m, 0.5);
+    EXPECT_DOUBLE_EQ(transfer_weights(halves, whole.rest, skin, linear_weights(whole.rest), 2).largest_distance_m, 0.0);
+}
+
 TEST(TransferredWeights, ComeFromTheNearestPointOfACoarserSurface)
 {
     // Two triangles at z = 2, 1.5 above the flesh, that cover it; the nearest point of (x, y, z) is (x, y, 2).
