@@ -216,6 +216,7 @@ class ForeignSurfaces(program.ProgramTest):
         self.write_surface("far.obj", far, QUADS)
         self.measure(0, "far.obj", "far.obj", says="coordinates in single precision up to 4.19e+06 from the origin, where they are "
                      "multiples of 0.5")
+        self.measure(0, "far.obj", "far.obj", says="has only 3 steps, and the volume is not known")
         self.write_surface("exact.obj", far + [0.1, 0.1, 0.1], QUADS)
         self.assertNotIn("single precision", self.measure(0, "exact.obj", "exact.obj").stderr)
 

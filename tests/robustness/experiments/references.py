@@ -215,6 +215,17 @@ class References(program.ProgramTest):
         self.assertIn("bodies/limb.vtu, " + str(solver) + ": not replaced", said)
         self.assertEqual(solver.read_text(), mine)
 
+    def test_notes_in_the_manual_are_kept_and_its_tables_follow_the_poses(self):
+        self.export(0, POSE)
+        manual = pathlib.Path(self.path("kit", "README.md"))
+        text = manual.read_text()
+        manual.write_text(text.replace(f"| `{POSE}` ", "| `a_pose_that_left` "))
+        self.export(0, POSE)
+        self.assertEqual(manual.read_text(), text)
+        manual.write_text(text + "My solver needs 4 steps here.\n")
+        self.export(0, POSE, says="README.md: not replaced: differs from what this program writes")
+        self.assertEqual(manual.read_text(), text + "My solver needs 4 steps here.\n")
+
     def test_a_full_disk(self):
         sizes = sorted({path.stat().st_size for path in run_records.files(self.kit)})
         for size in (100, 9 * sizes[-1] // 10):
