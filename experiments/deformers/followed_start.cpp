@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    // Such as thin fins, which the blend of the first pose turns inside out.
+    // Whether tets stay inside out, such as those of thin fins, which the blend of the first pose turns over.
     bool keeps_inside_out() const
     {
         const Eigen::VectorXd volumes_m3 = pbs::tet_volumes(wrapped().positions(), character_->mesh.tets);

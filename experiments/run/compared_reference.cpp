@@ -127,12 +127,12 @@ pbs::RemarkList ComparedReference::remarks() const
     pbs::RemarkList remarks;
     // A head that is longer than its bone is not held by springs around the bone, and a band that is thinner than two tets not at all.
     if (largest_lag_.bone >= 0 && largest_lag_.turn_deg > much_lag_deg)
-        remarks.push_back({pbs::Gravity::comparison_wrong,
-                           fmt::format("{}: in the reference, the flesh that {} alone moves is turned by up to {:.0f} degrees against it, "
-                                       "in frame {}; in {} of {} "
-                                       "frames, {:.0f} % of the body or more lag by more than {:.0f} degrees; {}",
-                                       scene_.file, bone_that_lags(), largest_lag_.turn_deg, largest_lag_.frame, frames_with_lag_,
-                                       frames_searched_for_lag_, 100.0 * much_lagging_share, much_lag_deg, remedy_of_lag(runner_.spec))});
+        remarks.push_back(
+            {frames_with_lag_ > most_lagging_frames * frames_searched_for_lag_ ? pbs::Gravity::comparison_wrong : pbs::Gravity::information,
+             fmt::format("{}: in the reference, the flesh that {} alone moves is turned by up to {:.0f} degrees against it, "
+                         "in frame {}. In {} of {} frames, {:.0f} % of the body or more lag by more than {:.0f} degrees. {}",
+                         scene_.file, bone_that_lags(), largest_lag_.turn_deg, largest_lag_.frame, frames_with_lag_,
+                         frames_searched_for_lag_, 100.0 * much_lagging_share, much_lag_deg, remedy_of_lag(runner_.spec))});
     if (const SpreadReference::Outcome* outcome = spread())
         for (const pbs::Remark& remark : remarks_on(*outcome, scene_.file)) remarks.push_back(remark);
     if (frames_with_overlap_ > 0)

@@ -60,23 +60,25 @@ const analysis::Columns<EmbeddedPoint> embedding_columns = [] {
     for (const int k : {0, 1, 2, 3})
         columns.emplace_back(
             "barycentric_" + std::to_string(k), [k](auto& at) -> auto& { return at.barycentric[k]; });
+    columns.emplace_back("joint_share", &EmbeddedPoint::joint_share);
     return columns;
 }();
 
-analysis::CsvTable embedding_table(const pbs::EmbeddedSurface& surface)
+analysis::CsvTable embedding_table(const pbs::EmbeddedSurface& surface, const JointShares& of_joints)
 {
     std::vector<EmbeddedPoint> points;
     for (int point = 0; point < surface.tet.size(); ++point) {
         const auto share = surface.barycentric.row(point);
         points.push_back({point, surface.tet(point), {share(0), share(1), share(2), share(3)}});
     }
+    for (const auto& [point, share] : of_joints) points[static_cast<std::size_t>(point)].joint_share = share;
     return table_of(embedding_columns, points);
 }
 
-void write_surface(const pbs::EmbeddedSurface& surface, const pbs::TetMesh& mesh, const std::string& folder)
+void write_surface(const pbs::EmbeddedSurface& surface, const pbs::TetMesh& mesh, const JointShares& of_joints, const std::string& folder)
 {
     pbs::write_vtp(folder + "/surface_rest.vtp", pbs::embedded_positions(surface, mesh.rest, mesh.tets), surface.triangles);
-    embedding_table(surface).write(folder + "/embedding.csv");
+    embedding_table(surface, of_joints).write(folder + "/embedding.csv");
 }
 
 const analysis::Columns<DeformerDistance> distance_columns =

@@ -41,17 +41,20 @@ std::vector<BoundVertex> bound_vertices(const pbs::Character& character);
 
 // The rendered surface of a run's frames and the tets that carry it, for programs that move the surface with the tets:
 //   surface_rest.vtp   the surface at rest [m]
-//   embedding.csv      the tet that carries each of its points, with the point's barycentric coordinates
+//   embedding.csv      the tet that carries each of its points, with the point's barycentric coordinates, and the share by which its
+//                      joints carry it instead (ArtistSkin::of_joints)
 struct EmbeddedPoint {
     int point = 0, tet = 0;
     std::array<double, 4> barycentric = {};  // their sum is one; for a point outside its tet some are negative
+    double joint_share = 0.0;                // 0 to 1
 };
 extern const analysis::Columns<EmbeddedPoint> embedding_columns;
 
-analysis::CsvTable embedding_table(const pbs::EmbeddedSurface& surface);
+using JointShares = std::vector<std::pair<int, double>>;  // of points
+analysis::CsvTable embedding_table(const pbs::EmbeddedSurface& surface, const JointShares& of_joints = {});
 
 // Writes both files into the folder of a run.
-void write_surface(const pbs::EmbeddedSurface& surface, const pbs::TetMesh& mesh, const std::string& folder);
+void write_surface(const pbs::EmbeddedSurface& surface, const pbs::TetMesh& mesh, const JointShares& of_joints, const std::string& folder);
 
 // distances.csv: the distances between the points that two deformers give. One row per written frame and pair of deformers.
 //   DistanceRecord record;   record.add(frame, time_s, "pbs", "mesh", positions);   record.table().write("distances.csv");

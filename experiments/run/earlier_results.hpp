@@ -11,7 +11,8 @@ bool is_own_frame(const std::filesystem::path& file);
 
 // While the run lasts, the earlier results of its folder lie in FOLDER/.earlier. The destructor removes what the run has written and puts
 // them back, unless they were replaced or are kept aside. A folder without run.json has no results, and the rows that a killed run left
-// there are removed; what lies in its .earlier are still the earlier results.
+// there are removed; what lies in its .earlier is still the earlier results. The same holds for an interrupted trial beside earlier
+// results.
 class EarlierResults {
 public:
     explicit EarlierResults(const std::filesystem::path& folder);
@@ -24,6 +25,8 @@ public:
     void keep_aside();         // the run was interrupted, and its rows stay
 
 private:
+    void put_back();
+
     std::filesystem::path folder_;
     bool is_settled_ = false;
 };

@@ -16,6 +16,7 @@ namespace experiments {
 
 constexpr double much_lag_deg = 5.0;         // of a part
 constexpr double much_lagging_share = 0.01;  // of the body: the end of a thumb decides no comparison
+constexpr double most_lagging_frames = 0.1;  // in which so much lags: above, the reference is doubtful
 
 struct PartLag {
     double turn_deg = 0.0;

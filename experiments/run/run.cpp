@@ -242,7 +242,7 @@ private:
     std::string words_on_earlier_results() const
     {
         const std::string earlier = folder_.earlier_results();
-        return earlier.empty() ? "" : earlier + ": has the results of the earlier run until another one is finished";
+        return earlier.empty() ? "" : earlier + " keeps the results of the earlier run until another run finishes";
     }
 
     RunResult finish()
@@ -266,6 +266,7 @@ private:
         std::map<std::string, nlohmann::json> records;
         for (const Runner& runner : runners_)
             if (const auto record = runner.deformer->record(); !record.is_null()) records[runner.spec.label] = record;
+        if (was_interrupted_ && !words_on_earlier_results().empty()) warn({words_on_earlier_results()});
         folder_.finish(character_, records, outcome, cost_, reference_.error_method());
         remarks_.set_words_of_interruption("");
         return {frames_, stopwatch_.seconds(), broken_.breakdown(), broken_.bad_frame(frames_), summary(), was_interrupted_};

@@ -222,7 +222,8 @@ void RunFolder::write_what_frames_depend_on(const pbs::Character& character) con
     const fs::path folder(folder_);
     table_of(bone_columns, bones_at_rest(character.skeleton)).write((folder / "bones_rest.csv").string());
     table_of(bound_vertex_columns, bound_vertices(character)).write((folder / "binding.csv").string());
-    if (character.surface) write_surface(*character.surface, character.mesh, folder_);
+    if (character.surface)
+        write_surface(*character.surface, character.mesh, character.artist ? character.artist->of_joints : JointShares(), folder_);
 }
 
 void RunFolder::finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
@@ -242,7 +243,10 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
     if (!reference_error_method.is_null()) run["reference_error_method"] = reference_error_method;
     run["cost"] = cost.json();
     analysis::write_text_atomically((fs::path(folder_) / "run.json").string(), analysis::record_text(run));
-    earlier_->replace();
+    if (outcome.value("interrupted", false))
+        earlier_->keep_aside();
+    else
+        earlier_->replace();
 }
 
 }  // namespace experiments

@@ -27,8 +27,8 @@ namespace {
 constexpr int shares_of_what_is_left = 8;
 constexpr double longest_over_mean = 3.0;
 constexpr int least_held_up = 2, held_up_of = 4;  // so many frames, and more than one of so many
-constexpr int coarsest = 4;                       // every so-manieth frame first, so that an interruption leaves spread ones
-constexpr int hopeless = 4;                       // so many frames in vain, and at most the one at rest reached
+constexpr int coarsest = 4;                       // every fourth frame is solved first, so that an interruption leaves spread ones
+constexpr int hopeless = 4;                       // so many frames that were not reached, and at most one that was
 constexpr int few_frames = 5;                     // on which a comparison rests
 constexpr double between_writings_s = 1.0;
 
@@ -148,7 +148,8 @@ bool SpreadReference::has_time_left() const
 
 bool SpreadReference::Outcome::is_hopeless() const
 {
-    return solved <= 1 && std::ssize(not_reached) >= hopeless;
+    const auto in_vain = static_cast<int>(not_reached.size());
+    return solved <= 1 && in_vain >= hopeless && solved + in_vain < frames;
 }
 
 void SpreadReference::solve(int number, int frames_left)
@@ -331,12 +332,13 @@ pbs::RemarkList remarks_on(const SpreadReference::Outcome& outcome, const std::s
         fmt::format("the reference has {} of {} frames{}: {}", outcome.solved, outcome.frames,
                     outcome.solved > 0 ? ", and only they have errors" : ", so that no method has an error",
                     outcome.was_interrupted ? "it was interrupted"
-                    : outcome.is_hopeless() ? fmt::format("after {} frames in vain the others were not tried; --reference-seconds "
-                                                          "(reference.seconds) gives each of them more time",
-                                                          outcome.not_reached.size())
-                                            : fmt::format("they are spread over the motion as evenly as {:.0f} s of processor time allow "
-                                                          "(--reference-seconds, reference.seconds)",
-                                                          outcome.seconds)));
+                    : outcome.is_hopeless()
+                        ? fmt::format("after {} frames that were not reached the others were not tried; --reference-seconds "
+                                      "(reference.seconds) gives each of them more time",
+                                      outcome.not_reached.size())
+                        : fmt::format("they are spread over the motion as evenly as {:.0f} s of processor time allow "
+                                      "(--reference-seconds, reference.seconds)",
+                                      outcome.seconds)));
     return remarks;
 }
 

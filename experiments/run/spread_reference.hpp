@@ -1,9 +1,9 @@
 // The reference of a run that has a budget of processor time for it (reference.seconds): it passes through the motion, and as soon as all
 // frames would take longer than what is left, it leaves frames out, so that those which are solved are evenly spread up to the end. In the
-// time that is left then it passes through the others, and tries those that were not reached once more. After four frames in vain, and none
-// but the one at rest reached, it gives up. A frame continues from the last
-// one, or from the solved one before or after it or from rest, whichever pose is most similar. What is solved is kept in a file, from which
-// the same run goes on.
+// time that is left then it passes through the others, and tries those that were not reached once more. It solves every fourth frame first,
+// then every second one, then the rest. After four frames that were not reached, and at most one that was, it gives up. A frame continues
+// from the last one, or from the solved one before or after it or from rest, whichever pose is most similar. What is solved is kept in a
+// file, from which the same run goes on.
 //
 // Contact can make a frame ten times as expensive, since where two parts touch, the initial guess and each step of Newton's method end at
 // once for the whole body. As soon as two frames are not reached, these are more than a quarter of those that were tried, and half of the

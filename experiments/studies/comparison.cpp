@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <fstream>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -38,6 +39,12 @@ std::string study_of(const std::string& name)
     return name.substr(0, name.find('/'));
 }
 
+// The results before an unfinished run are in a folder whose name begins with a dot.
+bool is_shown(const fs::path& folder)
+{
+    return !folder.filename().string().starts_with('.');
+}
+
 // A folder of results with the tables of its finished runs: of one run, of the studies with their plans, or of other runs in its folders.
 struct Results {
     Results(const std::string& folder, const ComparedFolders& compared)
@@ -46,8 +53,10 @@ struct Results {
         const auto& studies = compared.studies;
         if (!fs::is_directory(root)) throw pbs::InputError(folder, 0, "", "", "expected a folder of results");
         add_runs_of(root);
+        if (fs::exists(root / frames_table) && !fs::exists(root / "run.json")) unfinished.insert(".");
         for (const fs::path& study : fs::directory_iterator(root))
-            if (fs::is_directory(study) && (!studies || std::ranges::count(*studies, study.filename().string()) > 0)) add_runs_of(study);
+            if (is_shown(study) && fs::is_directory(study) && (!studies || std::ranges::count(*studies, study.filename().string()) > 0))
+                add_runs_of(study);
         if (runs.empty() && !studies)
             throw pbs::InputError(folder, 0, "", "", "no results in this folder: expected what `pbskin run` or `pbskin reproduce` writes");
     }
@@ -61,7 +70,7 @@ struct Results {
             if (study == root) return;
             if (fs::exists(study / frames_table)) unfinished.insert(study.lexically_relative(root).string());
             for (const fs::path& run : fs::directory_iterator(study))
-                if (fs::exists(run / "run.json"))
+                if (is_shown(run) && fs::exists(run / "run.json"))
                     add_run(run);
                 else if (fs::exists(run / frames_table))
                     unfinished.insert(run.lexically_relative(root).string());
@@ -126,22 +135,33 @@ void name_missing_frames(const Results& first, const Results& second, ResultComp
     }
 }
 
-bool have_the_same_bytes(const fs::path& one, const fs::path& other)
+// A frame for ParaView ends with its root element.
+bool is_cut_off(const fs::path& file)
 {
-    std::error_code missing;
-    return fs::file_size(one, missing) == fs::file_size(other, missing) && !missing &&
-           analysis::read_text(one.string()) == analysis::read_text(other.string());
+    constexpr std::streamoff most = 64;
+    std::ifstream frame(file, std::ios::binary | std::ios::ate);
+    const std::streamoff size = frame.tellg();
+    frame.seekg(std::max<std::streamoff>(0, size - most));
+    return std::string(std::istreambuf_iterator<char>(frame), {}).find("</VTKFile>") == std::string::npos;
 }
 
-// The numbers of frames for ParaView are those of the tables. A frame with other bytes than that of the other result is read, in case that
-// it is damaged.
+bool have_other_bytes(const fs::path& one, const fs::path& other)
+{
+    return fs::exists(other) &&
+           (fs::file_size(one) != fs::file_size(other) || analysis::read_text(one.string()) != analysis::read_text(other.string()));
+}
+
+// The numbers of frames for ParaView are those of the tables. A frame with other bytes than that of the other result may be damaged: its
+// arrays are read, whatever their numbers are, for those of an exploded body are no places.
 void name_broken_frames(const Results& results, const Results& others, ResultComparison& to)
 {
     for (const std::string& run : results.runs)
         for (const std::string& name : frames_of(results.root / run)) {
             const fs::path file = results.root / run / "frames" / name;
             try {
-                if (!have_the_same_bytes(file, others.root / run / "frames" / name)) pbs::read_tet_frame(file.string());
+                if (is_cut_off(file))
+                    throw pbs::InputError(file.string(), 0, "", "", "the frame is cut off: expected </VTKFile> at its end");
+                if (have_other_bytes(file, others.root / run / "frames" / name)) pbs::read_point_arrays(file.string());
             } catch (const pbs::InputError& error) {
                 to.not_compared.push_back(error.what());
             }

@@ -37,7 +37,7 @@ struct TrialScene {
 TrialScene trial_scene(const TrialOptions& options);
 
 // The animation of a model that a trial takes if none is named: the first one that turns a joint by more than 5 degrees, else the one that
-// moves most; null: none moves a joint. made: gets a note on the choice, and the description of all animations.
+// moves most, else a pose; null: none moves a joint or poses one. made: gets a note on the choice, and the description of all animations.
 const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs::Rig& rig, const pbs::RiggedBody& body, TrialScene& made);
 
 // The frames per second of a motion of which at most so many frames are wanted: 30 Hz or fewer. InputError for a motion so long that the

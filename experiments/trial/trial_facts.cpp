@@ -3,6 +3,7 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/tables.hpp"
 #include "analysis/statistics/statistics.hpp"
+#include "experiments/run/parts_of_one_bone.hpp"
 #include "experiments/trial/trial.hpp"
 #include "pbs/character/json_file.hpp"
 
@@ -177,7 +178,7 @@ nlohmann::json nearest_facts(const CsvTable& metrics, const nlohmann::json& inve
 // Why the reference may be another pose than the motion's, so that no method is called nearest: far_from_all or lag; null: it is not.
 nlohmann::json doubt_of_reference(const nlohmann::json& nearest, const nlohmann::json& lag)
 {
-    constexpr double most_error_pct = 50.0, most_lagging_frames = 0.1;
+    constexpr double most_error_pct = 50.0;
     if (!lag.is_null() && lag.at("lagging_frames").get<double>() > most_lagging_frames * lag.at("frames").get<double>()) return "lag";
     if (!nearest.is_null() && !nearest.at("methods").empty() && nearest.at("methods").front().at("median_pct") > most_error_pct)
         return "far_from_all";

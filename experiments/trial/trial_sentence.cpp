@@ -120,7 +120,7 @@ std::string error_bar_words(const nlohmann::json& bar)
                        bar.at("seconds").get<double>());
 }
 
-// Over the skin also count points away from the joints, where flesh should move rigidly.
+// The distance over the skin also counts points away from the joints, where flesh should move rigidly.
 std::string otherwise_at_joints(const nlohmann::json& nearest, double removed_pct)
 {
     std::map<std::string, double> medians;

@@ -130,7 +130,7 @@ def is_reached(row):
 
 def provenance(results):
     """Version and git revision of the first run in a folder or below."""
-    files = sorted(results.glob("**/run.json"))
+    files = sorted(file for file in results.glob("**/run.json") if not file.parent.name.startswith("."))
     need(files, f"{results}: no run.json in it or below")
     return read_json(files[0]).get("provenance", {})
 

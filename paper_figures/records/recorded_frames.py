@@ -49,6 +49,11 @@ class Frames:
         shares = numpy.array([[float(row[column]) for column in share_columns] for row in rows])
         return numpy.array([int(row["tet"]) for row in rows]), shares
 
+    def points_of_joints(self):
+        """The points of the rendered surface that joints carry by more than one half, for they have no flesh of their own."""
+        rows = records.table(self._file("embedding.csv", ""), {"point"})
+        return {int(row["point"]) for row in rows if float(row.get("joint_share") or 0.0) > 0.5}
+
     def row(self, label, frame):
         if label not in self.deformers:
             raise records.RecordsMissing(f"{self.folder / 'run.json'}: no deformer labelled {label}")

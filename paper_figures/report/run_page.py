@@ -97,7 +97,8 @@ def compared_frames(errors):
     """The frames in which all methods have an error that is seen: a method that fails in the hard ones would look best by the others."""
     of_frames = {frame: [of[frame] for of in errors.values() if frame in of] for frame in set().union(*errors.values())}
     seen = {frame: len(of) for frame, of in of_frames.items() if max(of) >= least_visible_pct}
-    return {frame for frame, count in seen.items() if count == max(seen.values())}
+    most = max(seen.values(), default=0)
+    return {frame for frame, count in seen.items() if count == most}
 
 
 def excluded(found):

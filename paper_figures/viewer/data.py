@@ -146,8 +146,11 @@ def pack_surface(recorded, block):
     tets, shares = recorded.embedding()
     if triangles.max() >= len(tets):
         raise records.RecordsMissing(f"{recorded.folder / 'embedding.csv'}: {len(tets)} points, but {file.name} has more")
-    return {"points": len(tets), "triangles": len(triangles), "largest_sum": float(abs(shares).sum(axis=1).max()),
-            "corners": block.put(triangles.astype("<u4")), "tets": block.put(tets.astype("<u4")), "shares": block.put(shares.astype("<f4"))}
+    of_joints = recorded.points_of_joints()  # the tets would draw them elsewhere
+    triangles = numpy.array([corners for corners in triangles.tolist() if of_joints.isdisjoint(corners)]).reshape(-1, 3)
+    return {"points": len(tets), "triangles": len(triangles), "of_joints": len(of_joints),
+            "largest_sum": float(abs(shares).sum(axis=1).max()), "corners": block.put(triangles.astype("<u4")),
+            "tets": block.put(tets.astype("<u4")), "shares": block.put(shares.astype("<f4"))}
 
 
 def last_state(rows, frame):

@@ -358,8 +358,12 @@ BodyJoints body_joints(const Clip& clip)
 
 JointMap joint_map(const Clip& clip, const Skeleton& skeleton)
 {
-    std::vector<std::string> bone_names;
-    for (const Bone& bone : skeleton.bones) bone_names.push_back(bone.body_part.empty() ? bone.name : bone.body_part);
+    std::vector<std::string> bone_names, own_names;
+    for (const Bone& bone : skeleton.bones) {
+        own_names.push_back(bone.name);
+        bone_names.push_back(bone.body_part.empty() ? bone.name : bone.body_part);
+    }
+    const std::vector<JointKey> own_joints = keys_of(clip.joints), own_bones = keys_of(own_names);  // without tables
     const std::vector<JointKey> joints = keys_of(known_names(clip)), bones = keys_of(bone_names);
     const int own = scheme_of(bones), of_clip = scheme_of(joints);
     const bool is_known = own >= 0 && of_clip >= 0, by_parts = is_known && own != of_clip;
@@ -373,7 +377,8 @@ JointMap joint_map(const Clip& clip, const Skeleton& skeleton)
         const auto is_taken = [&](int joint) { return joint >= 0 && (!by_parts || is_same_part(part, part_of(joints[joint], of_clip))); };
         const auto same = std::ranges::find(clip.joints, skeleton.bones[b].name);
         const int equal = same == clip.joints.end() ? -1 : static_cast<int>(same - clip.joints.begin());
-        const int alike = joint_with(joints, bones[b].stem, bones[b].side);
+        int alike = joint_with(joints, bones[b].stem, bones[b].side);
+        if (alike < 0) alike = joint_with(own_joints, own_bones[b].stem, own_bones[b].side);
         if (is_taken(equal))
             mapping.joint = equal;
         else if (by_parts && part >= 0)

@@ -83,7 +83,7 @@ CarriedWeight carried_weight_of(const RiggedBody& body, const Character& charact
                           static_cast<int>(body.skeleton.bones.size()));
 }
 
-// Of each joint whether the tets carry at most half of its weight.
+// Whether the tets carry at most half of the weight, for each joint.
 std::vector<bool> joints_without_flesh(const CarriedWeight& weight)
 {
     std::vector<bool> without;
@@ -92,7 +92,7 @@ std::vector<bool> joints_without_flesh(const CarriedWeight& weight)
     return without;
 }
 
-// Of each point whether it belongs to a separate shell whose weights the tets around it carry to at most one half, such as a cape that was
+// Whether a point belongs to a separate shell whose weights the tets around it carry to at most one half, such as a cape that was
 // left out of the tets. The larger part of a body is no such shell.
 std::vector<bool> in_shells_without_flesh(const RiggedBody& body, const CarriedWeight& weight)
 {

@@ -150,7 +150,7 @@ Character with_weights(WeightKind kind, Character character)
 
 namespace {
 
-// Of each vertex whether it is on a cut through the flesh, and not on the skin: faces of the boundary come in pairs at one place there.
+// Whether a vertex is on a cut through the flesh, and not on the skin: faces of the boundary come in pairs at one place there.
 std::vector<bool> vertices_at_cuts(const TetMesh& mesh)
 {
     using Corner = std::array<double, 3>;

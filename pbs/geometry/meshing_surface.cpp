@@ -462,6 +462,7 @@ TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
     std::optional<InputError> why;
     for (const double growth : {1.0, 3.0, 6.0}) {
         if (growth > 1.0 && (!is_open || (growth < 6.0 && is_exceeded))) continue;
+        is_exceeded = false;
         if (const auto mesh = mesh_wrapped(surface, alpha, growth * offset, is_open, options, is_exceeded, why)) return *mesh;
     }
     if (is_exceeded) throw TooManyTets(*why);

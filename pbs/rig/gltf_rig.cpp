@@ -454,9 +454,10 @@ const tinygltf::Value& member(const tinygltf::Value& value, const std::string& k
 void take_body_part(const tinygltf::Value& node, const std::string& part, const std::vector<int>& rig_node, Rig& rig)
 {
     const int number = node.IsInt() ? node.GetNumberAsInt() : -1;
-    if (number < 0 || number >= static_cast<int>(rig_node.size()))
-        throw InputError(rig.file, 0, "humanoid/humanBones/" + part + "/node", node.IsInt() ? std::to_string(number) : "",
-                         "expected a node of the file");
+    if (number < 0 || number >= static_cast<int>(rig_node.size())) {
+        rig.remarks.push_back("humanoid/humanBones/" + part + " names no node of the file, and is left out");
+        return;
+    }
     rig.nodes[static_cast<std::size_t>(rig_node[static_cast<std::size_t>(number)])].body_part = part;
 }
 

@@ -51,8 +51,8 @@ struct Motion {
     int frames() const { return steps.empty() ? 0 : static_cast<int>((steps.size() - 1) / steps_per_frame) + 1; }
 };
 
-// Of each bone the first bone with which it moves as one in all poses, #bones: within `size_m` of the mean of the joints they move every
-// point the same way, up to 1e-3 of size_m.
+// The first bone with which each bone moves as one in all poses, #bones. Two bones move as one if they move every point within size_m of
+// the mean joint to the same place, up to 1e-3 size_m.
 std::vector<int> bones_that_move_as_one(const Skeleton& skeleton, const std::vector<Pose>& poses, double size_m);
 
 // Pose from local joint rotations about the heads (parent's frame = world axes) and a translation [m] of the roots.

@@ -160,8 +160,10 @@ private:
             const bool holds_for_some = broken_text(bound, least).empty(), holds_for_all = broken_text(bound, most).empty();
             breaks_for_all_ = breaks_for_all_ || !holds_for_some;
             if (undecided_.empty() && holds_for_some && !holds_for_all)
-                undecided_ = fmt::format("in frame {} {} holds for some surfaces in the holes alone, whose bound is {:.2g} %", name,
-                                         bound.option, bound_pct);
+                undecided_ = fmt::format(
+                    "in frame {} {} holds for some surfaces that could close the holes and not for others (they change the volume by at "
+                    "most {:.2g} %)",
+                    name, bound.option, bound_pct);
         }
     }
 

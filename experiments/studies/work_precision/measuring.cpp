@@ -381,8 +381,7 @@ void print_first_answers(const ComparisonCase& comparison, const ComparedBody& b
         spdlog::info("first answer, {} poses of {}: {}: {:.3g} ms per frame, {}{}", places.size(), comparison.body, method.name,
                      analysis::median(posed.ms),
                      std::isfinite(share) ? fmt::format("{:.0f} % of LBS's error", 100.0 * share)
-                                          : "without an error in one of them, where "
-                                            "its positions are no numbers",
+                                          : "no error: its positions are not finite in at least one pose",
                      others);
     }
 }

@@ -18,7 +18,7 @@ export class Run {
     constructor(header, block) {
         const { bones, surface, ...rest } = header;
         Object.assign(this, rest, { block, bone_names: bones.names, surface: surface && {
-            points: surface.points, largest_sum: surface.largest_sum,
+            points: surface.points, largest_sum: surface.largest_sum, of_joints: surface.of_joints,
             corners: new Uint32Array(block, surface.corners, 3 * surface.triangles),
             tets: new Uint32Array(block, surface.tets, surface.points), shares: new Float32Array(block, surface.shares, 4 * surface.points),
         } });

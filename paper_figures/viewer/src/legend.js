@@ -137,5 +137,6 @@ function carried_by({ surface, step_m }) {
     if (!surface) return "";
     const within_um = Math.ceil(0.5e6 * step_m * surface.largest_sum);
     const points = `, which carry the ${surface.points} points of the rendered surface`;
-    return `${points}, each coordinate within ${within_um} \u00b5m of the record's`;
+    const left_out = surface.of_joints ? `; ${surface.of_joints} of these points follow joints without flesh, and are not drawn here` : "";
+    return `${points}, each coordinate within ${within_um} \u00b5m of the record's${left_out}`;
 }

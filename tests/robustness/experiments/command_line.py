@@ -197,7 +197,7 @@ class CommandLine(foreign_arm.ArmTest):
         left = run_records.files(self.path("out"))
         self.assertIn("metrics.csv", [path.name for path in left])
         self.assertEqual([path for path in left if run_records.is_temporary(path) or run_records.what_is_torn(path)], [])
-        self.assertIn(f"{aside}: has the results of the earlier run", errors)
+        self.assertIn(f"{aside} keeps the results of the earlier run", errors)
         self.assertEqual({path.relative_to(aside): path.read_bytes() for path in run_records.files(aside)}, earlier)
         self.succeeds("run", self.scene, "-o", out)
         self.assertFalse(aside.exists())

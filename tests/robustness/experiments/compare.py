@@ -139,9 +139,10 @@ class Compare(program.ProgramTest):
         frame = sorted(runs[1].glob("frames/*.vtu"))[0]
         whole = frame.read_bytes()
         at = 2 * len(whole) // 3
-        for damaged in (whole[:len(whole) // 2], whole[:at] + bytes(byte ^ 21 for byte in whole[at:at + 40]) + whole[at + 40:]):
+        changed = whole[:at] + bytes(byte ^ 21 for byte in whole[at:at + 40]) + whole[at + 40:]
+        for damaged, words in ((whole[:len(whole) // 2], "the frame is cut off"), (changed, "VTK: ")):
             frame.write_bytes(damaged)
-            self.assertIn(f"{frame.name}: VTK: ", self.ends(1, "compare", first, second).stdout)
+            self.assertIn(f"{frame.name}: {words}", self.ends(1, "compare", first, second).stdout)
         frame.unlink()
         self.assertIn(f"frames/{frame.name}", self.ends(1, "compare", first, second).stdout)
         frame.write_bytes(whole)

@@ -75,6 +75,17 @@ class Viewer(ResultsTest):
                 apart = abs(packed[frame] - recorded).max(axis=1)
                 self.assertTrue((apart <= abs(shares).sum(axis=1) * run["step_m"] / 2 * (1 + 1e-6)).all())
 
+    def test_points_that_joints_carry_are_not_drawn(self):
+        """The tets carry them elsewhere."""
+        shutil.rmtree(self.run)
+        synthetic_frames.write_frames(self.results, "human_jump", body="human")
+        file = self.results / "frames" / "human_jump" / "embedding.csv"
+        head, *lines = file.read_text().splitlines()
+        for share, triangles, points in (("0.5", 1, 0), ("0.75", 0, 1)):
+            file.write_text("\n".join([head + ",joint_share", lines[0] + ",0", lines[1] + "," + share, lines[2] + ",0"]) + "\n")
+            surface = self.unpacked()[0]["surface"]
+            self.assertEqual((surface["triangles"], surface["of_joints"], surface["points"]), (triangles, points, 3))
+
     def test_pbs_of_another_stiffness_says_which_and_which_its_zone(self):
         plain = {"k_stretch": 0.2}
         options = {"pbs": plain, "pbs_jiggle": {"k_stretch": 1.0, "jiggle": {"k_stretch": 0.1}}, "pbs_no_zone": {"k_stretch": 1.0},

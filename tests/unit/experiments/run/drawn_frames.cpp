@@ -101,9 +101,11 @@ TEST(SurfaceRecord, ItsSharesCarryThePointsAlongAndBothFilesStandInTheFolder)
     EXPECT_LT(table.number(2, "barycentric_0"), 0.0);
 
     const analysis::ScratchFolder folder;
-    write_surface(surface, mesh, folder.path());
+    write_surface(surface, mesh, {{1, 0.75}}, folder.path());
     EXPECT_GT(std::filesystem::file_size(folder / "surface_rest.vtp"), 0U);
-    EXPECT_EQ(analysis::read_csv(folder / "embedding.csv").rows(), 3);
+    const analysis::CsvTable written = analysis::read_csv(folder / "embedding.csv");
+    ASSERT_EQ(written.rows(), 3);
+    for (int point = 0; point < 3; ++point) EXPECT_EQ(written.number(point, "joint_share"), point == 1 ? 0.75 : 0.0);
 }
 
 pbs::Positions two_points(double x_m)

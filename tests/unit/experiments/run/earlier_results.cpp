@@ -106,6 +106,43 @@ TEST_F(EarlierResults, AreThoseOfTheLastRunThatFinished)
     EXPECT_EQ(contents(), together(second, {{"run.json", "2"}}));
 }
 
+// The first one was killed while it moved the results aside, the second one while it put them back: run.json is the last, then the first.
+TEST_F(EarlierResults, OutliveAKillWhileTheyAreMoved)
+{
+    for (const bool record_is_aside : {false, true}) {
+        write(first);
+        fs::create_directories(scratch.path() / ".earlier/frames");
+        fs::rename(scratch / "frames/pbs.glb", scratch / ".earlier/frames/pbs.glb");
+        fs::rename(scratch / "metrics.csv", scratch / ".earlier/metrics.csv");
+        if (record_is_aside)  // all are, and the rows of the run that was killed are in their place
+            for (const auto& [name, text] : first)
+                if (fs::exists(scratch / name)) {
+                    fs::create_directories((scratch.path() / ".earlier" / name).parent_path());
+                    fs::rename(scratch / name, scratch.path() / ".earlier" / name);
+                }
+        {
+            const experiments::EarlierResults earlier(scratch.path());
+        }
+        EXPECT_EQ(contents(), first) << record_is_aside;
+    }
+}
+
+TEST_F(EarlierResults, OutliveAnInterruptedTrialBesideThem)
+{
+    write(first);
+    for (int trial = 0; trial < 2; ++trial) {
+        experiments::EarlierResults earlier(scratch.path());
+        write(second);
+        write({{"run.json", R"({"outcome": {"interrupted": true}})"}});
+        earlier.keep_aside();
+    }
+    EXPECT_EQ(analysis::read_text(scratch / ".earlier/run.json"), "1");
+    {
+        const experiments::EarlierResults earlier(scratch.path());
+    }
+    EXPECT_EQ(contents(), first);
+}
+
 TEST_F(EarlierResults, AreNotTheRowsOfAnUnfinishedRun)
 {
     write(users_own);

@@ -113,7 +113,8 @@ TEST_F(GltfRig, BodyPartsAreThoseOfVrmsTable)
         EXPECT_EQ(rig.nodes[0].body_part, "");
     }
     gltf.json["extensions"]["VRMC_vrm_animation"]["humanoid"]["humanBones"]["spine"]["node"] = 3;
-    expect_refused("humanoid/humanBones/spine/node = 3: ", "expected a node of the file");
+    EXPECT_EQ(read().nodes[1].body_part, "");
+    EXPECT_EQ(read().remarks, std::vector<std::string>{"humanoid/humanBones/spine names no node of the file, and is left out"});
     for (const char* odd : {R"({"VRM": 1})", R"({"VRM": {"humanoid": []}})", R"({"VRMC_vrm": {"humanoid": {"humanBones": "spine"}}})"}) {
         gltf.json["extensions"] = json::parse(odd);
         EXPECT_EQ(read().nodes[1].body_part, "");
