@@ -173,7 +173,7 @@ def summary(found):
     notes = [*([f"Error {errors[1]}: its median and, in brackets, its largest value."] if errors else []),
              *(["Volume: the range of its change."] if volume else []), "Time: the median.", "Inverted tets: the most in a frame."]
     note = element("p", " ".join(notes), class_="under")
-    return answers.card("summary", "Which method is nearest?" if errors else "The methods",
+    return answers.card("summary", "Which method is nearest?" if errors and sentence else "The methods",
                         [*shown, table("Over all frames", header, map(row, methods)), note])
 
 
