@@ -104,6 +104,34 @@ TEST(SeparatedParts, WhatMovesTogetherStaysInOnePiece)
     EXPECT_EQ(made.mesh.tets, shoes.flesh.tets);
 }
 
+// A thin plate whose two sides follow two bones: only the way round its rim joins them. The ways from a point are kept for the next
+// question.
+TEST(SeparatedParts, AnswerTheSameWhateverWasAskedBefore)
+{
+    TwoShoes shoes;
+    const TetMesh plate = test_support::structured_bar({0, 0, 0}, {0.2, 0.004, 0.2}, {8, 1, 8});
+    shoes.body.surface = plate.rest;
+    shoes.body.triangles = boundary_of(plate.tets);
+    shoes.body.skin = {};
+    shoes.body.skin.first = {0};
+    for (Eigen::Index v = 0; v < plate.rest.rows(); ++v) {
+        shoes.body.skin.add(plate.rest(v, 1) > 0.0 ? 2 : 1, 1.0);
+        shoes.body.skin.end_vertex();
+    }
+    const SkinParts asked_before(shoes.body, {});
+    int apart = 0, together = 0;
+    for (Eigen::Index a = 0; a < plate.rest.rows(); a += 23)
+        for (Eigen::Index k = 0; k < plate.rest.rows(); ++k) {
+            const Eigen::Index b = (7 * k) % plate.rest.rows();
+            const SkinParts fresh(shoes.body, {});
+            const bool are_apart = fresh.are_apart(fresh.at_vertex(a), fresh.at_vertex(b));
+            (are_apart ? apart : together) += 1;
+            EXPECT_EQ(asked_before.are_apart(asked_before.at_vertex(a), asked_before.at_vertex(b)), are_apart) << a << " " << b;
+        }
+    EXPECT_GT(apart, 5);
+    EXPECT_GT(together, 20);
+}
+
 // One box whose weights jump from bone to bone: the skin is continuous there.
 TEST(SeparatedParts, AJointStaysWhole)
 {
