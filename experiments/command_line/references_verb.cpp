@@ -192,7 +192,8 @@ public:
     std::size_t bodies() const { return written_bodies_.size(); }
 
 private:
-    // What the user added to a manual, or changed in it, makes it another one. Its tables change with the poses in the folder.
+    // Whether the program wrote the whole text. A manual in which the user added or changed a line is the user's. The rows of the tables
+    // may differ, since they list the poses in the folder.
     static bool is_manual(const std::string& text)
     {
         if (!text.starts_with(exported::exported_references_md)) return false;

@@ -28,7 +28,7 @@ namespace {
 
 constexpr const char* aside = ".earlier";
 
-// What a run writes into a folder, relative to it. The record is last: where it is, the others are, too.
+// The files that a run has written into a folder, relative to the folder. run.json is the last one.
 std::vector<fs::path> results_in(const fs::path& folder)
 {
     std::vector<fs::path> results;
@@ -47,7 +47,8 @@ void remove_results(const fs::path& folder)
     for (const fs::path& file : results_in(folder)) analysis::remove_record(folder / file);
 }
 
-// What a kill leaves is completed by the next run, by the place of run.json: it is moved aside last, and put back first.
+// A kill may end the program between two files. run.json is moved aside last and put back first, so that the next run finds out from its
+// place that files are still to be put back.
 enum class Record { first, last };
 void move_results(const fs::path& from, const fs::path& to, Record record)
 {

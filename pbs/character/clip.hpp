@@ -90,13 +90,14 @@ struct BodyJoints {
     std::array<int, 2> upper_arm = {-1, -1}, forearm = {-1, -1}, hand = {-1, -1}, thigh = {-1, -1}, shin = {-1, -1}, foot = {-1, -1};
 };
 
-// Those of the clip's names, or of its own table of them. Unknown where no scheme knows thighs and shins of them.
+// The joints of the clip's body, by the names of the joints or by the table of body parts in the clip's file (Clip::body_parts). All are
+// unknown (-1) if no scheme of names has both the clip's thighs and its shins.
 BodyJoints body_joints(const Clip& clip);
 
 // A bone follows the joint of the same name. Where there is none, and clip and skeleton have the names of two schemes that are known (the
 // table in joint_names.cpp), it follows the joint of the same part of the body. For all others, names are compared without capitals,
 // separators, namespaces, a prefix or a number at the end that all names have, and the spelling of the side (LeftHand, hand_l, L.Hand).
-// What a file's own table calls a joint (VRM) counts in place of its name.
+// If a file has a table of body parts (VRM), the name of the part is compared first, and then the name of the joint.
 struct JointMap {
     std::vector<JointMapping> bones;  // #bones
     std::vector<bool> is_small;       // fingers, toes and the like of a clip with a known scheme, #joints
