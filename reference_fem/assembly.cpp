@@ -14,12 +14,14 @@
 
 namespace reference_fem {
 
-// deal.II's side of a SimplexSpace. The requirements of deal.II 9.4.1 on tets: MappingFE everywhere (the default mapping crashes),
-// QGaussSimplex<3>(n) with n <= 4. Stays where it is made: the handler refers to the triangulation.
+// deal.II's side of a SimplexSpace. The requirements of deal.II 9.4.1 on tets: MappingFE everywhere (the default
+// mapping crashes), QGaussSimplex<3>(n) with n <= 4. Stays where it is made: the handler refers to the triangulation.
 struct SimplexSpace::Elements {
     // 1 or 2; the triangulation is filled later, by the space.
     explicit Elements(int element_order)
-        : element(dealii::FE_SimplexP<3>(element_order), 3), mapping(dealii::FE_SimplexP<3>(1)), dof_handler(triangulation)
+        : element(dealii::FE_SimplexP<3>(element_order), 3),
+          mapping(dealii::FE_SimplexP<3>(1)),
+          dof_handler(triangulation)
     {
     }
 
@@ -35,7 +37,8 @@ void fill_triangulation(const pbs::TetMesh& mesh, dealii::Triangulation<3>& tria
 {
     std::vector<dealii::Point<3>> vertices;
     vertices.reserve(mesh.rest.rows());
-    for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v) vertices.emplace_back(mesh.rest(v, 0), mesh.rest(v, 1), mesh.rest(v, 2));
+    for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v)
+        vertices.emplace_back(mesh.rest(v, 0), mesh.rest(v, 1), mesh.rest(v, 2));
     std::vector<dealii::CellData<3>> cells(mesh.tets.rows(), dealii::CellData<3>(4));
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
         for (int corner = 0; corner < 4; ++corner) cells[t].vertices[corner] = mesh.tets(t, corner);
@@ -51,7 +54,8 @@ pbs::Vec3 to_vec3(const dealii::Tensor<1, 3>& v)
 
 // Calls visit(values, dofs) on every tet, in the mesh's order.
 template <typename Visit>
-void for_each_tet(const SimplexSpace& space, const dealii::Quadrature<3>& quadrature, dealii::UpdateFlags update, Visit visit)
+void for_each_tet(const SimplexSpace& space, const dealii::Quadrature<3>& quadrature, dealii::UpdateFlags update,
+                  Visit visit)
 {
     const auto& elements = space.elements();
     dealii::FEValues<3> values(elements.mapping, elements.element, quadrature, update);
@@ -74,9 +78,10 @@ template <typename Visit>
 void for_each_boundary_face(const SimplexSpace& space, const std::function<bool(const pbs::Vec3&)>& on, Visit visit)
 {
     const auto& elements = space.elements();
-    const auto update =
-        dealii::update_values | dealii::update_quadrature_points | dealii::update_normal_vectors | dealii::update_JxW_values;
-    dealii::FEFaceValues<3> values(elements.mapping, elements.element, dealii::QGaussSimplex<2>(space.element_order() + 1), update);
+    const auto update = dealii::update_values | dealii::update_quadrature_points | dealii::update_normal_vectors |
+                        dealii::update_JxW_values;
+    dealii::FEFaceValues<3> values(elements.mapping, elements.element,
+                                   dealii::QGaussSimplex<2>(space.element_order() + 1), update);
     DofIndices dofs(elements.element.n_dofs_per_cell());
     for (const auto& cell : elements.dof_handler.active_cell_iterators())
         for (const unsigned int face : cell->face_indices()) {
@@ -88,7 +93,8 @@ void for_each_boundary_face(const SimplexSpace& space, const std::function<bool(
 }
 
 // u_h at quadrature point q.
-pbs::Vec3 value_at(const dealii::FEValues<3>& values, const DofIndices& dofs, const Eigen::VectorXd& displacement, unsigned int q)
+pbs::Vec3 value_at(const dealii::FEValues<3>& values, const DofIndices& dofs, const Eigen::VectorXd& displacement,
+                   unsigned int q)
 {
     pbs::Vec3 value = pbs::Vec3::Zero();
     for (const unsigned int i : values.dof_indices())
@@ -97,7 +103,8 @@ pbs::Vec3 value_at(const dealii::FEValues<3>& values, const DofIndices& dofs, co
 }
 
 // grad u_h at quadrature point q: (i, j) = d u_i / d x_j.
-Eigen::Matrix3d gradient_at(const dealii::FEValues<3>& values, const DofIndices& dofs, const Eigen::VectorXd& displacement, unsigned int q)
+Eigen::Matrix3d gradient_at(const dealii::FEValues<3>& values, const DofIndices& dofs,
+                            const Eigen::VectorXd& displacement, unsigned int q)
 {
     Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
     for (const unsigned int i : values.dof_indices())
@@ -113,16 +120,17 @@ ElementTables tables_at(const SimplexSpace& space, const dealii::Quadrature<3>& 
     ElementTables tables{static_cast<int>(nodes), static_cast<int>(points), Eigen::VectorXd(tets * points),
                          pbs::Positions(tets * points * nodes, 3)};
     Eigen::Index point = 0;
-    for_each_tet(space, quadrature, dealii::update_gradients | dealii::update_JxW_values,
-                 [&](const dealii::FEValues<3>& values, const DofIndices&) {
-                     for (const unsigned int q : values.quadrature_point_indices()) {
-                         tables.weights(point) = values.JxW(q);
-                         for (Eigen::Index a = 0; a < nodes; ++a)
-                             tables.shape_gradients.row(point * nodes + a) =
-                                 to_vec3(values.shape_grad(values.get_fe().component_to_system_index(0, a), q)).transpose();
-                         ++point;
-                     }
-                 });
+    for_each_tet(
+        space, quadrature, dealii::update_gradients | dealii::update_JxW_values,
+        [&](const dealii::FEValues<3>& values, const DofIndices&) {
+            for (const unsigned int q : values.quadrature_point_indices()) {
+                tables.weights(point) = values.JxW(q);
+                for (Eigen::Index a = 0; a < nodes; ++a)
+                    tables.shape_gradients.row(point * nodes + a) =
+                        to_vec3(values.shape_grad(values.get_fe().component_to_system_index(0, a), q)).transpose();
+                ++point;
+            }
+        });
     return tables;
 }
 
@@ -175,7 +183,9 @@ void SimplexSpace::number_nodes(const pbs::TetMesh& mesh)
             if (node_in_tet < 4)
                 number = 3 * cell->vertex_index(node_in_tet) + component;
             else if (number == dealii::numbers::invalid_dof_index)
-                number = component == 0 ? 3 * next_node++ : renumbered[dofs[element.component_to_system_index(0, node_in_tet)]] + component;
+                number = component == 0
+                             ? 3 * next_node++
+                             : renumbered[dofs[element.component_to_system_index(0, node_in_tet)]] + component;
             tet_nodes_(t, node_in_tet) = static_cast<int>(number / 3);
             if (node_in_tet >= 4) {
                 const auto middle = cell->line(node_in_tet - 4)->center();
@@ -203,7 +213,8 @@ pbs::Positions SimplexSpace::from_vertices(const pbs::Positions& at_vertices) co
     for (Eigen::Index t = 0; t < tet_nodes_.rows(); ++t)
         for (Eigen::Index middle = 4; middle < tet_nodes_.cols(); ++middle) {
             const auto& [first, second] = edge_corners[middle - 4];
-            on_nodes.row(tet_nodes_(t, middle)) = (at_vertices.row(tet_nodes_(t, first)) + at_vertices.row(tet_nodes_(t, second))) / 2.0;
+            on_nodes.row(tet_nodes_(t, middle)) =
+                (at_vertices.row(tet_nodes_(t, first)) + at_vertices.row(tet_nodes_(t, second))) / 2.0;
         }
     return on_nodes;
 }
@@ -241,20 +252,23 @@ ElementTables element_tables(const SimplexSpace& space, const TetQuadrature& qua
 {
     std::vector<dealii::Point<3>> points;
     for (const auto& point : quadrature.points.rowwise()) points.emplace_back(point(0), point(1), point(2));
-    return tables_at(space, dealii::Quadrature<3>(points, std::vector<double>(quadrature.weights.begin(), quadrature.weights.end())));
+    return tables_at(space, dealii::Quadrature<3>(
+                                points, std::vector<double>(quadrature.weights.begin(), quadrature.weights.end())));
 }
 
 Eigen::VectorXd load_vector(const SimplexSpace& space, const VectorField& body_force)
 {
     Eigen::VectorXd load = Eigen::VectorXd::Zero(space.dofs());
     const auto update = dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values;
-    for_each_tet(space, space.element_order() + 1, update, [&](const dealii::FEValues<3>& values, const DofIndices& dofs) {
-        for (const unsigned int q : values.quadrature_point_indices()) {
-            const pbs::Vec3 force = body_force(to_vec3(values.quadrature_point(q)));
-            for (const unsigned int i : values.dof_indices())
-                load(dofs[i]) += force(values.get_fe().system_to_component_index(i).first) * values.shape_value(i, q) * values.JxW(q);
-        }
-    });
+    for_each_tet(space, space.element_order() + 1, update,
+                 [&](const dealii::FEValues<3>& values, const DofIndices& dofs) {
+                     for (const unsigned int q : values.quadrature_point_indices()) {
+                         const pbs::Vec3 force = body_force(to_vec3(values.quadrature_point(q)));
+                         for (const unsigned int i : values.dof_indices())
+                             load(dofs[i]) += force(values.get_fe().system_to_component_index(i).first) *
+                                              values.shape_value(i, q) * values.JxW(q);
+                     }
+                 });
     return load;
 }
 
@@ -263,9 +277,11 @@ Eigen::VectorXd traction_load(const SimplexSpace& space, const Traction& tractio
     Eigen::VectorXd load = Eigen::VectorXd::Zero(space.dofs());
     for_each_boundary_face(space, traction.on, [&](const dealii::FEFaceValues<3>& values, const DofIndices& dofs) {
         for (const unsigned int q : values.quadrature_point_indices()) {
-            const pbs::Vec3 force = traction.force(to_vec3(values.quadrature_point(q)), to_vec3(values.normal_vector(q)));
+            const pbs::Vec3 force =
+                traction.force(to_vec3(values.quadrature_point(q)), to_vec3(values.normal_vector(q)));
             for (const unsigned int i : values.dof_indices())
-                load(dofs[i]) += force(values.get_fe().system_to_component_index(i).first) * values.shape_value(i, q) * values.JxW(q);
+                load(dofs[i]) += force(values.get_fe().system_to_component_index(i).first) * values.shape_value(i, q) *
+                                 values.JxW(q);
         }
     });
     return load;
@@ -274,7 +290,8 @@ Eigen::VectorXd traction_load(const SimplexSpace& space, const Traction& tractio
 Eigen::Matrix3d gradient_at_vertex(const SimplexSpace& space, const Eigen::VectorXd& displacement, int vertex)
 {
     std::vector<dealii::Point<3>> corners;
-    for (unsigned int corner = 0; corner < 4; ++corner) corners.push_back(dealii::ReferenceCells::Tetrahedron.vertex<3>(corner));
+    for (unsigned int corner = 0; corner < 4; ++corner)
+        corners.push_back(dealii::ReferenceCells::Tetrahedron.vertex<3>(corner));
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     int meeting = 0;
     Eigen::Index tet = 0;
@@ -293,16 +310,17 @@ Eigen::Matrix3d gradient_at_vertex(const SimplexSpace& space, const Eigen::Vecto
 double strain_energy(const SimplexSpace& space, const Lame& material, const Eigen::VectorXd& displacement)
 {
     double energy = 0.0;
-    for_each_tet(space, space.element_order(), dealii::update_gradients | dealii::update_JxW_values,
-                 [&](const dealii::FEValues<3>& values, const DofIndices& dofs) {
-                     for (const unsigned int q : values.quadrature_point_indices()) {
-                         const Eigen::Matrix3d gradient = gradient_at(values, dofs, displacement, q);
-                         const Eigen::Matrix3d strain = (gradient + gradient.transpose()) / 2.0;
-                         const double dilatation = strain.trace();
-                         energy +=
-                             (material.lambda_pa / 2.0 * dilatation * dilatation + material.mu_pa * strain.squaredNorm()) * values.JxW(q);
-                     }
-                 });
+    for_each_tet(
+        space, space.element_order(), dealii::update_gradients | dealii::update_JxW_values,
+        [&](const dealii::FEValues<3>& values, const DofIndices& dofs) {
+            for (const unsigned int q : values.quadrature_point_indices()) {
+                const Eigen::Matrix3d gradient = gradient_at(values, dofs, displacement, q);
+                const Eigen::Matrix3d strain = (gradient + gradient.transpose()) / 2.0;
+                const double dilatation = strain.trace();
+                energy += (material.lambda_pa / 2.0 * dilatation * dilatation + material.mu_pa * strain.squaredNorm()) *
+                          values.JxW(q);
+            }
+        });
     return energy;
 }
 
@@ -310,12 +328,14 @@ ErrorNorms error_norms(const SimplexSpace& space, const Eigen::VectorXd& displac
                        const GradientField& exact_gradient)
 {
     ErrorNorms squared;
-    const auto update = dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points | dealii::update_JxW_values;
+    const auto update =
+        dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points | dealii::update_JxW_values;
     for_each_tet(space, 4, update, [&](const dealii::FEValues<3>& values, const DofIndices& dofs) {
         for (const unsigned int q : values.quadrature_point_indices()) {
             const pbs::Vec3 point = to_vec3(values.quadrature_point(q));
             squared.l2 += (exact(point) - value_at(values, dofs, displacement, q)).squaredNorm() * values.JxW(q);
-            squared.h1_seminorm += (exact_gradient(point) - gradient_at(values, dofs, displacement, q)).squaredNorm() * values.JxW(q);
+            squared.h1_seminorm +=
+                (exact_gradient(point) - gradient_at(values, dofs, displacement, q)).squaredNorm() * values.JxW(q);
         }
     });
     return {std::sqrt(squared.l2), std::sqrt(squared.h1_seminorm)};
@@ -348,7 +368,8 @@ void NodalMatrix::set_pattern(std::vector<std::vector<int>> rows_of_column)
 
 bool NodalMatrix::couple(const std::vector<NodePair>& pairs)
 {
-    if (std::all_of(pairs.begin(), pairs.end(), [&](const NodePair& pair) { return has_place(pair[0], pair[1]); })) return false;
+    if (std::all_of(pairs.begin(), pairs.end(), [&](const NodePair& pair) { return has_place(pair[0], pair[1]); }))
+        return false;
     auto rows = neighbours(tet_nodes_, static_cast<int>(matrix_.cols()) / 3);
     for (const auto& [one, other] : pairs) {
         rows[one].push_back(other);
@@ -394,7 +415,8 @@ void NodalMatrix::add_tet(Eigen::Index tet, const Eigen::Ref<const Eigen::Matrix
     const Eigen::Index nodes = tet_nodes_.cols();
     const auto* places = tet_places_.data() + tet * nodes * nodes;
     for (Eigen::Index a = 0; a < nodes; ++a)
-        for (Eigen::Index b = 0; b < nodes; ++b) add_at(places[a * nodes + b], tet_nodes_(tet, b), values.block<3, 3>(3 * a, 3 * b));
+        for (Eigen::Index b = 0; b < nodes; ++b)
+            add_at(places[a * nodes + b], tet_nodes_(tet, b), values.block<3, 3>(3 * a, 3 * b));
 }
 
 // Both walk along a column; the rows of the tets are among those of the pattern.
@@ -435,11 +457,13 @@ void check_mesh(const pbs::TetMesh& mesh)
     std::vector<bool> used(mesh.rest.rows(), false);
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
         for (const int vertex : mesh.tets.row(t)) {
-            require(vertex >= 0 && vertex < mesh.rest.rows(), "tet vertex", vertex, "expected an index below the number of vertices");
+            require(vertex >= 0 && vertex < mesh.rest.rows(), "tet vertex", vertex,
+                    "expected an index below the number of vertices");
             used[vertex] = true;
         }
     pbs::positive_volumes(mesh.rest, mesh.tets);
-    for (std::size_t v = 0; v < used.size(); ++v) require(used[v], "vertex", v, "expected every vertex to belong to a tet");
+    for (std::size_t v = 0; v < used.size(); ++v)
+        require(used[v], "vertex", v, "expected every vertex to belong to a tet");
 }
 
 }  // namespace reference_fem

@@ -1,4 +1,5 @@
-// Integrals over the tets: mass, load, strain energy, error norms. One assembly serves both the reference and its verification.
+// Integrals over the tets: mass, load, strain energy, error norms. One assembly serves both the reference and its
+// verification.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -17,14 +18,15 @@ namespace reference_fem {
 
 using TetNodes = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // #T x 4 or #T x 10
 
-// Continuous vector-valued finite elements on the character's own tets: P1 or P2 on straight tets (deal.II's FE_SimplexP).
-// Node v is vertex v of the mesh; a P2 space numbers its mid-edge nodes after the vertices. Degree of freedom 3 n + c is component c at
-// node n. The mesh may go.
+// Continuous vector-valued finite elements on the character's own tets: P1 or P2 on straight tets (deal.II's
+// FE_SimplexP). Node v is vertex v of the mesh; a P2 space numbers its mid-edge nodes after the vertices. Degree of
+// freedom 3 n + c is component c at node n. The mesh may go.
 class SimplexSpace {
 public:
     struct Elements;  // deal.II's side, in assembly.cpp
 
-    // Corners of the edge that mid-edge node 4 + k of a tet lies on: deal.II's order of a tet's lines, which is that of C3D10.
+    // Corners of the edge that mid-edge node 4 + k of a tet lies on: deal.II's order of a tet's lines, which is that of
+    // C3D10.
     static constexpr int edge_corners[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
 
     // A mesh that passes check_mesh; element_order 1 or 2, else pbs::InputError.
@@ -54,14 +56,15 @@ private:
     TetNodes tet_nodes_;
 };
 
-// The only sparse matrix format of the reference: compressed columns, 64-bit indices, as SuiteSparse's long interfaces read it in place.
-// Stiffness matrices are symmetric and hold both triangles.
+// The only sparse matrix format of the reference: compressed columns, 64-bit indices, as SuiteSparse's long interfaces
+// read it in place. Stiffness matrices are symmetric and hold both triangles.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;  // compressed before a solver reads it
 
 using VectorField = std::function<pbs::Vec3(const pbs::Vec3&)>;          // of a rest point [m]; unit by use: N/m^3, m
 using GradientField = std::function<Eigen::Matrix3d(const pbs::Vec3&)>;  // (i, j): d u_i / d x_j at a rest point [m]
 
-// M_ij = integral of density phi_i phi_j [kg], #nodes x #nodes: the consistent mass, the same for each component; exact on straight tets.
+// M_ij = integral of density phi_i phi_j [kg], #nodes x #nodes: the consistent mass, the same for each component; exact
+// on straight tets.
 SparseMatrix mass_matrix(const SimplexSpace& space, double density_kg_m3);
 
 // f_i = integral of body_force . phi_i [N], #dofs; body_force in N/m^3.
@@ -91,9 +94,9 @@ struct ErrorNorms {
 ErrorNorms error_norms(const SimplexSpace& space, const Eigen::VectorXd& displacement, const VectorField& exact,
                        const GradientField& exact_gradient);
 
-// The elements of a space as arrays: what an energy over the tets needs of deal.II, computed once. On straight tets the gradients are
-// those of the rest configuration (total Lagrangian).
-// Quadrature point q of tet t has the index t * points_per_tet + q.
+// The elements of a space as arrays: what an energy over the tets needs of deal.II, computed once. On straight tets the
+// gradients are those of the rest configuration (total Lagrangian). Quadrature point q of tet t has the index t *
+// points_per_tet + q.
 struct ElementTables {
     int nodes_per_tet = 0, points_per_tet = 0;  // nodes: 4 or 10
     Eigen::VectorXd weights;                    // [m^3], #T * points: quadrature weight times Jacobian
@@ -115,27 +118,31 @@ struct TetQuadrature {
     pbs::Positions points;    // #points x 3
     Eigen::VectorXd weights;  // #points
 };
-ElementTables element_tables(const SimplexSpace& space, const TetQuadrature& quadrature);  // any number of points; ElasticPotential takes 6
+// any number of points; ElasticPotential takes 6
+ElementTables element_tables(const SimplexSpace& space, const TetQuadrature& quadrature);
 
 using NodePair = std::array<int, 2>;
 
-// A symmetric sparse matrix over the nodes of a space, of 3 x 3 blocks: block (i, j) exists where a tet has both nodes, or where they are
-// coupled. It is stored as the plain compressed columns that SuiteSparse reads, so adding a block is nine additions in place.
-// Degree of freedom 3 n + c is component c at node n.
+// A symmetric sparse matrix over the nodes of a space, of 3 x 3 blocks: block (i, j) exists where a tet has both nodes,
+// or where they are coupled. It is stored as the plain compressed columns that SuiteSparse reads, so adding a block is
+// nine additions in place. Degree of freedom 3 n + c is component c at node n.
 class NodalMatrix {
 public:
     explicit NodalMatrix(const SimplexSpace& space);  // zeros; the space may go
 
     void set_zero() { matrix_.coeffs().setZero(); }  // the pattern stays
-    // Makes place for blocks of further pairs of nodes, both ways. If one of them has none yet, places of earlier couplings that are not
-    // among them are dropped, all values become 0, and the answer is true: the pattern has changed.
+    // Makes place for blocks of further pairs of nodes, both ways. If one of them has none yet, places of earlier
+    // couplings that are not among them are dropped, all values become 0, and the answer is true: the pattern has
+    // changed.
     bool couple(const std::vector<NodePair>& pairs);
-    void add_block(int row_node, int column_node, const Eigen::Matrix3d& block);  // of two nodes that share a tet or are coupled
+    // of two nodes that share a tet or are coupled
+    void add_block(int row_node, int column_node, const Eigen::Matrix3d& block);
     // Blocks of one tet, k of them a side: values 3 k x 3 k.
     void add_tet(Eigen::Index tet, const Eigen::Ref<const Eigen::MatrixXd>& values);
     // factor times another NodalMatrix of this space without couplings, #dofs x #dofs.
     void add(const SparseMatrix& of_tets, double factor);
-    // factor times a matrix over the nodes, #nodes x #nodes with an entry where a tet has both: a multiple of the identity in each block.
+    // factor times a matrix over the nodes, #nodes x #nodes with an entry where a tet has both: a multiple of the
+    // identity in each block.
     void add_isotropic(const SparseMatrix& of_nodes, double factor);
 
     const SparseMatrix& matrix() const& { return matrix_; }  // #dofs x #dofs, both triangles

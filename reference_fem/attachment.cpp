@@ -47,7 +47,8 @@ void AttachedPoints::add_to(SparseMatrix& matrix) const
     for (const GrippedTet& tet : gripped_)
         for (Eigen::Index a = 0; a < nodes_.rows(); ++a)
             for (Eigen::Index b = 0; b < nodes_.rows(); ++b)
-                for (int c = 0; c < 3; ++c) matrix.coeffRef(3 * tet.nodes(a) + c, 3 * tet.nodes(b) + c) += tet.stiffness(a, b);
+                for (int c = 0; c < 3; ++c)
+                    matrix.coeffRef(3 * tet.nodes(a) + c, 3 * tet.nodes(b) + c) += tet.stiffness(a, b);
 }
 
 void AttachedPoints::add_load(const pbs::Positions& targets, Eigen::VectorXd& load) const
@@ -71,11 +72,13 @@ double AttachedPoints::energy(const pbs::Positions& targets, const Eigen::Vector
 {
     double energy = 0.0;
     for (Eigen::Index s = 0; s < points_.rows(); ++s)
-        if (tet_[s] >= 0) energy += stiffness_(s) / 2.0 * (moved(s, displacement) - targets.row(s).transpose()).squaredNorm();
+        if (tet_[s] >= 0)
+            energy += stiffness_(s) / 2.0 * (moved(s, displacement) - targets.row(s).transpose()).squaredNorm();
     return energy;
 }
 
-void AttachedPoints::add_pull(const pbs::Positions& targets, const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const
+void AttachedPoints::add_pull(const pbs::Positions& targets, const Eigen::VectorXd& displacement,
+                              Eigen::VectorXd& gradient) const
 {
     for (Eigen::Index s = 0; s < points_.rows(); ++s) {
         if (tet_[s] < 0) continue;
@@ -87,7 +90,8 @@ void AttachedPoints::add_pull(const pbs::Positions& targets, const Eigen::Vector
 pbs::Vec3 AttachedPoints::moved(Eigen::Index spring, const Eigen::VectorXd& displacement) const
 {
     pbs::Vec3 point = points_.row(spring);
-    for (Eigen::Index a = 0; a < nodes_.rows(); ++a) point += shapes_(a, spring) * displacement.segment<3>(3 * nodes_(a, spring));
+    for (Eigen::Index a = 0; a < nodes_.rows(); ++a)
+        point += shapes_(a, spring) * displacement.segment<3>(3 * nodes_(a, spring));
     return point;
 }
 
@@ -127,7 +131,8 @@ bool span_a_plane(const std::vector<pbs::Vec3>& points)
     for (const pbs::Vec3& point : points) mean += point / static_cast<double>(points.size());
     Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
     for (const pbs::Vec3& point : points) scatter += (point - mean) * (point - mean).transpose();
-    const pbs::Vec3 spread = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
+    const pbs::Vec3 spread =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
     return spread(1) > 1e-12 * spread(2);
 }
 
@@ -167,13 +172,15 @@ Eigen::MatrixXd unit_gravity_loads(const SimplexSpace& space, double density_kg_
 {
     Eigen::MatrixXd loads(space.dofs(), 3);
     for (int axis = 0; axis < 3; ++axis)
-        loads.col(axis) = load_vector(space, [&](const pbs::Vec3&) -> pbs::Vec3 { return density_kg_m3 * pbs::Vec3::Unit(axis); });
+        loads.col(axis) =
+            load_vector(space, [&](const pbs::Vec3&) -> pbs::Vec3 { return density_kg_m3 * pbs::Vec3::Unit(axis); });
     return loads;
 }
 
 const pbs::TetMesh& checked(const pbs::TetMesh& mesh, double density_kg_m3, const Attachment& attachment)
 {
-    require(density_kg_m3 >= 0.0 && std::isfinite(density_kg_m3), "density_kg_m3", density_kg_m3, "expected a finite density >= 0");
+    require(density_kg_m3 >= 0.0 && std::isfinite(density_kg_m3), "density_kg_m3", density_kg_m3,
+            "expected a finite density >= 0");
     check_mesh(mesh);
     check_attachment(mesh, attachment);
     return mesh;
@@ -198,21 +205,26 @@ void require_held(const pbs::TetMesh& mesh, const pbs::Positions& points, const 
 
 void check_attachment(const pbs::TetMesh& mesh, const Attachment& attachment)
 {
-    require(attachment.spring_stiffness.size() == attachment.spring_points.rows(), "spring_stiffness", attachment.spring_stiffness.size(),
-            "expected one per spring point");
-    require(attachment.spring_points.allFinite(), "spring_points", "not a number or infinite", "expected finite coordinates");
+    require(attachment.spring_stiffness.size() == attachment.spring_points.rows(), "spring_stiffness",
+            attachment.spring_stiffness.size(), "expected one per spring point");
+    require(attachment.spring_points.allFinite(), "spring_points", "not a number or infinite",
+            "expected finite coordinates");
     for (const double stiffness : attachment.spring_stiffness)
-        require(stiffness > 0.0 && std::isfinite(stiffness), "spring_stiffness", stiffness, "expected a finite stiffness > 0");
+        require(stiffness > 0.0 && std::isfinite(stiffness), "spring_stiffness", stiffness,
+                "expected a finite stiffness > 0");
     for (const int tet : attachment.prescribed_tets)
-        require(tet >= 0 && tet < mesh.tets.rows(), "prescribed_tets", tet, "expected an index below the number of tets");
-    require(attachment.bind_distance.size() == 0 || attachment.bind_distance.size() == mesh.rest.rows(), "bind_distance",
-            attachment.bind_distance.size(), "expected one per vertex");
-    require(attachment.bind_stiffness.size() == attachment.bind_distance.size(), "bind_stiffness", attachment.bind_stiffness.size(),
-            "expected one a bound vertex");
+        require(tet >= 0 && tet < mesh.tets.rows(), "prescribed_tets", tet,
+                "expected an index below the number of tets");
+    require(attachment.bind_distance.size() == 0 || attachment.bind_distance.size() == mesh.rest.rows(),
+            "bind_distance", attachment.bind_distance.size(), "expected one per vertex");
+    require(attachment.bind_stiffness.size() == attachment.bind_distance.size(), "bind_stiffness",
+            attachment.bind_stiffness.size(), "expected one a bound vertex");
     for (Eigen::Index v = 0; v < attachment.bind_distance.size(); ++v) {
         const double distance = attachment.bind_distance(v), stiffness = attachment.bind_stiffness(v);
-        require(distance >= 0.0 && std::isfinite(distance), "bind_distance", distance, "expected a finite distance >= 0");
-        require(stiffness >= 0.0 && std::isfinite(stiffness), "bind_stiffness", stiffness, "expected a finite stiffness >= 0");
+        require(distance >= 0.0 && std::isfinite(distance), "bind_distance", distance,
+                "expected a finite distance >= 0");
+        require(stiffness >= 0.0 && std::isfinite(stiffness), "bind_stiffness", stiffness,
+                "expected a finite stiffness >= 0");
     }
 }
 
@@ -247,8 +259,8 @@ std::vector<bool> HeldSpace::prescribed_vertices() const
 
 void HeldSpace::require_targets(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets) const
 {
-    require(spring_targets.rows() == static_cast<Eigen::Index>(springs_.tets().size()), "spring_targets", spring_targets.rows(),
-            "expected one per spring point");
+    require(spring_targets.rows() == static_cast<Eigen::Index>(springs_.tets().size()), "spring_targets",
+            spring_targets.rows(), "expected one per spring point");
     require(vertex_targets.rows() == rest_.rows(), "vertex_targets", vertex_targets.rows(), "expected one per vertex");
 }
 

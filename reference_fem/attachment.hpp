@@ -10,12 +10,13 @@
 
 namespace reference_fem {
 
-// Springs tie material points to targets. Every node of a prescribed tet is at its target. The bind constraint keeps vertices at a distance
-// from moving points, by the energy sum_i k_i / 2 (|x_i - q_i| - d_i)^2.
+// Springs tie material points to targets. Every node of a prescribed tet is at its target. The bind constraint keeps
+// vertices at a distance from moving points, by the energy sum_i k_i / 2 (|x_i - q_i| - d_i)^2.
 struct Attachment {
     pbs::Positions spring_points = {};      // rest points [m], #S x 3; a point outside the tets is left out and counted
     Eigen::VectorXd spring_stiffness = {};  // [N/m], #S
-    // All nodes of these tets are held. A mid-edge node follows the mean of its edge's ends, which is exact for affine targets.
+    // All nodes of these tets are held. A mid-edge node follows the mean of its edge's ends, which is exact for affine
+    // targets.
     std::vector<int> prescribed_tets = {};
     Eigen::VectorXd bind_distance = {};   // d_i [m], #V, or empty: nothing is bound. Not for LinearElasticity
     Eigen::VectorXd bind_stiffness = {};  // k_i [N/m], #V; 0: this vertex is not bound
@@ -24,22 +25,24 @@ struct Attachment {
 // For records: what was built, by which library, in how many seconds of wall time.
 struct SetupSummary {
     int dofs = 0;  // number of unknowns, including prescribed ones and, with taylor_hood, one pressure per vertex
-    double assemble_s = 0.0, analyse_s = 0.0, factor_s = 0.0;  // the last analysis and factor; assembly only of LinearElasticity, else 0
-    std::string elements;                                      // e.g. "deal.II 9.4.1"
-    std::string solver;                                        // e.g. "CHOLMOD 3.0.14 supernodal, METIS"
-    std::string blas;                                          // the BLAS that was resolved
-    bool factored = false;              // false: the matrix is singular in double; every solve then reports finite = false
+    double assemble_s = 0.0, analyse_s = 0.0,
+           factor_s = 0.0;  // the last analysis and factor; assembly only of LinearElasticity, else 0
+    std::string elements;   // e.g. "deal.II 9.4.1"
+    std::string solver;     // e.g. "CHOLMOD 3.0.14 supernodal, METIS"
+    std::string blas;       // the BLAS that was resolved
+    bool factored = false;  // false: the matrix is singular in double; every solve then reports finite = false
     double reciprocal_condition = 0.0;  // the solver's own rough estimate
     std::vector<int> spring_tet;        // tet that holds each spring point, -1: outside
 };
 
-// Springs between material points of the flesh and given targets: an energy sum_s k_s / 2 |x(p_s) - target_s|^2, where x(p_s) is
-// interpolated by the element's own shape functions. A point outside every tet is left out.
-// Keeps what it needs of mesh and space.
+// Springs between material points of the flesh and given targets: an energy sum_s k_s / 2 |x(p_s) - target_s|^2, where
+// x(p_s) is interpolated by the element's own shape functions. A point outside every tet is left out. Keeps what it
+// needs of mesh and space.
 class AttachedPoints {
 public:
     // points [m], #S x 3; stiffness [N/m], #S.
-    AttachedPoints(const pbs::TetMesh& mesh, const SimplexSpace& space, const pbs::Positions& points, const Eigen::VectorXd& stiffness);
+    AttachedPoints(const pbs::TetMesh& mesh, const SimplexSpace& space, const pbs::Positions& points,
+                   const Eigen::VectorXd& stiffness);
 
     // Adds k N^T N to the stiffness matrix [N/m]; a spring couples nodes of one tet only, so the pattern stays.
     void add_to(SparseMatrix& matrix) const;
@@ -69,7 +72,8 @@ private:
     std::vector<int> tet_;
     Eigen::MatrixXi nodes_;   // nodes per tet x #S
     Eigen::MatrixXd shapes_;  // their shape functions at the point
-    // k N^T N summed over the springs of each gripped tet, nodes per tet x nodes per tet: as stiff as any number of springs in it.
+    // k N^T N summed over the springs of each gripped tet, nodes per tet x nodes per tet: as stiff as any number of
+    // springs in it.
     struct GrippedTet {
         Eigen::VectorXi nodes;
         Eigen::MatrixXd stiffness;  // [N/m]
@@ -78,17 +82,19 @@ private:
 };
 
 // A part of the mesh that nothing holds can move rigidly for free, and its stiffness matrix is singular.
-// Each connected part of the mesh (over shared vertices) must contain three held points that are not on one line, else pbs::InputError
-// naming a tet of the part. `points` [m], #P x 3, lie in `tets`, #P; -1: left out.
+// Each connected part of the mesh (over shared vertices) must contain three held points that are not on one line, else
+// pbs::InputError naming a tet of the part. `points` [m], #P x 3, lie in `tets`, #P; -1: left out.
 void require_held(const pbs::TetMesh& mesh, const pbs::Positions& points, const std::vector<int>& tets);
 
 // pbs::InputError where the springs, prescribed tets or bound vertices do not fit the mesh.
 void check_attachment(const pbs::TetMesh& mesh, const Attachment& attachment);
 
-// A mesh's elements and what the skeleton holds of them: what LinearElasticity and ElasticBody have in common. Mesh and attachment may go.
+// A mesh's elements and what the skeleton holds of them: what LinearElasticity and ElasticBody have in common. Mesh and
+// attachment may go.
 class HeldSpace {
 public:
-    // pbs::InputError where the mesh, an option or the attachment is out of bounds, or a connected part of the mesh is not held.
+    // pbs::InputError where the mesh, an option or the attachment is out of bounds, or a connected part of the mesh is
+    // not held.
     HeldSpace(const pbs::TetMesh& mesh, int element_order, double density_kg_m3, const Attachment& attachment);
 
     const SimplexSpace& space() const { return space_; }                 // its node v is vertex v of the mesh
@@ -96,7 +102,8 @@ public:
     const std::vector<bool>& prescribed() const { return prescribed_; }  // #dofs
     const pbs::Positions& rest() const { return rest_; }                 // vertices [m], #V x 3
 
-    Eigen::VectorXd gravity_load(const pbs::Vec3& gravity_m_s2) const { return gravity_loads_ * gravity_m_s2; }  // [N], #dofs
+    // [N], #dofs
+    Eigen::VectorXd gravity_load(const pbs::Vec3& gravity_m_s2) const { return gravity_loads_ * gravity_m_s2; }
     // Vertex targets [m], #V x 3, as displacements of every node [m], #dofs.
     Eigen::VectorXd prescribed_values(const pbs::Positions& vertex_targets) const;
     // Deformed vertices [m], #V x 3, of a displacement [m], #dofs.

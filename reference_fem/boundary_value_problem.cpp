@@ -24,7 +24,8 @@ std::vector<bool> boundary_nodes(const SimplexSpace& space)
     for (const auto& tet : space.tet_nodes().rowwise())
         for (Eigen::Index middle = 4; middle < tet.size(); ++middle) {
             const auto& [first, second] = SimplexSpace::edge_corners[middle - 4];
-            if (boundary_edges.contains(std::minmax(int(tet(first)), int(tet(second))))) on_boundary[tet(middle)] = true;
+            if (boundary_edges.contains(std::minmax(int(tet(first)), int(tet(second)))))
+                on_boundary[tet(middle)] = true;
         }
     return on_boundary;
 }
@@ -48,7 +49,8 @@ PrescribedData prescribed_data(const SimplexSpace& space, const BoundaryValuePro
         const Held held = problem.held ? problem.held(point) : Held(true);
         const bool components[3] = {held.x, held.y, held.z};
         for (int c = 0; c < 3; ++c) data.held[3 * node + c] = components[c];
-        if (problem.displacement && (held.x || held.y || held.z)) data.values.segment<3>(3 * node) = problem.displacement(point);
+        if (problem.displacement && (held.x || held.y || held.z))
+            data.values.segment<3>(3 * node) = problem.displacement(point);
     }
     return data;
 }
@@ -66,15 +68,17 @@ int nearest_node(const SimplexSpace& space, const pbs::Vec3& point)
     return nearest(space.node_positions(), point);
 }
 
-BoundaryValueSolution solve(const pbs::TetMesh& mesh, const ElasticMaterial& material, const BoundaryValueProblem& problem)
+BoundaryValueSolution solve(const pbs::TetMesh& mesh, const ElasticMaterial& material,
+                            const BoundaryValueProblem& problem)
 {
     const auto space = std::make_shared<const SimplexSpace>(mesh, problem.element_order);
     const LinearFlesh flesh(*space, lame_parameters(material.young_pa, material.poisson), problem.formulation);
     const SparseMatrix stiffness = flesh.stiffness();
     const PrescribedData prescribed = prescribed_data(*space, problem);
     const Eigen::VectorXd load = external_load(*space, problem);
-    const EliminatedSystem system(stiffness, flesh.prescribed(prescribed.held), flesh.solver(problem.solver),
-                                  problem.solver == LinearSolver::cg_ml ? rigid_body_modes(space->node_positions()) : Eigen::MatrixXd());
+    const EliminatedSystem system(
+        stiffness, flesh.prescribed(prescribed.held), flesh.solver(problem.solver),
+        problem.solver == LinearSolver::cg_ml ? rigid_body_modes(space->node_positions()) : Eigen::MatrixXd());
     const EliminatedSolution solution = system.solve(flesh.on_unknowns(load), flesh.on_unknowns(prescribed.values));
     return {space,
             flesh.displacement(solution.displacement),
@@ -94,7 +98,8 @@ double BoundaryValueSolution::largest_nodal_error(const VectorField& exact) cons
 {
     double largest = 0.0;
     for (int node = 0; node < space->nodes(); ++node)
-        largest = std::max(largest, (displacement.segment<3>(3 * node) - exact(space->node_positions().row(node))).norm());
+        largest =
+            std::max(largest, (displacement.segment<3>(3 * node) - exact(space->node_positions().row(node))).norm());
     return largest;
 }
 
@@ -116,7 +121,8 @@ Eigen::Matrix3d BoundaryValueSolution::stress_at(const pbs::Vec3& point, const E
     const Eigen::Matrix3d gradient = gradient_at_vertex(*space, displacement, vertex);
     const Eigen::Matrix3d strain = (gradient + gradient.transpose()) / 2.0;
     const Lame lame = lame_parameters(material.young_pa, material.poisson);
-    const double pressure = LinearFlesh(*space, lame, formulation).pressure_at_vertex_pa(displacement, pressure_pa, vertex);
+    const double pressure =
+        LinearFlesh(*space, lame, formulation).pressure_at_vertex_pa(displacement, pressure_pa, vertex);
     return pressure * Eigen::Matrix3d::Identity() + 2.0 * lame.mu_pa * strain;
 }
 
@@ -126,7 +132,8 @@ FiniteStrainSolution solve_at_finite_strain(const pbs::TetMesh& mesh, const Elas
     FiniteStrainSolution solution{std::make_shared<const SimplexSpace>(mesh, problem.element_order), {}, {}};
     const SimplexSpace& space = *solution.space;
     solution.displacement.setZero(space.dofs());
-    const ElasticPotential flesh(space, model, lame_parameters(material.young_pa, material.poisson), problem.formulation);
+    const ElasticPotential flesh(space, model, lame_parameters(material.young_pa, material.poisson),
+                                 problem.formulation);
     const PrescribedData prescribed = prescribed_data(space, problem);
     const Eigen::VectorXd whole_load = external_load(space, problem);
     DeadLoad load(Eigen::VectorXd::Zero(space.dofs()));

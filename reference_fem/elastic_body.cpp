@@ -17,7 +17,9 @@ TimeStepperOptions stepper_options(const ElasticOptions& options)
 
 Targets between(const Targets& from, const Targets& to, double share)
 {
-    const auto part = [&](const pbs::Positions& a, const pbs::Positions& b) -> pbs::Positions { return a + share * (b - a); };
+    const auto part = [&](const pbs::Positions& a, const pbs::Positions& b) -> pbs::Positions {
+        return a + share * (b - a);
+    };
     return {part(from.springs, to.springs), part(from.vertices, to.vertices), part(from.bind_points, to.bind_points)};
 }
 
@@ -54,7 +56,8 @@ public:
             terms_.push_back(contact_.get());
         }
         if (options.dynamics == Dynamics::quasi_static) return;
-        stepper_ = std::make_unique<TimeStepper>(held_.space(), held_.prescribed(), flesh_, stepper_options(options), newton_);
+        stepper_ =
+            std::make_unique<TimeStepper>(held_.space(), held_.prescribed(), flesh_, stepper_options(options), newton_);
     }
 
     LoadPathSummary solve(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2, const LoadPathOptions& options)
@@ -67,7 +70,8 @@ public:
                 gravity_.set(weight_before + fraction * (weight - weight_before));
                 const Targets targets = targets_at(fraction);
                 if (guide.rows() > 0) follow_guide(held_.prescribed_values(held_.rest() + targets.guide - guide));
-                const NewtonSummary summary = newton_.minimise(terms_, move_to(targets), displacement_, options_.newton);
+                const NewtonSummary summary =
+                    newton_.minimise(terms_, move_to(targets), displacement_, options_.newton);
                 last_iterate_ = displacement_;
                 if (summary.converged()) guide = targets.guide;
                 return summary;
@@ -89,7 +93,8 @@ public:
         NewtonOptions options = options_.newton;
         options.reuse_contraction = 0.0;  // far from a minimum a kept factor can lead elsewhere
         const std::optional<NewtonSummary> refused = refused_guess();
-        const NewtonSummary summary = refused ? *refused : newton_.minimise(terms_, move_to(targets), displacement_, options);
+        const NewtonSummary summary =
+            refused ? *refused : newton_.minimise(terms_, move_to(targets), displacement_, options);
         last_iterate_ = displacement_;
         show();
         return summary;
@@ -97,14 +102,17 @@ public:
 
     LoadPathSummary advance(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2, double time_step_s)
     {
-        const Eigen::VectorXd weight = held_.gravity_load(gravity_m_s2), weight_before = weighs_ ? gravity_.force() : weight;
+        const Eigen::VectorXd weight = held_.gravity_load(gravity_m_s2),
+                              weight_before = weighs_ ? gravity_.force() : weight;
         const MovingData data{
             [&](double fraction) { return held_.prescribed_values(checked(targets_at(fraction)).vertices); },
             [&](double from, double to, double share) {
-                move_to(share == 1.0 ? targets_at(to) : between(checked(targets_at(from)), checked(targets_at(to)), share));
+                move_to(share == 1.0 ? targets_at(to)
+                                     : between(checked(targets_at(from)), checked(targets_at(to)), share));
                 gravity_.set(weight_before + (from + share * (to - from)) * (weight - weight_before));
             }};
-        const LoadPathSummary path = stepper_->advance(terms_, data, time_step_s, displacement_, options_.newton, options_.path);
+        const LoadPathSummary path =
+            stepper_->advance(terms_, data, time_step_s, displacement_, options_.newton, options_.path);
         last_iterate_ = path.converged() ? displacement_ : stepper_->last_iterate();
         weighs_ |= path.converged();
         gravity_.set(path.converged() ? weight : weight_before);
@@ -146,14 +154,16 @@ public:
     pbs::Positions moved(const std::vector<pbs::Location>& places, const Eigen::VectorXd& displacement) const
     {
         const SimplexSpace& space = held_.space();
-        const pbs::Positions nodes = space.node_positions() + Eigen::Map<const pbs::Positions>(displacement.data(), space.nodes(), 3);
+        const pbs::Positions nodes =
+            space.node_positions() + Eigen::Map<const pbs::Positions>(displacement.data(), space.nodes(), 3);
         pbs::Positions moved(static_cast<Eigen::Index>(places.size()), 3);
         for (std::size_t p = 0; p < places.size(); ++p) {
             const auto& [tet, barycentric] = places[p];
             if (tet < 0)
                 moved.row(p).setConstant(std::numeric_limits<double>::quiet_NaN());
             else
-                moved.row(p) = space.shape_values(barycentric).transpose() * nodes(space.tet_nodes().row(tet), Eigen::all);
+                moved.row(p) =
+                    space.shape_values(barycentric).transpose() * nodes(space.tet_nodes().row(tet), Eigen::all);
         }
         return moved;
     }
@@ -215,14 +225,16 @@ LoadPathSummary ElasticBody::solve(const TargetsAt& targets_at, const pbs::Vec3&
 LoadPathSummary ElasticBody::solve_here(const Targets& targets, const pbs::Vec3& gravity_m_s2)
 {
     require(gravity_m_s2.allFinite(), "gravity_m_s2", gravity_m_s2.transpose(), "expected finite components");
-    if (const std::optional<NewtonSummary> refused = implementation_->refused_guess()) return {.steps = {{1.0, *refused}}};
+    if (const std::optional<NewtonSummary> refused = implementation_->refused_guess())
+        return {.steps = {{1.0, *refused}}};
     return implementation_->solve([&](double) { return targets; }, gravity_m_s2, {.smallest_step = 1.0});
 }
 
 LoadPathSummary ElasticBody::advance(const TargetsAt& targets_at, const pbs::Vec3& gravity_m_s2, double time_step_s)
 {
     require(gravity_m_s2.allFinite(), "gravity_m_s2", gravity_m_s2.transpose(), "expected finite components");
-    require(implementation_->stepper_ != nullptr, "dynamics", "quasi_static", "expected newmark or generalized_alpha for a step in time");
+    require(implementation_->stepper_ != nullptr, "dynamics", "quasi_static",
+            "expected newmark or generalized_alpha for a step in time");
     return implementation_->advance(targets_at, gravity_m_s2, time_step_s);
 }
 
@@ -320,12 +332,14 @@ std::vector<bool> ElasticBody::prescribed_vertices() const
 
 std::vector<PressedPair> ElasticBody::pressed() const
 {
-    return implementation_->contact_ ? implementation_->contact_->pressed(implementation_->displacement_) : std::vector<PressedPair>();
+    return implementation_->contact_ ? implementation_->contact_->pressed(implementation_->displacement_)
+                                     : std::vector<PressedPair>();
 }
 
 ContactState ElasticBody::contact() const
 {
-    return implementation_->contact_ ? implementation_->contact_->state(implementation_->displacement_) : ContactState();
+    return implementation_->contact_ ? implementation_->contact_->state(implementation_->displacement_)
+                                     : ContactState();
 }
 
 const SetupSummary& ElasticBody::setup() const

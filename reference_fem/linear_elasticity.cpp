@@ -11,7 +11,8 @@ public:
     Implementation(const pbs::TetMesh& mesh, const LinearOptions& options, const Attachment& attachment)
         : options_(options),
           held_(mesh, options.element_order, options.density_kg_m3, attachment),
-          flesh_(held_.space(), lame_parameters(options.young_pa, options.poisson), options.formulation, attachment.prescribed_tets),
+          flesh_(held_.space(), lame_parameters(options.young_pa, options.poisson), options.formulation,
+                 attachment.prescribed_tets),
           positions_(mesh.rest),
           displacement_(Eigen::VectorXd::Zero(held_.space().dofs())),
           pressure_pa_(Eigen::VectorXd::Zero(flesh_.pressures()))
@@ -22,12 +23,14 @@ public:
         const double assemble_s = assembly.seconds();
         system_ = std::make_unique<EliminatedSystem>(
             stiffness, flesh_.prescribed(held_.prescribed()), flesh_.solver(options.solver),
-            options.solver == LinearSolver::cg_ml ? rigid_body_modes(held_.space().node_positions()) : Eigen::MatrixXd());
+            options.solver == LinearSolver::cg_ml ? rigid_body_modes(held_.space().node_positions())
+                                                  : Eigen::MatrixXd());
         setup_ = held_.summary(&system_->factor(), assemble_s);
         setup_.dofs = flesh_.unknowns();
     }
 
-    SolveSummary solve(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets, const pbs::Vec3& gravity_m_s2)
+    SolveSummary solve(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets,
+                       const pbs::Vec3& gravity_m_s2)
     {
         held_.require_targets(spring_targets, vertex_targets);
         const pbs::Stopwatch stopwatch;
@@ -53,7 +56,8 @@ public:
 
 LinearElasticity::LinearElasticity(const pbs::TetMesh& mesh, const LinearOptions& options, const Attachment& attachment)
 {
-    require(options.gravity_m_s2.allFinite(), "gravity_m_s2", options.gravity_m_s2.transpose(), "expected finite components");
+    require(options.gravity_m_s2.allFinite(), "gravity_m_s2", options.gravity_m_s2.transpose(),
+            "expected finite components");
     require(attachment.bind_distance.size() == 0, "bind_distance", attachment.bind_distance.size(),
             "expected none: the bind constraint is not linear");
     implementation_ = std::make_unique<Implementation>(mesh, options, attachment);

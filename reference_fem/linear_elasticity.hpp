@@ -2,8 +2,8 @@
 //   LinearElasticity fem(mesh, options, attachment);   // assembles and factors once
 //   fem.solve(spring_targets, vertex_targets);         // every frame: a right-hand side and a re-solve
 //   fem.positions();
-// Strains are small: a rotation by theta produces a fictitious strain of 1 - cos(theta). Above some 10 degrees it is a negative control.
-// The header is plain; deal.II is seen by assembly.cpp alone, and SuiteSparse by linear_solvers.cpp.
+// Strains are small: a rotation by theta produces a fictitious strain of 1 - cos(theta). Above some 10 degrees it is a
+// negative control. The header is plain; deal.II is seen by assembly.cpp alone, and SuiteSparse by linear_solvers.cpp.
 #pragma once
 
 #include "reference_fem/attachment.hpp"
@@ -35,20 +35,24 @@ struct SolveSummary {
 // Keeps what it needs: mesh, options and attachment may go.
 class LinearElasticity {
 public:
-    // pbs::InputError where an option, the mesh or the attachment is out of bounds, or a connected part of the mesh is not held.
+    // pbs::InputError where an option, the mesh or the attachment is out of bounds, or a connected part of the mesh is
+    // not held.
     LinearElasticity(const pbs::TetMesh& mesh, const LinearOptions& options, const Attachment& attachment);
     ~LinearElasticity();
 
-    // spring_targets: #S x 3 [m]; vertex_targets: #V x 3 [m], read at the vertices of prescribed tets only. pbs::InputError for another
-    // number of either.
+    // spring_targets: #S x 3 [m]; vertex_targets: #V x 3 [m], read at the vertices of prescribed tets only.
+    // pbs::InputError for another number of either.
     SolveSummary solve(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets);
     // The same under another gravity than that of the options, for a rotating frame of reference.
-    SolveSummary solve(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets, const pbs::Vec3& gravity_m_s2);
+    SolveSummary solve(const pbs::Positions& spring_targets, const pbs::Positions& vertex_targets,
+                       const pbs::Vec3& gravity_m_s2);
 
-    const pbs::Positions& positions() const;        // deformed vertices [m], #V x 3
-    const Eigen::VectorXd& displacement() const;    // of every node of the space [m], #dofs: vertices, then the middles of edges
-    const Eigen::VectorXd& pressure_pa() const;     // lambda div u at the vertices, #V, with taylor_hood, else empty
-    pbs::Positions spring_points_deformed() const;  // where the tied points went [m], #S x 3: targets minus this is the grip error
+    const pbs::Positions& positions() const;  // deformed vertices [m], #V x 3
+    // of every node of the space [m], #dofs: vertices, then the middles of edges
+    const Eigen::VectorXd& displacement() const;
+    const Eigen::VectorXd& pressure_pa() const;  // lambda div u at the vertices, #V, with taylor_hood, else empty
+    // where the tied points went [m], #S x 3: targets minus this is the grip error
+    pbs::Positions spring_points_deformed() const;
     double strain_energy_j() const;                 // of the flesh alone, without the springs
     std::vector<bool> prescribed_vertices() const;  // #V
     const SetupSummary& setup() const;              // of the constructor's one assembly and factor

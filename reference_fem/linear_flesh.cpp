@@ -24,8 +24,8 @@ void add_blocks(const Gradients& gradients, const Lame& material, double weight,
 
 using Triplets = std::vector<Eigen::Triplet<double, SparseMatrix::StorageIndex>>;
 
-// A quarter of a tet's volume at each corner. An affine function's products with the corners' shape functions N_v are integrated exactly
-// from its corner values by the tet's P1 mass matrix: integral of N_v N_c = V / 20 (1 + delta_vc).
+// A quarter of a tet's volume at each corner. An affine function's products with the corners' shape functions N_v are
+// integrated exactly from its corner values by the tet's P1 mass matrix: integral of N_v N_c = V / 20 (1 + delta_vc).
 ElementTables corner_tables(const SimplexSpace& space)
 {
     TetQuadrature corners{pbs::Positions::Zero(4, 3), Eigen::VectorXd::Constant(4, 1.0 / 24.0)};
@@ -39,13 +39,15 @@ double p1_mass(const ElementTables& corners, Eigen::Index tet, int v, int c)
 }
 
 // Integral of f g over a tet, both affine, by their values at the corners.
-double integral_of_product(const ElementTables& corners, Eigen::Index tet, const Eigen::Vector4d& f, const Eigen::Vector4d& g)
+double integral_of_product(const ElementTables& corners, Eigen::Index tet, const Eigen::Vector4d& f,
+                           const Eigen::Vector4d& g)
 {
     return corners.weight(tet, 0) / 5.0 * (f.dot(g) + f.sum() * g.sum());
 }
 
 // div u at the corners of a tet.
-Eigen::Vector4d corner_divergence(const ElementTables& corners, const TetNodes& tets, Eigen::Index tet, const Eigen::VectorXd& displacement)
+Eigen::Vector4d corner_divergence(const ElementTables& corners, const TetNodes& tets, Eigen::Index tet,
+                                  const Eigen::VectorXd& displacement)
 {
     Eigen::Vector4d divergence = Eigen::Vector4d::Zero();
     for (int c = 0; c < 4; ++c)
@@ -62,10 +64,13 @@ SparseMatrix saddle_point(const SparseMatrix& shear, const SparseMatrix& diverge
     const SparseMatrix transposed = divergence.transpose();
     SparseMatrix whole(dofs + pressures, dofs + pressures);
     whole.reserve(shear.nonZeros() + 2 * divergence.nonZeros() + compliance.nonZeros());
-    const auto stack = [&](Eigen::Index column, const SparseMatrix& upper, const SparseMatrix& lower, Eigen::Index source) {
+    const auto stack = [&](Eigen::Index column, const SparseMatrix& upper, const SparseMatrix& lower,
+                           Eigen::Index source) {
         whole.startVec(column);
-        for (SparseMatrix::InnerIterator entry(upper, source); entry; ++entry) whole.insertBack(entry.row(), column) = entry.value();
-        for (SparseMatrix::InnerIterator entry(lower, source); entry; ++entry) whole.insertBack(dofs + entry.row(), column) = entry.value();
+        for (SparseMatrix::InnerIterator entry(upper, source); entry; ++entry)
+            whole.insertBack(entry.row(), column) = entry.value();
+        for (SparseMatrix::InnerIterator entry(lower, source); entry; ++entry)
+            whole.insertBack(dofs + entry.row(), column) = entry.value();
     };
     for (Eigen::Index dof = 0; dof < dofs; ++dof) stack(dof, shear, transposed, dof);
     for (Eigen::Index v = 0; v < pressures; ++v) stack(dofs + v, divergence, compliance, v);
@@ -88,18 +93,21 @@ SparseMatrix stiffness_matrix(const SimplexSpace& space, const Lame& material)
     TetMatrix of_tet(3 * tables.nodes_per_tet, 3 * tables.nodes_per_tet);
     for (Eigen::Index tet = 0; tet < space.tet_nodes().rows(); ++tet) {
         of_tet.setZero();
-        for (int q = 0; q < tables.points_per_tet; ++q) add_blocks(tables.gradients(tet, q), material, tables.weight(tet, q), of_tet);
+        for (int q = 0; q < tables.points_per_tet; ++q)
+            add_blocks(tables.gradients(tet, q), material, tables.weight(tet, q), of_tet);
         stiffness.add_tet(tet, of_tet);
     }
     return std::move(stiffness).matrix();
 }
 
-LinearFlesh::LinearFlesh(const SimplexSpace& space, const Lame& lame, Formulation formulation, const std::vector<int>& held_tets)
+LinearFlesh::LinearFlesh(const SimplexSpace& space, const Lame& lame, Formulation formulation,
+                         const std::vector<int>& held_tets)
     : space_(space), lame_(lame), formulation_(formulation)
 {
     if (formulation != Formulation::taylor_hood) return;
     require(space.element_order() == 2, "element_order", space.element_order(), "expected 2 with taylor_hood");
-    require(lame.lambda_pa > 0.0, "poisson", lame.lambda_pa / (2.0 * (lame.lambda_pa + lame.mu_pa)), "expected > 0 with taylor_hood");
+    require(lame.lambda_pa > 0.0, "poisson", lame.lambda_pa / (2.0 * (lame.lambda_pa + lame.mu_pa)),
+            "expected > 0 with taylor_hood");
     const TetNodes& tets = space.tet_nodes();
     held_tet_.assign(tets.rows(), false);
     for (const int tet : held_tets) held_tet_[tet] = true;
@@ -119,7 +127,8 @@ int LinearFlesh::unknowns() const
 SparseMatrix LinearFlesh::stiffness() const
 {
     if (formulation_ == Formulation::displacement) return stiffness_matrix(space_, lame_);
-    if (formulation_ == Formulation::mean_dilatation) return rest_stiffness(space_, mean_dilatation(space_, lame_)).matrix();
+    if (formulation_ == Formulation::mean_dilatation)
+        return rest_stiffness(space_, mean_dilatation(space_, lame_)).matrix();
 
     const ElementTables corners = corner_tables(space_);
     const TetNodes& tets = space_.tet_nodes();
@@ -129,11 +138,13 @@ SparseMatrix LinearFlesh::stiffness() const
             pbs::Positions of_nodes = pbs::Positions::Zero(tets.cols(), 3);  // integral of N_v d N_a / d x
             for (int c = 0; c < 4; ++c) {
                 of_nodes += p1_mass(corners, t, v, c) * corners.gradients(t, c);
-                compliance.emplace_back(tets(t, v), tets(t, c),
-                                        -pressure_unit_pa_ * pressure_unit_pa_ / lame_.lambda_pa * p1_mass(corners, t, v, c));
+                compliance.emplace_back(
+                    tets(t, v), tets(t, c),
+                    -pressure_unit_pa_ * pressure_unit_pa_ / lame_.lambda_pa * p1_mass(corners, t, v, c));
             }
             for (Eigen::Index a = 0; a < tets.cols(); ++a)
-                for (int c = 0; c < 3; ++c) divergence.emplace_back(3 * tets(t, a) + c, tets(t, v), pressure_unit_pa_ * of_nodes(a, c));
+                for (int c = 0; c < 3; ++c)
+                    divergence.emplace_back(3 * tets(t, a) + c, tets(t, v), pressure_unit_pa_ * of_nodes(a, c));
         }
     SparseMatrix divergence_matrix(space_.dofs(), pressures()), compliance_matrix(pressures(), pressures());
     divergence_matrix.setFromTriplets(divergence.begin(), divergence.end());
@@ -188,7 +199,8 @@ double LinearFlesh::strain_energy_j(const Eigen::VectorXd& displacement, const E
     return energy;
 }
 
-double LinearFlesh::pressure_at_vertex_pa(const Eigen::VectorXd& displacement, const Eigen::VectorXd& pressure_pa, int vertex) const
+double LinearFlesh::pressure_at_vertex_pa(const Eigen::VectorXd& displacement, const Eigen::VectorXd& pressure_pa,
+                                          int vertex) const
 {
     if (formulation_ == Formulation::taylor_hood) return pressure_pa(vertex);
     const ElementTables corners = corner_tables(space_);

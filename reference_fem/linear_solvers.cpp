@@ -18,7 +18,8 @@ extern "C" void dgemm_();
 namespace reference_fem {
 namespace {
 
-// Functions of OpenBLAS and of OpenMP, looked up at run time: the program must also run on another BLAS, and with a CHOLMOD without OpenMP.
+// Functions of OpenBLAS and of OpenMP, looked up at run time: the program must also run on another BLAS, and with a
+// CHOLMOD without OpenMP.
 template <typename Function>
 Function* find(const char* name)
 {
@@ -33,9 +34,9 @@ std::string file_of(void (*function)())
     return realpath(info.dli_fname, resolved) ? resolved : info.dli_fname;
 }
 
-// While this exists, OpenMP gives the calling thread no other threads. CHOLMOD 3 would share the assembly of every supernode among four of
-// them, and OMP_NUM_THREADS does not change that number. It takes as long to wake them as to factorise with one thread. The threads share
-// no sum, so that the result is the same.
+// While this exists, OpenMP gives the calling thread no other threads. CHOLMOD 3 would share the assembly of every
+// supernode among four of them, and OMP_NUM_THREADS does not change that number. It takes as long to wake them as to
+// factorise with one thread. The threads share no sum, so that the result is the same.
 class OneOpenMpThread {
 public:
     OneOpenMpThread()
@@ -86,8 +87,8 @@ cholmod_dense view(const Eigen::VectorXd& vector)
     return dense;
 }
 
-// The pattern of the blocks of a symmetric matrix, upper triangle. All columns of a block have the same rows, so that its first one is
-// read. The values are unused.
+// The pattern of the blocks of a symmetric matrix, upper triangle. All columns of a block have the same rows, so that
+// its first one is read. The values are unused.
 SparseMatrix blocks_of(const SparseMatrix& matrix, int size)
 {
     SparseMatrix blocks(matrix.rows() / size, matrix.cols() / size);
@@ -95,7 +96,8 @@ SparseMatrix blocks_of(const SparseMatrix& matrix, int size)
     for (Eigen::Index column = 0; column < blocks.cols(); ++column) {
         blocks.startVec(column);
         Eigen::Index last = -1;
-        for (SparseMatrix::InnerIterator entry(matrix, column * size); entry && entry.row() < (column + 1) * size; ++entry)
+        for (SparseMatrix::InnerIterator entry(matrix, column * size); entry && entry.row() < (column + 1) * size;
+             ++entry)
             if (const Eigen::Index row = entry.row() / size; row != last) blocks.insertBack(last = row, column) = 1.0;
     }
     blocks.finalize();
@@ -103,7 +105,8 @@ SparseMatrix blocks_of(const SparseMatrix& matrix, int size)
 }
 
 // CHOLMOD: Y. Chen, T. Davis, W. Hager, S. Rajamanickam, Algorithm 887, ACM TOMS 35(3), 2008.
-// The rows of a node are ordered as one: a ninth of the entries, so that a pattern that changes with every contact is analysed quickly.
+// The rows of a node are ordered as one: a ninth of the entries, so that a pattern that changes with every contact is
+// analysed quickly.
 class CholmodFactor : public PreparedSolver {
 public:
     CholmodFactor(const SparseMatrix& matrix, int block_size) : matrix_(matrix)
@@ -111,7 +114,8 @@ public:
         cholmod_l_start(&common_);
         common_.print = 0;
         common_.supernodal = CHOLMOD_SUPERNODAL;
-        // Supernodes are merged more than by default: a tenth more zeros, a quarter less time on 7K dofs, a tenth less on 50K.
+        // Supernodes are merged more than by default: a tenth more zeros, a quarter less time on 7K dofs, a tenth less
+        // on 50K.
         std::copy_n(std::array{16, 48, 96}.begin(), 3, common_.nrelax);
         std::copy_n(std::array{0.9, 0.3, 0.1}.begin(), 3, common_.zrelax);
         const pbs::Stopwatch analysis;
@@ -162,13 +166,13 @@ public:
     {
         int version[3];
         cholmod_l_version(version);
-        return "CHOLMOD " + std::to_string(version[0]) + "." + std::to_string(version[1]) + "." + std::to_string(version[2]) +
-               (is_metis_ ? " supernodal, METIS" : " supernodal, AMD");
+        return "CHOLMOD " + std::to_string(version[0]) + "." + std::to_string(version[1]) + "." +
+               std::to_string(version[2]) + (is_metis_ ? " supernodal, METIS" : " supernodal, AMD");
     }
 
 private:
-    // The order of the blocks by AMD or by METIS, whichever gives the smaller factor, written out for their rows. METIS is cheap on blocks;
-    // on single rows it is tried only where CHOLMOD finds much fill in AMD's.
+    // The order of the blocks by AMD or by METIS, whichever gives the smaller factor, written out for their rows. METIS
+    // is cheap on blocks; on single rows it is tried only where CHOLMOD finds much fill in AMD's.
     std::vector<SuiteSparse_long> order_of(const SparseMatrix& blocks, int block_size)
     {
         if (block_size > 1) {
@@ -196,7 +200,8 @@ private:
     mutable cholmod_dense *solution_ = nullptr, *work_ = nullptr, *permuted_ = nullptr;
 };
 
-// UMFPACK: T. Davis, Algorithm 832, ACM TOMS 30(2), 2004. It knows nothing of symmetry: a second opinion on the same matrix.
+// UMFPACK: T. Davis, Algorithm 832, ACM TOMS 30(2), 2004. It knows nothing of symmetry: a second opinion on the same
+// matrix.
 class UmfpackFactor : public PreparedSolver {
 public:
     explicit UmfpackFactor(const SparseMatrix& matrix) : matrix_(matrix)
@@ -208,7 +213,8 @@ public:
         const pbs::Stopwatch analysis;
         {
             const pbs::DeferredSigterm deferred;
-            umfpack_dl_symbolic(matrix.rows(), matrix.cols(), columns(), rows(), matrix.valuePtr(), &symbolic_, control_, nullptr);
+            umfpack_dl_symbolic(matrix.rows(), matrix.cols(), columns(), rows(), matrix.valuePtr(), &symbolic_,
+                                control_, nullptr);
         }
         analyse_s_ = analysis.seconds();
         refactor();
@@ -221,7 +227,8 @@ public:
         if (numeric_) umfpack_dl_free_numeric(&numeric_);
         double info[UMFPACK_INFO] = {};
         const pbs::Stopwatch factorisation;
-        const auto status = umfpack_dl_numeric(columns(), rows(), matrix_.valuePtr(), symbolic_, &numeric_, control_, info);
+        const auto status =
+            umfpack_dl_numeric(columns(), rows(), matrix_.valuePtr(), symbolic_, &numeric_, control_, info);
         factor_s_ = factorisation.seconds();
         reciprocal_condition_ = info[UMFPACK_RCOND];
         usable_ = status == UMFPACK_OK && reciprocal_condition_ > std::numeric_limits<double>::epsilon();
@@ -239,8 +246,8 @@ public:
     Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const override
     {
         Eigen::VectorXd solution(right_hand_side.size());
-        const auto status = umfpack_dl_solve(UMFPACK_A, columns(), rows(), matrix_.valuePtr(), solution.data(), right_hand_side.data(),
-                                             numeric_, control_, nullptr);
+        const auto status = umfpack_dl_solve(UMFPACK_A, columns(), rows(), matrix_.valuePtr(), solution.data(),
+                                             right_hand_side.data(), numeric_, control_, nullptr);
         if (status != UMFPACK_OK) solution.setConstant(std::numeric_limits<double>::quiet_NaN());
         return solution;
     }
@@ -290,7 +297,8 @@ void use_one_blas_thread()
 
 std::unique_ptr<PreparedSolver> prepare_cholmod(const SparseMatrix& matrix, int block_size)
 {
-    require(block_size > 0 && matrix.rows() % block_size == 0, "block_size", block_size, "expected a divisor of the number of rows");
+    require(block_size > 0 && matrix.rows() % block_size == 0, "block_size", block_size,
+            "expected a divisor of the number of rows");
     return std::make_unique<CholmodFactor>(matrix, block_size);
 }
 
@@ -299,7 +307,8 @@ std::unique_ptr<PreparedSolver> prepare_umfpack(const SparseMatrix& matrix)
     return std::make_unique<UmfpackFactor>(matrix);
 }
 
-std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver solver, const NearNullSpace& near_null_space)
+std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver solver,
+                                        const NearNullSpace& near_null_space)
 {
     use_one_blas_thread();
     switch (solver) {
@@ -313,7 +322,8 @@ std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver
     return prepare_cholmod(matrix, near_null_space.block_size);
 }
 
-EliminatedSystem::Block EliminatedSystem::block(const SparseMatrix& matrix, const std::vector<int>& rows, const std::vector<int>& columns)
+EliminatedSystem::Block EliminatedSystem::block(const SparseMatrix& matrix, const std::vector<int>& rows,
+                                                const std::vector<int>& columns)
 {
     const std::vector<int> row_place = places(rows, matrix.rows());
     Block kept{SparseMatrix(rows.size(), columns.size()), {}};
@@ -330,10 +340,11 @@ EliminatedSystem::Block EliminatedSystem::block(const SparseMatrix& matrix, cons
     return kept;
 }
 
-EliminatedSystem::EliminatedSystem(const SparseMatrix& stiffness, const std::vector<bool>& prescribed, LinearSolver solver,
-                                   const Eigen::MatrixXd& near_null_space)
+EliminatedSystem::EliminatedSystem(const SparseMatrix& stiffness, const std::vector<bool>& prescribed,
+                                   LinearSolver solver, const Eigen::MatrixXd& near_null_space)
 {
-    for (std::size_t i = 0; i < prescribed.size(); ++i) (prescribed[i] ? prescribed_ : free_).push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < prescribed.size(); ++i)
+        (prescribed[i] ? prescribed_ : free_).push_back(static_cast<int>(i));
     free_free_ = block(stiffness, free_, free_);
     free_prescribed_ = block(stiffness, free_, prescribed_);
     NearNullSpace free_space{.block_size = are_whole_nodes(free_) ? 3 : 1};
@@ -344,7 +355,8 @@ EliminatedSystem::EliminatedSystem(const SparseMatrix& stiffness, const std::vec
 void EliminatedSystem::update(const SparseMatrix& stiffness)
 {
     for (Block* kept : {&free_free_, &free_prescribed_})
-        for (std::size_t k = 0; k < kept->source.size(); ++k) kept->matrix.valuePtr()[k] = stiffness.valuePtr()[kept->source[k]];
+        for (std::size_t k = 0; k < kept->source.size(); ++k)
+            kept->matrix.valuePtr()[k] = stiffness.valuePtr()[kept->source[k]];
     factor_->refactor();
 }
 

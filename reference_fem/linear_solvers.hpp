@@ -2,9 +2,9 @@
 //   auto solver = prepare(matrix, LinearSolver::cholmod);
 //   if (solver->usable()) x = solver->solve(b);
 //   solver->refactor();   // the matrix has other values in the same pattern: a symbolic analysis is kept
-// CHOLMOD (supernodal Cholesky, ordered by AMD, or METIS where that fills in less) is the default; UMFPACK (unsymmetric LU) is the second
-// opinion on the same matrix. Both are SuiteSparse's, called directly. Conjugate gradients with Trilinos ML are for what their factors do
-// not fit in memory for.
+// CHOLMOD (supernodal Cholesky, ordered by AMD, or METIS where that fills in less) is the default; UMFPACK (unsymmetric
+// LU) is the second opinion on the same matrix. Both are SuiteSparse's, called directly. Conjugate gradients with
+// Trilinos ML are for what their factors do not fit in memory for.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -26,12 +26,14 @@ class PreparedSolver {
 public:
     virtual ~PreparedSolver() = default;
 
-    virtual Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const = 0;  // only where usable(); not finite where it failed
+    // only where usable(); not finite where it failed
+    virtual Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const = 0;
     virtual void refactor() = 0;                  // after the matrix's values, not its pattern, have changed
     virtual std::string name() const = 0;         // library, version and ordering, for records
     virtual int iterations() const { return 0; }  // of the last solve; 0 of a direct solver
 
-    bool usable() const { return usable_; }          // false: singular in double, or (CHOLMOD) not positive definite, or no hierarchy
+    // false: singular in double, or (CHOLMOD) not positive definite, or no hierarchy
+    bool usable() const { return usable_; }
     double analyse_s() const { return analyse_s_; }  // ordering and symbolic analysis
     double factor_s() const { return factor_s_; }    // the last numerical factorisation, or hierarchy
     double reciprocal_condition() const { return reciprocal_condition_; }  // the library's own rough estimate; 0: none
@@ -41,47 +43,55 @@ protected:
     double analyse_s_ = 0.0, factor_s_ = 0.0, reciprocal_condition_ = 0.0;  // [s], [s], [1]
 };
 
-// Modes that an iterative solver's coarse levels must keep, such as rigid_body_modes. Where their rows are whole nodes, block_size is 3.
-// CHOLMOD reads block_size alone.
+// Modes that an iterative solver's coarse levels must keep, such as rigid_body_modes. Where their rows are whole nodes,
+// block_size is 3. CHOLMOD reads block_size alone.
 struct NearNullSpace {
     Eigen::MatrixXd modes = {};  // #rows x #modes; empty: constants
     int block_size = 1;          // 1 or 3
 };
-// Analyses and factors at once. The matrix is symmetric, holds both triangles, is compressed, and outlives the solver. Leaves the BLAS at
-// one thread, for good.
-std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver solver, const NearNullSpace& near_null_space = {});
+// Analyses and factors at once. The matrix is symmetric, holds both triangles, is compressed, and outlives the solver.
+// Leaves the BLAS at one thread, for good.
+std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver solver,
+                                        const NearNullSpace& near_null_space = {});
 
-// Reads the upper triangle. The rows come in blocks of block_size with equal patterns, 3 if they are whole nodes, else 1. A block is
-// ordered as one. pbs::InputError unless it divides the number of rows.
+// Reads the upper triangle. The rows come in blocks of block_size with equal patterns, 3 if they are whole nodes,
+// else 1. A block is ordered as one. pbs::InputError unless it divides the number of rows.
 std::unique_ptr<PreparedSolver> prepare_cholmod(const SparseMatrix& matrix, int block_size);
-std::unique_ptr<PreparedSolver> prepare_umfpack(const SparseMatrix& matrix);  // by the symmetric strategy, ordered by METIS
-std::unique_ptr<PreparedSolver> prepare_cg_ml(const SparseMatrix& matrix, const NearNullSpace& near_null_space);  // starts MPI
+// by the symmetric strategy, ordered by METIS
+std::unique_ptr<PreparedSolver> prepare_umfpack(const SparseMatrix& matrix);
+// starts MPI
+std::unique_ptr<PreparedSolver> prepare_cg_ml(const SparseMatrix& matrix, const NearNullSpace& near_null_space);
 
-// The null space of a stiffness matrix without supports: the six rigid motions. Smoothed aggregation keeps them on its coarse levels.
-// Three translations and three rotations about `centre` over `length_m`, #dofs x 6; nodes [m], degree of freedom 3 n + c.
+// The null space of a stiffness matrix without supports: the six rigid motions. Smoothed aggregation keeps them on its
+// coarse levels. Three translations and three rotations about `centre` over `length_m`, #dofs x 6; nodes [m], degree of
+// freedom 3 n + c.
 Eigen::MatrixXd rigid_body_modes(const pbs::Positions& nodes, const pbs::Vec3& centre, double length_m);
-Eigen::MatrixXd rigid_body_modes(const pbs::Positions& nodes);  // about the middle of their bounding box, over its diagonal
+// about the middle of their bounding box, over its diagonal
+Eigen::MatrixXd rigid_body_modes(const pbs::Positions& nodes);
 
-// How Trilinos ML builds its hierarchy for elasticity: P. Vanek, J. Mandel, M. Brezina, Algebraic multigrid by smoothed aggregation for
-// second and fourth order elliptic problems, Computing 56, 1996.
-// `modes`: near-null space on this rank's rows, column after column, #rows x #modes; outlives the set-up. `block_size`: 3 where whole
-// nodes are contiguous, 1 otherwise.
+// How Trilinos ML builds its hierarchy for elasticity: P. Vanek, J. Mandel, M. Brezina, Algebraic multigrid by smoothed
+// aggregation for second and fourth order elliptic problems, Computing 56, 1996. `modes`: near-null space on this
+// rank's rows, column after column, #rows x #modes; outlives the set-up. `block_size`: 3 where whole nodes are
+// contiguous, 1 otherwise.
 Teuchos::ParameterList smoothed_aggregation(double* modes, int number_of_modes, int block_size);
 
-// Which BLAS the direct solvers really use: on Debian an alternative decides at run time, and the slow one costs a factor 3 to 7.
+// Which BLAS the direct solvers really use: on Debian an alternative decides at run time, and the slow one costs a
+// factor 3 to 7.
 std::string resolved_blas();  // e.g. "OpenBLAS 0.3.21 ... (/usr/lib/x86_64-linux-gnu/openblas-pthread/libblas.so.3)"
 
-// A sum's order depends on the number of threads; one thread makes every run the same to the bit. No effect on other BLAS than OpenBLAS.
+// A sum's order depends on the number of threads; one thread makes every run the same to the bit. No effect on other
+// BLAS than OpenBLAS.
 void use_one_blas_thread();
 
 // Values of all degrees of freedom, with the prescribed ones at their values.
 struct EliminatedSolution {
     Eigen::VectorXd displacement;  // [m], #dofs; not finite where the factorisation broke down
-    double residual = 0.0;         // |K_ff u_f - right-hand side| / |right-hand side|; 0 where both are 0; infinite where it broke down
+    double residual =
+        0.0;  // |K_ff u_f - right-hand side| / |right-hand side|; 0 where both are 0; infinite where it broke down
 };
 
-// K u = f with some degrees of freedom prescribed, by elimination: K_ff u_f = f_f - K_fp u_p. K_ff is factored once and K_fp is kept, so
-// new loads and new prescribed values cost a right-hand side and a re-solve. The stiffness may go.
+// K u = f with some degrees of freedom prescribed, by elimination: K_ff u_f = f_f - K_fp u_p. K_ff is factored once and
+// K_fp is kept, so new loads and new prescribed values cost a right-hand side and a re-solve. The stiffness may go.
 class EliminatedSystem {
 public:
     // prescribed: #dofs. near_null_space, #dofs x #modes: for an iterative solver, see NearNullSpace.
@@ -94,8 +104,9 @@ public:
     // Another stiffness of the same pattern: the symbolic analysis is kept.
     void update(const SparseMatrix& stiffness);
 
-    bool usable() const { return free_.empty() || factor_->usable(); }  // false: solve() returns values that are not numbers
-    const PreparedSolver& factor() const { return *factor_; }           // of K_ff
+    // false: solve() returns values that are not numbers
+    bool usable() const { return free_.empty() || factor_->usable(); }
+    const PreparedSolver& factor() const { return *factor_; }  // of K_ff
 
 private:
     struct Block {

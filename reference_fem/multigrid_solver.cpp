@@ -1,4 +1,5 @@
-// Conjugate gradients (Eigen), preconditioned by one V-cycle of smoothed aggregation (Trilinos ML through Epetra, on this process alone).
+// Conjugate gradients (Eigen), preconditioned by one V-cycle of smoothed aggregation (Trilinos ML through Epetra, on
+// this process alone).
 
 #include "pbs/geometry/cost.hpp"
 #include "reference_fem/linear_solvers.hpp"
@@ -63,8 +64,8 @@ Teuchos::ParameterList smoothed_aggregation(double* modes, int number_of_modes, 
 
 namespace {
 
-// In a process that mpirun did not start, MPI_Init of Open MPI sets environment variables that identify this rank. Child processes inherit
-// them, and an mpirun among these children fails. The variables are therefore removed again.
+// In a process that mpirun did not start, MPI_Init of Open MPI sets environment variables that identify this rank.
+// Child processes inherit them, and an mpirun among these children fails. The variables are therefore removed again.
 void init_leaving_the_environment()
 {
     const auto names = [] {
@@ -78,8 +79,8 @@ void init_leaving_the_environment()
         if (!before.contains(name)) unsetenv(name.c_str());
 }
 
-// ML queries MPI for its rank even on one process. MPI is initialised with the first hierarchy and finalised with the program, unless the
-// program did so itself.
+// ML queries MPI for its rank even on one process. MPI is initialised with the first hierarchy and finalised with the
+// program, unless the program did so itself.
 void start_mpi()
 {
     static const struct Mpi {
@@ -111,7 +112,8 @@ const Epetra_Comm& this_process()
 class Multigrid {
 public:
     Multigrid(const SparseMatrix& matrix, const NearNullSpace& near_null_space)
-        : modes_(near_null_space.modes.size() > 0 ? near_null_space.modes : constants(matrix.rows(), near_null_space.block_size)),
+        : modes_(near_null_space.modes.size() > 0 ? near_null_space.modes
+                                                  : constants(matrix.rows(), near_null_space.block_size)),
           rows_(static_cast<int>(matrix.rows()), 0, this_process()),
           matrix_(Copy, rows_, rows_, entries_of_rows(matrix).data(), true)
     {
@@ -122,7 +124,8 @@ public:
             matrix_.InsertMyValues(row, static_cast<int>(end - first), matrix.valuePtr() + first, columns.data());
         }
         matrix_.FillComplete(rows_, rows_);
-        const auto parameters = smoothed_aggregation(modes_.data(), static_cast<int>(modes_.cols()), near_null_space.block_size);
+        const auto parameters =
+            smoothed_aggregation(modes_.data(), static_cast<int>(modes_.cols()), near_null_space.block_size);
         hierarchy_ = std::make_unique<ML_Epetra::MultiLevelPreconditioner>(matrix_, parameters, true);
     }
 
@@ -192,7 +195,8 @@ private:
 
 class MultigridSolver : public PreparedSolver {
 public:
-    MultigridSolver(const SparseMatrix& matrix, const NearNullSpace& near_null_space) : matrix_(matrix), near_null_space_(near_null_space)
+    MultigridSolver(const SparseMatrix& matrix, const NearNullSpace& near_null_space)
+        : matrix_(matrix), near_null_space_(near_null_space)
     {
         refactor();
     }
@@ -215,7 +219,8 @@ public:
     {
         Eigen::VectorXd solution = gradients_.solve(right_hand_side);
         const auto counted = gradients_.iterations();  // Eigen leaves out the one that converged
-        iterations_ = right_hand_side.isZero(0.0) ? 0 : std::min(static_cast<int>(counted) + 1, options_.most_iterations);
+        iterations_ =
+            right_hand_side.isZero(0.0) ? 0 : std::min(static_cast<int>(counted) + 1, options_.most_iterations);
         if (gradients_.info() != Eigen::Success) solution.setConstant(std::numeric_limits<double>::quiet_NaN());
         return solution;
     }

@@ -1,5 +1,5 @@
-// Choices that several parts of the reference have in common: formulation, law, scheme in time and linear solver. Also Lame's parameters
-// and the checks of meshes and of single values.
+// Choices that several parts of the reference have in common: formulation, law, scheme in time and linear solver. Also
+// Lame's parameters and the checks of meshes and of single values.
 #pragma once
 
 #include "pbs/geometry/input_error.hpp"
@@ -20,14 +20,16 @@ enum class Formulation {
 // Constitutive laws by name; their definitions are in laws/.
 // All laws are isotropic and have the same limit at small strain.
 enum class Model {
-    linear,                 // small strain: a rotation by a produces a fictitious strain of 1 - cos(a)
-    corotational,           // small strain in the frame of the polar decomposition F = R S
-    stable_neo_hookean,     // B. Smith, F. de Goes, T. Kim, ACM TOG 37(2), 2018, without their term in ln(|F|^2 + 1); defined and smooth
-                            // through inversion. With the square completed it is the energy of M. Macklin, M. Mueller, A
-                            // Constraint-based Formulation of Stable Neo-Hookean Materials, MIG 2021
-    neo_hookean,            // compressible: J. Bonet, R. Wood, Nonlinear Continuum Mechanics, Eq. 6.27; infinite at det F <= 0
+    linear,              // small strain: a rotation by a produces a fictitious strain of 1 - cos(a)
+    corotational,        // small strain in the frame of the polar decomposition F = R S
+    stable_neo_hookean,  // B. Smith, F. de Goes, T. Kim, ACM TOG 37(2), 2018, without their term in ln(|F|^2 + 1);
+                         // defined and smooth through inversion. With the square completed it is the energy of M.
+                         // Macklin, M. Mueller, A Constraint-based Formulation of Stable Neo-Hookean Materials, MIG
+                         // 2021
+    neo_hookean,  // compressible: J. Bonet, R. Wood, Nonlinear Continuum Mechanics, Eq. 6.27; infinite at det F <= 0
     st_venant_kirchhoff,    // negative control: softens under compression and collapses
-    isochoric_neo_hookean,  // split into det F and the isochoric part, the law of the finite-strain Cook's membrane benchmark
+    isochoric_neo_hookean,  // split into det F and the isochoric part, the law of the finite-strain Cook's membrane
+                            // benchmark
 };
 
 // Isotropic linear elasticity: stress = lambda tr(eps) I + 2 mu eps.
@@ -48,8 +50,8 @@ enum class Dynamics {
     generalized_alpha,  // J. Chung, G. Hulbert, J. Appl. Mech. 60, 1993
 };
 
-// The sparse solver of K u = f: two direct ones of SuiteSparse, and conjugate gradients with Trilinos ML for what does not fit.
-// linear_solvers.hpp describes each of them; cholmod is the default everywhere.
+// The sparse solver of K u = f: two direct ones of SuiteSparse, and conjugate gradients with Trilinos ML for what does
+// not fit. linear_solvers.hpp describes each of them; cholmod is the default everywhere.
 enum class LinearSolver { cholmod, umfpack, cg_ml };
 
 // When conjugate gradients stop.
@@ -59,8 +61,8 @@ struct IterativeOptions {
     int most_iterations = 1000;  // then it counts as not converged
 };
 
-// Checks of the reference solver's input. Each violation is a pbs::InputError that names the field, the value and the rule.
-// Throws unless it holds; without file and line, since the input is arrays.
+// Checks of the reference solver's input. Each violation is a pbs::InputError that names the field, the value and the
+// rule. Throws unless it holds; without file and line, since the input is arrays.
 template <typename Value>
 void require(bool holds, const char* field, const Value& value, const char* rule)
 {

@@ -1,4 +1,5 @@
-// One requirement on a run or on a frame from elsewhere, and its result, as the terminal, JUnit, GitHub and check.json show it.
+// One requirement on a run or on a frame from elsewhere, and its result, as the terminal, JUnit, GitHub and check.json
+// show it.
 #pragma once
 
 #include "analysis/metrics/frame_metrics.hpp"
@@ -32,30 +33,35 @@ struct CheckSuite {
     std::string name;                                                  // name of the scene, or of the rest mesh
     double seconds = 0.0;                                              // wall time of the whole suite
     std::vector<std::pair<std::string, std::string>> properties = {};  // name, value
-    std::vector<CheckCase> cases = {};                                 // one per bound, and one per deformer of the baseline
+    // one per bound, and one per deformer of the baseline
+    std::vector<CheckCase> cases = {};
 };
 
 int count(const std::vector<CheckSuite>& suites, CheckState state);  // summed over all suites
-const char* to_string(CheckState state);                             // "holds", "FAILS", "left out", "BREAKDOWN", "REFUSED"
+// "holds", "FAILS", "left out", "BREAKDOWN", "REFUSED"
+const char* to_string(CheckState state);
 
 // A table for the terminal with one line per case and its message.
 std::string check_table(const std::vector<CheckSuite>& suites);
 
-// A check as GitHub shows it: annotations at the lines of the bounds (workflow commands on stdout) and the summary of the job.
-// ::error file=FILE,line=N,title=SUITE NAME::MESSAGE for cases that fail, ::warning for cases that were left out; one line each.
+// A check as GitHub shows it: annotations at the lines of the bounds (workflow commands on stdout) and the summary of
+// the job.
+// ::error file=FILE,line=N,title=SUITE NAME::MESSAGE for cases that fail, ::warning for cases that were left out; one
+// line each.
 std::string github_annotations(const std::vector<CheckSuite>& suites);
 
 // A Markdown table of the cases.
 std::string github_summary(const std::vector<CheckSuite>& suites);
 
-// JUnit XML for CI servers: one testsuite per suite and one testcase per case (classname: the name of the suite), with its wall time.
-// <failure> marks a case that fails, <error> a breakdown or a refused frame, <skipped> a case that was left out.
+// JUnit XML for CI servers: one testsuite per suite and one testcase per case (classname: the name of the suite), with
+// its wall time. <failure> marks a case that fails, <error> a breakdown or a refused frame, <skipped> a case that was
+// left out.
 //   write_text_atomically(path, junit_report(suites));
 // The whole document, with counts and seconds for each suite and in total.
 std::string junit_report(const std::vector<CheckSuite>& suites);
 
-// The rules of a check: scenes, bounds on their frames, and tolerances for the comparison with a baseline. They are data in TOML; the keys
-// are documented at [[check.scene]] in experiments/verdicts/claims.toml.
+// The rules of a check: scenes, bounds on their frames, and tolerances for the comparison with a baseline. They are
+// data in TOML; the keys are documented at [[check.scene]] in experiments/verdicts/claims.toml.
 //   const CheckRules rules = parse_check_rules(text, "check.toml", known_metrics);
 // One table [[check.scene]].
 struct CheckScene {
@@ -69,8 +75,10 @@ struct CheckScene {
 // One table [[check.bound]]: low <= metric <= high in each of its frames.
 struct CheckBound {
     std::string name, scene, deformer, metric;  // scene: a CheckScene's name; metric: a column of metrics.csv
-    double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();  // in the metric's unit
-    std::vector<int> frames;                                                                                // first and last; empty: all
+    // in the metric's unit
+    double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+    // first and last; empty: all
+    std::vector<int> frames;
     std::string why;  // the reason for the bound, in words
     int line = 0;     // line of its table, from 1
 };
@@ -91,16 +99,18 @@ struct CheckRules {
     std::vector<CheckTolerance> tolerances;  // at most one per metric
 };
 
-// InputError with file and line for broken TOML, unknown or missing keys, metrics that are not among `metrics` or are wall time, bounds on
-// scenes that are not named, duplicate names, and bounds that no value can meet.
+// InputError with file and line for broken TOML, unknown or missing keys, metrics that are not among `metrics` or are
+// wall time, bounds on scenes that are not named, duplicate names, and bounds that no value can meet.
 CheckRules parse_check_rules(const std::string& text, const std::string& file, const std::vector<std::string>& metrics);
 
-// Bounds on single frames, and their results frame by frame and as test cases. Each bound has the name of the option that sets it.
+// Bounds on single frames, and their results frame by frame and as test cases. Each bound has the name of the option
+// that sets it.
 struct FrameValues {
-    FrameMetrics metrics;             // of a surface volume_change_pct and volume_abs_change_pct alone
-    double j_max = 0.0;               // largest V_t / V0_t
-    double edge_strain_max = 0.0;     // largest |l / l0 - 1|
-    double self_intersections = 0.0;  // of a surface: pairs of triangles that meet; NaN: not counted, in a build without CGAL
+    FrameMetrics metrics;          // of a surface volume_change_pct and volume_abs_change_pct alone
+    double j_max = 0.0;            // largest V_t / V0_t
+    double edge_strain_max = 0.0;  // largest |l / l0 - 1|
+    double self_intersections =
+        0.0;  // of a surface: pairs of triangles that meet; NaN: not counted, in a build without CGAL
 };
 
 // The kind of mesh that is measured, by which bounds are chosen.
@@ -120,12 +130,12 @@ struct FrameBound {
 };
 std::vector<FrameBound> known_frame_bounds();
 
-// InputError for a bound that no frame or every frame meets: not finite, or below the lowest possible value; and for one that does not
-// apply to what is measured.
+// InputError for a bound that no frame or every frame meets: not finite, or below the lowest possible value; and for
+// one that does not apply to what is measured.
 void require_meaningful(const FrameBound& bound, Measured measured);
 
-// A bound that does not hold, e.g. "|volume_change_pct| = 0.62 > 0.5". Empty if it holds or was not asked for. A value that is not a
-// number breaks every bound.
+// A bound that does not hold, e.g. "|volume_change_pct| = 0.62 > 0.5". Empty if it holds or was not asked for. A value
+// that is not a number breaks every bound.
 std::string broken_text(const FrameBound& bound, const FrameValues& values);
 
 struct MeasuredFrame {
@@ -137,25 +147,30 @@ struct RefusedFrame {
     std::string name, reason;
 };
 
-// One case per bound, which names the worst frame and counts the others, or a case "measured" if no bound was asked for. One case per
-// refused frame.
-CheckSuite frame_suite(const std::string& name, const std::vector<FrameBound>& bounds, const std::vector<MeasuredFrame>& frames,
-                       const std::vector<RefusedFrame>& refused, double seconds);
+// One case per bound, which names the worst frame and counts the others, or a case "measured" if no bound was asked
+// for. One case per refused frame.
+CheckSuite frame_suite(const std::string& name, const std::vector<FrameBound>& bounds,
+                       const std::vector<MeasuredFrame>& frames, const std::vector<RefusedFrame>& refused,
+                       double seconds);
 
-// The result in one line: "fails: 14 of 18 frames beyond 0.5 %, worst -8.64 % in frame 17", "holds: ..." or, without a bound, the range of
-// the volume. Bounds other than that on the volume are named by their metric, and frames that could not be read are counted.
-std::string frame_summary(const std::vector<FrameBound>& bounds, const std::vector<MeasuredFrame>& frames, std::size_t refused);
+// The result in one line: "fails: 14 of 18 frames beyond 0.5 %, worst -8.64 % in frame 17", "holds: ..." or, without a
+// bound, the range of the volume. Bounds other than that on the volume are named by their metric, and frames that could
+// not be read are counted.
+std::string frame_summary(const std::vector<FrameBound>& bounds, const std::vector<MeasuredFrame>& frames,
+                          std::size_t refused);
 
 // Compares a scene's metrics.csv with a bound and with a baseline.
-// Every frame of the bound must lie within it. The case names the frame farthest outside or, if all hold, the one nearest to the bound. For
-// a two-sided bound that holds, it names the smallest and the largest value. InputError if the scene lacks the deformer, the frames or the
-// values.
-CheckCase judge_bound(const CheckBound& bound, const std::string& unit, const CsvTable& metrics, const std::string& rules_file);
+// Every frame of the bound must lie within it. The case names the frame farthest outside or, if all hold, the one
+// nearest to the bound. For a two-sided bound that holds, it names the smallest and the largest value. InputError if
+// the scene lacks the deformer, the frames or the values.
+CheckCase judge_bound(const CheckBound& bound, const std::string& unit, const CsvTable& metrics,
+                      const std::string& rules_file);
 
-// The columns of a baseline, which has one row per scene, deformer and frame: counts, the metrics that have a tolerance, and step_ms.
+// The columns of a baseline, which has one row per scene, deformer and frame: counts, the metrics that have a
+// tolerance, and step_ms.
 CsvTable baseline_columns(const CheckRules& rules);
-// Adds the frames of a scene's metrics.csv in their order. Metrics that the scene does not measure get empty cells. InputError as for
-// CsvTable.
+// Adds the frames of a scene's metrics.csv in their order. Metrics that the scene does not measure get empty cells.
+// InputError as for CsvTable.
 void add_baseline_rows(CsvTable& baseline, const std::string& scene, const CsvTable& metrics, int vertices, int tets);
 
 // InputError if the baseline lacks a column, or contains a frame of a scene's deformer twice.
@@ -164,12 +179,14 @@ void require_baseline(const CheckRules& rules, const CsvTable& baseline, const s
 // One failed case for each scene that the baseline contains and the rules no longer name.
 std::vector<CheckCase> scenes_gone(const CheckRules& rules, const CsvTable& baseline, const std::string& baseline_file);
 
-// One case per deformer: in every frame the counts (vertices, tets, iterations) must be equal and the metrics within their tolerances.
-// InputError if the baseline contains something else than numbers there.
+// One case per deformer: in every frame the counts (vertices, tets, iterations) must be equal and the metrics within
+// their tolerances. InputError if the baseline contains something else than numbers there.
 std::vector<CheckCase> compare_with_baseline(const CheckRules& rules, const std::string& scene, const CsvTable& now,
                                              const CsvTable& baseline, const std::string& baseline_file);
 
-// "1.234 ms per step, 1.05 of the baseline's" for each deformer. Times depend on the machine, so they are shown and never judged.
-std::vector<std::pair<std::string, std::string>> step_times(const std::string& scene, const CsvTable& now, const CsvTable* baseline);
+// "1.234 ms per step, 1.05 of the baseline's" for each deformer. Times depend on the machine, so they are shown and
+// never judged.
+std::vector<std::pair<std::string, std::string>> step_times(const std::string& scene, const CsvTable& now,
+                                                            const CsvTable* baseline);
 
 }  // namespace analysis

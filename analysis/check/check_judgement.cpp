@@ -23,11 +23,12 @@ std::string interval_text(const CheckBound& bound)
 // How far the value lies outside; negative inside. NaN counts as farthest outside.
 double excess(const CheckBound& bound, double value)
 {
-    return std::isnan(value) ? std::numeric_limits<double>::infinity() : std::max(bound.low - value, value - bound.high);
+    return std::isnan(value) ? std::numeric_limits<double>::infinity()
+                             : std::max(bound.low - value, value - bound.high);
 }
 
-[[noreturn]] void refuse(const CheckBound& bound, const std::string& file, const std::string& field, const std::string& value,
-                         const std::string& rule)
+[[noreturn]] void refuse(const CheckBound& bound, const std::string& file, const std::string& field,
+                         const std::string& value, const std::string& rule)
 {
     throw pbs::InputError(file, bound.line, field, value, rule);
 }
@@ -53,7 +54,9 @@ Seen look_at(const CheckBound& bound, const CsvTable& metrics, const std::string
         seen.last_frame = std::max(seen.last_frame, frame);
         if (!bound.frames.empty() && (frame < bound.frames[0] || frame > bound.frames[1])) continue;
         const std::optional<double> value = metrics.number_or_nothing(row, bound.metric);
-        if (!value) refuse(bound, file, "metric", bound.metric, fmt::format("{} has no such value in frame {}", bound.deformer, frame));
+        if (!value)
+            refuse(bound, file, "metric", bound.metric,
+                   fmt::format("{} has no such value in frame {}", bound.deformer, frame));
         const bool outside = excess(bound, *value) > 0.0;
         if (outside && seen.outside++ == 0) seen.first_outside = frame;
         const bool is_first = seen.frames++ == 0;
@@ -70,15 +73,17 @@ Seen look_at(const CheckBound& bound, const CsvTable& metrics, const std::string
 
 bool holds_between(const CheckBound& bound, const Seen& seen)
 {
-    return seen.outside == 0 && std::isfinite(bound.low) && std::isfinite(bound.high) && seen.least.value < seen.largest.value;
+    return seen.outside == 0 && std::isfinite(bound.low) && std::isfinite(bound.high) &&
+           seen.least.value < seen.largest.value;
 }
 
 std::string values_text(const CheckBound& bound, const Seen& seen, const std::string& unit)
 {
     if (holds_between(bound, seen))
-        return fmt::format("frames {} and {}: {} of {} = {:.6g} to {:.6g}{}", seen.least.frame, seen.largest.frame, bound.metric,
-                           bound.deformer, seen.least.value, seen.largest.value, unit);
-    return fmt::format("frame {}: {} of {} = {:.6g}{}", seen.worst.frame, bound.metric, bound.deformer, seen.worst.value, unit);
+        return fmt::format("frames {} and {}: {} of {} = {:.6g} to {:.6g}{}", seen.least.frame, seen.largest.frame,
+                           bound.metric, bound.deformer, seen.least.value, seen.largest.value, unit);
+    return fmt::format("frame {}: {} of {} = {:.6g}{}", seen.worst.frame, bound.metric, bound.deformer,
+                       seen.worst.value, unit);
 }
 
 const std::vector<std::string> count_columns = {"vertices", "tets", "iterations"};
@@ -98,7 +103,8 @@ Rows rows_of(const CsvTable& table, const std::string& scene)
 {
     Rows rows;
     for (int row = 0; row < table.rows(); ++row)
-        if (table.text_at(row, "scene") == scene) rows[table.text_at(row, "deformer")][static_cast<int>(table.integer(row, "frame"))] = row;
+        if (table.text_at(row, "scene") == scene)
+            rows[table.text_at(row, "deformer")][static_cast<int>(table.integer(row, "frame"))] = row;
     return rows;
 }
 
@@ -112,7 +118,8 @@ void require_columns(const CheckRules& rules, const CsvTable& baseline, const st
 {
     for (const std::string& column : columns_of(rules))
         if (!baseline.has_column(column))
-            throw pbs::InputError(file, 1, "column", column, "missing: expected a file of `pbskin check --write-baseline`");
+            throw pbs::InputError(file, 1, "column", column,
+                                  "missing: expected a file of `pbskin check --write-baseline`");
 }
 
 void require_each_frame_once(const CsvTable& baseline, const std::string& file)
@@ -120,11 +127,12 @@ void require_each_frame_once(const CsvTable& baseline, const std::string& file)
     std::map<std::tuple<std::string, std::string, long long>, int> lines;
     for (int row = 0; row < baseline.rows(); ++row) {
         const long long frame = baseline.integer(row, "frame");
-        const auto [at, is_new] =
-            lines.emplace(std::tuple(baseline.text_at(row, "scene"), baseline.text_at(row, "deformer"), frame), line_of(row));
+        const auto [at, is_new] = lines.emplace(
+            std::tuple(baseline.text_at(row, "scene"), baseline.text_at(row, "deformer"), frame), line_of(row));
         if (!is_new)
-            throw pbs::InputError(file, line_of(row), "frame", std::to_string(frame),
-                                  fmt::format("expected each frame of a scene's deformer once: it is in line {} too", at->second));
+            throw pbs::InputError(
+                file, line_of(row), "frame", std::to_string(frame),
+                fmt::format("expected each frame of a scene's deformer once: it is in line {} too", at->second));
     }
 }
 
@@ -154,8 +162,9 @@ std::vector<CheckTolerance> all_tolerances(const CheckRules& rules)
     return tolerances;
 }
 
-CheckCase compare_deformer(const CheckRules& rules, const std::string& scene, const std::string& deformer, const CsvTable& now,
-                           const std::map<int, int>& now_rows, const CsvTable& baseline, const std::map<int, int>& baseline_rows)
+CheckCase compare_deformer(const CheckRules& rules, const std::string& scene, const std::string& deformer,
+                           const CsvTable& now, const std::map<int, int>& now_rows, const CsvTable& baseline,
+                           const std::map<int, int>& baseline_rows)
 {
     CheckCase check{scene, "baseline of " + deformer, CheckState::held, "", std::nullopt, std::nullopt, "", 0};
     Difference worst;
@@ -178,7 +187,8 @@ CheckCase compare_deformer(const CheckRules& rules, const std::string& scene, co
     const auto same_frame = [](const auto& a, const auto& b) { return a.first == b.first; };
     if (differing > 0) {
         check.state = CheckState::failed;
-        check.message = fmt::format("frame {}: {} ({} of {} frames differ)", *check.frame, worst.text, differing, now_rows.size());
+        check.message =
+            fmt::format("frame {}: {} ({} of {} frames differ)", *check.frame, worst.text, differing, now_rows.size());
     } else if (!std::equal(now_rows.begin(), now_rows.end(), baseline_rows.begin(), baseline_rows.end(), same_frame)) {
         check.state = CheckState::failed;
         check.message = fmt::format("{} frames, the baseline has {}", now_rows.size(), baseline_rows.size());
@@ -197,9 +207,11 @@ double median_step_ms(const CsvTable& table, const std::map<int, int>& rows)
 
 }  // namespace
 
-CheckCase judge_bound(const CheckBound& bound, const std::string& unit, const CsvTable& metrics, const std::string& rules_file)
+CheckCase judge_bound(const CheckBound& bound, const std::string& unit, const CsvTable& metrics,
+                      const std::string& rules_file)
 {
-    if (!metrics.has_column(bound.metric)) refuse(bound, rules_file, "metric", bound.metric, "the scene does not measure it");
+    if (!metrics.has_column(bound.metric))
+        refuse(bound, rules_file, "metric", bound.metric, "the scene does not measure it");
     const Seen seen = look_at(bound, metrics, rules_file);
     const std::string of_unit = unit.empty() ? "" : " " + unit;
     CheckCase check{bound.scene, bound.name,       seen.outside > 0 ? CheckState::failed : CheckState::held,
@@ -207,7 +219,8 @@ CheckCase judge_bound(const CheckBound& bound, const std::string& unit, const Cs
                     rules_file,  bound.line};
     check.message = fmt::format("{}, expected {}{}", values_text(bound, seen, of_unit), interval_text(bound), of_unit);
     if (seen.outside > 1)
-        check.message += fmt::format(" ({} of {} frames outside, the first is {})", seen.outside, seen.frames, seen.first_outside);
+        check.message +=
+            fmt::format(" ({} of {} frames outside, the first is {})", seen.outside, seen.frames, seen.first_outside);
     return check;
 }
 
@@ -223,7 +236,8 @@ void add_baseline_rows(CsvTable& baseline, const std::string& scene, const CsvTa
             if (column == "scene") return scene;
             if (column == "vertices") return vertices;
             if (column == "tets") return tets;
-            return metrics.has_column(column) ? CsvTable::Cell(metrics.text_at(row, column)) : CsvTable::Cell(std::nullopt);
+            return metrics.has_column(column) ? CsvTable::Cell(metrics.text_at(row, column))
+                                              : CsvTable::Cell(std::nullopt);
         };
         std::vector<CsvTable::Cell> cells;
         for (const std::string& column : baseline.columns()) cells.push_back(cell(column));
@@ -244,8 +258,8 @@ std::vector<CheckCase> scenes_gone(const CheckRules& rules, const CsvTable& base
     for (const CheckScene& scene : rules.scenes) known.insert(scene.name);
     for (int row = 0; row < baseline.rows(); ++row)
         if (const std::string& scene = baseline.text_at(row, "scene"); known.insert(scene).second)
-            cases.push_back({scene, "baseline", CheckState::failed, "in the baseline, but no longer among the scenes", std::nullopt,
-                             std::nullopt, baseline_file, line_of(row)});
+            cases.push_back({scene, "baseline", CheckState::failed, "in the baseline, but no longer among the scenes",
+                             std::nullopt, std::nullopt, baseline_file, line_of(row)});
     return cases;
 }
 
@@ -257,28 +271,31 @@ std::vector<CheckCase> compare_with_baseline(const CheckRules& rules, const std:
     for (const auto& [deformer, rows] : now_rows) {
         const auto before = baseline_rows.find(deformer);
         const std::map<int, int> none;
-        cases.push_back(
-            compare_deformer(rules, scene, deformer, now, rows, baseline, before == baseline_rows.end() ? none : before->second));
+        cases.push_back(compare_deformer(rules, scene, deformer, now, rows, baseline,
+                                         before == baseline_rows.end() ? none : before->second));
         cases.back().file = baseline_file;
     }
     for (const auto& [deformer, rows] : baseline_rows)
         if (!now_rows.contains(deformer))
-            cases.push_back({scene, "baseline of " + deformer, CheckState::failed, "in the baseline, but no longer in the scene",
-                             std::nullopt, std::nullopt, baseline_file, 0});
+            cases.push_back({scene, "baseline of " + deformer, CheckState::failed,
+                             "in the baseline, but no longer in the scene", std::nullopt, std::nullopt, baseline_file,
+                             0});
     return cases;
 }
 
-std::vector<std::pair<std::string, std::string>> step_times(const std::string& scene, const CsvTable& now, const CsvTable* baseline)
+std::vector<std::pair<std::string, std::string>> step_times(const std::string& scene, const CsvTable& now,
+                                                            const CsvTable* baseline)
 {
     std::vector<std::pair<std::string, std::string>> times;
     const Rows before = baseline ? rows_of(*baseline, scene) : Rows();
     for (const auto& [deformer, rows] : rows_of(now, scene)) {
         const double ms = median_step_ms(now, rows);
         const auto found = before.find(deformer);
-        times.emplace_back(
-            "wall time of " + deformer,
-            fmt::format("{:.4g} ms per step", ms) +
-                (found == before.end() ? "" : fmt::format(", {:.3g} of the baseline's", ms / median_step_ms(*baseline, found->second))));
+        times.emplace_back("wall time of " + deformer,
+                           fmt::format("{:.4g} ms per step", ms) +
+                               (found == before.end() ? ""
+                                                      : fmt::format(", {:.3g} of the baseline's",
+                                                                    ms / median_step_ms(*baseline, found->second))));
     }
     return times;
 }

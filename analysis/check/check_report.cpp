@@ -14,8 +14,8 @@ int count(const std::vector<CheckSuite>& suites, CheckState state)
 {
     int cases = 0;
     for (const CheckSuite& suite : suites)
-        cases += static_cast<int>(
-            std::count_if(suite.cases.begin(), suite.cases.end(), [&](const CheckCase& check) { return check.state == state; }));
+        cases += static_cast<int>(std::count_if(suite.cases.begin(), suite.cases.end(),
+                                                [&](const CheckCase& check) { return check.state == state; }));
     return cases;
 }
 
@@ -32,7 +32,8 @@ std::string check_table(const std::vector<CheckSuite>& suites)
         text += fmt::format("{} ({:.1f} s)\n", suite.name, suite.seconds);
         for (const CheckCase& check : suite.cases)
             text += fmt::format("  {:<9}  {:<44}  {}\n", to_string(check.state), check.name, check.message);
-        for (const auto& [name, value] : suite.properties) text += fmt::format("  {:<9}  {:<44}  {}\n", "", name, value);
+        for (const auto& [name, value] : suite.properties)
+            text += fmt::format("  {:<9}  {:<44}  {}\n", "", name, value);
     }
     return text;
 }
@@ -92,7 +93,9 @@ void add_case(pugi::xml_node parent, const CheckCase& check)
         return;
     }
     const bool left_out = check.state == CheckState::left_out;
-    pugi::xml_node outcome = node.append_child(left_out ? "skipped" : check.state == CheckState::failed ? "failure" : "error");
+    pugi::xml_node outcome = node.append_child(left_out                            ? "skipped"
+                                               : check.state == CheckState::failed ? "failure"
+                                                                                   : "error");
     set(outcome, "message", check.message);
     if (!left_out) outcome.text() = check.message.c_str();
 }
@@ -111,15 +114,17 @@ std::string github_annotations(const std::vector<CheckSuite>& suites)
 std::string github_summary(const std::vector<CheckSuite>& suites)
 {
     std::string text = fmt::format(
-        "### pbskin: {} hold, {} fail, {} left out\n\n| | scene | bound | measured |\n|---|---|---|---|\n", count(suites, CheckState::held),
+        "### pbskin: {} hold, {} fail, {} left out\n\n| | scene | bound | measured |\n|---|---|---|---|\n",
+        count(suites, CheckState::held),
         count(suites, CheckState::failed) + count(suites, CheckState::broke_down) + count(suites, CheckState::refused),
         count(suites, CheckState::left_out));
     for (const CheckSuite& suite : suites) {
         for (const CheckCase& check : suite.cases)
-            text += fmt::format("| {} | {} | {} | {} |\n", to_string(check.state), markdown_cell(suite.name), markdown_cell(check.name),
-                                markdown_cell(check.message));
+            text += fmt::format("| {} | {} | {} | {} |\n", to_string(check.state), markdown_cell(suite.name),
+                                markdown_cell(check.name), markdown_cell(check.message));
         for (const auto& [name, value] : suite.properties)
-            text += fmt::format("| | {} | {} | {} |\n", markdown_cell(suite.name), markdown_cell(name), markdown_cell(value));
+            text += fmt::format("| | {} | {} | {} |\n", markdown_cell(suite.name), markdown_cell(name),
+                                markdown_cell(value));
     }
     return text + "\n";
 }

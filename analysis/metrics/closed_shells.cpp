@@ -15,8 +15,8 @@
 namespace analysis {
 namespace {
 
-// A closed shell that encloses less than this part of (its area)^(3/2) is a sheet: 0.09 for a sphere, 0.001 for a plate of 1 : 300, and
-// some 1e-8 for the rounding of coordinates in single precision.
+// A closed shell that encloses less than this part of (its area)^(3/2) is a sheet: 0.09 for a sphere, 0.001 for a plate
+// of 1 : 300, and some 1e-8 for the rounding of coordinates in single precision.
 constexpr double least_enclosed = 1e-6;
 constexpr double most_capped = 0.5;  // area of the caps over that of the shell: 0.5 for a hemisphere, 1 for a sheet
 constexpr double same_place = 1e-6;  // of the surface's diagonal: coordinates in single precision
@@ -47,7 +47,8 @@ template <typename Body>
 void for_each_edge(const std::vector<Side>& sides, Body body)
 {
     for (auto first = sides.begin(); first != sides.end();) {
-        const auto last = std::find_if(first, sides.end(), [&](const Side& side) { return side.points != first->points; });
+        const auto last =
+            std::find_if(first, sides.end(), [&](const Side& side) { return side.points != first->points; });
         body(first, last);
         first = last;
     }
@@ -73,8 +74,8 @@ pbs::Triangles renamed(const pbs::Triangles& triangles, const std::vector<int>& 
     return triangles.unaryExpr([&](int point) { return joined[point]; });
 }
 
-// Joins the points at open edges that are nearer to each other than a rounding. They are sorted along a direction in which hardly two
-// points of a surface lie at the same place.
+// Joins the points at open edges that are nearer to each other than a rounding. They are sorted along a direction in
+// which hardly two points of a surface lie at the same place.
 void join_near(const pbs::Positions& points, const std::vector<bool>& is_open, std::vector<int>& joined)
 {
     const double near_m = same_place * (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
@@ -90,8 +91,8 @@ void join_near(const pbs::Positions& points, const std::vector<bool>& is_open, s
     for (int& point : joined) point = classes.find(point);
 }
 
-// The point that stands for each point: for a point of an open edge, one of an open edge at its place, to the bit; where edges are still
-// open, one that is as near as coordinates in single precision can tell.
+// The point that stands for each point: for a point of an open edge, one of an open edge at its place, to the bit;
+// where edges are still open, one that is as near as coordinates in single precision can tell.
 std::vector<int> joined_points(const pbs::Positions& points, const pbs::Triangles& triangles)
 {
     std::vector<bool> is_open = open_points(points.rows(), triangles);
@@ -99,7 +100,8 @@ std::vector<int> joined_points(const pbs::Positions& points, const pbs::Triangle
     std::iota(joined.begin(), joined.end(), 0);
     std::map<std::array<double, 3>, int> first_at;
     for (int p = 0; p < points.rows(); ++p)
-        if (is_open[p]) joined[p] = first_at.emplace(std::array{points(p, 0), points(p, 1), points(p, 2)}, p).first->second;
+        if (is_open[p])
+            joined[p] = first_at.emplace(std::array{points(p, 0), points(p, 1), points(p, 2)}, p).first->second;
     is_open = open_points(points.rows(), renamed(triangles, joined));
     if (std::ranges::count(is_open, true) > 0) join_near(points, is_open, joined);
     return joined;
@@ -116,7 +118,8 @@ pbs::Triangles with_area(const pbs::Triangles& triangles, const std::vector<int>
     const pbs::Triangles corners = renamed(triangles, joined);
     std::vector<int> kept;
     for (int f = 0; f < corners.rows(); ++f)
-        if (corners(f, 0) != corners(f, 1) && corners(f, 1) != corners(f, 2) && corners(f, 2) != corners(f, 0)) kept.push_back(f);
+        if (corners(f, 0) != corners(f, 1) && corners(f, 1) != corners(f, 2) && corners(f, 2) != corners(f, 0))
+            kept.push_back(f);
     return picked(corners, kept);
 }
 
@@ -125,12 +128,13 @@ void turn(pbs::Triangles& triangles, int f)
     std::swap(triangles(f, 1), triangles(f, 2));
 }
 
-// Turns the fewer triangles so that all face to the same side, where each edge has two triangles; returns their number. Nothing is turned
-// on a surface with one side alone, nor where an edge has another number of triangles.
+// Turns the fewer triangles so that all face to the same side, where each edge has two triangles; returns their number.
+// Nothing is turned on a surface with one side alone, nor where an edge has another number of triangles.
 int orient(pbs::Triangles& triangles)
 {
     const std::vector<Side> sides = sides_of(triangles);
-    std::vector<std::vector<std::pair<int, bool>>> neighbours(static_cast<std::size_t>(triangles.rows()));  // the other, and: turned to it
+    // the other, and: turned to it
+    std::vector<std::vector<std::pair<int, bool>>> neighbours(static_cast<std::size_t>(triangles.rows()));
     bool is_manifold = true;
     for_each_edge(sides, [&](auto first, auto last) {
         is_manifold = is_manifold && last - first == 2;
@@ -169,8 +173,8 @@ double area_of(const pbs::Positions& points, const pbs::Triangles& triangles)
     return area;
 }
 
-// The rims of a surface whose triangles face to one side: each hole's points, in the direction in which a cap passes them. Empty where a
-// point belongs to several rims, or an edge to several triangles on one side.
+// The rims of a surface whose triangles face to one side: each hole's points, in the direction in which a cap passes
+// them. Empty where a point belongs to several rims, or an edge to several triangles on one side.
 std::vector<std::vector<int>> rims_of(const pbs::Triangles& triangles)
 {
     std::map<int, int> next;
@@ -178,7 +182,8 @@ std::vector<std::vector<int>> rims_of(const pbs::Triangles& triangles)
     for_each_edge(sides_of(triangles), [&](auto first, auto last) {
         if (is_balanced(first, last)) return;
         const auto& [a, b] = first->points;
-        is_simple = is_simple && last - first == 1 && next.emplace(first->forward ? b : a, first->forward ? a : b).second;
+        is_simple =
+            is_simple && last - first == 1 && next.emplace(first->forward ? b : a, first->forward ? a : b).second;
     });
     std::vector<std::vector<int>> rims;
     while (is_simple && !next.empty()) {
@@ -209,7 +214,8 @@ void for_each_of_cap(const pbs::Positions& points, const std::vector<int>& rim, 
 double cap_area(const pbs::Positions& points, const std::vector<int>& rim)
 {
     double area_m2 = 0.0;
-    for_each_of_cap(points, rim, [&](const auto& a, const auto& b, const auto& c) { area_m2 += 0.5 * (b - a).cross(c - a).norm(); });
+    for_each_of_cap(points, rim,
+                    [&](const auto& a, const auto& b, const auto& c) { area_m2 += 0.5 * (b - a).cross(c - a).norm(); });
     return area_m2;
 }
 
@@ -219,7 +225,9 @@ double volume_of(const pbs::Positions& points, const Shell& shell)
     double volume_m3 = signed_volume(points, shell.triangles);
     const pbs::Vec3 origin = points.row(shell.triangles(0, 0));  // that of signed_volume
     for (const auto& rim : shell.caps)
-        for_each_of_cap(points, rim, [&](const auto& a, const auto& b, const auto& c) { volume_m3 += pbs::tet_volume(origin, a, b, c); });
+        for_each_of_cap(points, rim, [&](const auto& a, const auto& b, const auto& c) {
+            volume_m3 += pbs::tet_volume(origin, a, b, c);
+        });
     return volume_m3;
 }
 
@@ -308,7 +316,8 @@ Eigen::AlignedBox3d box_of(const pbs::Positions& points, const pbs::Triangles& t
     return box;
 }
 
-bool is_copy(const Shell& shell, const Eigen::AlignedBox3d& box, const Shell& other, const Eigen::AlignedBox3d& other_box)
+bool is_copy(const Shell& shell, const Eigen::AlignedBox3d& box, const Shell& other,
+             const Eigen::AlignedBox3d& other_box)
 {
     constexpr double rounding = 1e-9;  // of sums over the same triangles in another order
     const auto agree = [](double a, double b) { return std::abs(a - b) <= rounding * std::abs(b); };
@@ -331,13 +340,15 @@ void set_roles(const pbs::Positions& points, std::vector<Shell>& shells, std::ve
         for (std::size_t o = boxes.size(); o-- > 0 && shell.inside < 0;) {
             const Shell& other = shells[closed[o]];
             if (is_copy(shell, box, other, boxes[o])) shell.role = ShellRole::copy;
-            if (boxes[o].contains(box) && std::abs(pbs::winding_number(points, other.triangles, within)) > 0.5) shell.inside = closed[o];
+            if (boxes[o].contains(box) && std::abs(pbs::winding_number(points, other.triangles, within)) > 0.5)
+                shell.inside = closed[o];
         }
         boxes.push_back(box);
         if (shell.role == ShellRole::copy) continue;
         const bool is_in_flesh = shell.inside >= 0 && shells[shell.inside].role != ShellRole::cavity;
         // A surface that is inside out as a whole has its cavities outwards.
-        if (is_in_flesh) shell.role = faces_outwards[s] == faces_outwards[shell.inside] ? ShellRole::nested : ShellRole::cavity;
+        if (is_in_flesh)
+            shell.role = faces_outwards[s] == faces_outwards[shell.inside] ? ShellRole::nested : ShellRole::cavity;
         if (faces_outwards[s] == (shell.role != ShellRole::cavity)) continue;
         shell.turned += static_cast<int>(shell.triangles.rows());
         for (int f = 0; f < shell.triangles.rows(); ++f) turn(shell.triangles, f);
@@ -356,7 +367,8 @@ ClosedShells::ClosedShells(const pbs::Positions& rest, const pbs::Triangles& tri
     for (int s = 0; s < static_cast<int>(shells_.size()); ++s)
         if (shells_[s].role == ShellRole::body) closed.push_back(s);
     set_roles(rest, shells_, closed);
-    std::ranges::copy_if(closed, std::back_inserter(counted_), [&](int s) { return shells_[s].role != ShellRole::copy; });
+    std::ranges::copy_if(closed, std::back_inserter(counted_),
+                         [&](int s) { return shells_[s].role != ShellRole::copy; });
     Eigen::Index rows = 0;
     for (const int s : counted_) rows += shells_[s].triangles.rows();
     triangles_.resize(rows, 3);
@@ -378,7 +390,8 @@ Eigen::VectorXd ClosedShells::volumes(const pbs::Positions& points) const
 double ClosedShells::largest_gap_m(const pbs::Positions& points) const
 {
     double largest_m = 0.0;
-    for (std::size_t p = 0; p < joined_.size(); ++p) largest_m = std::max(largest_m, (points.row(p) - points.row(joined_[p])).norm());
+    for (std::size_t p = 0; p < joined_.size(); ++p)
+        largest_m = std::max(largest_m, (points.row(p) - points.row(joined_[p])).norm());
     return largest_m;
 }
 

@@ -22,7 +22,8 @@ struct SplitTet {
     std::array<double, 4> height_above, height_below;
     int count_above = 0, count_below = 0;
 
-    Vec3 cut(int a, int b) const  // the point at which the plane cuts the edge between the a-th corner above and the b-th below
+    // the point at which the plane cuts the edge between the a-th corner above and the b-th below
+    Vec3 cut(int a, int b) const
     {
         const double s = height_above[a] / (height_above[a] - height_below[b]);
         return above[a] + s * (below[b] - above[a]);
@@ -50,7 +51,8 @@ SplitTet split(const pbs::Positions& positions, const pbs::Tets& tets, int t, co
 bool is_cut(const pbs::Positions& positions, const pbs::Tets& tets, int t, const Plane& plane)
 {
     int above = 0;
-    for (int corner = 0; corner < 4; ++corner) above += (Vec3(positions.row(tets(t, corner))) - plane.point).dot(plane.normal) > 0.0;
+    for (int corner = 0; corner < 4; ++corner)
+        above += (Vec3(positions.row(tets(t, corner))) - plane.point).dot(plane.normal) > 0.0;
     return above % 4 != 0;
 }
 
@@ -74,7 +76,8 @@ void require_station(const SectionStation& station, std::size_t number, Eigen::I
     if (!(station.rest.normal.norm() > 0.0) || !(station.posed.normal.norm() > 0.0))
         throw pbs::InputError("", 0, name, "", "expected normals that are not zero");
     for (int t : station.tets)
-        if (t < 0 || t >= tets) throw pbs::InputError("", 0, name, fmt::format("tet {}", t), fmt::format("expected 0 <= tet < {}", tets));
+        if (t < 0 || t >= tets)
+            throw pbs::InputError("", 0, name, fmt::format("tet {}", t), fmt::format("expected 0 <= tet < {}", tets));
 }
 
 using pbs::Positions;
@@ -124,24 +127,28 @@ std::vector<EdgeCrossing> crossings_of(const Plane& plane, const pbs::Positions&
     for (Eigen::Index t = 0; t < skin.rows(); ++t)
         for (int corner = 0; corner < 3; ++corner) {
             const int a = skin(t, corner), b = skin(t, (corner + 1) % 3);
-            if (a > b || (height(a) >= 0.0) == (height(b) >= 0.0)) continue;  // the neighbouring triangle has the edge from b to a
+            // the neighbouring triangle has the edge from b to a
+            if (a > b || (height(a) >= 0.0) == (height(b) >= 0.0)) continue;
             const double share = height(a) / (height(a) - height(b));
-            crossings.push_back({positions.row(a) + share * (positions.row(b) - positions.row(a)), chosen[share < 0.5 ? a : b]});
+            crossings.push_back(
+                {positions.row(a) + share * (positions.row(b) - positions.row(a)), chosen[share < 0.5 ? a : b]});
         }
     return crossings;
 }
 
 bool is_on_chosen(const std::vector<EdgeCrossing>& crossings, const Vec3& point)
 {
-    const auto nearest = std::min_element(crossings.begin(), crossings.end(), [&](const EdgeCrossing& a, const EdgeCrossing& b) {
-        return (a.point - point).squaredNorm() < (b.point - point).squaredNorm();
-    });
+    const auto nearest =
+        std::min_element(crossings.begin(), crossings.end(), [&](const EdgeCrossing& a, const EdgeCrossing& b) {
+            return (a.point - point).squaredNorm() < (b.point - point).squaredNorm();
+        });
     return nearest != crossings.end() && nearest->is_chosen;
 }
 
 }  // namespace
 
-double cross_section_area(const pbs::Positions& positions, const pbs::Tets& tets, const std::vector<int>& chosen, const Plane& plane)
+double cross_section_area(const pbs::Positions& positions, const pbs::Tets& tets, const std::vector<int>& chosen,
+                          const Plane& plane)
 {
     CompensatedSum area;
     for (int t : chosen)
@@ -157,13 +164,17 @@ SectionExtremes section_extremes(const pbs::Positions& rest, const pbs::Position
     for (std::size_t i = 0; i < stations.size(); ++i) {
         const SectionStation& station = stations[i];
         require_station(station, i, tets.rows());
-        const double rest_area =
-            station.rest_area_m2 > 0.0 ? station.rest_area_m2 : cross_section_area(rest, tets, station.tets, station.rest);
-        if (!(rest_area > 0.0)) throw pbs::InputError("", 0, fmt::format("station {}", i), "", "its plane misses its tets at rest");
+        const double rest_area = station.rest_area_m2 > 0.0
+                                     ? station.rest_area_m2
+                                     : cross_section_area(rest, tets, station.tets, station.rest);
+        if (!(rest_area > 0.0))
+            throw pbs::InputError("", 0, fmt::format("station {}", i), "", "its plane misses its tets at rest");
         result.area_m2.push_back(cross_section_area(positions, tets, station.tets, station.posed));
         result.ratio.push_back(result.area_m2.back() / rest_area);
-        if (result.smallest < 0 || result.ratio.back() < result.ratio[result.smallest]) result.smallest = static_cast<int>(i);
-        if (result.largest < 0 || result.ratio.back() > result.ratio[result.largest]) result.largest = static_cast<int>(i);
+        if (result.smallest < 0 || result.ratio.back() < result.ratio[result.smallest])
+            result.smallest = static_cast<int>(i);
+        if (result.largest < 0 || result.ratio.back() > result.ratio[result.largest])
+            result.largest = static_cast<int>(i);
     }
     if (result.smallest >= 0) result.smallest_ratio = result.ratio[result.smallest];
     if (result.largest >= 0) result.largest_ratio = result.ratio[result.largest];
@@ -212,8 +223,8 @@ const Positions* enclosing_outline(const std::vector<Positions>& outlines, const
     return best;
 }
 
-double share_of_outline(const pbs::Positions& outline, const Plane& plane, const pbs::Positions& positions, const pbs::Triangles& skin,
-                        const std::vector<bool>& chosen)
+double share_of_outline(const pbs::Positions& outline, const Plane& plane, const pbs::Positions& positions,
+                        const pbs::Triangles& skin, const std::vector<bool>& chosen)
 {
     const std::vector<EdgeCrossing> crossings = crossings_of(plane, positions, skin, chosen);
     double own = 0.0, all = 0.0;

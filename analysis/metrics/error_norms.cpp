@@ -26,10 +26,12 @@ void require_consistent(const ErrorDomain& domain)
         throw pbs::InputError("", 0, "entries of prescribed", std::to_string(domain.prescribed.size()),
                               fmt::format("expected {}", vertices));
     if (!domain.blended.empty() && domain.bone_distance_m.size() != domain.rest.rows())
-        throw pbs::InputError("", 0, "bone distances", std::to_string(domain.bone_distance_m.size()), fmt::format("expected {}", vertices));
+        throw pbs::InputError("", 0, "bone distances", std::to_string(domain.bone_distance_m.size()),
+                              fmt::format("expected {}", vertices));
     for (int vertex : domain.blended)
         if (vertex < 0 || vertex >= domain.rest.rows())
-            throw pbs::InputError("", 0, "blended vertex", std::to_string(vertex), fmt::format("expected 0 <= vertex < {}", vertices));
+            throw pbs::InputError("", 0, "blended vertex", std::to_string(vertex),
+                                  fmt::format("expected 0 <= vertex < {}", vertices));
 }
 
 // The mean, weighted by mass, of one value per vertex over some vertices.
@@ -55,7 +57,8 @@ Eigen::Matrix3d edge_matrix(const pbs::Positions& positions, const pbs::Tets& te
 std::vector<int> without(const std::vector<int>& vertices, const std::vector<bool>& left_out)
 {
     std::vector<int> rest;
-    std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(rest), [&](int vertex) { return !left_out[vertex]; });
+    std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(rest),
+                 [&](int vertex) { return !left_out[vertex]; });
     return rest;
 }
 
@@ -73,7 +76,8 @@ double triangle_area(const Positions& positions, const std::array<int, 3>& face)
     return 0.5 * (point_of(positions, face[1]) - a).cross(point_of(positions, face[2]) - a).norm();
 }
 
-// The signed angle between the normals of the triangles (first, second, left) and (second, first, right); zero where the skin is flat.
+// The signed angle between the normals of the triangles (first, second, left) and (second, first, right); zero where
+// the skin is flat.
 double dihedral_angle(const Positions& positions, int first, int second, int left, int right)
 {
     const Vec3 a = point_of(positions, first), edge = point_of(positions, second) - a;
@@ -114,7 +118,8 @@ ErrorNorms ErrorMetrics::measure(const pbs::Positions& positions, const pbs::Pos
     return measure(positions, reference, std::vector<bool>(mass_.size(), false));
 }
 
-ErrorNorms ErrorMetrics::measure(const pbs::Positions& positions, const pbs::Positions& reference, const std::vector<bool>& left_out) const
+ErrorNorms ErrorMetrics::measure(const pbs::Positions& positions, const pbs::Positions& reference,
+                                 const std::vector<bool>& left_out) const
 {
     require_points(positions, mass_.size(), "the frame");
     require_points(reference, mass_.size(), "the reference");
@@ -143,10 +148,12 @@ double ErrorMetrics::share_pct(const std::vector<bool>& vertices) const
     return 100.0 * sum.value() / total.value();
 }
 
-SmoothnessMetrics::SmoothnessMetrics(const Positions& rest, const pbs::Tets& tets, const std::vector<bool>& near) : rest_(rest), tets_(tets)
+SmoothnessMetrics::SmoothnessMetrics(const Positions& rest, const pbs::Tets& tets, const std::vector<bool>& near)
+    : rest_(rest), tets_(tets)
 {
     checked_rest_volumes(rest, tets);
-    if (static_cast<Eigen::Index>(near.size()) != rest.rows()) throw pbs::InputError("", 0, "near", "", "expected one entry per vertex");
+    if (static_cast<Eigen::Index>(near.size()) != rest.rows())
+        throw pbs::InputError("", 0, "near", "", "expected one entry per vertex");
     find_inner_faces(near);
     find_skin_edges(near);
 }
@@ -165,7 +172,8 @@ void SmoothnessMetrics::find_inner_faces(const std::vector<bool>& near)
 
 void SmoothnessMetrics::find_skin_edges(const std::vector<bool>& near)
 {
-    std::map<std::array<int, 2>, int> left_of;  // directed edges of the outward triangles, and the vertex opposite to each
+    // directed edges of the outward triangles, and the vertex opposite to each
+    std::map<std::array<int, 2>, int> left_of;
     const pbs::Triangles skin = pbs::boundary_of(tets_);
     for (const auto triangle : skin.rowwise())
         for (int i = 0; i < 3; ++i) left_of[{triangle(i), triangle((i + 1) % 3)}] = triangle((i + 2) % 3);
@@ -193,7 +201,8 @@ Smoothness SmoothnessMetrics::measure(const Positions& positions) const
         area += face.area_m2;
     }
     for (const SkinEdge& edge : edges_) {
-        const double change = dihedral_angle(positions, edge.first, edge.second, edge.left, edge.right) - edge.angle_rad;
+        const double change =
+            dihedral_angle(positions, edge.first, edge.second, edge.left, edge.right) - edge.angle_rad;
         bends += edge.length_m * std::pow(std::remainder(change, 2.0 * std::numbers::pi), 2);
         length += edge.length_m;
     }

@@ -32,7 +32,8 @@ void require_points(const pbs::Positions& positions, Eigen::Index vertices, cons
 void require_entries(const std::vector<bool>& marked, Eigen::Index vertices)
 {
     if (static_cast<Eigen::Index>(marked.size()) != vertices)
-        throw pbs::InputError("", 0, "marked vertices", std::to_string(marked.size()), fmt::format("expected {}", vertices));
+        throw pbs::InputError("", 0, "marked vertices", std::to_string(marked.size()),
+                              fmt::format("expected {}", vertices));
 }
 
 namespace {
@@ -40,7 +41,8 @@ namespace {
 Eigen::VectorXd edge_lengths(const pbs::Positions& positions, const pbs::Edges& edges)
 {
     Eigen::VectorXd lengths(edges.rows());
-    for (Eigen::Index e = 0; e < edges.rows(); ++e) lengths(e) = (positions.row(edges(e, 0)) - positions.row(edges(e, 1))).norm();
+    for (Eigen::Index e = 0; e < edges.rows(); ++e)
+        lengths(e) = (positions.row(edges(e, 0)) - positions.row(edges(e, 1))).norm();
     return lengths;
 }
 
@@ -58,7 +60,8 @@ void require_closed(const pbs::Positions& points, const pbs::Triangles& triangle
         throw pbs::InputError("", 0, "triangles", "", fmt::format("expected 0 <= vertex < {}", points.rows()));
     const auto edge = pbs::open_edge(triangles);
     if (!edge) return;
-    throw pbs::InputError("", 0, "edge", fmt::format("{}-{}", edge->first, edge->second), "expected a closed, oriented surface");
+    throw pbs::InputError("", 0, "edge", fmt::format("{}-{}", edge->first, edge->second),
+                          "expected a closed, oriented surface");
 }
 
 }  // namespace
@@ -113,7 +116,8 @@ double MeshMetrics::stretch_rms(const pbs::Positions& positions) const
     return std::sqrt(squares.value() / static_cast<double>(lengths.size()));
 }
 
-double bind_rms(const pbs::Positions& positions, const pbs::Positions& bind_points, const Eigen::VectorXd& bind_distance)
+double bind_rms(const pbs::Positions& positions, const pbs::Positions& bind_points,
+                const Eigen::VectorXd& bind_distance)
 {
     require_points(bind_points, positions.rows(), "the bind constraints");
     CompensatedSum squares;
@@ -164,10 +168,12 @@ std::vector<RegionVolume> RegionMetrics::measure(const pbs::Positions& positions
 
 double signed_volume(const pbs::Positions& points, const pbs::Triangles& triangles)
 {
-    const pbs::Vec3 origin = points.row(triangles(0, 0));  // a nearby origin, so that a surface far from zero loses no digits
+    // a nearby origin, so that a surface far from zero loses no digits
+    const pbs::Vec3 origin = points.row(triangles(0, 0));
     CompensatedSum volume;
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        volume += pbs::tet_volume(origin, points.row(triangles(f, 0)), points.row(triangles(f, 1)), points.row(triangles(f, 2)));
+        volume += pbs::tet_volume(origin, points.row(triangles(f, 0)), points.row(triangles(f, 1)),
+                                  points.row(triangles(f, 2)));
     return volume.value();
 }
 
@@ -181,7 +187,8 @@ SurfaceVolume::SurfaceVolume(const pbs::Positions& rest, const pbs::Triangles& t
     : triangles_(triangles), points_(rest.rows()), rest_volume_(enclosed_volume(rest, triangles))
 {
     if (!(rest_volume_ > 0.0))
-        throw pbs::InputError("", 0, "enclosed rest volume", fmt::format("{} m^3", rest_volume_), "expected > 0: triangles face outward");
+        throw pbs::InputError("", 0, "enclosed rest volume", fmt::format("{} m^3", rest_volume_),
+                              "expected > 0: triangles face outward");
 }
 
 double SurfaceVolume::change_pct(const pbs::Positions& posed) const
@@ -197,7 +204,8 @@ std::optional<SurfaceVolume> surface_volume_of(const pbs::Positions& rest, const
     return SurfaceVolume(rest, joined);
 }
 
-double surface_volume_change_pct(const pbs::Positions& rest, const pbs::Positions& posed, const pbs::Triangles& triangles)
+double surface_volume_change_pct(const pbs::Positions& rest, const pbs::Positions& posed,
+                                 const pbs::Triangles& triangles)
 {
     return SurfaceVolume(rest, triangles).change_pct(posed);
 }

@@ -1,7 +1,7 @@
 // The metrics of one frame, the same for every deformer and for files from other programs.
 //   const FrameMetrics metrics = MeshMetrics{mesh.rest, mesh.tets}.measure(positions);
-// A frame with positions that are not finite (a numerical breakdown) is measured, not refused: its values are NaN and its broken tets count
-// as inverted.
+// A frame with positions that are not finite (a numerical breakdown) is measured, not refused: its values are NaN and
+// its broken tets count as inverted.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -50,8 +50,8 @@ struct FrameMetrics {
     double stretch_rms = 0.0;            // rms of l / l0 - 1 over edges
 };
 
-// Stores what does not change from frame to frame. InputError for a rest mesh with indices out of range or a tet without positive volume,
-// and for a frame with another number of points.
+// Stores what does not change from frame to frame. InputError for a rest mesh with indices out of range or a tet
+// without positive volume, and for a frame with another number of points.
 class MeshMetrics {
 public:
     MeshMetrics(const pbs::Positions& rest, const pbs::Tets& tets);        // [m], #V x 3; #T x 4
@@ -69,16 +69,18 @@ private:
     Eigen::Index vertices_ = 0;
 };
 
-// rms of |x_i - q_i| - d_i [m] over all #V; 0 without vertices. InputError if the numbers of bind points and positions differ.
-double bind_rms(const pbs::Positions& positions, const pbs::Positions& bind_points, const Eigen::VectorXd& bind_distance);
+// rms of |x_i - q_i| - d_i [m] over all #V; 0 without vertices. InputError if the numbers of bind points and positions
+// differ.
+double bind_rms(const pbs::Positions& positions, const pbs::Positions& bind_points,
+                const Eigen::VectorXd& bind_distance);
 
 // The edge that is stretched or compressed most: largest |l / l0 - 1| over the edges of a tet mesh.
 //   double strain = largest_edge_strain(mesh.rest, pbs::edges_of(mesh.tets), positions);
 // 0 without edges; NaN if a position is NaN. InputError for a frame with another number of points.
 double largest_edge_strain(const pbs::Positions& rest, const pbs::Edges& edges, const pbs::Positions& positions);
 
-// Median over the edges of l / l0. It is near 1 for any deformation of a body, and near a power of ten for a body in other units. 1 without
-// edges. InputError as for largest_edge_strain.
+// Median over the edges of l / l0. It is near 1 for any deformation of a body, and near a power of ten for a body in
+// other units. 1 without edges. InputError as for largest_edge_strain.
 double median_edge_ratio(const pbs::Positions& rest, const pbs::Edges& edges, const pbs::Positions& positions);
 
 // The volume that each region of a body gains or loses. Regions are disjoint sets of tets.
@@ -93,11 +95,13 @@ struct RegionVolume {
 // Regions are numbered from 0 to the highest number in use.
 class RegionMetrics {
 public:
-    // region: one entry per tet, #T; 0 or more, or -1 for a tet in no region. InputError unless there is one entry for each tet.
+    // region: one entry per tet, #T; 0 or more, or -1 for a tet in no region. InputError unless there is one entry for
+    // each tet.
     RegionMetrics(const pbs::Positions& rest, const pbs::Tets& tets, const std::vector<int>& region);
 
-    std::vector<RegionVolume> measure(const pbs::Positions& positions) const;  // one per region; positions [m], #V x 3, not checked
-    double rest_volume_m3() const { return rest_volumes_.sum(); }              // all tets, including those in no region
+    // one per region; positions [m], #V x 3, not checked
+    std::vector<RegionVolume> measure(const pbs::Positions& positions) const;
+    double rest_volume_m3() const { return rest_volumes_.sum(); }  // all tets, including those in no region
 
 private:
     pbs::Tets tets_;
@@ -106,11 +110,12 @@ private:
     std::size_t regions_ = 0;
 };
 
-// The volume that a closed triangle surface encloses, and how much of it the render surface embedded in the tets gains or loses.
+// The volume that a closed triangle surface encloses, and how much of it the render surface embedded in the tets gains
+// or loses.
 //   const double change_pct = surface_volume_change_pct(rest_points, posed_points, triangles);
-// Divergence theorem: the sum of (a x b) . c / 6 over the triangles [m^3], positive when they face outward. InputError unless the surface
-// is closed and oriented (each edge occurs equally often in both directions). Where the surface crosses itself, parts count by their
-// winding number.
+// Divergence theorem: the sum of (a x b) . c / 6 over the triangles [m^3], positive when they face outward. InputError
+// unless the surface is closed and oriented (each edge occurs equally often in both directions). Where the surface
+// crosses itself, parts count by their winding number.
 double enclosed_volume(const pbs::Positions& points, const pbs::Triangles& triangles);
 // The same sum for any triangles, which are at least one, without a check.
 double signed_volume(const pbs::Positions& points, const pbs::Triangles& triangles);
@@ -119,7 +124,8 @@ double signed_volume(const pbs::Positions& points, const pbs::Triangles& triangl
 class SurfaceVolume {
 public:
     SurfaceVolume(const pbs::Positions& rest, const pbs::Triangles& triangles);  // InputError unless V0 is positive
-    double change_pct(const pbs::Positions& posed) const;  // 100 (V - V0) / V0; InputError for a different number of points
+    // 100 (V - V0) / V0; InputError for a different number of points
+    double change_pct(const pbs::Positions& posed) const;
 
 private:
     pbs::Triangles triangles_;
@@ -127,11 +133,12 @@ private:
     double rest_volume_ = 0.0;
 };
 
-// For the surface of any model: points at the same place at rest are one point, as along texture seams. Empty if the surface is open or
-// encloses no positive volume.
+// For the surface of any model: points at the same place at rest are one point, as along texture seams. Empty if the
+// surface is open or encloses no positive volume.
 std::optional<SurfaceVolume> surface_volume_of(const pbs::Positions& rest, const pbs::Triangles& triangles);
 
 // The same for a single frame.
-double surface_volume_change_pct(const pbs::Positions& rest, const pbs::Positions& posed, const pbs::Triangles& triangles);
+double surface_volume_change_pct(const pbs::Positions& rest, const pbs::Positions& posed,
+                                 const pbs::Triangles& triangles);
 
 }  // namespace analysis

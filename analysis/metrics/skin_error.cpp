@@ -94,14 +94,16 @@ SkinError SkinErrorMetrics::measure(const pbs::Positions& positions, const pbs::
     Weighted apart_m, turned_deg;
     for (Eigen::Index v = 0; v < vertex_area_m2_.size(); ++v) {
         const double distance_m = (positions.row(v) - reference.row(v)).norm();
-        if (vertex_area_m2_(v) > 0.0 && !left_out[v]) apart_m.add(std::isfinite(distance_m) ? distance_m : not_known, vertex_area_m2_(v));
+        if (vertex_area_m2_(v) > 0.0 && !left_out[v])
+            apart_m.add(std::isfinite(distance_m) ? distance_m : not_known, vertex_area_m2_(v));
     }
     for (Eigen::Index face = 0; face < skin_.rows(); ++face)
         if (!left_out[skin_(face, 0)] && !left_out[skin_(face, 1)] && !left_out[skin_(face, 2)])
-            turned_deg.add(
-                angle_deg(area_vector(positions, skin_, face), area_vector(reference, skin_, face), 2.0 * lost_area_share * area_m2_(face)),
-                area_m2_(face));
-    const double rms_m = std::sqrt(apart_m.mean_of([](double value) { return value * value; })), to_mm = 1e3 * compared_size_m / extent_m_;
+            turned_deg.add(angle_deg(area_vector(positions, skin_, face), area_vector(reference, skin_, face),
+                                     2.0 * lost_area_share * area_m2_(face)),
+                           area_m2_(face));
+    const double rms_m = std::sqrt(apart_m.mean_of([](double value) { return value * value; })),
+                 to_mm = 1e3 * compared_size_m / extent_m_;
     const auto largest_m = std::ranges::max_element(apart_m.values);
     return {.rms_mm = to_mm * rms_m,
             .p95_mm = to_mm * weighted_quantile(apart_m.values, apart_m.weights, share_of_p95),

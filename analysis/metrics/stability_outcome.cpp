@@ -24,7 +24,8 @@ struct Ending {
 
 double mean_motion(Steps::const_iterator begin, Steps::const_iterator end)
 {
-    return std::accumulate(begin, end, 0.0, [](double sum, const auto& step) { return sum + step.motion; }) / double(end - begin);
+    return std::accumulate(begin, end, 0.0, [](double sum, const auto& step) { return sum + step.motion; }) /
+           double(end - begin);
 }
 
 bool motion_grows(const Ending& ending, double put_in, const StabilityBounds& bounds)
@@ -34,7 +35,8 @@ bool motion_grows(const Ending& ending, double put_in, const StabilityBounds& bo
     const double first = mean_motion(ending.begin, ending.begin + third);
     const double second = mean_motion(ending.begin + third, ending.begin + 2 * third);
     const double last = mean_motion(ending.begin + 2 * third, ending.end);
-    return last > put_in && last > bounds.rest_motion && second > bounds.growth * first && last > bounds.growth * second;
+    return last > put_in && last > bounds.rest_motion && second > bounds.growth * first &&
+           last > bounds.growth * second;
 }
 
 bool settled(const StabilityStep& step, const StabilityBounds& bounds)
@@ -54,24 +56,31 @@ std::string name_of(StabilityOutcome outcome)
 std::string criteria_text(const StabilityBounds& bounds)
 {
     return fmt::format(
-        "A body is disturbed, then held still. D is the diagonal of its rest bounding box; a vertex' place is the sphere about its posed\n"
+        "A body is disturbed, then held still. D is the diagonal of its rest bounding box; a vertex' place is the "
+        "sphere about its posed\n"
         "bind point through its rest distance. The first that applies:\n\n"
         "| outcome | when |\n|---|---|\n"
         "| not_finite | a position is not finite in any step |\n"
-        "| diverged | in the last third of the still steps a vertex is farther than {:g} D from its place, by a step that was reached; or "
-        "its motion a step, the largest of any vertex, averaged over each third of them, grew twice by more than {:g} times, to above "
+        "| diverged | in the last third of the still steps a vertex is farther than {:g} D from its place, by a step "
+        "that was reached; or "
+        "its motion a step, the largest of any vertex, averaged over each third of them, grew twice by more than {:g} "
+        "times, to above "
         "{:g} D and to more than in any step of the disturbance |\n"
         "| inverted | a tet is inverted in the last step |\n"
-        "| converged | in each of the last {} steps no vertex moved by {:g} D or more, no tet was inverted, the method reached what the "
-        "step asked for and, where the same body set out undisturbed comes to rest, no vertex is {:g} D or more from that |\n"
-        "| bounded | none of these: still moving, at rest elsewhere, or held up on the way (a Newton step that was not reached). It says "
+        "| converged | in each of the last {} steps no vertex moved by {:g} D or more, no tet was inverted, the method "
+        "reached what the "
+        "step asked for and, where the same body set out undisturbed comes to rest, no vertex is {:g} D or more from "
+        "that |\n"
+        "| bounded | none of these: still moving, at rest elsewhere, or held up on the way (a Newton step that was not "
+        "reached). It says "
         "that nothing worse happened, not that the shape is right |\n\n"
         "Recovery: still steps before the first from which on all are as `converged` asks.\n",
-        bounds.farthest, bounds.growth, bounds.rest_motion, bounds.still_steps, bounds.rest_motion, bounds.near_undisturbed);
+        bounds.farthest, bounds.growth, bounds.rest_motion, bounds.still_steps, bounds.rest_motion,
+        bounds.near_undisturbed);
 }
 
-StabilityStep stability_step(const pbs::Positions& before, const pbs::Positions& after, const Places& places, const pbs::Tets& tets,
-                             double diagonal_m, const pbs::Positions* undisturbed)
+StabilityStep stability_step(const pbs::Positions& before, const pbs::Positions& after, const Places& places,
+                             const pbs::Tets& tets, double diagonal_m, const pbs::Positions* undisturbed)
 {
     StabilityStep step;
     step.finite = after.allFinite();
@@ -85,7 +94,8 @@ StabilityStep stability_step(const pbs::Positions& before, const pbs::Positions&
 
 int settled_steps(const std::vector<StabilityStep>& steps, const StabilityBounds& bounds)
 {
-    const auto last_unsettled = std::find_if(steps.rbegin(), steps.rend(), [&](const auto& step) { return !settled(step, bounds); });
+    const auto last_unsettled =
+        std::find_if(steps.rbegin(), steps.rend(), [&](const auto& step) { return !settled(step, bounds); });
     return static_cast<int>(last_unsettled - steps.rbegin());
 }
 
@@ -95,9 +105,11 @@ StabilityResult outcome_of(const std::vector<StabilityStep>& steps, int disturbe
     if (steps.empty() || !finite) return {StabilityOutcome::not_finite, {}};
     const Ending ending(steps, disturbed);
     double put_in = 0.0;
-    for (int i = 0; i < std::min(disturbed, static_cast<int>(steps.size())); ++i) put_in = std::max(put_in, steps[i].motion);
+    for (int i = 0; i < std::min(disturbed, static_cast<int>(steps.size())); ++i)
+        put_in = std::max(put_in, steps[i].motion);
     const auto is_far = [&](const StabilityStep& step) { return step.solved && !(step.reach <= bounds.farthest); };
-    if (std::any_of(ending.begin, ending.end, is_far) || motion_grows(ending, put_in, bounds)) return {StabilityOutcome::diverged, {}};
+    if (std::any_of(ending.begin, ending.end, is_far) || motion_grows(ending, put_in, bounds))
+        return {StabilityOutcome::diverged, {}};
     if (steps.back().inverted_tets > 0) return {StabilityOutcome::inverted, {}};
     const int settled = settled_steps(steps, bounds);
     if (settled < bounds.still_steps) return {StabilityOutcome::bounded, {}};

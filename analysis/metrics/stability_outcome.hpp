@@ -1,7 +1,8 @@
 // The outcome for a body after a disturbance: one of five, by bounds that are the same for every method.
 //   steps.push_back(stability_step(before, after, places, mesh.tets, diagonal_m, undisturbed));   // every step
 //   const StabilityResult result = outcome_of(steps, disturbed_steps);
-// `bounded` means that nothing worse happened, not that the shape is right. Lengths are in diagonals of the rest bounding box.
+// `bounded` means that nothing worse happened, not that the shape is right. Lengths are in diagonals of the rest
+// bounding box.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -43,17 +44,19 @@ struct Places {
     const pbs::Positions& centres;    // [m], #V x 3
     const Eigen::VectorXd& distance;  // [m], #V
 };
-// Positions [m], #V x 3; undisturbed: likewise, or null if there is no such state. If `after` is not finite, nothing else is measured.
-StabilityStep stability_step(const pbs::Positions& before, const pbs::Positions& after, const Places& places, const pbs::Tets& tets,
-                             double diagonal_m, const pbs::Positions* undisturbed = nullptr);
+// Positions [m], #V x 3; undisturbed: likewise, or null if there is no such state. If `after` is not finite, nothing
+// else is measured.
+StabilityStep stability_step(const pbs::Positions& before, const pbs::Positions& after, const Places& places,
+                             const pbs::Tets& tets, double diagonal_m, const pbs::Positions* undisturbed = nullptr);
 
 // recovery_steps is set only for converged.
 struct StabilityResult {
     StabilityOutcome outcome = StabilityOutcome::not_finite;  // the first that applies
-    std::optional<int> recovery_steps;                        // the number of still steps after which a converged body stays at rest
+    // the number of still steps after which a converged body stays at rest
+    std::optional<int> recovery_steps;
 };
-// disturbed: the number of disturbed steps at the beginning. The other steps are still, and the last third of them decides how the body
-// ended. Without steps the outcome is not_finite.
+// disturbed: the number of disturbed steps at the beginning. The other steps are still, and the last third of them
+// decides how the body ended. Without steps the outcome is not_finite.
 StabilityResult outcome_of(const std::vector<StabilityStep>& steps, int disturbed, const StabilityBounds& bounds = {});
 
 // The number of steps at the end of the series that all meet the criterion of `converged`.

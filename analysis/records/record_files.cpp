@@ -57,7 +57,8 @@ void require_writable(const std::string& path)
     int reason = fs::is_directory(path, error) ? EISDIR : 0;
     if (reason == 0 && fs::exists(folder, error) && !fs::is_directory(folder, error)) reason = ENOTDIR;
     if (reason == 0 && ::access(folder.c_str(), W_OK | X_OK) != 0) reason = errno;
-    if (reason != 0) throw pbs::InputError(path, 0, "", "", "cannot be written: " + std::generic_category().message(reason));
+    if (reason != 0)
+        throw pbs::InputError(path, 0, "", "", "cannot be written: " + std::generic_category().message(reason));
 }
 
 namespace {
@@ -78,10 +79,12 @@ void require_separate(const std::vector<OutputFile>& outputs, const std::vector<
         if (output->path.empty()) continue;
         for (const std::string& input : inputs)
             if (!input.empty() && is_same_file(output->path, input))
-                throw pbs::InputError("", 0, output->option, output->path, "expected another file than the input " + input);
+                throw pbs::InputError("", 0, output->option, output->path,
+                                      "expected another file than the input " + input);
         for (auto earlier = outputs.begin(); earlier != output; ++earlier)
             if (!earlier->path.empty() && is_same_file(output->path, earlier->path))
-                throw pbs::InputError("", 0, output->option, output->path, "expected another file than that of " + earlier->option);
+                throw pbs::InputError("", 0, output->option, output->path,
+                                      "expected another file than that of " + earlier->option);
     }
 }
 
@@ -125,7 +128,8 @@ std::vector<fs::path> files_in(const fs::path& folder)
 {
     std::error_code error;
     std::vector<fs::path> files;
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) files.push_back(entry->path());
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+        files.push_back(entry->path());
     require(error, folder, "the folder cannot be read: ");
     return files;
 }

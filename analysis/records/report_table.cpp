@@ -77,7 +77,8 @@ std::vector<std::size_t> column_widths(const std::vector<Row>& rows, std::size_t
     constexpr std::size_t gap = 2, least = 6;
     std::vector<std::size_t> widths(rows.front().size(), 1);
     for (const Row& row : rows)
-        for (std::size_t i = 0; i < std::min(row.size(), widths.size()); ++i) widths[i] = std::max(widths[i], characters(row[i]));
+        for (std::size_t i = 0; i < std::min(row.size(), widths.size()); ++i)
+            widths[i] = std::max(widths[i], characters(row[i]));
     const auto sum = [&] { return std::accumulate(widths.begin(), widths.end(), gap * (widths.size() - 1)); };
     for (auto widest = std::max_element(widths.begin(), widths.end()); sum() > width && *widest > least;
          widest = std::max_element(widths.begin(), widths.end()))
@@ -102,8 +103,9 @@ public:
         else if (line.empty())
             text_ += text_.ends_with("\n\n") ? "" : "\n";
         else
-            paragraph_ += (paragraph_.empty() ? "" : " ") +
-                          std::regex_replace(trimmed(line.substr(is_heading ? line.find_first_not_of('#') : 0)), bar, "|");
+            paragraph_ +=
+                (paragraph_.empty() ? "" : " ") +
+                std::regex_replace(trimmed(line.substr(is_heading ? line.find_first_not_of('#') : 0)), bar, "|");
         if (is_code || is_heading) end_block();
     }
 
@@ -120,7 +122,8 @@ private:
             const std::vector<std::size_t> widths = column_widths(rows_, width_);
             for (const Row& row : rows_) {
                 std::vector<TextColumn> columns;
-                for (std::size_t i = 0; i < std::min(row.size(), widths.size()); ++i) columns.push_back({row[i], widths[i]});
+                for (std::size_t i = 0; i < std::min(row.size(), widths.size()); ++i)
+                    columns.push_back({row[i], widths[i]});
                 text_ += side_by_side(columns);
             }
         }
@@ -128,7 +131,8 @@ private:
             static const std::regex item(R"((-|\d+\.) (.*))");
             std::smatch parts;
             if (std::regex_match(paragraph_, parts, item))
-                text_ += side_by_side({{parts[1].str(), parts[1].str().size()}, {parts[2].str(), width_ - parts[1].str().size() - 2}});
+                text_ += side_by_side(
+                    {{parts[1].str(), parts[1].str().size()}, {parts[2].str(), width_ - parts[1].str().size() - 2}});
             else
                 text_ += side_by_side({{paragraph_, width_}});
         }
@@ -146,14 +150,16 @@ bool is_emphasis(const std::string& text, std::size_t at)
 {
     const unsigned char before = at == 0 ? ' ' : text[at - 1], after = at + 1 == text.size() ? ' ' : text[at + 1];
     const bool begins = (std::isspace(before) || before == '(') && std::isalnum(after);
-    return begins || (std::isalnum(before) && (std::isspace(after) || std::string_view(".,;:?!)").find(after) != std::string_view::npos));
+    return begins || (std::isalnum(before) &&
+                      (std::isspace(after) || std::string_view(".,;:?!)").find(after) != std::string_view::npos));
 }
 
 // Without the marks of Markdown: the text of links, of code and of emphasised words. Pictures are left out.
 std::string without_marks(const std::string& markdown)
 {
     static const std::regex picture(R"(!\[[^\]]*\]\([^)]+\)\n?)"), link(R"(\[([^\]]+)\]\([^)]+\))"), mark(R"(`|\*\*)");
-    const std::string text = std::regex_replace(std::regex_replace(std::regex_replace(markdown, picture, ""), link, "$1"), mark, "");
+    const std::string text =
+        std::regex_replace(std::regex_replace(std::regex_replace(markdown, picture, ""), link, "$1"), mark, "");
     std::string plain;
     for (std::size_t at = 0; at < text.size(); ++at)
         if (text[at] != '*' || !is_emphasis(text, at)) plain += text[at];
@@ -171,7 +177,8 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t width)
 {
     std::vector<std::string> lines;
     std::istringstream paragraphs(text);
-    for (std::string paragraph; std::getline(paragraphs, paragraph);) wrap_paragraph(paragraph, std::max<std::size_t>(width, 1), lines);
+    for (std::string paragraph; std::getline(paragraphs, paragraph);)
+        wrap_paragraph(paragraph, std::max<std::size_t>(width, 1), lines);
     return lines;
 }
 
@@ -189,8 +196,9 @@ std::string side_by_side(const std::vector<TextColumn>& columns)
         for (std::size_t i = 0; i < columns.size(); ++i) {
             const std::string cell = row < cells[i].size() ? cells[i][row] : "";
             if (!cell.empty()) line += blanks + coloured(cell, columns[i].colour);
-            blanks = cell.empty() ? blanks + std::string(columns[i].width, ' ') + gap
-                                  : std::string(columns[i].width - std::min(columns[i].width, characters(cell)), ' ') + gap;
+            blanks = cell.empty()
+                         ? blanks + std::string(columns[i].width, ' ') + gap
+                         : std::string(columns[i].width - std::min(columns[i].width, characters(cell)), ' ') + gap;
         }
         text += line + "\n";
     }

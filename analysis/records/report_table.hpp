@@ -8,7 +8,8 @@
 
 namespace analysis {
 
-// Lines of at most `width` characters (UTF-8 code points, not bytes). A longer word is broken, and line breaks in the text are kept.
+// Lines of at most `width` characters (UTF-8 code points, not bytes). A longer word is broken, and line breaks in the
+// text are kept.
 std::vector<std::string> wrapped(const std::string& text, std::size_t width);
 
 std::size_t characters(const std::string& text);  // number of code points of a UTF-8 text
@@ -20,13 +21,14 @@ struct TextColumn {
     std::string colour = {};  // an escape sequence; empty: none
 };
 
-// Each column is wrapped to its width, with two blanks between columns. Lines end without blanks, and the last one with a line break.
+// Each column is wrapped to its width, with two blanks between columns. Lines end without blanks, and the last one with
+// a line break.
 std::string side_by_side(const std::vector<TextColumn>& columns);
 
 // Markdown as plain text for a terminal.
 //   fmt::print("{}", plain_text(page, terminal_width()));
-// Headings, paragraphs, lists and tables within `width` characters. Only the text of a link is kept; comments, pictures and the marks of
-// code and emphasis are left out. Lines of code keep their blanks unless they are too long.
+// Headings, paragraphs, lists and tables within `width` characters. Only the text of a link is kept; comments, pictures
+// and the marks of code and emphasis are left out. Lines of code keep their blanks unless they are too long.
 std::string plain_text(const std::string& markdown, std::size_t width);
 
 // A cell of a Markdown table: one line, with vertical bars escaped.

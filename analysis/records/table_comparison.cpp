@@ -30,8 +30,9 @@ const ColumnNames settings = {"motion",          "pose",           "clip",      
                               "most_iterations", "bound",          "density_kg_m3"};
 
 // Texts that are results.
-const ColumnNames results = {"outcome", "remark", "reason", "failure", "note",       "verdict_flips",       "holds_a",
-                             "holds_b", "holds",  "limit",  "key",     "bound_from", "undisturbed_at_rest", "further_keys"};
+const ColumnNames results = {
+    "outcome", "remark", "reason", "failure", "note",       "verdict_flips",       "holds_a",
+    "holds_b", "holds",  "limit",  "key",     "bound_from", "undisturbed_at_rest", "further_keys"};
 
 // Results that differ from machine to machine and from run to run, and are not compared.
 const ColumnNames of_the_machine = {"ms",      "ms_median", "ms_p95",    "cpu_s",    "wall_s", "solve_s",
@@ -44,8 +45,9 @@ struct Exception {
 };
 const std::vector<Exception> exceptions = {
     {"metrics.csv", {}, {}, {"frame"}},  // a slower rate numbers the same times in another way
-    {"cells.csv", {"value", "unit"}, {}, {}},     {"targets.csv", {}, {"iterations"}, {"limit"}}, {"rates.csv", {}, {}, {"reference"}},
-    {"references.csv", {}, {}, {"from_kept_m"}},  {"verification.csv", {}, {"reference"}, {}},    {"sag.csv", {}, {"young_pa"}, {}},
+    {"cells.csv", {"value", "unit"}, {}, {}},     {"targets.csv", {}, {"iterations"}, {"limit"}},
+    {"rates.csv", {}, {}, {"reference"}},         {"references.csv", {}, {}, {"from_kept_m"}},
+    {"verification.csv", {}, {"reference"}, {}},  {"sag.csv", {}, {"young_pa"}, {}},
     {"correctives.csv", {}, {}, {"from_kept_m"}},
 };
 
@@ -60,8 +62,9 @@ const Exception& exception_of(const std::string& file)
 
 bool is_a_time(std::string_view name)
 {
-    return is_among(of_the_machine, name) ||
-           std::ranges::any_of(parts_of_times, [&](std::string_view part) { return name.find(part) != std::string_view::npos; });
+    return is_among(of_the_machine, name) || std::ranges::any_of(parts_of_times, [&](std::string_view part) {
+               return name.find(part) != std::string_view::npos;
+           });
 }
 
 std::optional<double> number_in(const std::string& cell)
@@ -81,7 +84,8 @@ CellKinds kinds_of(const CsvTable& table, const std::string& column)
 {
     CellKinds kinds;
     for (int row = 0; row < table.rows(); ++row)
-        if (const std::string& cell = table.text_at(row, column); !cell.empty()) ++(number_in(cell) ? kinds.numbers : kinds.texts);
+        if (const std::string& cell = table.text_at(row, column); !cell.empty())
+            ++(number_in(cell) ? kinds.numbers : kinds.texts);
     return kinds;
 }
 
@@ -95,8 +99,8 @@ void refuse_decimal_commas(const CsvTable& table, const std::string& column)
     }
 }
 
-// A column of texts, by most of its cells: a single text among numbers is a result that differs. InputError for decimal commas where one of
-// the tables has numbers.
+// A column of texts, by most of its cells: a single text among numbers is a result that differs. InputError for decimal
+// commas where one of the tables has numbers.
 bool is_of_texts(const CsvTable& first, const CsvTable& second, const std::string& column)
 {
     const CellKinds one = kinds_of(first, column), other = kinds_of(second, column);
@@ -124,8 +128,9 @@ Shared shared_columns(const std::string& file, const CsvTable& first, const CsvT
     for (const std::string& column : first.columns()) {
         if (!second.has_column(column) || is_among(own.not_compared, column)) continue;
         const bool is_text = !is_a_time(column) && is_of_texts(first, second, column);
-        const bool is_setting = is_among(own.settings, column) ||
-                                (!is_among(own.results, column) && (is_among(settings, column) || (is_text && !is_among(results, column))));
+        const bool is_setting =
+            is_among(own.settings, column) ||
+            (!is_among(own.results, column) && (is_among(settings, column) || (is_text && !is_among(results, column))));
         if (is_setting)
             shared.settings.push_back(column);
         else if (!is_a_time(column) && !(as.second_is_part && is_empty(second, column)))
@@ -148,7 +153,8 @@ std::string setting_text(const std::string& cell)
     const std::optional<double> value = number_in(cell);
     if (!value) return cell;
     std::array<char, 32> text{};
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), *value, std::chars_format::general, 6).ptr};
+    return {text.data(),
+            std::to_chars(text.data(), text.data() + text.size(), *value, std::chars_format::general, 6).ptr};
 }
 
 std::string settings_of(const CsvTable& table, int row, const std::vector<std::string>& columns)
@@ -163,7 +169,8 @@ std::string settings_of(const CsvTable& table, int row, const std::vector<std::s
 }
 
 // Rows with the same settings follow each other in the same order.
-std::map<std::pair<std::string, int>, int> rows_by_settings(const CsvTable& table, const std::vector<std::string>& columns)
+std::map<std::pair<std::string, int>, int> rows_by_settings(const CsvTable& table,
+                                                            const std::vector<std::string>& columns)
 {
     std::map<std::string, int> counts;
     std::map<std::pair<std::string, int>, int> rows;
@@ -205,17 +212,21 @@ double tolerance_of(const std::string& file, const CsvTable& table, int row, con
     if (file == "metrics.csv" && column.ends_with("_pct")) return same_frame_points;
     if (file == "errors.csv") {  // of work_precision, whose methods compute in single precision
         const std::optional<double> points = number_in(cell_or_nothing(table, row, "smooth_pct"));
-        if (!is_by_minimisation(cell_or_nothing(table, row, "method")) || !points) return same_in_single * std::abs(value);
-        return column == "skin_mm" ? same_minimum_points / *points * std::abs(value) : same_minimum_points;  // by the same displacement
+        if (!is_by_minimisation(cell_or_nothing(table, row, "method")) || !points)
+            return same_in_single * std::abs(value);
+        // by the same displacement
+        return column == "skin_mm" ? same_minimum_points / *points * std::abs(value) : same_minimum_points;
     }
     const std::string quantity = cell_or_nothing(table, row, "quantity");
     const bool is_single = cell_or_nothing(table, row, "precision") == "f32";
-    const bool is_of_two_programs = quantity == "largest_node_difference" && column == "value";  // that solve one system
+    // that solve one system
+    const bool is_of_two_programs = quantity == "largest_node_difference" && column == "value";
     const bool is_by_elements = !is_of_two_programs && is_by_finite_elements(file, table, row, column);
     const double relative = is_single ? same_in_single : is_by_elements ? same_by_finite_elements : same_in_double;
-    // The drift of a conserved quantity, the error of a formula and the difference of two programs are rounding errors themselves, relative
-    // to 1.
-    const bool is_rounding = file == printed_values || is_of_two_programs || quantity.find("drift") != std::string::npos;
+    // The drift of a conserved quantity, the error of a formula and the difference of two programs are rounding errors
+    // themselves, relative to 1.
+    const bool is_rounding =
+        file == printed_values || is_of_two_programs || quantity.find("drift") != std::string::npos;
     return relative * (is_rounding ? std::max(1.0, std::abs(value)) : std::abs(value));
 }
 
@@ -250,8 +261,8 @@ Agreement agreement(const std::string& first, const std::string& second, double 
     return apart <= tolerance + rounding ? Agreement::within : Agreement::differing;
 }
 
-void compare_row(const std::string& file, const CsvTable& first, const CsvTable& second, const Shared& columns, ComparedRow row,
-                 bool is_rounded, TableComparison& to)
+void compare_row(const std::string& file, const CsvTable& first, const CsvTable& second, const Shared& columns,
+                 ComparedRow row, bool is_rounded, TableComparison& to)
 {
     const bool times = is_a_time(cell_or_nothing(first, row.first, "quantity"));
     for (const std::string& column : columns.results) {
@@ -270,15 +281,18 @@ void compare_row(const std::string& file, const CsvTable& first, const CsvTable&
 
 }  // namespace
 
-TableComparison compare_tables(const std::string& file, const CsvTable& first, const CsvTable& second, const ComparedAs& as)
+TableComparison compare_tables(const std::string& file, const CsvTable& first, const CsvTable& second,
+                               const ComparedAs& as)
 {
-    TableComparison compared{.columns_only_first = columns_without(first, second), .columns_only_second = columns_without(second, first)};
+    TableComparison compared{.columns_only_first = columns_without(first, second),
+                             .columns_only_second = columns_without(second, first)};
     const Shared columns = shared_columns(file, first, second, as);
-    const auto in_first = rows_by_settings(first, columns.settings), in_second = rows_by_settings(second, columns.settings);
+    const auto in_first = rows_by_settings(first, columns.settings),
+               in_second = rows_by_settings(second, columns.settings);
     for (const auto& [settings, row] : in_first) {
         if (const auto same = in_second.find(settings); same != in_second.end())
-            compare_row(file, first, second, columns, {.settings = settings.first, .first = row, .second = same->second}, as.is_rounded,
-                        compared);
+            compare_row(file, first, second, columns,
+                        {.settings = settings.first, .first = row, .second = same->second}, as.is_rounded, compared);
         else
             compared.only_first.push_back(settings.first);
     }

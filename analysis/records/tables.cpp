@@ -23,7 +23,8 @@ std::string quoted_where_needed(const std::string& field)
 
 std::string line_of(const std::vector<std::string>& fields)
 {
-    if (fields.size() == 1 && fields[0].empty()) return "\"\"\n";  // distinguishes a row of one empty field from an empty line
+    // distinguishes a row of one empty field from an empty line
+    if (fields.size() == 1 && fields[0].empty()) return "\"\"\n";
     std::vector<std::string> quoted;
     for (const std::string& field : fields) quoted.push_back(quoted_where_needed(field));
     return fmt::format("{}\n", fmt::join(quoted, ","));
@@ -37,9 +38,11 @@ bool reads_whole(const std::string& text, Number& value)
     return error == std::errc{} && stop == end;
 }
 
-[[noreturn]] void refuse(const std::string& file, int line, std::size_t column, const std::string& value, const std::string& rule)
+[[noreturn]] void refuse(const std::string& file, int line, std::size_t column, const std::string& value,
+                         const std::string& rule)
 {
-    throw pbs::InputError(fmt::format("{}:{}", file, line), static_cast<int>(column), value.empty() ? "" : "column", value, rule);
+    throw pbs::InputError(fmt::format("{}:{}", file, line), static_cast<int>(column), value.empty() ? "" : "column",
+                          value, rule);
 }
 
 // Reads one record at a time from the text and resolves quotes and line ends.
@@ -62,7 +65,8 @@ public:
         } while (take(','));
         take('\r');
         if (!take('\n'))
-            refuse(file_, line_, fields.size(), "", at_end() ? "the file ends within a line: cut off?" : "unexpected text after a field");
+            refuse(file_, line_, fields.size(), "",
+                   at_end() ? "the file ends within a line: cut off?" : "unexpected text after a field");
         ++line_;
         return fields;
     }
@@ -126,7 +130,8 @@ std::string unit_by_ending(const std::string& name)
 bool is_inside(const std::string& name, const std::string& wanted)
 {
     for (const auto& [part, unit] : units)
-        if (unit == wanted && fmt::format("_{}_", name).find(fmt::format("_{}_", part)) != std::string::npos) return true;
+        if (unit == wanted && fmt::format("_{}_", name).find(fmt::format("_{}_", part)) != std::string::npos)
+            return true;
     return false;
 }
 
@@ -148,7 +153,8 @@ CsvTable::CsvTable(std::vector<std::string> columns) : columns_(std::move(column
 void CsvTable::add_row(const std::vector<Cell>& cells)
 {
     if (cells.size() != columns_.size())
-        throw std::logic_error{fmt::format("a row of {} cells in a table of {} columns", cells.size(), columns_.size())};
+        throw std::logic_error{
+            fmt::format("a row of {} cells in a table of {} columns", cells.size(), columns_.size())};
     std::vector<std::string> fields;
     for (const Cell& cell : cells) fields.push_back(cell.text);
     rows_.push_back(std::move(fields));
@@ -186,13 +192,15 @@ int CsvTable::index_of(const std::string& column) const
 {
     const auto found = std::find(columns_.begin(), columns_.end(), column);
     if (found == columns_.end())
-        throw pbs::InputError(file_, 1, "columns", fmt::format("{}", fmt::join(columns_, ",")), "expected a column " + column);
+        throw pbs::InputError(file_, 1, "columns", fmt::format("{}", fmt::join(columns_, ",")),
+                              "expected a column " + column);
     return static_cast<int>(found - columns_.begin());
 }
 
 void CsvTable::refuse(int row, const std::string& column, const std::string& rule) const
 {
-    throw pbs::InputError(fmt::format("{}:{}", file_, lines_.at(row)), index_of(column) + 1, column, text_at(row, column), rule);
+    throw pbs::InputError(fmt::format("{}:{}", file_, lines_.at(row)), index_of(column) + 1, column,
+                          text_at(row, column), rule);
 }
 
 const std::string& CsvTable::text_at(int row, const std::string& column) const
@@ -235,7 +243,8 @@ CsvTable parse_csv(const std::string& text, const std::string& file)
 {
     if (text.empty()) throw pbs::InputError(file, 0, "", "", "the file is empty: expected a line of column names");
     if (text.starts_with("\xef\xbb\xbf"))
-        throw pbs::InputError(file, 1, "", "", "begins with a byte order mark, as a spreadsheet writes it: expected UTF-8 without one");
+        throw pbs::InputError(file, 1, "", "",
+                              "begins with a byte order mark, as a spreadsheet writes it: expected UTF-8 without one");
     RecordReader reader(text, file);
     CsvTable table(reader.next());
     table.file_ = file;
@@ -243,13 +252,15 @@ CsvTable parse_csv(const std::string& text, const std::string& file)
         refuse(file, 1, 1, "", "the separator is a semicolon: expected commas between fields and points in decimals");
     std::set<std::string> names;
     for (std::size_t i = 0; i < table.columns_.size(); ++i)
-        if (!names.insert(table.columns_[i]).second) refuse(file, 1, i + 1, table.columns_[i], "expected each column once");
+        if (!names.insert(table.columns_[i]).second)
+            refuse(file, 1, i + 1, table.columns_[i], "expected each column once");
     while (!reader.at_end()) {
         const int line = reader.line();
         table.rows_.push_back(reader.next());
         table.lines_.push_back(line);
         const std::size_t fields = table.rows_.back().size(), wanted = table.columns_.size();
-        if (fields != wanted) refuse(file, line, fields, "", fmt::format("{} fields: expected {} as in the first line", fields, wanted));
+        if (fields != wanted)
+            refuse(file, line, fields, "", fmt::format("{} fields: expected {} as in the first line", fields, wanted));
     }
     return table;
 }
@@ -258,7 +269,8 @@ void require_unit(const std::string& name, const std::string& unit)
 {
     const std::string ending = unit_by_ending(name);
     if (unit == ending || (ending.empty() && is_inside(name, unit))) return;
-    throw std::logic_error{fmt::format("column {}: the unit '{}' does not agree with the name, which says '{}'", name, unit, ending)};
+    throw std::logic_error{
+        fmt::format("column {}: the unit '{}' does not agree with the name, which says '{}'", name, unit, ending)};
 }
 
 }  // namespace analysis

@@ -1,5 +1,5 @@
-// Records as CSV (RFC 4180): named columns, numbers that round-trip (the shortest text that reads back to the same double; nan, inf and
-// -inf by name), and files that are written as a whole or not at all.
+// Records as CSV (RFC 4180): named columns, numbers that round-trip (the shortest text that reads back to the same
+// double; nan, inf and -inf by name), and files that are written as a whole or not at all.
 //   CsvTable table{{"frame", "volume_change_pct"}};  table.add_row({0, -0.25});  table.write("metrics.csv");
 //   const CsvTable table = read_csv("metrics.csv");  double change = table.number(0, "volume_change_pct");
 #pragma once
@@ -49,8 +49,8 @@ public:
     explicit CsvTable(std::vector<std::string> columns);  // a table without rows
 
     void add_row(const std::vector<Cell>& cells);  // std::logic_error unless there is one cell per column
-    // Appends all rows of another table with the same columns; a table without columns adopts those of the other. InputError for different
-    // columns.
+    // Appends all rows of another table with the same columns; a table without columns adopts those of the other.
+    // InputError for different columns.
     //   CsvTable all{{}};  for (const CsvTable& table : of_runs) all.append(table);
     void append(const CsvTable& other);
     std::string text() const;                   // the whole file, column names first, each line with its end
@@ -60,8 +60,8 @@ public:
     int rows() const { return static_cast<int>(rows_.size()); }           // without the header line
     bool has_column(const std::string& name) const;                       // compares the exact name
 
-    // Values by row and column name. InputError file:line:column for a missing column or a value of another kind. `column` in the message
-    // is the position of the field in its row, from 1.
+    // Values by row and column name. InputError file:line:column for a missing column or a value of another kind.
+    // `column` in the message is the position of the field in its row, from 1.
     const std::string& text_at(int row, const std::string& column) const;
     double number(int row, const std::string& column) const;                            // nan and inf are allowed
     long long integer(int row, const std::string& column) const;                        // without a fraction
@@ -81,7 +81,8 @@ private:
     std::vector<int> lines_;  // the line at which each row begins in the file
 };
 
-// InputError file:line:column for a file that is empty or cut off, has a row of another length, a duplicate column or broken quotes.
+// InputError file:line:column for a file that is empty or cut off, has a row of another length, a duplicate column or
+// broken quotes.
 CsvTable parse_csv(const std::string& text, const std::string& file);
 CsvTable read_csv(const std::string& path);  // InputError as for read_text and parse_csv
 
@@ -102,7 +103,10 @@ struct CellOf<double> {
 template <>
 struct CellOf<long long> {
     static CsvTable::Cell cell(long long value) { return value; }
-    static long long read(const CsvTable& table, int row, const std::string& column) { return table.integer(row, column); }
+    static long long read(const CsvTable& table, int row, const std::string& column)
+    {
+        return table.integer(row, column);
+    }
 };
 
 template <>
@@ -136,7 +140,10 @@ struct CellOf<bool> {
 template <>
 struct CellOf<std::string> {
     static CsvTable::Cell cell(const std::string& value) { return value; }
-    static std::string read(const CsvTable& table, int row, const std::string& column) { return table.text_at(row, column); }
+    static std::string read(const CsvTable& table, int row, const std::string& column)
+    {
+        return table.text_at(row, column);
+    }
 };
 
 // The name of a value in records; empty if EnumNames does not list it.
@@ -180,7 +187,10 @@ struct CellOf<std::vector<std::string>> {  // names, each without a space, joine
 
 template <typename Value>
 struct CellOf<std::optional<Value>> {
-    static CsvTable::Cell cell(const std::optional<Value>& value) { return value ? CellOf<Value>::cell(*value) : std::nullopt; }
+    static CsvTable::Cell cell(const std::optional<Value>& value)
+    {
+        return value ? CellOf<Value>::cell(*value) : std::nullopt;
+    }
     static std::optional<Value> read(const CsvTable& table, int row, const std::string& column)
     {
         if (table.text_at(row, column).empty()) return std::nullopt;
@@ -188,8 +198,8 @@ struct CellOf<std::optional<Value>> {
     }
 };
 
-// std::logic_error unless the name ends with its unit or, if it ends with no unit, contains it: time_s is in s, volume_change_pct in %,
-// step_ms_median in ms. A name that ends with a unit cannot belong to a pure number.
+// std::logic_error unless the name ends with its unit or, if it ends with no unit, contains it: time_s is in s,
+// volume_change_pct in %, step_ms_median in ms. A name that ends with a unit cannot belong to a pure number.
 void require_unit(const std::string& name, const std::string& unit);
 
 template <typename Row>
@@ -206,7 +216,8 @@ struct Column {
     }
     // With what the program prints of it. unit: "" for a pure number.
     template <typename Access>
-    Column(std::string its_name, Access access, std::string its_unit, std::string its_meaning) : Column(std::move(its_name), access)
+    Column(std::string its_name, Access access, std::string its_unit, std::string its_meaning)
+        : Column(std::move(its_name), access)
     {
         using Value = std::remove_cvref_t<std::invoke_result_t<Access, Row&>>;
         require_unit(name, its_unit);
@@ -216,7 +227,8 @@ struct Column {
     }
     // A column of a member that is itself a struct.
     template <typename Part>
-    Column(const Column<Part>& other, Part Row::*part) : name(other.name), unit(other.unit), meaning(other.meaning), group(other.group)
+    Column(const Column<Part>& other, Part Row::*part)
+        : name(other.name), unit(other.unit), meaning(other.meaning), group(other.group)
     {
         cell = [part, of = other.cell](const Row& row) { return of(row.*part); };
         read = [part, of = other.read](Row& row, const CsvTable& table, int r) { of(row.*part, table, r); };
@@ -235,20 +247,24 @@ struct Column {
     }
 
     std::string name;
-    std::string unit = {}, meaning = {};  // of the metrics, which `pbskin explain` prints; experiments/records/columns.md has the others
-    std::string group = {};               // "": in every file; the columns of a group occur in a file together or not at all
+    // of the metrics, which `pbskin explain` prints; experiments/records/columns.md has the others
+    std::string unit = {}, meaning = {};
+    // "": in every file; the columns of a group occur in a file together or not at all
+    std::string group = {};
     std::function<CsvTable::Cell(const Row&)> cell;
     std::function<void(Row&, const CsvTable&, int)> read;
 };
 
-// A CSV record that is declared once: a row is a plain struct, and one list of columns names, writes and reads its members.
+// A CSV record that is declared once: a row is a plain struct, and one list of columns names, writes and reads its
+// members.
 //   struct Distance { int frame; double rms_mm, largest; };
-//   const Columns<Distance> distance_columns = MEMBER_COLUMNS(Distance, frame, rms_mm) +            // members under their own names
+//   const Columns<Distance> distance_columns = MEMBER_COLUMNS(Distance, frame, rms_mm) +            // members under
+//   their own names
 //                                              Columns<Distance>{{"most_mm", &Distance::largest}};
 //   table_of(distance_columns, rows).write("distances.csv");
 //   const std::vector<Distance> rows = rows_of(distance_columns, read_csv("distances.csv"));
-// A member is a double, int, long, long long, bool (0 or 1), std::string, an enum with EnumNames, std::optional of one (nothing: an empty
-// cell), or a list of names without spaces.
+// A member is a double, int, long, long long, bool (0 or 1), std::string, an enum with EnumNames, std::optional of one
+// (nothing: an empty cell), or a list of names without spaces.
 template <typename Row>
 class Columns : public std::vector<Column<Row>> {
 public:
@@ -288,7 +304,8 @@ public:
 };
 
 #define MEMBER_COLUMN(_, Row, member) {BOOST_PP_STRINGIZE(member), &Row::member},
-#define MEMBER_COLUMNS(Row, ...) (analysis::Columns<Row>{BOOST_PP_SEQ_FOR_EACH(MEMBER_COLUMN, Row, BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__))})
+#define MEMBER_COLUMNS(Row, ...) \
+    (analysis::Columns<Row>{BOOST_PP_SEQ_FOR_EACH(MEMBER_COLUMN, Row, BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__))})
 
 // The columns of a member struct, which may be optional: within(&Frame::errors, error_columns).
 template <typename Row, typename Member, typename Part>
@@ -347,10 +364,12 @@ template <typename Row>
 Columns<Row> used_columns(Columns<Row> columns, const std::vector<Row>& rows)
 {
     const auto is_filled = [](const CsvTable::Cell& cell) {
-        return cell.kind != CsvTable::Cell::Kind::nothing && !(cell.kind == CsvTable::Cell::Kind::text && cell.text.empty());
+        return cell.kind != CsvTable::Cell::Kind::nothing &&
+               !(cell.kind == CsvTable::Cell::Kind::text && cell.text.empty());
     };
     std::erase_if(columns, [&](const Column<Row>& column) {
-        return !column.group.empty() && std::ranges::none_of(rows, [&](const Row& row) { return is_filled(column.cell(row)); });
+        return !column.group.empty() &&
+               std::ranges::none_of(rows, [&](const Row& row) { return is_filled(column.cell(row)); });
     });
     return columns;
 }

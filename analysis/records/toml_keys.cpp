@@ -30,7 +30,8 @@ toml::table parse_toml(const std::string& text, const std::string& file)
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
-        throw pbs::InputError(file, static_cast<int>(error.source().begin.line), "", "", std::string(error.description()));
+        throw pbs::InputError(file, static_cast<int>(error.source().begin.line), "", "",
+                              std::string(error.description()));
     }
 }
 
@@ -44,7 +45,8 @@ toml::table parse_toml_document(const std::string& text, const std::string& file
     const toml::node* schema = document.get("schema");
     if (!schema) throw pbs::InputError(file, 0, "schema", "", "missing: expected schema = 1");
     if (schema->value_or(0) != 1)
-        throw pbs::InputError(file, static_cast<int>(schema->source().begin.line), "schema", value_text(*schema), "expected 1");
+        throw pbs::InputError(file, static_cast<int>(schema->source().begin.line), "schema", value_text(*schema),
+                              "expected 1");
     return document;
 }
 
@@ -54,7 +56,8 @@ std::vector<const toml::table*> toml_tables(const toml::table& parent, const std
     if (!node) return {};
     const toml::array* array = node->as_array();
     if (!array || !array->is_homogeneous(toml::node_type::table))
-        throw pbs::InputError(file, static_cast<int>(node->source().begin.line), name, "", "expected [[" + name + "]] tables");
+        throw pbs::InputError(file, static_cast<int>(node->source().begin.line), name, "",
+                              "expected [[" + name + "]] tables");
     std::vector<const toml::table*> tables;
     for (const toml::node& entry : *array) tables.push_back(entry.as_table());
     return tables;
@@ -70,7 +73,9 @@ void TomlKeys::require_nothing_unknown() const
 void TomlKeys::refuse(const char* key, const std::string& rule, bool in_quotes) const
 {
     const toml::node* node = table_.get(key);
-    const std::string value = !node ? "" : node->is_string() && !in_quotes ? *node->value<std::string>() : value_text(*node);
+    const std::string value = !node                             ? ""
+                              : node->is_string() && !in_quotes ? *node->value<std::string>()
+                                                                : value_text(*node);
     throw pbs::InputError(file_, node ? line_of(*node) : line(), key, value, rule);
 }
 

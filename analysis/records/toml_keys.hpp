@@ -21,13 +21,17 @@ toml::table parse_toml(const std::string& text, const std::string& file);
 toml::table parse_toml_document(const std::string& text, const std::string& file, const std::set<std::string>& known);
 
 // The tables of [[name]]; none if the name is missing. InputError if it is something else.
-std::vector<const toml::table*> toml_tables(const toml::table& parent, const std::string& name, const std::string& file);
+std::vector<const toml::table*> toml_tables(const toml::table& parent, const std::string& name,
+                                            const std::string& file);
 
 // Refers to table and file, which must outlive it.
 class TomlKeys {
 public:
     // thing: how messages call a table.
-    TomlKeys(const toml::table& table, const std::string& file, const std::string& thing) : table_(table), file_(file), thing_(thing) {}
+    TomlKeys(const toml::table& table, const std::string& file, const std::string& thing)
+        : table_(table), file_(file), thing_(thing)
+    {
+    }
 
     // InputError at the line of the table if the key is missing, otherwise like optional().
     template <typename Value>
@@ -49,7 +53,8 @@ public:
         value = *found;
     }
 
-    // A list whose entries are appended to `values`. InputError if the value is not a list, or for an entry of another kind.
+    // A list whose entries are appended to `values`. InputError if the value is not a list, or for an entry of another
+    // kind.
     template <typename Value>
     void optional(const char* key, std::vector<Value>& values)
     {
@@ -64,12 +69,15 @@ public:
         }
     }
 
-    void mark_read(const char* key) { read_.insert(key); }                     // for a key that the caller reads by node()
+    // for a key that the caller reads by node()
+    void mark_read(const char* key) { read_.insert(key); }
     bool has(const char* key) const { return table_.contains(key); }           // whether or not it was read
     const toml::node* node(const char* key) const { return table_.get(key); }  // null if missing; not marked as read
     int line() const { return line_of(table_); }                               // line of the table, from 1
-    void require_nothing_unknown() const;                                      // InputError at the first key that was not read
-    // Throws InputError at the place of the key. in_quotes: a text is shown with its quotes, for it stands in place of another kind.
+    // InputError at the first key that was not read
+    void require_nothing_unknown() const;
+    // Throws InputError at the place of the key. in_quotes: a text is shown with its quotes, for it stands in place of
+    // another kind.
     [[noreturn]] void refuse(const char* key, const std::string& rule, bool in_quotes = false) const;
 
 private:

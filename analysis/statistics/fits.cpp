@@ -20,9 +20,11 @@ namespace {
 void require_points_for_a_line(const std::vector<double>& x, const std::vector<double>& y)
 {
     if (x.size() != y.size() || x.size() < 2)
-        throw pbs::InputError("", 0, "points of a line fit", fmt::format("{} x, {} y", x.size(), y.size()), "expected as many, at least 2");
+        throw pbs::InputError("", 0, "points of a line fit", fmt::format("{} x, {} y", x.size(), y.size()),
+                              "expected as many, at least 2");
     const auto [least, most] = std::minmax_element(x.begin(), x.end());
-    if (!(*least < *most)) throw pbs::InputError("", 0, "x of a line fit", fmt::format("{}", *least), "expected values that differ");
+    if (!(*least < *most))
+        throw pbs::InputError("", 0, "x of a line fit", fmt::format("{}", *least), "expected values that differ");
 }
 
 // By Student's t, for a value fitted with so many parameters to n points; NaN bounds unless there are more points.
@@ -72,7 +74,8 @@ double model(const double* p, double t)
 int residuals(const gsl_vector* x, void* data, gsl_vector* f)
 {
     const Samples& samples = *static_cast<const Samples*>(data);
-    for (std::size_t i = 0; i < samples.y.size(); ++i) gsl_vector_set(f, i, model(x->data, samples.time_s(i)) - samples.y[i]);
+    for (std::size_t i = 0; i < samples.y.size(); ++i)
+        gsl_vector_set(f, i, model(x->data, samples.time_s(i)) - samples.y[i]);
     return GSL_SUCCESS;
 }
 
@@ -117,7 +120,8 @@ Fit refine(Samples& samples, const Parameters& start)
     system.params = &samples;
     const gsl_multifit_nlinear_parameters options = gsl_multifit_nlinear_default_parameters();
     const std::unique_ptr<gsl_multifit_nlinear_workspace, decltype(&gsl_multifit_nlinear_free)> work(
-        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &options, system.n, system.p), gsl_multifit_nlinear_free);
+        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &options, system.n, system.p),
+        gsl_multifit_nlinear_free);
     const gsl_vector_const_view first = gsl_vector_const_view_array(start.data(), parameters);
     gsl_error_handler_t* const handler = gsl_set_error_handler_off();
     gsl_multifit_nlinear_init(&first.vector, &system, work.get());
@@ -138,11 +142,12 @@ Fit refine(Samples& samples, const Parameters& start)
 void add_values(DampedOscillation& swing, const Fit& fit, double level)
 {
     const double d = fit.value[0], w = std::abs(fit.value[1]), undamped = std::hypot(d, w);
-    swing.frequency_hz = student_interval(w / (2.0 * std::numbers::pi), fit.covariance(1, 1) / std::pow(2.0 * std::numbers::pi, 2), level,
-                                          swing.samples, parameters);
+    swing.frequency_hz =
+        student_interval(w / (2.0 * std::numbers::pi), fit.covariance(1, 1) / std::pow(2.0 * std::numbers::pi, 2),
+                         level, swing.samples, parameters);
     const double by_d = w * w / std::pow(undamped, 3), by_w = -d * w / std::pow(undamped, 3);
-    const double variance =
-        by_d * by_d * fit.covariance(0, 0) + by_w * by_w * fit.covariance(1, 1) + 2.0 * by_d * by_w * fit.covariance(0, 1);
+    const double variance = by_d * by_d * fit.covariance(0, 0) + by_w * by_w * fit.covariance(1, 1) +
+                            2.0 * by_d * by_w * fit.covariance(0, 1);
     swing.damping_ratio = student_interval(d / undamped, std::max(variance, 0.0), level, swing.samples, parameters);
 }
 
@@ -152,7 +157,8 @@ Interval fit_line(const std::vector<double>& x, const std::vector<double>& y, do
 {
     require_points_for_a_line(x, y);
     double intercept, slope, var_intercept, covariance, var_slope, squares;
-    gsl_fit_linear(x.data(), 1, y.data(), 1, x.size(), &intercept, &slope, &var_intercept, &covariance, &var_slope, &squares);
+    gsl_fit_linear(x.data(), 1, y.data(), 1, x.size(), &intercept, &slope, &var_intercept, &covariance, &var_slope,
+                   &squares);
     return student_interval(slope, var_slope, level, static_cast<int>(x.size()), 2);
 }
 
@@ -169,12 +175,14 @@ PowerLawEnd power_law_end(const std::vector<double>& sizes, const std::vector<do
     if (costs.size() != sizes.size()) refuse("costs", double(costs.size()), "expected as many as sizes");
     std::vector<std::pair<double, double>> points;  // size, cost
     for (std::size_t i = 0; i < sizes.size(); ++i) points.emplace_back(sizes[i], costs[i]);
-    if (points.size() < 2) throw pbs::InputError("", 0, "sizes", fmt::format("{}", points.size()), "expected two or more");
+    if (points.size() < 2)
+        throw pbs::InputError("", 0, "sizes", fmt::format("{}", points.size()), "expected two or more");
     std::sort(points.begin(), points.end());
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (!(points[i].first > 0.0)) refuse("sizes", points[i].first, "expected sizes above 0");
         if (!(points[i].second > 0.0)) refuse("costs", points[i].second, "expected costs above 0");
-        if (i > 0 && points[i].first == points[i - 1].first) refuse("sizes", points[i].first, "expected different sizes");
+        if (i > 0 && points[i].first == points[i - 1].first)
+            refuse("sizes", points[i].first, "expected different sizes");
     }
     std::size_t next = 1;  // the line passes through points[next - 1] and points[next]
     while (next + 1 < points.size() && points[next].second < limit) ++next;
@@ -192,7 +200,8 @@ PowerLawEnd power_law_end(const std::vector<double>& sizes, const std::vector<do
 DampedOscillation fit_damped_oscillation(const std::vector<double>& series, double dt_s, double level)
 {
     DampedOscillation swing;
-    if (series.empty() || !std::all_of(series.begin(), series.end(), [](double y) { return std::isfinite(y); })) return swing;
+    if (series.empty() || !std::all_of(series.begin(), series.end(), [](double y) { return std::isfinite(y); }))
+        return swing;
     Samples samples = living_part(series, dt_s);
     swing.samples = static_cast<int>(samples.y.size());
     if (samples.y.empty()) return swing;

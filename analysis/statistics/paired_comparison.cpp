@@ -19,32 +19,38 @@ using Replicates = std::vector<PoseList>;
 void refuse_length(const std::string& field, std::size_t length, std::size_t expected)
 {
     if (length != expected)
-        throw pbs::InputError("compared poses", 0, field, std::to_string(length), "expected a length of " + std::to_string(expected));
+        throw pbs::InputError("compared poses", 0, field, std::to_string(length),
+                              "expected a length of " + std::to_string(expected));
 }
 
 // field: as error[member][pose]. Zero is a bound that U may have, but no error, whose logarithm is needed.
-void refuse_values(const std::string& field, const std::vector<std::vector<double>>& values, const ComparedPoses& poses, bool zero)
+void refuse_values(const std::string& field, const std::vector<std::vector<double>>& values, const ComparedPoses& poses,
+                   bool zero)
 {
     refuse_length(field, values.size(), poses.members.size());
     for (const std::vector<double>& of_poses : values) {
         refuse_length(field, of_poses.size(), poses.bodies.size());
         for (const double value : of_poses)
             if (value < 0.0 || (!zero && value == 0.0) || std::isinf(value))
-                throw pbs::InputError("compared poses", 0, field, pbs::number_text(value),
-                                      std::string("expected a finite number ") + (zero ? ">= 0" : "> 0") + ", or NaN if it is not known");
+                throw pbs::InputError(
+                    "compared poses", 0, field, pbs::number_text(value),
+                    std::string("expected a finite number ") + (zero ? ">= 0" : "> 0") + ", or NaN if it is not known");
     }
 }
 
 void refuse_bad_input(const ComparedPoses& poses)
 {
     refuse_values("own_error", poses.own_error, poses, true);
-    for (const MethodErrors& method : poses.methods) refuse_values("error of " + method.method, method.error, poses, false);
+    for (const MethodErrors& method : poses.methods)
+        refuse_values("error of " + method.method, method.error, poses, false);
 }
 
-// 0 <= index < count, each as probable as the others. std::uniform_int_distribution draws other numbers in other standard libraries.
+// 0 <= index < count, each as probable as the others. std::uniform_int_distribution draws other numbers in other
+// standard libraries.
 std::size_t draw_index(std::mt19937_64& random, std::size_t count)
 {
-    const std::uint64_t below = std::mt19937_64::max() - std::mt19937_64::max() % count;  // the largest multiple of count
+    // the largest multiple of count
+    const std::uint64_t below = std::mt19937_64::max() - std::mt19937_64::max() % count;
     std::uint64_t value = random();
     while (value >= below) value = random();
     return static_cast<std::size_t>(value % count);
@@ -77,9 +83,10 @@ double mean_over(const PoseList& poses, const std::vector<double>& value)
     return sum / static_cast<double>(poses.size());
 }
 
-// The ends of the range are order statistics, at equal distances from the least and the largest mean. Exchanging the methods therefore
-// gives the reciprocals.
-Interval geometric_mean(const PoseList& poses, const std::vector<double>& log_ratio, const Replicates& replicates, double confidence)
+// The ends of the range are order statistics, at equal distances from the least and the largest mean. Exchanging the
+// methods therefore gives the reciprocals.
+Interval geometric_mean(const PoseList& poses, const std::vector<double>& log_ratio, const Replicates& replicates,
+                        double confidence)
 {
     std::vector<double> means;
     for (const PoseList& drawn : replicates) means.push_back(mean_over(drawn, log_ratio));
@@ -95,7 +102,10 @@ Interval geometric_mean(const PoseList& poses, const std::vector<double>& log_ra
 // The pairs of one member. Most of them have the same usable poses, and these share the draws of the bootstrap.
 class MemberPairs {
 public:
-    MemberPairs(const ComparedPoses& poses, std::size_t member, const PairRule& rule) : poses_(poses), member_(member), rule_(rule) {}
+    MemberPairs(const ComparedPoses& poses, std::size_t member, const PairRule& rule)
+        : poses_(poses), member_(member), rule_(rule)
+    {
+    }
 
     MemberComparison compare(const MethodErrors& first, const MethodErrors& second)
     {
@@ -133,8 +143,8 @@ bool is_level(const MemberComparison& member, const PairRule& rule)
 // Methods by their ranks that share one letter.
 using Letter = std::set<std::size_t>;
 
-// Piepho's insertion of one pair: each letter that both methods have becomes two, one without the first and one without the second.
-// Absorption: a letter goes if another one has all of its methods.
+// Piepho's insertion of one pair: each letter that both methods have becomes two, one without the first and one without
+// the second. Absorption: a letter goes if another one has all of its methods.
 std::vector<Letter> insert_and_absorb(const std::vector<Letter>& letters, std::size_t first, std::size_t second)
 {
     std::vector<Letter> split, kept;
@@ -147,7 +157,8 @@ std::vector<Letter> insert_and_absorb(const std::vector<Letter>& letters, std::s
     }
     std::stable_sort(split.begin(), split.end(), [](const Letter& a, const Letter& b) { return a.size() > b.size(); });
     for (const Letter& letter : split)
-        if (std::none_of(kept.begin(), kept.end(), [&](const Letter& larger) { return std::ranges::includes(larger, letter); }))
+        if (std::none_of(kept.begin(), kept.end(),
+                         [&](const Letter& larger) { return std::ranges::includes(larger, letter); }))
             kept.push_back(letter);
     return kept;
 }
@@ -168,7 +179,8 @@ std::vector<MethodPair> compare_methods(const ComparedPoses& poses, const PairRu
         MemberPairs of_member(poses, m, rule);
         std::vector<double> p;
         for (std::size_t k = 0; k < pairs.size(); ++k) {
-            pairs[k].members.push_back(of_member.compare(poses.methods[methods[k].first], poses.methods[methods[k].second]));
+            pairs[k].members.push_back(
+                of_member.compare(poses.methods[methods[k].first], poses.methods[methods[k].second]));
             p.push_back(pairs[k].members[m].p);
         }
         const std::vector<double> adjusted = holm(p);
@@ -220,7 +232,8 @@ std::vector<std::string> letters(const std::vector<std::string>& ranked_methods,
     std::vector<Letter> columns(1);
     for (std::size_t i = 0; i < ranked_methods.size(); ++i) columns[0].insert(i);
     for (const MethodPair& pair : pairs) {
-        const bool is_decided = pair.decision == MethodDecision::first_is_nearer || pair.decision == MethodDecision::second_is_nearer;
+        const bool is_decided =
+            pair.decision == MethodDecision::first_is_nearer || pair.decision == MethodDecision::second_is_nearer;
         if (is_decided && rank.contains(pair.first) && rank.contains(pair.second))
             columns = insert_and_absorb(columns, rank[pair.first], rank[pair.second]);
     }

@@ -35,8 +35,10 @@ double resampled_mean(const std::vector<double>& series, std::size_t block, gsl_
 }
 
 const std::array<std::string, 6> settings = {"scene", "deformer", "variant", "order", "precision", "iterations"};
-const std::array<std::string, 4> quantities = {"volume_change", "volume_abs_change", "error_l2", "error_joint"};  // each [%]
-const std::array<std::pair<std::string, double>, 5> shares = {{{"least", 0.0}, {"p10", 0.1}, {"median", 0.5}, {"p90", 0.9}, {"most", 1.0}}};
+// each [%]
+const std::array<std::string, 4> quantities = {"volume_change", "volume_abs_change", "error_l2", "error_joint"};
+const std::array<std::pair<std::string, double>, 5> shares = {
+    {{"least", 0.0}, {"p10", 0.1}, {"median", 0.5}, {"p90", 0.9}, {"most", 1.0}}};
 
 struct Group {
     std::array<std::string, 6> setting;
@@ -55,7 +57,8 @@ Columns<Group> all_columns()
     for (std::size_t q = 0; q < quantities.size(); ++q)
         for (std::size_t i = 0; i < shares.size(); ++i)
             columns.emplace_back(
-                quantities[q] + "_" + shares[i].first + "_pct", [ q, i ](auto& group) -> auto& { return group.statistics[q][i]; });
+                quantities[q] + "_" + shares[i].first + "_pct",
+                [ q, i ](auto& group) -> auto& { return group.statistics[q][i]; });
     return columns;
 }
 
@@ -66,7 +69,8 @@ std::vector<Group> by_setting(const CsvTable& metrics)
     for (int row = 0; row < metrics.rows(); ++row) {
         std::array<std::string, 6> setting;
         for (std::size_t i = 0; i < settings.size(); ++i) setting[i] = metrics.text_at(row, settings[i]);
-        auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& group) { return group.setting == setting; });
+        auto found =
+            std::find_if(groups.begin(), groups.end(), [&](const Group& group) { return group.setting == setting; });
         if (found == groups.end()) found = groups.insert(groups.end(), {setting});
         found->rows.push_back(row);
     }
@@ -78,7 +82,8 @@ std::vector<double> values_of(const CsvTable& metrics, const std::vector<int>& r
     std::vector<double> values;
     if (!metrics.has_column(column)) return values;
     for (const int row : rows)
-        if (const auto value = metrics.number_or_nothing(row, column); value && std::isfinite(*value)) values.push_back(*value);
+        if (const auto value = metrics.number_or_nothing(row, column); value && std::isfinite(*value))
+            values.push_back(*value);
     return values;
 }
 
@@ -111,7 +116,8 @@ double rank_correlation(const std::vector<double>& x, const std::vector<double>&
     const std::size_t n = std::min(x.size(), y.size());
     if (n < 2 || has_nan(x) || has_nan(y)) return not_known;
     std::vector<double> work(2 * n);
-    constexpr double places = 1e12;  // a correlation of -0.9 is not to miss a bound of -0.9 by the last bits of GSL's square roots
+    constexpr double places =
+        1e12;  // a correlation of -0.9 is not to miss a bound of -0.9 by the last bits of GSL's square roots
     return std::round(places * gsl_stats_spearman(x.data(), 1, y.data(), 1, n, work.data())) / places;
 }
 
@@ -147,7 +153,8 @@ double integrated_autocorrelation_time(const std::vector<double>& series)
     const double variance = n < 2 ? 0.0 : covariance(0);
     if (!(variance > 0.0)) return 1.0;
     double tau = 1.0;
-    for (std::size_t lag = 1; lag < n && static_cast<double>(lag) < 5.0 * tau; ++lag) tau += 2.0 * covariance(lag) / variance;
+    for (std::size_t lag = 1; lag < n && static_cast<double>(lag) < 5.0 * tau; ++lag)
+        tau += 2.0 * covariance(lag) / variance;
     return std::max(tau, 1.0);
 }
 
@@ -163,7 +170,8 @@ Interval jackknife_interval(double estimate, const std::vector<double>& without,
     const auto n = static_cast<double>(without.size());
     Interval interval{estimate, not_known, not_known, level, static_cast<int>(without.size()), 0};
     if (without.size() < 2) return interval;
-    const double half_width = gsl_cdf_tdist_Pinv((1.0 + level) / 2.0, n - 1.0) * (n - 1.0) / std::sqrt(n) * standard_deviation(without);
+    const double half_width =
+        gsl_cdf_tdist_Pinv((1.0 + level) / 2.0, n - 1.0) * (n - 1.0) / std::sqrt(n) * standard_deviation(without);
     interval.low = estimate - half_width;
     interval.high = estimate + half_width;
     return interval;
@@ -203,7 +211,8 @@ Interval share_interval(int counted, int cases, double level)
     return share;
 }
 
-Interval bootstrap_share_of_groups(const std::vector<std::string>& groups, const std::vector<bool>& holds, const BootstrapOptions& options)
+Interval bootstrap_share_of_groups(const std::vector<std::string>& groups, const std::vector<bool>& holds,
+                                   const BootstrapOptions& options)
 {
     std::map<std::string, std::array<double, 2>> counts;  // of each group: cases that hold, cases
     for (std::size_t i = 0; i < groups.size(); ++i) {

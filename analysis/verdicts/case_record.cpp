@@ -15,46 +15,48 @@ namespace analysis {
 const std::vector<CaseKeyField>& case_key_fields()
 {
     using enum CaseKeyField::Shown;
-    static const std::vector<CaseKeyField> fields = {{"body", "", alone, &CaseKey::body},
-                                                     {"motion", "", alone, &CaseKey::motion},
-                                                     {"pose", "", alone, &CaseKey::pose},
-                                                     {"joint", "", alone, &CaseKey::joint},
-                                                     {"angle_deg", "deg", alone, nullptr, &CaseKey::angle_deg},
-                                                     {"time_s", "s", with_name, nullptr, &CaseKey::time_s},
-                                                     {"deformer", "", alone, &CaseKey::deformer},
-                                                     {"variant", "", alone, &CaseKey::variant},
-                                                     {"reference", "", with_name, &CaseKey::reference},
-                                                     {"order", "", alone, &CaseKey::order},
-                                                     {"precision", "", alone, &CaseKey::precision},
-                                                     {"vertices", "", with_name, nullptr, &CaseKey::vertices},
-                                                     {"vertices_to", "", as_end_of_range, nullptr, &CaseKey::vertices_to},
-                                                     {"k_stretch", "", with_name, nullptr, &CaseKey::k_stretch},
-                                                     {"k_stretch_to", "", as_end_of_range, nullptr, &CaseKey::k_stretch_to},
-                                                     {"k_bind", "", with_name, nullptr, &CaseKey::k_bind},
-                                                     {"young_pa", "Pa", with_name, nullptr, &CaseKey::young_pa},
-                                                     {"masses", "", with_name, &CaseKey::masses},
-                                                     {"iterations", "", with_name, nullptr, &CaseKey::iterations},
-                                                     {"iterations_to", "", as_end_of_range, nullptr, &CaseKey::iterations_to},
-                                                     {"time_step_s", "s", with_name, nullptr, &CaseKey::time_step_s},
-                                                     {"time_step_to_s", "s", as_end_of_range, nullptr, &CaseKey::time_step_to_s},
-                                                     {"constraint", "", with_name, &CaseKey::constraint},
-                                                     {"initial_guess", "", with_name, &CaseKey::initial_guess},
-                                                     {"tolerance", "", with_name, &CaseKey::tolerance},
-                                                     {"load", "", with_name, &CaseKey::load},
-                                                     {"ladder", "", with_name, &CaseKey::ladder},
-                                                     {"factor", "", with_name, &CaseKey::factor},
-                                                     {"second_factor", "", with_name, &CaseKey::second_factor},
-                                                     {"model", "", with_name, &CaseKey::model},
-                                                     {"equation", "", with_name, &CaseKey::equation},
-                                                     {"gradient_of", "", with_name, &CaseKey::gradient_of},
-                                                     {"reading", "", with_name, &CaseKey::reading}};
+    static const std::vector<CaseKeyField> fields = {
+        {"body", "", alone, &CaseKey::body},
+        {"motion", "", alone, &CaseKey::motion},
+        {"pose", "", alone, &CaseKey::pose},
+        {"joint", "", alone, &CaseKey::joint},
+        {"angle_deg", "deg", alone, nullptr, &CaseKey::angle_deg},
+        {"time_s", "s", with_name, nullptr, &CaseKey::time_s},
+        {"deformer", "", alone, &CaseKey::deformer},
+        {"variant", "", alone, &CaseKey::variant},
+        {"reference", "", with_name, &CaseKey::reference},
+        {"order", "", alone, &CaseKey::order},
+        {"precision", "", alone, &CaseKey::precision},
+        {"vertices", "", with_name, nullptr, &CaseKey::vertices},
+        {"vertices_to", "", as_end_of_range, nullptr, &CaseKey::vertices_to},
+        {"k_stretch", "", with_name, nullptr, &CaseKey::k_stretch},
+        {"k_stretch_to", "", as_end_of_range, nullptr, &CaseKey::k_stretch_to},
+        {"k_bind", "", with_name, nullptr, &CaseKey::k_bind},
+        {"young_pa", "Pa", with_name, nullptr, &CaseKey::young_pa},
+        {"masses", "", with_name, &CaseKey::masses},
+        {"iterations", "", with_name, nullptr, &CaseKey::iterations},
+        {"iterations_to", "", as_end_of_range, nullptr, &CaseKey::iterations_to},
+        {"time_step_s", "s", with_name, nullptr, &CaseKey::time_step_s},
+        {"time_step_to_s", "s", as_end_of_range, nullptr, &CaseKey::time_step_to_s},
+        {"constraint", "", with_name, &CaseKey::constraint},
+        {"initial_guess", "", with_name, &CaseKey::initial_guess},
+        {"tolerance", "", with_name, &CaseKey::tolerance},
+        {"load", "", with_name, &CaseKey::load},
+        {"ladder", "", with_name, &CaseKey::ladder},
+        {"factor", "", with_name, &CaseKey::factor},
+        {"second_factor", "", with_name, &CaseKey::second_factor},
+        {"model", "", with_name, &CaseKey::model},
+        {"equation", "", with_name, &CaseKey::equation},
+        {"gradient_of", "", with_name, &CaseKey::gradient_of},
+        {"reading", "", with_name, &CaseKey::reading}};
     return fields;
 }
 
 const CaseKeyField* case_key_field(const std::string& name)
 {
     const auto& fields = case_key_fields();
-    const auto found = std::find_if(fields.begin(), fields.end(), [&](const CaseKeyField& field) { return field.name == name; });
+    const auto found =
+        std::find_if(fields.begin(), fields.end(), [&](const CaseKeyField& field) { return field.name == name; });
     return found == fields.end() ? nullptr : &*found;
 }
 
@@ -124,9 +126,12 @@ CaseKey case_key(const nlohmann::json& object, const std::string& file)
     CaseKey key;
     for (const auto& [name, value] : object.items()) {
         const CaseKeyField* field = case_key_field(name);
-        if (!field) throw pbs::InputError(file, 0, "of." + name, value.dump(), "expected a field of a key, as body, motion or joint");
+        if (!field)
+            throw pbs::InputError(file, 0, "of." + name, value.dump(),
+                                  "expected a field of a key, as body, motion or joint");
         if (field->text ? !value.is_string() : !value.is_number())
-            throw pbs::InputError(file, 0, "of." + name, value.dump(), field->text ? "expected a text" : "expected a number");
+            throw pbs::InputError(file, 0, "of." + name, value.dump(),
+                                  field->text ? "expected a text" : "expected a number");
         if (field->text)
             key.*field->text = value.get<std::string>();
         else
@@ -137,7 +142,8 @@ CaseKey case_key(const nlohmann::json& object, const std::string& file)
 
 namespace {
 
-// The columns of metrics.csv that identify the case and the frame of a row, and those that are judged. The file has further columns.
+// The columns of metrics.csv that identify the case and the frame of a row, and those that are judged. The file has
+// further columns.
 struct MetricsRow {
     std::string scene, deformer, variant, order, precision;
     std::optional<int> iterations;
@@ -148,9 +154,10 @@ struct MetricsRow {
 
 const Columns<MetricsRow>& metrics_columns()
 {
-    static const Columns<MetricsRow> columns = MEMBER_COLUMNS(MetricsRow, scene, deformer, variant, order, precision, iterations, threads,
-                                                              frame, time_s, volume_change_pct, volume_abs_change_pct, inverted_tets) +
-                                               optional(MEMBER_COLUMNS(MetricsRow, angle_deg, outcome));
+    static const Columns<MetricsRow> columns =
+        MEMBER_COLUMNS(MetricsRow, scene, deformer, variant, order, precision, iterations, threads, frame, time_s,
+                       volume_change_pct, volume_abs_change_pct, inverted_tets) +
+        optional(MEMBER_COLUMNS(MetricsRow, angle_deg, outcome));
     return columns;
 }
 
@@ -214,8 +221,8 @@ void require_whole(const CaseRecord& record)
 {
     const std::size_t frames = record.frame.size();
     const bool angles_fit = record.angle_deg.empty() || record.angle_deg.size() == frames;
-    if (record.time_s.size() != frames || record.volume_change_pct.size() != frames || record.volume_abs_change_pct.size() != frames ||
-        record.inverted_tets.size() != frames || !angles_fit)
+    if (record.time_s.size() != frames || record.volume_change_pct.size() != frames ||
+        record.volume_abs_change_pct.size() != frames || record.inverted_tets.size() != frames || !angles_fit)
         throw pbs::InputError(record.run, 0, fmt::format("record of {} on {}", record.deformer, record.scene), "",
                               fmt::format("expected {} values in every series", frames));
 }

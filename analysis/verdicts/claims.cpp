@@ -128,12 +128,15 @@ void require_judgeable(const Claim& claim, const TomlKeys& reader)
     if (measured && claim.source.empty()) reader.refuse("source", "expected where the threshold comes from");
     if (by_cases && claim.case_fields.empty()) reader.refuse("case_fields", "expected the fields that make a case");
     for (const std::string& field : claim.case_fields)
-        if (!is_field_of_a_case(field)) reader.refuse("case_fields", field + ": expected fields of a key, as body or joint, or quantity");
+        if (!is_field_of_a_case(field))
+            reader.refuse("case_fields", field + ": expected fields of a key, as body or joint, or quantity");
     if (!(claim.no_effect >= 0.0 && claim.no_effect < 1.0)) reader.refuse("no_effect", "expected 0 <= no_effect < 1");
     const auto is_negative = [](const Selection& selection) { return selection.role == Role::negative_control; };
     if (by_cases && claim.no_effect == 0.0 && std::ranges::none_of(claim.others, is_negative))
         reader.refuse("controls", "expected a negative control, or no_effect");
-    const auto is_selecting = [&](const Selection& selection) { return selection.name == claim.selected_by && is_negative(selection); };
+    const auto is_selecting = [&](const Selection& selection) {
+        return selection.name == claim.selected_by && is_negative(selection);
+    };
     if (!claim.selected_by.empty() && std::ranges::none_of(claim.others, is_selecting))
         reader.refuse("selected_by", "expected the name of a negative control");
     if (const std::string fault = short_name_fault(claim); !fault.empty()) reader.refuse("short", fault);
@@ -185,10 +188,12 @@ std::vector<Quantity> read_quantities(const toml::table& document, const std::st
     std::vector<Quantity> quantities;
     const toml::node* node = document.get("quantity");
     if (!node) return quantities;
-    if (!node->is_table()) throw InputError(file, static_cast<int>(node->source().begin.line), "quantity", "", "expected a table");
+    if (!node->is_table())
+        throw InputError(file, static_cast<int>(node->source().begin.line), "quantity", "", "expected a table");
     for (const auto& [name, entry] : *node->as_table()) {
         if (!entry.is_table())
-            throw InputError(file, static_cast<int>(entry.source().begin.line), std::string(name.str()), "", "expected { title, unit }");
+            throw InputError(file, static_cast<int>(entry.source().begin.line), std::string(name.str()), "",
+                             "expected { title, unit }");
         TomlKeys keys(*entry.as_table(), file, "quantity");
         Quantity& quantity = quantities.emplace_back();
         quantity.name = name.str();
@@ -204,7 +209,8 @@ std::vector<Quantity> named_by(const Claim& claim, const std::vector<Quantity>& 
     std::set<std::string> names(claim.own.quantities.begin(), claim.own.quantities.end());
     for (const Selection& other : claim.others) names.insert(other.quantities.begin(), other.quantities.end());
     std::vector<Quantity> named;
-    std::ranges::copy_if(quantities, std::back_inserter(named), [&](const Quantity& quantity) { return names.contains(quantity.name); });
+    std::ranges::copy_if(quantities, std::back_inserter(named),
+                         [&](const Quantity& quantity) { return names.contains(quantity.name); });
     return named;
 }
 
@@ -227,7 +233,8 @@ std::vector<Claim> parse_claims(const std::string& text, const std::string& file
         claims.push_back(read_claim(*table, file));
         claims.back().quantities = named_by(claims.back(), quantities);
         if (std::ranges::count(claims, claims.back().id, &Claim::id) > 1)
-            throw InputError(file, static_cast<int>(table->source().begin.line), "id", claims.back().id, "expected each claim once");
+            throw InputError(file, static_cast<int>(table->source().begin.line), "id", claims.back().id,
+                             "expected each claim once");
     }
     return claims;
 }

@@ -1,5 +1,5 @@
-// The paper's claims as data: each states what is claimed and where, the study and the quantity that measure it, the threshold that was
-// fixed beforehand, and the controls that show that the threshold can be missed and met.
+// The paper's claims as data: each states what is claimed and where, the study and the quantity that measure it, the
+// threshold that was fixed beforehand, and the controls that show that the threshold can be missed and met.
 //   for (const Claim& claim : parse_claims(text, "claims.toml")) verdicts.push_back(judge(claim, records));
 // The fields are documented at the head of experiments/verdicts/claims.toml.
 #pragma once
@@ -41,8 +41,9 @@ enum class Role {
     comparison,        // printed next to the claim, no part of the verdict
 };
 
-// Values of the claim's study: the quantities with all fields of `of`. Each is divided by the value of the same case with the fields of
-// `over`, if there are any. A case with several quantities holds if all of them do; the first one is its number.
+// Values of the claim's study: the quantities with all fields of `of`. Each is divided by the value of the same case
+// with the fields of `over`, if there are any. A case with several quantities holds if all of them do; the first one is
+// its number.
 struct Selection {
     std::string name;  // as reports show it: LBS; flesh, nu 0.49
     Role role = Role::claimed;
@@ -58,28 +59,34 @@ struct Quantity {
 
 // One table [[claim]]; members that its rule does not need are empty or have their default.
 struct Claim {
-    std::string id = {}, statement = {}, place = {}, study = {};  // place: in the paper; study: its name, as for `pbskin reproduce`
-    std::string short_name = {};                                  // the claim in at most eight words
-    std::string headline = {};                                    // what was measured in few words; headline.hpp defines its placeholders
-    double cost_minutes = 0.0;                                    // cost of the study's quick form on 2 cores
+    // place: in the paper; study: its name, as for `pbskin reproduce`
+    std::string id = {}, statement = {}, place = {}, study = {};
+    std::string short_name = {};  // the claim in at most eight words
+    // what was measured in few words; headline.hpp defines its placeholders
+    std::string headline = {};
+    double cost_minutes = 0.0;  // cost of the study's quick form on 2 cores
     ClaimRule rule = ClaimRule::cases;
-    Selection own = {};                         // the claim's own values
-    std::vector<std::string> case_fields = {};  // fields of the key, or quantity: the values that agree in them are one case
-    Mean mean = Mean::arithmetic;               // of the values of a case
-    std::string source = {};                    // where the threshold comes from
-    std::string range = {};                     // what the ranges of the values span: meshes, timing rounds
-    std::vector<Selection> others = {};         // controls and comparisons
-    std::string selected_by = {};               // the control whose success excludes a case, since there is nothing to see in it; or empty
-    double no_effect = 0.0;                     // the share that a method without effect reaches; 0: the share of the negative controls
-    std::vector<CaseKey> held_out = {};         // values recorded after the thresholds were fixed, which are judged apart
-    std::string thresholds_fixed_at = {};       // the revision at which thresholds and controls were fixed
-    std::string fixed_at = {};                  // the revision at which the rule was fixed
-    std::string reason = {};                    // why the claim is a definition or cannot be tested
-    std::vector<std::string> formulae = {};     // how the values are computed
-    std::vector<Quantity> quantities = {};      // titles and units of all quantities that the file names
+    Selection own = {};  // the claim's own values
+    // fields of the key, or quantity: the values that agree in them are one case
+    std::vector<std::string> case_fields = {};
+    Mean mean = Mean::arithmetic;        // of the values of a case
+    std::string source = {};             // where the threshold comes from
+    std::string range = {};              // what the ranges of the values span: meshes, timing rounds
+    std::vector<Selection> others = {};  // controls and comparisons
+    // the control whose success excludes a case, since there is nothing to see in it; or empty
+    std::string selected_by = {};
+    double no_effect = 0.0;  // the share that a method without effect reaches; 0: the share of the negative controls
+    // values recorded after the thresholds were fixed, which are judged apart
+    std::vector<CaseKey> held_out = {};
+    std::string thresholds_fixed_at = {};    // the revision at which thresholds and controls were fixed
+    std::string fixed_at = {};               // the revision at which the rule was fixed
+    std::string reason = {};                 // why the claim is a definition or cannot be tested
+    std::vector<std::string> formulae = {};  // how the values are computed
+    std::vector<Quantity> quantities = {};   // titles and units of all quantities that the file names
 };
 
-// InputError with file and line for broken TOML, unknown or missing keys, a duplicate claim, or a threshold that no value can meet.
+// InputError with file and line for broken TOML, unknown or missing keys, a duplicate claim, or a threshold that no
+// value can meet.
 std::vector<Claim> parse_claims(const std::string& text, const std::string& file);
 
 const char* name_of(ClaimRule rule);  // as in claims.toml

@@ -42,8 +42,10 @@ json to_json_of(const Threshold& threshold)
 json tested_value(const CaseKey& of, const std::string& quantity, double value, const Threshold& threshold, bool holds)
 {
     json object = to_json_of(of);
-    object.update(
-        {{"value", finite(value)}, {"threshold_low", finite(threshold.low)}, {"threshold_high", finite(threshold.high)}, {"holds", holds}});
+    object.update({{"value", finite(value)},
+                   {"threshold_low", finite(threshold.low)},
+                   {"threshold_high", finite(threshold.high)},
+                   {"holds", holds}});
     if (!quantity.empty()) object["quantity"] = quantity;
     return object;
 }
@@ -63,7 +65,8 @@ json to_json_of(const JudgedCase& tested)
 
 json to_json_of(const PrintedValue& value)
 {
-    return tested_value(value.of, value.quantity, value.printed, {.low = value.least, .high = value.most}, value.is_consistent());
+    return tested_value(value.of, value.quantity, value.printed, {.low = value.least, .high = value.most},
+                        value.is_consistent());
 }
 
 json to_json_of(const BodyExcluded& excluded)
@@ -160,41 +163,42 @@ json claim_object(const Verdict& verdict)
     for (const Judged& other : verdict.others)
         (other.selection.role == Role::comparison ? compared : controls).push_back(to_json_of(other));
     json object = facts_of(verdict.own);
-    object.update({{"id", claim.id},
-                   {"short", claim.short_name},
-                   {"measured", text_or_null(measured_text(verdict))},
-                   {"asked", text_or_null(asked_text(claim))},
-                   {"statement", claim.statement},
-                   {"place", claim.place},
-                   {"study", claim.study},
-                   {"rule", name_of(claim.rule)},
-                   {"reason", claim.reason},
-                   {"verdict", name_of(verdict.kind)},
-                   {"why_inconclusive", name_of(verdict.inconclusive)},
-                   {"quantities", claim.own.quantities},
-                   {"of", to_json_of(claim.own.of)},
-                   {"over", to_json_of(claim.own.over)},
-                   {"thresholds", list_of(claim.own.thresholds)},
-                   {"source", claim.source},
-                   {"range", claim.range},
-                   {"case_fields", claim.case_fields},
-                   {"interval_low", finite(verdict.interval.low)},
-                   {"interval_high", finite(verdict.interval.high)},
-                   {"chance", finite(verdict.by_chance)},
-                   {"q", finite(verdict.q)},
-                   {"differs", difference_of(verdict)},
-                   {"fixed_at", claim.fixed_at},
-                   {"thresholds_fixed_at", claim.thresholds_fixed_at.empty() ? claim.fixed_at : claim.thresholds_fixed_at},
-                   {"without_body", list_of(verdict.sensitivity.without_body)},
-                   {"threshold_ranges", list_of(verdict.sensitivity.ranges)},
-                   {"held_out", verdict.held_out.empty() ? json(nullptr) : claim_object(verdict.held_out.front())},
-                   {"cases", verdict.printed.empty() ? list_of(verdict.own.cases) : list_of(verdict.printed)},
-                   {"controls", controls},
-                   {"compared", compared},
-                   {"readings", list_of(verdict.readings)},
-                   {"excluded_scenes", list_of(verdict.left_out)},
-                   {"missing", verdict.missing},
-                   {"runs", verdict.runs}});
+    object.update(
+        {{"id", claim.id},
+         {"short", claim.short_name},
+         {"measured", text_or_null(measured_text(verdict))},
+         {"asked", text_or_null(asked_text(claim))},
+         {"statement", claim.statement},
+         {"place", claim.place},
+         {"study", claim.study},
+         {"rule", name_of(claim.rule)},
+         {"reason", claim.reason},
+         {"verdict", name_of(verdict.kind)},
+         {"why_inconclusive", name_of(verdict.inconclusive)},
+         {"quantities", claim.own.quantities},
+         {"of", to_json_of(claim.own.of)},
+         {"over", to_json_of(claim.own.over)},
+         {"thresholds", list_of(claim.own.thresholds)},
+         {"source", claim.source},
+         {"range", claim.range},
+         {"case_fields", claim.case_fields},
+         {"interval_low", finite(verdict.interval.low)},
+         {"interval_high", finite(verdict.interval.high)},
+         {"chance", finite(verdict.by_chance)},
+         {"q", finite(verdict.q)},
+         {"differs", difference_of(verdict)},
+         {"fixed_at", claim.fixed_at},
+         {"thresholds_fixed_at", claim.thresholds_fixed_at.empty() ? claim.fixed_at : claim.thresholds_fixed_at},
+         {"without_body", list_of(verdict.sensitivity.without_body)},
+         {"threshold_ranges", list_of(verdict.sensitivity.ranges)},
+         {"held_out", verdict.held_out.empty() ? json(nullptr) : claim_object(verdict.held_out.front())},
+         {"cases", verdict.printed.empty() ? list_of(verdict.own.cases) : list_of(verdict.printed)},
+         {"controls", controls},
+         {"compared", compared},
+         {"readings", list_of(verdict.readings)},
+         {"excluded_scenes", list_of(verdict.left_out)},
+         {"missing", verdict.missing},
+         {"runs", verdict.runs}});
     if (!verdict.printed.empty()) {
         object["n"] = verdict.printed.size();
         object["held"] = std::ranges::count_if(verdict.printed, &PrintedValue::is_consistent);
@@ -214,8 +218,10 @@ json quantities_of(const std::vector<Verdict>& verdicts)
 
 const char* colour_of(VerdictKind kind)
 {
-    constexpr const char *green = "\033[32m", *yellow = "\033[33m", *red = "\033[31m", *purple = "\033[35m", *grey = "\033[90m";
-    constexpr const char* colours[] = {green, red, yellow, yellow, grey, grey, grey, purple, red};  // in the order of the enum
+    constexpr const char *green = "\033[32m", *yellow = "\033[33m", *red = "\033[31m", *purple = "\033[35m",
+                         *grey = "\033[90m";
+    // in the order of the enum
+    constexpr const char* colours[] = {green, red, yellow, yellow, grey, grey, grey, purple, red};
     return colours[static_cast<int>(kind)];
 }
 
@@ -234,7 +240,8 @@ std::string spoken(VerdictKind kind, bool of_many)
 std::string in_capitals(VerdictKind kind)
 {
     std::string name = kind == VerdictKind::inconsistent_in_print ? "inconsistent" : name_of(kind);
-    std::ranges::transform(name, name.begin(), [](unsigned char letter) { return letter == '_' ? ' ' : std::toupper(letter); });
+    std::ranges::transform(name, name.begin(),
+                           [](unsigned char letter) { return letter == '_' ? ' ' : std::toupper(letter); });
     return name;
 }
 
@@ -267,7 +274,8 @@ std::vector<JudgedCase> cases_with(const Judged& judged, const std::string& quan
     for (const JudgedCase& tested : judged.cases) {
         const std::vector<JudgedCase> whole = {tested};
         for (const JudgedCase& part : tested.parts.empty() ? whole : tested.parts)
-            if (tested.counts() && std::isfinite(part.value) && (part.quantity.empty() || part.quantity == quantity)) cases.push_back(part);
+            if (tested.counts() && std::isfinite(part.value) && (part.quantity.empty() || part.quantity == quantity))
+                cases.push_back(part);
     }
     std::ranges::stable_sort(cases, {}, &JudgedCase::value);
     return cases;
@@ -284,7 +292,8 @@ std::string numbers_text(const Verdict& verdict)
         const std::string least = number_text(cases.front()), most = number_text(cases.back());
         std::vector<std::string> thresholds;
         for (const Threshold& threshold : verdict.claim.own.thresholds)
-            if (threshold.quantity.empty() || threshold.quantity == quantity) thresholds.push_back(threshold_text(threshold));
+            if (threshold.quantity.empty() || threshold.quantity == quantity)
+                thresholds.push_back(threshold_text(threshold));
         texts.push_back(fmt::format("{}: {}{}{}{}", quantity, least == most ? least : least + " to " + most, shown,
                                     thresholds.empty() ? "" : "; threshold ", fmt::join(thresholds, ", ")));
     }
@@ -300,15 +309,16 @@ std::string reason_text(const Verdict& verdict)
     if (verdict.inconclusive == Inconclusive::too_few_cases) texts.push_back("too few cases");
     for (const Judged& other : verdict.others)
         if (!other.behaves)
-            texts.push_back(fmt::format("{} {}: {} of {} hold",
-                                        other.selection.role == Role::negative_control ? "negative control" : "positive control",
-                                        other.selection.name, other.held, other.n));
+            texts.push_back(
+                fmt::format("{} {}: {} of {} hold",
+                            other.selection.role == Role::negative_control ? "negative control" : "positive control",
+                            other.selection.name, other.held, other.n));
     if (!verdict.claim.reason.empty()) texts.push_back(verdict.claim.reason);
     return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-// Names once what the verdicts lack, such as a body that is not installed, and the records that are missing. Then it counts the verdicts
-// of each kind.
+// Names once what the verdicts lack, such as a body that is not installed, and the records that are missing. Then it
+// counts the verdicts of each kind.
 std::vector<std::string> closing_texts(const std::vector<Verdict>& verdicts)
 {
     std::map<std::array<std::string, 2>, std::set<std::string>> absent;
@@ -317,12 +327,14 @@ std::vector<std::string> closing_texts(const std::vector<Verdict>& verdicts)
         for (const std::string& name : verdict.missing) absent[{"no record for", name}].insert(verdict.claim.id);
     }
     std::vector<std::string> texts, counts;
-    for (const auto& [what, claims] : absent) texts.push_back(fmt::format("{} {}: {}", what[0], fmt::join(claims, ", "), what[1]));
+    for (const auto& [what, claims] : absent)
+        texts.push_back(fmt::format("{} {}: {}", what[0], fmt::join(claims, ", "), what[1]));
     for (int k = 0; k <= static_cast<int>(VerdictKind::not_computable); ++k) {
         const auto count = std::ranges::count(verdicts, static_cast<VerdictKind>(k), &Verdict::kind);
         if (count > 0) counts.push_back(fmt::format("{} {}", count, spoken(static_cast<VerdictKind>(k), count > 1)));
     }
-    texts.push_back(fmt::format("{} claim{}: {}", verdicts.size(), verdicts.size() == 1 ? "" : "s", fmt::join(counts, ", ")));
+    texts.push_back(
+        fmt::format("{} claim{}: {}", verdicts.size(), verdicts.size() == 1 ? "" : "s", fmt::join(counts, ", ")));
     return texts;
 }
 
@@ -338,12 +350,16 @@ json claims_json(const std::vector<Verdict>& verdicts, const std::string& revisi
 std::string claims_markdown(const std::vector<Verdict>& verdicts)
 {
     std::string text =
-        "| id | statement | verdict | measured | asked | held | cases | share | interval | chance | numbers | reason | study |\n"
+        "| id | statement | verdict | measured | asked | held | cases | share | interval | chance | numbers | reason | "
+        "study |\n"
         "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const Verdict& verdict : verdicts) {
         const bool none = verdict.own.n == 0 || verdict.claim.rule != ClaimRule::cases;
-        const auto known = [&](double value) { return none || !std::isfinite(value) ? std::string() : fmt::format("{:.3g}", value); };
-        const std::string interval = none ? "" : fmt::format("[{:.3g}, {:.3g}]", verdict.interval.low, verdict.interval.high);
+        const auto known = [&](double value) {
+            return none || !std::isfinite(value) ? std::string() : fmt::format("{:.3g}", value);
+        };
+        const std::string interval =
+            none ? "" : fmt::format("[{:.3g}, {:.3g}]", verdict.interval.low, verdict.interval.high);
         const json object = claim_object(verdict);
         const bool is_bounded = !verdict.claim.own.thresholds.empty() || !verdict.printed.empty();
         const std::vector<std::string> cells = {
@@ -358,7 +374,8 @@ std::string claims_markdown(const std::vector<Verdict>& verdicts)
     return text;
 }
 
-std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width, bool colours, const FurtherColumn& further)
+std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width, bool colours,
+                         const FurtherColumn& further)
 {
     struct Row {
         std::string id, claim, verdict, measured, further, colour;
@@ -372,16 +389,19 @@ std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width
     const auto widest = [&](std::string Row::*text) {
         return std::ranges::max(rows | std::views::transform([&](const Row& row) { return characters(row.*text); }));
     };
-    const std::size_t whole = std::max<std::size_t>(width, 60), gap = 2, id_width = widest(&Row::id), verdict_width = widest(&Row::verdict);
-    const std::size_t further_width = std::min(widest(&Row::further), whole / 4), gaps = (further_width > 0 ? 4 : 3) * gap;
+    const std::size_t whole = std::max<std::size_t>(width, 60), gap = 2, id_width = widest(&Row::id),
+                      verdict_width = widest(&Row::verdict);
+    const std::size_t further_width = std::min(widest(&Row::further), whole / 4),
+                      gaps = (further_width > 0 ? 4 : 3) * gap;
     const std::size_t rest = whole - id_width - verdict_width - further_width - gaps;
     const std::size_t claim_width = std::min(widest(&Row::claim), rest - std::min(widest(&Row::measured), rest / 2));
     std::string table;
     for (const Row& row : rows) {
-        std::vector<TextColumn> columns = {{row.id, id_width},
-                                           {cut(row.claim, claim_width), claim_width},
-                                           {row.verdict, verdict_width, row.colour},
-                                           {cut(row.measured, rest - claim_width), std::min(widest(&Row::measured), rest - claim_width)}};
+        std::vector<TextColumn> columns = {
+            {row.id, id_width},
+            {cut(row.claim, claim_width), claim_width},
+            {row.verdict, verdict_width, row.colour},
+            {cut(row.measured, rest - claim_width), std::min(widest(&Row::measured), rest - claim_width)}};
         if (further_width > 0) columns.push_back({cut(row.further, further_width), further_width});
         table += side_by_side(columns);
     }

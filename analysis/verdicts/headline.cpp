@@ -45,7 +45,8 @@ Placeholder placeholder_of(const std::string& text)
     const std::size_t of = text.find(" of "), at = text.find(" at "), equals = text.find('=');
     if (of != std::string::npos) return {.fact = text.substr(0, of), .name = text.substr(of + 4)};
     if (at == std::string::npos || equals == std::string::npos || equals < at) return {.fact = text};
-    return {.fact = text.substr(0, at), .field = text.substr(at + 4, equals - at - 4), .value = text.substr(equals + 1)};
+    return {
+        .fact = text.substr(0, at), .field = text.substr(at + 4, equals - at - 4), .value = text.substr(equals + 1)};
 }
 
 bool is_number(const std::string& fact)
@@ -56,10 +57,12 @@ bool is_number(const std::string& fact)
 std::string fault_of(const Claim& claim, const std::string& text)
 {
     const Placeholder placeholder = placeholder_of(text);
-    if (std::ranges::count(facts, placeholder.fact) == 0) return fmt::format("{{{}}}: expected {}", text, fmt::join(facts, ", "));
+    if (std::ranges::count(facts, placeholder.fact) == 0)
+        return fmt::format("{{{}}}: expected {}", text, fmt::join(facts, ", "));
     if (!placeholder.name.empty() && std::ranges::count(claim.others, placeholder.name, &Selection::name) == 0)
         return fmt::format("{{{}}}: expected the name of a control or comparison of the claim", text);
-    if (!placeholder.field.empty() && !case_key_field(placeholder.field)) return fmt::format("{{{}}}: expected a field of a key", text);
+    if (!placeholder.field.empty() && !case_key_field(placeholder.field))
+        return fmt::format("{{{}}}: expected a field of a key", text);
     return "";
 }
 
@@ -83,24 +86,28 @@ std::string end_text(const Judged& judged, const Placeholder& placeholder)
 {
     static constexpr std::array signs = {"", ">= ", "<= ", "> "};
     std::vector<JudgedCase> cases;
-    std::ranges::copy_if(judged.cases, std::back_inserter(cases), [&](const JudgedCase& tested) { return has_value(tested, placeholder); });
+    std::ranges::copy_if(judged.cases, std::back_inserter(cases),
+                         [&](const JudgedCase& tested) { return has_value(tested, placeholder); });
     if (cases.empty()) return "";
     const auto [least, most] = std::ranges::minmax_element(cases, {}, &JudgedCase::value);
     const JudgedCase& end = placeholder.fact.starts_with("least") ? *least : *most;
-    return signs[static_cast<std::size_t>(end.limit)] + rounded((placeholder.fact.ends_with("_pct") ? 100.0 : 1.0) * end.value);
+    return signs[static_cast<std::size_t>(end.limit)] +
+           rounded((placeholder.fact.ends_with("_pct") ? 100.0 : 1.0) * end.value);
 }
 
 std::string text_of(const Verdict& verdict, const Placeholder& placeholder)
 {
-    const auto named =
-        std::ranges::find(verdict.others, placeholder.name, [](const Judged& judged_selection) { return judged_selection.selection.name; });
+    const auto named = std::ranges::find(verdict.others, placeholder.name, [](const Judged& judged_selection) {
+        return judged_selection.selection.name;
+    });
     if (!placeholder.name.empty() && named == verdict.others.end()) return "";
     const Judged& judged = placeholder.name.empty() ? verdict.own : *named;
     if (is_number(placeholder.fact)) return end_text(judged, placeholder);
     if (placeholder.fact == "unit") return judged.cases.empty() ? "" : judged.cases.front().unit;
     if (!verdict.printed.empty())
-        return placeholder.fact == "n" ? std::to_string(verdict.printed.size())
-                                       : std::to_string(std::ranges::count_if(verdict.printed, &PrintedValue::is_consistent));
+        return placeholder.fact == "n"
+                   ? std::to_string(verdict.printed.size())
+                   : std::to_string(std::ranges::count_if(verdict.printed, &PrintedValue::is_consistent));
     return judged.n == 0 ? "" : std::to_string(placeholder.fact == "n" ? judged.n : judged.held);
 }
 
@@ -112,7 +119,8 @@ std::string short_name_fault(const Claim& claim)
     std::size_t words = 0;
     for (std::string word; stream >> word;) ++words;
     if (words == 0 || words > most_short_words || characters(claim.short_name) > most_short_characters)
-        return fmt::format("expected 1 to {} words of at most {} characters in all", most_short_words, most_short_characters);
+        return fmt::format("expected 1 to {} words of at most {} characters in all", most_short_words,
+                           most_short_characters);
     return "";
 }
 

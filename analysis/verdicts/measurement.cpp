@@ -33,8 +33,8 @@ CaseKey key_of(const CaseRecord& record)
 }
 
 // The values of all frames, or of one frame of a sweep.
-void add_values(const CaseRecord& record, const CaseKey& key, const std::vector<double>& loss, const std::vector<double>& absolute,
-                std::vector<Measurement>& to)
+void add_values(const CaseRecord& record, const CaseKey& key, const std::vector<double>& loss,
+                const std::vector<double>& absolute, std::vector<Measurement>& to)
 {
     const std::string mean_of = record.is_sweep() ? "" : "mean_";
     const auto add = [&](const std::string& quantity, const std::vector<double>& values, const char* unit) {
@@ -67,7 +67,8 @@ CsvTable measurement_table(const std::vector<Measurement>& measurements)
     return table_of(used_columns(measurement_columns(), measurements), measurements);
 }
 
-std::map<CaseKey, std::map<double, Measurement>> series_over(const std::vector<Measurement>& measured, const std::string& quantity,
+std::map<CaseKey, std::map<double, Measurement>> series_over(const std::vector<Measurement>& measured,
+                                                             const std::string& quantity,
                                                              std::optional<double> CaseKey::*field)
 {
     std::map<CaseKey, std::map<double, Measurement>> all;
@@ -80,9 +81,12 @@ std::map<CaseKey, std::map<double, Measurement>> series_over(const std::vector<M
     return all;
 }
 
-const Measurement* find_measurement(const std::vector<Measurement>& measured, const std::string& quantity, const CaseKey& of)
+const Measurement* find_measurement(const std::vector<Measurement>& measured, const std::string& quantity,
+                                    const CaseKey& of)
 {
-    const auto is_wanted = [&](const Measurement& measurement) { return measurement.quantity == quantity && measurement.of == of; };
+    const auto is_wanted = [&](const Measurement& measurement) {
+        return measurement.quantity == quantity && measurement.of == of;
+    };
     const auto found = std::ranges::find_if(measured, is_wanted);
     return found == measured.end() ? nullptr : &*found;
 }
@@ -90,7 +94,8 @@ const Measurement* find_measurement(const std::vector<Measurement>& measured, co
 double share_of_kept_frames(const std::vector<double>& volume_change_pct)
 {
     const auto is_kept = [](double change_pct) { return std::abs(change_pct) <= kept_volume_pct; };
-    return static_cast<double>(std::ranges::count_if(volume_change_pct, is_kept)) / static_cast<double>(volume_change_pct.size());
+    return static_cast<double>(std::ranges::count_if(volume_change_pct, is_kept)) /
+           static_cast<double>(volume_change_pct.size());
 }
 
 std::vector<Measurement> frame_measurements(const CaseRecord& record)

@@ -24,7 +24,8 @@ std::vector<BodyExcluded> without_each_body(const Claim& claim, const std::vecto
     return verdicts;
 }
 
-// The claim with another value of an end of its threshold, and its controls and comparisons with the same thresholds likewise.
+// The claim with another value of an end of its threshold, and its controls and comparisons with the same thresholds
+// likewise.
 Claim with_end(const Claim& claim, std::size_t threshold, double Threshold::*end, double value)
 {
     Claim other = claim;
@@ -34,7 +35,8 @@ Claim with_end(const Claim& claim, std::size_t threshold, double Threshold::*end
     return other;
 }
 
-// The numbers of all cases, and of their parts, that are compared with the claim's own thresholds: at these the verdict may change.
+// The numbers of all cases, and of their parts, that are compared with the claim's own thresholds: at these the verdict
+// may change.
 std::vector<double> numbers_of(const Claim& claim, const std::vector<Measurement>& measured)
 {
     std::set<double> numbers;
@@ -51,15 +53,17 @@ std::vector<double> numbers_of(const Claim& claim, const std::vector<Measurement
     return {numbers.begin(), numbers.end()};
 }
 
-// A value at an end of the threshold holds. So the numbers x_i at which a verdict may change divide a high end into [x_i, x_i+1), and a low
-// end into (x_i, x_i+1]: the verdict is that at one point of each.
-ThresholdRange range_of(const Claim& claim, const std::vector<Measurement>& measured, const std::vector<double>& numbers, VerdictKind kind,
-                        std::size_t threshold, bool is_high)
+// A value at an end of the threshold holds. So the numbers x_i at which a verdict may change divide a high end into
+// [x_i, x_i+1), and a low end into (x_i, x_i+1]: the verdict is that at one point of each.
+ThresholdRange range_of(const Claim& claim, const std::vector<Measurement>& measured,
+                        const std::vector<double>& numbers, VerdictKind kind, std::size_t threshold, bool is_high)
 {
     double Threshold::*end = is_high ? &Threshold::high : &Threshold::low;
     const Threshold& own = claim.own.thresholds[threshold];
     ThresholdRange range{.threshold = own, .is_high = is_high, .low = -infinite, .high = infinite};
-    const auto stands_at = [&](double value) { return kind_on(with_end(claim, threshold, end, value), measured) == kind; };
+    const auto stands_at = [&](double value) {
+        return kind_on(with_end(claim, threshold, end, value), measured) == kind;
+    };
     const double value = own.*end;
     const auto above = is_high ? std::ranges::upper_bound(numbers, value) : std::ranges::lower_bound(numbers, value);
     for (auto next = above; next != numbers.end(); ++next)

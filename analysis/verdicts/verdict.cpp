@@ -44,7 +44,8 @@ double mean_of(Mean mean_kind, const std::vector<double>& values)
     if (std::ranges::count(values, 0.0) > 0)
         return std::ranges::all_of(values, [](double value) { return value >= 0.0; }) ? 0.0 : not_known;
     std::vector<double> logarithms;
-    for (const double value : values) logarithms.push_back(std::log(value));  // NaN for a value below 0, as for one that is not known
+    // NaN for a value below 0, as for one that is not known
+    for (const double value : values) logarithms.push_back(std::log(value));
     return std::exp(mean(logarithms));
 }
 
@@ -62,7 +63,8 @@ bool is_undecided(const JudgedCase& tested)
 {
     if (tested.limit == Limit::none) return false;
     const bool above = tested.limit == Limit::at_least || tested.limit == Limit::more_than;
-    if (!tested.threshold.contains(tested.value)) return above ? tested.value < tested.threshold.low : tested.value > tested.threshold.high;
+    if (!tested.threshold.contains(tested.value))
+        return above ? tested.value < tested.threshold.low : tested.value > tested.threshold.high;
     return std::isfinite(above ? tested.threshold.high : tested.threshold.low);
 }
 
@@ -82,7 +84,8 @@ Values of_quantity(const Values& values, const std::string& quantity)
 }
 
 // One quantity of a case, compared with its threshold.
-JudgedCase compared(const Claim& claim, const Selection& selection, JudgedCase tested, const Values& values, const Values& over)
+JudgedCase compared(const Claim& claim, const Selection& selection, JudgedCase tested, const Values& values,
+                    const Values& over)
 {
     tested.value = mean_of(claim.mean, values);
     tested.low = tested.high = values.front()->value;
@@ -120,7 +123,8 @@ void drop_those_beside(Values& values)
 }
 
 // A case without one of the quantities does not hold, since nothing shows that it does.
-JudgedCase whole_case(const Claim& claim, const Selection& selection, const JudgedCase& tested, const Values& values, const Values& over)
+JudgedCase whole_case(const Claim& claim, const Selection& selection, const JudgedCase& tested, const Values& values,
+                      const Values& over)
 {
     if (!tested.quantity.empty()) return compared(claim, selection, tested, values, over);
     std::vector<JudgedCase> parts;
@@ -147,7 +151,8 @@ void count(Judged& judged)
         judged.n += tested.counts();
         judged.held += tested.counts() && tested.holds;
     }
-    const bool fails = judged.n > 0 && judged.share() <= failing_share, holds = judged.n > 0 && judged.share() >= holding_share;
+    const bool fails = judged.n > 0 && judged.share() <= failing_share,
+               holds = judged.n > 0 && judged.share() >= holding_share;
     judged.behaves = judged.selection.role == Role::negative_control   ? fails
                      : judged.selection.role == Role::positive_control ? holds
                                                                        : true;
@@ -157,7 +162,8 @@ void count(Judged& judged)
 void exclude_unseen(const Judged& control, Judged& own)
 {
     for (JudgedCase& tested : own.cases) {
-        const auto same = std::ranges::find_if(control.cases, [&](const JudgedCase& judged_case) { return judged_case.is_same(tested); });
+        const auto same = std::ranges::find_if(
+            control.cases, [&](const JudgedCase& judged_case) { return judged_case.is_same(tested); });
         if (same == control.cases.end() || !same->counts())
             tested.excluded = Excluded::no_control;
         else if (same->holds)
@@ -166,8 +172,8 @@ void exclude_unseen(const Judged& control, Judged& own)
     count(own);
 }
 
-// The rule of succession, (k + 1) / (n + 2): a control that fails in each of a few cases does not show a share of exactly 0. The control
-// by which cases are excluded fails in all that count.
+// The rule of succession, (k + 1) / (n + 2): a control that fails in each of a few cases does not show a share of
+// exactly 0. The control by which cases are excluded fails in all that count.
 double share_of_controls(const Verdict& verdict)
 {
     if (verdict.claim.no_effect > 0.0) return verdict.claim.no_effect;
@@ -213,7 +219,8 @@ std::optional<Difference> largest_difference(const Claim& claim, const Judged& o
             if (share < found.least) found.least = share, found.least_at = value;
             if (share > found.most) found.most = share, found.most_at = value;
         }
-        if (found.least_at != found.most_at && (!largest || found.most - found.least > largest->most - largest->least)) largest = found;
+        if (found.least_at != found.most_at && (!largest || found.most - found.least > largest->most - largest->least))
+            largest = found;
     }
     return largest;
 }
@@ -241,7 +248,8 @@ std::vector<Judged> readings_of(const Claim& claim, const std::vector<Measuremen
 Inconclusive why_inconclusive(const Verdict& verdict)
 {
     for (const Judged& other : verdict.others)
-        if (!other.behaves) return other.n == 0 ? Inconclusive::control_without_record : Inconclusive::control_misbehaves;
+        if (!other.behaves)
+            return other.n == 0 ? Inconclusive::control_without_record : Inconclusive::control_misbehaves;
     if (verdict.own.n < least_cases) return Inconclusive::too_few_cases;
     const bool by_chance = verdict.own.share() >= holding_share && !(verdict.by_chance < largest_chance);
     return by_chance ? Inconclusive::chance : Inconclusive::no;
@@ -259,11 +267,13 @@ VerdictKind kind_of(const Verdict& verdict)
 void decide(Verdict& verdict)
 {
     const Claim& claim = verdict.claim;
-    const auto unseen = std::ranges::find(verdict.others, claim.selected_by,
-                                          [](const Judged& judged_selection) { return judged_selection.selection.name; });
+    const auto unseen = std::ranges::find(verdict.others, claim.selected_by, [](const Judged& judged_selection) {
+        return judged_selection.selection.name;
+    });
     if (!claim.selected_by.empty()) {
         exclude_unseen(*unseen, verdict.own);
-        unseen->behaves = unseen->n - unseen->held >= least_cases;  // it selects the cases, so that its share says nothing
+        unseen->behaves =
+            unseen->n - unseen->held >= least_cases;  // it selects the cases, so that its share says nothing
         for (Judged& reading : verdict.readings) exclude_unseen(*unseen, reading);
         for (Judged& other : verdict.others)
             if (other.selection.role == Role::comparison) exclude_unseen(*unseen, other);
@@ -312,7 +322,8 @@ void judge_values(const std::vector<Measurement>& measured, const Verdict* other
     for (std::size_t i = 0; i < claim.others.size(); ++i) {
         Judged other = judged(claim, claim.others[i], measured);
         const bool is_control = other.selection.role != Role::comparison && claim.others[i].name != claim.selected_by;
-        verdict.others.push_back(other.cases.empty() && is_control && otherwise ? otherwise->others[i] : std::move(other));
+        verdict.others.push_back(other.cases.empty() && is_control && otherwise ? otherwise->others[i]
+                                                                                : std::move(other));
     }
     verdict.readings = readings_of(claim, measured);
     std::set<std::string> runs;
@@ -326,13 +337,17 @@ void judge_values(const std::vector<Measurement>& measured, const Verdict* other
 }
 
 // The claim's values, and the held-out ones.
-std::pair<std::vector<Measurement>, std::vector<Measurement>> measurements_of(const Claim& claim, const Records& records)
+std::pair<std::vector<Measurement>, std::vector<Measurement>> measurements_of(const Claim& claim,
+                                                                              const Records& records)
 {
     std::vector<Measurement> measurements = records.measurements, measured, apart;
-    for (const CaseRecord& record : records.cases) std::ranges::move(frame_measurements(record), std::back_inserter(measurements));
-    std::ranges::partition_copy(measurements, std::back_inserter(apart), std::back_inserter(measured), [&](const Measurement& measurement) {
-        return std::ranges::any_of(claim.held_out, [&](const CaseKey& key) { return matches(measurement.of, key); });
-    });
+    for (const CaseRecord& record : records.cases)
+        std::ranges::move(frame_measurements(record), std::back_inserter(measurements));
+    std::ranges::partition_copy(
+        measurements, std::back_inserter(apart), std::back_inserter(measured), [&](const Measurement& measurement) {
+            return std::ranges::any_of(claim.held_out,
+                                       [&](const CaseKey& key) { return matches(measurement.of, key); });
+        });
     return {measured, apart};
 }
 
@@ -354,7 +369,8 @@ void judge_measured(const Records& records, Verdict& verdict)
 
 Judged judged(const Claim& claim, const Selection& selection, const std::vector<Measurement>& measured)
 {
-    const Values own = selected(selection, selection.of, measured), over = selected(selection, selection.over, measured);
+    const Values own = selected(selection, selection.of, measured),
+                 over = selected(selection, selection.over, measured);
     std::vector<JudgedCase> cases;
     std::vector<Values> values, base;
     const auto place_of = [&](const JudgedCase& tested) {
@@ -372,11 +388,13 @@ Judged judged(const Claim& claim, const Selection& selection, const std::vector<
     }
     base.resize(cases.size());
     for (const Measurement* measurement : over)
-        if (const std::size_t place = place_of(case_of(claim, *measurement)); place < cases.size()) base[place].push_back(measurement);
+        if (const std::size_t place = place_of(case_of(claim, *measurement)); place < cases.size())
+            base[place].push_back(measurement);
     for (auto* lists : {&values, &base})
         for (Values& of_case : *lists) drop_those_beside(of_case);
     Judged result{.selection = selection};
-    for (std::size_t i = 0; i < cases.size(); ++i) result.cases.push_back(whole_case(claim, selection, cases[i], values[i], base[i]));
+    for (std::size_t i = 0; i < cases.size(); ++i)
+        result.cases.push_back(whole_case(claim, selection, cases[i], values[i], base[i]));
     count(result);
     return result;
 }
@@ -402,13 +420,15 @@ std::vector<Measurement> own_measurements(const Claim& claim, const Records& rec
                (selection.over != CaseKey{} && is_selected(selection, selection.over, measurement));
     };
     std::erase_if(measured, [&](const Measurement& measurement) {
-        return !reads(claim.own, measurement) &&
-               std::ranges::none_of(claim.others, [&](const Selection& selection) { return reads(selection, measurement); });
+        return !reads(claim.own, measurement) && std::ranges::none_of(claim.others, [&](const Selection& selection) {
+            return reads(selection, measurement);
+        });
     });
     return measured;
 }
 
-VerdictKind kind_on(const Claim& claim, const std::vector<Measurement>& measured, const std::vector<Measurement>& otherwise)
+VerdictKind kind_on(const Claim& claim, const std::vector<Measurement>& measured,
+                    const std::vector<Measurement>& otherwise)
 {
     Verdict verdict{.claim = claim};
     verdict.own = judged(claim, claim.own, measured);
@@ -437,14 +457,16 @@ Verdict judge(const Claim& claim, const Records& records)
 
 const char* name_of(VerdictKind kind)
 {
-    static constexpr std::array names = {
-        "holds", "fails", "mixed", "not_shown", "inconclusive", "untestable", "definition", "inconsistent_in_print", "not_computable"};
+    static constexpr std::array names = {"holds",         "fails",      "mixed",      "not_shown",
+                                         "inconclusive",  "untestable", "definition", "inconsistent_in_print",
+                                         "not_computable"};
     return names[static_cast<std::size_t>(kind)];
 }
 
 const char* name_of(Inconclusive why)
 {
-    static constexpr std::array names = {"none", "too_few_cases", "control_without_record", "control_misbehaves", "chance"};
+    static constexpr std::array names = {"none", "too_few_cases", "control_without_record", "control_misbehaves",
+                                         "chance"};
     return names[static_cast<std::size_t>(why)];
 }
 

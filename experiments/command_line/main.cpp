@@ -30,7 +30,8 @@ CLI::App* CommandLine::add(const std::string& name, const std::string& meaning, 
     verb->add_flag("--quiet", common.quiet, "errors only");
     verb->add_flag("--verbose", common.verbose, "print more: the results of each run of a study");
     verb->add_option("--threads", common.threads,
-                     "threads of a deformer on a large mesh (run, try, check; by default 1) or of the timings (bench; by default "
+                     "threads of a deformer on a large mesh (run, try, check; by default 1) or of the timings (bench; "
+                     "by default "
                      "all cores)")
         ->check(CLI::Range(1, 1024));
     return verb;
@@ -63,19 +64,21 @@ std::string version_text(bool as_json)
                               {"compiler", build.compiler},
                               {"build_type", build.build_type}}
             .dump(2);
-    return fmt::format("pbskin {} (git {}{}; {}, {})", build.version, build.git_revision.substr(0, 12), build.git_dirty ? ", dirty" : "",
-                       build.compiler, build.build_type);
+    return fmt::format("pbskin {} (git {}{}; {}, {})", build.version, build.git_revision.substr(0, 12),
+                       build.git_dirty ? ", dirty" : "", build.compiler, build.build_type);
 }
 
 void start_log(const CommonOptions& common)
 {
-    auto log = spdlog::stderr_color_mt("pbskin", std::getenv("NO_COLOR") ? spdlog::color_mode::never : spdlog::color_mode::automatic);
+    auto log = spdlog::stderr_color_mt(
+        "pbskin", std::getenv("NO_COLOR") ? spdlog::color_mode::never : spdlog::color_mode::automatic);
     log->set_pattern("%v");
     log->set_level(common.quiet ? spdlog::level::err : common.verbose ? spdlog::level::debug : spdlog::level::info);
     spdlog::set_default_logger(log);
 }
 
-// The first word, where it is no verb and no option: CLI11 states only that a verb is missing. Empty in all other cases.
+// The first word, where it is no verb and no option: CLI11 states only that a verb is missing. Empty in all other
+// cases.
 std::string unknown_word(const CLI::App& app)
 {
     const std::vector<std::string> left = app.remaining();
@@ -98,9 +101,9 @@ int parse_and_act(int argc, char** argv)
     app.add_flag_callback("--describe", [&app] { throw CLI::CallForVersion(describe(app), 0); })->group("");
     app.require_subcommand(1);
     CommandLine line{app};
-    for (const auto add :
-         {add_list_verb, add_explain_verb, add_try_verb, add_run_verb, add_reproduce_verb, add_check_verb, add_measure_verb,
-          add_references_verb, add_compare_verb, add_mesh_verb, add_bench_verb, add_fetch_verb, add_report_verb})
+    for (const auto add : {add_list_verb, add_explain_verb, add_try_verb, add_run_verb, add_reproduce_verb,
+                           add_check_verb, add_measure_verb, add_references_verb, add_compare_verb, add_mesh_verb,
+                           add_bench_verb, add_fetch_verb, add_report_verb})
         add(line);
     app.failure_message([](const CLI::App* failed, const CLI::Error& error) {
         return "pbskin: " + (unknown_word(*failed).empty() ? std::string(error.what()) : unknown_word(*failed)) +

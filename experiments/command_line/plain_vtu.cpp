@@ -21,10 +21,12 @@ constexpr int vtk_tetra = 10;  // the type of a cell
 
 // One row per line. `values` is a matrix of Eigen; VTK takes the corners of all cells for one component.
 template <typename Values>
-void add_array(std::string& text, const char* type, const std::string& name, const Values& values, Eigen::Index components)
+void add_array(std::string& text, const char* type, const std::string& name, const Values& values,
+               Eigen::Index components)
 {
     auto end = std::back_inserter(text);
-    fmt::format_to(end, "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n", type, name, components);
+    fmt::format_to(end, "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n", type, name,
+                   components);
     for (Eigen::Index row = 0; row < values.rows(); ++row)
         for (Eigen::Index column = 0; column < values.cols(); ++column)
             fmt::format_to(end, "{}{}", values(row, column), column + 1 < values.cols() ? ' ' : '\n');
@@ -50,19 +52,22 @@ std::vector<double> numbers_in(const std::string& path, const std::string& array
 {
     constexpr const char* blanks = " \t\r\n";
     std::vector<double> numbers;
-    for (std::size_t begin = text.find_first_not_of(blanks), end = 0; begin != text.npos; begin = text.find_first_not_of(blanks, end)) {
+    for (std::size_t begin = text.find_first_not_of(blanks), end = 0; begin != text.npos;
+         begin = text.find_first_not_of(blanks, end)) {
         end = std::min(text.find_first_of(blanks, begin), text.size());
         const std::string_view word = text.substr(begin, end - begin);
         double& number = numbers.emplace_back();
         const auto read = std::from_chars(word.begin(), word.end(), number);
         if (read.ec != std::errc() || read.ptr != word.end() || !std::isfinite(number))
-            throw pbs::InputError(path, 0, array, std::string(word), fmt::format("expected a finite number at place {}", numbers.size()));
+            throw pbs::InputError(path, 0, array, std::string(word),
+                                  fmt::format("expected a finite number at place {}", numbers.size()));
     }
     return numbers;
 }
 
 // The array of a field: one row per point.
-Eigen::MatrixXd rows_in(const std::string& path, const std::string& array, const pugi::xml_node& node, Eigen::Index points)
+Eigen::MatrixXd rows_in(const std::string& path, const std::string& array, const pugi::xml_node& node,
+                        Eigen::Index points)
 {
     const std::vector<double> numbers = numbers_in(path, array, node.text().get());
     const auto size = static_cast<Eigen::Index>(numbers.size());
@@ -70,7 +75,8 @@ Eigen::MatrixXd rows_in(const std::string& path, const std::string& array, const
     if (size != points * components)
         throw pbs::InputError(path, 0, array, fmt::format("{} numbers", size),
                               fmt::format("expected {} for each of the {} points", components, points));
-    return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(numbers.data(), points, components);
+    return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(numbers.data(),
+                                                                                                    points, components);
 }
 
 bool is_plain(const pugi::xml_node& array)
@@ -86,9 +92,11 @@ std::string plain_vtu(const pbs::TetMesh& mesh, const PlainFields& fields)
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
         "<UnstructuredGrid>\n<FieldData>\n";
     for (const auto& [name, value] : fields.facts)
-        text += fmt::format("<DataArray type=\"Float64\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n", name, value);
-    text +=
-        fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n", mesh.rest.rows(), mesh.tets.rows());
+        text += fmt::format(
+            "<DataArray type=\"Float64\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n", name,
+            value);
+    text += fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n",
+                        mesh.rest.rows(), mesh.tets.rows());
     for (const auto& [name, values] : fields.of_points) add_array(text, "Float64", name, values, values.cols());
     for (const auto& [name, labels] : fields.labels_of_points) add_labels(text, name, labels);
     text += "</PointData>\n<CellData>\n";

@@ -1,4 +1,5 @@
-// pbskin references export [POSE]... -o DIR: the kept references in plain files, for solvers that share nothing with this program.
+// pbskin references export [POSE]... -o DIR: the kept references in plain files, for solvers that share nothing with
+// this program.
 //   pbskin references export limb_twist_60 -o kit
 // exported_references.md is the manual of the files, which is written along with them.
 
@@ -75,18 +76,21 @@ analysis::CsvTable weights_table(const pbs::Character& character)
 
 analysis::CsvTable capsules_table(const pbs::Character& character)
 {
-    analysis::CsvTable table({"bone", "start_x_m", "start_y_m", "start_z_m", "end_x_m", "end_y_m", "end_z_m", "limb_radius_m"});
+    analysis::CsvTable table(
+        {"bone", "start_x_m", "start_y_m", "start_z_m", "end_x_m", "end_y_m", "end_z_m", "limb_radius_m"});
     int bone = 0;
     for (const auto& [a, b, limb_radius_m, from] : pbs::bone_capsules(character, 1.0))
         table.add_row({bone++, a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), limb_radius_m});
     return table;
 }
 
-// K = sum_s k_s beta_s beta_s^T of the springs in each tet, by bone [m]. BoneHold has sum_s k_s beta_s (X_s, 1)^T, and (X_s, 1) is the
-// tet's corners (X_i, 1) weighted by beta_s, so that its moments are K times the matrix whose rows are these corners.
+// K = sum_s k_s beta_s beta_s^T of the springs in each tet, by bone [m]. BoneHold has sum_s k_s beta_s (X_s, 1)^T, and
+// (X_s, 1) is the tet's corners (X_i, 1) weighted by beta_s, so that its moments are K times the matrix whose rows are
+// these corners.
 analysis::CsvTable springs_table(const pbs::Character& character, const pbs::BoneSprings& springs)
 {
-    analysis::CsvTable table({"tet", "bone", "k00_m", "k01_m", "k02_m", "k03_m", "k11_m", "k12_m", "k13_m", "k22_m", "k23_m", "k33_m"});
+    analysis::CsvTable table(
+        {"tet", "bone", "k00_m", "k01_m", "k02_m", "k03_m", "k11_m", "k12_m", "k13_m", "k22_m", "k23_m", "k33_m"});
     const pbs::BoneHold hold(character.mesh, springs, static_cast<int>(character.skeleton.bones.size()));
     for (const auto& [tet, bone, moments] : hold.tet_moments()) {
         Eigen::Matrix4d corners = Eigen::Matrix4d::Ones();
@@ -120,7 +124,8 @@ PlainFields error_fields(const pbs::Character& character)
             .labels_of_points = {{"blended", {character.blended.begin(), character.blended.end()}}}};
 }
 
-// To a nanometre, which is what references are written to: they are kept to kept_quantum_m. Rest positions of bodies are written whole.
+// To a nanometre, which is what references are written to: they are kept to kept_quantum_m. Rest positions of bodies
+// are written whole.
 Eigen::MatrixXd rounded(const Eigen::MatrixXd& lengths_m)
 {
     return (1e9 * lengths_m).array().round() / 1e9;
@@ -156,7 +161,8 @@ public:
             const auto flesh = options_of<FemOptions>(flesh_of(reference_flesh(pose.scene), reference.member));
             text += "\n[[member]]\n" + toml_lines(member_facts(kept.body, character, flesh, reference));
             write_springs(kept.body, character, flesh, reference.member);
-            if (reference.is_reached()) write_reference(analysis::path_in(folder, reference.member.name + ".vtu"), character, reference);
+            if (reference.is_reached())
+                write_reference(analysis::path_in(folder, reference.member.name + ".vtu"), character, reference);
         }
         write(analysis::path_in(folder, "pose.toml"), text);
         ++poses_;
@@ -184,16 +190,17 @@ public:
         else
             kept_.push_back(manual);
         if (!kept_.empty())
-            warn({fmt::format("{}: not replaced: differs from what this program writes (remove a file to have it written anew)",
-                              fmt::join(kept_, ", "))});
+            warn({fmt::format(
+                "{}: not replaced: differs from what this program writes (remove a file to have it written anew)",
+                fmt::join(kept_, ", "))});
     }
 
     int poses() const { return poses_; }
     std::size_t bodies() const { return written_bodies_.size(); }
 
 private:
-    // Whether the program wrote the whole text. A manual in which the user added or changed a line is the user's. The rows of the tables
-    // may differ, since they list the poses in the folder.
+    // Whether the program wrote the whole text. A manual in which the user added or changed a line is the user's. The
+    // rows of the tables may differ, since they list the poses in the folder.
     static bool is_manual(const std::string& text)
     {
         if (!text.starts_with(exported::exported_references_md)) return false;
@@ -221,8 +228,8 @@ private:
             const pbs::Character& character = body_of(pose);
             const KeptReferences kept = read_references(pose.name, character, bones_in(pose, character.skeleton));
             const auto reached = std::ranges::count_if(kept.members, &KeptReference::is_reached);
-            table +=
-                fmt::format("| `{}` | {} | {} | {} of {} |\n", pose.name, kept.body, name_of(pose.stratum), reached, kept.members.size());
+            table += fmt::format("| `{}` | {} | {} | {} of {} |\n", pose.name, kept.body, name_of(pose.stratum),
+                                 reached, kept.members.size());
             written_bodies_.insert(kept.body);
         }
         return table;
@@ -231,8 +238,9 @@ private:
     const pbs::Character& body_of(const ReferencePose& pose)
     {
         const auto known = bodies_.find(pose.of.body);
-        return known != bodies_.end() ? known->second
-                                      : bodies_.emplace(pose.of.body, pbs::make_character(pose.scene.character)).first->second;
+        return known != bodies_.end()
+                   ? known->second
+                   : bodies_.emplace(pose.of.body, pbs::make_character(pose.scene.character)).first->second;
     }
 
     void write_body(const std::string& name, const pbs::Character& character)
@@ -247,11 +255,13 @@ private:
         write(body_file(name + ".capsules.csv"), capsules_table(character).text());
     }
 
-    void write_springs(const std::string& body, const pbs::Character& character, const FemOptions& flesh, const EnsembleMember& member)
+    void write_springs(const std::string& body, const pbs::Character& character, const FemOptions& flesh,
+                       const EnsembleMember& member)
     {
         const std::string file = springs_file(body, member);
         if (!written_springs_.insert(file).second) return;
-        const pbs::CapsuleSprings held = pbs::bone_springs(character, spring_placement(flesh.attachment), spring_options(flesh));
+        const pbs::CapsuleSprings held =
+            pbs::bone_springs(character, spring_placement(flesh.attachment), spring_options(flesh));
         write(body_file(file), springs_table(character, held.springs).text());
     }
 
@@ -307,7 +317,8 @@ struct ExportArguments {
     std::vector<std::string> poses;
 };
 
-// InputError for a name that is no pose, and for one whose body is not installed. Bodies that nobody named are left out with a warning.
+// InputError for a name that is no pose, and for one whose body is not installed. Bodies that nobody named are left out
+// with a warning.
 void check_poses(const std::vector<std::string>& named)
 {
     std::map<std::string, std::string> body_of;
@@ -319,7 +330,8 @@ void check_poses(const std::vector<std::string>& named)
     }
     for (const std::string& name : named) {
         if (!body_of.contains(name))
-            throw pbs::InputError("", 0, "pose", name, "unknown name; the nearest known one is " + pbs::nearest_name(name, names));
+            throw pbs::InputError("", 0, "pose", name,
+                                  "unknown name; the nearest known one is " + pbs::nearest_name(name, names));
         pbs::require_body(body_of.at(name));
     }
     if (!named.empty()) return;
@@ -340,14 +352,17 @@ int export_references(const ExportArguments& arguments)
     check_poses(arguments.poses);
     std::vector<ReferencePose> poses = reference_poses();
     if (!arguments.poses.empty())
-        std::erase_if(poses, [&](const ReferencePose& pose) { return std::ranges::count(arguments.poses, pose.name) == 0; });
+        std::erase_if(poses,
+                      [&](const ReferencePose& pose) { return std::ranges::count(arguments.poses, pose.name) == 0; });
     const auto is_kept = [](const ReferencePose& pose) { return fs::exists(file_of_references(pose.name)); };
     const auto not_kept = arguments.poses.empty() ? std::erase_if(poses, std::not_fn(is_kept)) : 0;
     if (not_kept > 0)
-        warn({fmt::format("{} poses are left out: no references of them are kept; `pbskin reproduce references --full` solves them",
-                          not_kept)});
+        warn({fmt::format(
+            "{} poses are left out: no references of them are kept; `pbskin reproduce references --full` solves them",
+            not_kept)});
     if (poses.empty())
-        throw pbs::InputError(fs::path(file_of_references("")).parent_path().string(), 0, "", "", "has no reference of an installed body");
+        throw pbs::InputError(fs::path(file_of_references("")).parent_path().string(), 0, "", "",
+                              "has no reference of an installed body");
     ExportFolder folder(arguments.folder);
     bool all_exported = true;
     {
@@ -376,8 +391,10 @@ void add_references_verb(CommandLine& line)
 {
     auto arguments = std::make_shared<ExportArguments>();
     CLI::App* verb = line.add("references", "exports the solved references in plain files, for solvers of your own",
-                              "pbskin references export limb_twist_60 -o kit", [arguments] { return export_references(*arguments); });
-    verb->add_option("action", arguments->action, "export: write tets, bones, weights, springs, poses and references, with a manual")
+                              "pbskin references export limb_twist_60 -o kit",
+                              [arguments] { return export_references(*arguments); });
+    verb->add_option("action", arguments->action,
+                     "export: write tets, bones, weights, springs, poses and references, with a manual")
         ->check(CLI::IsMember({"export"}))
         ->required();
     verb->add_option("poses", arguments->poses,

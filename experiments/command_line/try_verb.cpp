@@ -1,5 +1,5 @@
-// pbskin try MODEL [--animation NAME] [-o DIR]: a rigged model through its own motion, without a scene: runs it with all methods, and
-// writes a summary, the scene to go on with, and a page with the moving model.
+// pbskin try MODEL [--animation NAME] [-o DIR]: a rigged model through its own motion, without a scene: runs it with
+// all methods, and writes a summary, the scene to go on with, and a page with the moving model.
 
 #include "analysis/records/record_files.hpp"
 #include "experiments/command_line/verbs.hpp"
@@ -33,11 +33,13 @@ fs::path page_maker()
     return fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/pbskin/paper_figures/make_report.py";
 }
 
-constexpr double most_glb_bytes = 33e6, most_skin_bytes = 12e6;  // with the page and the tables, a trial takes at most 60 MB
+constexpr double most_glb_bytes = 33e6,
+                 most_skin_bytes = 12e6;  // with the page and the tables, a trial takes at most 60 MB
 
-// Runs the scene that was just written. If the run fails, the folder keeps the results of an earlier trial and their scene.
-RunResult run_new_scene(const std::string& scene_file, const std::string& earlier_scene, const TrialOptions& options, bool folder_is_new,
-                        int threads, const Remarks& remarks, std::optional<pbs::SourceFile> model)
+// Runs the scene that was just written. If the run fails, the folder keeps the results of an earlier trial and their
+// scene.
+RunResult run_new_scene(const std::string& scene_file, const std::string& earlier_scene, const TrialOptions& options,
+                        bool folder_is_new, int threads, const Remarks& remarks, std::optional<pbs::SourceFile> model)
 {
     try {
         Scene scene = read_scene(scene_file, {});
@@ -63,14 +65,17 @@ RunResult run_new_scene(const std::string& scene_file, const std::string& earlie
 constexpr int page_without_model = 3;
 constexpr int python_without_packages = 4;  // numpy or matplotlib cannot be imported
 
-// Writes `folder`/report.html by the scripts of paper_figures. The page maker runs as a process of its own, which reports what is missing.
-// Returns its exit status. InputErrors: no such folder, no python3 with the packages that draw, no page maker.
+// Writes `folder`/report.html by the scripts of paper_figures. The page maker runs as a process of its own, which
+// reports what is missing. Returns its exit status. InputErrors: no such folder, no python3 with the packages that
+// draw, no page maker.
 int write_report_page(const std::string& folder, bool quiet, bool needs_model)
 {
     if (!fs::is_directory(folder))
-        throw pbs::InputError(folder, 0, "", "", "no such folder: expected one that `pbskin try`, `run` or `reproduce` wrote");
+        throw pbs::InputError(folder, 0, "", "",
+                              "no such folder: expected one that `pbskin try`, `run` or `reproduce` wrote");
     if (!analysis::is_utf8(folder))
-        throw pbs::InputError(folder, 0, "", "", "expected a name in UTF-8: the libraries that draw the page open no others");
+        throw pbs::InputError(folder, 0, "", "",
+                              "expected a name in UTF-8: the libraries that draw the page open no others");
     if (!fs::is_regular_file(page_maker()))
         throw pbs::InputError(page_maker().string(), 0, "", "",
                               "not found: the page is made by scripts that are installed with the program");
@@ -78,20 +83,22 @@ int write_report_page(const std::string& folder, bool quiet, bool needs_model)
     std::vector<std::string> words = {"", "-E", "-s", "-B", page_maker().string(), folder};
     if (quiet) words.push_back("--quiet");
     if (needs_model) words.push_back("--needs-model");
-    // Modules of other environments are not imported: -E ignores PYTHONPATH and PYTHONHOME, -s the packages of the user. (-I would also
-    // hide the modules of the page maker itself.) Debian's python3 comes first, for one of a version manager on the PATH often lacks the
-    // packages that the figures need.
+    // Modules of other environments are not imported: -E ignores PYTHONPATH and PYTHONHOME, -s the packages of the
+    // user. (-I would also hide the modules of the page maker itself.) Debian's python3 comes first, for one of a
+    // version manager on the PATH often lacks the packages that the figures need.
     for (const char* python : {"/usr/bin/python3", "python3"}) {
         words.front() = python;
         const ProgramRun page = run_program(words, std::nullopt);
-        if (page.started && page.status != python_without_packages) return page.status >= 0 ? page.status : 128 - page.status;
+        if (page.started && page.status != python_without_packages)
+            return page.status >= 0 ? page.status : 128 - page.status;
     }
-    throw pbs::InputError("", 0, "report", "",
-                          "no python3 that can import numpy and matplotlib: install python3-numpy and python3-matplotlib");
+    throw pbs::InputError(
+        "", 0, "report", "",
+        "no python3 that can import numpy and matplotlib: install python3-numpy and python3-matplotlib");
 }
 
-// A trial leaves the page, the tables, the .glb files and the artist's surface. The frames for ParaView take most of the space; once the
-// page has a viewer, it has what it shows of them.
+// A trial leaves the page, the tables, the .glb files and the artist's surface. The frames for ParaView take most of
+// the space; once the page has a viewer, it has what it shows of them.
 void leave_what_is_of_use(const TrialOptions& options, int page)
 {
     const fs::path folder = options.folder;
@@ -99,7 +106,8 @@ void leave_what_is_of_use(const TrialOptions& options, int page)
     if (leaves_out) remove_frames(options.folder);
     if (page == page_without_model)
         warn(
-            {fmt::format("{}/report.html: the page has no viewer, for the reason above; the frames remain, so that `pbskin report {}` "
+            {fmt::format("{}/report.html: the page has no viewer, for the reason above; the frames remain, so that "
+                         "`pbskin report {}` "
                          "can add it once that reason is gone",
                          options.folder, options.folder)});
     std::uintmax_t bytes = 0;
@@ -122,10 +130,12 @@ int try_model(TrialOptions options, const CommonOptions& common)
         return trial_scene(options);
     }();
     const bool is_new = analysis::make_output_folder(options.folder);
-    const std::string scene_file = (fs::path(options.folder) / "scene.toml").string(), earlier_scene = earlier_trial_scene(options);
+    const std::string scene_file = (fs::path(options.folder) / "scene.toml").string(),
+                      earlier_scene = earlier_trial_scene(options);
     analysis::write_text_atomically(scene_file, made.text);
 
-    const RunResult result = run_new_scene(scene_file, earlier_scene, options, is_new, common.threads, made.remarks, std::move(model));
+    const RunResult result =
+        run_new_scene(scene_file, earlier_scene, options, is_new, common.threads, made.remarks, std::move(model));
     analysis::remove_record(fs::path(options.folder) / "frames" / "correctives.toml");  // of an earlier trial
     for (const auto& line : result.lines) spdlog::info("{}", line);
     nlohmann::json facts = trial_facts(options.folder);
@@ -153,7 +163,8 @@ int try_model(TrialOptions options, const CommonOptions& common)
                       page == exit_finished ? options.folder + "/report.html" : options.folder);
         return exit_interrupted;
     }
-    if (page == exit_finished) say_next(fmt::format("xdg-open {}/report.html, or change {} and pbskin run it", options.folder, scene_file));
+    if (page == exit_finished)
+        say_next(fmt::format("xdg-open {}/report.html, or change {} and pbskin run it", options.folder, scene_file));
     if (result.failure().empty()) return page;
     spdlog::error("pbskin: {}", result.failure());
     return exit_breakdown;
@@ -165,13 +176,14 @@ int try_model(TrialOptions options, const CommonOptions& common)
 void add_report_verb(CommandLine& line)
 {
     auto folder = std::make_shared<std::string>();
-    CLI::App* verb = line.add("report", "writes records and figures on one HTML page that loads nothing", "pbskin report results/reproduce",
-                              [&common = line.common, folder] {
+    CLI::App* verb = line.add("report", "writes records and figures on one HTML page that loads nothing",
+                              "pbskin report results/reproduce", [&common = line.common, folder] {
                                   const int status = write_report_page(*folder, common.quiet, false);
                                   if (status == exit_finished) say_next("xdg-open " + *folder + "/report.html");
                                   return status;
                               });
-    verb->add_option("folder", *folder, "the folder that reproduce, run or try wrote; the page is report.html in it")->required();
+    verb->add_option("folder", *folder, "the folder that reproduce, run or try wrote; the page is report.html in it")
+        ->required();
 }
 
 void add_try_verb(CommandLine& line)
@@ -183,10 +195,12 @@ void add_try_verb(CommandLine& line)
     verb->add_option("model", options->model, ".glb .gltf .fbx .dae .zae")->required();
     verb->add_option(
         "--animation", options->animation,
-        "an animation of the model by name, the second of equal names being NAME (2), or a clip FILE (.bvh .gltf .glb .fbx .dae .zae), or "
+        "an animation of the model by name, the second of equal names being NAME (2), or a clip FILE (.bvh .gltf .glb "
+        ".fbx .dae .zae), or "
         "an animation of one, FILE:NAME; by default the model's first one that turns a joint by more than 5 degrees");
-    verb->add_option("-o,--output", options->folder,
-                     "folder of the records; by default results/NAME; an earlier trial of the same model there is replaced");
+    verb->add_option(
+        "-o,--output", options->folder,
+        "folder of the records; by default results/NAME; an earlier trial of the same model there is replaced");
     verb->add_option("--frames", options->frames, "largest number of frames, distributed over the motion")
         ->check(CLI::Range(2, 100'000))
         ->capture_default_str();
@@ -194,21 +208,26 @@ void add_try_verb(CommandLine& line)
         ->check(CLI::Range(150, 10'000'000));
     verb->add_option("--skeleton", options->skeleton, "skeleton of a model without joints: a file, or human");
     verb->add_option("--scale", options->scale, "enlarges the model, for files that state a wrong unit");
-    verb->add_flag("--paraview", options->paraview, "also keeps the frames for ParaView (.vtu, .vtp): most of the space");
-    verb->add_flag("--allow-partial", options->allow_partial,
-                   "accepts a clip of which fewer than half of the moving joints match a bone, or one half of a limb alone does");
-    auto* bake = verb->add_flag("--bake", options->bake, "learns shapes of the reference, as correctives for scenes and engines");
-    auto* error_bar = verb->add_flag(
-        "--error-bar", options->error_bar,
-        "also bounds the reference's own error, by three further solutions per frame, two of them on tets cut into eight. With 2,000 "
-        "vertices each frame takes minutes, and the run needs 6 GB: choose a few --frames");
-    auto* seconds =
-        verb->add_option("--reference-seconds", options->reference_seconds, "processor time of the finite elements; 0: no limit")
-            ->check(CLI::Range(0.0, 1e7))
-            ->capture_default_str()
-            ->excludes(error_bar);
+    verb->add_flag("--paraview", options->paraview,
+                   "also keeps the frames for ParaView (.vtu, .vtp): most of the space");
+    verb->add_flag(
+        "--allow-partial", options->allow_partial,
+        "accepts a clip of which fewer than half of the moving joints match a bone, or one half of a limb alone does");
+    auto* bake = verb->add_flag("--bake", options->bake,
+                                "learns shapes of the reference, as correctives for scenes and engines");
+    auto* error_bar =
+        verb->add_flag("--error-bar", options->error_bar,
+                       "also bounds the reference's own error, by three further solutions per frame, two of them on "
+                       "tets cut into eight. With 2,000 "
+                       "vertices each frame takes minutes, and the run needs 6 GB: choose a few --frames");
+    auto* seconds = verb->add_option("--reference-seconds", options->reference_seconds,
+                                     "processor time of the finite elements; 0: no limit")
+                        ->check(CLI::Range(0.0, 1e7))
+                        ->capture_default_str()
+                        ->excludes(error_bar);
     verb->add_flag_callback(
-            "--no-reference", [options] { options->reference = false; }, "leaves out the finite elements, which take most of the time")
+            "--no-reference", [options] { options->reference = false; },
+            "leaves out the finite elements, which take most of the time")
         ->excludes(error_bar)
         ->excludes(seconds)
         ->excludes(bake);

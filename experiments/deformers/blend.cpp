@@ -1,5 +1,5 @@
-// LBS and DQS, and delta mush, which smooths LBS: no state but the last pose's positions. LBS and DQS blend with the scene's weights; a
-// table [[lbs]] or [[dqs]] adds one with weights, a precision or a code of its own.
+// LBS and DQS, and delta mush, which smooths LBS: no state but the last pose's positions. LBS and DQS blend with the
+// scene's weights; a table [[lbs]] or [[dqs]] adds one with weights, a precision or a code of its own.
 #include "experiments/deformers/deformer_kind.hpp"
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/skinning/blend.hpp"
@@ -108,7 +108,10 @@ public:
     explicit DirectDeltaMushDeformer(const DirectDeltaMushOptions& options) : options_(options) {}
 
 private:
-    void set_up(const pbs::Character& character) override { mush_.emplace(character.mesh, character.weights, options_); }
+    void set_up(const pbs::Character& character) override
+    {
+        mush_.emplace(character.mesh, character.weights, options_);
+    }
     pbs::StepSummary deform(const pbs::Pose& pose, double /*dt_s*/, pbs::Positions& x) override
     {
         mush_->apply(pose, x);
@@ -147,11 +150,13 @@ template <Blend blend>
 DeformerKind blend_kind(const std::string& name, const std::string& meaning)
 {
     OptionFields<BlendOptions> fields(name, true);
-    fields.key("name", KeyType::text, "", {.is_stated = true, .meaning = "the name of this deformer in deformers.use and in the records"});
+    fields.key("name", KeyType::text, "",
+               {.is_stated = true, .meaning = "the name of this deformer in deformers.use and in the records"});
     add_weights_key(fields)
         .add("precision", &BlendOptions::precision, {.meaning = "floating point of the blend"})
         .add("packed", &BlendOptions::packed,
-             {.meaning = "weights that several vertices have are blended once per pose; false: plain code in f64, one vertex at a time"});
+             {.meaning = "weights that several vertices have are blended once per pose; false: plain code in f64, one "
+                         "vertex at a time"});
     DeformerKind kind = kind_of<void>(name, meaning, fields.complete(), read_weights<BlendOptions>);
     kind.make = [](const DeformerSpec& spec) {
         const auto& options = options_of<BlendOptions>(spec);
@@ -176,7 +181,8 @@ DeformerKind mush_kind(const std::string& name, const std::string& meaning, Opti
                        CheckOptions<Options> check = read_weights<Options>)
 {
     fields.add("precision", &Options::precision, {.meaning = "floating point of the smoothing; f32: packed code"})
-        .add("packed", &Options::packed, {.meaning = "true: several vertices per instruction; false: plain code in f64"});
+        .add("packed", &Options::packed,
+             {.meaning = "true: several vertices per instruction; false: plain code in f64"});
     DeformerKind kind = kind_of<void>(name, meaning, add_weights_key(fields).complete(), check);
     kind.make = [](const DeformerSpec& spec) {
         const auto& options = options_of<Options>(spec);
@@ -185,7 +191,8 @@ DeformerKind mush_kind(const std::string& name, const std::string& meaning, Opti
     return kind;
 }
 
-void check_direct_mush(const SceneValues& values, const std::string& table, DirectDeltaMushOptions& options, DeformerSpec& spec)
+void check_direct_mush(const SceneValues& values, const std::string& table, DirectDeltaMushOptions& options,
+                       DeformerSpec& spec)
 {
     read_weights(values, table, options, spec);
     if (options.kappa > options.lambda) values.refuse(table + ".kappa", "expected at most lambda");
@@ -208,14 +215,19 @@ DeformerKind dqs_kind()
 DeformerKind delta_mush_kind()
 {
     OptionFields<DeltaMushOptions> fields("delta_mush");
-    fields.add("iterations", &DeltaMushOptions::iterations, {.range = {0, 1e6}, .meaning = "iterations of Laplacian smoothing"})
-        .add("step", &DeltaMushOptions::step, {.range = {0, 1}, .meaning = "share of the way to the neighbours' mean in each"})
+    fields
+        .add("iterations", &DeltaMushOptions::iterations,
+             {.range = {0, 1e6}, .meaning = "iterations of Laplacian smoothing"})
+        .add("step", &DeltaMushOptions::step,
+             {.range = {0, 1}, .meaning = "share of the way to the neighbours' mean in each"})
         .add("unsmoothed_share", &DeltaMushOptions::unsmoothed_share,
              {.range = {0, 1},
-              .meaning = "share of the edges before smoothing in the frames that carry the detail; 0: the smoothed edges alone, as "
+              .meaning = "share of the edges before smoothing in the frames that carry the detail; 0: the smoothed "
+                         "edges alone, as "
                          "published, which turn limbs that are a few tets thick inside out. `pbskin try` takes 0.01"});
     return mush_kind<DeltaMushOptions, DeltaMushDeformer<double, pbs::DeltaMush>, PackedMushDeformer>(
-        "delta_mush", "LBS, smoothed, to which the detail of the rest shape is added again (Mancewicz 2014): geometry alone", fields);
+        "delta_mush",
+        "LBS, smoothed, to which the detail of the rest shape is added again (Mancewicz 2014): geometry alone", fields);
 }
 
 DeformerKind direct_delta_mush_kind()
@@ -227,18 +239,21 @@ DeformerKind direct_delta_mush_kind()
              {.range = {0, 1e4}, .meaning = "p, steps of Laplacian smoothing before the first pose; 0: LBS"})
         .add("lambda", &Options::lambda,
              {.range = {0, 1e4},
-              .meaning = "size of a step for the rotations and, with the share 1 - alpha, the translations; explicit: at most 1"})
+              .meaning = "size of a step for the rotations and, with the share 1 - alpha, the translations; explicit: "
+                         "at most 1"})
         .add("kappa", &Options::kappa,
-             {.range = {0, 1e4}, .meaning = "size of a step for the weights of the translations' share alpha; at most lambda"})
+             {.range = {0, 1e4},
+              .meaning = "size of a step for the weights of the translations' share alpha; at most lambda"})
         .add("alpha", &Options::alpha,
-             {.range = {0, 1}, .meaning = "0: centres move as in delta mush; 1: they move by LBS with weights smoothed by kappa"})
+             {.range = {0, 1},
+              .meaning = "0: centres move as in delta mush; 1: they move by LBS with weights smoothed by kappa"})
         .add("negligible", &Options::negligible,
              {.range = {0, 1e-3}, .meaning = "smoothed weight below which a bone is dropped from a vertex"})
         .add("smoothing", &Options::smoothing,
              {.meaning = "implicit: (1 + lambda L)^-p as in the paper; explicit: (1 - lambda L)^p as in delta mush"});
     return mush_kind<Options, DirectDeltaMushDeformer<pbs::DirectDeltaMush>, PackedDirectMushDeformer>(
-        "direct_delta_mush", "delta mush whose smoothing is done once, in the rest pose (Le and Lewis 2019, variant 0)", fields,
-        check_direct_mush);
+        "direct_delta_mush", "delta mush whose smoothing is done once, in the rest pose (Le and Lewis 2019, variant 0)",
+        fields, check_direct_mush);
 }
 
 }  // namespace experiments

@@ -32,7 +32,9 @@ constexpr const char* hash_key = "content_hash = \"";
 std::string rig_hash(const pbs::Character& character)
 {
     std::string bytes;
-    const auto add = [&](const auto* data, std::size_t count) { bytes.append(reinterpret_cast<const char*>(data), count * sizeof *data); };
+    const auto add = [&](const auto* data, std::size_t count) {
+        bytes.append(reinterpret_cast<const char*>(data), count * sizeof *data);
+    };
     for (const pbs::Bone& bone : character.skeleton.bones) {
         bytes += bone.name + '\0';
         add(&bone.parent, 1);
@@ -65,7 +67,8 @@ std::string multiples_text(const Eigen::MatrixXd& rows)
     std::string text = "[";
     for (const auto& row : rows.rowwise()) {
         text += text.size() > 1 ? ",\n [" : "[";
-        for (const double multiple : row) text += fmt::format("{}{}", text.back() == '[' ? "" : ",", std::llround(multiple));
+        for (const double multiple : row)
+            text += fmt::format("{}{}", text.back() == '[' ? "" : ",", std::llround(multiple));
         text += "]";
     }
     return text + "]\n";
@@ -74,7 +77,8 @@ std::string multiples_text(const Eigen::MatrixXd& rows)
 // A table of the file. Its errors name the line.
 class FileTable {
 public:
-    FileTable(const toml::table& table, const std::string& file, const std::vector<std::string>& keys) : table_(table), file_(file)
+    FileTable(const toml::table& table, const std::string& file, const std::vector<std::string>& keys)
+        : table_(table), file_(file)
     {
         for (const auto& [key, value] : table)
             if (std::ranges::count(keys, std::string(key.str())) == 0)
@@ -123,7 +127,8 @@ public:
     {
         const toml::array* list = node.as_array();
         if (!list || static_cast<Eigen::Index>(list->size()) != count)
-            refuse(node, key, list ? std::to_string(list->size()) + " numbers" : "", fmt::format("expected a list of {} numbers", count));
+            refuse(node, key, list ? std::to_string(list->size()) + " numbers" : "",
+                   fmt::format("expected a list of {} numbers", count));
         Eigen::RowVectorXd row(count);
         for (Eigen::Index i = 0; i < count; ++i) {
             const toml::node& element = *list->get(static_cast<std::size_t>(i));
@@ -138,7 +143,8 @@ public:
         if (static_cast<Eigen::Index>(rows.size()) != count)
             refuse(rows, key, std::to_string(rows.size()) + " rows", fmt::format("expected {}", count));
         Eigen::MatrixXd matrix(count, columns);
-        for (Eigen::Index k = 0; k < count; ++k) matrix.row(k) = numbers(*rows.get(static_cast<std::size_t>(k)), key, columns);
+        for (Eigen::Index k = 0; k < count; ++k)
+            matrix.row(k) = numbers(*rows.get(static_cast<std::size_t>(k)), key, columns);
         return matrix;
     }
     // The tables [[key]].
@@ -151,7 +157,8 @@ public:
         }
         return tables;
     }
-    [[noreturn]] void refuse(const toml::node& node, const std::string& key, const std::string& value, const std::string& rule) const
+    [[noreturn]] void refuse(const toml::node& node, const std::string& key, const std::string& value,
+                             const std::string& rule) const
     {
         throw InputError(file_, static_cast<int>(node.source().begin.line), key, value, rule);
     }
@@ -182,7 +189,8 @@ pbs::JointCorrective joint_in(const FileTable& table, double unit_m, const pbs::
         joint.vertices.push_back(static_cast<int>(table.whole(vertex, "vertices", 0, character.mesh.rest.rows() - 1)));
     const auto modes = static_cast<Eigen::Index>(table.list("drivers").size());
     if (modes < 1 || modes > most_modes)
-        table.refuse(table.at("drivers"), "drivers", std::to_string(modes) + " rows", fmt::format("expected from 1 to {}", most_modes));
+        table.refuse(table.at("drivers"), "drivers", std::to_string(modes) + " rows",
+                     fmt::format("expected from 1 to {}", most_modes));
     joint.drivers = table.rows("drivers", modes, corrective_features);
     joint.lowest = table.numbers(table.at("lowest"), "lowest", modes).transpose();
     joint.highest = table.numbers(table.at("highest"), "highest", modes).transpose();
@@ -199,7 +207,8 @@ private:
     {
         const pbs::SourceFile source(options_.file);
         const std::string& text = source.text();
-        if (pbs::content_hash(text) != options_.file_hash) throw InputError(options_.file, 0, "", "", "was changed while it was read");
+        if (pbs::content_hash(text) != options_.file_hash)
+            throw InputError(options_.file, 0, "", "", "was changed while it was read");
         const pbs::Correctives correctives = parse_correctives(text, options_.file, character);
         if (options_.precision == pbs::Precision::f32)
             apply_ = applying<float>(correctives, character);
@@ -215,7 +224,8 @@ private:
     static std::function<void(const pbs::Pose&, pbs::Positions&)> applying(const pbs::Correctives& correctives,
                                                                            const pbs::Character& character)
     {
-        auto skinning = std::make_shared<pbs::CorrectiveSkinning<Scalar>>(correctives, character.mesh.rest, character.weights);
+        auto skinning =
+            std::make_shared<pbs::CorrectiveSkinning<Scalar>>(correctives, character.mesh.rest, character.weights);
         return [skinning](const pbs::Pose& pose, pbs::Positions& x) { skinning->apply(pose, x); };
     }
 
@@ -223,7 +233,8 @@ private:
     std::function<void(const pbs::Pose&, pbs::Positions&)> apply_;
 };
 
-void find_correctives(const SceneValues& values, const std::string& table, CorrectivesOptions& options, DeformerSpec& /*spec*/)
+void find_correctives(const SceneValues& values, const std::string& table, CorrectivesOptions& options,
+                      DeformerSpec& /*spec*/)
 {
     options.file = fs::absolute(fs::path(values.file()).parent_path() / options.file).string();
     if (!fs::is_regular_file(options.file))
@@ -239,21 +250,26 @@ std::string text_of(const pbs::Correctives& correctives, const pbs::Character& c
     std::string contents = fmt::format("unit_m = {:.17g}\n", unit_m);
     contents += "lowest = " + rows_text(correctives.lowest) + "highest = " + rows_text(correctives.highest);
     for (const pbs::JointCorrective& joint : correctives.joints)
-        contents += fmt::format("[[joint]]\nbone = {}\nvertices = {}\nlowest = {}\nhighest = {}\ndrivers = {}modes = {}", joint.joint,
-                                nlohmann::json(joint.vertices).dump(), numbers_of(joint.lowest).dump(), numbers_of(joint.highest).dump(),
-                                rows_text(joint.drivers), multiples_text(joint.modes.transpose() / unit_m));
-    const std::string name = nlohmann::json(character.name).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+        contents += fmt::format(
+            "[[joint]]\nbone = {}\nvertices = {}\nlowest = {}\nhighest = {}\ndrivers = {}modes = {}", joint.joint,
+            nlohmann::json(joint.vertices).dump(), numbers_of(joint.lowest).dump(), numbers_of(joint.highest).dump(),
+            rows_text(joint.drivers), multiples_text(joint.modes.transpose() / unit_m));
+    const std::string name =
+        nlohmann::json(character.name).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
     return fmt::format(
-        "# Shapes that are added to the rest shape of a character before linear blend skinning: `pbskin explain correctives`.\n"
+        "# Shapes that are added to the rest shape of a character before linear blend skinning: `pbskin explain "
+        "correctives`.\n"
         "schema = {}\ncharacter = {}\ntets_hash = \"{}\"\nrig_hash = \"{}\"\n{}{}\"\n{}",
-        correctives_schema, name, pbs::content_hash(character.mesh), rig_hash(character), hash_key, pbs::content_hash(contents), contents);
+        correctives_schema, name, pbs::content_hash(character.mesh), rig_hash(character), hash_key,
+        pbs::content_hash(contents), contents);
 }
 
 pbs::Correctives parse_correctives(const std::string& text, const std::string& file, const pbs::Character& character)
 {
     const toml::table parsed = analysis::parse_toml(text, file);
-    const FileTable top(parsed, file,
-                        {"schema", "character", "tets_hash", "rig_hash", "content_hash", "unit_m", "lowest", "highest", "joint"});
+    const FileTable top(
+        parsed, file,
+        {"schema", "character", "tets_hash", "rig_hash", "content_hash", "unit_m", "lowest", "highest", "joint"});
     top.whole(top.at("schema"), "schema", correctives_schema, correctives_schema);
     require_character(top, character);
     pbs::Correctives correctives{.vertices = static_cast<int>(character.mesh.rest.rows())};
@@ -263,10 +279,12 @@ pbs::Correctives parse_correctives(const std::string& text, const std::string& f
     correctives.lowest = top.rows("lowest", bones, corrective_features);
     correctives.highest = top.rows("highest", bones, corrective_features);
     if (parsed.contains("joint"))
-        for (const FileTable& table : top.tables("joint", {"bone", "vertices", "lowest", "highest", "drivers", "modes"}))
+        for (const FileTable& table :
+             top.tables("joint", {"bone", "vertices", "lowest", "highest", "drivers", "modes"}))
             correctives.joints.push_back(joint_in(table, unit_m, character));
     const std::size_t contents = text.find('\n', text.find(hash_key)) + 1;
-    top.expect("content_hash", pbs::content_hash(text.substr(contents)), "the lines below have another hash: the file was changed");
+    top.expect("content_hash", pbs::content_hash(text.substr(contents)),
+               "the lines below have another hash: the file was changed");
     return correctives;
 }
 
@@ -289,10 +307,14 @@ DeformerKind correctives_kind()
 {
     using Options = CorrectivesOptions;
     DeformerKind kind = kind_of<CorrectivesDeformer>(
-        "correctives", "LBS with shapes that were learned from a reference (Kry 2002), of a file that `pbskin try MODEL --bake` writes",
+        "correctives",
+        "LBS with shapes that were learned from a reference (Kry 2002), of a file that `pbskin try MODEL --bake` "
+        "writes",
         OptionFields<Options>("correctives", true)
-            .key("name", KeyType::text, "", {.is_stated = true, .meaning = "the name of this deformer in deformers.use and in the records"})
-            .add("file", &Options::file, {.is_stated = true, .meaning = "the fitted correctives, relative to the scene"})
+            .key("name", KeyType::text, "",
+                 {.is_stated = true, .meaning = "the name of this deformer in deformers.use and in the records"})
+            .add("file", &Options::file,
+                 {.is_stated = true, .meaning = "the fitted correctives, relative to the scene"})
             .add("precision", &Options::precision, {.meaning = "floating point of the displacements and of the blend"})
             .record("file_hash", &Options::file_hash)
             .complete(),

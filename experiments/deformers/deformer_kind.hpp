@@ -4,8 +4,8 @@
 //   DeformerKind lift_kind()
 //   {
 //       return kind_of<Lift>("lift", "the rest shape, lifted",
-//                            OptionFields<LiftOptions>("lift").add("height_m", &LiftOptions::height_m, {.unit = "m", .meaning = "by how
-//                            much"}));
+//                            OptionFields<LiftOptions>("lift").add("height_m", &LiftOptions::height_m, {.unit = "m",
+//                            .meaning = "by how much"}));
 //   }
 #pragma once
 
@@ -21,17 +21,18 @@ namespace experiments {
 // The weights of the initial guess StartShape::smooth_dqs, solved from the springs that hold the flesh by default.
 pbs::Weights smooth_weights_of(const pbs::Character& character);
 
-// The argument is a deformer whose frames begin at a blend (its options have a member `start`); start_from replaces this blend. Where the
-// first foreseen pose turns a joint by more than 90 degrees from rest, a blend collapses or inverts the flesh there, and what projects or
-// minimises from it stays caught, in every frame; so it does where the first frame keeps more than 5e-4 of the tets inside out. The motion
-// of a rigged model is then followed from rest instead, in steps in which a bone turns by at most 45 degrees, as the reference follows it:
-// each step begins at the last positions, which the bones carry along by dual quaternions. This holds for a whole motion or not at all, and
-// never for a deformer with a memory of its own, as of jiggling. Named bodies, with which the paper is reproduced, begin each frame as
-// published, whatever their first pose.
+// The argument is a deformer whose frames begin at a blend (its options have a member `start`); start_from replaces
+// this blend. Where the first foreseen pose turns a joint by more than 90 degrees from rest, a blend collapses or
+// inverts the flesh there, and what projects or minimises from it stays caught, in every frame; so it does where the
+// first frame keeps more than 5e-4 of the tets inside out. The motion of a rigged model is then followed from rest
+// instead, in steps in which a bone turns by at most 45 degrees, as the reference follows it: each step begins at the
+// last positions, which the bones carry along by dual quaternions. This holds for a whole motion or not at all, and
+// never for a deformer with a memory of its own, as of jiggling. Named bodies, with which the paper is reproduced,
+// begin each frame as published, whatever their first pose.
 std::unique_ptr<Deformer> following(std::unique_ptr<Deformer> deformer);
 
-// The traits that options state themselves: members named order, precision, packed, iterations and threads. Iterations count only for
-// options with threads: the others' steps of smoothing are no iterations of a solver.
+// The traits that options state themselves: members named order, precision, packed, iterations and threads. Iterations
+// count only for options with threads: the others' steps of smoothing are no iterations of a solver.
 template <typename Options>
 DeformerTraits traits_from(const Options& options, const DeformerSpec& spec)
 {
@@ -51,14 +52,19 @@ DeformerTraits traits_from(const Options& options, const DeformerSpec& spec)
 
 // For keys that contradict each other, or name a variant; may change the options.
 template <typename Options>
-using CheckOptions = void (*)(const SceneValues& values, const std::string& table, Options& options, DeformerSpec& spec);
+using CheckOptions = void (*)(const SceneValues& values, const std::string& table, Options& options,
+                              DeformerSpec& spec);
 
 // Made is constructed from Options, whose member `threads` has the number of the spec. void: the caller sets `make`.
 template <typename Made, typename Options>
 DeformerKind kind_of(const std::string& name, const std::string& meaning, const OptionFields<Options>& fields,
                      CheckOptions<Options> check = nullptr)
 {
-    DeformerKind kind{.name = name, .meaning = meaning, .options = Options{}, .keys = fields.keys(), .renamed_keys = fields.renamed_keys()};
+    DeformerKind kind{.name = name,
+                      .meaning = meaning,
+                      .options = Options{},
+                      .keys = fields.keys(),
+                      .renamed_keys = fields.renamed_keys()};
     if constexpr (!std::is_void_v<Made>)
         kind.make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
             Options options = options_of<Options>(spec);
@@ -67,7 +73,8 @@ DeformerKind kind_of(const std::string& name, const std::string& meaning, const 
             return std::make_unique<Made>(options);
         };
     kind.has_list = std::any_of(kind.keys.begin(), kind.keys.end(), [](const SceneKey& key) { return key.in_list; });
-    kind.read = [fields, check, in_list = kind.has_list](const SceneValues& values, const std::string& of_scene, DeformerSpec& spec) {
+    kind.read = [fields, check, in_list = kind.has_list](const SceneValues& values, const std::string& of_scene,
+                                                         DeformerSpec& spec) {
         if (in_list && of_scene == spec.kind) return;  // not from a list: the defaults
         const std::string table = in_list ? of_scene : fields.table();
         Options options = fields.read(values, table);

@@ -1,7 +1,8 @@
-// The deformers that minimise the energy of elastic flesh in equilibrium, on linear tets that springs around the bones hold: quasi_newton,
-// vbd, warped_newton, xpbd_neo_hookean and projective_dynamics. Every frame begins at the initial guess anew, so that it does not depend on
-// the frames before. A further method of this kind is a struct of options that derives from FleshOptions, a class that derives from
-// FleshDeformer, and a kind whose keys begin with flesh_fields.
+// The deformers that minimise the energy of elastic flesh in equilibrium, on linear tets that springs around the bones
+// hold: quasi_newton, vbd, warped_newton, xpbd_neo_hookean and projective_dynamics. Every frame begins at the initial
+// guess anew, so that it does not depend on the frames before. A further method of this kind is a struct of options
+// that derives from FleshOptions, a class that derives from FleshDeformer, and a kind whose keys begin with
+// flesh_fields.
 #include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/process/machine.hpp"
 #include "pbs/character/bone_capsules.hpp"
@@ -41,23 +42,29 @@ OptionFields<Options> flesh_fields(const std::string& kind)
 {
     return OptionFields<Options>(kind)
         .add("iterations", &Options::iterations, {.range = {0, 1e6}, .meaning = "iterations per frame"})
-        .add("poisson", &Options::poisson, {.range = {0.0, 0.4999}, .meaning = "Poisson's ratio of the flesh where strains are small"})
+        .add("poisson", &Options::poisson,
+             {.range = {0.0, 0.4999}, .meaning = "Poisson's ratio of the flesh where strains are small"})
         .add("attachment", &Options::attachment,
-             {.meaning =
-                  "smooth: springs whose density decreases from a bone's axis to the surface of a capsule around it; embedded: of one "
-                  "density, so that bones are rigid capsules with core_radius 0.35 and spring_factor 1e4; held: as smooth, and each "
-                  "bone holds the flesh that it alone moves"})
+             {.meaning = "smooth: springs whose density decreases from a bone's axis to the surface of a capsule "
+                         "around it; embedded: of one "
+                         "density, so that bones are rigid capsules with core_radius 0.35 and spring_factor 1e4; held: "
+                         "as smooth, and each "
+                         "bone holds the flesh that it alone moves"})
         .add("core_radius", &Options::core_radius,
              {.range = {above_zero, 1.0},
-              .meaning = "radius of the capsules whose springs hold the flesh, a factor on the limb's radius, without a unit"})
+              .meaning =
+                  "radius of the capsules whose springs hold the flesh, a factor on the limb's radius, without a unit"})
         .add("spring_factor", &Options::spring_factor,
              {.range = {above_zero},
-              .meaning = "q, a factor without a unit: the springs have the density q E / r^2 on the axis of a capsule of radius r"})
+              .meaning = "q, a factor without a unit: the springs have the density q E / r^2 on the axis of a capsule "
+                         "of radius r"})
         .add("start", &Options::start,
-             {.meaning = "initial guess of each frame: dual quaternion skinning with weights that the springs determine, or LBS"})
+             {.meaning = "initial guess of each frame: dual quaternion skinning with weights that the springs "
+                         "determine, or LBS"})
         .add("precision", &Options::precision, {.meaning = "floating point of the iterations"})
         .add("packed", &Options::packed,
-             {.meaning = "several elements side by side in the registers; false: plain code in f64, one after the other"})
+             {.meaning =
+                  "several elements side by side in the registers; false: plain code in f64, one after the other"})
         .renamed("arithmetic", {{"packed_f32", {"precision=f32", "packed=true"}},
                                 {"packed_f64", {"precision=f64", "packed=true"}},
                                 {"plain_f64", {"precision=f64", "packed=false"}}});
@@ -65,12 +72,14 @@ OptionFields<Options> flesh_fields(const std::string& kind)
 
 FieldText contact_text()
 {
-    return {.meaning = "a penalty on skin that lies in flesh of another part of the body, as stiff as the column of flesh below that skin"};
+    return {.meaning =
+                "a penalty on skin that lies in flesh of another part of the body, as stiff as the column of flesh "
+                "below that skin"};
 }
 
 // CHOLMOD is linked with BLAS, whose kernels have to be selected before the first module that brings it.
-pbs::HeldFlesh held_flesh(const pbs::Character& character, pbs::SpringPlacement placement, const pbs::SmoothSpringOptions& springs,
-                          const pbs::HeldFleshOptions& options)
+pbs::HeldFlesh held_flesh(const pbs::Character& character, pbs::SpringPlacement placement,
+                          const pbs::SmoothSpringOptions& springs, const pbs::HeldFleshOptions& options)
 {
     select_blas_kernels();
     const pbs::BoneSprings held = pbs::bone_springs(character, placement, springs).springs;
@@ -93,8 +102,8 @@ public:
     }
 
 protected:
-    // The share of lambda in the Laplacian that determines the weights of the initial guess. Methods that also solve with this Laplacian
-    // choose a share of their own.
+    // The share of lambda in the Laplacian that determines the weights of the initial guess. Methods that also solve
+    // with this Laplacian choose a share of their own.
     virtual double volume_share() const { return pbs::HeldFleshOptions().volume_share; }
     virtual void make_solver(const pbs::Character& character) = 0;  // by `make`
     // x: the initial guess in, the result out [m], #V x 3. Returns iterations, work and outcome.
@@ -165,7 +174,10 @@ public:
 
 private:
     double volume_share() const override { return options_.volume_share; }
-    void make_solver(const pbs::Character& character) override { make(character.mesh, flesh().energy(), flesh().factor()); }
+    void make_solver(const pbs::Character& character) override
+    {
+        make(character.mesh, flesh().energy(), flesh().factor());
+    }
     pbs::StepSummary minimise(const pbs::Pose& /*pose*/, pbs::Positions& x) override
     {
         const pbs::QuasiNewtonSummary newton = solve(centres(), x);
@@ -206,7 +218,10 @@ public:
     using FleshDeformer::FleshDeformer;
 
 private:
-    void make_solver(const pbs::Character& character) override { make(character.mesh, flesh().energy(), flesh().factor()); }
+    void make_solver(const pbs::Character& character) override
+    {
+        make(character.mesh, flesh().energy(), flesh().factor());
+    }
     pbs::StepSummary minimise(const pbs::Pose& pose, pbs::Positions& x) override
     {
         skinning().rotations(pose, rotations_);
@@ -241,7 +256,8 @@ public:
 private:
     void make_solver(const pbs::Character& character) override
     {
-        constraints_.emplace(character.mesh, flesh().energy(), flesh().hold(), pbs::flesh_material(options_.poisson), options_.time_step);
+        constraints_.emplace(character.mesh, flesh().energy(), flesh().hold(), pbs::flesh_material(options_.poisson),
+                             options_.time_step);
         make(character.mesh, *constraints_);
     }
     pbs::StepSummary minimise(const pbs::Pose& pose, pbs::Positions& x) override
@@ -259,8 +275,8 @@ private:
     pbs::Positions targets_;
 };
 
-// Projective dynamics (pbs/flesh/projective_dynamics.hpp). The matrix is factored once for all frames, and the same factor gives the
-// weights of the initial guess.
+// Projective dynamics (pbs/flesh/projective_dynamics.hpp). The matrix is factored once for all frames, and the same
+// factor gives the weights of the initial guess.
 struct ProjectiveFlesh : FleshOptions<pbs::ProjectiveOptions> {
     bool keeps_volume = true;
 };
@@ -270,11 +286,14 @@ public:
     using FleshDeformer::FleshDeformer;
 
 private:
-    double volume_share() const override { return pbs::volume_share_of_projective(options_.poisson, options_.keeps_volume); }
+    double volume_share() const override
+    {
+        return pbs::volume_share_of_projective(options_.poisson, options_.keeps_volume);
+    }
     void make_solver(const pbs::Character& character) override
     {
-        const pbs::ProjectiveEnergy energy(character.mesh, pbs::projective_weights(options_.poisson, options_.keeps_volume),
-                                           flesh().hold());
+        const pbs::ProjectiveEnergy energy(
+            character.mesh, pbs::projective_weights(options_.poisson, options_.keeps_volume), flesh().hold());
         make(character.mesh, energy, flesh().factor());
     }
     pbs::StepSummary minimise(const pbs::Pose& /*pose*/, pbs::Positions& x) override
@@ -302,29 +321,35 @@ DeformerKind quasi_newton_kind()
 {
     using Options = QuasiNewtonFlesh;
     return kind_of<QuasiNewtonDeformer>(
-        "quasi_newton", "neo-Hookean flesh in equilibrium on linear tets, by L-BFGS with one prefactored Laplacian (Liu 2017)",
+        "quasi_newton",
+        "neo-Hookean flesh in equilibrium on linear tets, by L-BFGS with one prefactored Laplacian (Liu 2017)",
         flesh_fields<Options>("quasi_newton")
             .add("history", &Options::history,
                  {.range = {0, 100}, .meaning = "pairs of steps and changes of the gradient that L-BFGS keeps"})
             .add("volume_share", &Options::volume_share,
-                 {.range = {0.0, 100.0}, .meaning = "share of lambda in the first matrix; it changes the iterates, not the minimum"})
-            .add(
-                "stop_gradient", &Options::stop_gradient,
-                {.range = {0.0, 1.0}, .meaning = "stop where the preconditioned gradient is below this share of its first value; 0: never"})
+                 {.range = {0.0, 100.0},
+                  .meaning = "share of lambda in the first matrix; it changes the iterates, not the minimum"})
+            .add("stop_gradient", &Options::stop_gradient,
+                 {.range = {0.0, 1.0},
+                  .meaning = "stop where the preconditioned gradient is below this share of its first value; 0: never"})
             .add("contact", &Options::contact, contact_text()));
 }
 
 DeformerKind vbd_kind()
 {
     return kind_of<VbdDeformer>(
-        "vbd", "neo-Hookean flesh in equilibrium on linear tets, by vertex block descent with over-relaxation (Chen 2024)",
+        "vbd",
+        "neo-Hookean flesh in equilibrium on linear tets, by vertex block descent with over-relaxation (Chen 2024)",
         flesh_fields<VbdFlesh>("vbd")
             .add("acceleration", &VbdFlesh::acceleration,
-                 {.meaning = "over-relaxation of each vertex, or Chebyshev's weights after each sweep, which may diverge"})
+                 {.meaning =
+                      "over-relaxation of each vertex, or Chebyshev's weights after each sweep, which may diverge"})
             .add("omega", &VbdFlesh::omega,
-                 {.range = {above_zero, 1.999}, .meaning = "each vertex moves by omega times the way to its minimum; 1 with chebyshev"})
+                 {.range = {above_zero, 1.999},
+                  .meaning = "each vertex moves by omega times the way to its minimum; 1 with chebyshev"})
             .add("rho", &VbdFlesh::rho,
-                 {.range = {0.0, 0.9999}, .meaning = "the spectral radius of a sweep that chebyshev assumes; unused otherwise"})
+                 {.range = {0.0, 0.9999},
+                  .meaning = "the spectral radius of a sweep that chebyshev assumes; unused otherwise"})
             .add("contact", &VbdFlesh::contact, contact_text()));
 }
 
@@ -332,12 +357,14 @@ DeformerKind warped_newton_kind()
 {
     return kind_of<WarpedNewtonDeformer>(
         "warped_newton",
-        "neo-Hookean flesh in equilibrium on linear tets, by L-BFGS with the warped stiffness at rest (Mueller 2002) and sweeps of vertex "
+        "neo-Hookean flesh in equilibrium on linear tets, by L-BFGS with the warped stiffness at rest (Mueller 2002) "
+        "and sweeps of vertex "
         "block descent",
         flesh_fields<WarpedFlesh>("warped_newton")
             .add("sweeps", &WarpedFlesh::sweeps,
                  {.range = {0, 1e6}, .meaning = "sweeps over all vertices before the first step and after each"})
-            .add("omega", &WarpedFlesh::omega, {.range = {above_zero, 1.999}, .meaning = "over-relaxation of the sweeps"})
+            .add("omega", &WarpedFlesh::omega,
+                 {.range = {above_zero, 1.999}, .meaning = "over-relaxation of the sweeps"})
             .add("history", &WarpedFlesh::history,
                  {.range = {0, 100}, .meaning = "pairs of steps and changes of the gradient that L-BFGS keeps"}));
 }
@@ -347,30 +374,36 @@ DeformerKind xpbd_neo_hookean_kind()
     using Options = XpbdNeoHookeanFlesh;
     return kind_of<XpbdNeoHookeanDeformer>(
         "xpbd_neo_hookean",
-        "neo-Hookean flesh in equilibrium on linear tets, by XPBD with a hydrostatic and a deviatoric constraint per tet "
+        "neo-Hookean flesh in equilibrium on linear tets, by XPBD with a hydrostatic and a deviatoric constraint per "
+        "tet "
         "(Macklin and Mueller 2021)",
         flesh_fields<Options>("xpbd_neo_hookean")
             .add("iterations_per_step", &Options::iterations_per_step,
                  {.range = {1, 1e6}, .meaning = "iterations of each step of implicit Euler"})
             .add("time_step", &Options::time_step,
                  {.range = {above_zero, 1e6},
-                  .meaning =
-                      "time step over the time in which the stiffness of a vertex moves its mass; above 0.8 some poses end in "
-                      "an oscillation, and far below it convergence is slow. With multipliers kept it changes the iterates, not the limit"})
-            .add(
-                "multipliers", &Options::multipliers,
-                {.meaning = "kept over all steps of a frame, with the residual corrected, which converges to the minimum; of_step: zero at "
-                            "the beginning of each step, as published, which does not; reset: zero in each iteration, a common mistake"})
-            .add("momentum", &Options::momentum, {.meaning = "predict the next step by Nesterov's momentum, with restarts"}));
+                  .meaning = "time step over the time in which the stiffness of a vertex moves its mass; above 0.8 "
+                             "some poses end in "
+                             "an oscillation, and far below it convergence is slow. With multipliers kept it changes "
+                             "the iterates, not the limit"})
+            .add("multipliers", &Options::multipliers,
+                 {.meaning = "kept over all steps of a frame, with the residual corrected, which converges to the "
+                             "minimum; of_step: zero at "
+                             "the beginning of each step, as published, which does not; reset: zero in each iteration, "
+                             "a common mistake"})
+            .add("momentum", &Options::momentum,
+                 {.meaning = "predict the next step by Nesterov's momentum, with restarts"}));
 }
 
 DeformerKind projective_dynamics_kind()
 {
     using Options = ProjectiveFlesh;
     return kind_of<ProjectiveDynamicsDeformer>(
-        "projective_dynamics", "local rotations and volumes and one prefactored system (Bouaziz 2014): its limit is a material of its own",
+        "projective_dynamics",
+        "local rotations and volumes and one prefactored system (Bouaziz 2014): its limit is a material of its own",
         flesh_fields<Options>("projective_dynamics")
-            .add("keeps_volume", &Options::keeps_volume, {.meaning = "false: without the projection of volumes, as in projective skinning"})
+            .add("keeps_volume", &Options::keeps_volume,
+                 {.meaning = "false: without the projection of volumes, as in projective skinning"})
             .add("stop_step", &Options::stop_step,
                  {.range = {0.0, 1.0}, .meaning = "stop where a step is below this share of the first one; 0: never"}));
 }

@@ -1,5 +1,5 @@
-// Deformers that go to each frame of a far motion in steps from rest, instead of beginning it at a blend of its pose. The last frame is no
-// better beginning: what the iterations leave of one frame would add up over the motion.
+// Deformers that go to each frame of a far motion in steps from rest, instead of beginning it at a blend of its pose.
+// The last frame is no better beginning: what the iterations leave of one frame would add up over the motion.
 #include "experiments/deformers/deformer_kind.hpp"
 #include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
@@ -73,7 +73,8 @@ private:
     bool keeps_inside_out() const
     {
         const Eigen::VectorXd volumes_m3 = pbs::tet_volumes(wrapped().positions(), character_->mesh.tets);
-        return static_cast<double>((volumes_m3.array() <= 0.0).count()) > most_inside_out * static_cast<double>(volumes_m3.size());
+        return static_cast<double>((volumes_m3.array() <= 0.0).count()) >
+               most_inside_out * static_cast<double>(volumes_m3.size());
     }
     pbs::StepSummary follow(const pbs::Pose& pose, double dt_s)
     {

@@ -43,7 +43,8 @@ const DeformerKind& kind_named(const std::string& name)
 // A deformer on a character whose skinning weights follow another rule.
 class WeightedDeformer : public WrappingDeformer {
 public:
-    WeightedDeformer(std::unique_ptr<Deformer> deformer, pbs::WeightKind weights) : WrappingDeformer(std::move(deformer)), weights_(weights)
+    WeightedDeformer(std::unique_ptr<Deformer> deformer, pbs::WeightKind weights)
+        : WrappingDeformer(std::move(deformer)), weights_(weights)
     {
     }
 

@@ -1,5 +1,6 @@
-// The list of all deformers. Scenes, `pbskin list`, `explain`, records and metrics take from it what they need of a deformer, so that code
-// depends on its name only where a study is about that deformer. README.md describes how to add one.
+// The list of all deformers. Scenes, `pbskin list`, `explain`, records and metrics take from it what they need of a
+// deformer, so that code depends on its name only where a study is about that deformer. README.md describes how to add
+// one.
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
@@ -16,9 +17,9 @@ namespace experiments {
 
 // Properties of a deformer that other code may read without knowing its kind.
 struct DeformerTraits {
-    std::string order = {};              // order of projection; empty: it projects nothing
-    std::string precision = "f64";       // of its arithmetic
-    bool packed = false;                 // several constraints, vertices or tets per instruction, rather than one after the other
+    std::string order = {};         // order of projection; empty: it projects nothing
+    std::string precision = "f64";  // of its arithmetic
+    bool packed = false;  // several constraints, vertices or tets per instruction, rather than one after the other
     std::optional<int> iterations = {};  // per frame
     int threads = 1;                     // the largest number of threads that a step uses
     bool sleeps = false;                 // its records have a share of sleeping constraints
@@ -39,8 +40,8 @@ struct DeformerKind {
     std::any options = {};                      // the defaults
     std::vector<SceneKey> keys = {};            // of its tables in a scene
     std::vector<RenamedKey> renamed_keys = {};  // of an earlier release, which scenes may still have
-    bool has_list = false;                      // each [[kind]] table of a scene is a deformer, named by the table's key `name`
-    bool needs_list = false;                    // and there is none without a table
+    bool has_list = false;    // each [[kind]] table of a scene is a deformer, named by the table's key `name`
+    bool needs_list = false;  // and there is none without a table
     // Sets options and variant from a table of a scene (pbs, fem.0). InputError for keys that contradict each other.
     std::function<void(const SceneValues& values, const std::string& table, DeformerSpec& spec)> read = {};
     std::function<nlohmann::json(const DeformerSpec& spec)> options_json = {};

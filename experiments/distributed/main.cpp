@@ -1,14 +1,15 @@
 // pbskin_distributed: the linear reference on a mesh that is spread over MPI ranks.
 //   pbskin_distributed --bar 10000 --gravity 0 0 -9.81 -o results/bar                    one process
 //   mpirun -n 2 pbskin_distributed --bar 1000000 --gravity 0 0 -9.81 -o results/bar_1m   two
-//   pbskin_distributed --bar 10000 --gravity 0 0 -9.81 --solver cholmod                  the serial reference, for comparison
-//   mpirun -n 2 pbskin_distributed --limb 1775 --bend 10                                 held by the skeleton's springs
+//   pbskin_distributed --bar 10000 --gravity 0 0 -9.81 --solver cholmod                  the serial reference, for
+//   comparison mpirun -n 2 pbskin_distributed --limb 1775 --bend 10                                 held by the
+//   skeleton's springs
 //
 //   |/|==================+   held at x = 0, gravity everywhere, traction on the far end at x = 10 m
 //   |/|==================+
 //
-// Prints the record and writes it to DIR/record.json, and with --nodes the displacement of every node to DIR/nodes.csv. It takes seconds
-// for 10,000 tets and about a minute for 1,000,000 on 2 ranks.
+// Prints the record and writes it to DIR/record.json, and with --nodes the displacement of every node to DIR/nodes.csv.
+// It takes seconds for 10,000 tets and about a minute for 1,000,000 on 2 ranks.
 
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
@@ -48,8 +49,8 @@ struct BodyArguments {
     int limb_vertices = 0;  // the built-in limb, held by its bones with the smooth attachment of the reference
     std::string mesh_file;  // a tet mesh
 
-    // Bar and file: vertices with x <= held_below_m are held, and those with x >= pulled_above_m are pulled. NaN: the lowest, the highest
-    // x.
+    // Bar and file: vertices with x <= held_below_m are held, and those with x >= pulled_above_m are pulled. NaN: the
+    // lowest, the highest x.
     double held_below_m = std::numeric_limits<double>::quiet_NaN();
     double pulled_above_m = std::numeric_limits<double>::quiet_NaN();
     pbs::Vec3 traction_pa = pbs::Vec3::Zero();
@@ -60,7 +61,8 @@ struct LoadedBody {
     std::string name;
     pbs::TetMesh mesh;
     reference_fem::ElasticProblem problem;
-    std::optional<FemOptions> held_by = {};  // the options of the attachment to bones; nothing if the body has none. On rank 0 only
+    // the options of the attachment to bones; nothing if the body has none. On rank 0 only
+    std::optional<FemOptions> held_by = {};
 };
 
 // Everything that a solution depends on.
@@ -95,7 +97,8 @@ LoadedBody held_at_the_end(const BodyArguments& arguments, const reference_fem::
     LoadedBody body;
     body.name = arguments.bar_tets > 0 ? "bar" : std::filesystem::path(arguments.mesh_file).filename().string();
     body.mesh = arguments.bar_tets > 0 ? bar(arguments.bar_tets) : pbs::read_tet_mesh(arguments.mesh_file).mesh;
-    const double low = body.mesh.rest.col(0).minCoeff(), high = body.mesh.rest.col(0).maxCoeff(), rounding = 1e-9 * (high - low);
+    const double low = body.mesh.rest.col(0).minCoeff(), high = body.mesh.rest.col(0).maxCoeff(),
+                 rounding = 1e-9 * (high - low);
     const double held = std::isnan(arguments.held_below_m) ? low + rounding : arguments.held_below_m;
     const double pulled = std::isnan(arguments.pulled_above_m) ? high - rounding : arguments.pulled_above_m;
     body.problem.options = options;
@@ -121,7 +124,8 @@ LoadedBody limb(const BodyArguments& arguments, const reference_fem::LinearOptio
     body.problem.options = options;
     body.problem.attachment = bones.attachment;
     body.problem.spring_targets =
-        targets(bones, character.mesh.rest, pbs::pose_from_joints(character.skeleton, joints, pbs::Vec3::Zero())).springs;
+        targets(bones, character.mesh.rest, pbs::pose_from_joints(character.skeleton, joints, pbs::Vec3::Zero()))
+            .springs;
     return body;
 }
 
@@ -140,11 +144,12 @@ void broadcast(const reference_fem::MpiSession& session, LoadedBody& body)
     session.broadcast(body.problem.vertex_targets);
 }
 
-const analysis::Columns<DisplacedNode> node_columns = {{"first", &DisplacedNode::first},
-                                                       {"second", &DisplacedNode::second},
-                                                       {"x_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.x()); }},
-                                                       {"y_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.y()); }},
-                                                       {"z_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.z()); }}};
+const analysis::Columns<DisplacedNode> node_columns = {
+    {"first", &DisplacedNode::first},
+    {"second", &DisplacedNode::second},
+    {"x_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.x()); }},
+    {"y_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.y()); }},
+    {"z_m", [](auto& node) -> decltype(auto) { return (node.displacement_m.z()); }}};
 
 // Mean displacement [m] of the vertices with the greatest x.
 pbs::Vec3 tip_displacement(const pbs::TetMesh& mesh, const reference_fem::ElasticSolution& solution)
@@ -161,11 +166,14 @@ pbs::Vec3 tip_displacement(const pbs::TetMesh& mesh, const reference_fem::Elasti
     return sum / vertices;
 }
 
-RECORD_SETTINGS(BodyArguments, bar_tets, limb_vertices, mesh_file, held_below_m, pulled_above_m, traction_pa, twist_deg, bend_deg)
-RECORD_SETTINGS(reference_fem::LinearOptions, element_order, young_pa, poisson, density_kg_m3, gravity_m_s2, solver, formulation)
+RECORD_SETTINGS(BodyArguments, bar_tets, limb_vertices, mesh_file, held_below_m, pulled_above_m, traction_pa, twist_deg,
+                bend_deg)
+RECORD_SETTINGS(reference_fem::LinearOptions, element_order, young_pa, poisson, density_kg_m3, gravity_m_s2, solver,
+                formulation)
 RECORD_SETTINGS(reference_fem::IterativeOptions, tolerance, most_iterations)
 
-nlohmann::json to_json(const DistributedSettings& settings, const LoadedBody& body, const reference_fem::ElasticSolution& solution)
+nlohmann::json to_json(const DistributedSettings& settings, const LoadedBody& body,
+                       const reference_fem::ElasticSolution& solution)
 {
     const reference_fem::ElasticSummary& summary = solution.summary;
     analysis::Provenance provenance = analysis::collect_provenance(1);  // one thread per rank
@@ -212,21 +220,27 @@ struct Arguments : DistributedSettings {
 
 void add_options(CLI::App& app, Arguments& arguments)
 {
-    app.add_option("--bar", arguments.body.bar_tets, "a cantilever of about this number of tets")->check(CLI::Range(6, 1'000'000'000));
-    app.add_option("--limb", arguments.body.limb_vertices, "the built-in limb of about this number of vertices, held by its skeleton");
+    app.add_option("--bar", arguments.body.bar_tets, "a cantilever of about this number of tets")
+        ->check(CLI::Range(6, 1'000'000'000));
+    app.add_option("--limb", arguments.body.limb_vertices,
+                   "the built-in limb of about this number of vertices, held by its skeleton");
     app.add_option("--mesh", arguments.body.mesh_file, "a tet mesh [m]: .msh .vtu .vtk .mesh .node .ele");
-    app.add_option("--held-below", arguments.body.held_below_m, "the boundary with x up to this is held [m]; default: the lowest x");
+    app.add_option("--held-below", arguments.body.held_below_m,
+                   "the boundary with x up to this is held [m]; default: the lowest x");
     app.add_option("--pulled-above", arguments.body.pulled_above_m,
                    "the boundary with x from this bears the traction [m]; default: the highest x");
     app.add_option("--traction", arguments.traction_pa, "x y z [Pa]")->expected(3);
     app.add_option("--gravity", arguments.gravity_m_s2, "x y z [m/s^2]")->expected(3);
     app.add_option("--twist", arguments.body.twist_deg, "twist of the limb's forearm about x [deg]");
     app.add_option("--bend", arguments.body.bend_deg, "bend of the limb's forearm about z [deg]");
-    app.add_option("--order", arguments.elastic.element_order, "order of the elements")->check(CLI::Range(1, 2))->capture_default_str();
+    app.add_option("--order", arguments.elastic.element_order, "order of the elements")
+        ->check(CLI::Range(1, 2))
+        ->capture_default_str();
     app.add_option("--young", arguments.elastic.young_pa, "Young's modulus [Pa]")->capture_default_str();
     app.add_option("--poisson", arguments.elastic.poisson, "Poisson's ratio")->capture_default_str();
     app.add_option("--density", arguments.elastic.density_kg_m3, "density [kg/m^3]")->capture_default_str();
-    app.add_flag("--serial", arguments.serial, "the serial reference on one process, which the distributed solution is compared with");
+    app.add_flag("--serial", arguments.serial,
+                 "the serial reference on one process, which the distributed solution is compared with");
     app.add_option("--solver", arguments.solver, "cholmod and umfpack are serial")
         ->check(CLI::IsMember({"cg_ml", "cholmod", "umfpack"}))
         ->capture_default_str();
@@ -250,7 +264,8 @@ LoadedBody same_body_everywhere(const reference_fem::MpiSession& session, const 
         try {
             if ((wanted.bar_tets > 0) + (wanted.limb_vertices > 0) + !wanted.mesh_file.empty() != 1)
                 throw pbs::InputError("", 0, "body", "", "expected one of --bar, --limb and --mesh");
-            body = wanted.limb_vertices > 0 ? limb(wanted, arguments.elastic) : held_at_the_end(wanted, arguments.elastic);
+            body =
+                wanted.limb_vertices > 0 ? limb(wanted, arguments.elastic) : held_at_the_end(wanted, arguments.elastic);
         } catch (const pbs::InputError& error) {
             failure = error.what();
         }
@@ -286,25 +301,29 @@ int solve_and_record(const reference_fem::MpiSession& session, Arguments& argume
     if (!distributed && session.ranks() > 1)
         throw pbs::InputError("", 0, "solver", arguments.solver, "expected cg_ml without --serial on several ranks");
     const LoadedBody body = same_body_everywhere(session, arguments);
-    const reference_fem::ElasticSolution solution = distributed
-                                                        ? reference_fem::solve_distributed(body.mesh, body.problem, arguments.iterative)
-                                                        : reference_fem::solve_serially(body.mesh, body.problem);
+    const reference_fem::ElasticSolution solution =
+        distributed ? reference_fem::solve_distributed(body.mesh, body.problem, arguments.iterative)
+                    : reference_fem::solve_serially(body.mesh, body.problem);
     if (session.rank() == 0) write(arguments, body, solution);
     return solution.summary.converged ? exit_finished : exit_breakdown;
 }
 
 int parse_and_act(const reference_fem::MpiSession& session, int argc, char** argv)
 {
-    CLI::App app("pbskin_distributed: the linear reference on a mesh that is spread over MPI ranks", "pbskin_distributed");
+    CLI::App app("pbskin_distributed: the linear reference on a mesh that is spread over MPI ranks",
+                 "pbskin_distributed");
     Arguments arguments;
     add_options(app, arguments);
-    app.failure_message([](const CLI::App*, const CLI::Error& error) { return std::string("pbskin_distributed: ") + error.what() + "\n"; });
+    app.failure_message([](const CLI::App*, const CLI::Error& error) {
+        return std::string("pbskin_distributed: ") + error.what() + "\n";
+    });
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         std::ostringstream out, errors;
         const int status = app.exit(error, out, errors) == 0 ? exit_finished : exit_input;
-        if (session.rank() == 0) std::fprintf(stdout, "%s", out.str().c_str()), std::fprintf(stderr, "%s", errors.str().c_str());
+        if (session.rank() == 0)
+            std::fprintf(stdout, "%s", out.str().c_str()), std::fprintf(stderr, "%s", errors.str().c_str());
         return status;
     }
     return solve_and_record(session, arguments);

@@ -51,7 +51,8 @@ nlohmann::json result_in(const std::string& text)
     const nlohmann::json end = nlohmann::json::parse(text, nullptr, false);
     if (end.is_object() && end.contains("result")) return end.at("result");
     if (!end.is_object()) throw std::runtime_error("a process ended without a result");
-    if (end.value("status", exit_internal) == exit_input) throw pbs::InputError("", 0, "", "", end.value("failure", ""));
+    if (end.value("status", exit_internal) == exit_input)
+        throw pbs::InputError("", 0, "", "", end.value("failure", ""));
     throw std::runtime_error(end.value("failure", ""));
 }
 
@@ -90,7 +91,8 @@ PooledResult outcome_of(const PooledWork& work, pbs::ChildProcess& process)
     rusage usage{};
     const int status = process.wait(&usage), exit = WIFEXITED(status) ? WEXITSTATUS(status) : exit_internal;
     const bool finished = exit == exit_finished || exit == exit_breakdown;
-    PooledResult result{work.name, finished, exit == exit_breakdown ? process.text() : "", finished ? "" : process.text()};
+    PooledResult result{work.name, finished, exit == exit_breakdown ? process.text() : "",
+                        finished ? "" : process.text()};
     result.refused = exit == exit_input;
     if (WIFSIGNALED(status)) result.failure = fmt::format("ended by signal {}", WTERMSIG(status));
     if (exit == exit_interrupted) result.failure = "interrupted";
@@ -112,9 +114,11 @@ public:
         done_s_ += item.cost_s;
         ++ended_;
         const double left_s = done_s_ > 0.0 ? stopwatch_.seconds() * (total_s_ - done_s_) / done_s_ : 0.0;
-        const double pace = done_s_ > 0.0 ? jobs_ * stopwatch_.seconds() / done_s_ : 1.0;  // seconds per expected second
+        // seconds per expected second
+        const double pace = done_s_ > 0.0 ? jobs_ * stopwatch_.seconds() / done_s_ : 1.0;
         const double all_left_min = (left_s + std::min(pace, 4.0) * then_s) / 60.0;
-        spdlog::debug("{} {} after {:.0f} s", item.name, result.finished ? "finished" : "failed: " + result.failure, stopwatch_.seconds());
+        spdlog::debug("{} {} after {:.0f} s", item.name, result.finished ? "finished" : "failed: " + result.failure,
+                      stopwatch_.seconds());
         const int quarter = ended_ == runs_ ? 4 : static_cast<int>(4.0 * done_s_ / std::max(total_s_, 1e-9));
         if (quarter <= std::exchange(quarter_, std::max(quarter, quarter_)) || (runs_ < 8 && ended_ < runs_)) return;
         const std::string left = all_left_min >= 1.0 ? fmt::format(", about {:.0f} min left", all_left_min) : "";
@@ -138,11 +142,13 @@ nlohmann::json in_own_process(const std::function<nlohmann::json()>& work)
     const int status = process.wait();
     stop_if_interrupted();  // the same signal may have ended it
     if (WIFSIGNALED(status))
-        throw pbs::InputError("", 0, "process", "signal " + std::to_string(WTERMSIG(status)), "expected to end by itself");
+        throw pbs::InputError("", 0, "process", "signal " + std::to_string(WTERMSIG(status)),
+                              "expected to end by itself");
     return result_in(process.text());
 }
 
-ProgramRun run_program(const std::vector<std::string>& program_and_arguments, const std::optional<std::string>& folder, bool may_be_killed)
+ProgramRun run_program(const std::vector<std::string>& program_and_arguments, const std::optional<std::string>& folder,
+                       bool may_be_killed)
 {
     std::vector<std::string> words = program_and_arguments;
     std::vector<char*> arguments;
@@ -172,7 +178,8 @@ ProgramRun run_program(const std::vector<std::string>& program_and_arguments, co
     constexpr int most_requests = 10;  // to end by itself, over half a second
     int status = 0, requests = 0;
     while (waitpid(child, &status, WNOHANG) == 0) {
-        if (interrupted() && (may_be_killed || requests == 0)) kill(child, ++requests > most_requests ? SIGKILL : SIGTERM);
+        if (interrupted() && (may_be_killed || requests == 0))
+            kill(child, ++requests > most_requests ? SIGKILL : SIGTERM);
         std::this_thread::sleep_for(std::chrono::milliseconds(moment_ms));
     }
     stop_if_interrupted();

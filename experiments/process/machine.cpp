@@ -46,19 +46,24 @@ std::optional<ProcessorTicks> ticks_now()
 
 constexpr const char* library_file = "libblas.so.3";
 constexpr const char* core_type_variable = "OPENBLAS_CORETYPE";
-constexpr const char* restarted_variable = "PBSKIN_BLAS_KERNELS";  // set by restart_with_better_blas_kernels to the core type it selected
+constexpr const char* restarted_variable =
+    "PBSKIN_BLAS_KERNELS";  // set by restart_with_better_blas_kernels to the core type it selected
 
 enum InstructionSet { below_avx2, avx2, avx512, unknown };
 
-// OpenBLAS's core types on x86-64 by the instructions that their kernels use (its driver/others/dynamic.c and kernel/x86_64).
+// OpenBLAS's core types on x86-64 by the instructions that their kernels use (its driver/others/dynamic.c and
+// kernel/x86_64).
 InstructionSet instructions_of(std::string_view core_type)
 {
-    constexpr std::array older = {"Katmai", "Coppermine", "Northwood",   "Prescott",  "Banias",     "Atom",         "Core2",
-                                  "Penryn", "Dunnington", "Nehalem",     "Athlon",    "Opteron",    "Opteron_SSE3", "Barcelona",
-                                  "Nano",   "Bobcat",     "Sandybridge", "Bulldozer", "Piledriver", "Steamroller"};
+    constexpr std::array older = {"Katmai", "Coppermine",  "Northwood",    "Prescott",   "Banias",
+                                  "Atom",   "Core2",       "Penryn",       "Dunnington", "Nehalem",
+                                  "Athlon", "Opteron",     "Opteron_SSE3", "Barcelona",  "Nano",
+                                  "Bobcat", "Sandybridge", "Bulldozer",    "Piledriver", "Steamroller"};
     constexpr std::array with_avx2 = {"Haswell", "Zen", "Excavator"};
     constexpr std::array with_avx512 = {"SkylakeX", "Cooperlake", "SapphireRapids"};
-    const auto is_in = [&](const auto& names) { return std::find(names.begin(), names.end(), core_type) != names.end(); };
+    const auto is_in = [&](const auto& names) {
+        return std::find(names.begin(), names.end(), core_type) != names.end();
+    };
     if (is_in(older)) return below_avx2;
     if (is_in(with_avx2)) return avx2;
     return is_in(with_avx512) ? avx512 : unknown;
@@ -114,7 +119,8 @@ std::optional<ProcessorTicks> processor_ticks(const std::string& proc_stat)
         std::string name;
         words >> name;
         if (name == "cpu") ticks.assign(std::istream_iterator<double>(words), {});
-        if (name.size() > 3 && name.rfind("cpu", 0) == 0 && std::isdigit(static_cast<unsigned char>(name[3]))) ++processors;
+        if (name.size() > 3 && name.rfind("cpu", 0) == 0 && std::isdigit(static_cast<unsigned char>(name[3])))
+            ++processors;
     }
     if (ticks.size() <= idle || processors == 0) return std::nullopt;
     ticks.resize(columns, 0.0);
@@ -144,8 +150,9 @@ Processor this_processor()
 #ifdef __x86_64__
     processor.is_zen = __builtin_cpu_is("amdfam17h") || __builtin_cpu_is("amdfam19h");
     processor.has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    processor.has_avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512bw") &&
-                           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+    processor.has_avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
+                           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+                           __builtin_cpu_supports("avx512vl");
 #endif
     return processor;
 }
@@ -181,14 +188,16 @@ const pbs::Module& load_module_with_blas(const std::string& name)
     select_blas_kernels();
     const pbs::Module& module = pbs::load_module(name);
     if (std::strcmp(module.function<decltype(pbskin_headers)>("pbskin_headers")(), pbskin_headers()) != 0)
-        throw pbs::InputError(module.path(), 0, "", "", "was built from other headers than this program: build both again");
+        throw pbs::InputError(module.path(), 0, "", "",
+                              "was built from other headers than this program: build both again");
     return module;
 }
 
 std::map<std::string, std::string> blas_in_use()
 {
     void* library = loaded_library();
-    Text *configuration = openblas_text(library, "openblas_get_config"), *core_type = openblas_text(library, "openblas_get_corename");
+    Text *configuration = openblas_text(library, "openblas_get_config"),
+         *core_type = openblas_text(library, "openblas_get_corename");
     if (!configuration || !core_type) return {};
     const bool by_program = selected_here || std::getenv(restarted_variable);
     return {{"library", configuration()},

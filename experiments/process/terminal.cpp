@@ -47,7 +47,8 @@ std::atomic<pid_t> noting = 0;   // the process in which the next signal is only
 std::atomic<bool> signalled = false;
 std::atomic<const char*> unsaid = "";
 
-// A child that notes signals goes on noting them, since a signal to its whole group reaches it twice: directly, and from its parent.
+// A child that notes signals goes on noting them, since a signal to its whole group reaches it twice: directly, and
+// from its parent.
 void on_signal(int)
 {
     if (noting == getpid()) {
@@ -57,7 +58,8 @@ void on_signal(int)
     }
     pbs::AtomicFile::remove_unfinished();
     if (getpid() == program)
-        for (const char* text : {isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "", unsaid.load(), "pbskin: ", last_words, "\n"})
+        for (const char* text :
+             {isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "", unsaid.load(), "pbskin: ", last_words, "\n"})
             if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;  // nobody reads it
     _exit(exit_interrupted);
 }
@@ -136,7 +138,9 @@ std::string on_one_line(const std::string& text)
 
 std::string Failure::message() const
 {
-    return status == exit_internal ? "internal error: " + on_one_line(words) + "; please report it with the command line" : words;
+    return status == exit_internal
+               ? "internal error: " + on_one_line(words) + "; please report it with the command line"
+               : words;
 }
 
 Failure caught_failure()
@@ -194,7 +198,8 @@ void say_when_interrupted(const std::string& text)
 bool take_interruption()
 {
     const bool taken = signalled.exchange(false);
-    if (taken && getpid() == program) spdlog::info("interrupted; what is finished is written now (a second interruption ends this too)");
+    if (taken && getpid() == program)
+        spdlog::info("interrupted; what is finished is written now (a second interruption ends this too)");
     return taken;
 }
 
@@ -251,7 +256,8 @@ void Progress::advance_to(int done, const std::string& words)
     if (!shown_ || (elapsed - last_drawn_s_ < redraw_s && done < total_)) return;
     last_drawn_s_ = elapsed;
     const int filled = bar_width * done / total_;
-    fmt::print(stderr, "\r\033[K{} [{:#<{}}{:.<{}}] {}/{} {}", label_, "", filled, "", bar_width - filled, done, total_, words);
+    fmt::print(stderr, "\r\033[K{} [{:#<{}}{:.<{}}] {}/{} {}", label_, "", filled, "", bar_width - filled, done, total_,
+               words);
     std::fflush(stderr);
 }
 
@@ -260,8 +266,8 @@ void warn(const std::vector<std::string>& remarks)
     for (const std::string& remark : remarks) spdlog::warn("pbskin: warning: {}", remark);
 }
 
-// Passes on everything except warnings, each of which becomes one line of the file. The processes append to it in turn. A run without
-// warnings has no file, also if it is killed.
+// Passes on everything except warnings, each of which becomes one line of the file. The processes append to it in turn.
+// A run without warnings has no file, also if it is killed.
 class CollectedWarnings::Sink : public spdlog::sinks::base_sink<std::mutex> {
 public:
     Sink(std::string file, std::vector<spdlog::sink_ptr> others) : others(std::move(others)), file_(std::move(file)) {}
@@ -272,9 +278,11 @@ public:
         std::ranges::replace(line, '\n', ' ');
         line += '\n';
         const int opened = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-        const bool is_written = opened >= 0 && ::write(opened, line.data(), line.size()) == static_cast<ssize_t>(line.size());
+        const bool is_written =
+            opened >= 0 && ::write(opened, line.data(), line.size()) == static_cast<ssize_t>(line.size());
         if (opened >= 0) ::close(opened);
-        if (!is_written) throw pbs::InputError(file_, 0, "", "", fmt::format("cannot be written: {}", std::strerror(errno)));
+        if (!is_written)
+            throw pbs::InputError(file_, 0, "", "", fmt::format("cannot be written: {}", std::strerror(errno)));
     }
 
     std::vector<spdlog::sink_ptr> others;
@@ -327,7 +335,8 @@ std::string CollectedWarnings::summary()
     std::map<std::string, int> counts;
     for (std::string line; std::getline(lines, line);) ++counts[line];
     std::string text;
-    for (const auto& [line, count] : counts) text += count > 1 ? fmt::format("{} ({} times)\n", line, count) : line + "\n";
+    for (const auto& [line, count] : counts)
+        text += count > 1 ? fmt::format("{} ({} times)\n", line, count) : line + "\n";
     analysis::write_text_atomically(file_, text);
     return fmt::format("Warnings: {}, in {}\n", counts.size(), file_);
 }

@@ -1,4 +1,5 @@
-// The program and its user: exit statuses and failures, interruption, and the terminal with its width, colours, progress and warnings.
+// The program and its user: exit statuses and failures, interruption, and the terminal with its width, colours,
+// progress and warnings.
 #pragma once
 
 #include "pbs/geometry/cost.hpp"
@@ -30,17 +31,17 @@ struct Failure {
     std::string message() const;  // one line for stderr, without the program's name
 };
 
-// To be called in a catch, for the exception that is being handled. The user can mend bad input, a failing disk and too little memory
-// (exit_input). Any other exception is an internal error, and its message states this.
+// To be called in a catch, for the exception that is being handled. The user can mend bad input, a failing disk and too
+// little memory (exit_input). Any other exception is an internal error, and its message states this.
 Failure caught_failure();
 
-// SIGINT and SIGTERM end this process and its child processes at once, with exit_interrupted: records are written whole or not at all.
-// Unfinished files are removed. SIGTERM waits while METIS orders a matrix (pbs/geometry/deferred_sigterm.hpp). The names of long stages are
-// printed.
+// SIGINT and SIGTERM end this process and its child processes at once, with exit_interrupted: records are written whole
+// or not at all. Unfinished files are removed. SIGTERM waits while METIS orders a matrix
+// (pbs/geometry/deferred_sigterm.hpp). The names of long stages are printed.
 void watch_interrupts();
 
-// While it exists, the first signal is only noted, for work that looks for it several times a second. The next one ends the process. Child
-// processes end at the first.
+// While it exists, the first signal is only noted, for work that looks for it several times a second. The next one ends
+// the process. Child processes end at the first.
 //   const NotedInterrupts noted;  ...  stop_if_interrupted();
 class NotedInterrupts {
 public:
@@ -65,8 +66,8 @@ bool take_interruption();
 // The number of characters in a line: COLUMNS, else the width of the terminal, else 100.
 std::size_t terminal_width();
 
-// False if NO_COLOR is set. Otherwise CLICOLOR_FORCE decides (any value except 0: true), and if that is not set, whether standard output is
-// a terminal.
+// False if NO_COLOR is set. Otherwise CLICOLOR_FORCE decides (any value except 0: true), and if that is not set,
+// whether standard output is a terminal.
 bool terminal_has_colours();
 
 // A progress bar with the time left, on stderr if that is a terminal.
@@ -88,12 +89,12 @@ private:
 void hide_progress();  // for --quiet and in worker processes
 void show_progress();  // undoes hide_progress
 
-// Warnings on stderr about input that was accepted after a treatment: `pbskin: warning: FILE: FIELD = VALUE: treatment`. --quiet hides
-// them.
+// Warnings on stderr about input that was accepted after a treatment: `pbskin: warning: FILE: FIELD = VALUE:
+// treatment`. --quiet hides them.
 void warn(const std::vector<std::string>& remarks);
 
-// While it exists, the warnings of this process and of those that it forks go to a file instead of the terminal. The end of a long run
-// names the file, which then has each warning once with its count.
+// While it exists, the warnings of this process and of those that it forks go to a file instead of the terminal. The
+// end of a long run names the file, which then has each warning once with its count.
 //   CollectedWarnings warnings(folder + "/warnings.txt");  ...  fmt::print("{}", warnings.summary());
 class CollectedWarnings {
 public:

@@ -35,9 +35,11 @@ bool is_finite(const BrokenFrame& broken)
 
 }  // namespace
 
-BrokenFrame broken_frame(int frame, pbs::Outcome outcome, const pbs::Positions& positions, const Eigen::VectorXd& volume_ratios)
+BrokenFrame broken_frame(int frame, pbs::Outcome outcome, const pbs::Positions& positions,
+                         const Eigen::VectorXd& volume_ratios)
 {
-    BrokenFrame broken{.frame = frame, .what = outcome == pbs::Outcome::finished ? "inverted" : pbs::to_string(outcome)};
+    BrokenFrame broken{.frame = frame,
+                       .what = outcome == pbs::Outcome::finished ? "inverted" : pbs::to_string(outcome)};
     find_vertices(broken, positions);
     if (broken.vertices == 0) find_tet(broken, volume_ratios);
     return broken;
@@ -46,7 +48,8 @@ BrokenFrame broken_frame(int frame, pbs::Outcome outcome, const pbs::Positions& 
 std::string worst_element(const BrokenFrame& broken)
 {
     if (broken.vertices > 0) return fmt::format("first at vertex {}, {} not finite", broken.vertex, broken.vertices);
-    return fmt::format("worst tet {} of volume ratio {:.3g}, {} inverted", broken.tet, broken.volume_ratio, broken.inverted_tets);
+    return fmt::format("worst tet {} of volume ratio {:.3g}, {} inverted", broken.tet, broken.volume_ratio,
+                       broken.inverted_tets);
 }
 
 std::string what_of(const BrokenFrame& broken)
@@ -69,7 +72,9 @@ void to_json(nlohmann::json& json, const BrokenFrame& broken)
     if (broken.vertices > 0)
         json.update({{"first_vertex", broken.vertex}, {"vertices_not_finite", broken.vertices}});
     else
-        json.update({{"worst_tet", broken.tet}, {"volume_ratio", broken.volume_ratio}, {"inverted_tets", broken.inverted_tets}});
+        json.update({{"worst_tet", broken.tet},
+                     {"volume_ratio", broken.volume_ratio},
+                     {"inverted_tets", broken.inverted_tets}});
 }
 
 void from_json(const nlohmann::json& json, BrokenFrame& broken)
@@ -89,8 +94,8 @@ void from_json(const nlohmann::json& json, BrokenFrame& broken)
 
 const BrokenFrames::Entry* BrokenFrames::first_unexpected(bool finite) const
 {
-    const auto first =
-        std::ranges::find_if(entries_, [&](const Entry& entry) { return !entry.is_expected && is_finite(entry.frame) == finite; });
+    const auto first = std::ranges::find_if(
+        entries_, [&](const Entry& entry) { return !entry.is_expected && is_finite(entry.frame) == finite; });
     return first == entries_.end() ? nullptr : &*first;
 }
 
@@ -111,7 +116,8 @@ std::string BrokenFrames::bad_frame(int frames) const
         if (!entry.is_expected && is_finite(entry.frame)) bad_labels.insert(entry.label);
     }
     std::vector<std::string> counts;  // "3 of 31 frames of nh_p1"
-    for (const std::string& label : bad_labels) counts.push_back(fmt::format("{} of {} frames of {}", broken.at(label), frames, label));
+    for (const std::string& label : bad_labels)
+        counts.push_back(fmt::format("{} of {} frames of {}", broken.at(label), frames, label));
     const bool was_reached = first->frame.what != pbs::to_string(pbs::Outcome::not_converged);
     return fmt::format("{}: {} is {}; {} broke down", was_reached ? "inverted tets" : "pose not reached", first->label,
                        text_of(first->frame), fmt::join(counts, ", "));

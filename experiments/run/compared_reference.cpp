@@ -13,11 +13,13 @@ const char* remedy_of_lag(const DeformerSpec& reference)
 {
     const auto* fem = options_if<FemOptions>(reference);
     return fem && fem->attachment == FemAttachment::held
-               ? "finer tets (character.vertices, --vertices of a trial) or weights of 1 in a wider band let tets belong to that bone alone"
+               ? "finer tets (character.vertices, --vertices of a trial) or weights of 1 in a wider band let tets "
+                 "belong to that bone alone"
                : "attachment = \"held\" of [[fem]] ties such flesh to its bone";
 }
 
-// No deformer is compared with inverted flesh. The linear model is a negative control, which inverts tets at large rotations.
+// No deformer is compared with inverted flesh. The linear model is a negative control, which inverts tets at large
+// rotations.
 bool can_be_compared_with(const Runner& reference, const FrameMeasurer& measurer)
 {
     return reference.deformer->has_state() && reference.steps.summary().outcome == pbs::Outcome::finished &&
@@ -26,10 +28,12 @@ bool can_be_compared_with(const Runner& reference, const FrameMeasurer& measurer
 
 }  // namespace
 
-ComparedReference::ComparedReference(const Scene& scene, const pbs::Character& character, Runner& runner, CostRecord& cost)
+ComparedReference::ComparedReference(const Scene& scene, const pbs::Character& character, Runner& runner,
+                                     CostRecord& cost)
     : scene_(scene), character_(character), runner_(runner), cost_(cost)
 {
-    if (scene.error_bar != ErrorBar::none) cost.time("error_bar_set_up", [&] { error_bar_.emplace(runner.spec, character); });
+    if (scene.error_bar != ErrorBar::none)
+        cost.time("error_bar_set_up", [&] { error_bar_.emplace(runner.spec, character); });
 }
 
 const SpreadReference::Outcome* ComparedReference::spread() const
@@ -59,7 +63,8 @@ FrameContext ComparedReference::context(int frame, const pbs::Pose& pose, FrameM
 {
     ++frames_;
     FrameContext context{.pose = &pose};
-    if (!scene_.output.errors || runner_.spec.name != scene_.reference || !can_be_compared_with(runner_, measurer)) return context;
+    if (!scene_.output.errors || runner_.spec.name != scene_.reference || !can_be_compared_with(runner_, measurer))
+        return context;
     const pbs::Positions& positions = runner_.deformer->positions();
     context.reference = &positions;
     cost_.time("metrics", [&] {
@@ -125,21 +130,25 @@ nlohmann::json ComparedReference::record() const
 pbs::RemarkList ComparedReference::remarks() const
 {
     pbs::RemarkList remarks;
-    // A head that is longer than its bone is not held by springs around the bone, and a band that is thinner than two tets not at all.
+    // A head that is longer than its bone is not held by springs around the bone, and a band that is thinner than two
+    // tets not at all.
     if (largest_lag_.bone >= 0 && largest_lag_.turn_deg > much_lag_deg)
         remarks.push_back(
-            {frames_with_lag_ > most_lagging_frames * frames_searched_for_lag_ ? pbs::Gravity::comparison_wrong : pbs::Gravity::information,
-             fmt::format("{}: in the reference, the flesh that {} alone moves is turned by up to {:.0f} degrees against it, "
-                         "in frame {}. In {} of {} frames, {:.0f} % of the body or more lag by more than {:.0f} degrees. {}",
-                         scene_.file, bone_that_lags(), largest_lag_.turn_deg, largest_lag_.frame, frames_with_lag_,
-                         frames_searched_for_lag_, 100.0 * much_lagging_share, much_lag_deg, remedy_of_lag(runner_.spec))});
+            {frames_with_lag_ > most_lagging_frames * frames_searched_for_lag_ ? pbs::Gravity::comparison_wrong
+                                                                               : pbs::Gravity::information,
+             fmt::format(
+                 "{}: in the reference, the flesh that {} alone moves is turned by up to {:.0f} degrees against it, "
+                 "in frame {}. In {} of {} frames, {:.0f} % of the body or more lag by more than {:.0f} degrees. {}",
+                 scene_.file, bone_that_lags(), largest_lag_.turn_deg, largest_lag_.frame, frames_with_lag_,
+                 frames_searched_for_lag_, 100.0 * much_lagging_share, much_lag_deg, remedy_of_lag(runner_.spec))});
     if (const SpreadReference::Outcome* outcome = spread())
         for (const pbs::Remark& remark : remarks_on(*outcome, scene_.file)) remarks.push_back(remark);
     if (frames_with_overlap_ > 0)
-        remarks.push_back({pbs::Gravity::comparison_wrong,
-                           fmt::format("{}: the reference passes through itself in {} of {} frames, first in frame {}, and has no "
-                                       "contact: errors compare with that",
-                                       scene_.file, frames_with_overlap_, frames_, first_frame_with_overlap_)});
+        remarks.push_back(
+            {pbs::Gravity::comparison_wrong,
+             fmt::format("{}: the reference passes through itself in {} of {} frames, first in frame {}, and has no "
+                         "contact: errors compare with that",
+                         scene_.file, frames_with_overlap_, frames_, first_frame_with_overlap_)});
     return remarks;
 }
 

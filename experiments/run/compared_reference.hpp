@@ -1,5 +1,5 @@
-// The reference of a run, as the other deformers are compared with it: in which frames, outside which part of the body, with which error of
-// its own, and what makes its frames doubtful.
+// The reference of a run, as the other deformers are compared with it: in which frames, outside which part of the body,
+// with which error of its own, and what makes its frames doubtful.
 //   ComparedReference reference(scene, character, runners.front(), cost);
 //   reference.advance(pose, dt_s);                              // whenever the runner's deformer advances
 //   measurer.measure(x, reference.context(frame, pose, measurer));
@@ -33,8 +33,8 @@ public:
     void give_up_when(const std::function<bool()>& is_over);
     void advance(const pbs::Pose& pose, double dt_s);
 
-    // The frame's pose, and the reference's positions and error in it where it can be compared with. Makes the measurer leave out the tips
-    // of its creases.
+    // The frame's pose, and the reference's positions and error in it where it can be compared with. Makes the measurer
+    // leave out the tips of its creases.
     FrameContext context(int frame, const pbs::Pose& pose, FrameMeasurer& measurer);
     // A deformer whose error is not above the reference's in one more frame.
     void add_below_error(const std::string& label) { ++frames_below_error_[label]; }

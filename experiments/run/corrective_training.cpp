@@ -28,7 +28,10 @@ Quaterniond mirrored(const Quaterniond& rotation)
 // Numbers that every standard library draws alike.
 class Random {
 public:
-    double number(double low, double high) { return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0); }
+    double number(double low, double high)
+    {
+        return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
+    }
     std::size_t index(std::size_t count) { return engine_() % count; }
     Quaterniond rotation(double most_rad)
     {
@@ -53,7 +56,8 @@ JointRotations rotations_in(const pbs::Skeleton& skeleton, const std::vector<pbs
             const int parent = skeleton.bones[b].parent;
             if (parent < 0) continue;
             const Quaterniond rotation(Eigen::Matrix3d(pose[parent].linear().transpose() * pose[b].linear()));
-            if (rotation.angularDistance(Quaterniond::Identity()) > least_turn_rad) known[b].push_back(rotation.normalized());
+            if (rotation.angularDistance(Quaterniond::Identity()) > least_turn_rad)
+                known[b].push_back(rotation.normalized());
         }
     return known;
 }
@@ -79,7 +83,8 @@ JointRotations rotations_of_movements(const pbs::Skeleton& skeleton)
     return known;
 }
 
-std::vector<pbs::Pose> drawn_poses(const pbs::Skeleton& skeleton, const JointRotations& known, const DrawnPoses& options)
+std::vector<pbs::Pose> drawn_poses(const pbs::Skeleton& skeleton, const JointRotations& known,
+                                   const DrawnPoses& options)
 {
     Random random;
     std::vector<pbs::Pose> poses;
@@ -96,14 +101,17 @@ std::vector<pbs::Pose> drawn_poses(const pbs::Skeleton& skeleton, const JointRot
     return poses;
 }
 
-std::vector<pbs::CorrectiveSample> solved_on_linear_elements(const pbs::Character& character, const FemOptions& reference,
+std::vector<pbs::CorrectiveSample> solved_on_linear_elements(const pbs::Character& character,
+                                                             const FemOptions& reference,
                                                              const std::vector<pbs::Pose>& poses, double most_s)
 {
-    if (!reference.has_sample_points()) throw std::invalid_argument("correctives are learned with bones that springs in capsules hold");
+    if (!reference.has_sample_points())
+        throw std::invalid_argument("correctives are learned with bones that springs in capsules hold");
     select_blas_kernels();
     const pbs::BoneSprings springs =
         pbs::bone_springs(character, spring_placement(reference.attachment), spring_options(reference)).springs;
-    const pbs::HeldFlesh flesh(character.mesh, springs, static_cast<int>(character.skeleton.bones.size()), {.poisson = reference.poisson});
+    const pbs::HeldFlesh flesh(character.mesh, springs, static_cast<int>(character.skeleton.bones.size()),
+                               {.poisson = reference.poisson});
     pbs::BlendSkinning<double> skinning(character.mesh.rest, flesh.smooth_weights(character.weights));
     pbs::QuasiNewton<double> newton(character.mesh, flesh.energy(), flesh.factor(),
                                     {.iterations = most_iterations, .stop_gradient = solved_to});

@@ -1,4 +1,5 @@
-// The cost of a run: seconds of each of its parts, peak memory, loaded shared objects. Every run.json has it under `cost`.
+// The cost of a run: seconds of each of its parts, peak memory, loaded shared objects. Every run.json has it under
+// `cost`.
 //   CostRecord cost;
 //   const pbs::Character character = cost.time("character", [&] { return pbs::make_character(source); });
 //   run["cost"] = cost.json();
@@ -33,8 +34,9 @@ public:
 
     double seconds(const std::string& part) const;  // 0 for a part that was not timed
 
-    // seconds: by part, `total` since construction, `deformers` by label and part. cpu_seconds: the same in processor time of all threads,
-    // which other work on the machine stretches less. peak_memory_mb (10^6 bytes) and shared_objects are those of the process.
+    // seconds: by part, `total` since construction, `deformers` by label and part. cpu_seconds: the same in processor
+    // time of all threads, which other work on the machine stretches less. peak_memory_mb (10^6 bytes) and
+    // shared_objects are those of the process.
     nlohmann::json json() const;
 
 private:

@@ -44,27 +44,33 @@ const std::string& bone_of_inverted_tets(const pbs::Character& character, const 
     return character.skeleton.bones[std::ranges::max_element(share) - share.begin()].name;
 }
 
-// Blending that inverts many tets in the first frame, before anything has moved far, points to a rest pose that is not the model's.
-pbs::RemarkList remarks_on_inverted_start(const Scene& scene, const pbs::Character& character, const std::vector<Runner>& runners)
+// Blending that inverts many tets in the first frame, before anything has moved far, points to a rest pose that is not
+// the model's.
+pbs::RemarkList remarks_on_inverted_start(const Scene& scene, const pbs::Character& character,
+                                          const std::vector<Runner>& runners)
 {
     std::vector<std::string> counts;
     int least = std::numeric_limits<int>::max();  // weights of another rule may be the cause under one method alone
     for (const Runner& runner : runners) {
         if (!runner.traits.blends_linearly) continue;
         least = std::min(least, runner.most_inverted);
-        if (runner.most_inverted > 0) counts.push_back(fmt::format("{} has {}", runner.spec.label, runner.most_inverted));
+        if (runner.most_inverted > 0)
+            counts.push_back(fmt::format("{} has {}", runner.spec.label, runner.most_inverted));
     }
     if (counts.empty()) return {};
     const Eigen::Index tets = character.mesh.tets.rows();
-    const std::string text = fmt::format("{}: {} inverted tets in the first frame, of {}", scene.file, fmt::join(counts, " and "), tets);
+    const std::string text =
+        fmt::format("{}: {} inverted tets in the first frame, of {}", scene.file, fmt::join(counts, " and "), tets);
     if (least > many_inverted_pct / 100.0 * static_cast<double>(tets))
-        return {{pbs::Gravity::results_wrong, text + ": its pose is far from the bind pose, or the weights do not fit the joints"}};
+        return {{pbs::Gravity::results_wrong,
+                 text + ": its pose is far from the bind pose, or the weights do not fit the joints"}};
     return {{pbs::Gravity::information, text}};
 }
 
 }  // namespace
 
-pbs::RemarkList remarks_on_set_up(const Scene& scene, const pbs::Character& character, const std::vector<Runner>& runners)
+pbs::RemarkList remarks_on_set_up(const Scene& scene, const pbs::Character& character,
+                                  const std::vector<Runner>& runners)
 {
     pbs::RemarkList remarks;
     std::vector<std::string> with_soft_slivers;
@@ -73,15 +79,18 @@ pbs::RemarkList remarks_on_set_up(const Scene& scene, const pbs::Character& char
         const nlohmann::json record = runner.deformer->record();
         if (const auto without = bones_without_flesh(record); !without.empty())
             remarks.push_back({pbs::Gravity::part_left_out,
-                               fmt::format("{}: {} leaves out {} of {} bones, whose middle lies outside the flesh: {}", scene.file,
-                                           runner.spec.label, without.size(), character.skeleton.bones.size(), pbs::name_list(without))});
-        if (const int loose = record.is_object() ? record.value("/attachment/loose_parts"_json_pointer, 0) : 0; loose > 0)
+                               fmt::format("{}: {} leaves out {} of {} bones, whose middle lies outside the flesh: {}",
+                                           scene.file, runner.spec.label, without.size(),
+                                           character.skeleton.bones.size(), pbs::name_list(without))});
+        if (const int loose = record.is_object() ? record.value("/attachment/loose_parts"_json_pointer, 0) : 0;
+            loose > 0)
             remarks.push_back(
-                {pbs::Gravity::part_left_out,
-                 fmt::format("{}: no bone holds {} separate part{} of the flesh, {:.2g} % of its volume: in {}, linear blend skinning "
-                             "moves {}",
-                             scene.file, loose, loose == 1 ? "" : "s", record.at("/attachment/loose_pct"_json_pointer).get<double>(),
-                             runner.spec.label, loose == 1 ? "it" : "them")});
+                {pbs::Gravity::part_left_out, fmt::format("{}: no bone holds {} separate part{} of the flesh, {:.2g} % "
+                                                          "of its volume: in {}, linear blend skinning "
+                                                          "moves {}",
+                                                          scene.file, loose, loose == 1 ? "" : "s",
+                                                          record.at("/attachment/loose_pct"_json_pointer).get<double>(),
+                                                          runner.spec.label, loose == 1 ? "it" : "them")});
         if (!record.contains("weakened_slivers")) continue;
         slivers = record.at("weakened_slivers").get<int>();
         with_soft_slivers.push_back(runner.spec.label);
@@ -89,9 +98,10 @@ pbs::RemarkList remarks_on_set_up(const Scene& scene, const pbs::Character& char
     if (!with_soft_slivers.empty())
         remarks.push_back(
             {pbs::Gravity::part_left_out,
-             fmt::format("{}: {} of {} tets are slivers, whose volume is below 1e-5 of their longest edge cubed: {} could not "
-                         "turn them, and take them as soft as regular tets; remesh the body, or leave these tets out",
-                         scene.file, slivers, character.mesh.tets.rows(), fmt::join(with_soft_slivers, ", "))});
+             fmt::format(
+                 "{}: {} of {} tets are slivers, whose volume is below 1e-5 of their longest edge cubed: {} could not "
+                 "turn them, and take them as soft as regular tets; remesh the body, or leave these tets out",
+                 scene.file, slivers, character.mesh.tets.rows(), fmt::join(with_soft_slivers, ", "))});
     return remarks;
 }
 
@@ -103,16 +113,19 @@ pbs::RemarkList remarks_on_first_frame(const Scene& scene, const pbs::Character&
     // A warning names a clip whose directions are far from the body's as the cause.
     if (!motion.is_far_from_clip()) remarks = remarks_on_inverted_start(scene, character, runners);
     for (const Runner& runner : runners) {
-        if (const nlohmann::json record = runner.deformer->record(); record.is_object() && record.contains("follows_from_rest"))
+        if (const nlohmann::json record = runner.deformer->record();
+            record.is_object() && record.contains("follows_from_rest"))
             remarks.push_back(
                 {pbs::Gravity::information,
-                 fmt::format("{}: the first frame turns a joint by more than 90 degrees from the bind pose, or a blend of its "
-                             "pose leaves tets inside out: {} goes to each frame in steps from the bind pose",
-                             scene.file, runner.spec.label)});
+                 fmt::format(
+                     "{}: the first frame turns a joint by more than 90 degrees from the bind pose, or a blend of its "
+                     "pose leaves tets inside out: {} goes to each frame in steps from the bind pose",
+                     scene.file, runner.spec.label)});
         if (runner.traits.iterations && !runner.traits.solves_equations && runner.most_inverted > 0)
             remarks.push_back(
                 {pbs::Gravity::information,
-                 fmt::format("{}: {} begins with {} inverted tets, most of them at {}: what is caught in the first frame may stay so",
+                 fmt::format("{}: {} begins with {} inverted tets, most of them at {}: what is caught in the first "
+                             "frame may stay so",
                              scene.file, runner.spec.label, runner.most_inverted,
                              bone_of_inverted_tets(character, measurer.volume_ratios(runner.deformer->positions())))});
     }
@@ -149,14 +162,17 @@ pbs::RemarkList remarks_on(const CarriedSkin& skin, const std::string& scene_fil
     if (skin.largest_pct <= far_from_artist_pct) return {};
     const std::string cause =
         skin.at_a_joint
-            ? fmt::format("the tets at {} are too coarse for its weights; --vertices (character.vertices in a scene) asks for more",
-                          skin.bone)
-            : fmt::format("there the flesh of {} carries the surface of {}, with a gap of {:.2g} % of that size at rest",
-                          skin.bone_of_flesh, skin.bone, skin.gap_pct);
-    return {{pbs::Gravity::results_wrong,
-             fmt::format("{}: the surface that LBS carries with the tets is up to {:.1f} % of the model's size away from the artist's, in "
-                         "frame {}: {}",
-                         scene_file, skin.largest_pct, skin.frame, cause)}};
+            ? fmt::format(
+                  "the tets at {} are too coarse for its weights; --vertices (character.vertices in a scene) asks for "
+                  "more",
+                  skin.bone)
+            : fmt::format(
+                  "there the flesh of {} carries the surface of {}, with a gap of {:.2g} % of that size at rest",
+                  skin.bone_of_flesh, skin.bone, skin.gap_pct);
+    return {{pbs::Gravity::results_wrong, fmt::format("{}: the surface that LBS carries with the tets is up to {:.1f} "
+                                                      "% of the model's size away from the artist's, in "
+                                                      "frame {}: {}",
+                                                      scene_file, skin.largest_pct, skin.frame, cause)}};
 }
 
 }  // namespace experiments

@@ -19,7 +19,8 @@ const analysis::Columns<BonePlace> bone_columns = [] {
     for (const auto& [name, end] : {std::pair("head_", &BonePlace::head), std::pair("tail_", &BonePlace::tail)})
         for (int axis = 0; axis < 3; ++axis)
             columns.emplace_back(
-                std::string(name) + "xyz"[axis] + "_m", [ end = end, axis ](auto& bone) -> auto& { return (bone.*end)(axis); });
+                std::string(name) + "xyz"[axis] + "_m",
+                [ end = end, axis ](auto& bone) -> auto& { return (bone.*end)(axis); });
     return columns;
 }();
 
@@ -32,15 +33,18 @@ const analysis::Columns<BoundVertex> bound_vertex_columns =
 std::vector<BonePlace> bones_at_rest(const pbs::Skeleton& skeleton)
 {
     std::vector<BonePlace> bones;
-    for (const pbs::Bone& bone : skeleton.bones) bones.push_back({bone.name, parent_of(skeleton, bone), bone.head, bone.tail});
+    for (const pbs::Bone& bone : skeleton.bones)
+        bones.push_back({bone.name, parent_of(skeleton, bone), bone.head, bone.tail});
     return bones;
 }
 
-void add_bones(std::vector<PosedBone>& bones, int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose)
+void add_bones(std::vector<PosedBone>& bones, int frame, double time_s, const pbs::Skeleton& skeleton,
+               const pbs::Pose& pose)
 {
     for (std::size_t j = 0; j < skeleton.bones.size(); ++j) {
         const pbs::Bone& bone = skeleton.bones[j];
-        bones.push_back({frame, time_s, {bone.name, parent_of(skeleton, bone), pose[j] * bone.head, pose[j] * bone.tail}});
+        bones.push_back(
+            {frame, time_s, {bone.name, parent_of(skeleton, bone), pose[j] * bone.head, pose[j] * bone.tail}});
     }
 }
 
@@ -50,8 +54,8 @@ std::vector<BoundVertex> bound_vertices(const pbs::Character& character)
     const std::vector<bool> jiggles = pbs::jiggle_zone(binding);
     std::vector<BoundVertex> vertices;
     for (std::size_t v = 0; v < binding.bone.size(); ++v)
-        vertices.push_back({int(v), character.skeleton.bones[binding.bone[v]].name, binding.parameter(v), binding.distance(v),
-                            bool(character.blended[v]), jiggles[v]});
+        vertices.push_back({int(v), character.skeleton.bones[binding.bone[v]].name, binding.parameter(v),
+                            binding.distance(v), bool(character.blended[v]), jiggles[v]});
     return vertices;
 }
 
@@ -75,23 +79,26 @@ analysis::CsvTable embedding_table(const pbs::EmbeddedSurface& surface, const Jo
     return table_of(embedding_columns, points);
 }
 
-void write_surface(const pbs::EmbeddedSurface& surface, const pbs::TetMesh& mesh, const JointShares& of_joints, const std::string& folder)
+void write_surface(const pbs::EmbeddedSurface& surface, const pbs::TetMesh& mesh, const JointShares& of_joints,
+                   const std::string& folder)
 {
-    pbs::write_vtp(folder + "/surface_rest.vtp", pbs::embedded_positions(surface, mesh.rest, mesh.tets), surface.triangles);
+    pbs::write_vtp(folder + "/surface_rest.vtp", pbs::embedded_positions(surface, mesh.rest, mesh.tets),
+                   surface.triangles);
     embedding_table(surface, of_joints).write(folder + "/embedding.csv");
 }
 
 const analysis::Columns<DeformerDistance> distance_columns =
     MEMBER_COLUMNS(DeformerDistance, frame, time_s, deformer, other, of, points, rms_mm, largest_mm);
 
-void DistanceRecord::add(int frame, double time_s, const std::string& label, const std::string& owner, const pbs::Positions& points)
+void DistanceRecord::add(int frame, double time_s, const std::string& label, const std::string& owner,
+                         const pbs::Positions& points)
 {
     if (frame != frame_) before_.clear();
     frame_ = frame;
     for (const auto& [other, there] : before_) {
         const Eigen::VectorXd squares = (points - there).rowwise().squaredNorm();
-        distances_.push_back({frame, time_s, label, other, owner, static_cast<int>(points.rows()), 1e3 * std::sqrt(squares.mean()),
-                              1e3 * std::sqrt(squares.maxCoeff())});
+        distances_.push_back({frame, time_s, label, other, owner, static_cast<int>(points.rows()),
+                              1e3 * std::sqrt(squares.mean()), 1e3 * std::sqrt(squares.maxCoeff())});
     }
     before_.emplace_back(label, points);
 }

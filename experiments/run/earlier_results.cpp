@@ -36,8 +36,9 @@ std::vector<fs::path> results_in(const fs::path& folder)
         if (fs::is_directory(folder / frames))
             for (const fs::path& file : analysis::files_in(folder / frames))
                 if (is_own_frame(file)) results.push_back(file.lexically_relative(folder));
-    for (const char* file : {"metrics.csv", "frame_statistics.csv", "distances.csv", "iterations.csv", "regions.csv", "bones.csv",
-                             "bones_rest.csv", "binding.csv", "surface_rest.vtp", "embedding.csv", "try.json", "report.html", "run.json"})
+    for (const char* file :
+         {"metrics.csv", "frame_statistics.csv", "distances.csv", "iterations.csv", "regions.csv", "bones.csv",
+          "bones_rest.csv", "binding.csv", "surface_rest.vtp", "embedding.csv", "try.json", "report.html", "run.json"})
         if (fs::exists(fs::symlink_status(folder / file))) results.emplace_back(file);
     return results;
 }
@@ -47,8 +48,8 @@ void remove_results(const fs::path& folder)
     for (const fs::path& file : results_in(folder)) analysis::remove_record(folder / file);
 }
 
-// A kill may end the program between two files. run.json is moved aside last and put back first, so that the next run finds out from its
-// place that files are still to be put back.
+// A kill may end the program between two files. run.json is moved aside last and put back first, so that the next run
+// finds out from its place that files are still to be put back.
 enum class Record { first, last };
 void move_results(const fs::path& from, const fs::path& to, Record record)
 {
@@ -80,7 +81,8 @@ bool has_finished_run(const fs::path& folder)
 EarlierResults::EarlierResults(const fs::path& folder) : folder_(folder)
 {
     const fs::path earlier = folder_ / aside;
-    if (!fs::exists(earlier / "run.json")) move_results(earlier, folder_, Record::last);  // a run was killed while it moved them
+    // a run was killed while it moved them
+    if (!fs::exists(earlier / "run.json")) move_results(earlier, folder_, Record::last);
     const bool has_earlier = fs::exists(earlier / "run.json");
     if (has_earlier ? has_finished_run(folder_) : fs::exists(folder_ / "run.json")) {
         remove_aside(earlier);
@@ -101,7 +103,8 @@ void EarlierResults::put_back()
         move_results(folder_ / aside, folder_, Record::first);
         remove_aside(folder_ / aside);
     } catch (const std::exception& error) {
-        warn({fmt::format("{}: the earlier results could not be put back: {}", (folder_ / aside).string(), error.what())});
+        warn({fmt::format("{}: the earlier results could not be put back: {}", (folder_ / aside).string(),
+                          error.what())});
     }
 }
 

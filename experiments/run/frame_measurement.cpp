@@ -70,7 +70,8 @@ std::vector<int> tets_within(const pbs::Tets& tets, const std::vector<char>& cho
     std::vector<int> within;
     for (Eigen::Index t = 0; t < tets.rows(); ++t) {
         const auto corners = tets.row(t);
-        if (std::all_of(corners.begin(), corners.end(), [&](int v) { return chosen[v]; })) within.push_back(static_cast<int>(t));
+        if (std::all_of(corners.begin(), corners.end(), [&](int v) { return chosen[v]; }))
+            within.push_back(static_cast<int>(t));
     }
     return within;
 }
@@ -85,7 +86,8 @@ std::vector<int> tets_of(const pbs::Character& character, const std::set<int>& b
 std::vector<int> tets_near(const pbs::TetMesh& mesh, const pbs::Vec3& point, double radius)
 {
     std::vector<char> chosen(mesh.rest.rows());
-    for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v) chosen[v] = (mesh.rest.row(v).transpose() - point).norm() < radius;
+    for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v)
+        chosen[v] = (mesh.rest.row(v).transpose() - point).norm() < radius;
     return tets_within(mesh.tets, chosen);
 }
 
@@ -96,11 +98,12 @@ bool has_its_own_flesh(const pbs::Character& character, const LimbStation& stati
         return analysis::cross_section_area(character.mesh.rest, character.mesh.tets, tets, plane);
     };
     const double own = area(station.tets);
-    return own > 0.0 && own >= own_flesh * area(tets_near(character.mesh, station.point, nearby_distances * mean_distance));
+    return own > 0.0 &&
+           own >= own_flesh * area(tets_near(character.mesh, station.point, nearby_distances * mean_distance));
 }
 
-LimbStation station_at(const pbs::Character& character, std::string name, const pbs::Vec3& point, const pbs::Vec3& normal,
-                       std::vector<int> carriers)
+LimbStation station_at(const pbs::Character& character, std::string name, const pbs::Vec3& point,
+                       const pbs::Vec3& normal, std::vector<int> carriers)
 {
     std::vector<int> tets = tets_of(character, along_limb(character.skeleton, carriers));
     return {std::move(name), point, normal.normalized(), std::move(carriers), std::move(tets)};
@@ -121,12 +124,15 @@ std::vector<LimbStation> limb_stations(const pbs::Character& character)
         for (int i = 1; i <= stations_per_limb; ++i) {
             const double along = i / (stations_per_limb + 1.0);
             const pbs::Vec3 point = bones[b].head + along * (bones[b].tail - bones[b].head);
-            add(station_at(character, fmt::format("{} {:.2f}", bones[b].name, along), point, direction(bones[b]), {b}), distances[b]);
+            add(station_at(character, fmt::format("{} {:.2f}", bones[b].name, along), point, direction(bones[b]), {b}),
+                distances[b]);
         }
         const int parent = bones[b].parent;
-        if (parent < 0 || !is_limb(bones[parent], distances[parent]) || !in_one_line(character.skeleton, parent, b)) continue;
+        if (parent < 0 || !is_limb(bones[parent], distances[parent]) || !in_one_line(character.skeleton, parent, b))
+            continue;
         const pbs::Vec3 normal = direction(bones[parent]) + direction(bones[b]);
-        add(station_at(character, bones[parent].name + "|" + bones[b].name, bones[b].head, normal, {parent, b}), distances[b]);
+        add(station_at(character, bones[parent].name + "|" + bones[b].name, bones[b].head, normal, {parent, b}),
+            distances[b]);
     }
     return stations;
 }
@@ -142,7 +148,8 @@ pbs::Vec3 posed_normal(const LimbStation& station, const pbs::Pose& pose)
 {
     pbs::Vec3 sum = pbs::Vec3::Zero();
     for (const int bone : station.carriers) sum += pose[bone].linear() * station.normal;
-    return sum.norm() > 0.0 ? pbs::Vec3(sum.normalized()) : pbs::Vec3(pose[station.carriers.front()].linear() * station.normal);
+    return sum.norm() > 0.0 ? pbs::Vec3(sum.normalized())
+                            : pbs::Vec3(pose[station.carriers.front()].linear() * station.normal);
 }
 
 analysis::ErrorDomain error_domain(const pbs::Character& character, const std::vector<bool>& prescribed)
@@ -156,11 +163,15 @@ analysis::ErrorDomain error_domain(const pbs::Character& character, const std::v
 bool FrameMeasurement::error_below_reference_error() const
 {
     if (!errors || !reference_error) return false;
-    return std::isnan(errors->joint_pct) ? errors->l2_pct <= reference_error->l2_pct : errors->joint_pct <= reference_error->joint_pct;
+    return std::isnan(errors->joint_pct) ? errors->l2_pct <= reference_error->l2_pct
+                                         : errors->joint_pct <= reference_error->joint_pct;
 }
 
-FrameMeasurer::FrameMeasurer(const pbs::Character& character, const OutputSpec& output, const std::vector<bool>& prescribed)
-    : character_(character), metrics_(character.mesh.rest, character.mesh.tets), skin_(pbs::boundary_of(character.mesh.tets))
+FrameMeasurer::FrameMeasurer(const pbs::Character& character, const OutputSpec& output,
+                             const std::vector<bool>& prescribed)
+    : character_(character),
+      metrics_(character.mesh.rest, character.mesh.tets),
+      skin_(pbs::boundary_of(character.mesh.tets))
 {
     if (output.errors) {
         error_metrics_.emplace(error_domain(character, prescribed));
@@ -171,23 +182,26 @@ FrameMeasurer::FrameMeasurer(const pbs::Character& character, const OutputSpec& 
     for (const LimbStation& station : stations_) {
         const analysis::Plane rest{station.point, station.normal};
         sections_.push_back(
-            {rest, rest, station.tets, analysis::cross_section_area(character.mesh.rest, character.mesh.tets, station.tets, rest)});
+            {rest, rest, station.tets,
+             analysis::cross_section_area(character.mesh.rest, character.mesh.tets, station.tets, rest)});
     }
     if (output.surface && character.surface)
-        surface_volume_ = analysis::surface_volume_of(pbs::embedded_positions(*character.surface, character.mesh.rest, character.mesh.tets),
-                                                      character.surface->triangles);
+        surface_volume_ = analysis::surface_volume_of(
+            pbs::embedded_positions(*character.surface, character.mesh.rest, character.mesh.tets),
+            character.surface->triangles);
 }
 
 FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const FrameContext& context)
 {
     FrameMeasurement measured;
     measured.metrics = metrics_.measure(positions);
-    measured.bind_rms_m =
-        analysis::bind_rms(positions, pbs::posed_bind_points(character_.binding, *context.pose), character_.binding.distance);
+    measured.bind_rms_m = analysis::bind_rms(positions, pbs::posed_bind_points(character_.binding, *context.pose),
+                                             character_.binding.distance);
     measured.angle_deg = context.angle_deg;
     const Eigen::Quaterniond root(context.pose->front().linear());
     double rotation_rad = 0.0;
-    for (const auto& bone : *context.pose) rotation_rad = std::max(rotation_rad, root.angularDistance(Eigen::Quaterniond(bone.linear())));
+    for (const auto& bone : *context.pose)
+        rotation_rad = std::max(rotation_rad, root.angularDistance(Eigen::Quaterniond(bone.linear())));
     measured.rotation_deg = rotation_rad * 180.0 / std::numbers::pi;
     if (error_metrics_ && context.reference) {
         measured.errors = difference(positions, *context.reference);
@@ -199,7 +213,8 @@ FrameMeasurement FrameMeasurer::measure(const pbs::Positions& positions, const F
     if (!positions.allFinite()) return measured;
     if (!stations_.empty()) measured.min_section_pct = min_section_pct(positions, *context.pose);
     if (surface_volume_)
-        measured.surface_volume_change_pct = surface_volume_->change_pct(pbs::surface_positions(character_, positions, *context.pose));
+        measured.surface_volume_change_pct =
+            surface_volume_->change_pct(pbs::surface_positions(character_, positions, *context.pose));
     return measured;
 }
 
@@ -225,7 +240,8 @@ std::vector<int> FrameMeasurer::contact_depths_um(const pbs::Positions& position
         for (const int v : corners) normals.row(v) += (b - a).cross(c - a);
     }
     pbs::Positions moved = positions;
-    for (Eigen::Index v = 0; v < moved.rows(); ++v) moved.row(v) += 0.5 * touching_m * normals.row(v).stableNormalized();
+    for (Eigen::Index v = 0; v < moved.rows(); ++v)
+        moved.row(v) += 0.5 * touching_m * normals.row(v).stableNormalized();
     std::vector<int> depths_um(positions.rows(), 0);
     contact_->forget();
     contact_->find(moved.data());
@@ -243,7 +259,8 @@ double FrameMeasurer::min_section_pct(const pbs::Positions& positions, const pbs
 {
     for (std::size_t i = 0; i < stations_.size(); ++i)
         sections_[i].posed = {posed_point(stations_[i], pose), posed_normal(stations_[i], pose)};
-    return 100.0 * analysis::section_extremes(character_.mesh.rest, positions, character_.mesh.tets, sections_).smallest_ratio;
+    return 100.0 *
+           analysis::section_extremes(character_.mesh.rest, positions, character_.mesh.tets, sections_).smallest_ratio;
 }
 
 }  // namespace experiments

@@ -1,5 +1,5 @@
-// Everything that is measured on one frame of one deformer: the metrics of the tets, the errors against the reference, the smallest
-// cross-section, and the volume of the rendered surface.
+// Everything that is measured on one frame of one deformer: the metrics of the tets, the errors against the reference,
+// the smallest cross-section, and the volume of the rendered surface.
 #pragma once
 
 #include "analysis/metrics/cross_section.hpp"
@@ -22,8 +22,8 @@
 
 namespace experiments {
 
-// The planes that cut limbs to find their smallest cross-section: across bones that flesh surrounds like a sleeve, and across the joints
-// between such bones.
+// The planes that cut limbs to find their smallest cross-section: across bones that flesh surrounds like a sleeve, and
+// across the joints between such bones.
 
 // A plane in the rest pose, and the bones that move it: its posed point and normal are the means over these bones.
 struct LimbStation {
@@ -33,9 +33,10 @@ struct LimbStation {
     std::vector<int> tets;      // tets of these bones and their neighbours along the limb
 };
 
-// A bone is a limb if it is longer than 3 times the mean distance of its vertices. Stations are at 1/6, 2/6 ... 5/6 of each limb, and at
-// each joint between two limbs that meet at an angle below 90 degrees. A station is left out if the limb shares its flesh with other bones,
-// as in the trunk: less than nine tenths of the area that the plane cuts nearby belongs to the limb.
+// A bone is a limb if it is longer than 3 times the mean distance of its vertices. Stations are at 1/6, 2/6 ... 5/6 of
+// each limb, and at each joint between two limbs that meet at an angle below 90 degrees. A station is left out if the
+// limb shares its flesh with other bones, as in the trunk: less than nine tenths of the area that the plane cuts nearby
+// belongs to the limb.
 std::vector<LimbStation> limb_stations(const pbs::Character& character);
 
 pbs::Vec3 posed_point(const LimbStation& station, const pbs::Pose& pose);
@@ -48,13 +49,15 @@ struct FrameMeasurement {
     std::optional<analysis::ErrorNorms> errors_on_whole_body;  // with them
     std::optional<analysis::SkinError> skin;                   // outside these tips
     std::optional<double> masked_share_pct;                    // share of the volume at these tips
-    std::optional<analysis::ErrorNorms> reference_error;       // bound of the reference's distance from the limit of ever finer tets
+    // bound of the reference's distance from the limit of ever finer tets
+    std::optional<analysis::ErrorNorms> reference_error;
     std::optional<double> min_section_pct;
     std::optional<double> surface_volume_change_pct;
     std::optional<double> angle_deg;
     double rotation_deg = 0.0;  // the largest of all bones, relative to the root
 
-    // True if the error at the joints (over the whole body if nothing is blended) is not above that of the reference, and may come from it.
+    // True if the error at the joints (over the whole body if nothing is blended) is not above that of the reference,
+    // and may come from it.
     bool error_below_reference_error() const;
 };
 
@@ -66,7 +69,8 @@ struct FrameContext {
     std::optional<analysis::ErrorNorms> reference_error = {};
 };
 
-// The vertices that errors are measured on. prescribed: vertices whose positions a deformer is given, #V or empty; they are left out.
+// The vertices that errors are measured on. prescribed: vertices whose positions a deformer is given, #V or empty; they
+// are left out.
 analysis::ErrorDomain error_domain(const pbs::Character& character, const std::vector<bool>& prescribed);
 
 class FrameMeasurer {
@@ -74,7 +78,8 @@ public:
     // prescribed: as in error_domain.
     FrameMeasurer(const pbs::Character& character, const OutputSpec& output, const std::vector<bool>& prescribed);
     FrameMeasurement measure(const pbs::Positions& positions, const FrameContext& context);
-    // Errors and differences of the coming frame leave these out. The share of their volume [%]. The scene must have asked for errors.
+    // Errors and differences of the coming frame leave these out. The share of their volume [%]. The scene must have
+    // asked for errors.
     double leave_out(const std::vector<CreaseTip>& tips);
     // Whether the skin passes through itself, which that of an equilibrium with contact does not.
     bool overlaps(const pbs::Positions& positions) const { return pbs::self_intersects(positions, skin_); }
@@ -85,8 +90,8 @@ public:
     }
     bool measures_surface_volume() const { return surface_volume_.has_value(); }
     Eigen::VectorXd volume_ratios(const pbs::Positions& positions) const { return metrics_.volume_ratios(positions); }
-    // The depth of each skin vertex in flesh of another part of the body [um], #V. It is -1 where the two only touch (closer than a
-    // thousandth of the body's diagonal at rest), and 0 elsewhere.
+    // The depth of each skin vertex in flesh of another part of the body [um], #V. It is -1 where the two only touch
+    // (closer than a thousandth of the body's diagonal at rest), and 0 elsewhere.
     std::vector<int> contact_depths_um(const pbs::Positions& positions);
 
 private:

@@ -29,13 +29,15 @@ const Columns<ErrorNorms> whole_error_columns = {
     {"error_whole_l2_pct", &ErrorNorms::l2_pct, "%", "error_l2_pct with the tips of the reference's creases"},
     {"error_whole_joint_pct", &ErrorNorms::joint_pct, "%", "error_joint_pct with these tips"}};
 
-const Columns<FrameMeasurement> masked_columns = {{"masked_share_pct", &FrameMeasurement::masked_share_pct, "%",
-                                                   "share of the volume that the errors exclude: the tips of creases of a reference with "
-                                                   "contact, whose sharpness belongs to its tets"}};
+const Columns<FrameMeasurement> masked_columns = {
+    {"masked_share_pct", &FrameMeasurement::masked_share_pct, "%",
+     "share of the volume that the errors exclude: the tips of creases of a reference with "
+     "contact, whose sharpness belongs to its tets"}};
 
 const Columns<ErrorNorms> error_bar_columns = {
     {"reference_error_l2_pct", &ErrorNorms::l2_pct, "%",
-     "bound of the reference's distance from the limit of ever finer tets over free vertices, by the method of reference.error_bar"},
+     "bound of the reference's distance from the limit of ever finer tets over free vertices, by the method of "
+     "reference.error_bar"},
     {"reference_error_joint_pct", &ErrorNorms::joint_pct, "%",
      "bound of the reference's distance from that limit over the vertices that Eq. 2 blends"},
     {"reference_error_linf_m", &ErrorNorms::linf_m, "m", "bound of the reference's largest distance from that limit"}};
@@ -44,9 +46,10 @@ const Columns<FrameMeasurement> measured_columns =
     within(&FrameMeasurement::metrics, frame_metric_columns()) +
     Columns<FrameMeasurement>{{"bind_rms_m", &FrameMeasurement::bind_rms_m, "m", "residual of the bind constraints"}};
 
-const Columns<FrameMeasurement> pose_columns = {{"angle_deg", &FrameMeasurement::angle_deg, "deg", "angle of a sweep; empty for clips"},
-                                                {"rotation_deg", &FrameMeasurement::rotation_deg, "deg",
-                                                 "largest rotation of a bone relative to the root; linear strain is right only near zero"}};
+const Columns<FrameMeasurement> pose_columns = {
+    {"angle_deg", &FrameMeasurement::angle_deg, "deg", "angle of a sweep; empty for clips"},
+    {"rotation_deg", &FrameMeasurement::rotation_deg, "deg",
+     "largest rotation of a bone relative to the root; linear strain is right only near zero"}};
 
 const Columns<FrameMeasurement> shape_columns = {
     {"min_section_pct", &FrameMeasurement::min_section_pct, "%",
@@ -61,12 +64,15 @@ const Rows all_columns =
          {"variant", &MetricRow::variant, "", "reading or printed form of the method, or default"},
          {"order", &MetricRow::order, "", "order of projection; empty if the deformer has none"},
          {"precision", &MetricRow::precision, "", "f32 or f64"},
-         {"iterations", &MetricRow::iterations, "", "iterations per step, those of all substeps; empty if the deformer has none"},
+         {"iterations", &MetricRow::iterations, "",
+          "iterations per step, those of all substeps; empty if the deformer has none"},
          {"threads", &MetricRow::threads, "", "number of threads"},
          {"frame", &MetricRow::frame, "", "number of the frame, from 0"},
-         {"time_s", &MetricRow::time_s, "s", "time since the motion began; outcome.motion.time_zero of run.json states when that is"}} +
+         {"time_s", &MetricRow::time_s, "s",
+          "time since the motion began; outcome.motion.time_zero of run.json states when that is"}} +
     within(&MetricRow::measured, measured_columns) +
-    Rows{{"step_ms", &MetricRow::step_ms, "ms", "wall time of the deformer for this frame, without measuring and writing"}} +
+    Rows{{"step_ms", &MetricRow::step_ms, "ms",
+          "wall time of the deformer for this frame, without measuring and writing"}} +
     within(&MetricRow::measured, within(&FrameMeasurement::errors, error_columns) +
                                      within(&FrameMeasurement::errors_on_whole_body, whole_error_columns) +
                                      within(&FrameMeasurement::skin, skin_error_columns()) + masked_columns)
@@ -76,13 +82,16 @@ const Rows all_columns =
           "the strain that linear elasticity computes for that rotation; in the rows of small-strain FEM"}} +
     within(&MetricRow::measured, shape_columns) +
     Rows{{"outcome", &MetricRow::outcome, "",
-          "how the step ended; not_converged: PBS above its stop_residual, or a reference that did not reach its pose and has no error "
+          "how the step ended; not_converged: PBS above its stop_residual, or a reference that did not reach its pose "
+          "and has no error "
           "there"}} +
     (within(&MetricRow::measured, within(&FrameMeasurement::reference_error, error_bar_columns)) +
      Rows{{"error_below_reference_error", &MetricRow::error_below_reference_error, "",
-           "the error may be the reference's own, so that it does not distinguish deformers; empty in the reference's rows"}})
+           "the error may be the reference's own, so that it does not distinguish deformers; empty in the reference's "
+           "rows"}})
         .in_group(with_error_bar) +
-    Rows{{"sleeping_share", &MetricRow::sleeping_share, "", "share of the stretch and volume constraints that were skipped"},
+    Rows{{"sleeping_share", &MetricRow::sleeping_share, "",
+          "share of the stretch and volume constraints that were skipped"},
          {"wakings", &MetricRow::wakings, "", "how often the step was repeated because some of them were needed"}}
         .in_group(with_sleep);
 
@@ -96,8 +105,10 @@ const Columns<FrameMetrics>& frame_metric_columns()
         {"volume_abs_change_pct", &FrameMetrics::volume_abs_change_pct, "%",
          "sum of the absolute changes of all tets, so that gains do not hide losses"},
         {"inverted_tets", &FrameMetrics::inverted_tets, "", "number of inverted or flattened tets"},
-        {"mean_abs_j_minus_1", &FrameMetrics::mean_abs_j_minus_1, "", "mean relative change of volume, weighted by rest volume"},
-        {"j_min", &FrameMetrics::j_min, "", "smallest volume of a tet over its volume at rest; negative if the tet is inverted"},
+        {"mean_abs_j_minus_1", &FrameMetrics::mean_abs_j_minus_1, "",
+         "mean relative change of volume, weighted by rest volume"},
+        {"j_min", &FrameMetrics::j_min, "",
+         "smallest volume of a tet over its volume at rest; negative if the tet is inverted"},
         {"stretch_rms", &FrameMetrics::stretch_rms, "", "residual of the stretch constraints"}};
     return columns;
 }
@@ -118,8 +129,8 @@ const Columns<analysis::SkinError>& skin_error_columns()
     return columns;
 }
 
-MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured,
-                     const pbs::StepSummary& step)
+MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, double time_s,
+                     const FrameMeasurement& measured, const pbs::StepSummary& step)
 {
     const DeformerTraits traits = traits_of(spec);
     MetricRow row{.scene = scene.name, .deformer = spec.name, .variant = spec.variant};
@@ -132,9 +143,11 @@ MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, do
     row.measured = measured;
     row.step_ms = 1e3 * step.seconds;
     // Linear strain of a rigid rotation by theta: cos(theta) - 1 along the two axes across it.
-    if (traits.has_small_strain) row.fictitious_strain = 1.0 - std::cos(measured.rotation_deg * std::numbers::pi / 180.0);
+    if (traits.has_small_strain)
+        row.fictitious_strain = 1.0 - std::cos(measured.rotation_deg * std::numbers::pi / 180.0);
     row.outcome = to_string(step.outcome);
-    if (measured.reference_error && spec.name != scene.reference)  // the reference's own row has no difference that could be below
+    // the reference's own row has no difference that could be below
+    if (measured.reference_error && spec.name != scene.reference)
         row.error_below_reference_error = measured.error_below_reference_error();
     row.sleeping_share = step.sleeping_share;
     row.wakings = step.wakings;

@@ -1,5 +1,5 @@
-// metrics.csv: one row per frame and deformer. `pbskin list metrics` and `pbskin explain COLUMN` print the meanings and units that are
-// declared with the columns.
+// metrics.csv: one row per frame and deformer. `pbskin list metrics` and `pbskin explain COLUMN` print the meanings and
+// units that are declared with the columns.
 #pragma once
 
 #include "analysis/records/tables.hpp"
@@ -25,12 +25,13 @@ struct MetricRow {
     int wakings = 0;
 };
 
-MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, double time_s, const FrameMeasurement& measured,
-                     const pbs::StepSummary& step);
+MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, double time_s,
+                     const FrameMeasurement& measured, const pbs::StepSummary& step);
 
 const analysis::Columns<analysis::FrameMetrics>& frame_metric_columns();  // what needs only the positions of a frame
 const analysis::Columns<analysis::SkinError>& skin_error_columns();       // skin_rms_mm, ...
-analysis::Columns<MetricRow> metric_columns_of(const Scene& scene);       // without the groups that the scene does not ask for
+// without the groups that the scene does not ask for
+analysis::Columns<MetricRow> metric_columns_of(const Scene& scene);
 
 // The text of `pbskin explain` about a metric.
 struct MetricText {

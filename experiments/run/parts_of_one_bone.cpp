@@ -43,7 +43,8 @@ PartsOfOneBone::PartsOfOneBone(const pbs::Character& character) : character_(cha
     std::map<int, Shares> shares;  // of each bone: a quarter of its tets [m^3]
     for (std::size_t tet = 0; tet < bones.size(); ++tet)
         if (bones[tet] >= 0)
-            for (const int v : mesh.tets.row(static_cast<Eigen::Index>(tet))) shares[bones[tet]][v] += volumes_m3(tet) / 4.0;
+            for (const int v : mesh.tets.row(static_cast<Eigen::Index>(tet)))
+                shares[bones[tet]][v] += volumes_m3(tet) / 4.0;
     volume_m3_ = volumes_m3.sum();
     for (const auto& [bone, share] : shares) parts_.push_back(part_of(bone, share, mesh.rest));
     if (character.surface && character.artist && character.artist->model && !character.artist->weights.first.empty())
@@ -61,13 +62,15 @@ void PartsOfOneBone::add_parts_of_surface()
             double in_tet = 0.0;
             for (const int v : character_.mesh.tets.row(surface.tet(p)))
                 in_tet += character_.artist->weights.of(v, body.skin.bone[e]) / 4.0;
-            if (body.skin.weight[e] > alone && in_tet > follows) bone_of[static_cast<std::size_t>(p)] = body.skin.bone[e];
+            if (body.skin.weight[e] > alone && in_tet > follows)
+                bone_of[static_cast<std::size_t>(p)] = body.skin.bone[e];
         }
     pbs::Classes classes(bone_of.size());
     const pbs::Triangles across_seams = pbs::joined_triangles(body.surface, surface.triangles);
     for (const auto& triangle : across_seams.rowwise())
         for (int k = 0; k < 3; ++k)
-            if (const int a = triangle(k), b = triangle((k + 1) % 3); bone_of[a] >= 0 && bone_of[a] == bone_of[b]) classes.unite(a, b);
+            if (const int a = triangle(k), b = triangle((k + 1) % 3); bone_of[a] >= 0 && bone_of[a] == bone_of[b])
+                classes.unite(a, b);
     const Eigen::VectorXd areas_m2 = areas_of_points(body.surface, across_seams);
     area_m2_ = areas_m2.sum();
     std::map<int, Shares> members;
@@ -93,7 +96,8 @@ PartsOfOneBone::Part PartsOfOneBone::part_of(int bone, const Shares& shares, con
     mean /= total;
     Part part{.bone = bone, .size = total, .vertices = {}, .arms = Eigen::Matrix3Xd(3, shares.size())};
     for (const auto& [v, share] : shares) {
-        part.arms.col(static_cast<Eigen::Index>(part.vertices.size())) = share / total * (rest.row(v).transpose() - mean);
+        part.arms.col(static_cast<Eigen::Index>(part.vertices.size())) =
+            share / total * (rest.row(v).transpose() - mean);
         part.vertices.push_back(v);
     }
     return part;
@@ -110,14 +114,17 @@ PartLag PartsOfOneBone::largest_lag(const pbs::Positions& positions, const pbs::
     return largest;
 }
 
-PartLag PartsOfOneBone::largest_lag_of(const std::vector<Part>& parts, double body, const pbs::Positions& positions, const pbs::Pose& pose)
+PartLag PartsOfOneBone::largest_lag_of(const std::vector<Part>& parts, double body, const pbs::Positions& positions,
+                                       const pbs::Pose& pose)
 {
     PartLag largest;
     double lagging = 0.0;
     for (const Part& part : parts) {
-        Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // the arms add up to zero, so that the mean of x drops out
+        // the arms add up to zero, so that the mean of x drops out
+        Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
         for (std::size_t i = 0; i < part.vertices.size(); ++i)
-            covariance += positions.row(part.vertices[i]).transpose() * part.arms.col(static_cast<Eigen::Index>(i)).transpose();
+            covariance +=
+                positions.row(part.vertices[i]).transpose() * part.arms.col(static_cast<Eigen::Index>(i)).transpose();
         const Eigen::AngleAxisd turn(pbs::nearest_rotation(covariance) * pose[part.bone].linear().transpose());
         const double turn_deg = turn.angle() * 180.0 / std::numbers::pi;
         if (turn_deg > largest.turn_deg || largest.bone < 0) largest = {.turn_deg = turn_deg, .bone = part.bone};

@@ -10,7 +10,8 @@
 namespace experiments {
 namespace {
 
-constexpr double smallest_difference_pct = 1e-9;  // smaller differences, as in the rest pose, are rounding errors and show no order
+constexpr double smallest_difference_pct =
+    1e-9;  // smaller differences, as in the rest pose, are rounding errors and show no order
 
 }  // namespace
 
@@ -25,7 +26,9 @@ ReferenceErrorBar::ReferenceErrorBar(const DeformerSpec& reference, const pbs::C
       solutions_{{{2, &refined_}, {2, &character}, {1, &refined_}, {1, &character}}}
 {
     for (Solution& solution : solutions_) {
-        if (solution.character == &character && solution.element_order == options_of<FemOptions>(reference).element_order) continue;
+        if (solution.character == &character &&
+            solution.element_order == options_of<FemOptions>(reference).element_order)
+            continue;
         const pbs::Stopwatch stopwatch;
         DeformerSpec spec = reference;
         options_of<FemOptions>(spec).element_order = solution.element_order;
@@ -50,7 +53,8 @@ void ReferenceErrorBar::give_up_when(const std::function<bool()>& is_over)
         if (solution.deformer) solution.deformer->give_up_when(is_over);
 }
 
-std::optional<analysis::ErrorNorms> ReferenceErrorBar::bound(const pbs::Positions& reference, const FrameMeasurer& measurer)
+std::optional<analysis::ErrorNorms> ReferenceErrorBar::bound(const pbs::Positions& reference,
+                                                             const FrameMeasurer& measurer)
 {
     ++frames_;
     std::vector<pbs::Positions> positions;
@@ -61,28 +65,32 @@ std::optional<analysis::ErrorNorms> ReferenceErrorBar::bound(const pbs::Position
         }
         positions.push_back(solution.deformer ? solution.deformer->positions().topRows(reference.rows()) : reference);
     }
-    const auto from_finest = [&](const pbs::Positions& coarser) { return measurer.difference(coarser, positions.front()); };
+    const auto from_finest = [&](const pbs::Positions& coarser) {
+        return measurer.difference(coarser, positions.front());
+    };
     const analysis::ErrorNorms own = from_finest(reference), quadratic = from_finest(positions[1]),
                                linear_refined = from_finest(positions[2]), linear = from_finest(positions[3]);
-    const analysis::NestedOrder order =
-        analysis::nested_order({linear.joint_pct, linear_refined.joint_pct, quadratic.joint_pct}, convergence_order(attachment_));
+    const analysis::NestedOrder order = analysis::nested_order(
+        {linear.joint_pct, linear_refined.joint_pct, quadratic.joint_pct}, convergence_order(attachment_));
     frames_reliable_ += order.reliable;
     if (linear.l2_pct > smallest_difference_pct) observed_orders_.push_back(order.observed);
-    return analysis::ErrorNorms{own.l2_pct + order.bound(quadratic.l2_pct), own.joint_pct + order.bound(quadratic.joint_pct),
+    return analysis::ErrorNorms{own.l2_pct + order.bound(quadratic.l2_pct),
+                                own.joint_pct + order.bound(quadratic.joint_pct),
                                 own.linf_m + order.bound(quadratic.linf_m)};
 }
 
 nlohmann::json ReferenceErrorBar::method() const
 {
-    nlohmann::json method = {
-        {"error_bar", name_of(ErrorBar::both)},
-        {"source", "observed order of nested solutions, safety factors of L. Eca, M. Hoekstra 2014; on the character's own vertices"},
-        {"order", convergence_order(attachment_)},
-        {"safety_factor", 3.0},
-        {"safety_factor_of_reliable_order", 1.25},
-        {"frames", frames_},
-        {"frames_without", frames_without_},
-        {"frames_of_reliable_order", frames_reliable_}};
+    nlohmann::json method = {{"error_bar", name_of(ErrorBar::both)},
+                             {"source",
+                              "observed order of nested solutions, safety factors of L. Eca, M. Hoekstra 2014; on the "
+                              "character's own vertices"},
+                             {"order", convergence_order(attachment_)},
+                             {"safety_factor", 3.0},
+                             {"safety_factor_of_reliable_order", 1.25},
+                             {"frames", frames_},
+                             {"frames_without", frames_without_},
+                             {"frames_of_reliable_order", frames_reliable_}};
     if (!observed_orders_.empty()) {
         const auto [least, largest] = std::ranges::minmax(observed_orders_);
         method["observed_order"] = {{"least", least}, {"largest", largest}};

@@ -40,7 +40,8 @@ int heaviest(const std::vector<double>& weights)
 
 const analysis::Columns<RegionChange> region_columns =
     MEMBER_COLUMNS(RegionChange, deformer, kind) + within(&RegionChange::bones, region_bone_columns) +
-    MEMBER_COLUMNS(RegionChange, rest_share_pct, change_pct, abs_change_pct, lowest_pct, highest_pct, own_change_pct, frames);
+    MEMBER_COLUMNS(RegionChange, rest_share_pct, change_pct, abs_change_pct, lowest_pct, highest_pct, own_change_pct,
+                   frames);
 
 BodyRegions regions_by_bone(const pbs::Character& character)
 {
@@ -93,7 +94,8 @@ void RegionRecord::add(const std::string& label, const pbs::Positions& positions
     for (const Kind& kind : kinds_) {
         const auto changes = kind.region_metrics.measure(positions);
         for (std::size_t r = 0; r < changes.size(); ++r) {
-            const double to_pct = 100.0 / kind.region_metrics.rest_volume_m3(), change_pct = to_pct * changes[r].change_m3;
+            const double to_pct = 100.0 / kind.region_metrics.rest_volume_m3(),
+                         change_pct = to_pct * changes[r].change_m3;
             RegionChange& sum = first[r];
             sum.rest_share_pct = to_pct * changes[r].rest_m3;
             sum.change_pct += change_pct;

@@ -1,5 +1,5 @@
-// regions.csv: the volume that the tets of each bone and of each joint gain or lose over the frames of a run. One row per deformer and
-// region.
+// regions.csv: the volume that the tets of each bone and of each joint gain or lose over the frames of a run. One row
+// per deformer and region.
 #pragma once
 
 #include "analysis/metrics/frame_metrics.hpp"
@@ -25,17 +25,19 @@ struct BodyRegions {
     std::vector<int> of_tet;  // index into `bones`; -1: none, #T
 };
 
-// Each tet belongs to the bone that has most weight over its four corners; among equals, to the one that most corners are nearest to.
+// Each tet belongs to the bone that has most weight over its four corners; among equals, to the one that most corners
+// are nearest to.
 BodyRegions regions_by_bone(const pbs::Character& character);
 
-// Each tet with a blended corner belongs to the joint of the two bones with most weight, in the order of the skeleton. Joints without
-// tets are left out.
+// Each tet with a blended corner belongs to the joint of the two bones with most weight, in the order of the skeleton.
+// Joints without tets are left out.
 BodyRegions regions_by_joint(const pbs::Character& character);
 
 struct RegionChange {
     std::string deformer, kind;
     RegionBones bones;
-    double rest_share_pct = 0.0, change_pct = 0.0, abs_change_pct = 0.0, lowest_pct = 0.0, highest_pct = 0.0, own_change_pct = 0.0;
+    double rest_share_pct = 0.0, change_pct = 0.0, abs_change_pct = 0.0, lowest_pct = 0.0, highest_pct = 0.0,
+           own_change_pct = 0.0;
     int frames = 0;
 };
 extern const analysis::Columns<RegionChange> region_columns;
@@ -57,7 +59,8 @@ private:
     };
 
     std::vector<Kind> kinds_;
-    std::vector<std::vector<RegionChange>> sums_;  // of each deformer's frames, in order of first appearance: by kind and region
+    // of each deformer's frames, in order of first appearance: by kind and region
+    std::vector<std::vector<RegionChange>> sums_;
 };
 
 }  // namespace experiments

@@ -84,9 +84,11 @@ CaseMotion read_motion(const Scene& scene, pbs::Character& character, RunRemarks
 
 nlohmann::json motion_record(const CaseMotion& motion)
 {
-    nlohmann::json record = {
-        {"largest_rotation_deg", motion.largest_rotation_deg}, {"time_zero", motion.time_zero}, {"time_zero_s", motion.time_zero_s}};
-    if (motion.clip_joints > 0) record.update({{"clip_joints", motion.clip_joints}, {"matched_joints", motion.matched_joints}});
+    nlohmann::json record = {{"largest_rotation_deg", motion.largest_rotation_deg},
+                             {"time_zero", motion.time_zero},
+                             {"time_zero_s", motion.time_zero_s}};
+    if (motion.clip_joints > 0)
+        record.update({{"clip_joints", motion.clip_joints}, {"matched_joints", motion.matched_joints}});
     if (!motion.stretched.empty()) record["stretched_bones"] = motion.stretched;
     for (const pbs::PartAngle& angle : motion.angles) record["angles_to_clip_deg"][angle.part] = angle.largest_deg;
     return record;
@@ -105,15 +107,17 @@ public:
           character_(cost_.time("character", [&] { return character_with_remarks(scene, remarks_); })),
           motion_(cost_.time("motion", [&] { return read_motion(scene, character_, remarks_); })),
           runners_(make_runners(scene, character_, cost_, folder, when_interrupted)),
-          measurer_(
-              cost_.time("metrics_set_up", [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
+          measurer_(cost_.time(
+              "metrics_set_up",
+              [&] { return FrameMeasurer(character_, measured_output(scene), prescribed_by_any(runners_)); })),
           reference_(scene, character_, runners_.front(), cost_),
           folder_(scene, character_, folder, motion_.motion.frames())
     {
         remarks_.add(pbs::Gravity::part_left_out, folder_.remarks());
         if (scene.output.surface && character_.surface && !measurer_.measures_surface_volume())
             remarks_.add(pbs::Gravity::information,
-                         {scene.file + ": surface_volume_change_pct is empty: the rendered surface is open or encloses no volume"});
+                         {scene.file +
+                          ": surface_volume_change_pct is empty: the rendered surface is open or encloses no volume"});
         remarks_.add(remarks_on_set_up(scene, character_, runners_));
         remarks_.set_words_of_interruption(words_on_earlier_results());
     }
@@ -142,12 +146,14 @@ private:
     void foresee()
     {
         std::vector<pbs::Pose> frames;
-        for (std::size_t step = 0; step < steps().size(); step += motion_.motion.steps_per_frame) frames.push_back(steps()[step]);
+        for (std::size_t step = 0; step < steps().size(); step += motion_.motion.steps_per_frame)
+            frames.push_back(steps()[step]);
         if (scene_.reference_seconds > 0.0)
-            spdlog::info("solving the reference: at most {:.0f} s of processor time for {} frames ...", scene_.reference_seconds,
-                         frames.size());
+            spdlog::info("solving the reference: at most {:.0f} s of processor time for {} frames ...",
+                         scene_.reference_seconds, frames.size());
         for (Runner& runner : runners_)
-            cost_.time("step", runner.spec.label, [&] { runner.deformer->foresee(runner.deformer->has_memory() ? steps() : frames); });
+            cost_.time("step", runner.spec.label,
+                       [&] { runner.deformer->foresee(runner.deformer->has_memory() ? steps() : frames); });
         reference_.note_contact();
         if (finishes_early_) reference_.give_up_when(interrupted);
     }
@@ -182,7 +188,8 @@ private:
         const auto takes_part = [&](const Runner& runner) { return is_frame(step) || runner.deformer->has_memory(); };
         for (Runner& runner : runners_)
             if (takes_part(runner))
-                runner.steps.add(cost_.time("step", runner.spec.label, [&] { return runner.deformer->advance(pose, dt_s); }), step);
+                runner.steps.add(
+                    cost_.time("step", runner.spec.label, [&] { return runner.deformer->advance(pose, dt_s); }), step);
         if (takes_part(runners_.front())) reference_.advance(pose, dt_s);
     }
 
@@ -211,7 +218,8 @@ private:
         if (is_elsewhere) context.reference = nullptr;
         const FrameMeasurement measured = cost_.time("metrics", [&] { return measurer_.measure(positions, context); });
         // As readers refuse: products of such lengths may leave the range of a double.
-        const bool has_volume = std::isfinite(measured.metrics.volume_change_pct) && positions.cwiseAbs().maxCoeff() <= pbs::farthest_m;
+        const bool has_volume =
+            std::isfinite(measured.metrics.volume_change_pct) && positions.cwiseAbs().maxCoeff() <= pbs::farthest_m;
         if (!has_volume) step.outcome = pbs::Outcome::not_finite;
         cost_.time("records", [&] {
             folder_.add_frame(runner.spec, frame, time_s, measured, step);
@@ -219,8 +227,10 @@ private:
         });
         if (has_volume && !is_elsewhere) runner.add_volume_change(measured.metrics.volume_change_pct);
         runner.most_inverted = std::max(runner.most_inverted, measured.metrics.inverted_tets);
-        if (measured.error_below_reference_error() && runner.spec.name != scene_.reference) reference_.add_below_error(runner.spec.label);
-        if (step.outcome != pbs::Outcome::finished || runner.has_inverted_flesh(measurer_)) record_breakdown(runner, frame, step.outcome);
+        if (measured.error_below_reference_error() && runner.spec.name != scene_.reference)
+            reference_.add_below_error(runner.spec.label);
+        if (step.outcome != pbs::Outcome::finished || runner.has_inverted_flesh(measurer_))
+            record_breakdown(runner, frame, step.outcome);
         if (scene_.output.writes(frame))
             cost_.time("frames", [&] {
                 folder_.write_frame(runner.spec, frame, time_s, *context.pose, character_, positions, measurer_,
@@ -258,7 +268,8 @@ private:
             if (!motion_.is_far_from_clip()) remarks_.add(remarks_on(skin, scene_.file));
         }
         if (was_interrupted_) outcome["interrupted"] = true;
-        if (const std::string words = folder_.words_on_left_out_frames(); !words.empty()) remarks_.add(pbs::Gravity::information, {words});
+        if (const std::string words = folder_.words_on_left_out_frames(); !words.empty())
+            remarks_.add(pbs::Gravity::information, {words});
         remarks_.say_all();
         outcome["warnings"] = remarks_.warnings();
         outcome["notes"] = remarks_.notes();
@@ -269,7 +280,8 @@ private:
         if (was_interrupted_ && !words_on_earlier_results().empty()) warn({words_on_earlier_results()});
         folder_.finish(character_, records, outcome, cost_, reference_.error_method());
         remarks_.set_words_of_interruption("");
-        return {frames_, stopwatch_.seconds(), broken_.breakdown(), broken_.bad_frame(frames_), summary(), was_interrupted_};
+        return {frames_,   stopwatch_.seconds(), broken_.breakdown(), broken_.bad_frame(frames_),
+                summary(), was_interrupted_};
     }
 
     std::vector<std::string> summary() const
@@ -277,8 +289,9 @@ private:
         std::vector<std::string> lines;
         for (const Runner& runner : runners_) lines.push_back(runner.summary(frames_));
         for (const auto& [label, frames] : broken_.frames_with(pbs::Outcome::not_converged))
-            lines.push_back(fmt::format("  {:<12} did not converge in {} of {} frames; as a reference, it is not compared there", label,
-                                        frames.size(), frames_));
+            lines.push_back(
+                fmt::format("  {:<12} did not converge in {} of {} frames; as a reference, it is not compared there",
+                            label, frames.size(), frames_));
         return lines;
     }
 
@@ -299,11 +312,12 @@ private:
 
 }  // namespace
 
-RunResult run_scene(const Scene& scene, const std::string& folder, const Remarks& remarks, WhenInterrupted when_interrupted,
-                    std::optional<pbs::SourceFile> model)
+RunResult run_scene(const Scene& scene, const std::string& folder, const Remarks& remarks,
+                    WhenInterrupted when_interrupted, std::optional<pbs::SourceFile> model)
 {
     std::optional<pbs::Stage> preparing("preparing " + scene.name);
-    if (!model) model.emplace(scene.character.model_file);  // the character, the motion and the materials are read from it
+    // the character, the motion and the materials are read from it
+    if (!model) model.emplace(scene.character.model_file);
     SceneRun run(scene, folder, remarks, when_interrupted);
     model.reset();
     preparing.reset();

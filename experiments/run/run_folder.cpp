@@ -28,9 +28,10 @@ struct IterationRow {
     int frame = 0, iteration = 0;
     pbs::Residuals residuals;
 };
-const analysis::Columns<pbs::Residuals> residual_columns = MEMBER_COLUMNS(pbs::Residuals, stretch_rms, volume_rms, bind_rms_m);
-const analysis::Columns<IterationRow> iteration_columns =
-    MEMBER_COLUMNS(IterationRow, deformer, frame, iteration) + analysis::within(&IterationRow::residuals, residual_columns);
+const analysis::Columns<pbs::Residuals> residual_columns =
+    MEMBER_COLUMNS(pbs::Residuals, stretch_rms, volume_rms, bind_rms_m);
+const analysis::Columns<IterationRow> iteration_columns = MEMBER_COLUMNS(IterationRow, deformer, frame, iteration) +
+                                                          analysis::within(&IterationRow::residuals, residual_columns);
 
 std::string frame_file(const std::string& name, int frame, const char* ending)
 {
@@ -75,7 +76,8 @@ nlohmann::json model_record(const pbs::Character& character)
     const pbs::RiggedModel& model = *character.artist->model;
     const pbs::RiggedBody& body = model.body;
     nlohmann::json record = {{"file", pbs::file_name(model.rig.file)}, {"containers", body.containers}};
-    for (const auto* list : {"joints", "joints_dropped", "meshes", "animations"}) record[list] = nlohmann::json::array();
+    for (const auto* list : {"joints", "joints_dropped", "meshes", "animations"})
+        record[list] = nlohmann::json::array();
     for (const pbs::Bone& bone : body.skeleton.bones) record["joints"].push_back(bone.name);
     for (const pbs::DroppedJoint& joint : body.dropped)
         record["joints_dropped"].push_back({{"name", joint.name}, {"reason", joint.reason}});
@@ -86,9 +88,10 @@ nlohmann::json model_record(const pbs::Character& character)
     record["metres_per_unit"] = body.binding.metres_per_unit;
     record["extent_m"] = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).maxCoeff();
     if (!body.skeleton.bones.empty())
-        record["weights_transferred_pct"] = pbs::carried_weight(body.skin, character.artist->weights, *character.surface,
-                                                                character.mesh.tets, static_cast<int>(body.skeleton.bones.size()))
-                                                .share_pct();
+        record["weights_transferred_pct"] =
+            pbs::carried_weight(body.skin, character.artist->weights, *character.surface, character.mesh.tets,
+                                static_cast<int>(body.skeleton.bones.size()))
+                .share_pct();
     return record;
 }
 
@@ -122,8 +125,9 @@ void RunFolder::add_frame(const DeformerSpec& spec, int frame, double time_s, co
         iterations_.add_row(cells_of(iteration_columns, {spec.label, frame, static_cast<int>(k) + 1, step.history[k]}));
 }
 
-void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Pose& pose, const pbs::Character& character,
-                            const pbs::Positions& positions, FrameMeasurer& measurer, const std::vector<bool>& prescribed)
+void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Pose& pose,
+                            const pbs::Character& character, const pbs::Positions& positions, FrameMeasurer& measurer,
+                            const std::vector<bool>& prescribed)
 {
     pbs::FrameFields fields;
     fields.point_vectors["rest_position"] = character.mesh.rest;
@@ -141,13 +145,15 @@ void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, 
     if (character.surface) {
         const pbs::Positions rendered = pbs::surface_positions(character, positions, pose);
         if (scene_.output.surface_files)
-            pbs::write_vtp((frames / frame_file(name + "_surface", frame, ".vtp")).string(), rendered, character.surface->triangles);
+            pbs::write_vtp((frames / frame_file(name + "_surface", frame, ".vtp")).string(), rendered,
+                           character.surface->triangles);
         distances_.add(frame, time_s, name, "rendered surface", rendered);
         if (name == "lbs") lbs_surface_ = rendered;
         const bool is_in_glb = posed_frames_ % glb_every_ == 0;
         if (scene_.output.glb && is_in_glb && rendered.allFinite()) {  // a frame that broke down has no place in it
             const bool is_first = surfaces_.empty();
-            surfaces_.try_emplace(name, (frames / (name + ".glb")).string(), name, character.surface->triangles, look_, materials_);
+            surfaces_.try_emplace(name, (frames / (name + ".glb")).string(), name, character.surface->triangles, look_,
+                                  materials_);
             surfaces_.at(name).add_frame(time_s, rendered);
             if (is_first) leave_frames_out(surfaces_.at(name));
         }
@@ -159,7 +165,9 @@ void RunFolder::write_frame(const DeformerSpec& spec, int frame, double time_s, 
 
 void RunFolder::leave_frames_out(const pbs::GlbWriter& surface)
 {
-    const auto bytes = [&] { return surface.bytes(1 + (written_frames_ - 1) / glb_every_) * static_cast<double>(scene_.deformers.size()); };
+    const auto bytes = [&] {
+        return surface.bytes(1 + (written_frames_ - 1) / glb_every_) * static_cast<double>(scene_.deformers.size());
+    };
     while (bytes() > scene_.output.most_glb_bytes && glb_every_ < written_frames_ - 1) ++glb_every_;
 }
 
@@ -168,22 +176,25 @@ void RunFolder::write_artist_skin(int frame, double time_s, const pbs::Character
 {
     if (!has_artist_skin(character)) return;
     const pbs::RiggedModel& model = *character.artist->model;
-    const pbs::Positions points = motion.of_model ? pbs::artist_frame(model.rig, model.body, *model.animation, sampling_of(motion), frame)
-                                                  : pbs::artist_points(model.body, pose);
+    const pbs::Positions points =
+        motion.of_model ? pbs::artist_frame(model.rig, model.body, *model.animation, sampling_of(motion), frame)
+                        : pbs::artist_points(model.body, pose);
     if (skins_++ % skin_every_ == 0) {
-        const std::string name = frame_file("artist", frame, ".vtp"), file = (fs::path(folder_) / "skin" / name).string();
+        const std::string name = frame_file("artist", frame, ".vtp"),
+                          file = (fs::path(folder_) / "skin" / name).string();
         pbs::write_vtp(file, points, model.body.triangles);
         artist_frames_.emplace_back(time_s, name);
         if (skins_ == 1)
-            skin_every_ += static_cast<int>(static_cast<double>(written_frames_) * static_cast<double>(fs::file_size(file)) /
-                                            scene_.output.most_skin_bytes);
+            skin_every_ += static_cast<int>(static_cast<double>(written_frames_) *
+                                            static_cast<double>(fs::file_size(file)) / scene_.output.most_skin_bytes);
     }
     const bool has_own_weights = character.weight_kind == pbs::WeightKind::artist;
     if (!has_own_weights || lbs_surface_.rows() != points.rows() || !lbs_surface_.allFinite()) return;
     // The artist's surface by the same rigid bones: scale in an animation is not an error of the tets.
     const Eigen::VectorXd distance_m = (lbs_surface_ - pbs::artist_points(model.body, pose)).rowwise().norm();
     for (const int corner : model.body.triangles.reshaped())  // some points of a file belong to no triangle
-        if (followed_.frame < 0 || distance_m(corner) > followed_.largest_m) followed_ = {distance_m(corner), frame, corner};
+        if (followed_.frame < 0 || distance_m(corner) > followed_.largest_m)
+            followed_ = {distance_m(corner), frame, corner};
 }
 
 void remove_frames(const std::string& folder)
@@ -201,7 +212,8 @@ void RunFolder::write_tables(bool with_moving_surfaces)
     regions_.table().write((folder / "regions.csv").string());
     if (distances_.table().rows() > 0) distances_.table().write((folder / "distances.csv").string());
     if (!bones_.empty()) table_of(posed_bone_columns, bones_).write((folder / "bones.csv").string());
-    for (const auto& [name, frames] : collections_) pbs::write_pvd((folder / "frames" / (name + ".pvd")).string(), frames);
+    for (const auto& [name, frames] : collections_)
+        pbs::write_pvd((folder / "frames" / (name + ".pvd")).string(), frames);
     if (!artist_frames_.empty()) pbs::write_pvd((folder / "skin" / "artist.pvd").string(), artist_frames_);
     if (with_moving_surfaces)
         for (auto& [name, surface] : surfaces_) surface.write();
@@ -213,8 +225,9 @@ std::string RunFolder::words_on_left_out_frames() const
     if (glb_every_ > 1) words.push_back(fmt::format("the .glb files have one of {} frames", glb_every_));
     if (skin_every_ > 1) words.push_back(fmt::format("skin/ has one of {}", skin_every_));
     if (words.empty()) return "";
-    return fmt::format("{}: to save space, {}; those that they have are exact, and --paraview of `pbskin try` keeps all", scene_.file,
-                       fmt::join(words, " and "));
+    return fmt::format(
+        "{}: to save space, {}; those that they have are exact, and --paraview of `pbskin try` keeps all", scene_.file,
+        fmt::join(words, " and "));
 }
 
 void RunFolder::write_what_frames_depend_on(const pbs::Character& character) const
@@ -223,7 +236,8 @@ void RunFolder::write_what_frames_depend_on(const pbs::Character& character) con
     table_of(bone_columns, bones_at_rest(character.skeleton)).write((folder / "bones_rest.csv").string());
     table_of(bound_vertex_columns, bound_vertices(character)).write((folder / "binding.csv").string());
     if (character.surface)
-        write_surface(*character.surface, character.mesh, character.artist ? character.artist->of_joints : JointShares(), folder_);
+        write_surface(*character.surface, character.mesh,
+                      character.artist ? character.artist->of_joints : JointShares(), folder_);
 }
 
 void RunFolder::finish(const pbs::Character& character, const std::map<std::string, nlohmann::json>& deformer_records,
@@ -233,10 +247,12 @@ void RunFolder::finish(const pbs::Character& character, const std::map<std::stri
         write_tables(true);
         if (!bones_.empty()) write_what_frames_depend_on(character);
     });
-    analysis::Provenance provenance = run_provenance(std::ranges::max(scene_.deformers, {}, &DeformerSpec::threads).threads);
+    analysis::Provenance provenance =
+        run_provenance(std::ranges::max(scene_.deformers, {}, &DeformerSpec::threads).threads);
     provenance.input_hashes = pbs::hashes_by_name(character.inputs);
 
-    nlohmann::json run = {{"schema", run_schema}, {"scene", to_json(scene_)}, {"provenance", provenance}, {"outcome", outcome}};
+    nlohmann::json run = {
+        {"schema", run_schema}, {"scene", to_json(scene_)}, {"provenance", provenance}, {"outcome", outcome}};
     for (const auto& [name, hash] : hashes_) run["state_hash"][name] = hash.hex();
     for (const auto& [name, record] : deformer_records) run["deformers"][name] = record;
     run["character"] = cost.time("records", [&] { return character_record(character); });

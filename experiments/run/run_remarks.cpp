@@ -30,11 +30,13 @@ void RunRemarks::add(const pbs::RemarkList& remarks)
     for (const pbs::Remark& remark : remarks) {
         const std::string recorded = without_folder(remark.text);
         if (std::ranges::count(entries_, recorded, &Entry::recorded) > 0) continue;
-        const auto before = std::ranges::upper_bound(entries_, remark.gravity, {}, [](const Entry& entry) { return entry.remark.gravity; });
+        const auto before = std::ranges::upper_bound(entries_, remark.gravity, {},
+                                                     [](const Entry& entry) { return entry.remark.gravity; });
         const auto added = entries_.insert(before, Entry{remark, recorded});
         if (remark.gravity == pbs::Gravity::information)
             say(*added, "note");
-        else if (remark.gravity == pbs::Gravity::results_wrong && added - entries_.begin() < std::ptrdiff_t{most_warnings})
+        else if (remark.gravity == pbs::Gravity::results_wrong &&
+                 added - entries_.begin() < std::ptrdiff_t{most_warnings})
             say(*added, "warning");
     }
     announce();
@@ -78,7 +80,8 @@ const char* RunRemarks::kind_of(std::size_t entry) const
 
 std::size_t RunRemarks::warning_count() const
 {
-    const auto notes = std::ranges::count(entries_, pbs::Gravity::information, [](const Entry& entry) { return entry.remark.gravity; });
+    const auto notes = std::ranges::count(entries_, pbs::Gravity::information,
+                                          [](const Entry& entry) { return entry.remark.gravity; });
     return std::min(most_warnings, entries_.size() - static_cast<std::size_t>(notes));
 }
 

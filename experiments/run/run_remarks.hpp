@@ -1,4 +1,5 @@
-// The remarks of a run, on the terminal and in run.json: at most three warnings, the gravest first, and the rest as notes.
+// The remarks of a run, on the terminal and in run.json: at most three warnings, the gravest first, and the rest as
+// notes.
 //   RunRemarks remarks(of_the_caller);
 //   remarks.add(pbs::Gravity::part_left_out, {"hero.glb: ..."});
 //   remarks.say_all();   outcome["warnings"] = remarks.warnings();   outcome["notes"] = remarks.notes();
@@ -22,8 +23,8 @@ public:
     RunRemarks(const RunRemarks&) = delete;
     RunRemarks& operator=(const RunRemarks&) = delete;
 
-    // Each text counts once. Notes, and the first warnings that make results wrong, are printed at once, so that a user can stop the run.
-    // The others are printed at its end or by an interruption.
+    // Each text counts once. Notes, and the first warnings that make results wrong, are printed at once, so that a user
+    // can stop the run. The others are printed at its end or by an interruption.
     void add(const pbs::RemarkList& remarks);
     void add(pbs::Gravity gravity, const std::vector<std::string>& texts);
 
@@ -32,7 +33,8 @@ public:
     // A sentence that an interruption prints, too; empty: none.
     void set_words_of_interruption(const std::string& words);
 
-    // For records, which name files without folders of the machine: "folder/hero.glb: no joint moves" -> "hero.glb: no joint moves".
+    // For records, which name files without folders of the machine: "folder/hero.glb: no joint moves" -> "hero.glb: no
+    // joint moves".
     std::vector<std::string> warnings() const;
     std::vector<std::string> notes() const;  // what would be a warning if there were fewer comes first
 

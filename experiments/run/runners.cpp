@@ -38,14 +38,14 @@ std::unique_ptr<Deformer> deformer_of(const DeformerSpec& spec, const Scene& sce
                                       const std::string& folder, WhenInterrupted when_interrupted)
 {
     if (scene.reference_seconds == 0.0 || spec.name != scene.reference) return make_deformer(spec);
-    return std::make_unique<SpreadReference>(
-        spec, reference_budget(spec, character, folder, scene.reference_seconds, when_interrupted == WhenInterrupted::finish_early));
+    return std::make_unique<SpreadReference>(spec, reference_budget(spec, character, folder, scene.reference_seconds,
+                                                                    when_interrupted == WhenInterrupted::finish_early));
 }
 
 }  // namespace
 
-ReferenceBudget reference_budget(const DeformerSpec& reference, const pbs::Character& character, const std::string& folder, double seconds,
-                                 bool goes_on_without_the_rest)
+ReferenceBudget reference_budget(const DeformerSpec& reference, const pbs::Character& character,
+                                 const std::string& folder, double seconds, bool goes_on_without_the_rest)
 {
     return {seconds, folder + "/reference_frames.cbor", reference_key(reference, character), goes_on_without_the_rest};
 }
@@ -62,12 +62,12 @@ std::string Runner::summary(int frames) const
 {
     if (lowest_change_pct > highest_change_pct)
         return fmt::format("  {:<12} reached none of {} poses, so that it has no volume change", spec.label, frames);
-    return fmt::format("  {:<12} volume change {:8.3f} to {:7.3f} %, at most {} inverted tets", spec.label, lowest_change_pct,
-                       highest_change_pct, most_inverted);
+    return fmt::format("  {:<12} volume change {:8.3f} to {:7.3f} %, at most {} inverted tets", spec.label,
+                       lowest_change_pct, highest_change_pct, most_inverted);
 }
 
-std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& character, CostRecord& cost, const std::string& folder,
-                                 WhenInterrupted when_interrupted)
+std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& character, CostRecord& cost,
+                                 const std::string& folder, WhenInterrupted when_interrupted)
 {
     std::vector<Runner> runners;
     for (const DeformerSpec& spec : scene.deformers) {
@@ -77,7 +77,8 @@ std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& chara
             runners.back().deformer->reset(character);
         });
     }
-    std::stable_partition(runners.begin(), runners.end(), [&](const Runner& runner) { return runner.spec.name == scene.reference; });
+    std::stable_partition(runners.begin(), runners.end(),
+                          [&](const Runner& runner) { return runner.spec.name == scene.reference; });
     return runners;
 }
 

@@ -27,15 +27,16 @@ namespace {
 constexpr int shares_of_what_is_left = 8;
 constexpr double longest_over_mean = 3.0;
 constexpr int least_held_up = 2, held_up_of = 4;  // so many frames, and more than one of so many
-constexpr int coarsest = 4;                       // every fourth frame is solved first, so that an interruption leaves spread ones
-constexpr int hopeless = 4;                       // so many frames that were not reached, and at most one that was
-constexpr int few_frames = 5;                     // on which a comparison rests
+constexpr int coarsest = 4;    // every fourth frame is solved first, so that an interruption leaves spread ones
+constexpr int hopeless = 4;    // so many frames that were not reached, and at most one that was
+constexpr int few_frames = 5;  // on which a comparison rests
 constexpr double between_writings_s = 1.0;
 
 std::string hash_of(const pbs::Pose& pose)
 {
     analysis::StateHash hash;
-    for (const Eigen::Isometry3d& bone : pose) hash.add_bytes(bone.data(), static_cast<std::size_t>(bone.matrix().size()) * sizeof(double));
+    for (const Eigen::Isometry3d& bone : pose)
+        hash.add_bytes(bone.data(), static_cast<std::size_t>(bone.matrix().size()) * sizeof(double));
     return hash.hex();
 }
 
@@ -43,7 +44,8 @@ std::string hash_of(const pbs::Pose& pose)
 
 int stride(int frames_left, double mean_s, double seconds_left)
 {
-    return std::clamp(static_cast<int>(std::ceil(std::min(1e9, frames_left * mean_s / seconds_left))), 1, std::max(1, frames_left));
+    return std::clamp(static_cast<int>(std::ceil(std::min(1e9, frames_left * mean_s / seconds_left))), 1,
+                      std::max(1, frames_left));
 }
 
 double share_of_frame(int frames_left, double mean_reached_s, double seconds_left)
@@ -84,12 +86,14 @@ void SpreadReference::foresee(const std::vector<pbs::Pose>& poses)
     try {
         for (int least = coarsest; !left.empty() && has_time_left(); least = std::max(1, least / 2)) pass(left, least);
         const bool is_tried_again = !outcome_.is_hopeless();
-        const std::vector<NotReached> again = is_tried_again ? std::exchange(outcome_.not_reached, {}) : std::vector<NotReached>();
+        const std::vector<NotReached> again =
+            is_tried_again ? std::exchange(outcome_.not_reached, {}) : std::vector<NotReached>();
         for (std::size_t k = 0; k < again.size(); ++k) {
             const auto count = static_cast<int>(again.size() - k);
             if (has_time_left()) solve(again[k].frame, count);
             const auto is_same = [&](const NotReached& not_reached) { return not_reached.frame == again[k].frame; };
-            if (!is_solved(again[k].frame) && std::ranges::none_of(outcome_.not_reached, is_same)) outcome_.not_reached.push_back(again[k]);
+            if (!is_solved(again[k].frame) && std::ranges::none_of(outcome_.not_reached, is_same))
+                outcome_.not_reached.push_back(again[k]);
         }
     } catch (const Interrupted&) {
         keep();
@@ -113,8 +117,9 @@ void SpreadReference::pass(std::set<int>& left, int least_stride)
         }
         next = left.erase(next);
         if (has_time_left())
-            std::advance(next, std::min(after(), std::max(least_stride, stride(after(), (outcome_.seconds - spent_before_s_) / tried_,
-                                                                               budget_.seconds - outcome_.seconds)) -
+            std::advance(next, std::min(after(), std::max(least_stride,
+                                                          stride(after(), (outcome_.seconds - spent_before_s_) / tried_,
+                                                                 budget_.seconds - outcome_.seconds)) -
                                                      1));
     }
 }
@@ -122,8 +127,9 @@ void SpreadReference::pass(std::set<int>& left, int least_stride)
 bool SpreadReference::is_held_up_by_contact() const
 {
     const auto held_up = static_cast<int>(outcome_.not_reached.size());
-    return options_of<FemOptions>(spec_).has_contact() && !outcome_.was_interrupted && 2.0 * outcome_.seconds < budget_.seconds &&
-           held_up >= std::min(least_held_up, outcome_.frames) && held_up_of * held_up > outcome_.kept + tried_;
+    return options_of<FemOptions>(spec_).has_contact() && !outcome_.was_interrupted &&
+           2.0 * outcome_.seconds < budget_.seconds && held_up >= std::min(least_held_up, outcome_.frames) &&
+           held_up_of * held_up > outcome_.kept + tried_;
 }
 
 void SpreadReference::do_without_contact()
@@ -155,13 +161,15 @@ bool SpreadReference::Outcome::is_hopeless() const
 void SpreadReference::solve(int number, int frames_left)
 {
     const int reached = outcome_.solved - outcome_.kept;
-    const double share_s = share_of_frame(frames_left, reached > 0 ? reached_s_ / reached : 0.0, budget_.seconds - outcome_.seconds);
+    const double share_s =
+        share_of_frame(frames_left, reached > 0 ? reached_s_ / reached : 0.0, budget_.seconds - outcome_.seconds);
     Frame& frame = frames_[static_cast<std::size_t>(number)];
     ++tried_;
     const double start_s = budget_.clock_s();
     const auto spent_s = [&] { return budget_.clock_s() - start_s; };
     deformer_->give_up_when([&] {
-        progress_->advance_to(outcome_.solved, fmt::format("frames, {:.0f} of {:.0f} s", outcome_.seconds + spent_s(), budget_.seconds));
+        progress_->advance_to(outcome_.solved,
+                              fmt::format("frames, {:.0f} of {:.0f} s", outcome_.seconds + spent_s(), budget_.seconds));
         return interrupted() || spent_s() > share_s;
     });
     continue_from_most_similar(number);
@@ -170,7 +178,8 @@ void SpreadReference::solve(int number, int frames_left)
     outcome_.seconds += seconds;
     if (solution.step.outcome == pbs::Outcome::finished) {
         solution.positions = deformer_->positions();
-        if (const FemFacts* facts = deformer_->facts()) solution.lowest_det_f = facts->lowest_det_f, solution.tips = facts->tips;
+        if (const FemFacts* facts = deformer_->facts())
+            solution.lowest_det_f = facts->lowest_det_f, solution.tips = facts->tips;
         frame.solution = std::move(solution);
         at_ = number;
         reached_s_ += seconds;
@@ -193,7 +202,9 @@ void SpreadReference::continue_from_most_similar(int number)
     pbs::Pose from(character_->skeleton.bones.size(), Eigen::Isometry3d::Identity());
     const pbs::Positions* positions = &character_->mesh.rest;
     const pbs::Pose& wanted = frames_[static_cast<std::size_t>(number)].relative;
-    const auto turn_deg = [&](const pbs::Pose& pose) { return pbs::PosePath(character_->skeleton, pose, wanted).largest_turn_deg(); };
+    const auto turn_deg = [&](const pbs::Pose& pose) {
+        return pbs::PosePath(character_->skeleton, pose, wanted).largest_turn_deg();
+    };
     double least_deg = turn_deg(from);
     for (const int other : {before, after}) {
         if (other < 0 || other >= outcome_.frames) continue;
@@ -232,7 +243,8 @@ bool SpreadReference::has_state() const
     return frame_ >= 0 && frames_[static_cast<std::size_t>(frame_)].solution.has_value();
 }
 
-// The file: {key, budget_s, with_contact, frames: {hash of the pose: {positions, seconds, iterations, lowest_det_f, tips}}} as CBOR.
+// The file: {key, budget_s, with_contact, frames: {hash of the pose: {positions, seconds, iterations, lowest_det_f,
+// tips}}} as CBOR.
 
 void SpreadReference::find_kept()
 {
@@ -285,13 +297,15 @@ void SpreadReference::keep()
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(positions.data());
         nlohmann::json& entry = kept_frames_[hash];
         entry = {{"seconds", frame.solution->step.seconds}, {"iterations", frame.solution->step.iterations}};
-        entry["positions"] = nlohmann::json::binary({bytes, bytes + static_cast<std::size_t>(positions.size()) * sizeof(double)});
+        entry["positions"] =
+            nlohmann::json::binary({bytes, bytes + static_cast<std::size_t>(positions.size()) * sizeof(double)});
         if (frame.solution->lowest_det_f) entry["lowest_det_f"] = *frame.solution->lowest_det_f;
         entry["tips"] = nlohmann::json::array();
         for (const CreaseTip& tip : frame.solution->tips)
             entry["tips"].push_back({tip.at_rest.x(), tip.at_rest.y(), tip.at_rest.z(), tip.radius_m});
     }
-    nlohmann::json kept = {{"key", budget_.key}, {"budget_s", budget_.seconds}, {"with_contact", nullptr}, {"frames", kept_frames_}};
+    nlohmann::json kept = {
+        {"key", budget_.key}, {"budget_s", budget_.seconds}, {"with_contact", nullptr}, {"frames", kept_frames_}};
     if (outcome_.with_contact) kept["with_contact"] = *outcome_.with_contact;
     const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(kept);
     analysis::write_text_atomically(budget_.file, {bytes.begin(), bytes.end()});
@@ -311,15 +325,18 @@ void to_json(nlohmann::json& json, const SpreadReference::Outcome& outcome)
 pbs::RemarkList remarks_on(const SpreadReference::Outcome& outcome, const std::string& scene_file)
 {
     pbs::RemarkList remarks;
-    const auto add = [&](pbs::Gravity gravity, const std::string& text) { remarks.push_back({gravity, scene_file + ": " + text}); };
+    const auto add = [&](pbs::Gravity gravity, const std::string& text) {
+        remarks.push_back({gravity, scene_file + ": " + text});
+    };
     const auto held_up_by = [](const SpreadReference::NotReached& frame) {
         return frame.bone.empty() ? std::string() : fmt::format(": the flesh of {} holds it up", frame.bone);
     };
     if (const auto& frame = outcome.with_contact)
         add(pbs::Gravity::comparison_wrong,
-            fmt::format("the reference has no contact, for with it frame {} was not reached in {:.0f} s{}; --reference-seconds "
-                        "(reference.seconds) with more time, or 0 for all of it, tries again",
-                        frame->frame, frame->seconds, held_up_by(*frame)));
+            fmt::format(
+                "the reference has no contact, for with it frame {} was not reached in {:.0f} s{}; --reference-seconds "
+                "(reference.seconds) with more time, or 0 for all of it, tries again",
+                frame->frame, frame->seconds, held_up_by(*frame)));
     if (!outcome.not_reached.empty()) {
         const SpreadReference::NotReached& first = outcome.not_reached.front();
         add(pbs::Gravity::comparison_wrong,
@@ -329,16 +346,17 @@ pbs::RemarkList remarks_on(const SpreadReference::Outcome& outcome, const std::s
     }
     if (outcome.solved + static_cast<int>(outcome.not_reached.size()) == outcome.frames) return remarks;
     add(outcome.solved < few_frames ? pbs::Gravity::comparison_wrong : pbs::Gravity::information,
-        fmt::format("the reference has {} of {} frames{}: {}", outcome.solved, outcome.frames,
-                    outcome.solved > 0 ? ", and only they have errors" : ", so that no method has an error",
-                    outcome.was_interrupted ? "it was interrupted"
-                    : outcome.is_hopeless()
-                        ? fmt::format("after {} frames that were not reached the others were not tried; --reference-seconds "
-                                      "(reference.seconds) gives each of them more time",
-                                      outcome.not_reached.size())
-                        : fmt::format("they are spread over the motion as evenly as {:.0f} s of processor time allow "
-                                      "(--reference-seconds, reference.seconds)",
-                                      outcome.seconds)));
+        fmt::format(
+            "the reference has {} of {} frames{}: {}", outcome.solved, outcome.frames,
+            outcome.solved > 0 ? ", and only they have errors" : ", so that no method has an error",
+            outcome.was_interrupted ? "it was interrupted"
+            : outcome.is_hopeless()
+                ? fmt::format("after {} frames that were not reached the others were not tried; --reference-seconds "
+                              "(reference.seconds) gives each of them more time",
+                              outcome.not_reached.size())
+                : fmt::format("they are spread over the motion as evenly as {:.0f} s of processor time allow "
+                              "(--reference-seconds, reference.seconds)",
+                              outcome.seconds)));
     return remarks;
 }
 

@@ -1,13 +1,15 @@
-// The reference of a run that has a budget of processor time for it (reference.seconds): it passes through the motion, and as soon as all
-// frames would take longer than what is left, it leaves frames out, so that those which are solved are evenly spread up to the end. In the
-// time that is left then it passes through the others, and tries those that were not reached once more. It solves every fourth frame first,
-// then every second one, then the rest. After four frames that were not reached, and at most one that was, it gives up. A frame continues
-// from the last one, or from the solved one before or after it or from rest, whichever pose is most similar. What is solved is kept in a
-// file, from which the same run goes on.
+// The reference of a run that has a budget of processor time for it (reference.seconds): it passes through the motion,
+// and as soon as all frames would take longer than what is left, it leaves frames out, so that those which are solved
+// are evenly spread up to the end. In the time that is left then it passes through the others, and tries those that
+// were not reached once more. It solves every fourth frame first, then every second one, then the rest. After four
+// frames that were not reached, and at most one that was, it gives up. A frame continues from the last one, or from the
+// solved one before or after it or from rest, whichever pose is most similar. What is solved is kept in a file, from
+// which the same run goes on.
 //
-// Contact can make a frame ten times as expensive, since where two parts touch, the initial guess and each step of Newton's method end at
-// once for the whole body. As soon as two frames are not reached, these are more than a quarter of those that were tried, and half of the
-// time is left, all frames are solved without contact. A larger budget tries it again.
+// Contact can make a frame ten times as expensive, since where two parts touch, the initial guess and each step of
+// Newton's method end at once for the whole body. As soon as two frames are not reached, these are more than a quarter
+// of those that were tried, and half of the time is left, all frames are solved without contact. A larger budget tries
+// it again.
 //   SpreadReference reference(spec, {.seconds = 120.0, .file = "DIR/reference_frames.cbor", .key = key});
 //   reference.reset(character);
 //   reference.foresee(poses);                                                     // solves
@@ -37,11 +39,12 @@ struct ReferenceBudget {
     std::function<double()> clock_s = process_cpu_s;
 };
 
-// How many frames to go on, so that the last of frames_left is reached when the time is spent: 1 or more. mean_s: of a frame.
+// How many frames to go on, so that the last of frames_left is reached when the time is spent: 1 or more. mean_s: of a
+// frame.
 int stride(int frames_left, double mean_s, double seconds_left);
 
-// The processor time that a frame may take [s]: an eighth of what is left, more if fewer frames are left, and three times the mean of those
-// that were reached if there is as much.
+// The processor time that a frame may take [s]: an eighth of what is left, more if fewer frames are left, and three
+// times the mean of those that were reached if there is as much.
 double share_of_frame(int frames_left, double mean_reached_s, double seconds_left);
 
 class SpreadReference : public Deformer {
@@ -50,7 +53,8 @@ public:
     SpreadReference(const DeformerSpec& spec, ReferenceBudget budget);
 
     void reset(const pbs::Character& character) override;
-    void foresee(const std::vector<pbs::Pose>& poses) override;             // at least one; pbs::InputError if the file cannot be written
+    // at least one; pbs::InputError if the file cannot be written
+    void foresee(const std::vector<pbs::Pose>& poses) override;
     pbs::StepSummary advance(const pbs::Pose& pose, double dt_s) override;  // the next one of the poses
     bool has_state() const override;                                        // whether that frame is solved
     const pbs::Positions& positions() const override { return facts_.last_state; }
@@ -63,7 +67,8 @@ public:
         std::string bone;  // whose flesh is most compressed in the state in which the solver ended
     };
     struct Outcome {
-        int frames = 0, solved = 0, kept = 0;         // of the motion; with a solution; those among them that an earlier run had solved
+        int frames = 0, solved = 0,
+            kept = 0;  // of the motion; with a solution; those among them that an earlier run had solved
         std::vector<NotReached> not_reached = {};     // although they were tried
         double seconds = 0.0;                         // that were spent
         std::optional<NotReached> with_contact = {};  // the frame for which contact was given up
@@ -114,7 +119,8 @@ private:
     Outcome outcome_;
 };
 
-// Remarks for the user, where contact is missing, and where frames were not reached or left out. scene_file: begins each remark.
+// Remarks for the user, where contact is missing, and where frames were not reached or left out. scene_file: begins
+// each remark.
 pbs::RemarkList remarks_on(const SpreadReference::Outcome& outcome, const std::string& scene_file);
 void to_json(nlohmann::json& json, const SpreadReference::NotReached& frame);
 void to_json(nlohmann::json& json, const SpreadReference::Outcome& outcome);

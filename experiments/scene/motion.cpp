@@ -18,7 +18,7 @@ constexpr double noted_angle_deg = 10.0;  // between a part of the body and of t
 constexpr double still_deg = 0.1;         // no one sees less
 constexpr double still_share = 1e-3;      // over the size of the body, likewise
 constexpr double rigid_stretch = 1e-3;    // rounding of exporters
-constexpr double large_stretch = 0.1;     // of the distance of a bone from its parent, from which on volume is not judged
+constexpr double large_stretch = 0.1;  // of the distance of a bone from its parent, from which on volume is not judged
 constexpr double visible_stretch = 0.01;  // over the size of the body: less is a blink or a breath
 
 pbs::ClipSampling clip_sampling(const MotionSpec& spec)
@@ -30,7 +30,8 @@ pbs::ClipSampling clip_sampling(const MotionSpec& spec)
 
 std::string share_of(const pbs::ClipMatch& match)
 {
-    const std::string aside = match.small > 0 ? fmt::format(" (without {} fingers, toes and the like)", match.small) : "";
+    const std::string aside =
+        match.small > 0 ? fmt::format(" (without {} fingers, toes and the like)", match.small) : "";
     return fmt::format("{} of {} moving joints{}", match.matched, match.moving - match.small, aside);
 }
 
@@ -40,7 +41,8 @@ pbs::RemarkList remarks_on_match(const pbs::ClipMatch& match, const std::string&
     if (match.unmatched.empty() && match.bones_without_joint.empty()) return {};
     std::string text = fmt::format("{}: {} of the clip match a bone", clip, share_of(match));
     if (!match.unmatched.empty()) text += "; without a bone: " + pbs::name_list(match.unmatched);
-    if (!match.bones_without_joint.empty()) text += "; bones without a motion of their own: " + pbs::name_list(match.bones_without_joint);
+    if (!match.bones_without_joint.empty())
+        text += "; bones without a motion of their own: " + pbs::name_list(match.bones_without_joint);
     return {{pbs::Gravity::part_left_out, text}};
 }
 
@@ -49,12 +51,14 @@ std::vector<std::string> notes_on_angles(const std::vector<pbs::PartAngle>& angl
 {
     std::vector<std::string> parts;
     for (const pbs::PartAngle& angle : angles)
-        if (angle.largest_deg > noted_angle_deg) parts.push_back(fmt::format("{} {:.0f}", angle.part, angle.largest_deg));
+        if (angle.largest_deg > noted_angle_deg)
+            parts.push_back(fmt::format("{} {:.0f}", angle.part, angle.largest_deg));
     if (parts.empty()) return {};
-    return {fmt::format(
-        "{}: parts of the body point in other directions than in the clip; largest angles [degrees]: {}; the trunk keeps the model's own "
-        "posture, and bones without a joint follow their parent",
-        clip, fmt::join(parts, ", "))};
+    return {
+        fmt::format("{}: parts of the body point in other directions than in the clip; largest angles [degrees]: {}; "
+                    "the trunk keeps the model's own "
+                    "posture, and bones without a joint follow their parent",
+                    clip, fmt::join(parts, ", "))};
 }
 
 CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& character)
@@ -65,17 +69,18 @@ CaseMotion motion_of_clip(const MotionSpec& spec, const pbs::Character& characte
     made.motion = pbs::retarget(clip, character.skeleton, clip_sampling(spec), &made.angles);
     made.notes = clip.remarks;
     if (std::ranges::none_of(made.angles, [](const pbs::PartAngle& angle) { return angle.part == "hips"; }))
-        made.notes.push_back(spec.clip +
-                             ": the names of its hips, legs or neck are unknown, so that its directions are not compared with the "
-                             "body's; look at the first frame");
+        made.notes.push_back(
+            spec.clip +
+            ": the names of its hips, legs or neck are unknown, so that its directions are not compared with the "
+            "body's; look at the first frame");
     for (const std::string& note : notes_on_angles(made.angles, spec.clip))
         if (made.is_far_from_clip())
             made.remarks.push_back({pbs::Gravity::results_wrong, note});
         else
             made.notes.push_back(note);
     const int first = pbs::first_frame_of_motion(clip);
-    made.time_zero =
-        first > 0 ? "start of the clip after its first frame, a rest pose, plus motion.start_s" : "start of the clip plus motion.start_s";
+    made.time_zero = first > 0 ? "start of the clip after its first frame, a rest pose, plus motion.start_s"
+                               : "start of the clip plus motion.start_s";
     made.time_zero_s = first * clip.frame_time_s + spec.start_s;
     made.clip_joints = match.moving - match.small;
     made.matched_joints = match.matched;
@@ -93,7 +98,8 @@ std::vector<StretchedBone> stretched_bones(const pbs::RigMotion& motion, const p
         if (std::abs(change.relative) > large_stretch && std::abs(change.change_m) > visible_stretch * size_m)
             stretched.push_back({body.skeleton.bones[b].name, 100.0 * change.relative, change.frame});
     }
-    std::ranges::stable_sort(stretched, std::ranges::greater(), [](const StretchedBone& bone) { return std::abs(bone.change_pct); });
+    std::ranges::stable_sort(stretched, std::ranges::greater(),
+                             [](const StretchedBone& bone) { return std::abs(bone.change_pct); });
     return stretched;
 }
 
@@ -105,11 +111,12 @@ std::string words_on_stretch(const std::vector<StretchedBone>& stretched)
     return fmt::format(
         "{} its distance from its parent by more than {:.0f} %, most: {}; the artist changes the volume with "
         "it, so that no method is judged by its volume",
-        words.size() == 1 ? "one bone changes" : fmt::format("each of {} bones changes", words.size()), 100.0 * large_stretch,
-        pbs::name_list(words));
+        words.size() == 1 ? "one bone changes" : fmt::format("each of {} bones changes", words.size()),
+        100.0 * large_stretch, pbs::name_list(words));
 }
 
-// The largest rotation of a bone from the rest pose [deg] where the motion is a single frame, such as an animation of one key; else 0.
+// The largest rotation of a bone from the rest pose [deg] where the motion is a single frame, such as an animation of
+// one key; else 0.
 double pose_deg(const pbs::Motion& motion)
 {
     if (motion.frames() != 1) return 0.0;
@@ -121,7 +128,8 @@ CaseMotion motion_of_model(const MotionSpec& spec, const pbs::Character& charact
 {
     const pbs::RiggedModel& model = *character.artist->model;
     if (!model.animation)
-        throw pbs::InputError(scene_file, 0, "motion.animation", spec.animation, "the model has no animation: expected a joint or a clip");
+        throw pbs::InputError(scene_file, 0, "motion.animation", spec.animation,
+                              "the model has no animation: expected a joint or a clip");
     pbs::RigMotion rig = pbs::rig_motion(model.rig, model.body, *model.animation, sampling_of(spec));
     CaseMotion made;
     made.motion = std::move(rig.motion);
@@ -129,13 +137,15 @@ CaseMotion motion_of_model(const MotionSpec& spec, const pbs::Character& charact
     made.time_zero_s = model.animation->start_s + spec.start_s;
     made.stretched = stretched_bones(rig, model.body);
     if (!made.stretched.empty())
-        made.remarks.push_back({pbs::Gravity::comparison_wrong, fmt::format("{}: in the animation {}, {}", model.rig.file,
-                                                                            model.animation->name, words_on_stretch(made.stretched))});
+        made.remarks.push_back(
+            {pbs::Gravity::comparison_wrong, fmt::format("{}: in the animation {}, {}", model.rig.file,
+                                                         model.animation->name, words_on_stretch(made.stretched))});
     if (rig.stretch > rigid_stretch)
         made.remarks.push_back(
             {pbs::Gravity::part_left_out,
-             fmt::format("{}: the animation {} scales or shears bones by up to {:.1f} %; the deformers move bones rigidly", model.rig.file,
-                         model.animation->name, 100.0 * rig.stretch)});
+             fmt::format(
+                 "{}: the animation {} scales or shears bones by up to {:.1f} %; the deformers move bones rigidly",
+                 model.rig.file, model.animation->name, 100.0 * rig.stretch)});
     return made;
 }
 
@@ -149,7 +159,8 @@ pbs::Motion make_motion(const MotionSpec& spec, const pbs::Skeleton& skeleton, c
         std::vector<std::string> names;
         for (const auto& bone : skeleton.bones) names.push_back(bone.name);
         if (joint < 0)
-            throw pbs::InputError(scene_file, 0, "motion.joint", spec.joint, fmt::format("expected one of {}", fmt::join(names, ", ")));
+            throw pbs::InputError(scene_file, 0, "motion.joint", spec.joint,
+                                  fmt::format("expected one of {}", fmt::join(names, ", ")));
         return pbs::joint_sweep(skeleton, joint, spec.axis.normalized(), spec.angle_deg, spec.frames, spec.time_step_s);
     }
     return pbs::retarget(pbs::read_clip(spec.clip, spec.animation), skeleton, clip_sampling(spec));
@@ -158,7 +169,8 @@ pbs::Motion make_motion(const MotionSpec& spec, const pbs::Skeleton& skeleton, c
 void take_bones_that_move_as_one(const pbs::Motion& motion, pbs::Character& character)
 {
     if (pbs::has_artist_weights(character))
-        character.moves_with = pbs::bones_that_move_as_one(character.skeleton, motion.steps, pbs::diagonal_m(character.mesh.rest));
+        character.moves_with =
+            pbs::bones_that_move_as_one(character.skeleton, motion.steps, pbs::diagonal_m(character.mesh.rest));
 }
 
 CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& character, const std::string& scene_file)
@@ -179,13 +191,15 @@ CaseMotion make_case_motion(const MotionSpec& spec, const pbs::Character& charac
     if (const double posed_deg = pose_deg(made.motion); posed_deg >= still_deg)
         made.remarks.push_back(
             {pbs::Gravity::results_wrong,
-             fmt::format("{}: the motion is one pose, in which the bones are turned by up to {:.3g} degrees from the rest "
-                         "pose; nothing moves after it",
-                         scene_file, posed_deg)});
+             fmt::format(
+                 "{}: the motion is one pose, in which the bones are turned by up to {:.3g} degrees from the rest "
+                 "pose; nothing moves after it",
+                 scene_file, posed_deg)});
     else if (made.largest_rotation_deg < still_deg && displacement_m <= still_share * size_m)
         made.remarks.push_back(
             {pbs::Gravity::results_wrong,
-             fmt::format("{}: no joint moves: the bones turn by at most {:.2g} degrees and move by at most {:.2g} % of the body's size",
+             fmt::format("{}: no joint moves: the bones turn by at most {:.2g} degrees and move by at most {:.2g} % of "
+                         "the body's size",
                          scene_file, made.largest_rotation_deg, size_m > 0.0 ? 100.0 * displacement_m / size_m : 0.0)});
     return made;
 }
@@ -194,24 +208,29 @@ pbs::ClipMatch accepted_match(const MotionSpec& spec, const pbs::Clip& clip, con
 {
     pbs::ClipMatch match = pbs::match_of(clip, skeleton);
     if (2 * match.matched < match.moving - match.small && !spec.allow_partial)
-        throw pbs::InputError(
-            spec.clip, 0, "joints", share_of(match),
-            "expected at least one half to match a bone of the character: rename the joints as the bones or as those of "
-            "Mixamo (motion.allow_partial = true in the scene, or --allow-partial of `pbskin try`, accepts fewer); without "
-            "a bone: " +
-                pbs::name_list(match.unmatched));
+        throw pbs::InputError(spec.clip, 0, "joints", share_of(match),
+                              "expected at least one half to match a bone of the character: rename the joints as the "
+                              "bones or as those of "
+                              "Mixamo (motion.allow_partial = true in the scene, or --allow-partial of `pbskin try`, "
+                              "accepts fewer); without "
+                              "a bone: " +
+                                  pbs::name_list(match.unmatched));
     if (!match.torn.empty() && !spec.allow_partial)
-        throw pbs::InputError(
-            spec.clip, 0, "joints of limbs", pbs::name_list(match.torn),
-            "these bones match no joint, but the other half of their limb does, so that it would be bent wrongly: rename "
-            "the joints as the bones or as those of Mixamo (motion.allow_partial = true in the scene, or --allow-partial of "
-            "`pbskin try`, lets them follow their parents)");
+        throw pbs::InputError(spec.clip, 0, "joints of limbs", pbs::name_list(match.torn),
+                              "these bones match no joint, but the other half of their limb does, so that it would be "
+                              "bent wrongly: rename "
+                              "the joints as the bones or as those of Mixamo (motion.allow_partial = true in the "
+                              "scene, or --allow-partial of "
+                              "`pbskin try`, lets them follow their parents)");
     return match;
 }
 
 pbs::MotionSampling sampling_of(const MotionSpec& spec)
 {
-    return {.start_s = spec.start_s, .duration_s = spec.duration_s, .rate_hz = spec.rate_hz, .time_step_s = spec.time_step_s};
+    return {.start_s = spec.start_s,
+            .duration_s = spec.duration_s,
+            .rate_hz = spec.rate_hz,
+            .time_step_s = spec.time_step_s};
 }
 
 }  // namespace experiments

@@ -47,7 +47,8 @@ Movement read_movement(const toml::table& table, const std::string& file)
     keys.required("to_deg", read.to_deg);
     keys.require_nothing_unknown();
     if (read.joints.empty()) keys.refuse("joints", "expected at least one joint");
-    static const std::set<std::string> axes = {"along", "along_parent", "across"}, starts = {"rest", "straight", "hanging"};
+    static const std::set<std::string> axes = {"along", "along_parent", "across"},
+                                       starts = {"rest", "straight", "hanging"};
     if (read.axis.size() != 3 && !axes.contains(read.axis_name))
         keys.refuse("axis", "expected three numbers, along, along_parent or across");
     if (!starts.contains(read.start)) keys.refuse("start", "expected rest, straight or hanging");
@@ -59,7 +60,8 @@ const MovementTable& table()
     static const MovementTable read = [] {
         MovementTable read_tables;
         const std::string file = file_name;
-        const toml::table document = analysis::parse_toml_document(movements::movements_toml, file, {"movement", "pair"});
+        const toml::table document =
+            analysis::parse_toml_document(movements::movements_toml, file, {"movement", "pair"});
         for (const toml::table* entry : analysis::toml_tables(document, "movement", file))
             read_tables.movements.push_back(read_movement(*entry, file));
         for (const toml::table* entry : analysis::toml_tables(document, "pair", file)) {
@@ -89,13 +91,15 @@ double angle_rad(const pbs::Vec3& one, const pbs::Vec3& other)
 struct Turn {
     pbs::Vec3 axis;
     double of_joint_rad = 0.0;
-    Eigen::AngleAxisd to_start{0.0, pbs::Vec3::UnitX()};  // from rest to where the range begins, before the turn about the axis
+    // from rest to where the range begins, before the turn about the axis
+    Eigen::AngleAxisd to_start{0.0, pbs::Vec3::UnitX()};
     std::vector<int> joints;
 
     // Each joint has this rotation relative to its parent when the given fraction of the movement is done.
     Eigen::Quaterniond rotation(double fraction) const
     {
-        return Eigen::AngleAxisd(fraction * of_joint_rad, axis) * Eigen::AngleAxisd(fraction * to_start.angle(), to_start.axis());
+        return Eigen::AngleAxisd(fraction * of_joint_rad, axis) *
+               Eigen::AngleAxisd(fraction * to_start.angle(), to_start.axis());
     }
 };
 
@@ -116,11 +120,14 @@ Turn turn_of(const Movement& movement, const pbs::Skeleton& skeleton, const std:
     Turn turn;
     for (const std::string& joint : movement.joints) turn.joints.push_back(pbs::find_bone(skeleton, joint));
     const pbs::Bone& bone = skeleton.bones[turn.joints.front()];
-    const pbs::Vec3 along = direction_of(bone), parent = bone.parent < 0 ? along : direction_of(skeleton.bones[bone.parent]);
+    const pbs::Vec3 along = direction_of(bone),
+                    parent = bone.parent < 0 ? along : direction_of(skeleton.bones[bone.parent]);
     turn.axis = axis_of(movement, parent, along);
     if (turn.axis.norm() < straight)
-        throw pbs::InputError(scene_file, 0, "motion.movements", movement.name,
-                              fmt::format("expected a character that is bent at the joint {} at rest, since this is the axis", bone.name));
+        throw pbs::InputError(
+            scene_file, 0, "motion.movements", movement.name,
+            fmt::format("expected a character that is bent at the joint {} at rest, since this is the axis",
+                        bone.name));
     turn.axis.normalize();
     double angle = movement.to_deg * std::numbers::pi / 180.0;
     if (movement.start == "straight") angle -= angle_rad(parent, along);
@@ -131,7 +138,8 @@ Turn turn_of(const Movement& movement, const pbs::Skeleton& skeleton, const std:
 
 bool has_joints(const pbs::Skeleton& skeleton, const Movement& movement)
 {
-    return std::ranges::all_of(movement.joints, [&](const std::string& joint) { return pbs::find_bone(skeleton, joint) >= 0; });
+    return std::ranges::all_of(movement.joints,
+                               [&](const std::string& joint) { return pbs::find_bone(skeleton, joint) >= 0; });
 }
 
 // The movements of A+B. InputError for a name that is not in the table.
@@ -148,8 +156,9 @@ std::vector<const Movement*> parts_of(const std::string& name, const std::string
         }
         std::vector<std::string> names;
         for (const Movement& known : table().movements) names.push_back(known.name);
-        throw pbs::InputError(scene_file, 0, "motion.movements", single,
-                              "no such movement; the nearest is '" + pbs::nearest_name(single, names) + "' (`pbskin list movements`)");
+        throw pbs::InputError(
+            scene_file, 0, "motion.movements", single,
+            "no such movement; the nearest is '" + pbs::nearest_name(single, names) + "' (`pbskin list movements`)");
     }
     return parts;
 }
@@ -159,8 +168,9 @@ std::vector<Turn> turns_of(const std::string& name, const pbs::Skeleton& skeleto
     std::vector<Turn> turns;
     for (const Movement* movement : parts_of(name, scene_file)) {
         if (!has_joints(skeleton, *movement))
-            throw pbs::InputError(scene_file, 0, "motion.movements", movement->name,
-                                  fmt::format("expected a character with the joints {}", fmt::join(movement->joints, ", ")));
+            throw pbs::InputError(
+                scene_file, 0, "motion.movements", movement->name,
+                fmt::format("expected a character with the joints {}", fmt::join(movement->joints, ", ")));
         turns.push_back(turn_of(*movement, skeleton, scene_file));
     }
     return turns;
@@ -172,8 +182,9 @@ std::vector<std::pair<std::string, std::string>> listed_movements()
 {
     std::vector<std::pair<std::string, std::string>> listed;
     for (const Movement& movement : table().movements)
-        listed.emplace_back(movement.name, fmt::format("{} to {} degrees (source: {})", fmt::join(movement.joints, ", "), movement.to_deg,
-                                                       movement.source));
+        listed.emplace_back(movement.name,
+                            fmt::format("{} to {} degrees (source: {})", fmt::join(movement.joints, ", "),
+                                        movement.to_deg, movement.source));
     for (const auto& pair : table().pairs) listed.emplace_back(fmt::format("{}", fmt::join(pair, "+")), "both at once");
     return listed;
 }
@@ -181,13 +192,15 @@ std::vector<std::pair<std::string, std::string>> listed_movements()
 std::vector<std::string> joints_of(const std::string& movement)
 {
     std::vector<std::string> joints;
-    for (const Movement* part : parts_of(movement, "")) joints.insert(joints.end(), part->joints.begin(), part->joints.end());
+    for (const Movement* part : parts_of(movement, ""))
+        joints.insert(joints.end(), part->joints.begin(), part->joints.end());
     return joints;
 }
 
 bool is_twist(const std::string& movement)
 {
-    return std::ranges::all_of(parts_of(movement, ""), [](const Movement* part) { return part->axis_name.starts_with("along"); });
+    return std::ranges::all_of(parts_of(movement, ""),
+                               [](const Movement* part) { return part->axis_name.starts_with("along"); });
 }
 
 std::vector<std::string> movements_of(const pbs::Skeleton& skeleton)
@@ -211,7 +224,8 @@ pbs::Motion through_movements(const MotionSpec& spec, const pbs::Skeleton& skele
         for (int step = 1; step <= steps; ++step) {
             std::vector<Eigen::Quaterniond> local(skeleton.bones.size(), Eigen::Quaterniond::Identity());
             for (const Turn& turn : turns)
-                for (const int joint : turn.joints) local[joint] = local[joint] * turn.rotation(static_cast<double>(step) / steps);
+                for (const int joint : turn.joints)
+                    local[joint] = local[joint] * turn.rotation(static_cast<double>(step) / steps);
             motion.steps.push_back(pbs::pose_from_joints(skeleton, local, pbs::Vec3::Zero()));
         }
     }

@@ -37,8 +37,10 @@ void check_character(const SceneValues& values, const pbs::CharacterSource& sour
     const int sources = !source.body.empty() + !source.model_file.empty() + !source.mesh_file.empty();
     if (sources == 0) values.refuse("character.body", "expected a body, a model, or mesh and skeleton files");
     if (sources > 1)
-        values.refuse(source.mesh_file.empty() ? "character.model" : "character.mesh", "expected either a body, a model or files");
-    if (!source.mesh_file.empty() && source.skeleton_file.empty()) values.refuse("character.skeleton", "expected the skeleton of the mesh");
+        values.refuse(source.mesh_file.empty() ? "character.model" : "character.mesh",
+                      "expected either a body, a model or files");
+    if (!source.mesh_file.empty() && source.skeleton_file.empty())
+        values.refuse("character.skeleton", "expected the skeleton of the mesh");
     if (values.given("character.scale") && source.model_file.empty())
         values.refuse("character.scale", "expected a character.model, which is the only thing that it enlarges");
 }
@@ -64,7 +66,8 @@ std::string found_clip(const SceneValues& values, const std::string& folder)
     try {
         return pbs::find_clip(values.text("motion.clip"), folder);
     } catch (const pbs::InputError&) {
-        values.refuse("motion.clip", "expected a file in the folder of the scene, or a clip of Debian's package assimp-testmodels");
+        values.refuse("motion.clip",
+                      "expected a file in the folder of the scene, or a clip of Debian's package assimp-testmodels");
     }
 }
 
@@ -74,7 +77,8 @@ void fit_time_step(const SceneValues& values, MotionSpec& motion)
     if (!values.given("pbs.time_step_s")) motion.time_step_s = pbs::time_step_for(motion.rate_hz);
     const double steps = 1.0 / (motion.rate_hz * motion.time_step_s);
     if (steps < 1.0 - 1e-9 || std::abs(steps - std::round(steps)) > 1e-6 * steps)
-        values.refuse("motion.rate_hz", "expected rate_hz * pbs.time_step_s = 1/n with a whole number n of steps per frame");
+        values.refuse("motion.rate_hz",
+                      "expected rate_hz * pbs.time_step_s = 1/n with a whole number n of steps per frame");
 }
 
 MotionSpec read_motion(const SceneValues& values, const std::string& folder)
@@ -83,19 +87,23 @@ MotionSpec read_motion(const SceneValues& values, const std::string& folder)
     motion.time_step_s = values.number("pbs.time_step_s");
     const bool has_model = !values.text("character.model").empty();
     const bool is_of_model = !motion.animation.empty() && motion.clip.empty();  // otherwise of the clip
-    if (is_of_model && !has_model) values.refuse("motion.animation", "expected a motion.clip or a character.model, which have animations");
+    if (is_of_model && !has_model)
+        values.refuse("motion.animation", "expected a motion.clip or a character.model, which have animations");
     const int motions = !motion.joint.empty() + !motion.clip.empty() + is_of_model + !motion.movements.empty();
     if (motions > 1 || (motions == 0 && !has_model))
-        values.refuse("motion.joint", "expected either a joint (a sweep), movements, a clip, or an animation of character.model");
+        values.refuse("motion.joint",
+                      "expected either a joint (a sweep), movements, a clip, or an animation of character.model");
     motion.of_model = has_model && motion.joint.empty() && motion.clip.empty() && motion.movements.empty();
-    if (!motion.joint.empty() && motion.axis.norm() == 0.0) values.refuse("motion.axis", "expected an axis of non-zero length");
+    if (!motion.joint.empty() && motion.axis.norm() == 0.0)
+        values.refuse("motion.axis", "expected an axis of non-zero length");
     if (!motion.clip.empty()) motion.clip = found_clip(values, folder);
     if (motion.joint.empty()) fit_time_step(values, motion);
     return motion;
 }
 
 // A deformer of this kind with the options of a table.
-DeformerSpec read_spec(const SceneValues& values, const DeformerKind& kind, const std::string& table, const std::string& name)
+DeformerSpec read_spec(const SceneValues& values, const DeformerKind& kind, const std::string& table,
+                       const std::string& name)
 {
     DeformerSpec spec = default_spec(kind.name);
     spec.name = spec.label = name;
@@ -114,7 +122,8 @@ std::vector<DeformerSpec> read_deformers(const SceneValues& values)
     const std::vector<DeformerSpec> listed = listed_deformers(values);
     std::vector<DeformerSpec> used;
     for (const std::string& name : values.texts("deformers.use")) {
-        if (std::ranges::count(used, name, &DeformerSpec::name) > 0) values.refuse("deformers.use", "names " + name + " twice");
+        if (std::ranges::count(used, name, &DeformerSpec::name) > 0)
+            values.refuse("deformers.use", "names " + name + " twice");
         const auto of_list = std::ranges::find(listed, name, &DeformerSpec::name);
         const DeformerKind* kind = find_deformer_kind(name);
         if (of_list != listed.end())
@@ -122,10 +131,10 @@ std::vector<DeformerSpec> read_deformers(const SceneValues& values)
         else if (kind && !kind->needs_list)
             used.push_back(read_spec(values, *kind, name, name));
         else
-            values.refuse(
-                "deformers.use",
-                "expected a deformer of `pbskin list deformers` or the name of a [[fem]], [[external]] or [[correctives]] table, not " +
-                    name);
+            values.refuse("deformers.use",
+                          "expected a deformer of `pbskin list deformers` or the name of a [[fem]], [[external]] or "
+                          "[[correctives]] table, not " +
+                              name);
     }
     if (used.empty()) values.refuse("deformers.use", "expected at least one deformer");
     return used;
@@ -171,7 +180,8 @@ double read_reference_seconds(const SceneValues& values, const FemOptions* fem, 
     if (!fem || fem->dynamics != reference_fem::Dynamics::quasi_static)
         values.refuse("reference.seconds", "expected 0 if the reference is not a quasi-static [[fem]] table");
     if (error_bar != ErrorBar::none)
-        values.refuse("reference.seconds", "expected 0 with reference.error_bar, whose further solutions belong to every frame");
+        values.refuse("reference.seconds",
+                      "expected 0 with reference.error_bar, whose further solutions belong to every frame");
     return seconds;
 }
 
@@ -180,10 +190,13 @@ ErrorBar read_error_bar(const SceneValues& values, const FemOptions* fem, const 
     const ErrorBar error_bar = option_of<ErrorBar>(values.text("reference.error_bar"));
     if (error_bar == ErrorBar::none) return error_bar;
     if (!fem)
-        values.refuse("reference.error_bar", "expected none if the reference is not a [[fem]] table, for it has no elements to refine");
+        values.refuse("reference.error_bar",
+                      "expected none if the reference is not a [[fem]] table, for it has no elements to refine");
     if (fem->formulation == reference_fem::Formulation::taylor_hood)
         values.refuse("reference.error_bar", "expected none with formulation taylor_hood, which has only order 2");
-    if (!output.errors) values.refuse("reference.error_bar", "expected none if output.metrics leaves out the errors, which it belongs to");
+    if (!output.errors)
+        values.refuse("reference.error_bar",
+                      "expected none if output.metrics leaves out the errors, which it belongs to");
     return error_bar;
 }
 
@@ -191,11 +204,13 @@ std::string read_scene_text(const std::string& path)
 {
     std::error_code code;
     if (!fs::is_regular_file(path, code))
-        throw pbs::InputError(path, 0, "", "", "cannot be read: expected a scene file, or a name of `pbskin list scenes`");
-    if (pbs::is_rig_file(path))
         throw pbs::InputError(path, 0, "", "",
-                              "is a model; a scene is a TOML file that names a model, a motion and deformers: `pbskin try " + path +
-                                  "` runs the model and writes such a scene");
+                              "cannot be read: expected a scene file, or a name of `pbskin list scenes`");
+    if (pbs::is_rig_file(path))
+        throw pbs::InputError(
+            path, 0, "", "",
+            "is a model; a scene is a TOML file that names a model, a motion and deformers: `pbskin try " + path +
+                "` runs the model and writes such a scene");
     return pbs::read_text_file(path, pbs::most_settings_bytes);
 }
 
@@ -208,11 +223,14 @@ std::vector<DeformerSpec> listed_deformers(const SceneValues& values)
         for (int i = 0; kind.has_list && i < values.tables(kind.name); ++i) {
             const std::string table = kind.name + "." + std::to_string(i), name = values.text(table + ".name");
             if (!names_a_file(name))
-                values.refuse(table + ".name", "expected letters, digits and underscores, not beginning with pbs: it names files");
+                values.refuse(table + ".name",
+                              "expected letters, digits and underscores, not beginning with pbs: it names files");
             const DeformerSpec spec = read_spec(values, kind, table, name);
             const bool is_own_name = kind.needs_list && name == kind.name;
-            if (!is_own_name && find_deformer_kind(name)) values.refuse(table + ".name", "is the name of another deformer");
-            if (std::ranges::count(listed, name, &DeformerSpec::name) > 0) values.refuse(table + ".name", "is used twice");
+            if (!is_own_name && find_deformer_kind(name))
+                values.refuse(table + ".name", "is the name of another deformer");
+            if (std::ranges::count(listed, name, &DeformerSpec::name) > 0)
+                values.refuse(table + ".name", "is used twice");
             listed.push_back(spec);
         }
     return listed;
@@ -244,10 +262,12 @@ const std::vector<BuiltInScene>& built_in_scenes()
         {"limb_bend", scenes::limb_bend_toml, "the capsule limb, its forearm bent by 0 to 150 degrees"},
         {"human_01_01", scenes::human_01_01_toml, "MakeHuman's body through CMU's clip 01_01 (repeated jumps)"},
         {"man_01_01", scenes::man_01_01_toml, "Man, as large as Table 1's, through the same clip (`pbskin fetch man`)"},
-        {"lady_01_01", scenes::lady_01_01_toml, "Lady, as large as Table 1's, through the same clip (`pbskin fetch lady`)"},
+        {"lady_01_01", scenes::lady_01_01_toml,
+         "Lady, as large as Table 1's, through the same clip (`pbskin fetch lady`)"},
         {"frankie_01_01", scenes::frankie_01_01_toml,
          "Frankie, as large as Table 1's bunny, through the same clip (`pbskin fetch frankie`)"},
-        {"lady_walk", scenes::lady_walk_toml, "Lady walking: the first two and a half seconds of CMU's clip 01_03 (`pbskin fetch lady`)"},
+        {"lady_walk", scenes::lady_walk_toml,
+         "Lady walking: the first two and a half seconds of CMU's clip 01_03 (`pbskin fetch lady`)"},
     };
     return built_in;
 }

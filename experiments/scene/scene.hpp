@@ -1,5 +1,5 @@
-// A scene: a character, its motion, the deformers and the output. It is read from TOML. `pbskin explain KEY` and manual.md explain the
-// keys.
+// A scene: a character, its motion, the deformers and the output. It is read from TOML. `pbskin explain KEY` and
+// manual.md explain the keys.
 #pragma once
 
 #include "experiments/deformers/deformer.hpp"
@@ -24,16 +24,17 @@ struct OutputSpec {
     int frames_every = 1;                                 // every n-th frame is written; 0: only `frames`
     std::vector<int> frames;                              // further frames, by number
     bool errors = true, sections = true, surface = true;  // groups of metrics
-    bool glb = false;                                     // the surface of each deformer in the written frames, as one .glb file
-    bool surface_files = true;                            // and as a .vtp file per frame; no key of a scene
-    double most_glb_bytes = std::numeric_limits<double>::infinity();   // of all .glb files together, which then have fewer frames; no key
+    bool glb = false;           // the surface of each deformer in the written frames, as one .glb file
+    bool surface_files = true;  // and as a .vtp file per frame; no key of a scene
+    // of all .glb files together, which then have fewer frames; no key
+    double most_glb_bytes = std::numeric_limits<double>::infinity();
     double most_skin_bytes = std::numeric_limits<double>::infinity();  // of the files of the artist's surface; no key
 
     bool writes(int frame) const;
 };
 
-// The further solutions that bound the distance of the reference from the limit of ever finer tets: none, or both element orders on its
-// tets and on tets that are refined once.
+// The further solutions that bound the distance of the reference from the limit of ever finer tets: none, or both
+// element orders on its tets and on tets that are refined once.
 enum class ErrorBar { none, both };
 
 NAMED_OPTIONS(ErrorBar, none, both)
@@ -62,11 +63,12 @@ const DeformerSpec* find_deformer_with(const Scene& scene)
 // Reads a scene file, or a built-in scene by name (`pbskin list scenes`).
 Scene read_scene(const std::string& file_or_name, const std::vector<std::string>& overrides);
 
-// The deformers of all [[kind]] tables, including those that the scene does not use. InputError for a name that is no identifier, is used
-// twice or is that of a kind.
+// The deformers of all [[kind]] tables, including those that the scene does not use. InputError for a name that is no
+// identifier, is used twice or is that of a kind.
 std::vector<DeformerSpec> listed_deformers(const SceneValues& values);
 
-// `resolved` and the options of every deformer, including those that only studies set: all that the result of a run depends on.
+// `resolved` and the options of every deformer, including those that only studies set: all that the result of a run
+// depends on.
 nlohmann::json to_json(const Scene& scene);
 
 struct BuiltInScene {

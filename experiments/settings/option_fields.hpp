@@ -1,13 +1,13 @@
-// The fields of a struct of options. Each is declared once, with its key in a scene, its default, range, unit and meaning, and its name in
-// a record.
+// The fields of a struct of options. Each is declared once, with its key in a scene, its default, range, unit and
+// meaning, and its name in a record.
 //   static const auto fields = OptionFields<pbs::XpbdOptions>("xpbd")
-//                                  .add("young_pa", &pbs::XpbdOptions::young_pa, {.unit = "Pa", .range = {above_zero}, .meaning = "..."})
-//                                  .record("substeps", &pbs::XpbdOptions::substeps);
+//                                  .add("young_pa", &pbs::XpbdOptions::young_pa, {.unit = "Pa", .range = {above_zero},
+//                                  .meaning = "..."}) .record("substeps", &pbs::XpbdOptions::substeps);
 //   fields.keys()               the keys, for a schema; the defaults are those of pbs::XpbdOptions{}
 //   fields.read(values, "xpbd") the options as a scene states them
 //   fields.json(options)        all fields by name, for a record
-// A member is a number, a bool, a text, a Vec3, a list of integers or texts, or an enumeration with option_names. It may belong to a base
-// class of the options.
+// A member is a number, a bool, a text, a Vec3, a list of integers or texts, or an enumeration with option_names. It
+// may belong to a base class of the options.
 #pragma once
 
 #include "experiments/settings/option_names.hpp"
@@ -124,7 +124,10 @@ public:
     using Reader = std::function<void(Options& options, const SceneValues& values, const std::string& path)>;
     using Writer = std::function<void(const Options& options, nlohmann::json& record)>;
 
-    explicit OptionFields(std::string table, bool in_list = false) : table_(table), root_(std::move(table)), in_list_(in_list) {}
+    explicit OptionFields(std::string table, bool in_list = false)
+        : table_(table), root_(std::move(table)), in_list_(in_list)
+    {
+    }
 
     // The fields that follow are in this table within the first one. They are read only if a scene has that table.
     OptionFields& in_table(const std::string& name)
@@ -144,12 +147,14 @@ public:
             [member](Options& options, const SceneValues& values, const std::string& path) {
                 options.*member = read_option<Member>(values, path);
             },
-            [name, member](const Options& options, nlohmann::json& record) { record[name] = option_json(options.*member); });
+            [name, member](const Options& options, nlohmann::json& record) {
+                record[name] = option_json(options.*member);
+            });
     }
 
     // A key whose value is not stored in exactly one member. `write` records so many members.
-    OptionFields& add(const std::string& name, KeyType type, const nlohmann::json& default_value, const FieldText& text, Reader read,
-                      Writer write, std::size_t members = 1)
+    OptionFields& add(const std::string& name, KeyType type, const nlohmann::json& default_value, const FieldText& text,
+                      Reader read, Writer write, std::size_t members = 1)
     {
         if (write) recorded_members_[table_ + "." + name] = members;
         return add(key_of(name, type, text, default_value), std::move(read), std::move(write));
@@ -179,23 +184,24 @@ public:
     // A value that results depend on and that is no member: a constant of the code, or a function of the members.
     OptionFields& derived(const std::string& name, std::function<nlohmann::json(const Options&)> value)
     {
-        return add({}, nullptr, [name, value](const Options& options, nlohmann::json& json) { json[name] = value(options); });
+        return add({}, nullptr,
+                   [name, value](const Options& options, nlohmann::json& json) { json[name] = value(options); });
     }
     OptionFields& constant(const std::string& name, const nlohmann::json& value)
     {
         return derived(name, [value](const Options&) { return value; });
     }
 
-    // std::logic_error unless each member is recorded, except for so many on which no result depends, such as the number of threads.
-    // Settings of a study's run must be complete, for --resume compares them, and so must options of deformers, except for structs with a
-    // base, whose members cannot be counted.
+    // std::logic_error unless each member is recorded, except for so many on which no result depends, such as the
+    // number of threads. Settings of a study's run must be complete, for --resume compares them, and so must options of
+    // deformers, except for structs with a base, whose members cannot be counted.
     const OptionFields& complete(std::size_t except = 0) const
     {
         std::size_t recorded = except;
         for (const auto& [name, members] : recorded_members_) recorded += members;
         if (recorded == member_count<Options>()) return *this;
-        throw std::logic_error("settings " + root_ + ": " + std::to_string(recorded) + " of " + std::to_string(member_count<Options>()) +
-                               " members are declared");
+        throw std::logic_error("settings " + root_ + ": " + std::to_string(recorded) + " of " +
+                               std::to_string(member_count<Options>()) + " members are declared");
     }
 
     std::vector<SceneKey> keys() const
@@ -241,7 +247,8 @@ private:
         return *this;
     }
 
-    SceneKey key_of(const std::string& name, KeyType type, const FieldText& text, const nlohmann::json& default_value) const
+    SceneKey key_of(const std::string& name, KeyType type, const FieldText& text,
+                    const nlohmann::json& default_value) const
     {
         return {.table = table_,
                 .name = name,

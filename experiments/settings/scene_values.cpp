@@ -24,7 +24,8 @@ std::vector<std::string> known_names(const std::vector<SceneKey>& keys, const st
     for (const SceneKey& key : keys) {
         if (key.table == table) names.insert(key.name);
         if (table.empty() && !key.table.empty()) names.insert(key.table.substr(0, key.table.find('.')));
-        if (key.table.size() > table.size() && key.table.starts_with(table + ".")) names.insert(key.table.substr(table.size() + 1));
+        if (key.table.size() > table.size() && key.table.starts_with(table + "."))
+            names.insert(key.table.substr(table.size() + 1));
     }
     return {names.begin(), names.end()};
 }
@@ -49,7 +50,8 @@ json to_json(const toml::node& node)
 std::string shown(const toml::node& node, bool in_quotes = false)
 {
     const json value = to_json(node);
-    if (node.is_floating_point() && !std::isfinite(value.get<double>())) return std::to_string(value.get<double>());  // JSON has no nan
+    // JSON has no nan
+    if (node.is_floating_point() && !std::isfinite(value.get<double>())) return std::to_string(value.get<double>());
     return value.is_null() ? "(a table)" : value.is_string() && !in_quotes ? value.get<std::string>() : value.dump();
 }
 
@@ -70,8 +72,8 @@ bool obeys(const json& value, const SceneKey& key)
     const auto number = [&](const json& element) { return is_number(element, key); };
     switch (key.type) {
         case KeyType::text:
-            return value.is_string() &&
-                   (key.choices.empty() || std::count(key.choices.begin(), key.choices.end(), value.get<std::string>()));
+            return value.is_string() && (key.choices.empty() ||
+                                         std::count(key.choices.begin(), key.choices.end(), value.get<std::string>()));
         case KeyType::number:
             return is_number(value, key);
         case KeyType::integer:
@@ -85,7 +87,8 @@ bool obeys(const json& value, const SceneKey& key)
         case KeyType::texts:
             return is_list(value, 0, [](const json& element) { return element.is_string(); });
         case KeyType::integers:
-            return is_list(value, 0, [&](const json& element) { return element.is_number_integer() && number(element); });
+            return is_list(value, 0,
+                           [&](const json& element) { return element.is_number_integer() && number(element); });
     }
     return false;
 }
@@ -125,8 +128,9 @@ std::string SceneKey::rule() const
         for (const auto& choice : choices) shown.push_back(choice.empty() ? "\"\"" : choice);
         return fmt::format("expected one of {}", fmt::join(shown, ", "));
     }
-    static constexpr const char* names[] = {"a text",        "a number",          "an integer",      "true or false",
-                                            "three numbers", "a list of numbers", "a list of texts", "a list of integers"};
+    static constexpr const char* names[] = {"a text",          "a number",          "an integer",
+                                            "true or false",   "three numbers",     "a list of numbers",
+                                            "a list of texts", "a list of integers"};
     std::string words = fmt::format("expected {}", names[static_cast<int>(type)]);
     const auto& [lowest, highest] = range;
     if (lowest == highest) return fmt::format("expected {:g}", lowest);
@@ -141,19 +145,22 @@ std::string SceneKey::rule() const
 
 const SceneKey* SceneSchema::find(const std::string& path) const
 {
-    const auto found = std::ranges::find_if(keys, [&](const SceneKey& key) { return path.ends_with(key.name) && key.path() == path; });
+    const auto found =
+        std::ranges::find_if(keys, [&](const SceneKey& key) { return path.ends_with(key.name) && key.path() == path; });
     return found == keys.end() ? nullptr : &*found;
 }
 
 bool SceneSchema::is_table(const std::string& path) const
 {
     const std::string inside = path + ".";
-    return std::any_of(keys.begin(), keys.end(), [&](const SceneKey& key) { return key.table == path || key.table.starts_with(inside); });
+    return std::any_of(keys.begin(), keys.end(),
+                       [&](const SceneKey& key) { return key.table == path || key.table.starts_with(inside); });
 }
 
 bool SceneSchema::is_list(const std::string& table) const
 {
-    return std::any_of(keys.begin(), keys.end(), [&](const SceneKey& key) { return key.in_list && key.table == table; });
+    return std::any_of(keys.begin(), keys.end(),
+                       [&](const SceneKey& key) { return key.in_list && key.table == table; });
 }
 
 // Searched in the table of the path, or in the nearest known table that contains it.
@@ -221,7 +228,8 @@ public:
     void take_override(const std::string& override)
     {
         const auto equals = override.find('=');
-        if (equals == std::string::npos || equals == 0) throw pbs::InputError("--set", 0, "", override, "expected key=value");
+        if (equals == std::string::npos || equals == 0)
+            throw pbs::InputError("--set", 0, "", override, "expected key=value");
         std::string path = override.substr(0, equals);
         const std::string value = override.substr(equals + 1);
         if (!analysis::is_utf8(override)) throw pbs::InputError("--set", 0, path, value, "expected UTF-8");
@@ -245,17 +253,20 @@ public:
             throw pbs::InputError(source, line, path, node.is_table() ? "" : shown(node),
                                   "unknown key; the nearest known one is " + scene_.schema_.nearest_key(of_schema));
         const json value = to_json(node);
-        if (!obeys(value, *key)) throw pbs::InputError(source, line, path, shown(node, key->type != KeyType::text), key->rule());
+        if (!obeys(value, *key))
+            throw pbs::InputError(source, line, path, shown(node, key->type != KeyType::text), key->rule());
         scene_.values_[path] = {value, source, line, false};
     }
 
-    void take_renamed(const RenamedKey& renamed, const std::string& path, const toml::node& node, const std::string& source, int line)
+    void take_renamed(const RenamedKey& renamed, const std::string& path, const toml::node& node,
+                      const std::string& source, int line)
     {
         const auto now = renamed.now.find(shown(node));
         if (now == renamed.now.end()) {
             std::vector<std::string> values;
             for (const auto& [value, keys] : renamed.now) values.push_back(value);
-            throw pbs::InputError(source, line, path, shown(node), fmt::format("expected one of {}", fmt::join(values, ", ")));
+            throw pbs::InputError(source, line, path, shown(node),
+                                  fmt::format("expected one of {}", fmt::join(values, ", ")));
         }
         const std::string table = path.substr(0, path.rfind('.') + 1);
         std::vector<std::string> keys;
@@ -265,8 +276,9 @@ public:
             keys.push_back(fmt::format("{}{} = {}", table, key.substr(0, equals), to_json(*value.get("value")).dump()));
             take_value(table + key.substr(0, equals), *value.get("value"), source, line);
         }
-        scene_.remarks_.push_back(
-            pbs::InputError(source, line, path, shown(node), fmt::format("is renamed: write {}", fmt::join(keys, " and "))).what());
+        scene_.remarks_.push_back(pbs::InputError(source, line, path, shown(node),
+                                                  fmt::format("is renamed: write {}", fmt::join(keys, " and ")))
+                                      .what());
     }
 
     void add_defaults()
@@ -287,7 +299,8 @@ private:
     SceneValues& scene_;
 };
 
-SceneValues::SceneValues(const std::string& text, const std::string& file, const std::vector<std::string>& overrides, SceneSchema schema)
+SceneValues::SceneValues(const std::string& text, const std::string& file, const std::vector<std::string>& overrides,
+                         SceneSchema schema)
     : schema_(std::move(schema)), file_(file)
 {
     SceneReader reader(*this);
@@ -307,8 +320,8 @@ const json& SceneValues::value(const std::string& path) const
     const auto found = values_.find(path);
     if (found != values_.end()) return found->second.value;
     const SceneKey* key = schema_.find(schema_path(path));
-    const std::string who =
-        key && key->in_list ? "every [[" + key->table + "]] table states it; " : "the paper leaves it unstated, so every scene states it; ";
+    const std::string who = key && key->in_list ? "every [[" + key->table + "]] table states it; "
+                                                : "the paper leaves it unstated, so every scene states it; ";
     throw pbs::InputError(file_, 0, path, "", "missing: " + who + (key ? key->rule() : ""));
 }
 
@@ -320,8 +333,8 @@ void SceneValues::refuse(const std::string& path, const std::string& rule) const
         throw pbs::InputError(file_, table == tables_.end() ? 0 : table->second, path, "", rule);
     }
     const Entry& entry = found->second;
-    throw pbs::InputError(entry.source, entry.line, path, entry.value.is_string() ? entry.value.get<std::string>() : entry.value.dump(),
-                          rule);
+    throw pbs::InputError(entry.source, entry.line, path,
+                          entry.value.is_string() ? entry.value.get<std::string>() : entry.value.dump(), rule);
 }
 
 json SceneValues::resolved() const

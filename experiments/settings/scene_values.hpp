@@ -1,4 +1,5 @@
-// A scene as checked values: every key of the schema with its value from the file, from --set or by default, and its place in the text.
+// A scene as checked values: every key of the schema with its value from the file, from --set or by default, and its
+// place in the text.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,12 +11,13 @@
 
 namespace experiments {
 
-// The keys of a scene. They check it, document it (`pbskin explain KEY`) and hold the defaults. The list of all keys is scene_schema() in
-// experiments/scene/scene.hpp.
+// The keys of a scene. They check it, document it (`pbskin explain KEY`) and hold the defaults. The list of all keys is
+// scene_schema() in experiments/scene/scene.hpp.
 enum class KeyType { text, number, integer, boolean, vec3, numbers, texts, integers };
 
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
-inline constexpr double above_zero = std::numeric_limits<double>::min();  // as the lowest value, it allows all numbers > 0
+// as the lowest value, it allows all numbers > 0
+inline constexpr double above_zero = std::numeric_limits<double>::min();
 
 // A default value as a scene writes it, e.g. [0.0, 0.0].
 std::string default_text(const nlohmann::json& value);
@@ -25,7 +27,8 @@ struct Range {
 };
 
 struct SceneKey {
-    std::string table;  // "pbs", "motion", ...; "" for the top level; a table within a table has defaults only if the scene has it
+    std::string table;  // "pbs", "motion", ...; "" for the top level; a table within a table has defaults only if the
+                        // scene has it
     std::string name;
     KeyType type = KeyType::number;
     std::string default_json = {};  // JSON text; "": there is no default
@@ -39,7 +42,8 @@ struct SceneKey {
     std::string rule() const;  // what a value must be: "expected a number from 0 to 1"
 };
 
-// A key of an earlier release, which a scene may still have: it is read with a warning that names the keys in its place.
+// A key of an earlier release, which a scene may still have: it is read with a warning that names the keys in its
+// place.
 struct RenamedKey {
     std::string path;                                     // e.g. vbd.arithmetic; in a list fem.x for fem.0.x
     std::map<std::string, std::vector<std::string>> now;  // its value -> KEY=VALUE of the same table, VALUE in TOML
@@ -57,16 +61,20 @@ struct SceneSchema {
 
 class SceneValues {
 public:
-    // Reads TOML text. `file` is its name in errors. An override is KEY=VALUE with VALUE in TOML (a bare word is a text). InputError with
-    // the line for unknown keys, wrong types and values out of range.
-    SceneValues(const std::string& text, const std::string& file, const std::vector<std::string>& overrides, SceneSchema schema);
+    // Reads TOML text. `file` is its name in errors. An override is KEY=VALUE with VALUE in TOML (a bare word is a
+    // text). InputError with the line for unknown keys, wrong types and values out of range.
+    SceneValues(const std::string& text, const std::string& file, const std::vector<std::string>& overrides,
+                SceneSchema schema);
 
     const nlohmann::json& value(const std::string& path) const;
     double number(const std::string& path) const { return value(path).get<double>(); }
     int integer(const std::string& path) const { return static_cast<int>(value(path).get<double>()); }
     std::string text(const std::string& path) const { return value(path).get<std::string>(); }
     std::vector<double> numbers(const std::string& path) const { return value(path).get<std::vector<double>>(); }
-    std::vector<std::string> texts(const std::string& path) const { return value(path).get<std::vector<std::string>>(); }
+    std::vector<std::string> texts(const std::string& path) const
+    {
+        return value(path).get<std::vector<std::string>>();
+    }
 
     bool given(const std::string& path) const { return values_.count(path) && !values_.at(path).is_default; }
     bool has_table(const std::string& table) const;  // fem.0 is the first table of a list

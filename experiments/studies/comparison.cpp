@@ -45,20 +45,26 @@ bool is_shown(const fs::path& folder)
     return !folder.filename().string().starts_with('.');
 }
 
-// A folder of results with the tables of its finished runs: of one run, of the studies with their plans, or of other runs in its folders.
+// A folder of results with the tables of its finished runs: of one run, of the studies with their plans, or of other
+// runs in its folders.
 struct Results {
     Results(const std::string& folder, const ComparedFolders& compared)
-        : stated(folder), opened(folder, compared.studies), root(opened.folder()), excluded_bodies(compared.excluded_bodies)
+        : stated(folder),
+          opened(folder, compared.studies),
+          root(opened.folder()),
+          excluded_bodies(compared.excluded_bodies)
     {
         const auto& studies = compared.studies;
         if (!fs::is_directory(root)) throw pbs::InputError(folder, 0, "", "", "expected a folder of results");
         add_runs_of(root);
         if (fs::exists(root / frames_table) && !fs::exists(root / "run.json")) unfinished.insert(".");
         for (const fs::path& study : fs::directory_iterator(root))
-            if (is_shown(study) && fs::is_directory(study) && (!studies || std::ranges::count(*studies, study.filename().string()) > 0))
+            if (is_shown(study) && fs::is_directory(study) &&
+                (!studies || std::ranges::count(*studies, study.filename().string()) > 0))
                 add_runs_of(study);
         if (runs.empty() && !studies)
-            throw pbs::InputError(folder, 0, "", "", "no results in this folder: expected what `pbskin run` or `pbskin reproduce` writes");
+            throw pbs::InputError(folder, 0, "", "",
+                                  "no results in this folder: expected what `pbskin run` or `pbskin reproduce` writes");
     }
 
     bool is_kept() const { return root != stated; }
@@ -80,7 +86,8 @@ struct Results {
         for (const std::string& run : finished.folders) add_run(run);
         for (const std::string& run : finished.missing)
             if (fs::exists(study / run / frames_table)) unfinished.insert((study.filename() / run).string());
-        const fs::path in_stated = fs::path(stated) / study.filename();  // kept records have the tables of studies themselves
+        // kept records have the tables of studies themselves
+        const fs::path in_stated = fs::path(stated) / study.filename();
         for (const char* table : tables_by_case)
             if (fs::exists(in_stated / table)) tables[(study.filename() / table).string()] = in_stated / table;
     }
@@ -103,13 +110,15 @@ struct Results {
     std::map<std::string, fs::path> tables;
 };
 
-// Runs that were ended before they wrote their record. One that the other result has finished is named as a run that is missing here.
+// Runs that were ended before they wrote their record. One that the other result has finished is named as a run that is
+// missing here.
 void name_unfinished_runs(const Results& first, const Results& second, ResultComparison& to)
 {
     std::set<std::string> unfinished = first.unfinished;
     unfinished.insert(second.unfinished.begin(), second.unfinished.end());
     for (const std::string& run : unfinished)
-        if (const bool is_named = !to.folders.second_is_part && (first.runs.contains(run) || second.runs.contains(run)); !is_named)
+        if (const bool is_named = !to.folders.second_is_part && (first.runs.contains(run) || second.runs.contains(run));
+            !is_named)
             to.not_compared.push_back(run + ": no run.json: the run was not finished");
 }
 
@@ -147,12 +156,12 @@ bool is_cut_off(const fs::path& file)
 
 bool have_other_bytes(const fs::path& one, const fs::path& other)
 {
-    return fs::exists(other) &&
-           (fs::file_size(one) != fs::file_size(other) || analysis::read_text(one.string()) != analysis::read_text(other.string()));
+    return fs::exists(other) && (fs::file_size(one) != fs::file_size(other) ||
+                                 analysis::read_text(one.string()) != analysis::read_text(other.string()));
 }
 
-// The numbers of frames for ParaView are those of the tables. A frame with other bytes than that of the other result may be damaged: its
-// arrays are read, whatever their numbers are, for those of an exploded body are no places.
+// The numbers of frames for ParaView are those of the tables. A frame with other bytes than that of the other result
+// may be damaged: its arrays are read, whatever their numbers are, for those of an exploded body are no places.
 void name_broken_frames(const Results& results, const Results& others, ResultComparison& to)
 {
     for (const std::string& run : results.runs)
@@ -160,7 +169,8 @@ void name_broken_frames(const Results& results, const Results& others, ResultCom
             const fs::path file = results.root / run / "frames" / name;
             try {
                 if (is_cut_off(file))
-                    throw pbs::InputError(file.string(), 0, "", "", "the frame is cut off: expected </VTKFile> at its end");
+                    throw pbs::InputError(file.string(), 0, "", "",
+                                          "the frame is cut off: expected </VTKFile> at its end");
                 if (have_other_bytes(file, others.root / run / "frames" / name)) pbs::read_point_arrays(file.string());
             } catch (const pbs::InputError& error) {
                 to.not_compared.push_back(error.what());
@@ -174,19 +184,26 @@ std::vector<std::string> runs_without(const std::set<std::string>& runs, const s
     std::set<std::string> missing, studies;
     for (const std::string& run : other) studies.insert(study_of(run));
     for (const std::string& run : runs)
-        if (!other.contains(run)) missing.insert(run.empty() ? "." : studies.contains(study_of(run)) ? run : study_of(run));
+        if (!other.contains(run))
+            missing.insert(run.empty() ? "." : studies.contains(study_of(run)) ? run : study_of(run));
     return {missing.begin(), missing.end()};
 }
 
 // The claims that the frames of a deformer decide.
 std::vector<std::string> claims_of_frames(const analysis::CsvTable& frames, int row)
 {
-    const auto text = [&](const char* column) { return frames.has_column(column) ? frames.text_at(row, column) : std::string(); };
-    analysis::CaseKey key{.deformer = text("deformer"), .variant = text("variant"), .order = text("order"), .precision = text("precision")};
+    const auto text = [&](const char* column) {
+        return frames.has_column(column) ? frames.text_at(row, column) : std::string();
+    };
+    analysis::CaseKey key{.deformer = text("deformer"),
+                          .variant = text("variant"),
+                          .order = text("order"),
+                          .precision = text("precision")};
     if (frames.has_column("iterations")) key.iterations = frames.number_or_nothing(row, "iterations");
     std::vector<std::string> ids;
     for (const analysis::Claim& claim : claims())
-        if (claim.study == "volume" && claim.rule == analysis::ClaimRule::cases && matches(key, claim.own.of)) ids.push_back(claim.id);
+        if (claim.study == "volume" && claim.rule == analysis::ClaimRule::cases && matches(key, claim.own.of))
+            ids.push_back(claim.id);
     return ids;
 }
 
@@ -195,7 +212,8 @@ std::vector<std::string> claims_of_value(const analysis::Measurement& value)
 {
     std::vector<std::string> ids;
     for (const analysis::Claim& claim : claims())
-        if (std::ranges::count(claim.own.quantities, value.quantity) > 0 && matches(value.of, claim.own.of)) ids.push_back(claim.id);
+        if (std::ranges::count(claim.own.quantities, value.quantity) > 0 && matches(value.of, claim.own.of))
+            ids.push_back(claim.id);
     return ids;
 }
 
@@ -203,14 +221,16 @@ void count_claims(const fs::path& file, const analysis::CsvTable& table, const a
                   std::map<std::string, ComparedClaim>& claims)
 {
     const std::string name = file.filename().string();
-    const bool has_frames = name == frames_table, is_printed = name == "printed.csv", is_measured = name == "measurements.csv";
+    const bool has_frames = name == frames_table, is_printed = name == "printed.csv",
+               is_measured = name == "measurements.csv";
     if (!has_frames && !is_printed && !is_measured) return;
     const auto values = is_measured ? analysis::measurements(file.string()) : std::vector<analysis::Measurement>{};
     for (const analysis::ComparedRow& row : compared.rows) {
         std::vector<std::string> ids = has_frames   ? claims_of_frames(table, row.first)
                                        : is_printed ? std::vector{table.text_at(row.first, "claim")}
                                                     : claims_of_value(values[row.first]);
-        if (ids.empty() && is_measured) ids = {values[row.first].claim};  // a control, or another number on the page of a claim
+        // a control, or another number on the page of a claim
+        if (ids.empty() && is_measured) ids = {values[row.first].claim};
         for (const std::string& id : ids) {
             ComparedClaim& claim = claims[id];
             if (has_frames)
@@ -232,13 +252,15 @@ void name_columns(const std::string& table, const std::vector<std::string>& colu
 }
 
 // The rows of series that the other table has rows of: a run may have more deformers than its record keeps.
-std::vector<std::string> of_known_series(const analysis::TableComparison& compared, const std::vector<std::string>& rows)
+std::vector<std::string> of_known_series(const analysis::TableComparison& compared,
+                                         const std::vector<std::string>& rows)
 {
     const auto series = [](const std::string& row) { return row.substr(0, row.find(", time_s ")); };
     std::set<std::string> known;
     for (const analysis::ComparedRow& row : compared.rows) known.insert(series(row.settings));
     std::vector<std::string> found;
-    std::ranges::copy_if(rows, std::back_inserter(found), [&](const std::string& row) { return known.contains(series(row)); });
+    std::ranges::copy_if(rows, std::back_inserter(found),
+                         [&](const std::string& row) { return known.contains(series(row)); });
     return found;
 }
 
@@ -254,25 +276,30 @@ void compare_tables_of(const Results& first, const Results& second, ResultCompar
         }
         const std::string table = file.filename().string();
         if (is_part && table == summary_of_frames) continue;
-        const analysis::CsvTable one = analysis::read_csv(file.string()), other = analysis::read_csv(same->second.string());
+        const analysis::CsvTable one = analysis::read_csv(file.string()),
+                                 other = analysis::read_csv(same->second.string());
         // Only values that decide claims are kept with all digits.
-        const bool is_exact = table == "measurements.csv" || table == "printed.csv" || name.find('/') == name.rfind('/');
+        const bool is_exact =
+            table == "measurements.csv" || table == "printed.csv" || name.find('/') == name.rfind('/');
         const bool is_rounded = !is_exact && (first.is_kept() || second.is_kept());
         if (std::ranges::count(tables_with_rows, table) > 0 && (one.rows() == 0 || other.rows() == 0))
-            to.not_compared.push_back(fmt::format("{}: {} has no row", name, one.rows() == 0 ? "that of A" : "that of B"));
+            to.not_compared.push_back(
+                fmt::format("{}: {} has no row", name, one.rows() == 0 ? "that of A" : "that of B"));
         ComparedTable compared{name, analysis::compare_tables(table, one, other, {is_part, is_rounded})};
         count_claims(file, one, compared.rows, to.claims);
         if (!is_part) name_rows(name, compared.rows.only_first, to.only_first);
         const bool has_kept_columns = table == frames_table && (first.is_kept() || second.is_kept());
         if (!is_part) name_columns(name, compared.rows.columns_only_first, to.only_first);
         if (!has_kept_columns) name_columns(name, compared.rows.columns_only_second, to.only_second);
-        if (is_part && has_kept_columns) compared.rows.only_second = of_known_series(compared.rows, compared.rows.only_second);
+        if (is_part && has_kept_columns)
+            compared.rows.only_second = of_known_series(compared.rows, compared.rows.only_second);
         name_rows(name, compared.rows.only_second, to.only_second);
         if (compared.rows.numbers() > 0) to.tables.push_back(std::move(compared));
     }
     if (is_part) return;  // the record lacks long tables
     for (const auto& [name, file] : second.tables)
-        if (!first.tables.contains(name) && first.runs.contains(fs::path(name).parent_path().string())) to.only_second.push_back(name);
+        if (!first.tables.contains(name) && first.runs.contains(fs::path(name).parent_path().string()))
+            to.only_second.push_back(name);
 }
 
 std::string value_at(const nlohmann::json& settings, const std::string& path)
@@ -303,8 +330,8 @@ void compare_settings(const Results& first, const Results& second, ResultCompari
         const nlohmann::json first_settings = settings_in(first), second_settings = settings_in(second);
         if (first_settings.is_null() || second_settings.is_null()) continue;  // kept records have none
         for (const std::string& path : differing_paths(first_settings, second_settings))
-            to.other_settings.push_back(fmt::format("{}{}{} = {} | {}", run, run.empty() ? "" : ": ", path, value_at(first_settings, path),
-                                                    value_at(second_settings, path)));
+            to.other_settings.push_back(fmt::format("{}{}{} = {} | {}", run, run.empty() ? "" : ": ", path,
+                                                    value_at(first_settings, path), value_at(second_settings, path)));
     }
 }
 
@@ -333,17 +360,19 @@ bool has_the_same_cases(const analysis::Verdict& verdict, const analysis::Verdic
 }
 
 // The verdicts that kept records state, which have to be those of their tables.
-void compare_stated(const Results& results, const std::map<std::string, analysis::Verdict>& verdicts, ResultComparison& to)
+void compare_stated(const Results& results, const std::map<std::string, analysis::Verdict>& verdicts,
+                    ResultComparison& to)
 {
     const fs::path table = results.stated / "claims.md";
     if (!results.is_kept() || !fs::exists(table)) return;
     const std::string text = analysis::read_text(table.string());
     for (const auto& [id, verdict] : verdicts) {
         const std::size_t line = text.find("\n| " + id + " |");
-        const std::string row = line == std::string::npos ? "" : text.substr(line + 1, text.find('\n', line + 1) - line - 1);
+        const std::string row =
+            line == std::string::npos ? "" : text.substr(line + 1, text.find('\n', line + 1) - line - 1);
         if (row.find(fmt::format("| {} |", name_of(verdict.kind))) == std::string::npos)
-            to.other_verdicts.push_back(
-                fmt::format("{}: {} states another verdict than {}, which its tables give", id, table.string(), name_of(verdict.kind)));
+            to.other_verdicts.push_back(fmt::format("{}: {} states another verdict than {}, which its tables give", id,
+                                                    table.string(), name_of(verdict.kind)));
     }
 }
 
@@ -363,7 +392,8 @@ void compare_verdicts(const Results& first, const Results& second, ResultCompari
 std::string count_text(int number)
 {
     std::string text = std::to_string(number);
-    for (int place = static_cast<int>(text.size()) - 3; place > 0; place -= 3) text.insert(static_cast<std::size_t>(place), ",");
+    for (int place = static_cast<int>(text.size()) - 3; place > 0; place -= 3)
+        text.insert(static_cast<std::size_t>(place), ",");
     return text;
 }
 
@@ -371,8 +401,10 @@ void add_list(const std::string& title, const std::vector<std::string>& names, i
 {
     if (names.empty()) return;
     text += fmt::format("{} ({}):\n", title, names.size());
-    for (std::size_t i = 0; i < names.size() && i < static_cast<std::size_t>(lines); ++i) text += "  " + names[i] + "\n";
-    if (names.size() > static_cast<std::size_t>(lines)) text += fmt::format("  and {} more; --json FILE has all\n", names.size() - lines);
+    for (std::size_t i = 0; i < names.size() && i < static_cast<std::size_t>(lines); ++i)
+        text += "  " + names[i] + "\n";
+    if (names.size() > static_cast<std::size_t>(lines))
+        text += fmt::format("  and {} more; --json FILE has all\n", names.size() - lines);
 }
 
 std::vector<std::string> differences_in(const ResultComparison& compared)
@@ -380,8 +412,8 @@ std::vector<std::string> differences_in(const ResultComparison& compared)
     std::vector<std::string> texts;
     for (const ComparedTable& table : compared.tables)
         for (const analysis::CellDifference& difference : table.rows.differing)
-            texts.push_back(
-                fmt::format("{}: {}: {} = {} | {}", table.name, difference.row, difference.column, difference.first, difference.second));
+            texts.push_back(fmt::format("{}: {}: {} = {} | {}", table.name, difference.row, difference.column,
+                                        difference.first, difference.second));
     return texts;
 }
 
@@ -415,7 +447,8 @@ int ResultComparison::differing() const
 
 bool ResultComparison::agrees() const
 {
-    return differing() == 0 && only_first.empty() && only_second.empty() && other_verdicts.empty() && not_compared.empty();
+    return differing() == 0 && only_first.empty() && only_second.empty() && other_verdicts.empty() &&
+           not_compared.empty();
 }
 
 ResultComparison compare_results(const ComparedFolders& folders)
@@ -427,7 +460,8 @@ ResultComparison compare_results(const ComparedFolders& folders)
     if (folders.second_is_part)  // no record is kept of some studies
         std::erase_if(compared.only_second, [&](const std::string& name) {
             return has_study_plan((second.root / study_of(name)).string()) &&
-                   std::ranges::none_of(first.runs, [&](const std::string& run) { return study_of(run) == study_of(name); });
+                   std::ranges::none_of(first.runs,
+                                        [&](const std::string& run) { return study_of(run) == study_of(name); });
         });
     name_unfinished_runs(first, second, compared);
     if (!folders.second_is_part) name_missing_frames(first, second, compared);
@@ -436,7 +470,8 @@ ResultComparison compare_results(const ComparedFolders& folders)
     compare_tables_of(first, second, compared);
     compare_settings(first, second, compared);
     if (folders.excluded_bodies.empty()) compare_verdicts(first, second, compared);
-    const bool states_what_differs = !folders.second_is_part && !(compared.only_first.empty() && compared.only_second.empty());
+    const bool states_what_differs =
+        !folders.second_is_part && !(compared.only_first.empty() && compared.only_second.empty());
     if (!folders.studies && compared.tables.empty() && compared.not_compared.empty() && !states_what_differs)
         throw pbs::InputError(folders.second, 0, "", "", "no number in common with " + folders.first);
     return compared;
@@ -445,8 +480,8 @@ ResultComparison compare_results(const ComparedFolders& folders)
 std::string comparison_text(const ResultComparison& compared, int lines)
 {
     const int numbers = compared.numbers(), agreeing = numbers - compared.differing();
-    std::string text = fmt::format("{} of {} numbers agree, {} of them in every digit.\n", count_text(agreeing), count_text(numbers),
-                                   count_text(compared.equal()));
+    std::string text = fmt::format("{} of {} numbers agree, {} of them in every digit.\n", count_text(agreeing),
+                                   count_text(numbers), count_text(compared.equal()));
     add_list("other settings, A | B", compared.other_settings, lines, text);
     add_list("other verdicts, A | B", compared.other_verdicts, lines, text);
     add_list("other numbers, A | B", differences_in(compared), lines, text);
@@ -469,12 +504,13 @@ std::string claim_text(const ComparedClaim& compared)
 std::string repeated_text(const ResultComparison& compared)
 {
     const int numbers = compared.numbers();
-    if (numbers == 0 && compared.other_verdicts.empty()) return "The record has none of these runs: nothing was compared.";
+    if (numbers == 0 && compared.other_verdicts.empty())
+        return "The record has none of these runs: nothing was compared.";
     if (compared.agrees())
-        return fmt::format("This machine repeats the record: {0} of {0} numbers agree ({1} in every digit).", count_text(numbers),
-                           count_text(compared.equal()));
-    return fmt::format("This machine does NOT repeat the record: {} of {} numbers differ.", count_text(compared.differing()),
-                       count_text(numbers));
+        return fmt::format("This machine repeats the record: {0} of {0} numbers agree ({1} in every digit).",
+                           count_text(numbers), count_text(compared.equal()));
+    return fmt::format("This machine does NOT repeat the record: {} of {} numbers differ.",
+                       count_text(compared.differing()), count_text(numbers));
 }
 
 nlohmann::json to_json(const ResultComparison& compared)
@@ -483,8 +519,10 @@ nlohmann::json to_json(const ResultComparison& compared)
     for (const ComparedTable& table : compared.tables) {
         nlohmann::json differing = nlohmann::json::array();
         for (const analysis::CellDifference& difference : table.rows.differing)
-            differing.push_back(
-                {{"row", difference.row}, {"column", difference.column}, {"first", difference.first}, {"second", difference.second}});
+            differing.push_back({{"row", difference.row},
+                                 {"column", difference.column},
+                                 {"first", difference.first},
+                                 {"second", difference.second}});
         tables.push_back({{"table", table.name},
                           {"rows", table.rows.rows.size()},
                           {"numbers", table.rows.numbers()},
@@ -492,8 +530,10 @@ nlohmann::json to_json(const ResultComparison& compared)
                           {"differing", differing}});
     }
     for (const auto& [id, of] : compared.claims)
-        claims[id] = {
-            {"numbers", of.numbers}, {"differing", of.differing}, {"frames", of.frames}, {"frames_differing", of.frames_differing}};
+        claims[id] = {{"numbers", of.numbers},
+                      {"differing", of.differing},
+                      {"frames", of.frames},
+                      {"frames_differing", of.frames_differing}};
     return {{"schema", 1},
             {"first", compared.folders.first},
             {"second", compared.folders.second},
@@ -521,16 +561,19 @@ std::vector<analysis::CheckSuite> suites_of(const ResultComparison& compared)
     };
     for (const ComparedTable& table : compared.tables) {
         const std::size_t count = table.rows.differing.size();
-        std::string message = fmt::format("{} of {} numbers agree", table.rows.numbers() - static_cast<int>(count), table.rows.numbers());
+        std::string message =
+            fmt::format("{} of {} numbers agree", table.rows.numbers() - static_cast<int>(count), table.rows.numbers());
         if (count > 0) {
             const analysis::CellDifference& difference = table.rows.differing.front();
-            message += fmt::format("; the first that differs: {}: {} = {} | {}", difference.row, difference.column, difference.first,
-                                   difference.second);
+            message += fmt::format("; the first that differs: {}: {} = {} | {}", difference.row, difference.column,
+                                   difference.first, difference.second);
         }
         add(study_of(table.name), table.name, count == 0, message);
     }
-    for (const std::string& name : compared.only_first) add("only in A", name, false, "only in " + compared.folders.first);
-    for (const std::string& name : compared.only_second) add("only in B", name, false, "only in " + compared.folders.second);
+    for (const std::string& name : compared.only_first)
+        add("only in A", name, false, "only in " + compared.folders.first);
+    for (const std::string& name : compared.only_second)
+        add("only in B", name, false, "only in " + compared.folders.second);
     for (const std::string& text : compared.not_compared) add("not compared", text, false, text);
     for (const std::string& text : compared.other_verdicts) add("verdicts", study_of(text), false, text);
     return suites;

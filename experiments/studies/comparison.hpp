@@ -1,8 +1,8 @@
 // Compares two folders of results: a run of mine with the record, before and after a change, or two machines.
 //   const ResultComparison compared = compare_results({.first = record, .second = here});
 //   if (!compared.agrees()) fmt::print("{}", comparison_text(compared));
-// Tables with the same name in runs with the same name are compared row by row (analysis/records/table_comparison.hpp). Tables of a study,
-// which sum up its runs, are compared if they have a row per case.
+// Tables with the same name in runs with the same name are compared row by row (analysis/records/table_comparison.hpp).
+// Tables of a study, which sum up its runs, are compared if they have a row per case.
 #pragma once
 
 #include "analysis/check/check.hpp"
@@ -30,10 +30,11 @@ struct ComparedClaim {
 };
 
 struct ComparedFolders {
-    std::string first, second;                             // folders of results: of `reproduce`, of one run, or kept records
-    bool second_is_part = false;                           // what only the first folder has is no difference
+    std::string first, second;    // folders of results: of `reproduce`, of one run, or kept records
+    bool second_is_part = false;  // what only the first folder has is no difference
     std::optional<std::vector<std::string>> studies = {};  // that are compared; nothing: all
-    // Bodies with other tets, whose runs are not compared. A verdict takes in all bodies, so that no verdict is compared either.
+    // Bodies with other tets, whose runs are not compared. A verdict takes in all bodies, so that no verdict is
+    // compared either.
     std::vector<std::string> excluded_bodies = {};
 };
 
@@ -44,10 +45,11 @@ struct ResultComparison {
     ComparedFolders folders;
     std::vector<ComparedTable> tables = {};                      // that both have
     std::vector<std::string> only_first = {}, only_second = {};  // studies, runs, tables and rows
-    std::vector<std::string> not_compared = {};                  // runs without a record, tables without rows, frames that are broken
-    std::vector<std::string> other_settings = {};                // of a run: "pbs.k_stretch = 0.2 | 0.5"
-    std::vector<std::string> other_verdicts = {};                // "C04: holds | fails"
-    std::map<std::string, ComparedClaim> claims = {};            // by id
+    // runs without a record, tables without rows, frames that are broken
+    std::vector<std::string> not_compared = {};
+    std::vector<std::string> other_settings = {};      // of a run: "pbs.k_stretch = 0.2 | 0.5"
+    std::vector<std::string> other_verdicts = {};      // "C04: holds | fails"
+    std::map<std::string, ComparedClaim> claims = {};  // by id
 
     int numbers() const;
     int equal() const;

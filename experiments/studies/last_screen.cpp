@@ -62,7 +62,8 @@ std::map<std::string, std::string> here_texts(const LastScreen& screen, const Re
     return texts;
 }
 
-void write_repeated(const ResultComparison& compared, const std::map<std::string, std::string>& here, const std::string& folder)
+void write_repeated(const ResultComparison& compared, const std::map<std::string, std::string>& here,
+                    const std::string& folder)
 {
     nlohmann::json claims = nlohmann::json::object();
     for (const auto& [id, text] : here) {
@@ -141,22 +142,25 @@ std::string title_of(const std::string& method)
     return found == titles.end() ? method : found->second;
 }
 
-// How far LBS and PBS are from flesh, and which method is nearest within 1 ms, by the record of work_precision. Empty without one.
+// How far LBS and PBS are from flesh, and which method is nearest within 1 ms, by the record of work_precision. Empty
+// without one.
 std::string answers_text(const std::string& records)
 {
     std::vector<Method> methods = compared_methods(records);
     std::erase_if(methods, [](const Method& method) { return method.budget_ms != 1.0 || !method.is_within; });
     const auto find_method = [&](const std::string& name) { return std::ranges::find(methods, name, &Method::name); };
-    const auto best = std::ranges::min_element(methods, {}, &Method::share_pct), lbs = find_method("lbs"), pbs = find_method("pbs"),
-               mush = find_method("delta_mush");
+    const auto best = std::ranges::min_element(methods, {}, &Method::share_pct), lbs = find_method("lbs"),
+               pbs = find_method("pbs"), mush = find_method("delta_mush");
     if (lbs == methods.end() || pbs == methods.end() || mush == methods.end()) return "";
     return fmt::format(
         "Distance from flesh: the skin of a body of 1.7 m is {:.2g} mm away with LBS, {:.2g} mm with PBS ({} poses).\n"
-        "1 ms per frame: {} leaves {:.0f} % of LBS's error if the material is known, PBS {:.0f} %, delta mush {:.0f} %.\n",
+        "1 ms per frame: {} leaves {:.0f} % of LBS's error if the material is known, PBS {:.0f} %, delta mush {:.0f} "
+        "%.\n",
         lbs->skin_mm, pbs->skin_mm, pbs->poses, title_of(best->name), best->share_pct, pbs->share_pct, mush->share_pct);
 }
 
-// "0.1 to 10 ms": the times of the tables that are shorter than the time of a method. Empty: it has a row at each of them.
+// "0.1 to 10 ms": the times of the tables that are shorter than the time of a method. Empty: it has a row at each of
+// them.
 std::string too_slow_text(std::vector<double> shorter_ms, double ms)
 {
     std::erase_if(shorter_ms, [&](double time_ms) { return time_ms >= ms; });
@@ -177,15 +181,16 @@ std::string own_methods_text(const std::string& results)
         if (method.is_own) own.try_emplace(method.name, method);
     std::string text;
     for (const auto& [name, method] : own) {
-        text += fmt::format("{}: {:.3g} ms per frame, {:.0f} % of LBS's error [{:.0f}, {:.0f}] in {} poses", name, method.ms,
-                            method.share_pct, method.low_pct, method.high_pct, method.poses);
+        text += fmt::format("{}: {:.3g} ms per frame, {:.0f} % of LBS's error [{:.0f}, {:.0f}] in {} poses", name,
+                            method.ms, method.share_pct, method.low_pct, method.high_pct, method.poses);
         std::vector<std::string> shares;
         for (const char* familiar : {"dqs", "delta_mush", "pbs"})
             for (const Method& other : methods)
                 if (other.name == familiar && other.budget_ms == method.budget_ms)
                     shares.push_back(fmt::format("{} {:.0f} %", title_of(familiar), other.share_pct));
         if (!shares.empty() && !times_ms.empty())
-            text += fmt::format("; with at most {:g} ms: {}", std::min(method.budget_ms, *times_ms.rbegin()), fmt::join(shares, ", "));
+            text += fmt::format("; with at most {:g} ms: {}", std::min(method.budget_ms, *times_ms.rbegin()),
+                                fmt::join(shares, ", "));
         text += too_slow_text({times_ms.begin(), times_ms.end()}, method.ms) + ".\n";
     }
     return text;
@@ -195,8 +200,9 @@ std::string own_methods_text(const std::string& results)
 
 void write_verdicts(const std::vector<analysis::Verdict>& verdicts, const std::string& folder)
 {
-    analysis::write_text_atomically(analysis::path_in(folder, "claims.json"),
-                                    analysis::claims_json(verdicts, analysis::collect_provenance(1).git_revision).dump(2) + "\n");
+    analysis::write_text_atomically(
+        analysis::path_in(folder, "claims.json"),
+        analysis::claims_json(verdicts, analysis::collect_provenance(1).git_revision).dump(2) + "\n");
     analysis::write_text_atomically(analysis::path_in(folder, "claims.md"), analysis::claims_markdown(verdicts));
 }
 
@@ -211,7 +217,8 @@ bool show_last_screen(LastScreen screen)
     if (!has_record) {
         fmt::print("There is no kept record at {}: nothing was compared.\n", records);
         write_verdicts(screen.here, screen.folder);
-        fmt::print("{}{}", analysis::claims_table(screen.here, width, terminal_has_colours()), own_methods_text(screen.folder));
+        fmt::print("{}{}", analysis::claims_table(screen.here, width, terminal_has_colours()),
+                   own_methods_text(screen.folder));
         return true;
     }
     const ResultComparison compared = compare_results({.first = records,
@@ -228,8 +235,10 @@ bool show_last_screen(LastScreen screen)
     const analysis::FurtherColumn repeated{.heading = "here", .texts = here};
     for (const analysis::Verdict& verdict : screen.here)
         if (verdict.kind == analysis::VerdictKind::not_computable)
-            fmt::print("{} cannot be computed here: no record of {}\n", verdict.claim.id, fmt::join(verdict.missing, ", "));
-    if (!verdicts.empty()) fmt::print("\n{}", analysis::claims_table(verdicts, width, terminal_has_colours(), repeated));
+            fmt::print("{} cannot be computed here: no record of {}\n", verdict.claim.id,
+                       fmt::join(verdict.missing, ", "));
+    if (!verdicts.empty())
+        fmt::print("\n{}", analysis::claims_table(verdicts, width, terminal_has_colours(), repeated));
     const std::string own = own_methods_text(screen.folder);
     fmt::print("{}", own.empty() ? answers_text(records) : own);
     return compared.agrees();

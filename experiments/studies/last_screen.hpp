@@ -1,5 +1,6 @@
-// The last screen of `pbskin reproduce`: whether this machine repeats the record, the verdict on each claim, and how far the methods are
-// from flesh. The kept record judges, for the default run measures a part of its cases; a full run judges by itself.
+// The last screen of `pbskin reproduce`: whether this machine repeats the record, the verdict on each claim, and how
+// far the methods are from flesh. The kept record judges, for the default run measures a part of its cases; a full run
+// judges by itself.
 #pragma once
 
 #include "analysis/verdicts/verdict.hpp"
@@ -19,8 +20,8 @@ struct LastScreen {
     bool full = false;                         // all of their cases
 };
 
-// Writes claims.json, claims.md and, if there is a kept record, repeated.json into the folder, and prints the screen. Returns whether the
-// results agree with the record.
+// Writes claims.json, claims.md and, if there is a kept record, repeated.json into the folder, and prints the screen.
+// Returns whether the results agree with the record.
 bool show_last_screen(LastScreen screen);
 
 // claims.json and claims.md.

@@ -22,8 +22,8 @@ ReferencePose reference_pose(const StudyCase& in_file)
         return pose;
     }
     pose.frame = frames_of_a_movement - 1;
-    pose.scene = read_scene("human_01_01", {"character.body=" + pose.of.body,
-                                            "motion.clip=", "motion.movements=['" + in_file.value<std::string>("movement") + "']",
+    pose.scene = read_scene("human_01_01", {"character.body=" + pose.of.body, "motion.clip=",
+                                            "motion.movements=['" + in_file.value<std::string>("movement") + "']",
                                             "motion.frames=" + std::to_string(frames_of_a_movement)});
     return pose;
 }
@@ -36,7 +36,8 @@ bool is_played(const EnsembleMember& member)
 std::vector<EnsembleMember> members_of(Stratum stratum)
 {
     std::vector<EnsembleMember> members = family();
-    if (stratum == Stratum::played) std::erase_if(members, [](const EnsembleMember& member) { return !is_played(member); });
+    if (stratum == Stratum::played)
+        std::erase_if(members, [](const EnsembleMember& member) { return !is_played(member); });
     return members;
 }
 

@@ -13,8 +13,8 @@
 
 namespace experiments {
 
-// training: the poses on which the settings of methods are chosen. movement: ends of joints' ranges of motion, on which methods are
-// compared. fold: deep folds, which are compared by themselves. played: frames of clips.
+// training: the poses on which the settings of methods are chosen. movement: ends of joints' ranges of motion, on which
+// methods are compared. fold: deep folds, which are compared by themselves. played: frames of clips.
 enum class Stratum { training, movement, fold, played };
 NAMED_OPTIONS(Stratum, training, movement, fold, played)
 

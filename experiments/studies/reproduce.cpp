@@ -42,7 +42,9 @@ struct PlannedStudy {
 bool is_named(const Study& study, const std::vector<std::string>& names)
 {
     return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-        const auto of_study = [&](const analysis::Claim& claim) { return is_asked_for(claim, name) && claim.study == study.name; };
+        const auto of_study = [&](const analysis::Claim& claim) {
+            return is_asked_for(claim, name) && claim.study == study.name;
+        };
         return name == study.name || std::any_of(claims().begin(), claims().end(), of_study);
     });
 }
@@ -71,19 +73,22 @@ void refuse_unknown_runs(const std::vector<std::string>& only, const std::vector
     }
     for (const std::string& name : only)
         if (!is_among(name, known))
-            throw pbs::InputError("", 0, "--only", name, fmt::format("no such run; expected one of {}", fmt::join(listed, "; ")));
+            throw pbs::InputError("", 0, "--only", name,
+                                  fmt::format("no such run; expected one of {}", fmt::join(listed, "; ")));
 }
 
 // Deformers of the user's own need a study that compares them, and a run of it.
 void refuse_unused(const std::string& external, const std::vector<PlannedStudy>& planned)
 {
-    if (std::ranges::any_of(planned, [](const PlannedStudy& planned_study) { return planned_study.study->plan_with != nullptr; })) return;
+    if (std::ranges::any_of(
+            planned, [](const PlannedStudy& planned_study) { return planned_study.study->plan_with != nullptr; }))
+        return;
     std::vector<std::string> taking;
     for (const Study& study : studies())
         if (study.plan_with) taking.push_back(study.name);
-    throw pbs::InputError(
-        "", 0, "--external", external,
-        fmt::format("expected a run of {} among the runs; this study compares deformers of your own", fmt::join(taking, ", ")));
+    throw pbs::InputError("", 0, "--external", external,
+                          fmt::format("expected a run of {} among the runs; this study compares deformers of your own",
+                                      fmt::join(taking, ", ")));
 }
 
 void choose_runs(PlannedStudy& planned, const std::vector<std::string>& only, bool resume)
@@ -104,16 +109,20 @@ void refuse_unknown(const std::vector<std::string>& names)
     for (const auto& study : studies()) known.push_back(study.name);
     for (const auto& claim : claims()) known.push_back(claim.id);
     for (const auto& name : names)
-        if (!is_among(name, known) && std::ranges::none_of(claims(), [&](const auto& claim) { return is_asked_for(claim, name); }))
-            throw pbs::InputError("", 0, "reproduce", name,
-                                  "unknown claim or study; expected one of " + fmt::format("{}", fmt::join(known, ", ")));
+        if (!is_among(name, known) &&
+            std::ranges::none_of(claims(), [&](const auto& claim) { return is_asked_for(claim, name); }))
+            throw pbs::InputError(
+                "", 0, "reproduce", name,
+                "unknown claim or study; expected one of " + fmt::format("{}", fmt::join(known, ", ")));
 }
 
-// Returns the studies that have a run to do, or all studies without ReproduceArguments::only. InputError for the name of a run that no
-// study has, for deformers of the user's own without a study that compares them, and where Study::plan_with does.
+// Returns the studies that have a run to do, or all studies without ReproduceArguments::only. InputError for the name
+// of a run that no study has, for deformers of the user's own without a study that compares them, and where
+// Study::plan_with does.
 std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments)
 {
-    if (arguments.external && arguments.external->empty()) throw pbs::InputError("", 0, "--external", "", "expected a file");
+    if (arguments.external && arguments.external->empty())
+        throw pbs::InputError("", 0, "--external", "", "expected a file");
     std::vector<PlannedStudy> planned;
     for (const Study& study : studies()) {
         const Extent extent = asked_for(study, arguments.names, arguments.full);
@@ -125,7 +134,8 @@ std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments)
     }
     refuse_unknown_runs(arguments.only, planned);
     const auto has_none = [&](const PlannedStudy& planned_study) {
-        return std::ranges::none_of(planned_study.plan.runs, [&](const StudyRun& run) { return is_among(run.name, arguments.only); });
+        return std::ranges::none_of(planned_study.plan.runs,
+                                    [&](const StudyRun& run) { return is_among(run.name, arguments.only); });
     };
     if (!arguments.only.empty()) std::erase_if(planned, has_none);
     if (arguments.external) refuse_unused(*arguments.external, planned);
@@ -154,12 +164,14 @@ void begin(const PlannedStudy& planned)
         for (const StudyRun& run : runs) analysis::remove_record(fs::path(planned.folder) / run.name / "run.json");
     write_study_plan(planned.folder, planned.plan);
     const auto level = planned.kept.empty() ? spdlog::level::debug : spdlog::level::info;
-    spdlog::log(level, "study {}: {} runs to do, {} kept", planned.study->name, planned.to_do.size(), planned.kept.size());
+    spdlog::log(level, "study {}: {} runs to do, {} kept", planned.study->name, planned.to_do.size(),
+                planned.kept.size());
     std::vector<std::string> names;
     for (const StudyRun& run : planned.absent) names.push_back(run.name);
     if (names.empty()) return;
-    spdlog::info("excluded by --only: {}; the tables do not contain these runs, and verdicts that need them cannot be computed",
-                 fmt::join(names, ", "));
+    spdlog::info(
+        "excluded by --only: {}; the tables do not contain these runs, and verdicts that need them cannot be computed",
+        fmt::join(names, ", "));
 }
 
 // results: of the runs to do, in their order.
@@ -183,16 +195,19 @@ StudyOutcome outcome_of(const PlannedStudy& planned, std::span<const PooledResul
     return outcome;
 }
 
-// The runs of all these studies share the cores, so that no core is idle while a study ends. then_s: expected wall time of the studies
-// after these [s].
-void run_together(const std::vector<const PlannedStudy*>& planned, int jobs, double then_s, std::map<const Study*, StudyOutcome>& outcomes)
+// The runs of all these studies share the cores, so that no core is idle while a study ends. then_s: expected wall time
+// of the studies after these [s].
+void run_together(const std::vector<const PlannedStudy*>& planned, int jobs, double then_s,
+                  std::map<const Study*, StudyOutcome>& outcomes)
 {
     std::vector<PooledWork> work;
     for (const PlannedStudy* planned_study : planned) {
         begin(*planned_study);
         for (const StudyRun& run : planned_study->to_do)
             work.push_back({planned.size() > 1 ? planned_study->study->name + "/" + run.name : run.name, run.cost_s,
-                            [&run, folder = (fs::path(planned_study->folder) / run.name).string()] { return carry_out(run, folder); }});
+                            [&run, folder = (fs::path(planned_study->folder) / run.name).string()] {
+                                return carry_out(run, folder);
+                            }});
     }
     const std::vector<PooledResult> results = run_in_pool(work, jobs, then_s);
     std::span<const PooledResult> left = results;
@@ -234,8 +249,9 @@ std::vector<analysis::Verdict> verdicts_of(const Study& study, const std::string
 
 bool all_computable(const std::vector<analysis::Verdict>& verdicts)
 {
-    return std::ranges::none_of(verdicts,
-                                [](const analysis::Verdict& verdict) { return verdict.kind == analysis::VerdictKind::not_computable; });
+    return std::ranges::none_of(verdicts, [](const analysis::Verdict& verdict) {
+        return verdict.kind == analysis::VerdictKind::not_computable;
+    });
 }
 
 // Names each body that is not installed once, with the command that brings it.
@@ -251,7 +267,8 @@ bool has_run_of(const std::vector<PlannedStudy>& planned, const std::string& bod
 {
     const auto is_of_body = [&](const StudyRun& run) { return is_run_of(run.name, body); };
     return std::ranges::any_of(planned, [&](const PlannedStudy& planned_study) {
-        return std::ranges::any_of(planned_study.to_do, is_of_body) || std::ranges::any_of(planned_study.kept, is_of_body);
+        return std::ranges::any_of(planned_study.to_do, is_of_body) ||
+               std::ranges::any_of(planned_study.kept, is_of_body);
     });
 }
 
@@ -263,7 +280,8 @@ std::vector<std::string> name_other_tets(const std::vector<PlannedStudy>& planne
             if (pbs::body_is_installed(body.name) && has_run_of(planned, body.name)) require_kept_tets(body.name);
         } catch (const pbs::InputError& error) {
             other_tets.push_back(body.name);
-            spdlog::info("neither the runs of {0} nor verdicts are compared with the record: {1}", body.name, error.what());
+            spdlog::info("neither the runs of {0} nor verdicts are compared with the record: {1}", body.name,
+                         error.what());
         }
     const std::string cgal = run_provenance(1).libraries["CGAL"];
     if (cgal != cgal_of_the_record)
@@ -300,7 +318,8 @@ int reproduce(const ReproduceArguments& arguments)
         refused |= outcome.refused;
         all_hold &= !outcome.failed;
         std::istringstream marked(marked_frames(outcome.finished.folders));
-        for (std::string line; std::getline(marked >> std::ws, line);) warnings.add(planned_study.study->name + "/" + line);
+        for (std::string line; std::getline(marked >> std::ws, line);)
+            warnings.add(planned_study.study->name + "/" + line);
         for (auto& verdict : verdicts_of(*planned_study.study, planned_study.folder, arguments.folder))
             screen.here.push_back(std::move(verdict));
         all_hold &= study_holds(*planned_study.study, outcome.finished);
@@ -330,7 +349,8 @@ int judge_again(const ReproduceArguments& arguments)
                               "no records of a study in this folder: expected one that reproduce wrote");
     std::ranges::stable_sort(verdicts, {}, [](const analysis::Verdict& verdict) { return verdict.claim.id; });
     write_verdicts(verdicts, arguments.folder);
-    analysis::remove_record(fs::path(arguments.folder) / "repeated.json");  // of a run, beside which other verdicts stood
+    // of a run, beside which other verdicts stood
+    analysis::remove_record(fs::path(arguments.folder) / "repeated.json");
     fmt::print("{}", analysis::claims_table(verdicts, terminal_width(), terminal_has_colours()));
     return all_computable(verdicts) ? exit_finished : exit_bound;
 }

@@ -24,9 +24,10 @@ namespace fs = std::filesystem;
 const std::vector<Study>& studies()
 {
     static const std::vector<Study> studies = {
-        volume_study(),       audit_study(),     momentum_study(),   convergence_study(),    stability_study(), artefacts_study(),
-        jiggle_study(),       stiffness_study(), setup_study(),      ambiguity_study(),      frames_study(),    timing_study(),
-        verification_study(), fit_study(),       references_study(), work_precision_study(), ensemble_study(),  temporal_study()};
+        volume_study(),         audit_study(),    momentum_study(),     convergence_study(), stability_study(),
+        artefacts_study(),      jiggle_study(),   stiffness_study(),    setup_study(),       ambiguity_study(),
+        frames_study(),         timing_study(),   verification_study(), fit_study(),         references_study(),
+        work_precision_study(), ensemble_study(), temporal_study()};
     return studies;
 }
 
@@ -49,9 +50,11 @@ std::string carry_out_work(const StudyRun& run, const std::string& folder)
     const std::string breakdown = run.work(folder);
 
     const auto [key, value] = identity(run);
-    nlohmann::json outcome = {{"finished", true}, {"breakdown", breakdown}, {"cpu_seconds", process_cpu_s() - cpu_start_s}};
+    nlohmann::json outcome = {
+        {"finished", true}, {"breakdown", breakdown}, {"cpu_seconds", process_cpu_s() - cpu_start_s}};
     outcome.update(run_end(stopwatch.seconds()));
-    const nlohmann::json json = {{"schema", run_schema}, {key, value}, {"provenance", run_provenance(1)}, {"outcome", outcome}};
+    const nlohmann::json json = {
+        {"schema", run_schema}, {key, value}, {"provenance", run_provenance(1)}, {"outcome", outcome}};
     analysis::write_text_atomically(record.string(), analysis::record_text(json));
     return breakdown;
 }
@@ -68,7 +71,8 @@ std::optional<double> number_at(const nlohmann::json& run, const char* pointer)
 }
 
 const analysis::Columns<RunCost> cost_columns =
-    analysis::Columns<RunCost>{{"run", &RunCost::run}, {"expected_cpu_s", &RunCost::expected_s}, {"cpu_s", &RunCost::cpu_s}} +
+    analysis::Columns<RunCost>{
+        {"run", &RunCost::run}, {"expected_cpu_s", &RunCost::expected_s}, {"cpu_s", &RunCost::cpu_s}} +
     analysis::Columns<RunCost>{{"wall_s", &RunCost::wall_s}}.in_group("wall");
 
 // Nothing if the run did not finish.
@@ -92,7 +96,8 @@ bool is_finished(const StudyRun& run, const std::string& folder)
     if (json.value(key, nlohmann::json()) != value) return false;
     const analysis::Provenance now = analysis::collect_provenance(1);
     const nlohmann::json then = json.value("provenance", nlohmann::json()), none;
-    return then.is_object() && then.value("git_revision", none) == now.git_revision && then.value("git_dirty", none) == now.git_dirty;
+    return then.is_object() && then.value("git_revision", none) == now.git_revision &&
+           then.value("git_dirty", none) == now.git_dirty;
 }
 
 bool study_holds(const Study& study, const FinishedRuns& finished)
@@ -149,7 +154,8 @@ bool is_asked_for(const analysis::Claim& claim, const std::string& name)
 
 std::string page_of(const analysis::Claim& claim)
 {
-    return std::isalpha(static_cast<unsigned char>(claim.id.back())) ? claim.id.substr(0, claim.id.size() - 1) : claim.id;
+    return std::isalpha(static_cast<unsigned char>(claim.id.back())) ? claim.id.substr(0, claim.id.size() - 1)
+                                                                     : claim.id;
 }
 
 const analysis::Claim& claim_named(const std::string& id)
@@ -159,11 +165,13 @@ const analysis::Claim& claim_named(const std::string& id)
     return *found;
 }
 
-std::vector<ReadingValues::LeftOut> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason)
+std::vector<ReadingValues::LeftOut> all_but(const std::string& claim, const std::vector<std::string>& measured,
+                                            const std::string& reason)
 {
     std::vector<ReadingValues::LeftOut> left_out;
     for (const std::string& quantity : claim_named(claim).own.quantities)
-        if (std::find(measured.begin(), measured.end(), quantity) == measured.end()) left_out.push_back({claim, quantity, reason});
+        if (std::find(measured.begin(), measured.end(), quantity) == measured.end())
+            left_out.push_back({claim, quantity, reason});
     return left_out;
 }
 

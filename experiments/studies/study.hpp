@@ -44,20 +44,21 @@ struct FinishedRuns {
     }
 };
 
-// The work of a run, in a process of its own. It writes its records into `folder`, which exists and has no earlier run.json, and returns
-// what broke down numerically, or "". An exception is a failure.
+// The work of a run, in a process of its own. It writes its records into `folder`, which exists and has no earlier
+// run.json, and returns what broke down numerically, or "". An exception is a failure.
 using StudyWork = std::function<std::string(const std::string& folder)>;
 
 // Either a scene or, if `work` is given, a piece of work with its settings.
 struct StudyRun {
     std::string name;  // of its folder in the folder of the study
     Scene scene = {};
-    std::string motion = {};  // of a scene whose motion is a sweep, e.g. twist; a clip and movements have names of their own
-    double cost_s = 0.0;      // expected, on one core
+    // of a scene whose motion is a sweep, e.g. twist; a clip and movements have names of their own
+    std::string motion = {};
+    double cost_s = 0.0;  // expected, on one core
     StudyWork work = {};
     bool beside = false;  // it decides nothing, for another run decides for its body and motion
-    // For a scene that goes on until its reference breaks down: bad frames are recorded, listed below the claims, and left out of claims
-    // that need their pose. In any other scene a bad frame is a breakdown.
+    // For a scene that goes on until its reference breaks down: bad frames are recorded, listed below the claims, and
+    // left out of claims that need their pose. In any other scene a bad frame is a breakdown.
     bool bad_frames_are_results = false;
     nlohmann::json settings = {};  // all that the result of the work depends on; recorded, and compared by --resume
 };
@@ -88,11 +89,12 @@ struct StudyPlan {
 //   name = "{body}_walk"             # of the run; {body} in any text is the name of the case's body
 //   bodies = ["human", "lady"]       # a case for each one that is installed; or body = "human"
 //   scene = "human_01_01"            # and overrides = ["motion.duration_s=2.5"], as `pbskin run SCENE --set KEY=VALUE`
-//   quick_s = 1.5                    # expected cost; a case without quick_s is no part of the default form, without full_s not of --full
-//   full_s = 4.0
-//   each = [{ name = "a" }, ...]     # a case for each entry, with these keys and those of the case
-//   quick = { k_stretch = [0.1] }    # keys for one form, or for one of the bodies: fewer rows, each measured as in the full form.
-//                                    # They replace the case's keys; only `overrides` are added to those of the case, as in `each`.
+//   quick_s = 1.5                    # expected cost; a case without quick_s is no part of the default form, without
+//   full_s not of --full full_s = 4.0 each = [{ name = "a" }, ...]     # a case for each entry, with these keys and
+//   those of the case quick = { k_stretch = [0.1] }    # keys for one form, or for one of the bodies: fewer rows, each
+//   measured as in the full form.
+//                                    # They replace the case's keys; only `overrides` are added to those of the case,
+//                                    as in `each`.
 // The further keys are the study's own. A key that nothing reads is an error.
 class StudyCase {
 public:
@@ -115,7 +117,8 @@ public:
     Scene scene(const Overrides& further_overrides = {}) const;  // of `scene` and `overrides`
     // PBS of that scene as a table states it: label, and where they differ name, variant and overrides.
     DeformerSpec further_pbs(const nlohmann::json& table, const Overrides& further_overrides = {}) const;
-    StudyRun scene_run(const std::string& run_name, const Overrides& further_overrides = {}) const;  // of that scene, with `motion`
+    // of that scene, with `motion`
+    StudyRun scene_run(const std::string& run_name, const Overrides& further_overrides = {}) const;
     pbs::Vec3 direction(const std::string& key) const;  // of a jolt; upwards if the case does not state it
     analysis::CaseKey key() const;                      // body, motion, pose, angle_deg
     const nlohmann::json& values() const;               // all keys, which then count as read
@@ -132,11 +135,14 @@ private:
 // The tables of studies/NAME/cases.toml: case, and what else the study states there.
 nlohmann::json cases_document(const std::string& study);
 
-// The plan of a study whose cases are data: `add` makes the run of each case of this form. A body that is not installed, or that `add`
-// refuses by InputError, for example because a clip is missing, is left out with all of its further cases.
-StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& study_case, StudyPlan& plan)>& add);
+// The plan of a study whose cases are data: `add` makes the run of each case of this form. A body that is not
+// installed, or that `add` refuses by InputError, for example because a clip is missing, is left out with all of its
+// further cases.
+StudyPlan plan_of_cases(const std::string& study, bool full,
+                        const std::function<void(const StudyCase& study_case, StudyPlan& plan)>& add);
 
-// What a study measures of a case in which the scene has further overrides: another reading of the paper (the study `ambiguity`).
+// What a study measures of a case in which the scene has further overrides: another reading of the paper (the study
+// `ambiguity`).
 struct ReadingValues {
     std::vector<analysis::Measurement> values;
     bool broke_down = false;  // some positions are not finite
@@ -148,7 +154,8 @@ struct ReadingValues {
 };
 
 // The quantities that the claim is judged by and that are not among those measured.
-std::vector<ReadingValues::LeftOut> all_but(const std::string& claim, const std::vector<std::string>& measured, const std::string& reason);
+std::vector<ReadingValues::LeftOut> all_but(const std::string& claim, const std::vector<std::string>& measured,
+                                            const std::string& reason);
 
 // The extent in which `pbskin reproduce` and `pbskin reproduce --full`, both without names, run a study.
 struct Sets {
@@ -160,25 +167,27 @@ constexpr Sets in_short = {Extent::quick, Extent::quick};
 constexpr Sets full_in_short = {Extent::none, Extent::quick};
 
 struct Study {
-    std::string name;  // of its folder, whose README.md is the page of `pbskin explain`, and of the folder of its records
+    std::string
+        name;  // of its folder, whose README.md is the page of `pbskin explain`, and of the folder of its records
     StudyPlan (*plan)(bool full) = nullptr;
     Sets sets = {};
-    // Writes the tables over the finished runs, of which there is at least one, and returns whether the study holds, apart from the
-    // verdicts on its claims. Null: there are none.
+    // Writes the tables over the finished runs, of which there is at least one, and returns whether the study holds,
+    // apart from the verdicts on its claims. Null: there are none.
     bool (*conclude)(const FinishedRuns& finished) = nullptr;
     bool alone = false;  // it measures time: one run at a time, whatever -j is
-    // The plan with deformers of the user's own from the [[external]] tables of a file. Null: the study has a fixed list of deformers.
+    // The plan with deformers of the user's own from the [[external]] tables of a file. Null: the study has a fixed
+    // list of deformers.
     StudyPlan (*plan_with)(bool full, const std::string& external_file) = nullptr;
     // The values of the study's claims for a case of `ambiguity`, by each of the readings. Null: it has none.
     std::vector<ReadingValues> (*read)(const StudyCase& study_case, const std::vector<Overrides>& readings) = nullptr;
-    // The values that follow from other measured values of a run: exponents, ranks, shares. A run records them, and verdicts take what is
-    // concluded anew from the measured values on record. Null: every value is measured.
+    // The values that follow from other measured values of a run: exponents, ranks, shares. A run records them, and
+    // verdicts take what is concluded anew from the measured values on record. Null: every value is measured.
     std::vector<analysis::Measurement> (*conclusions)(const std::vector<analysis::Measurement>& measured) = nullptr;
 };
 const std::vector<Study>& studies();
 
-// Writes the tables over all runs, and returns whether the study holds. Without a finished run a study with such tables does not hold, and
-// nothing is written.
+// Writes the tables over all runs, and returns whether the study holds. Without a finished run a study with such tables
+// does not hold, and nothing is written.
 bool study_holds(const Study& study, const FinishedRuns& finished);
 
 // One per folder next to this file, each defined in its study.cpp.
@@ -201,7 +210,8 @@ Study work_precision_study();
 Study ensemble_study();
 Study temporal_study();
 
-// True if the run in `folder` finished with this scene or these settings and this revision, so that it need not be repeated.
+// True if the run in `folder` finished with this scene or these settings and this revision, so that it need not be
+// repeated.
 bool is_finished(const StudyRun& run, const std::string& folder);
 
 // Does the run and returns what broke down numerically, or "".
@@ -210,7 +220,8 @@ std::string carry_out(const StudyRun& run, const std::string& folder);
 // The text that carry_out returned for the finished run in `folder`.
 std::string breakdown_on_record(const StudyRun& run, const std::string& folder);
 
-// The expected and the actual cost of the runs of a study, in DIR/STUDY/costs.csv. The file is kept when a study is resumed.
+// The expected and the actual cost of the runs of a study, in DIR/STUDY/costs.csv. The file is kept when a study is
+// resumed.
 //   StudyCosts costs(folder);
 //   costs.add("limb_twist", 80.0, 71.4);
 //   costs.write();
@@ -225,8 +236,8 @@ public:
     explicit StudyCosts(const std::string& folder);  // with the rows of an earlier file, if there is one
 
     void add(const std::string& run, double expected_s, double cpu_s);
-    // Keeps the rows of the finished runs, in the order of the plan. A finished run without a row, because its `reproduce` was killed, gets
-    // the cost that its run.json has.
+    // Keeps the rows of the finished runs, in the order of the plan. A finished run without a row, because its
+    // `reproduce` was killed, gets the cost that its run.json has.
     void complete(const std::string& folder, const StudyPlan& plan);
     void write() const;
 
@@ -251,7 +262,8 @@ const std::vector<analysis::Claim>& claims();
 std::string page_of(const analysis::Claim& claim);
 bool is_asked_for(const analysis::Claim& claim, const std::string& name);  // by its id or its page
 
-const analysis::Claim& claim_named(const std::string& id);  // std::logic_error for an id that claims.toml does not contain
+// std::logic_error for an id that claims.toml does not contain
+const analysis::Claim& claim_named(const std::string& id);
 
 // The paths at which two JSON objects differ: "pbs.k_volume". An object that only one of them has is one path.
 std::vector<std::string> differing_paths(const nlohmann::json& a, const nlohmann::json& b);

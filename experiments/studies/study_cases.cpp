@@ -13,12 +13,13 @@
 namespace experiments {
 namespace {
 
-// The keys of a form, a body or an entry of `each` replace those that all have in common, except the overrides, which follow the common
-// ones. Tables are merged.
+// The keys of a form, a body or an entry of `each` replace those that all have in common, except the overrides, which
+// follow the common ones. Tables are merged.
 void add_keys(nlohmann::json& values, const nlohmann::json& own)
 {
     nlohmann::json overrides = values.value("overrides", nlohmann::json::array());
-    for (const nlohmann::json& override : own.value("overrides", nlohmann::json::array())) overrides.push_back(override);
+    for (const nlohmann::json& override : own.value("overrides", nlohmann::json::array()))
+        overrides.push_back(override);
     values.merge_patch(own);
     if (values.contains("overrides")) values["overrides"] = overrides;
 }
@@ -58,7 +59,8 @@ nlohmann::json resolved(nlohmann::json values, const std::string& body, bool ful
     return nlohmann::json::parse(text);
 }
 
-void add_differences(const nlohmann::json& a, const nlohmann::json& b, const std::string& path, std::vector<std::string>& differing)
+void add_differences(const nlohmann::json& a, const nlohmann::json& b, const std::string& path,
+                     std::vector<std::string>& differing)
 {
     if (a == b) return;
     if (!a.is_object() || !b.is_object()) {
@@ -68,8 +70,8 @@ void add_differences(const nlohmann::json& a, const nlohmann::json& b, const std
     nlohmann::json both = a;
     both.update(b);
     for (const auto& [name, value] : both.items())
-        add_differences(a.value(name, nlohmann::json()), b.value(name, nlohmann::json()), path.empty() ? name : path + "." + name,
-                        differing);
+        add_differences(a.value(name, nlohmann::json()), b.value(name, nlohmann::json()),
+                        path.empty() ? name : path + "." + name, differing);
 }
 
 }  // namespace
@@ -124,7 +126,8 @@ Scene StudyCase::scene(const Overrides& further) const
 DeformerSpec StudyCase::further_pbs(const nlohmann::json& table, const Overrides& further) const
 {
     Overrides overrides = {R"(deformers.use=["pbs"])", R"(reference.name="")"};
-    for (const Overrides& own : {table.value("overrides", Overrides()), further}) overrides.insert(overrides.end(), own.begin(), own.end());
+    for (const Overrides& own : {table.value("overrides", Overrides()), further})
+        overrides.insert(overrides.end(), own.begin(), own.end());
     DeformerSpec spec = scene(overrides).deformers.front();
     spec.label = table.at("label");
     spec.name = table.value("name", spec.name);
@@ -166,7 +169,8 @@ void StudyCase::require_nothing_unread() const
         if (!read_.contains(key)) throw std::logic_error(fmt::format("{}: nothing reads the key {}", where_, key));
 }
 
-StudyPlan plan_of_cases(const std::string& study, bool full, const std::function<void(const StudyCase& study_case, StudyPlan& plan)>& add)
+StudyPlan plan_of_cases(const std::string& study, bool full,
+                        const std::function<void(const StudyCase& study_case, StudyPlan& plan)>& add)
 {
     StudyPlan plan;
     const nlohmann::json cases = cases_document(study).at("case");
@@ -187,10 +191,11 @@ StudyPlan plan_of_cases(const std::string& study, bool full, const std::function
         }
     };
     for (std::size_t first = 0, last = 0; first < cases.size(); first = last) {
-        const nlohmann::json bodies = cases[first].value("bodies", nlohmann::json::array({cases[first].value("body", "")}));
+        const nlohmann::json bodies =
+            cases[first].value("bodies", nlohmann::json::array({cases[first].value("body", "")}));
         // A list of bodies goes through the cases that have it, body by body.
-        for (last = first + 1;
-             cases[first].contains("bodies") && last < cases.size() && cases[last].value("bodies", nlohmann::json()) == bodies;)
+        for (last = first + 1; cases[first].contains("bodies") && last < cases.size() &&
+                               cases[last].value("bodies", nlohmann::json()) == bodies;)
             ++last;
         for (const std::string body : bodies)
             for (std::size_t entry = first; entry < last; ++entry) add_case(cases[entry], body);

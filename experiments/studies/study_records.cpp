@@ -59,7 +59,8 @@ analysis::CaseKey key_of(const StudyRun& run)
     if (!motion.clip.empty()) key.motion = fs::path(motion.clip).stem().string();
     if (!motion.movements.empty()) key.motion = "range_of_motion";
     if (motion.movements.size() == 1) key.pose = motion.movements.front();
-    if (key.motion.empty()) throw std::logic_error("run " + run.name + ": a sweep needs a name, the key motion of its case");
+    if (key.motion.empty())
+        throw std::logic_error("run " + run.name + ": a sweep needs a name, the key motion of its case");
     if (run.scene.character.vertices > 0) key.vertices = run.scene.character.vertices;
     return key;
 }
@@ -76,7 +77,8 @@ std::vector<analysis::Measurement> measurements_of(const fs::path& study, const 
     return measured;
 }
 
-void add_run(analysis::Records& records, const fs::path& folder, const std::string& name, const analysis::CaseKey& place, bool beside)
+void add_run(analysis::Records& records, const fs::path& folder, const std::string& name,
+             const analysis::CaseKey& place, bool beside)
 {
     if (const fs::path printed = folder / "printed.csv"; fs::exists(printed))
         for (auto& value : analysis::printed_values(printed.string())) records.printed.push_back(std::move(value));
@@ -101,7 +103,8 @@ void write_scratch(const fs::path& file, const std::string& text)
     if (!stream.flush()) throw pbs::InputError(file.string(), 0, "", "", "cannot be written");
 }
 
-// The first column of a table names the run of each row. A row without further cells states that the run's table has no rows.
+// The first column of a table names the run of each row. A row without further cells states that the run's table has no
+// rows.
 void write_tables_of_runs(const fs::path& merged, const fs::path& study)
 {
     const analysis::CsvTable rows = analysis::parse_csv(kept_text(merged.string()), merged.string());
@@ -147,12 +150,15 @@ std::string marks_of(const json& outcome, const std::string& run)
     const json none = json::object(), below = outcome.value("frames_below_reference_error", none),
                broken = outcome.value("broken_frames", none);
     if (const int count = outcome.value("frames_with_overlap", 0); count > 0)
-        lines += fmt::format("     {}: the reference overlaps itself in {} of {} frames\n", run, count, outcome.at("frames").get<int>());
+        lines += fmt::format("     {}: the reference overlaps itself in {} of {} frames\n", run, count,
+                             outcome.at("frames").get<int>());
     if (const double share_pct = outcome.value("largest_masked_share_pct", 0.0); share_pct > 0.0)
-        lines += fmt::format("     {}: errors leave out up to {:.2g} % of the volume, at the tips of creases\n", run, share_pct);
+        lines += fmt::format("     {}: errors leave out up to {:.2g} % of the volume, at the tips of creases\n", run,
+                             share_pct);
     for (const auto& [label, count] : below.items())
-        lines += fmt::format("     {}: the error of {} at the joints is not above the reference's own in {} of {} frames\n", run, label,
-                             count.get<int>(), outcome.at("frames").get<int>());
+        lines +=
+            fmt::format("     {}: the error of {} at the joints is not above the reference's own in {} of {} frames\n",
+                        run, label, count.get<int>(), outcome.at("frames").get<int>());
     for (const auto& [label, frames] : broken.items())
         lines += fmt::format("     {}: {} {}\n", run, label, broken_line(frames, outcome.at("frames").get<int>()));
     return lines;
@@ -167,19 +173,22 @@ std::string kept_text(const std::string& file)
     std::string text;
     std::array<char, 1 << 16> block;
     int count = 0;
-    while ((count = gzread(opened.get(), block.data(), block.size())) > 0) text.append(block.data(), static_cast<std::size_t>(count));
+    while ((count = gzread(opened.get(), block.data(), block.size())) > 0)
+        text.append(block.data(), static_cast<std::size_t>(count));
     int code = Z_OK;
     gzerror(opened.get(), &code);
     if (count < 0 || code != Z_OK) throw pbs::InputError(file, 0, "", "", "expected a whole gzip file");
     return text;
 }
 
-OpenedRecords::OpenedRecords(const std::string& folder, const std::optional<std::vector<std::string>>& studies) : folder_(folder)
+OpenedRecords::OpenedRecords(const std::string& folder, const std::optional<std::vector<std::string>>& studies)
+    : folder_(folder)
 {
     const auto is_needed = [&](const std::string& name) {  // STUDY, or STUDY/RUN
         return !studies || std::ranges::count(*studies, name.substr(0, name.find('/'))) > 0;
     };
-    const std::string provenance = analysis::path_in(folder, "provenance.json"), all_plans = analysis::path_in(folder, "plans.json");
+    const std::string provenance = analysis::path_in(folder, "provenance.json"),
+                      all_plans = analysis::path_in(folder, "plans.json");
     if (!fs::exists(provenance)) return;
     const fs::path opened = scratch_.emplace().path();
     analysis::from_record(all_plans, [&](const nlohmann::json& plans) {
@@ -189,7 +198,8 @@ OpenedRecords::OpenedRecords(const std::string& folder, const std::optional<std:
             fs::create_directories(opened / study);
             write_scratch(plan_file((opened / study).string()), plan.dump());
             if (const fs::path merged = fs::path(folder) / study / "runs"; fs::is_directory(merged))
-                for (const fs::path& table : fs::directory_iterator(merged)) write_tables_of_runs(table, opened / study);
+                for (const fs::path& table : fs::directory_iterator(merged))
+                    write_tables_of_runs(table, opened / study);
         }
     });
     analysis::from_record(provenance, [&](const nlohmann::json& record) {
@@ -216,11 +226,13 @@ void write_study_plan(const std::string& folder, const StudyPlan& plan)
         if (run.beside) entry["beside"] = true;
         runs.push_back(entry);
     }
-    for (const analysis::LeftOut& out : plan.left_out) left_out.push_back({{"scene", out.scene}, {"reason", out.reason}});
+    for (const analysis::LeftOut& out : plan.left_out)
+        left_out.push_back({{"scene", out.scene}, {"reason", out.reason}});
     const char* extent = plan.extent == Extent::full ? "full" : "quick";
     fs::create_directories(folder);
     analysis::write_text_atomically(
-        plan_file(folder), nlohmann::json{{"schema", 1}, {"extent", extent}, {"runs", runs}, {"left_out", left_out}}.dump(2) + "\n");
+        plan_file(folder),
+        nlohmann::json{{"schema", 1}, {"extent", extent}, {"runs", runs}, {"left_out", left_out}}.dump(2) + "\n");
 }
 
 bool has_study_plan(const std::string& folder)
@@ -261,9 +273,11 @@ analysis::Records read_study_records(const std::string& folder, const std::strin
             continue;
         }
         const nlohmann::json schema = pbs::JsonFile(record).at("schema");
-        if (schema != run_schema) throw pbs::InputError(record, 0, "schema", schema.dump(), fmt::format("expected {}", run_schema));
+        if (schema != run_schema)
+            throw pbs::InputError(record, 0, "schema", schema.dump(), fmt::format("expected {}", run_schema));
         // Body and motion of the run, as write_study_plan() writes them for scenes; empty if the plan has none.
-        const auto place = run.contains("of") ? analysis::case_key(run.at("of"), plan_file(folder)) : analysis::CaseKey{};
+        const auto place =
+            run.contains("of") ? analysis::case_key(run.at("of"), plan_file(folder)) : analysis::CaseKey{};
         const nlohmann::json beside = run.value("beside", nlohmann::json(false));
         if (!beside.is_boolean()) plan.refuse("beside", "expected true or false");
         add_run(records, of_run, of_run.lexically_relative(root).string(), place, beside);
@@ -275,8 +289,9 @@ std::string marked_frames(const std::vector<std::string>& folders)
 {
     std::string lines;
     for (const std::string& folder : folders)
-        lines += analysis::from_record((fs::path(folder) / "run.json").string(),
-                                       [&](const json& run) { return marks_of(run.at("outcome"), fs::path(folder).filename().string()); });
+        lines += analysis::from_record((fs::path(folder) / "run.json").string(), [&](const json& run) {
+            return marks_of(run.at("outcome"), fs::path(folder).filename().string());
+        });
     return lines;
 }
 

@@ -41,13 +41,14 @@ struct SolvedPose {
 std::vector<pbs::Pose> frames_of(const pbs::Motion& motion)
 {
     std::vector<pbs::Pose> frames;
-    for (std::size_t step = 0; step < motion.steps.size(); step += motion.steps_per_frame) frames.push_back(motion.steps[step]);
+    for (std::size_t step = 0; step < motion.steps.size(); step += motion.steps_per_frame)
+        frames.push_back(motion.steps[step]);
     return frames;
 }
 
 // The frames of the motion that the reference reaches.
-std::vector<SolvedPose> solved_frames(const Scene& scene, const pbs::Character& character, const std::vector<pbs::Pose>& frames,
-                                      const std::string& folder, double seconds)
+std::vector<SolvedPose> solved_frames(const Scene& scene, const pbs::Character& character,
+                                      const std::vector<pbs::Pose>& frames, const std::string& folder, double seconds)
 {
     const auto spec = std::ranges::find(scene.deformers, scene.reference, &DeformerSpec::name);
     SpreadReference reference(*spec, reference_budget(*spec, character, folder, seconds, false));
@@ -64,8 +65,8 @@ std::vector<SolvedPose> solved_frames(const Scene& scene, const pbs::Character& 
 }
 
 // The frames that are not held out, and poses drawn around them.
-std::vector<pbs::CorrectiveSample> training_of(const Scene& scene, const pbs::Character& character, const std::vector<SolvedPose>& solved,
-                                               double seconds)
+std::vector<pbs::CorrectiveSample> training_of(const Scene& scene, const pbs::Character& character,
+                                               const std::vector<SolvedPose>& solved, double seconds)
 {
     std::vector<pbs::CorrectiveSample> samples;
     std::vector<pbs::Pose> frames;
@@ -80,16 +81,16 @@ std::vector<pbs::CorrectiveSample> training_of(const Scene& scene, const pbs::Ch
     drawn.count = std::clamp(static_cast<int>(most_coordinates / coordinates), fewest_drawn, drawn.count);
     pbs::Character moving_apart = character;
     moving_apart.moves_with.clear();  // the poses that are drawn turn every joint
-    for (pbs::CorrectiveSample& sample :
-         solved_on_linear_elements(moving_apart, options_of<FemOptions>(*spec),
-                                   drawn_poses(character.skeleton, rotations_in(character.skeleton, frames), drawn), seconds))
+    for (pbs::CorrectiveSample& sample : solved_on_linear_elements(
+             moving_apart, options_of<FemOptions>(*spec),
+             drawn_poses(character.skeleton, rotations_in(character.skeleton, frames), drawn), seconds))
         samples.push_back(std::move(sample));
     return samples;
 }
 
 // Over the frames held out, within the range of the training or beyond it.
-nlohmann::json distances(const pbs::Correctives& correctives, const pbs::Character& character, const std::vector<SolvedPose>& solved,
-                         bool within)
+nlohmann::json distances(const pbs::Correctives& correctives, const pbs::Character& character,
+                         const std::vector<SolvedPose>& solved, bool within)
 {
     const analysis::SkinErrorMetrics skin(character.mesh.rest, character.mesh.tets);
     int frames = 0;
@@ -107,7 +108,9 @@ nlohmann::json distances(const pbs::Correctives& correctives, const pbs::Charact
         ++frames;
     }
     if (frames == 0) return nullptr;
-    return {{"frames", frames}, {"lbs_mm", std::sqrt(lbs_squares / frames)}, {"correctives_mm", std::sqrt(own_squares / frames)}};
+    return {{"frames", frames},
+            {"lbs_mm", std::sqrt(lbs_squares / frames)},
+            {"correctives_mm", std::sqrt(own_squares / frames)}};
 }
 
 // The four heaviest of a point, by bone.
@@ -125,21 +128,24 @@ void add_heaviest(const std::map<int, double>& shares, pbs::Weights& weights)
 }
 
 // Moves all frames by the surface's own correctives. Returns the number of morph targets.
-Eigen::Index write_surface(const pbs::Character& character, const pbs::Motion& motion, std::vector<pbs::CorrectiveSample> samples,
-                           const std::string& frames_folder, const BakeOptions& options)
+Eigen::Index write_surface(const pbs::Character& character, const pbs::Motion& motion,
+                           std::vector<pbs::CorrectiveSample> samples, const std::string& frames_folder,
+                           const BakeOptions& options)
 {
     const pbs::EmbeddedSurface& surface = *character.surface;
     const pbs::Tets& tets = character.mesh.tets;
     const pbs::RiggedModel& model = *character.artist->model;
     const pbs::Positions rest = pbs::embedded_positions(surface, character.mesh.rest, tets);
-    for (pbs::CorrectiveSample& sample : samples) sample.shape = pbs::surface_positions(character, sample.shape, sample.pose);
+    for (pbs::CorrectiveSample& sample : samples)
+        sample.shape = pbs::surface_positions(character, sample.shape, sample.pose);
     pbs::GlbWriter writer(frames_folder + "/correctives.glb", "correctives", surface.triangles, model.body.look,
                           pbs::read_materials(model.rig.file));
     writer.add_frame(0.0, rest);
     const int joints = static_cast<int>(character.skeleton.bones.size());
     pbs::CorrectiveOptions fit;
     while (fit.rank > 1 && writer.bytes(1 + fit.rank * joints) > options.most_glb_bytes) --fit.rank;
-    pbs::GlbSkin skin{.skeleton = character.skeleton, .weights = surface_weights(character), .poses = frames_of(motion)};
+    pbs::GlbSkin skin{
+        .skeleton = character.skeleton, .weights = surface_weights(character), .poses = frames_of(motion)};
     const pbs::Correctives correctives = pbs::fit_correctives(skin.skeleton, rest, skin.weights, samples, fit);
     for (const pbs::JointCorrective& joint : correctives.joints)
         for (const auto mode : joint.modes.colwise()) {
@@ -151,7 +157,8 @@ Eigen::Index write_surface(const pbs::Character& character, const pbs::Motion& m
     skin.target_weights.resize(static_cast<Eigen::Index>(skin.poses.size()), correctives.modes());
     for (std::size_t f = 0; f < skin.poses.size(); ++f) {
         skin.times_s.push_back(static_cast<double>(f) * motion.steps_per_frame * motion.time_step_s);
-        skin.target_weights.row(static_cast<Eigen::Index>(f)) = corrective_coefficients(correctives, skin.poses[f]).transpose();
+        skin.target_weights.row(static_cast<Eigen::Index>(f)) =
+            corrective_coefficients(correctives, skin.poses[f]).transpose();
         if (!options.surface_files) continue;
         pbs::Positions moved;
         pbs::corrected_skinning(correctives, rest, skin.weights, skin.poses[f], moved);
@@ -172,12 +179,14 @@ pbs::Weights surface_weights(const pbs::Character& character)
     for (int p = 0; p < surface.tet.size(); ++p) {
         std::map<int, double> shares;
         const auto add = [&](int vertex, double share) {
-            for (int e = skin.first[vertex]; e < skin.first[vertex + 1]; ++e) shares[skin.bone[e]] += share * skin.weight[e];
+            for (int e = skin.first[vertex]; e < skin.first[vertex + 1]; ++e)
+                shares[skin.bone[e]] += share * skin.weight[e];
         };
         if (has_own)
             add(p, 1.0);
         else
-            for (int corner = 0; corner < 4; ++corner) add(character.mesh.tets(surface.tet(p), corner), surface.barycentric(p, corner));
+            for (int corner = 0; corner < 4; ++corner)
+                add(character.mesh.tets(surface.tet(p), corner), surface.barycentric(p, corner));
         add_heaviest(shares, weights);
     }
     return weights;
@@ -195,9 +204,11 @@ nlohmann::json bake_correctives(const Scene& scene, const std::string& folder, c
     const std::vector<SolvedPose> solved = solved_frames(scene, character, frames_of(motion), folder, options.seconds);
     const std::vector<pbs::CorrectiveSample> training = training_of(scene, character, solved, options.seconds);
     if (training.empty())
-        throw pbs::InputError(scene.file, 0, "reference.name", scene.reference,
-                              "no pose was reached from which correctives could be learned: expected more --reference-seconds");
-    const pbs::Correctives correctives = pbs::fit_correctives(character.skeleton, character.mesh.rest, character.weights, training);
+        throw pbs::InputError(
+            scene.file, 0, "reference.name", scene.reference,
+            "no pose was reached from which correctives could be learned: expected more --reference-seconds");
+    const pbs::Correctives correctives =
+        pbs::fit_correctives(character.skeleton, character.mesh.rest, character.weights, training);
     const std::string frames_folder = folder + "/frames";
     pbs::write_atomically(frames_folder + "/correctives.toml", text_of(correctives, character));
     const Eigen::Index targets = write_surface(character, motion, training, frames_folder, options);

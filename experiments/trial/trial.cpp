@@ -24,12 +24,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double lowest_rate_hz = 1e-3, highest_rate_hz = 30.0;  // of a scene; of a motion that is shorter than its frames
+constexpr double lowest_rate_hz = 1e-3,
+                 highest_rate_hz = 30.0;  // of a scene; of a motion that is shorter than its frames
 constexpr double lowest_scale = 1e-6, highest_scale = 1e6, shortest_motion_s = 1e-3;
-constexpr double bend_deg = 60.0, least_turn_deg = 5.0;  // of a model without a motion; of a joint in an animation that is worth a trial
-constexpr double least_motion = 1e-3;                    // rad, or over the size of the model: no one sees less
-constexpr int frames_looked_at = 31;                     // of each animation, to find the one that moves
-// The last line of a trial's scene, with the hash of all lines before it: the scene was written by a trial and not changed since.
+constexpr double bend_deg = 60.0,
+                 least_turn_deg = 5.0;  // of a model without a motion; of a joint in an animation that is worth a trial
+constexpr double least_motion = 1e-3;   // rad, or over the size of the model: no one sees less
+constexpr int frames_looked_at = 31;    // of each animation, to find the one that moves
+// The last line of a trial's scene, with the hash of all lines before it: the scene was written by a trial and not
+// changed since.
 constexpr const char* seal = "# As `pbskin try` wrote it: ";
 
 // A TOML string: JSON's escapes are TOML's, which escapes the character 127 too.
@@ -88,26 +91,31 @@ int bone_to_bend(const pbs::RiggedBody& body)
     return most;
 }
 
-std::string bending(const TrialOptions& options, const pbs::RiggedBody& body, bool has_animations, std::vector<std::string>& notes)
+std::string bending(const TrialOptions& options, const pbs::RiggedBody& body, bool has_animations,
+                    std::vector<std::string>& notes)
 {
     const int bone = bone_to_bend(body);
     if (bone < 0)
-        throw pbs::InputError(options.model, 0, "animation", "",
-                              "the model has no animation that moves a joint, and no joint has a parent about which it could be bent: "
-                              "expected --animation CLIP");
+        throw pbs::InputError(
+            options.model, 0, "animation", "",
+            "the model has no animation that moves a joint, and no joint has a parent about which it could be bent: "
+            "expected --animation CLIP");
     const pbs::Bone& bent = body.skeleton.bones[bone];
     const pbs::Vec3 axis = (bent.tail - bent.head).unitOrthogonal();
-    notes.push_back(fmt::format("{}: it has no animation{}: the joint {} is bent by {} degrees (--animation CLIP takes a motion)",
-                                options.model, has_animations ? " that moves a joint" : "", bent.name, bend_deg));
-    return fmt::format("joint = {}\naxis = [{}, {}, {}]\nangle_deg = {:.1f}\nframes = {}\n", quoted(bent.name), axis.x(), axis.y(),
-                       axis.z(), bend_deg, options.frames);
+    notes.push_back(
+        fmt::format("{}: it has no animation{}: the joint {} is bent by {} degrees (--animation CLIP takes a motion)",
+                    options.model, has_animations ? " that moves a joint" : "", bent.name, bend_deg));
+    return fmt::format("joint = {}\naxis = [{}, {}, {}]\nangle_deg = {:.1f}\nframes = {}\n", quoted(bent.name),
+                       axis.x(), axis.y(), axis.z(), bend_deg, options.frames);
 }
 
-// FILE or FILE:NAME, either of which may have colons. Where there is no such file, the error lists the animations of the model.
+// FILE or FILE:NAME, either of which may have colons. Where there is no such file, the error lists the animations of
+// the model.
 NamedClip named_clip(const TrialOptions& options, const pbs::Rig& rig)
 {
     const std::string& given = options.animation;
-    for (std::size_t colon = given.size(); colon != std::string::npos && colon > 0; colon = given.rfind(':', colon - 1)) {
+    for (std::size_t colon = given.size(); colon != std::string::npos && colon > 0;
+         colon = given.rfind(':', colon - 1)) {
         NamedClip clip{.given = std::string(given, 0, colon), .file = ""};
         try {
             clip.file = pbs::find_clip(clip.given, "");
@@ -116,16 +124,18 @@ NamedClip named_clip(const TrialOptions& options, const pbs::Rig& rig)
             continue;
         }
         if (colon + 1 == given.size())
-            throw pbs::InputError("", 0, "--animation", given, "expected the name of an animation behind the colon, or the file alone");
+            throw pbs::InputError("", 0, "--animation", given,
+                                  "expected the name of an animation behind the colon, or the file alone");
         if (colon < given.size()) clip.animation = given.substr(colon + 1);
         return clip;
     }
     if (!rig.animations.empty()) pbs::find_animation(rig, given);  // whose error lists them
-    throw pbs::InputError(options.model, 0, "animation", given, "the file has no animation: expected a clip FILE, or FILE:NAME");
+    throw pbs::InputError(options.model, 0, "animation", given,
+                          "the file has no animation: expected a clip FILE, or FILE:NAME");
 }
 
-// The largest rotation of a bone against its parent from the first frame [deg]: the root's turns the whole body. A single bone counts
-// itself.
+// The largest rotation of a bone against its parent from the first frame [deg]: the root's turns the whole body. A
+// single bone counts itself.
 double largest_turn_deg(pbs::Motion motion, const pbs::Skeleton& skeleton)
 {
     for (pbs::Pose& pose : motion.steps)
@@ -168,7 +178,8 @@ double trial_rate_hz(double duration_s, int frames, const std::string& file)
     return rate_hz;
 }
 
-const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs::Rig& rig, const pbs::RiggedBody& body, TrialScene& made)
+const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs::Rig& rig, const pbs::RiggedBody& body,
+                                          TrialScene& made)
 {
     const auto& animations = rig.animations;
     std::vector<Movement> motions;
@@ -180,7 +191,8 @@ const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs
                                    {"largest_rotation_deg", motions.back().turn_deg}});
     }
     if (animations.empty()) return nullptr;
-    auto moving = std::ranges::find_if(motions, [](const Movement& motion) { return motion.turn_deg > least_turn_deg; });
+    auto moving =
+        std::ranges::find_if(motions, [](const Movement& motion) { return motion.turn_deg > least_turn_deg; });
     std::string why = fmt::format("the first one that turns a joint by more than {} degrees", least_turn_deg);
     if (moving == motions.end()) {
         moving = std::ranges::max_element(motions, {}, &Movement::size);
@@ -197,8 +209,9 @@ const pbs::RigAnimation* moving_animation(const TrialOptions& options, const pbs
     for (const pbs::RigAnimation& animation : animations)
         if (&animation != &taken) others.push_back(animation.name);
     if (!others.empty() && options.animation.empty())
-        made.remarks.notes.push_back(fmt::format("{}: it has {} animations; {} is taken, {} (--animation NAME takes another one: {})",
-                                                 options.model, animations.size(), taken.name, why, fmt::join(others, ", ")));
+        made.remarks.notes.push_back(
+            fmt::format("{}: it has {} animations; {} is taken, {} (--animation NAME takes another one: {})",
+                        options.model, animations.size(), taken.name, why, fmt::join(others, ", ")));
     return &taken;
 }
 
@@ -216,13 +229,17 @@ std::string motion(const TrialOptions& options, TrialScene& made)
         return clip_motion(options, named_clip(options, rig), body.skeleton);
     const auto moves_morphs = [](const pbs::NodeTracks& tracks) { return !tracks.morph_weights.empty(); };
     if (taken && std::ranges::any_of(taken->nodes, moves_morphs))
-        made.remarks.notes.push_back(fmt::format(
-            "{}: animation {} also moves morph targets: the artist's surface follows them, and the flesh keeps their weights at rest",
-            options.model, taken->name));
-    if (taken) return fmt::format("animation = {}\n", quoted(taken->name)) + sampled(taken->end_s - taken->start_s, options, options.model);
+        made.remarks.notes.push_back(
+            fmt::format("{}: animation {} also moves morph targets: the artist's surface follows them, and the flesh "
+                        "keeps their weights at rest",
+                        options.model, taken->name));
+    if (taken)
+        return fmt::format("animation = {}\n", quoted(taken->name)) +
+               sampled(taken->end_s - taken->start_s, options, options.model);
     if (body.skeleton.bones.empty())
-        throw pbs::InputError(options.model, 0, "skins", "0",
-                              "the model has no joints and no animation: expected --skeleton FILE and --animation CLIP");
+        throw pbs::InputError(
+            options.model, 0, "skins", "0",
+            "the model has no joints and no animation: expected --skeleton FILE and --animation CLIP");
     return bending(options, body, !rig.animations.empty(), made.remarks.notes);
 }
 
@@ -262,28 +279,35 @@ bool finds_the_finite_elements(const TrialOptions& options, std::vector<std::str
 
 TrialScene trial_scene(const TrialOptions& options)
 {
-    if (options.frames < 2) throw pbs::InputError("", 0, "--frames", std::to_string(options.frames), "expected at least 2");
+    if (options.frames < 2)
+        throw pbs::InputError("", 0, "--frames", std::to_string(options.frames), "expected at least 2");
     if (!(options.scale >= lowest_scale && options.scale <= highest_scale))
         throw pbs::InputError("", 0, "--scale", fmt::format("{}", options.scale), "expected a number from 1e-6 to 1e6");
     const bool has_skeleton_file = !options.skeleton.empty() && options.skeleton != "human";
-    if (has_skeleton_file && !fs::exists(options.skeleton)) throw pbs::InputError(options.skeleton, 0, "", "", "no such file");
+    if (has_skeleton_file && !fs::exists(options.skeleton))
+        throw pbs::InputError(options.skeleton, 0, "", "", "no such file");
     TrialScene made;
     const std::string moved = motion(options, made);
     const bool reference = options.reference && finds_the_finite_elements(options, made.remarks.warnings);
     if (options.bake && !reference)
-        throw pbs::InputError(options.model, 0, "--bake", "", "expected the finite elements, from which correctives are learned");
+        throw pbs::InputError(options.model, 0, "--bake", "",
+                              "expected the finite elements, from which correctives are learned");
     std::string character = fmt::format("model = {}\n", quoted(from_folder(options.model, options.folder)));
     if (options.scale != 1.0) character += fmt::format("scale = {}\n", nlohmann::json(options.scale).dump());
     if (options.vertices > 0) character += fmt::format("vertices = {}\n", options.vertices);
     if (!options.skeleton.empty())
-        character += fmt::format("skeleton = {}\n", quoted(has_skeleton_file ? from_folder(options.skeleton, options.folder) : "human"));
+        character += fmt::format("skeleton = {}\n",
+                                 quoted(has_skeleton_file ? from_folder(options.skeleton, options.folder) : "human"));
     const bool has_artist = options.skeleton.empty();
-    made.text =
-        fmt::format("# {} through its motion. Change this file and run it: pbskin run {} -o DIR\nschema = 1\n[character]\n{}[motion]\n{}",
-                    quoted(options.model), quoted((fs::path(options.folder) / "scene.toml").string()), character, moved);
+    made.text = fmt::format(
+        "# {} through its motion. Change this file and run it: pbskin run {} -o DIR\nschema = "
+        "1\n[character]\n{}[motion]\n{}",
+        quoted(options.model), quoted((fs::path(options.folder) / "scene.toml").string()), character, moved);
     made.text += pbs_table;
     if (has_artist)
-        made.text += "[[lbs]]\nname = \"lbs_paper\"               # linear blend skinning with the weights of Eq. 2\nweights = \"paper\"\n";
+        made.text +=
+            "[[lbs]]\nname = \"lbs_paper\"               # linear blend skinning with the weights of Eq. 2\nweights = "
+            "\"paper\"\n";
     if (reference) {
         made.text += reference_tables;
         if (options.error_bar)
@@ -292,9 +316,10 @@ TrialScene trial_scene(const TrialOptions& options)
             made.text += fmt::format("seconds = {}   # of processor time, spent on evenly spread frames\n",
                                      nlohmann::json(options.reference_seconds).dump());
     }
-    made.text += fmt::format("[deformers]\nuse = [\"lbs\", \"dqs\", {}\"delta_mush\", \"pbs\"{}]\n", has_artist ? "\"lbs_paper\", " : "",
-                             reference ? ", \"nh_p1\"" : "");
-    made.text += "[output]\nframes_every = 1\nglb = true                       # also the moving surface of each deformer\n";
+    made.text += fmt::format("[deformers]\nuse = [\"lbs\", \"dqs\", {}\"delta_mush\", \"pbs\"{}]\n",
+                             has_artist ? "\"lbs_paper\", " : "", reference ? ", \"nh_p1\"" : "");
+    made.text +=
+        "[output]\nframes_every = 1\nglb = true                       # also the moving surface of each deformer\n";
     made.text += seal + pbs::content_hash(made.text) + "\n";
     return made;
 }
@@ -306,17 +331,20 @@ std::string earlier_trial_scene(const TrialOptions& options)
     if (!fs::exists(scene_file)) {
         for (const char* name : {"run.json", "metrics.csv", "try.json", "report.html", "frames", "skin"})
             if (fs::exists(folder / name))
-                throw pbs::InputError((folder / name).string(), 0, "", "", "exists, and the folder is not that of a trial: " + expected);
+                throw pbs::InputError((folder / name).string(), 0, "", "",
+                                      "exists, and the folder is not that of a trial: " + expected);
         return "";
     }
     const std::string text = pbs::read_text_file(scene_file.string(), pbs::most_text_bytes);
     const std::size_t end = std::min(text.rfind(seal), text.size());
     if (text.substr(end) != seal + pbs::content_hash(text.substr(0, end)) + "\n")
-        throw pbs::InputError(scene_file.string(), 0, "", "",
-                              "exists and is not the scene of a trial, or was changed: " + expected + "; `pbskin run` runs this scene");
+        throw pbs::InputError(
+            scene_file.string(), 0, "", "",
+            "exists and is not the scene of a trial, or was changed: " + expected + "; `pbskin run` runs this scene");
     const std::string model = SceneValues(text, scene_file.string(), {}, scene_schema()).text("character.model");
     if (fs::weakly_canonical(folder / model) != fs::weakly_canonical(options.model))
-        throw pbs::InputError(scene_file.string(), 0, "character.model", model, "the folder has the trial of this model: " + expected);
+        throw pbs::InputError(scene_file.string(), 0, "character.model", model,
+                              "the folder has the trial of this model: " + expected);
     return text;
 }
 

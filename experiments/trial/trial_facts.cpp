@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 using analysis::CsvTable;
 
 constexpr const char* reference_name = "nh_p1";  // in the scene of a trial
-constexpr double least_visible_pct = 0.01;       // changes of volume and errors below it are no difference between two methods
+constexpr double least_visible_pct =
+    0.01;  // changes of volume and errors below it are no difference between two methods
 
 // The number of a cell; nothing for an empty cell and for one that is not finite, as of a frame that broke down.
 std::optional<double> finite(const CsvTable& table, int row, const std::string& column)
@@ -39,7 +40,8 @@ nlohmann::json volume_facts(const CsvTable& metrics)
         if (!change_pct) continue;
         const auto inverted = metrics.integer(row, "inverted_tets");
         nlohmann::json& deformer = facts[metrics.text_at(row, "deformer")];
-        if (deformer.is_null()) deformer = {{"lowest_pct", *change_pct}, {"highest_pct", *change_pct}, {"most_inverted_tets", inverted}};
+        if (deformer.is_null())
+            deformer = {{"lowest_pct", *change_pct}, {"highest_pct", *change_pct}, {"most_inverted_tets", inverted}};
         deformer["lowest_pct"] = std::min(deformer["lowest_pct"].get<double>(), *change_pct);
         deformer["highest_pct"] = std::max(deformer["highest_pct"].get<double>(), *change_pct);
         deformer["most_inverted_tets"] = std::max(deformer["most_inverted_tets"].get<long long>(), inverted);
@@ -50,7 +52,8 @@ nlohmann::json volume_facts(const CsvTable& metrics)
 nlohmann::json frame_ms(const CsvTable& metrics)
 {
     std::map<std::string, std::vector<double>> times;
-    for (int row = 0; row < metrics.rows(); ++row) times[metrics.text_at(row, "deformer")].push_back(metrics.number(row, "step_ms"));
+    for (int row = 0; row < metrics.rows(); ++row)
+        times[metrics.text_at(row, "deformer")].push_back(metrics.number(row, "step_ms"));
     nlohmann::json facts;
     for (const auto& [deformer, ms] : times) facts[deformer] = analysis::median(ms);
     return facts;
@@ -70,7 +73,8 @@ nlohmann::json error_bar_facts(const CsvTable& metrics, const pbs::JsonFile& run
     }
     const nlohmann::json& seconds = run.at(run.at("cost"), "seconds");
     const double total_s = seconds.value("error_bar", 0.0) + seconds.value("error_bar_set_up", 0.0);
-    nlohmann::json facts = {{"frames", bounds_pct.size()}, {"of", frames}, {"seconds", total_s}, {"largest_pct", nullptr}};
+    nlohmann::json facts = {
+        {"frames", bounds_pct.size()}, {"of", frames}, {"seconds", total_s}, {"largest_pct", nullptr}};
     if (!bounds_pct.empty()) facts["largest_pct"] = std::ranges::max(bounds_pct);
     return facts;
 }
@@ -96,13 +100,14 @@ FrameErrors errors_of(const CsvTable& metrics, const std::string& column)
             if (const std::string& deformer = metrics.text_at(row, "deformer"); deformer != reference_name)
                 errors[metrics.integer(row, "frame")][deformer] = *error;
     std::erase_if(errors, [](const auto& frame) {
-        return std::ranges::all_of(frame.second, [](const auto& deformer) { return deformer.second < least_visible_pct; });
+        return std::ranges::all_of(frame.second,
+                                   [](const auto& deformer) { return deformer.second < least_visible_pct; });
     });
     return errors;
 }
 
-// A method turns too much inside out if its inverted tets exceed those of lbs by more than this share of the tets in more than this share
-// of the frames. A few of thousands of tets say nothing about the distance from the reference.
+// A method turns too much inside out if its inverted tets exceed those of lbs by more than this share of the tets in
+// more than this share of the frames. A few of thousands of tets say nothing about the distance from the reference.
 constexpr double most_inverted_share = 0.005, most_inverted_frames = 0.1;
 
 // Of each method the most inverted tets in a frame, and whether it is excluded for them.
@@ -110,7 +115,8 @@ nlohmann::json inverting_methods(const CsvTable& metrics, long long tets)
 {
     std::map<long long, long long> of_lbs;
     for (int row = 0; row < metrics.rows(); ++row)
-        if (metrics.text_at(row, "deformer") == "lbs") of_lbs[metrics.integer(row, "frame")] = metrics.integer(row, "inverted_tets");
+        if (metrics.text_at(row, "deformer") == "lbs")
+            of_lbs[metrics.integer(row, "frame")] = metrics.integer(row, "inverted_tets");
     struct Inverted {
         long long most = 0;
         int frames = 0, beyond = 0;
@@ -134,8 +140,8 @@ nlohmann::json inverting_methods(const CsvTable& metrics, long long tets)
     return facts;
 }
 
-// The methods that are not excluded, the least median error first, with the frames in which each of them is nearest. A method that fails
-// in the hard frames would look best by the others: only frames in which all have an error count.
+// The methods that are not excluded, the least median error first, with the frames in which each of them is nearest. A
+// method that fails in the hard frames would look best by the others: only frames in which all have an error count.
 nlohmann::json ranking(const FrameErrors& errors, const nlohmann::json& inverting)
 {
     const auto most = std::ranges::max_element(errors, {}, [](const auto& frame) { return frame.second.size(); });
@@ -156,7 +162,8 @@ nlohmann::json ranking(const FrameErrors& errors, const nlohmann::json& invertin
         ++nearest_in[compared.begin()->second];
     }
     std::vector<std::pair<double, std::string>> sorted;
-    for (const auto& [deformer, errors_of_method] : own) sorted.emplace_back(analysis::median(errors_of_method), deformer);
+    for (const auto& [deformer, errors_of_method] : own)
+        sorted.emplace_back(analysis::median(errors_of_method), deformer);
     std::ranges::sort(sorted);
     nlohmann::json methods = nlohmann::json::array();
     for (const auto& [median_pct, deformer] : sorted)
@@ -164,8 +171,8 @@ nlohmann::json ranking(const FrameErrors& errors, const nlohmann::json& invertin
     return {{"frames", frames}, {"methods", methods}};
 }
 
-// At the joints, or over the body where no frame has an error there. Null where no frame has an error; without methods where all are
-// excluded.
+// At the joints, or over the body where no frame has an error there. Null where no frame has an error; without methods
+// where all are excluded.
 nlohmann::json nearest_facts(const CsvTable& metrics, const nlohmann::json& inverting)
 {
     const FrameErrors at_joints = errors_of(metrics, "error_joint_pct"), over_body = errors_of(metrics, "error_l2_pct");
@@ -175,12 +182,15 @@ nlohmann::json nearest_facts(const CsvTable& metrics, const nlohmann::json& inve
     return nearest;
 }
 
-// Why the reference may be another pose than the motion's, so that no method is called nearest: far_from_all or lag; null: it is not.
+// Why the reference may be another pose than the motion's, so that no method is called nearest: far_from_all or lag;
+// null: it is not.
 nlohmann::json doubt_of_reference(const nlohmann::json& nearest, const nlohmann::json& lag)
 {
     constexpr double most_error_pct = 50.0;
-    if (!lag.is_null() && lag.at("lagging_frames").get<double>() > most_lagging_frames * lag.at("frames").get<double>()) return "lag";
-    if (!nearest.is_null() && !nearest.at("methods").empty() && nearest.at("methods").front().at("median_pct") > most_error_pct)
+    if (!lag.is_null() && lag.at("lagging_frames").get<double>() > most_lagging_frames * lag.at("frames").get<double>())
+        return "lag";
+    if (!nearest.is_null() && !nearest.at("methods").empty() &&
+        nearest.at("methods").front().at("median_pct") > most_error_pct)
         return "far_from_all";
     return nullptr;
 }
@@ -197,10 +207,12 @@ nlohmann::json skin_facts(const CsvTable& metrics)
         const auto mm = finite(metrics, row, "skin_rms_mm"), pct = finite(metrics, row, "skin_rms_pct");
         if (mm && pct) frames[metrics.integer(row, "frame")][metrics.text_at(row, "deformer")] = {*mm, *pct};
     }
-    std::erase_if(frames, [](const auto& frame) { return frame.second.count("lbs") == 0 || frame.second.count("pbs") == 0; });
+    std::erase_if(frames,
+                  [](const auto& frame) { return frame.second.count("lbs") == 0 || frame.second.count("pbs") == 0; });
     const auto rms = [&](const char* deformer, double Distances::*distance) {
         double squares = 0.0;
-        for (const auto& [frame, distances] : frames) squares += distances.at(deformer).*distance * (distances.at(deformer).*distance);
+        for (const auto& [frame, distances] : frames)
+            squares += distances.at(deformer).*distance * (distances.at(deformer).*distance);
         return std::sqrt(squares / static_cast<double>(frames.size()));
     };
     if (frames.empty() || rms("lbs", &Distances::pct) < least_visible_pct) return nullptr;
@@ -235,7 +247,8 @@ nlohmann::json joint_facts(const CsvTable& regions, const CsvTable& bones)
     for (int row = 0; row < regions.rows(); ++row) {
         if (regions.text_at(row, "kind") != "joint") continue;
         const std::string &bone = regions.text_at(row, "bone"), &second = regions.text_at(row, "second_bone");
-        if (parent[second] != bone && parent[bone] != second) continue;  // their flesh meets, but no joint connects them
+        // their flesh meets, but no joint connects them
+        if (parent[second] != bone && parent[bone] != second) continue;
         const std::string name = bone + " - " + second;
         JointChange& joint = joints[name];
         joint.name = name;
@@ -267,12 +280,14 @@ nlohmann::json joint_facts(const CsvTable& regions, const CsvTable& bones)
 nlohmann::json trial_facts(const std::string& folder)
 {
     const pbs::JsonFile run(folder + "/run.json");
-    const CsvTable metrics = analysis::read_csv(folder + "/metrics.csv"), regions = analysis::read_csv(folder + "/regions.csv"),
+    const CsvTable metrics = analysis::read_csv(folder + "/metrics.csv"),
+                   regions = analysis::read_csv(folder + "/regions.csv"),
                    bones = analysis::read_csv(folder + "/bones_rest.csv");
     const std::string distances = folder + "/distances.csv";
     const nlohmann::json &outcome = run.at("outcome"), &character = run.at("character");
     const nlohmann::json inverting = inverting_methods(metrics, run.at(character, "tets").get<long long>());
-    const nlohmann::json nearest = nearest_facts(metrics, inverting), lag = outcome.value("reference_lag", nlohmann::json());
+    const nlohmann::json nearest = nearest_facts(metrics, inverting),
+                         lag = outcome.value("reference_lag", nlohmann::json());
     return {{"schema", 1},
             {"model", run.at(character, "model")},
             {"tets", run.at(character, "tets")},

@@ -13,22 +13,27 @@ namespace {
 void check_within(const char* field, double value, double highest)
 {
     if (!(value >= 0.0 && value <= highest))
-        throw InputError("pbs_author", 0, field, std::to_string(value), "expected 0 <= k <= " + std::to_string(static_cast<int>(highest)));
+        throw InputError("pbs_author", 0, field, std::to_string(value),
+                         "expected 0 <= k <= " + std::to_string(static_cast<int>(highest)));
 }
 
 AuthorOptions checked(const AuthorOptions& options, const TetMesh& mesh, const BoneBinding& binding)
 {
     if (static_cast<Eigen::Index>(binding.bone.size()) != mesh.rest.rows())
-        throw InputError("pbs_author", 0, "binding", std::to_string(binding.bone.size()) + " vertices", "expected those of the mesh");
+        throw InputError("pbs_author", 0, "binding", std::to_string(binding.bone.size()) + " vertices",
+                         "expected those of the mesh");
     check_within("k_compression", options.k_compression, 1.0);
     check_within("k_stretch", options.k_stretch, 1.0);
     check_within("k_volume_inverted", options.k_volume_inverted, 6.0);
     check_within("k_volume", options.k_volume, 6.0);
-    if (options.iterations < 0) throw InputError("pbs_author", 0, "iterations", std::to_string(options.iterations), "expected 0 or more");
+    if (options.iterations < 0)
+        throw InputError("pbs_author", 0, "iterations", std::to_string(options.iterations), "expected 0 or more");
     if (!(options.time_step_s > 0.0))
-        throw InputError("pbs_author", 0, "time_step_s", std::to_string(options.time_step_s), "expected a positive time step");
+        throw InputError("pbs_author", 0, "time_step_s", std::to_string(options.time_step_s),
+                         "expected a positive time step");
     if (!(options.length_unit_m > 0.0))
-        throw InputError("pbs_author", 0, "length_unit_m", std::to_string(options.length_unit_m), "expected a positive length");
+        throw InputError("pbs_author", 0, "length_unit_m", std::to_string(options.length_unit_m),
+                         "expected a positive length");
     return options;
 }
 
@@ -70,7 +75,8 @@ struct FirstFit {
 
 }  // namespace
 
-AuthorSolver::AuthorSolver(const TetMesh& mesh, const Skeleton& skeleton, const BoneBinding& binding, const AuthorOptions& options)
+AuthorSolver::AuthorSolver(const TetMesh& mesh, const Skeleton& skeleton, const BoneBinding& binding,
+                           const AuthorOptions& options)
     : options_(checked(options, mesh, binding)),
       stiffness_(stiffness_of(options)),
       skeleton_(skeleton),
@@ -99,7 +105,8 @@ StepSummary AuthorSolver::advance(const Pose& pose)
     return summary;
 }
 
-// x <- LBS, v <- v + h g, x <- x + h v, for every particle. v holds the bones' own motion of the last frame, which LBS contains already.
+// x <- LBS, v <- v + h g, x <- x + h v, for every particle. v holds the bones' own motion of the last frame, which LBS
+// contains already.
 void AuthorSolver::predict(const Pose& pose)
 {
     skinning_.linear(pose, lbs_);
@@ -137,7 +144,9 @@ WorkCounters AuthorSolver::work_of(int iterations) const
         volumes += static_cast<std::int64_t>(group.volume.size());
         others += static_cast<std::int64_t>(group.bind.size() + group.stretch.size());
     }
-    return {.vertex_visits = positions_.rows(), .tet_visits = iterations * volumes, .projections = iterations * (volumes + others)};
+    return {.vertex_visits = positions_.rows(),
+            .tet_visits = iterations * volumes,
+            .projections = iterations * (volumes + others)};
 }
 
 std::vector<BoneSegment> AuthorSolver::posed_bones(const Pose& pose) const

@@ -61,8 +61,8 @@ Skeleton skeleton_of_rig_or_clip(const CharacterSource& source, bool is_rig, Cha
 {
     const std::string& path = source.skeleton_file;
     const InputFile file(path);
-    Skeleton skeleton =
-        is_rig ? read_model(path, "", source.skeleton_scale)->body.skeleton : skeleton_from_clip(read_clip(path), source.skeleton_scale);
+    Skeleton skeleton = is_rig ? read_model(path, "", source.skeleton_scale)->body.skeleton
+                               : skeleton_from_clip(read_clip(path), source.skeleton_scale);
     add(file.hashed(), character);
     return skeleton;
 }
@@ -70,13 +70,14 @@ Skeleton skeleton_of_rig_or_clip(const CharacterSource& source, bool is_rig, Cha
 // And its hash into the character's inputs.
 Skeleton read_skeleton_of(const CharacterSource& source, Character& character)
 {
-    if (is_rig_file(source.skeleton_file) && rig_has_skin(source.skeleton_file)) return skeleton_of_rig_or_clip(source, true, character);
+    if (is_rig_file(source.skeleton_file) && rig_has_skin(source.skeleton_file))
+        return skeleton_of_rig_or_clip(source, true, character);
     const std::string format = format_extension(source.skeleton_file);
     if (format == ".dae" || format == ".zae")
-        throw InputError(
-            source.skeleton_file, 0, "skins", "0",
-            "expected a skin, which states the joints: a COLLADA file without one is no skeleton; others are .bvh, .gltf, .glb, "
-            ".fbx and skeletons in TOML");
+        throw InputError(source.skeleton_file, 0, "skins", "0",
+                         "expected a skin, which states the joints: a COLLADA file without one is no skeleton; others "
+                         "are .bvh, .gltf, .glb, "
+                         ".fbx and skeletons in TOML");
     for (const char* clip : {".bvh", ".gltf", ".glb", ".fbx"})
         if (format == clip) return skeleton_of_rig_or_clip(source, false, character);
     const std::string text = read_text_file(source.skeleton_file, most_settings_bytes);
@@ -89,8 +90,8 @@ Skeleton read_skeleton_of(const CharacterSource& source, Character& character)
     return skeleton;
 }
 
-// A skeleton in other units than the mesh, or of another character, binds vertices all the same: it is refused where no bone reaches the
-// mesh's bounding box.
+// A skeleton in other units than the mesh, or of another character, binds vertices all the same: it is refused where no
+// bone reaches the mesh's bounding box.
 void require_bones_at_the_mesh(const Character& character, const std::string& skeleton_file)
 {
     const Vec3 lower = character.mesh.rest.colwise().minCoeff(), upper = character.mesh.rest.colwise().maxCoeff();
@@ -102,7 +103,8 @@ void require_bones_at_the_mesh(const Character& character, const std::string& sk
                      "no bone reaches the mesh's bounding box: other units (skeleton_scale), or another character?");
 }
 
-// Both in the same unit: metres and millimetres, centimetres or inches are 25 times or more apart, a mesh and its bones are not.
+// Both in the same unit: metres and millimetres, centimetres or inches are 25 times or more apart, a mesh and its bones
+// are not.
 void require_bones_of_the_meshs_size(const Character& character, const std::string& skeleton_file)
 {
     Eigen::AlignedBox3d bones;
@@ -115,13 +117,16 @@ void require_bones_of_the_meshs_size(const Character& character, const std::stri
 
 Character make_from_files(const CharacterSource& source, RemarkList& remarks)
 {
-    if (source.mesh_file.empty()) throw InputError("", 0, "character.mesh", "", "missing: expected a body, or a mesh and a skeleton");
-    if (source.skeleton_file.empty()) throw InputError("", 0, "character.skeleton", "", "missing: a mesh from a file needs a skeleton");
+    if (source.mesh_file.empty())
+        throw InputError("", 0, "character.mesh", "", "missing: expected a body, or a mesh and a skeleton");
+    if (source.skeleton_file.empty())
+        throw InputError("", 0, "character.skeleton", "", "missing: a mesh from a file needs a skeleton");
     Character character;
     character.name = file_name(source.mesh_file);
     const InputFile mesh_file(source.mesh_file);
     MeshReading reading = read_tet_mesh(source.mesh_file);
-    for (const std::string& remark : remarks_on(source.mesh_file, reading)) remarks.push_back({Gravity::part_left_out, remark});
+    for (const std::string& remark : remarks_on(source.mesh_file, reading))
+        remarks.push_back({Gravity::part_left_out, remark});
     character.mesh = std::move(reading.mesh);
     character.file_vertex = std::move(reading.file_vertex);
     character.file_vertices = reading.file_vertices;
@@ -134,7 +139,10 @@ Character make_from_files(const CharacterSource& source, RemarkList& remarks)
 
 Character make_from_model(const CharacterSource& source, RemarkList& remarks)
 {
-    ModelSource model{.file = source.model_file, .animation = source.animation, .scale = source.model_scale, .vertices = source.vertices};
+    ModelSource model{.file = source.model_file,
+                      .animation = source.animation,
+                      .scale = source.model_scale,
+                      .vertices = source.vertices};
     Character skeleton_only;
     if (source.skeleton_file == "human")
         model.skeleton = human_skeleton();
@@ -165,7 +173,8 @@ Weights weights_of_file(const std::string& file, Character& character)
 {
     const std::string text = read_text_file(file);
     add({{file_name(file), content_hash(text)}}, character);
-    if (character.file_vertex.empty()) return parse_weights(text, file, character.skeleton, static_cast<int>(character.mesh.rest.rows()));
+    if (character.file_vertex.empty())
+        return parse_weights(text, file, character.skeleton, static_cast<int>(character.mesh.rest.rows()));
     return parse_weights(text, file, character.skeleton, character.file_vertices, character.file_vertex);
 }
 
@@ -182,7 +191,8 @@ const std::vector<NamedBody>& named_bodies()
         {"human", 2400, true, "the package assimp-testmodels", human_files, make_human},
         {"man", 1654, true, makehuman + "man` brings", figure_files, make_figure},
         {"lady", 1829, true, makehuman + "lady` brings", figure_files, make_figure},
-        {"frankie", 2108, true, "the package cube2-data, which `pbskin fetch frankie` brings", frankie_files, make_frankie},
+        {"frankie", 2108, true, "the package cube2-data, which `pbskin fetch frankie` brings", frankie_files,
+         make_frankie},
     };
     return bodies;
 }
@@ -192,7 +202,8 @@ void require_body(const std::string& name)
     const NamedBody* body = find_body(name);
     if (!body) return;
     for (const std::string& file : body->files(name))
-        if (!std::filesystem::exists(file)) throw InputError("", 0, "character.body", name, "not installed: needs " + body->package);
+        if (!std::filesystem::exists(file))
+            throw InputError("", 0, "character.body", name, "not installed: needs " + body->package);
 }
 
 bool is_character(const std::string& body)
@@ -219,11 +230,13 @@ Character make_character(const CharacterSource& source)
 
 Character make_character(const CharacterSource& source, RemarkList& remarks)
 {
-    if (source.vertices < 0) throw InputError("", 0, "character.vertices", std::to_string(source.vertices), "expected 0 or more");
+    if (source.vertices < 0)
+        throw InputError("", 0, "character.vertices", std::to_string(source.vertices), "expected 0 or more");
     Character character = make_body(source, remarks);
     character.inputs.emplace_back("tets", content_hash(character.mesh));
     bind_by_paper(character);
-    character.weight_kind = source.weights.value_or(has_artist_weights(character) ? WeightKind::artist : WeightKind::paper);
+    character.weight_kind =
+        source.weights.value_or(has_artist_weights(character) ? WeightKind::artist : WeightKind::paper);
     if (source.weights_file.empty()) {
         character.weights = weights_by(character.weight_kind, character);
     } else {

@@ -48,7 +48,8 @@ bool is_upright(const Positions& points, const BodyJoints& joints)
     if (!trunk) return false;
     for (std::size_t side = 0; side < 2; ++side)
         if (angle_deg(between(points, joints.thigh[side], lower_end(joints, side)), -trunk->up) > 60.0) return false;
-    return between(points, joints.upper_arm[1], joints.upper_arm[0]).dot(between(points, joints.thigh[1], joints.thigh[0])) >= 0.0;
+    return between(points, joints.upper_arm[1], joints.upper_arm[0])
+               .dot(between(points, joints.thigh[1], joints.thigh[0])) >= 0.0;
 }
 
 std::string pose_text(const Positions& points, const BodyJoints& joints)
@@ -119,7 +120,8 @@ std::optional<TrunkDirections> trunk_directions(const Positions& points, const B
     Vec3 left = hip_line.normalized();
     if (shoulder_line.norm() > shortest) left += shoulder_line.normalized();
     const double angle = angle_deg(up, left);
-    if (left.norm() < 0.5 || angle < least_trunk_angle_deg || angle > 180.0 - least_trunk_angle_deg) return std::nullopt;
+    if (left.norm() < 0.5 || angle < least_trunk_angle_deg || angle > 180.0 - least_trunk_angle_deg)
+        return std::nullopt;
     return TrunkDirections{up.normalized(), left.normalized()};
 }
 
@@ -142,35 +144,40 @@ bool is_t_or_a_pose(const Positions& points, const BodyJoints& joints)
     for (std::size_t side = 0; side < 2; ++side) {
         const Vec3 leg = between(points, joints.thigh[side], lower_end(joints, side));
         if (leg.isZero(0.0) || angle_deg(leg, -up) > spread_deg) return false;
-        if (joints.foot[side] >= 0 && !is_straight(points, joints.thigh[side], joints.shin[side], joints.foot[side])) return false;
+        if (joints.foot[side] >= 0 && !is_straight(points, joints.thigh[side], joints.shin[side], joints.foot[side]))
+            return false;
         if (joints.upper_arm[side] < 0 || joints.forearm[side] < 0) continue;
         const int end = joints.hand[side] >= 0 ? joints.hand[side] : joints.forearm[side];
-        const Vec3 arm = between(points, joints.upper_arm[side], end).normalized(), outward = side == 0 ? left : Vec3(-left);
+        const Vec3 arm = between(points, joints.upper_arm[side], end).normalized(),
+                   outward = side == 0 ? left : Vec3(-left);
         const double raised = std::asin(std::clamp(arm.dot(up), -1.0, 1.0)) * degrees;
         if (arm.dot(outward) <= 0.0 || raised > 20.0 || raised < -lowest_arm_deg) return false;
         if (angle_deg(arm - arm.dot(up) * up, outward) > forward_deg) return false;
-        if (end == joints.hand[side] && !is_straight(points, joints.upper_arm[side], joints.forearm[side], end)) return false;
+        if (end == joints.hand[side] && !is_straight(points, joints.upper_arm[side], joints.forearm[side], end))
+            return false;
     }
     return true;
 }
 
 int rest_frame(const Clip& clip, const BodyJoints& joints)
 {
-    const bool is_known = (joints.neck >= 0 || joints.head >= 0) && lower_end(joints, 0) >= 0 && lower_end(joints, 1) >= 0 &&
-                          joints.thigh[0] >= 0 && joints.thigh[1] >= 0;
+    const bool is_known = (joints.neck >= 0 || joints.head >= 0) && lower_end(joints, 0) >= 0 &&
+                          lower_end(joints, 1) >= 0 && joints.thigh[0] >= 0 && joints.thigh[1] >= 0;
     if (!is_known || is_t_or_a_pose(clip.zero_pose, joints)) return -1;
     if (is_t_or_a_pose(clip.places.front(), joints)) return 0;
     if (is_upright(clip.zero_pose, joints)) return -1;
-    throw InputError(
-        clip.name, 0, "rest pose", "",
-        "cannot be known: the pose without rotations " + pose_text(clip.zero_pose, joints) +
-            " (in clips whose joints have frames along their bones, all offsets lie along one axis), and the first frame is neither "
-            "a T nor an A pose: put a T pose in front of the motion, or export the clip with the skin's bind pose as .glb");
+    throw InputError(clip.name, 0, "rest pose", "",
+                     "cannot be known: the pose without rotations " + pose_text(clip.zero_pose, joints) +
+                         " (in clips whose joints have frames along their bones, all offsets lie along one axis), and "
+                         "the first frame is neither "
+                         "a T nor an A pose: put a T pose in front of the motion, or export the clip with the skin's "
+                         "bind pose as .glb");
 }
 
 Eigen::Matrix3d axes_of_clip_to_skeleton(const Positions& rest, const Skeleton& skeleton, const JointMap& map)
 {
-    const auto body = trunk_directions(heads_of(skeleton), map.of_skeleton), source = trunk_directions(rest, map.of_clip);
+    const auto body = trunk_directions(heads_of(skeleton), map.of_skeleton),
+               source = trunk_directions(rest, map.of_clip);
     if (!body || !source) return rotation_of_same_rig(rest, skeleton, map);
     return body_axes(*body) * body_axes(*source).transpose();
 }
@@ -183,7 +190,8 @@ std::vector<BodySegment> body_segments(const JointMap& map)
                                          {"head", body.neck, body.head, clip.neck, clip.head}};
     for (std::size_t s = 0; s < 2; ++s) {
         const std::string side = s == 0 ? "left " : "right ";
-        segments.push_back({side + "upper arm", body.upper_arm[s], body.forearm[s], clip.upper_arm[s], clip.forearm[s]});
+        segments.push_back(
+            {side + "upper arm", body.upper_arm[s], body.forearm[s], clip.upper_arm[s], clip.forearm[s]});
         segments.push_back({side + "forearm", body.forearm[s], body.hand[s], clip.forearm[s], clip.hand[s]});
         segments.push_back({side + "thigh", body.thigh[s], body.shin[s], clip.thigh[s], clip.shin[s]});
         segments.push_back({side + "shin", body.shin[s], body.foot[s], clip.shin[s], clip.foot[s]});
@@ -202,25 +210,29 @@ Positions heads_of(const Skeleton& skeleton)
 Positions posed_heads(const Skeleton& skeleton, const Pose& pose)
 {
     Positions heads(static_cast<Eigen::Index>(pose.size()), 3);
-    for (std::size_t b = 0; b < pose.size(); ++b) heads.row(static_cast<Eigen::Index>(b)) = pose[b] * skeleton.bones[b].head;
+    for (std::size_t b = 0; b < pose.size(); ++b)
+        heads.row(static_cast<Eigen::Index>(b)) = pose[b] * skeleton.bones[b].head;
     return heads;
 }
 
 void check_trunk(const Clip& clip, const JointMap& map, const Positions& body_places, const Positions& clip_places)
 {
-    const auto body = trunk_directions(body_places, map.of_skeleton), source = trunk_directions(clip_places, map.of_clip);
+    const auto body = trunk_directions(body_places, map.of_skeleton),
+               source = trunk_directions(clip_places, map.of_clip);
     if (!body || !source) return;
     const auto hip_line = [](const Positions& points, const BodyJoints& joints) {
         return between(points, joints.thigh[1], joints.thigh[0]);
     };
     const double trunk_deg = angle_deg(body->up, source->up);
     const double hips_deg = angle_deg(hip_line(body_places, map.of_skeleton), hip_line(clip_places, map.of_clip));
-    for (const auto& [name, deg] : {std::pair<std::string, double>{"from the hips to the neck", trunk_deg}, {"from hip to hip", hips_deg}})
+    for (const auto& [name, deg] :
+         {std::pair<std::string, double>{"from the hips to the neck", trunk_deg}, {"from hip to hip", hips_deg}})
         if (deg > farthest_trunk_deg)
-            throw InputError(
-                clip.name, 0, "direction " + name, number_text(deg, 3) + " degrees between the clip and the body",
-                "expected at most 30 in the first frame: the rest pose of the clip or the bind pose of the model is not the one "
-                "that its rotations are measured from; export either of them again in a T pose");
+            throw InputError(clip.name, 0, "direction " + name,
+                             number_text(deg, 3) + " degrees between the clip and the body",
+                             "expected at most 30 in the first frame: the rest pose of the clip or the bind pose of "
+                             "the model is not the one "
+                             "that its rotations are measured from; export either of them again in a T pose");
 }
 
 }  // namespace pbs

@@ -26,9 +26,9 @@ namespace fs = std::filesystem;
 namespace {
 
 // One process at a time makes the mesh of a key; the others wait, and find it in the cache.
-// A lock on one byte of the folder's file `making.lock`, chosen by the key's hash (fcntl(2), open file description locks), so that it ends
-// with its process, however that one ends. Where the folder cannot be written, and after a signal, nothing is locked: then two make the
-// same.
+// A lock on one byte of the folder's file `making.lock`, chosen by the key's hash (fcntl(2), open file description
+// locks), so that it ends with its process, however that one ends. Where the folder cannot be written, and after a
+// signal, nothing is locked: then two make the same.
 void wait_for_turn(int lock_file, const std::string& key)
 {
     if (lock_file < 0) return;
@@ -60,7 +60,8 @@ std::vector<fs::path> files_of_key(const std::string& folder, const std::string&
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(folder, ignored)) {
         const std::string name = entry.path().filename().string();
-        if (name.starts_with(key + "-") && name.ends_with(format) && name.size() == key.size() + 1 + 32 + 4) files.push_back(entry.path());
+        if (name.starts_with(key + "-") && name.ends_with(format) && name.size() == key.size() + 1 + 32 + 4)
+            files.push_back(entry.path());
     }
     std::sort(files.begin(), files.end());
     return files;
@@ -78,7 +79,8 @@ std::optional<TetMesh> read_kept(const std::string& key)
         const SourceFile bytes(file.string());
         if (is_whole(file, key)) return read_tet_frame(file.string());  // checked before it was stored
         throw InputError(file.string(), 0, "", "",
-                         "is damaged: the hash in its name is not that of its bytes; install the program anew, or fetch the file again "
+                         "is damaged: the hash in its name is not that of its bytes; install the program anew, or "
+                         "fetch the file again "
                          "with git");
     }
     return std::nullopt;
@@ -105,7 +107,8 @@ void remove_abandoned(const fs::path& folder)
     for (const auto& entry : fs::directory_iterator(folder, ignored)) {
         std::smatch match;
         const std::string name = entry.path().filename().string();
-        if (std::regex_match(name, match, made) && process_is_gone(std::stoi(match[1]))) abandoned.push_back(entry.path());
+        if (std::regex_match(name, match, made) && process_is_gone(std::stoi(match[1])))
+            abandoned.push_back(entry.path());
     }
     for (const fs::path& file : abandoned) fs::remove(file, ignored);
 }
@@ -125,7 +128,8 @@ void store(const std::string& key, const TetMesh& mesh)
     }
 }
 
-// The files that a glTF refers to. A buffer within the text ("data:...") is no file, and the reader refuses one that does not exist.
+// The files that a glTF refers to. A buffer within the text ("data:...") is no file, and the reader refuses one that
+// does not exist.
 std::vector<std::string> referred_files(const std::string& path)
 {
     const SourceFile file(path);
@@ -185,7 +189,8 @@ std::string cache_folder()
 std::string references_folder()
 {
     if (const char* folder = std::getenv("PBSKIN_REFERENCES"); folder && *folder) return folder;
-    return (fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share" / "pbskin" / "references").string();
+    return (fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share" / "pbskin" / "references")
+        .string();
 }
 
 TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make)
@@ -195,7 +200,8 @@ TetMesh cached_mesh(const std::string& key, const std::function<TetMesh()>& make
     if (const std::optional<TetMesh> mesh = read_cached(key)) return *mesh;
     std::error_code ignored;
     fs::create_directories(cache_folder(), ignored);
-    const OpenFile lock{::open((cache_folder() + "/making.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)};
+    const OpenFile lock{
+        ::open((cache_folder() + "/making.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)};
     wait_for_turn(lock.number, key);
     if (const std::optional<TetMesh> mesh = read_cached(key)) return *mesh;  // made while this process waited
     const TetMesh mesh = make();
@@ -241,7 +247,8 @@ std::map<std::string, std::string> hashes_by_name(const std::vector<std::pair<st
     std::map<std::string, std::string> hashes;
     for (const auto& [name, hash] : inputs) {
         std::string free = name;
-        for (int n = 2; hashes.count(free) > 0 && hashes.at(free) != hash; ++n) free = name + " (" + std::to_string(n) + ")";
+        for (int n = 2; hashes.count(free) > 0 && hashes.at(free) != hash; ++n)
+            free = name + " (" + std::to_string(n) + ")";
         hashes[free] = hash;
     }
     return hashes;

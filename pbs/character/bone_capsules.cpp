@@ -81,8 +81,11 @@ std::vector<BoneInZone> bones_of(const std::vector<bool>& zone, const Character&
     const double total = static_cast<double>(std::count(zone.begin(), zone.end(), true));
     std::vector<BoneInZone> bones;
     for (std::size_t b = 0; b < all.size(); ++b)
-        if (inside[b] > 0) bones.push_back({character.skeleton.bones[b].name, inside[b] / total, static_cast<double>(inside[b]) / all[b]});
-    std::stable_sort(bones.begin(), bones.end(), [](const auto& a, const auto& b) { return a.share_of_zone > b.share_of_zone; });
+        if (inside[b] > 0)
+            bones.push_back(
+                {character.skeleton.bones[b].name, inside[b] / total, static_cast<double>(inside[b]) / all[b]});
+    std::stable_sort(bones.begin(), bones.end(),
+                     [](const auto& a, const auto& b) { return a.share_of_zone > b.share_of_zone; });
     return bones;
 }
 
@@ -160,14 +163,17 @@ std::set<int> loose_parts(const TetMesh& mesh, const std::vector<int>& part, con
     std::set<int> loose(part.begin(), part.end());
     for (const auto& [own, of_part] : held) {
         const Eigen::Matrix3d scatter = of_part.squares - of_part.sum * of_part.sum.transpose() / of_part.points;
-        const Vec3 spread = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
+        const Vec3 spread =
+            Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
         if (spread(1) > rounding * of_part.squares.trace()) loose.erase(own);
     }
     return loose;
 }
 
-// Springs of all bones at one point, as stiff as their weights are large, are one to the point's place by linear blend skinning.
-void hold_loose_parts(const Character& coarse, const std::vector<BoneCapsule>& rigid, SpringList& springs, CapsuleSprings& held)
+// Springs of all bones at one point, as stiff as their weights are large, are one to the point's place by linear blend
+// skinning.
+void hold_loose_parts(const Character& coarse, const std::vector<BoneCapsule>& rigid, SpringList& springs,
+                      CapsuleSprings& held)
 {
     const std::vector<int> part = parts_of(coarse.mesh.tets);
     if (std::ranges::count(part, 0) == std::ranges::ssize(part)) return;
@@ -183,7 +189,8 @@ void hold_loose_parts(const Character& coarse, const std::vector<BoneCapsule>& r
             for (int corner = 0; corner < 4; ++corner)
                 for (int v = coarse.mesh.tets(tet, corner), e = weights.first[v]; e < weights.first[v + 1]; ++e)
                     at_point[weights.bone[e]] += (corner == i ? near : far) * weights.weight[e];
-            const int heaviest = std::ranges::max_element(at_point, {}, [](const auto& entry) { return entry.second; })->first;
+            const int heaviest =
+                std::ranges::max_element(at_point, {}, [](const auto& entry) { return entry.second; })->first;
             const double stiffness_m = rigid_stiffness_m(rigid[heaviest], volumes_m3(tet));
             for (const auto& [bone, weight] : at_point)
                 if (weight > 0.0) springs.add(points.row(i), bone, weight, weight * stiffness_m);
@@ -233,7 +240,8 @@ std::vector<BoneCapsule> bone_capsules(const Character& character, double core_r
 
 Positions sample_points(const BoneCapsule& capsule, int samples)
 {
-    if (samples < 1) throw std::invalid_argument("sample_points: expected samples of at least 1, not " + std::to_string(samples));
+    if (samples < 1)
+        throw std::invalid_argument("sample_points: expected samples of at least 1, not " + std::to_string(samples));
     const int stations = 40 * samples, rings = 8 * samples, spokes = 24 * samples;
     const int points_per_disc = 1 + rings * spokes;
     const Vec3 axis = capsule.end - capsule.start;
@@ -244,7 +252,8 @@ Positions sample_points(const BoneCapsule& capsule, int samples)
         const Vec3 centre = capsule.start + (station + 0.5) / stations * axis;
         points.row(next++) = centre;
         for (int ring = 0; ring < rings; ++ring) {
-            // The points further in and half of this ring's own points lie within this radius, and so does their share of the area.
+            // The points further in and half of this ring's own points lie within this radius, and so does their share
+            // of the area.
             const double radius = capsule.radius_m * std::sqrt((1.0 + spokes * (ring + 0.5)) / points_per_disc);
             for (int spoke = 0; spoke < spokes; ++spoke) {
                 const double angle = 2.0 * std::numbers::pi * spoke / spokes;
@@ -283,7 +292,8 @@ std::vector<int> bones_that_move_alone(const Character& character)
             return std::ranges::all_of(corners, [&](int v) { return weights.of(v, bone) > weight_alone; });
         };
         const int first = corners(0);
-        const auto begin = weights.bone.begin() + weights.first[first], end = weights.bone.begin() + weights.first[first + 1];
+        const auto begin = weights.bone.begin() + weights.first[first],
+                   end = weights.bone.begin() + weights.first[first + 1];
         const auto bone = std::find_if(begin, end, is_moved_alone_by);
         of_tet.push_back(bone == end ? -1 : *bone);
     }
@@ -299,7 +309,8 @@ CapsuleSprings bone_springs(const Character& character, SpringPlacement placemen
         if (!character.artist || !character.artist->is_cut) return true;
         const Eigen::Index tet = location.locate(point).tet;
         const Weights& weights = character.artist->weights;
-        return tet < 0 || std::ranges::any_of(character.mesh.tets.row(tet), [&](int v) { return weights.of(v, bone) >= 0.25; });
+        return tet < 0 ||
+               std::ranges::any_of(character.mesh.tets.row(tet), [&](int v) { return weights.of(v, bone) >= 0.25; });
     };
     for (std::size_t j = 0; j < held.capsules.size(); ++j) {
         const BoneCapsule& capsule = held.capsules[j];
@@ -308,9 +319,11 @@ CapsuleSprings bone_springs(const Character& character, SpringPlacement placemen
         for (const auto& row : points.rowwise()) {
             const Vec3 point = row.transpose();
             if (!may_hold(point, static_cast<int>(j))) continue;
-            const double density =
-                placement == SpringPlacement::embedded ? 1.0 : smooth_density(capsule, options.kernel, options.ends, point);
-            springs.add(point, static_cast<int>(j), density, on_axis * density * capsule.volume_m3() / static_cast<double>(points.rows()));
+            const double density = placement == SpringPlacement::embedded
+                                       ? 1.0
+                                       : smooth_density(capsule, options.kernel, options.ends, point);
+            springs.add(point, static_cast<int>(j), density,
+                        on_axis * density * capsule.volume_m3() / static_cast<double>(points.rows()));
         }
     }
     if (placement == SpringPlacement::held) {

@@ -29,7 +29,8 @@ std::string trimmed(const std::string& text)
     return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-// A joint or an end site, as the file states it. Channels: x, y, z positions and X, Y, Z rotations, in the order of the file.
+// A joint or an end site, as the file states it. Channels: x, y, z positions and X, Y, Z rotations, in the order of the
+// file.
 struct BvhJoint {
     std::string name;
     int parent = -1;
@@ -67,7 +68,8 @@ public:
 
     BvhMotion motion(std::vector<std::string>& remarks)
     {
-        if (in_lower_case(word()) != "hierarchy") refuse("", "", "no clip in BVH: expected HIERARCHY as the first word");
+        if (in_lower_case(word()) != "hierarchy")
+            refuse("", "", "no clip in BVH: expected HIERARCHY as the first word");
         std::string keyword = in_lower_case(word());
         for (; keyword == "root"; keyword = in_lower_case(word())) joint(-1, false, 0);
         if (keyword != "motion") refuse("hierarchy", keyword, "expected ROOT or MOTION");
@@ -75,7 +77,8 @@ public:
         const double frames = labelled_number("Frames");
         const int frames_line = line_at(text_, at_);
         if (!(frames >= 1.0 && frames == std::floor(frames)))
-            throw InputError(path_, frames_line, "Frames", label_value_, "expected a whole number of frames, 1 or more");
+            throw InputError(path_, frames_line, "Frames", label_value_,
+                             "expected a whole number of frames, 1 or more");
         if (frames > static_cast<double>(text_.size()) / 2.0)
             throw InputError(path_, frames_line, "Frames", label_value_, "the file is too short to hold them");
         const double seconds = labelled_number("Frame Time");
@@ -123,17 +126,19 @@ private:
         return value;
     }
 
-    // The number that begins at a byte of the word, which becomes the byte after it. By assimp's function, in single precision, which read
-    // the clips of all records.
+    // The number that begins at a byte of the word, which becomes the byte after it. By assimp's function, in single
+    // precision, which read the clips of all records.
     float number_in(const std::string& digits, std::size_t& at, const std::string& field) const
     {
         float value = std::nanf("");
         std::size_t end = at;
         if (at < digits.size() && digits.find_first_not_of("0123456789+-.,eE", at) == std::string::npos) try {
-                end = static_cast<std::size_t>(Assimp::fast_atoreal_move<float, NoNumber>(digits.c_str() + at, value) - digits.c_str());
+                end = static_cast<std::size_t>(Assimp::fast_atoreal_move<float, NoNumber>(digits.c_str() + at, value) -
+                                               digits.c_str());
             } catch (const NoNumber&) {  // no digit
             }
-        if (end == at || !(std::abs(value) <= farthest_number)) refuse(field, digits, "expected a finite number of at most 1e9");
+        if (end == at || !(std::abs(value) <= farthest_number))
+            refuse(field, digits, "expected a finite number of at most 1e9");
         at = end;
         return value;
     }
@@ -149,7 +154,8 @@ private:
 
     void joint(int parent, bool is_end, int depth)
     {
-        if (depth > deepest_nesting) refuse("JOINT", "", "nested deeper than " + std::to_string(deepest_nesting) + " joints");
+        if (depth > deepest_nesting)
+            refuse("JOINT", "", "nested deeper than " + std::to_string(deepest_nesting) + " joints");
         BvhJoint read;
         read.name = name();
         read.parent = parent;
@@ -177,20 +183,23 @@ private:
     void channels(BvhJoint& joint)
     {
         const double count = number("CHANNELS");
-        if (!(count >= 0.0 && count <= 6.0 && count == std::floor(count))) refuse("CHANNELS", number_text(count), "expected 0 to 6");
+        if (!(count >= 0.0 && count <= 6.0 && count == std::floor(count)))
+            refuse("CHANNELS", number_text(count), "expected 0 to 6");
         if (!joint.channels.empty()) refuse("CHANNELS", joint.name, "expected them once per joint");
         joint.first_channel = motion_.channels;
         for (int c = 0; c < static_cast<int>(count); ++c) {
             const std::string channel = word(), lower = in_lower_case(channel);
             const bool turns = lower.ends_with("rotation"), moves = lower.ends_with("position");
             if (lower.size() != 9 || lower[0] < 'x' || lower[0] > 'z' || !(turns || moves))
-                refuse("CHANNELS", channel, "expected Xposition to Zposition or Xrotation to Zrotation, as many as CHANNELS states");
+                refuse("CHANNELS", channel,
+                       "expected Xposition to Zposition or Xrotation to Zrotation, as many as CHANNELS states");
             joint.channels += turns ? static_cast<char>(std::toupper(lower[0])) : lower[0];
         }
         motion_.channels += joint.channels.size();
     }
 
-    // "Frames: 13", "frames:13", "Frame Time:\t0.01". The words behind the colon are kept for messages; no number: not a number.
+    // "Frames: 13", "frames:13", "Frame Time:\t0.01". The words behind the colon are kept for messages; no number: not
+    // a number.
     double labelled_number(const std::string& label)
     {
         at_ = std::min(text_.find_first_not_of(blanks, at_), text_.size());
@@ -199,7 +208,8 @@ private:
         std::erase_if(key, [](unsigned char c) { return std::isspace(c) > 0; });
         std::string wanted = in_lower_case(label);
         std::erase(wanted, ' ');
-        if (key != wanted) refuse(label, trimmed(text_.substr(at_, end - at_)), "expected '" + label + ": ' and a number");
+        if (key != wanted)
+            refuse(label, trimmed(text_.substr(at_, end - at_)), "expected '" + label + ": ' and a number");
         label_value_ = trimmed(text_.substr(colon + 1, end - colon - 1));
         at_ = end;
         std::string point = label_value_;
@@ -207,7 +217,8 @@ private:
         return pbs::number_in(point).value_or(std::nan(""));
     }
 
-    // All numbers to the end of the file, so many channels per frame, wherever the lines break. A minus sign begins a number, too.
+    // All numbers to the end of the file, so many channels per frame, wherever the lines break. A minus sign begins a
+    // number, too.
     void rows(std::size_t frames, int frames_line, std::vector<std::string>& remarks)
     {
         const int first_line = line_at(text_, at_) + 1;
@@ -222,10 +233,11 @@ private:
         const std::string expected = "expected Frames times channels: " + std::to_string(frames * motion_.channels);
         const bool is_off_by_one = rows + 1 == frames || rows == frames + 1;
         if (rows * motion_.channels != count || rows < 2 || !is_off_by_one)
-            throw InputError(path_, first_line, "motion", std::to_string(count) + " numbers",
-                             expected + " (is the file cut off? a row has " + std::to_string(motion_.channels) + " numbers)");
-        remarks.push_back(path_ + ":" + std::to_string(frames_line) + ": Frames = " + std::to_string(frames) + ": the file has " +
-                          std::to_string(rows) + " rows, which are taken");
+            throw InputError(
+                path_, first_line, "motion", std::to_string(count) + " numbers",
+                expected + " (is the file cut off? a row has " + std::to_string(motion_.channels) + " numbers)");
+        remarks.push_back(path_ + ":" + std::to_string(frames_line) + ": Frames = " + std::to_string(frames) +
+                          ": the file has " + std::to_string(rows) + " rows, which are taken");
     }
 
     std::string frame_name() const { return "frame " + std::to_string(motion_.numbers.size() / motion_.channels); }
@@ -236,7 +248,8 @@ private:
     BvhMotion motion_;
 };
 
-// The rotation of a joint's channels in their order. In single precision, by assimp's own types, which read the clips of all records.
+// The rotation of a joint's channels in their order. In single precision, by assimp's own types, which read the clips
+// of all records.
 Eigen::Quaterniond rotation_of(const BvhJoint& joint, const float* row)
 {
     aiMatrix3x3 rotation;
@@ -282,17 +295,20 @@ void take_offsets_from_positions(BvhMotion& motion, const std::string& path, std
     }
     if (!names.empty())
         remarks.push_back(path + ": " + std::to_string(names.size()) +
-                          " joints have the offset 0 and positions in their channels; those of the first frame are taken as offsets: " +
+                          " joints have the offset 0 and positions in their channels; those of the first frame are "
+                          "taken as offsets: " +
                           name_list(names));
-    const bool has_extent = std::ranges::any_of(
-        motion.joints, [](const BvhJoint& joint) { return joint.parent >= 0 && !joint.is_end && !joint.offset.isZero(0.0); });
+    const bool has_extent = std::ranges::any_of(motion.joints, [](const BvhJoint& joint) {
+        return joint.parent >= 0 && !joint.is_end && !joint.offset.isZero(0.0);
+    });
     if (!has_extent && std::ranges::count(motion.joints, false, &BvhJoint::is_end) > 2)
         throw InputError(path, 0, "OFFSET", "0 0 0",
-                         "expected joints apart from each other: export the clip with the offsets of its joints, or with their positions");
+                         "expected joints apart from each other: export the clip with the offsets of its joints, or "
+                         "with their positions");
 }
 
-// Some programs write the path of the hips for a joint above them as well, which has positions alone: it is the same in every frame, and
-// would count twice.
+// Some programs write the path of the hips for a joint above them as well, which has positions alone: it is the same in
+// every frame, and would count twice.
 void drop_repeated_paths(BvhMotion& motion, const std::string& path, std::vector<std::string>& remarks)
 {
     constexpr double same_path = 1e-3;  // of its extent
@@ -312,8 +328,10 @@ void drop_repeated_paths(BvhMotion& motion, const std::string& path, std::vector
         for (std::size_t row = 0; row < motion.rows(); ++row)
             for (std::size_t c = 0; c < joint.channels.size(); ++c)
                 if (const char channel = joint.channels[c]; channel >= 'x')
-                    motion.numbers[row * motion.channels + joint.first_channel + c] = static_cast<float>(first(channel - 'x'));
-        remarks.push_back(path + ": " + joint.name + " and " + above.name + " above it have the same path; it is taken once");
+                    motion.numbers[row * motion.channels + joint.first_channel + c] =
+                        static_cast<float>(first(channel - 'x'));
+        remarks.push_back(path + ": " + joint.name + " and " + above.name +
+                          " above it have the same path; it is taken once");
     }
 }
 
@@ -331,7 +349,8 @@ void add_frame(const BvhMotion& motion, const float* row, Clip& clip)
         local.push_back(rotation_of(joint, row));
         const Vec3 place = place_of(joint, row);
         global.push_back(joint.parent < 0 ? local[j] : global[joint.parent] * local[j]);
-        places.row(j) = joint.parent < 0 ? place : Vec3(places.row(joint.parent).transpose() + global[joint.parent] * place);
+        places.row(j) =
+            joint.parent < 0 ? place : Vec3(places.row(joint.parent).transpose() + global[joint.parent] * place);
     }
     clip.local.push_back(std::move(local));
     clip.places.push_back(std::move(places));
@@ -342,7 +361,8 @@ void add_frame(const BvhMotion& motion, const float* row, Clip& clip)
 bool is_bvh(const std::string& text, const std::string& path)
 {
     constexpr std::string_view first_word = "hierarchy";
-    const std::size_t word = text.find_first_not_of(blanks, text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+    const std::size_t word =
+        text.find_first_not_of(blanks, text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
     return lower_extension(path) == ".bvh" ||
            (word != std::string::npos && in_lower_case(text.substr(word, first_word.size())) == first_word);
 }
@@ -359,12 +379,14 @@ Clip read_bvh(const std::string& text, const std::string& path)
     std::set<std::string> seen;
     for (std::size_t j = 0; j < motion.joints.size(); ++j) {
         const BvhJoint& joint = motion.joints[j];
-        if (!seen.insert(joint.name).second) throw InputError(path, 0, "JOINT", joint.name, "two joints have this name");
+        if (!seen.insert(joint.name).second)
+            throw InputError(path, 0, "JOINT", joint.name, "two joints have this name");
         clip.joints.push_back(joint.name);
         clip.parent.push_back(joint.parent);
         clip.zero_pose.row(j) = zero_place(clip, joint);
     }
-    for (std::size_t row = 0; row < motion.rows(); ++row) add_frame(motion, motion.numbers.data() + row * motion.channels, clip);
+    for (std::size_t row = 0; row < motion.rows(); ++row)
+        add_frame(motion, motion.numbers.data() + row * motion.channels, clip);
     return clip;
 }
 

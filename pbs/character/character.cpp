@@ -28,7 +28,8 @@ std::vector<bool> jiggle_zone(const BoneBinding& binding)
 {
     const double mean = binding.distance.size() > 0 ? binding.distance.mean() : 0.0;
     std::vector<bool> zone(binding.distance.size());
-    for (Eigen::Index vertex = 0; vertex < binding.distance.size(); ++vertex) zone[vertex] = binding.distance(vertex) > mean;
+    for (Eigen::Index vertex = 0; vertex < binding.distance.size(); ++vertex)
+        zone[vertex] = binding.distance(vertex) > mean;
     return zone;
 }
 
@@ -50,10 +51,12 @@ std::vector<bool> jiggle_zone_by_bone(const BoneBinding& binding)
 
 BoneBinding nearest_bones(const Character& character)
 {
-    if (!character.artist || !character.artist->is_cut) return bind_to_nearest_bone(character.mesh.rest, character.skeleton);
+    if (!character.artist || !character.artist->is_cut)
+        return bind_to_nearest_bone(character.mesh.rest, character.skeleton);
     const Weights& weights = character.artist->weights;
     return bind_to_nearest_bone(character.mesh.rest, character.skeleton,
-                                [&](int vertex, int bone) { return weights.of(vertex, bone) >= 0.25; });  // at most four bones
+                                // at most four bones
+                                [&](int vertex, int bone) { return weights.of(vertex, bone) >= 0.25; });
 }
 
 void bind_by_paper(Character& character)

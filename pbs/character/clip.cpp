@@ -31,7 +31,8 @@ Rotations rotations_of(const std::vector<Eigen::Affine3d>& nodes)
     Rotations rotations;
     for (const Eigen::Affine3d& node : nodes) {
         const double size = std::cbrt(std::abs(node.linear().determinant()));
-        rotations.emplace_back(nearest_rotation(size > 0.0 ? Eigen::Matrix3d(node.linear() / size) : Eigen::Matrix3d(node.linear())));
+        rotations.emplace_back(
+            nearest_rotation(size > 0.0 ? Eigen::Matrix3d(node.linear() / size) : Eigen::Matrix3d(node.linear())));
     }
     return rotations;
 }
@@ -55,20 +56,24 @@ Positions places_of(const std::vector<Eigen::Affine3d>& nodes)
     return places;
 }
 
-// The same bind pose as it stands in the scene. The root's own rotation tells that only where the nodes rest in the bind pose; otherwise
-// the pose of the mesh's coordinates is taken, with the least rotation that carries its upward axis to that of the nodes.
-std::vector<Eigen::Affine3d> upright(const std::vector<Eigen::Affine3d>& bound, const std::vector<Eigen::Affine3d>& rest,
-                                     const std::set<int>& joints, const Eigen::Affine3d& mesh_to_rest, const BodyJoints& body)
+// The same bind pose as it stands in the scene. The root's own rotation tells that only where the nodes rest in the
+// bind pose; otherwise the pose of the mesh's coordinates is taken, with the least rotation that carries its upward
+// axis to that of the nodes.
+std::vector<Eigen::Affine3d> upright(const std::vector<Eigen::Affine3d>& bound,
+                                     const std::vector<Eigen::Affine3d>& rest, const std::set<int>& joints,
+                                     const Eigen::Affine3d& mesh_to_rest, const BodyJoints& body)
 {
     const Rotations rotations = rotations_of(bound), resting = rotations_of(rest);
-    const bool rests_as_bound =
-        std::ranges::all_of(joints, [&](int n) { return rotations[n].angularDistance(resting[n]) <= same_pose_deg * M_PI / 180.0; });
+    const bool rests_as_bound = std::ranges::all_of(
+        joints, [&](int n) { return rotations[n].angularDistance(resting[n]) <= same_pose_deg * M_PI / 180.0; });
     if (rests_as_bound || !(std::abs(mesh_to_rest.linear().determinant()) > 0.0)) return bound;
     std::vector<Eigen::Affine3d> in_mesh;
     for (const Eigen::Affine3d& node : bound) in_mesh.push_back(mesh_to_rest.inverse() * node);
-    const auto in_mesh_trunk = trunk_directions(places_of(in_mesh), body), in_scene = trunk_directions(places_of(rest), body);
+    const auto in_mesh_trunk = trunk_directions(places_of(in_mesh), body),
+               in_scene = trunk_directions(places_of(rest), body);
     if (!in_mesh_trunk || !in_scene) return bound;
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(body_axes(*in_mesh_trunk).col(1), nearest_axis(in_scene->up));
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond::FromTwoVectors(body_axes(*in_mesh_trunk).col(1), nearest_axis(in_scene->up));
     for (Eigen::Affine3d& node : in_mesh) node = turn * node;
     return in_mesh;
 }
@@ -97,11 +102,13 @@ std::vector<Eigen::Affine3d> zero_pose_of(const Rig& rig, const BodyJoints& body
             joints.insert(static_cast<int>(n));
         } else if (parent >= 0) {
             const bool has_inverse = std::abs(rest[parent].linear().determinant()) > 0.0;
-            zero[n] = zero[parent] * (has_inverse ? Eigen::Affine3d(rest[parent].inverse() * rest[n]) : Eigen::Affine3d::Identity());
+            zero[n] = zero[parent] *
+                      (has_inverse ? Eigen::Affine3d(rest[parent].inverse() * rest[n]) : Eigen::Affine3d::Identity());
         }
     }
     const SkinJoint& joint = binding.meshes.front().joints.front();
-    std::vector<Eigen::Affine3d> posed = upright(zero, rest, joints, binding.bind.at(joint.node) * joint.inverse_bind, body);
+    std::vector<Eigen::Affine3d> posed =
+        upright(zero, rest, joints, binding.bind.at(joint.node) * joint.inverse_bind, body);
     // Where the bind pose has another size than the nodes, the path is in the unit of the nodes.
     const double length = length_of_bones(rig, posed, joints), length_at_rest = length_of_bones(rig, rest, joints);
     if (length > 0.0 && std::abs(length_at_rest / length - 1.0) > same_size)
@@ -115,8 +122,10 @@ double largest_turn_deg(const Rig& rig, const RigAnimation& animation)
     const Rotations start = rotations_of(node_transforms(rig, &animation, animation.start_s));
     double largest = 0.0;
     for (int frame = 1; frame < frames_looked_at; ++frame) {
-        const double time_s = animation.start_s + (animation.end_s - animation.start_s) * frame / (frames_looked_at - 1);
-        for (const Eigen::Quaterniond& turn : local_turns(rig, start, rotations_of(node_transforms(rig, &animation, time_s))))
+        const double time_s =
+            animation.start_s + (animation.end_s - animation.start_s) * frame / (frames_looked_at - 1);
+        for (const Eigen::Quaterniond& turn :
+             local_turns(rig, start, rotations_of(node_transforms(rig, &animation, time_s))))
             largest = std::max(largest, turn.angularDistance(Eigen::Quaterniond::Identity()));
     }
     return largest * 180.0 / M_PI;
@@ -140,9 +149,10 @@ const RigAnimation& moving_animation_of_clip(const Rig& rig, Clip& clip)
                                                          : "since it turns a joint most, although by no more than ";
     if (!others.empty())
         clip.remarks.push_back(
-            rig.file + ": it has " + std::to_string(rig.animations.size()) + " animations; " + taken->name + " is taken, " + why +
-            number_text(least_turn_deg) +
-            " degrees (motion.animation = NAME of a scene, or --animation FILE:NAME of try, takes another one: " + name_list(others) + ")");
+            rig.file + ": it has " + std::to_string(rig.animations.size()) + " animations; " + taken->name +
+            " is taken, " + why + number_text(least_turn_deg) +
+            " degrees (motion.animation = NAME of a scene, or --animation FILE:NAME of try, takes another one: " +
+            name_list(others) + ")");
     return *taken;
 }
 
@@ -170,7 +180,8 @@ void add_joints(const Rig& rig, const std::set<int>& moved, Clip& clip)
     std::set<std::string> names;
     for (const int node : moved)
         if (!names.insert(rig.nodes[node].name).second)
-            throw InputError(rig.file, 0, "joint", rig.nodes[node].name, "two moving joints have this name: expected one name per joint");
+            throw InputError(rig.file, 0, "joint", rig.nodes[node].name,
+                             "two moving joints have this name: expected one name per joint");
     for (int n = 0; n < static_cast<int>(rig.nodes.size()); ++n) {
         std::string name = rig.nodes[n].name;
         for (int number = 2; !moved.contains(n) && !names.insert(name).second; ++number)
@@ -184,9 +195,14 @@ void add_joints(const Rig& rig, const std::set<int>& moved, Clip& clip)
 // Whether the node stays where a key puts it until the next one.
 bool holds(const NodeTracks& tracks)
 {
-    const auto is_step = [](const std::optional<KeyTrack>& track) { return track && track->interpolation == Interpolation::step; };
-    const auto is_constant = [](const FbxCurve& curve) { return curve.front().interpolation == FbxInterpolation::constant; };
-    return is_step(tracks.rotation) || is_step(tracks.translation) || std::ranges::any_of(fbx_curves(tracks), is_constant);
+    const auto is_step = [](const std::optional<KeyTrack>& track) {
+        return track && track->interpolation == Interpolation::step;
+    };
+    const auto is_constant = [](const FbxCurve& curve) {
+        return curve.front().interpolation == FbxInterpolation::constant;
+    };
+    return is_step(tracks.rotation) || is_step(tracks.translation) ||
+           std::ranges::any_of(fbx_curves(tracks), is_constant);
 }
 
 Clip clip_of_rig(const std::string& path, const std::string& name)
@@ -209,7 +225,8 @@ Clip clip_of_rig(const std::string& path, const std::string& name)
     const double start_s = std::min(animation.start_s, 0.0);
     const double frames = std::floor((animation.end_s - start_s) * key_rate_hz + 1e-6) + 1.0;
     if (!(frames <= most_frames))
-        throw InputError(path, 0, "frames", number_text(frames), "expected 1 to " + std::to_string(static_cast<int>(most_frames)));
+        throw InputError(path, 0, "frames", number_text(frames),
+                         "expected 1 to " + std::to_string(static_cast<int>(most_frames)));
     for (int frame = 0; frame < static_cast<int>(frames); ++frame) {
         const std::vector<Eigen::Affine3d> nodes = node_transforms(rig, &animation, start_s + frame / key_rate_hz);
         clip.local.push_back(local_turns(rig, zero_rotations, rotations_of(nodes)));
@@ -241,8 +258,10 @@ Clip read_clip(const std::string& path, const std::string& animation)
     if (!is_rig_file(path)) {
         const std::string text = read_text_file(path);
         if (!is_bvh(text, path))
-            throw InputError(path, 0, "", "", "no clip: expected BVH, glTF (.glb, .gltf), FBX (.fbx) or COLLADA (.dae, .zae)");
-        if (!animation.empty()) throw InputError(path, 0, "animation", animation, "expected no name: a BVH file holds one motion");
+            throw InputError(path, 0, "", "",
+                             "no clip: expected BVH, glTF (.glb, .gltf), FBX (.fbx) or COLLADA (.dae, .zae)");
+        if (!animation.empty())
+            throw InputError(path, 0, "animation", animation, "expected no name: a BVH file holds one motion");
         Clip clip = read_bvh(text, path);
         check_clip(clip);
         return clip;

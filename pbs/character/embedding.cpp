@@ -27,7 +27,8 @@ TetCorners corners_of(const TetMesh& mesh, int tet)
 Eigen::Vector4d barycentric_in_tet(const Vec3& point, const TetCorners& corners)
 {
     Eigen::Matrix3d edges;
-    for (int corner = 1; corner < 4; ++corner) edges.col(corner - 1) = (corners.row(corner) - corners.row(0)).transpose();
+    for (int corner = 1; corner < 4; ++corner)
+        edges.col(corner - 1) = (corners.row(corner) - corners.row(0)).transpose();
     const Vec3 along = edges.inverse() * (point - corners.row(0).transpose());
     return {1.0 - along.sum(), along(0), along(1), along(2)};
 }
@@ -41,11 +42,11 @@ double squared_distance_to_segment(const Vec3& point, const Vec3& a, const Vec3&
 double squared_distance_to_triangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c)
 {
     const Vec3 normal = (b - a).cross(c - a);
-    const bool above_it =
-        normal.cross(b - a).dot(point - a) >= 0.0 && normal.cross(c - b).dot(point - b) >= 0.0 && normal.cross(a - c).dot(point - c) >= 0.0;
+    const bool above_it = normal.cross(b - a).dot(point - a) >= 0.0 && normal.cross(c - b).dot(point - b) >= 0.0 &&
+                          normal.cross(a - c).dot(point - c) >= 0.0;
     if (above_it) return std::pow(normal.dot(point - a), 2) / normal.squaredNorm();
-    return std::min(
-        {squared_distance_to_segment(point, a, b), squared_distance_to_segment(point, b, c), squared_distance_to_segment(point, c, a)});
+    return std::min({squared_distance_to_segment(point, a, b), squared_distance_to_segment(point, b, c),
+                     squared_distance_to_segment(point, c, a)});
 }
 
 double squared_distance_to_tet(const Vec3& point, const TetCorners& corners)
@@ -53,12 +54,14 @@ double squared_distance_to_tet(const Vec3& point, const TetCorners& corners)
     if (barycentric_in_tet(point, corners).minCoeff() >= 0.0) return 0.0;
     double least = std::numeric_limits<double>::max();
     for (int opposite = 0; opposite < 4; ++opposite)
-        least = std::min(least, squared_distance_to_triangle(point, corners.row((opposite + 1) % 4), corners.row((opposite + 2) % 4),
-                                                             corners.row((opposite + 3) % 4)));
+        least = std::min(
+            least, squared_distance_to_triangle(point, corners.row((opposite + 1) % 4), corners.row((opposite + 2) % 4),
+                                                corners.row((opposite + 3) % 4)));
     return least;
 }
 
-// The functor of Eigen's BVMinimize, and the cell at which it ended. may_take is slow, and only asked where a cell would be the nearest.
+// The functor of Eigen's BVMinimize, and the cell at which it ended. may_take is slow, and only asked where a cell
+// would be the nearest.
 template <typename SquaredDistance, typename MayTake>
 struct NearestCell {
     using Scalar = double;
@@ -80,8 +83,8 @@ struct NearestCell {
 };
 
 template <typename SquaredDistance, typename MayTake>
-NearestCell<SquaredDistance, MayTake> nearest_cell(const Tree& tree, const Vec3& point, const SquaredDistance& squared_distance,
-                                                   const MayTake& may_take)
+NearestCell<SquaredDistance, MayTake> nearest_cell(const Tree& tree, const Vec3& point,
+                                                   const SquaredDistance& squared_distance, const MayTake& may_take)
 {
     NearestCell<SquaredDistance, MayTake> nearest{point, squared_distance, may_take};
     Eigen::BVMinimize(tree, nearest);
@@ -118,7 +121,8 @@ EmbeddedSurface embed(const Positions& surface, const Triangles& triangles, cons
             if (nearest.cell < 0) continue;
             embedded.tet(s) = nearest.cell;
             embedded.barycentric.row(s) = barycentric_in_tet(point, corners_of(mesh, nearest.cell)).transpose();
-            embedded.largest_distance_outside_m = std::max(embedded.largest_distance_outside_m, std::sqrt(nearest.least));
+            embedded.largest_distance_outside_m =
+                std::max(embedded.largest_distance_outside_m, std::sqrt(nearest.least));
             break;
         }
     }

@@ -1,4 +1,5 @@
-// A surface carried by a tet mesh: each surface vertex keeps barycentric coordinates in one tet, extrapolated where it lies outside.
+// A surface carried by a tet mesh: each surface vertex keeps barycentric coordinates in one tet, extrapolated where it
+// lies outside.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -10,14 +11,16 @@ namespace pbs {
 
 // #S surface vertices in the tets of one mesh.
 struct EmbeddedSurface {
-    Triangles triangles;                                                    // #F x 3
-    Eigen::VectorXi tet;                                                    // the tet that carries each surface vertex, #S
-    Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> barycentric;  // sums to one; negative where extrapolated, #S x 4
-    double largest_distance_outside_m = 0.0;                                // of a surface vertex from the tets
+    Triangles triangles;  // #F x 3
+    Eigen::VectorXi tet;  // the tet that carries each surface vertex, #S
+    // sums to one; negative where extrapolated, #S x 4
+    Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> barycentric;
+    double largest_distance_outside_m = 0.0;  // of a surface vertex from the tets
 };
 
-// Each point of `surface` [m], #S x 3, in the tet that holds it or is nearest, in rest pose. The mesh has at least one tet, none flat
-// (unchecked). may_carry(point, tet): only such tets are taken, unless there is none for the point; by default all.
+// Each point of `surface` [m], #S x 3, in the tet that holds it or is nearest, in rest pose. The mesh has at least one
+// tet, none flat (unchecked). may_carry(point, tet): only such tets are taken, unless there is none for the point; by
+// default all.
 EmbeddedSurface embed(const Positions& surface, const Triangles& triangles, const TetMesh& mesh,
                       const std::function<bool(Eigen::Index, int)>& may_carry = {});
 

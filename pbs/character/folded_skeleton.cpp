@@ -38,7 +38,8 @@ void check_lengths(const std::vector<NamedJoint>& joints, const std::string& fil
         if (length > shortest_bone * box.diagonal().norm()) continue;
         std::ostringstream value;
         value << "[" << joint.tail.transpose() << "]";
-        throw InputError(file, joint.line, joint.name + ".tail_m", value.str(), "a bone needs a length: tail_m differs from head_m");
+        throw InputError(file, joint.line, joint.name + ".tail_m", value.str(),
+                         "a bone needs a length: tail_m differs from head_m");
     }
 }
 
@@ -90,12 +91,15 @@ Skeleton order_skeleton(const std::vector<NamedJoint>& joints, const std::string
         for (std::size_t j = 0; j < joints.size(); ++j) {
             if (place[j] >= 0 || (parent[j] >= 0 && place[parent[j]] < 0)) continue;
             place[j] = static_cast<int>(skeleton.bones.size());
-            skeleton.bones.push_back({joints[j].name, parent[j] < 0 ? -1 : place[parent[j]], joints[j].head, joints[j].tail});
+            skeleton.bones.push_back(
+                {joints[j].name, parent[j] < 0 ? -1 : place[parent[j]], joints[j].head, joints[j].tail});
             grown = true;
         }
     }
     for (std::size_t j = 0; j < joints.size(); ++j)
-        if (place[j] < 0) throw InputError(file, joints[j].line, joints[j].name + ".parent", joints[j].parent, "its parents form a cycle");
+        if (place[j] < 0)
+            throw InputError(file, joints[j].line, joints[j].name + ".parent", joints[j].parent,
+                             "its parents form a cycle");
     return skeleton;
 }
 

@@ -14,7 +14,8 @@ namespace pbs {
 namespace {
 
 // The header's words after the magic by their places; those that are read here.
-constexpr std::size_t version = 0, file_size = 1, text_bytes = 3, text_at = 4, array_count = 7, vertex_count = 8, arrays_at = 9;
+constexpr std::size_t version = 0, file_size = 1, text_bytes = 3, text_at = 4, array_count = 7, vertex_count = 8,
+                      arrays_at = 9;
 constexpr std::size_t triangle_count = 10, triangles_at = 11, joint_count = 13, joints_at = 14;
 constexpr const char* magic = "INTERQUAKEMODEL";  // and a zero
 constexpr std::size_t magic_bytes = 16, header_bytes = 124, array_bytes = 20, triangle_bytes = 12, joint_bytes = 48;
@@ -28,7 +29,8 @@ public:
             refuse("magic", "", "no IQM file, or cut short within its header");
         if (header(version) != 2) refuse("version", std::to_string(header(version)), "expected 2");
         if (header(file_size) != bytes_.size())
-            refuse("filesize", std::to_string(header(file_size)), "the file has " + std::to_string(bytes_.size()) + " bytes: cut short?");
+            refuse("filesize", std::to_string(header(file_size)),
+                   "the file has " + std::to_string(bytes_.size()) + " bytes: cut short?");
     }
 
     std::uint32_t header(std::size_t word) const { return word_at(magic_bytes + 4 * word); }
@@ -39,7 +41,8 @@ public:
     std::size_t block(const std::string& field, std::size_t at, std::size_t count, std::size_t bytes_each) const
     {
         if (at > bytes_.size() || count > (bytes_.size() - at) / bytes_each)
-            refuse(field, std::to_string(at), std::to_string(count) + " of " + std::to_string(bytes_each) + " bytes end beyond the file");
+            refuse(field, std::to_string(at),
+                   std::to_string(count) + " of " + std::to_string(bytes_each) + " bytes end beyond the file");
         return at;
     }
 
@@ -70,7 +73,8 @@ private:
 
 Positions read_positions(const IqmFile& file)
 {
-    const std::size_t arrays = file.block("ofs_vertexarrays", file.header(arrays_at), file.header(array_count), array_bytes);
+    const std::size_t arrays =
+        file.block("ofs_vertexarrays", file.header(arrays_at), file.header(array_count), array_bytes);
     for (std::size_t a = 0; a < file.header(array_count); ++a) {
         const std::size_t array = arrays + a * array_bytes;
         if (file.word_at(array) != position_type) continue;
@@ -79,7 +83,8 @@ Positions read_positions(const IqmFile& file)
         const std::size_t count = file.header(vertex_count);
         const std::size_t values = file.block("vertexarrays.position", file.word_at(array + 16), count, 12);
         Positions points(static_cast<Eigen::Index>(count), 3);
-        for (Eigen::Index i = 0; i < points.size(); ++i) points.data()[i] = file.float_at(values + 4 * static_cast<std::size_t>(i));
+        for (Eigen::Index i = 0; i < points.size(); ++i)
+            points.data()[i] = file.float_at(values + 4 * static_cast<std::size_t>(i));
         if (!points.allFinite()) file.refuse("vertexarrays.position", "", "expected finite coordinates");
         return points;
     }
@@ -96,7 +101,8 @@ Triangles read_triangles(const IqmFile& file)
     for (std::size_t t = 0; t < count; ++t)
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const std::uint32_t vertex = file.word_at(corners + triangle_bytes * t + 4 * corner);
-            if (vertex >= file.header(vertex_count)) file.refuse("triangles", std::to_string(vertex), "expected a vertex's number");
+            if (vertex >= file.header(vertex_count))
+                file.refuse("triangles", std::to_string(vertex), "expected a vertex's number");
             triangles(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(2 - corner)) = static_cast<int>(vertex);
         }
     return triangles;
@@ -108,7 +114,8 @@ SurfaceMesh joined(const Positions& points, const Triangles& triangles)
     Triangles all = joined_triangles(points, triangles);
     Eigen::Index kept = 0;
     for (Eigen::Index t = 0; t < all.rows(); ++t)
-        if (all(t, 0) != all(t, 1) && all(t, 1) != all(t, 2) && all(t, 2) != all(t, 0)) all.row(kept++) = all.row(t).eval();
+        if (all(t, 0) != all(t, 1) && all(t, 1) != all(t, 2) && all(t, 2) != all(t, 0))
+            all.row(kept++) = all.row(t).eval();
     all.conservativeResize(kept, 3);
     return {points(renumbered(all, points.rows()), Eigen::all), all};
 }
@@ -116,7 +123,8 @@ SurfaceMesh joined(const Positions& points, const Triangles& triangles)
 // A joint: name, parent, translation, rotation (x, y, z, w) and scale relative to its parent.
 std::vector<IqmJoint> read_joints(const IqmFile& file)
 {
-    const std::size_t count = file.header(joint_count), begin = file.block("ofs_joints", file.header(joints_at), count, joint_bytes);
+    const std::size_t count = file.header(joint_count),
+                      begin = file.block("ofs_joints", file.header(joints_at), count, joint_bytes);
     std::vector<IqmJoint> joints;
     std::vector<Eigen::Affine3d> in_rest;
     for (std::size_t j = 0; j < count; ++j) {
@@ -125,7 +133,8 @@ std::vector<IqmJoint> read_joints(const IqmFile& file)
         joint.name = file.text(file.word_at(at));
         joint.parent = static_cast<int>(file.word_at(at + 4));
         if (joint.parent < -1 || joint.parent >= static_cast<int>(j))
-            file.refuse("joint " + joint.name + ", parent", std::to_string(joint.parent), "expected a joint before it, or -1");
+            file.refuse("joint " + joint.name + ", parent", std::to_string(joint.parent),
+                        "expected a joint before it, or -1");
         Eigen::Matrix<double, 10, 1> values;
         for (Eigen::Index v = 0; v < 10; ++v) values(v) = file.float_at(at + 8 + 4 * static_cast<std::size_t>(v));
         const Eigen::Quaterniond rotation(values(6), values(3), values(4), values(5));
@@ -142,8 +151,8 @@ std::vector<IqmJoint> read_joints(const IqmFile& file)
 
 constexpr int skeleton_version = 1;  // raised with `fold`, so that the cache knows
 
-// 52 joints to 26 bones, with the human's names where clips know them. The forearm is cut in two, as the human's is, so that the wrist's
-// twist can be spread along it; the tail follows the pelvis, the ears the head.
+// 52 joints to 26 bones, with the human's names where clips know them. The forearm is cut in two, as the human's is, so
+// that the wrist's twist can be spread along it; the tail follows the pelvis, the ears the head.
 const std::vector<FoldedBone> fold = {
     {"pelvis", "", {"CTRL_Pelvis"}, {"CTRL_FK_Femur.L", "CTRL_FK_Femur.R"}},
     {"spine", "pelvis", {"CTRL_Spin"}, {"CTRL_Spin.M"}},
@@ -203,11 +212,14 @@ Character make_frankie(const std::string& name, int vertices, bool)
     const IqmModel model = read_iqm(file);
     const auto turned_skin = [&] {
         SurfaceMesh skin = model.surface;
-        for (Eigen::Index i = 0; i < skin.points.rows(); ++i) skin.points.row(i) = turned(model.surface.points.row(i)).transpose();
+        for (Eigen::Index i = 0; i < skin.points.rows(); ++i)
+            skin.points.row(i) = turned(model.surface.points.row(i)).transpose();
         return skin;
     };
-    const SurfaceBody body{
-        .name = name, .made_from = hash + std::to_string(skeleton_version), .skeleton = skeleton_of(model, file), .surface = turned_skin};
+    const SurfaceBody body{.name = name,
+                           .made_from = hash + std::to_string(skeleton_version),
+                           .skeleton = skeleton_of(model, file),
+                           .surface = turned_skin};
     Character frankie = make_surface_body(body, vertices, false);
     frankie.inputs = {{file_name(file), hash}};
     return frankie;

@@ -12,13 +12,14 @@ namespace {
 
 enum class PartKind { trunk, girdle, limb, leg };  // all but the trunk have two sides
 
-// The columns of the table: the bodies by name, CMU's clips as BVH (cgspeed) and as ASF/AMC, recordings that name joints (elbow, knee) and
-// not limbs, Mixamo (and HumanIK, LAFAN1), Blender's Rigify, Unreal's mannequin, VRM (and VRoid, Unity, Bandai-Namco), Rokoko, Poser (and
-// Daz), Biped of 3ds Max, Character Creator, OptiTrack, Xsens MVN, which counts the chest from the waist, and SMPL.
+// The columns of the table: the bodies by name, CMU's clips as BVH (cgspeed) and as ASF/AMC, recordings that name
+// joints (elbow, knee) and not limbs, Mixamo (and HumanIK, LAFAN1), Blender's Rigify, Unreal's mannequin, VRM (and
+// VRoid, Unity, Bandai-Namco), Rokoko, Poser (and Daz), Biped of 3ds Max, Character Creator, OptiTrack, Xsens MVN,
+// which counts the chest from the waist, and SMPL.
 constexpr int scheme_of_bodies = 0, schemes = 15;
 
-// A part of the body under its names in each scheme, in lower case without separators, prefix and side; "" where a scheme has no such
-// joint, and words where it has several names.
+// A part of the body under its names in each scheme, in lower case without separators, prefix and side; "" where a
+// scheme has no such joint, and words where it has several names.
 struct BodyPart {
     PartKind kind;
     int next;            // its limb ends at the part so many rows below; 0: none
@@ -26,96 +27,109 @@ struct BodyPart {
     std::array<std::string_view, schemes> names;
 };
 
-// CMU keeps the twist of the forearm in the wrist. Three joints can carry it here, elbow, mid-forearm and wrist; equal steps of a third at
-// each keep the largest step least: 1/3 on the upper half, 2/3 on the lower half, all of it on the hand.
+// CMU keeps the twist of the forearm in the wrist. Three joints can carry it here, elbow, mid-forearm and wrist; equal
+// steps of a third at each keep the largest step least: 1/3 on the upper half, 2/3 on the lower half, all of it on the
+// hand.
 constexpr BodyPart body_parts[] = {
     {PartKind::trunk,
      0,
      0.0,
-     {"pelvis", "hips", "root", "hips", "hips", "spine", "pelvis", "hips", "hips", "hip pelvis", "pelvis", "hip pelvis", "hip hips", "hips",
-      "pelvis"}},
+     {"pelvis", "hips", "root", "hips", "hips", "spine", "pelvis", "hips", "hips", "hip pelvis", "pelvis", "hip pelvis",
+      "hip hips", "hips", "pelvis"}},
     {PartKind::trunk,
      0,
      0.0,
-     {"spine", "lowerback", "lowerback", "ab", "spine", "spine001", "spine01", "spine", "spine spine1", "abdomen abdomenlower spine1",
-      "spine", "waist", "ab", "chest", "spine1"}},
+     {"spine", "lowerback", "lowerback", "ab", "spine", "spine001", "spine01", "spine", "spine spine1",
+      "abdomen abdomenlower spine1", "spine", "waist", "ab", "chest", "spine1"}},
     {PartKind::trunk,
      0,
      0.0,
-     {"", "spine", "upperback", "", "spine1", "spine002", "spine02", "", "spine2", "abdomenupper waist spine2", "", "spine01", "", "chest2",
-      "spine2"}},
+     {"", "spine", "upperback", "", "spine1", "spine002", "spine02", "", "spine2", "abdomenupper waist spine2", "",
+      "spine01", "", "chest2", "spine2"}},
     {PartKind::trunk,
      0,
      0.0,
-     {"chest", "spine1", "thorax", "chest", "spine2", "spine003", "spine03", "chest", "chest spine4", "chest chestlower spine3", "spine1",
-      "spine02", "chest", "chest4", "spine3"}},
-    {PartKind::trunk, 0, 0.0, {"", "", "", "", "spine3", "", "spine04", "upperchest", "", "chestupper spine4", "spine2", "", "", "", ""}},
+     {"chest", "spine1", "thorax", "chest", "spine2", "spine003", "spine03", "chest", "chest spine4",
+      "chest chestlower spine3", "spine1", "spine02", "chest", "chest4", "spine3"}},
     {PartKind::trunk,
      0,
      0.0,
-     {"neck", "neck", "lowerneck", "neck", "neck", "spine004", "neck01", "neck", "neck", "neck necklower neck1", "neck", "necktwist01",
-      "neck", "neck", "neck"}},
+     {"", "", "", "", "spine3", "", "spine04", "upperchest", "", "chestupper spine4", "spine2", "", "", "", ""}},
     {PartKind::trunk,
      0,
      0.0,
-     {"", "neck1", "upperneck", "", "", "spine005", "neck02", "", "", "neckupper neck2", "", "necktwist02", "", "", ""}},
+     {"neck", "neck", "lowerneck", "neck", "neck", "spine004", "neck01", "neck", "neck", "neck necklower neck1", "neck",
+      "necktwist01", "neck", "neck", "neck"}},
     {PartKind::trunk,
      0,
      0.0,
-     {"head", "head", "head", "head", "head", "spine006", "head", "head", "head", "head", "head", "head", "head", "head", "head"}},
+     {"", "neck1", "upperneck", "", "", "spine005", "neck02", "", "", "neckupper neck2", "", "necktwist02", "", "",
+      ""}},
+    {PartKind::trunk,
+     0,
+     0.0,
+     {"head", "head", "head", "head", "head", "spine006", "head", "head", "head", "head", "head", "head", "head",
+      "head", "head"}},
     {PartKind::girdle,
      0,
      0.0,
-     {"clavicle", "shoulder", "clavicle", "collar", "shoulder", "shoulder", "clavicle", "shoulder", "shoulder", "collar shoulder",
-      "clavicle", "clavicle", "shoulder", "collar", "collar"}},
+     {"clavicle", "shoulder", "clavicle", "collar", "shoulder", "shoulder", "clavicle", "shoulder", "shoulder",
+      "collar shoulder", "clavicle", "clavicle", "shoulder", "collar", "collar"}},
     {PartKind::limb,
      1,
      0.0,
-     {"upperarm", "arm", "humerus", "shoulder", "arm", "upperarm", "upperarm", "upperarm", "arm", "shldr shldrbend upperarm", "upperarm",
-      "upperarm", "uarm", "shoulder", "shoulder"}},
+     {"upperarm", "arm", "humerus", "shoulder", "arm", "upperarm", "upperarm", "upperarm", "arm",
+      "shldr shldrbend upperarm", "upperarm", "upperarm", "uarm", "shoulder", "shoulder"}},
     {PartKind::limb,
      2,
      1.0 / 3.0,
-     {"forearmupper", "forearm", "radius", "elbow", "forearm", "forearm", "lowerarm", "lowerarm", "forearm", "forearm forearmbend",
-      "forearm", "forearm", "farm", "elbow", "elbow"}},
+     {"forearmupper", "forearm", "radius", "elbow", "forearm", "forearm", "lowerarm", "lowerarm", "forearm",
+      "forearm forearmbend", "forearm", "forearm", "farm", "elbow", "elbow"}},
     {PartKind::limb,
      1,
      2.0 / 3.0,
-     {"forearmlower", "forearm", "radius", "elbow", "forearm", "forearm", "lowerarm", "lowerarm", "forearm", "forearm forearmbend",
-      "forearm", "forearm", "farm", "elbow", "elbow"}},
+     {"forearmlower", "forearm", "radius", "elbow", "forearm", "forearm", "lowerarm", "lowerarm", "forearm",
+      "forearm forearmbend", "forearm", "forearm", "farm", "elbow", "elbow"}},
     {PartKind::limb,
      0,
      0.0,
-     {"hand", "hand", "wrist", "wrist", "hand", "hand", "hand", "hand", "hand", "hand", "hand", "hand", "hand", "wrist", "wrist"}},
+     {"hand", "hand", "wrist", "wrist", "hand", "hand", "hand", "hand", "hand", "hand", "hand", "hand", "hand", "wrist",
+      "wrist"}},
     {PartKind::leg,
      1,
      0.0,
-     {"thigh", "upleg", "femur", "hip", "upleg", "thigh", "thigh", "upperleg", "thigh", "thigh thighbend", "thigh", "thigh", "thigh", "hip",
-      "hip"}},
+     {"thigh", "upleg", "femur", "hip", "upleg", "thigh", "thigh", "upperleg", "thigh", "thigh thighbend", "thigh",
+      "thigh", "thigh", "hip", "hip"}},
     {PartKind::leg,
      1,
      0.0,
-     {"shin", "leg", "tibia", "knee", "leg", "shin", "calf", "lowerleg", "shin", "shin", "calf", "calf", "shin", "knee", "knee"}},
+     {"shin", "leg", "tibia", "knee", "leg", "shin", "calf", "lowerleg", "shin", "shin", "calf", "calf", "shin", "knee",
+      "knee"}},
     {PartKind::limb,
      1,
      0.0,
-     {"foot", "foot", "foot", "ankle", "foot", "foot", "foot", "foot", "foot", "foot", "foot", "foot", "foot", "ankle", "ankle"}},
+     {"foot", "foot", "foot", "ankle", "foot", "foot", "foot", "foot", "foot", "foot", "foot", "foot", "foot", "ankle",
+      "ankle"}},
     {PartKind::limb,
      0,
      0.0,
-     {"", "toebase", "toes", "toes", "toebase toe", "toe", "ball", "toebase toes toe", "toe", "toe toes", "toe0", "toebase", "toe", "toe",
-      "foot"}},
+     {"", "toebase", "toes", "toes", "toebase toe", "toe", "ball", "toebase toes toe", "toe", "toe toes", "toe0",
+      "toebase", "toe", "toe", "foot"}},
 };
 
-constexpr int chest_row = 3, neck_row = 5, head_row = 7, upper_arm_row = 9, forearm_row = 10, hand_row = 12, thigh_row = 13, shin_row = 14,
-              foot_row = 15;
+constexpr int chest_row = 3, neck_row = 5, head_row = 7, upper_arm_row = 9, forearm_row = 10, hand_row = 12,
+              thigh_row = 13, shin_row = 14, foot_row = 15;
 
-// Words in the names of joints that a body may lack without being another one: fingers, toes, the face, twists, goals of kinematics.
-const std::set<std::string> small_parts = {"finger", "fingers", "thumb", "index", "middle", "ring", "pinky", "little", "metacarpal",
-                                           "palm",   "toe",     "toes",  "ball",  "eye",    "jaw",  "twist", "ik"};
+// Words in the names of joints that a body may lack without being another one: fingers, toes, the face, twists, goals
+// of kinematics.
+const std::set<std::string> small_parts = {"finger", "fingers", "thumb",      "index", "middle", "ring",
+                                           "pinky",  "little",  "metacarpal", "palm",  "toe",    "toes",
+                                           "ball",   "eye",     "jaw",        "twist", "ik"};
 
-// Words that rigs put in front of all their joints: Rigify, Mixamo, 3ds Max, Character Creator, VRoid, Source, SMPL's averages.
-const std::set<std::string> rig_prefixes = {"def", "org", "bip", "bip01", "bip001", "cc", "base", "j", "valvebiped", "avg"};
+// Words that rigs put in front of all their joints: Rigify, Mixamo, 3ds Max, Character Creator, VRoid, Source, SMPL's
+// averages.
+const std::set<std::string> rig_prefixes = {"def", "org",  "bip", "bip01",      "bip001",
+                                            "cc",  "base", "j",   "valvebiped", "avg"};
 
 struct JointKey {
     std::string stem;  // in lower case without separators, side, namespace and prefix of a rig
@@ -131,7 +145,8 @@ std::vector<std::string> words_in_name(const std::string& name)
     const std::size_t first = name.find_last_of(":|") + 1;
     for (std::size_t at = first; at < name.size(); ++at) {
         const bool separates = byte(at) < 128 && !std::isalnum(byte(at));
-        const bool begins = std::isupper(byte(at)) && at > first && (!std::isupper(byte(at - 1)) || std::islower(byte(at + 1)));
+        const bool begins =
+            std::isupper(byte(at)) && at > first && (!std::isupper(byte(at - 1)) || std::islower(byte(at + 1)));
         if ((separates || begins) && !words.back().empty()) words.emplace_back();
         if (!separates) words.back() += static_cast<char>(std::tolower(byte(at)));
     }
@@ -201,8 +216,9 @@ JointKey key_of(const std::vector<std::string>& words)
     return key;
 }
 
-// Without what exporters add to all names, the words that most of them begin with and the number that most of them end with (Model_Hips,
-// Hips_01): of two thirds of the names, end sites aside, and of four or more. Names that would become equal keep their numbers.
+// Without what exporters add to all names, the words that most of them begin with and the number that most of them end
+// with (Model_Hips, Hips_01): of two thirds of the names, end sites aside, and of four or more. Names that would become
+// equal keep their numbers.
 std::vector<JointKey> keys_of(const std::vector<std::string>& names)
 {
     using Words = std::vector<std::string>;
@@ -222,7 +238,9 @@ std::vector<JointKey> keys_of(const std::vector<std::string>& names)
         std::vector<Words> shorter = words;
         for (Words& name : shorter)
             if (name.size() > 1 && ends_with_number(name)) name.pop_back();
-        if (std::set<Words>(shorter.begin(), shorter.end()).size() == std::set<Words>(words.begin(), words.end()).size()) words = shorter;
+        if (std::set<Words>(shorter.begin(), shorter.end()).size() ==
+            std::set<Words>(words.begin(), words.end()).size())
+            words = shorter;
     }
     for (std::size_t n = 0; n < words.size(); ++n) {  // the first word of each name may be that of most
         const std::string first = words[n].front();
@@ -265,7 +283,8 @@ int scheme_of(const std::vector<JointKey>& keys)
 
 int joint_with(const std::vector<JointKey>& keys, std::string_view stem, char side)
 {
-    const auto found = std::ranges::find_if(keys, [&](const JointKey& key) { return key.stem == stem && key.side == side; });
+    const auto found =
+        std::ranges::find_if(keys, [&](const JointKey& key) { return key.stem == stem && key.side == side; });
     return stem.empty() || found == keys.end() ? -1 : static_cast<int>(found - keys.begin());
 }
 
@@ -304,12 +323,13 @@ std::vector<std::string> known_names(const Clip& clip)
     return names;
 }
 
-// What a name means decides between schemes: the hip of one is the thigh of another. Parts of the trunk are told apart by their names
-// alone.
+// What a name means decides between schemes: the hip of one is the thigh of another. Parts of the trunk are told apart
+// by their names alone.
 bool is_same_part(int part_of_bone, int part_of_joint)
 {
     const auto is_trunk = [](int row) { return row >= 0 && body_parts[row].kind == PartKind::trunk; };
-    return part_of_joint < 0 || part_of_bone == part_of_joint || (is_trunk(part_of_joint) && (part_of_bone < 0 || is_trunk(part_of_bone)));
+    return part_of_joint < 0 || part_of_bone == part_of_joint ||
+           (is_trunk(part_of_joint) && (part_of_bone < 0 || is_trunk(part_of_bone)));
 }
 
 bool is_below(const std::vector<int>& parent, int joint, int above)
@@ -318,10 +338,10 @@ bool is_below(const std::vector<int>& parent, int joint, int above)
     return joint >= 0;
 }
 
-// Bones of a limb without a joint between two that have one, or below one, whose own joint the clip has under another name: it moves
-// between (or below) theirs, on the same side, and no bone follows it.
-std::vector<std::string> torn_limbs(const Clip& clip, const Skeleton& skeleton, const JointMap& map, const std::vector<JointKey>& joints,
-                                    const std::vector<JointKey>& bones, int own)
+// Bones of a limb without a joint between two that have one, or below one, whose own joint the clip has under another
+// name: it moves between (or below) theirs, on the same side, and no bone follows it.
+std::vector<std::string> torn_limbs(const Clip& clip, const Skeleton& skeleton, const JointMap& map,
+                                    const std::vector<JointKey>& joints, const std::vector<JointKey>& bones, int own)
 {
     std::set<int> followed;
     for (const JointMapping& mapping : map.bones) followed.insert({mapping.joint, mapping.twist_joint});
@@ -338,9 +358,12 @@ std::vector<std::string> torn_limbs(const Clip& clip, const Skeleton& skeleton, 
         const bool is_lower_half = part == forearm_row || part == forearm_row + 1 || part == shin_row;
         if (above < 0 || (below < 0 && !is_lower_half)) continue;
         for (int j = 0; j < static_cast<int>(joints.size()); ++j) {
-            const bool is_between = j != map.bones[above].joint && is_below(clip.parent, j, map.bones[above].joint) &&
-                                    (below < 0 || (j != map.bones[below].joint && is_below(clip.parent, map.bones[below].joint, j)));
-            if (!is_between || followed.contains(j) || joints[j].is_small || !joint_moves(clip, static_cast<std::size_t>(j))) continue;
+            const bool is_between =
+                j != map.bones[above].joint && is_below(clip.parent, j, map.bones[above].joint) &&
+                (below < 0 || (j != map.bones[below].joint && is_below(clip.parent, map.bones[below].joint, j)));
+            if (!is_between || followed.contains(j) || joints[j].is_small ||
+                !joint_moves(clip, static_cast<std::size_t>(j)))
+                continue;
             torn.push_back(skeleton.bones[b].name + " (its joint may be " + clip.joints[j] + ")");
             break;
         }
@@ -374,7 +397,9 @@ JointMap joint_map(const Clip& clip, const Skeleton& skeleton)
         JointMapping mapping;
         const int part = is_known ? part_of(bones[b], own) : -1;
         const auto joint_of = [&](int row) { return joint_of_part(joints, row, of_clip, bones[b].side); };
-        const auto is_taken = [&](int joint) { return joint >= 0 && (!by_parts || is_same_part(part, part_of(joints[joint], of_clip))); };
+        const auto is_taken = [&](int joint) {
+            return joint >= 0 && (!by_parts || is_same_part(part, part_of(joints[joint], of_clip)));
+        };
         const auto same = std::ranges::find(clip.joints, skeleton.bones[b].name);
         const int equal = same == clip.joints.end() ? -1 : static_cast<int>(same - clip.joints.begin());
         int alike = joint_with(joints, bones[b].stem, bones[b].side);

@@ -25,7 +25,8 @@ public:
         try {
             json_ = nlohmann::json::parse(text);
         } catch (const nlohmann::json::parse_error& error) {
-            throw InputError(path, line_at(text, error.byte), "", "", "no JSON, or cut short, at byte " + std::to_string(error.byte));
+            throw InputError(path, line_at(text, error.byte), "", "",
+                             "no JSON, or cut short, at byte " + std::to_string(error.byte));
         }
     }
 
@@ -57,13 +58,17 @@ public:
         values.reserve(array.size());
         for (const auto& value : array) {
             if (!(whole ? value.is_number_integer() : value.is_number()))
-                refuse(field + "[" + std::to_string(values.size()) + "]", whole ? "expected a whole number" : "expected a number");
+                refuse(field + "[" + std::to_string(values.size()) + "]",
+                       whole ? "expected a whole number" : "expected a number");
             values.push_back(value.template get<Number>());
         }
         return values;
     }
 
-    [[noreturn]] void refuse(const std::string& field, const std::string& rule) const { throw InputError(path_, 0, field, "", rule); }
+    [[noreturn]] void refuse(const std::string& field, const std::string& rule) const
+    {
+        throw InputError(path_, 0, field, "", rule);
+    }
 
 private:
     std::string path_, hash_;

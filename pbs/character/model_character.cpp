@@ -19,11 +19,12 @@
 namespace pbs {
 namespace {
 
-constexpr int model_version = 2;                       // raised whenever something else is made of the same file, so that the cache knows
+constexpr int model_version = 2;  // raised whenever something else is made of the same file, so that the cache knows
 constexpr double smallest_m = 0.05, largest_m = 20.0;  // of a body whose unit is believed
-constexpr double far_from_tets = 0.01;                 // over the diagonal of the body; the wrap alone takes up to 0.008
-constexpr int most_poses = 24;                         // of an animation, evenly in time
-constexpr const char* open_surface = "; the surface is open, and the tets fill a layer along it: close it where it should enclose flesh";
+constexpr double far_from_tets = 0.01;  // over the diagonal of the body; the wrap alone takes up to 0.008
+constexpr int most_poses = 24;          // of an animation, evenly in time
+constexpr const char* open_surface =
+    "; the surface is open, and the tets fill a layer along it: close it where it should enclose flesh";
 
 // Parts of the tets through which no bone passes would be held by nothing.
 void leave_out_parts_without_bone(Character& character, const std::string& file, RemarkList& remarks)
@@ -49,7 +50,8 @@ std::vector<Pose> sampled_poses(const RiggedModel& model)
     if (!model.animation) return poses;
     const auto& [start_s, end_s] = std::pair(model.animation->start_s, model.animation->end_s);
     for (int i = 0; i <= most_poses; ++i)
-        poses.push_back(rigid_pose(model.body, node_transforms(model.rig, model.animation, start_s + (end_s - start_s) * i / most_poses)));
+        poses.push_back(rigid_pose(
+            model.body, node_transforms(model.rig, model.animation, start_s + (end_s - start_s) * i / most_poses)));
     return poses;
 }
 
@@ -73,7 +75,8 @@ std::string words_on_cuts(const std::vector<Cut>& cuts, const Skeleton& skeleton
     }
     std::string words = "parts that touch or nearly touch at rest move apart; the flesh is ";
     if (!between.empty()) words += "cut between " + name_list(between);
-    if (!at_joints.empty()) words += (between.empty() ? "open at the joint " : ", and open at the joint ") + name_list(at_joints);
+    if (!at_joints.empty())
+        words += (between.empty() ? "open at the joint " : ", and open at the joint ") + name_list(at_joints);
     return words;
 }
 
@@ -92,8 +95,8 @@ std::vector<bool> joints_without_flesh(const CarriedWeight& weight)
     return without;
 }
 
-// Whether a point belongs to a separate shell whose weights the tets around it carry to at most one half, such as a cape that was
-// left out of the tets. The larger part of a body is no such shell.
+// Whether a point belongs to a separate shell whose weights the tets around it carry to at most one half, such as a
+// cape that was left out of the tets. The larger part of a body is no such shell.
 std::vector<bool> in_shells_without_flesh(const RiggedBody& body, const CarriedWeight& weight)
 {
     const std::size_t points = weight.at_point.size();
@@ -129,17 +132,19 @@ std::vector<std::pair<int, double>> points_of_joints(const RiggedBody& body, con
     return points;
 }
 
-void take_weights(const RiggedBody& body, const std::function<bool(Eigen::Index, const SurfacePoint&)>& may_move, Character& character)
+void take_weights(const RiggedBody& body, const std::function<bool(Eigen::Index, const SurfacePoint&)>& may_move,
+                  Character& character)
 {
-    const TransferredWeights transferred =
-        transfer_weights(character.mesh, body.surface, body.triangles, body.skin, static_cast<int>(body.skeleton.bones.size()), may_move);
+    const TransferredWeights transferred = transfer_weights(character.mesh, body.surface, body.triangles, body.skin,
+                                                            static_cast<int>(body.skeleton.bones.size()), may_move);
     character.artist->weights = transferred.weights;
     character.artist->largest_distance_m = transferred.largest_distance_m;
 }
 
-// of_flesh: the model's body without the triangles that the tets leave out. Cuts the flesh between parts that the skeleton moves apart.
-// Surface and weights follow; without a cut they are those of the nearest points.
-void add_skin(const RiggedModel& model, const RiggedBody& of_flesh, const std::string& file, Character& character, RemarkList& remarks)
+// of_flesh: the model's body without the triangles that the tets leave out. Cuts the flesh between parts that the
+// skeleton moves apart. Surface and weights follow; without a cut they are those of the nearest points.
+void add_skin(const RiggedModel& model, const RiggedBody& of_flesh, const std::string& file, Character& character,
+              RemarkList& remarks)
 {
     const RiggedBody& body = model.body;
     const SkinParts parts(of_flesh, sampled_poses(model));
@@ -150,7 +155,9 @@ void add_skin(const RiggedModel& model, const RiggedBody& of_flesh, const std::s
     std::function<bool(Eigen::Index, const SurfacePoint&)> may_move;
     if (!flesh.cuts.empty()) {
         may_carry = [&](Eigen::Index point, int tet) { return !parts.are_apart(parts.at_vertex(point), skin_of(tet)); };
-        may_move = [&](Eigen::Index v, const SurfacePoint& point) { return !parts.are_apart(skin_of(flesh.tet_at(v)), point); };
+        may_move = [&](Eigen::Index v, const SurfacePoint& point) {
+            return !parts.are_apart(skin_of(flesh.tet_at(v)), point);
+        };
         remarks.push_back({Gravity::information, file + ": " + words_on_cuts(flesh.cuts, body.skeleton)});
     }
     character.surface = embed(body.surface, body.triangles, character.mesh, may_carry);
@@ -192,13 +199,15 @@ void add_size(const RiggedBody& body, const std::string& file, RemarkList& remar
     if (relative < 1.0 / most_apart || relative > most_apart) {
         remarks.push_back({Gravity::results_wrong,
                            file + ": the skeleton is " + number_text(relative, 2) +
-                               " times as large as the mesh in the bind pose: one of them was scaled after the mesh was bound; apply the "
+                               " times as large as the mesh in the bind pose: one of them was scaled after the mesh "
+                               "was bound; apply the "
                                "scales of armature and mesh in the program that made the model, and export it again"});
         return;
     }
     const double size_m = (body.surface.colwise().maxCoeff() - body.surface.colwise().minCoeff()).maxCoeff();
     if (size_m >= smallest_m && size_m <= largest_m) return;
-    remarks.push_back({Gravity::part_left_out, file + ": unlikely units: the body's largest extent is " + number_text(size_m, 4) +
+    remarks.push_back({Gravity::part_left_out, file + ": unlikely units: the body's largest extent is " +
+                                                   number_text(size_m, 4) +
                                                    " m; --scale (character.scale in a scene) corrects it"});
 }
 
@@ -206,9 +215,10 @@ void add_sheet(const RiggedBody& body, const std::string& file, RemarkList& rema
 {
     const double offset_m = sheet_offset_m({body.surface, body.triangles});
     if (offset_m > 0.0)
-        remarks.push_back({Gravity::results_wrong, file + ": the surface encloses no volume; the tets fill a layer on both sides of it, " +
-                                                       number_text(100.0 * offset_m / diagonal_m(body.surface), 3) +
-                                                       " % of the body's size thick"});
+        remarks.push_back({Gravity::results_wrong,
+                           file + ": the surface encloses no volume; the tets fill a layer on both sides of it, " +
+                               number_text(100.0 * offset_m / diagonal_m(body.surface), 3) +
+                               " % of the body's size thick"});
 }
 
 // The number of handles of a watertight surface, by V - E + F = 2 (parts - handles). It is 0 for an open surface.
@@ -232,27 +242,31 @@ int handles_of(const Triangles& triangles)
     return parts - euler / 2;
 }
 
-// What the verb `mesh` refuses: tets of another volume or another shape than the surface. A surface without volume has its own remark.
+// What the verb `mesh` refuses: tets of another volume or another shape than the surface. A surface without volume has
+// its own remark.
 void add_shape(const RiggedBody& body, const Character& character, const std::string& file, RemarkList& remarks)
 {
     const TetMesh& mesh = character.mesh;
     if (sheet_offset_m({body.surface, body.triangles}) > 0.0) return;
     const double ratio = tet_volumes(mesh.rest, mesh.tets).sum() / std::abs(fan_volume(body.surface, body.triangles));
     if (ratio < 0.5 || ratio > 2.0)
-        remarks.push_back(
-            {Gravity::results_wrong,
-             file + ": the tets hold " + number_text(ratio, 3) +
-                 " times the volume that the surface seems to enclose: it is open, or its triangles are not oriented one way; "
-                 "close the surface or orient its triangles outward in the program that made it"});
+        remarks.push_back({Gravity::results_wrong,
+                           file + ": the tets hold " + number_text(ratio, 3) +
+                               " times the volume that the surface seems to enclose: it is open, or its triangles are "
+                               "not oriented one way; "
+                               "close the surface or orient its triangles outward in the program that made it"});
     const Topology shape = topology_of(mesh.tets, mesh.rest.rows());
     const int handles = shape.boundary_components - shape.boundary_euler / 2,
               own = handles_of(joined_triangles(body.surface, body.triangles));
     if (handles <= own) return;
     constexpr double nearly_all_pct = 95.0;  // what grew together moves as the artist wants it, then
-    const bool does_no_harm = !body.skeleton.bones.empty() && carried_weight_of(body, character).share_pct() > nearly_all_pct;
+    const bool does_no_harm =
+        !body.skeleton.bones.empty() && carried_weight_of(body, character).share_pct() > nearly_all_pct;
     remarks.push_back({does_no_harm ? Gravity::information : Gravity::results_wrong,
-                       file + ": the tets have " + std::to_string(handles) + " handles and the model has " + std::to_string(own) +
-                           " (by their Euler numbers): parts that nearly touch have grown together; --vertices (character.vertices in a "
+                       file + ": the tets have " + std::to_string(handles) + " handles and the model has " +
+                           std::to_string(own) +
+                           " (by their Euler numbers): parts that nearly touch have grown together; --vertices "
+                           "(character.vertices in a "
                            "scene) asks for finer tets"});
 }
 
@@ -264,39 +278,44 @@ void add_bones_outside(const RiggedBody& body, const TetMesh& mesh, const std::s
         moved[static_cast<std::size_t>(body.skin.bone[e])] += body.skin.weight[e] / body.skin.vertices();
     std::vector<std::string> outside;
     std::vector<bool> is_inside(body.skeleton.bones.size(), false);
-    for (const auto& [bone, tet] : bones_in_tets(mesh, body.skeleton, 1.0 / 6.0)) is_inside[static_cast<std::size_t>(bone)] = true;
+    for (const auto& [bone, tet] : bones_in_tets(mesh, body.skeleton, 1.0 / 6.0))
+        is_inside[static_cast<std::size_t>(bone)] = true;
     for (std::size_t b = 0; b < is_inside.size(); ++b)
         if (!is_inside[b] && moved[b] >= little) outside.push_back(body.skeleton.bones[b].name);
-    const bool is_layer = outside.size() == body.skeleton.bones.size() && !is_watertight(joined_triangles(body.surface, body.triangles));
+    const bool is_layer =
+        outside.size() == body.skeleton.bones.size() && !is_watertight(joined_triangles(body.surface, body.triangles));
     if (!outside.empty())
-        remarks.push_back(
-            {Gravity::part_left_out, file + ": " + std::to_string(outside.size()) + " of " + std::to_string(body.skeleton.bones.size()) +
-                                         " bones lie outside the body: " + name_list(outside) + (is_layer ? open_surface : "")});
+        remarks.push_back({Gravity::part_left_out, file + ": " + std::to_string(outside.size()) + " of " +
+                                                       std::to_string(body.skeleton.bones.size()) +
+                                                       " bones lie outside the body: " + name_list(outside) +
+                                                       (is_layer ? open_surface : "")});
 }
 
 void add_distance(const RiggedBody& body, double distance_m, const std::string& file, RemarkList& remarks)
 {
     if (const double share = distance_m / diagonal_m(body.surface); share > far_from_tets)
-        remarks.push_back({Gravity::part_left_out, file + ": the boundary of the tets lies up to " + number_text(100.0 * share, 3) +
+        remarks.push_back({Gravity::part_left_out, file + ": the boundary of the tets lies up to " +
+                                                       number_text(100.0 * share, 3) +
                                                        " % of the body's size from the surface of the model"});
 }
 
-void add_joints_without_flesh(const RiggedBody& body, const Character& character, const std::string& file, RemarkList& remarks)
+void add_joints_without_flesh(const RiggedBody& body, const Character& character, const std::string& file,
+                              RemarkList& remarks)
 {
     const std::vector<bool> is_without = joints_without_flesh(carried_weight_of(body, character));
     std::vector<std::string> without;
     for (std::size_t b = 0; b < is_without.size(); ++b)
         if (is_without[b]) without.push_back(body.skeleton.bones[b].name);
     if (!without.empty())
-        remarks.push_back(
-            {Gravity::part_left_out,
-             file + ": " + std::to_string(without.size()) + " of " + std::to_string(is_without.size()) +
-                 " joints are without flesh, for the tets are too coarse for what they move, and the surface alone follows them: " +
-                 name_list(without)});
+        remarks.push_back({Gravity::part_left_out, file + ": " + std::to_string(without.size()) + " of " +
+                                                       std::to_string(is_without.size()) +
+                                                       " joints are without flesh, for the tets are too coarse for "
+                                                       "what they move, and the surface alone follows them: " +
+                                                       name_list(without)});
 }
 
-// The tets of this part of the body's surface, which depend on the surface alone: other animations, weights or joints in the file leave
-// them as they are. The mesher does not know the name of the file.
+// The tets of this part of the body's surface, which depend on the surface alone: other animations, weights or joints
+// in the file leave them as they are. The mesher does not know the name of the file.
 Character meshed(const SurfaceMesh& part, double offset_m, const Skeleton& skeleton, const ModelSource& source)
 {
     std::string made_from = std::to_string(model_version) + "|" + std::to_string(part.points.rows()) + "|";
@@ -309,7 +328,8 @@ Character meshed(const SurfaceMesh& part, double offset_m, const Skeleton& skele
         .skeleton = skeleton.bones.empty() ? source.skeleton : skeleton,
         .surface = [&] { return part; },
         // The model may have any number of handles and parts, and its joints may lie outside.
-        .meshing = {.wrap_offset_m = offset_m, .boundary_euler = {}, .is_closed = false, .is_one_piece = false, .inside = {}}};
+        .meshing = {
+            .wrap_offset_m = offset_m, .boundary_euler = {}, .is_closed = false, .is_one_piece = false, .inside = {}}};
     try {
         return make_surface_body(surface, source.vertices > 0 ? source.vertices : default_model_vertices, false);
     } catch (const TooManyTets& error) {
@@ -319,8 +339,8 @@ Character meshed(const SurfaceMesh& part, double offset_m, const Skeleton& skele
     }
 }
 
-// Where parts are too thin for the tets, separate ones are left out of them and of `body`, and what is still too thin is wrapped at a
-// distance.
+// Where parts are too thin for the tets, separate ones are left out of them and of `body`, and what is still too thin
+// is wrapped at a distance.
 Character meshed(RiggedBody& body, const ModelSource& source, RemarkList& remarks)
 {
     const SurfaceMesh whole = {body.surface, body.triangles};
@@ -332,8 +352,9 @@ Character meshed(RiggedBody& body, const ModelSource& source, RemarkList& remark
     body.triangles = thick.triangles;
     const SurfaceMesh part = used_part({body.surface, body.triangles});
     if (thick.left_out > 0) {
-        remarks.push_back({Gravity::part_left_out, source.file + ": " + std::to_string(thick.left_out) +
-                                                       " separate parts of the surface are thinner than the tets, and left out of them"});
+        remarks.push_back({Gravity::part_left_out,
+                           source.file + ": " + std::to_string(thick.left_out) +
+                               " separate parts of the surface are thinner than the tets, and left out of them"});
         try {
             return meshed(part, 0.0, body.skeleton, source);
         } catch (const TooManyTets&) {
@@ -341,11 +362,12 @@ Character meshed(RiggedBody& body, const ModelSource& source, RemarkList& remark
     }
     constexpr double distance = 1.0 / 85.0;  // over the size: the largest one at which an open surface is wrapped
     Character character = meshed(part, distance * diagonal_m(part.points), body.skeleton, source);
-    remarks.push_back({Gravity::results_wrong, source.file +
-                                                   ": parts of the body are thinner than the tets, which enclose it at a distance of " +
-                                                   number_text(100.0 * distance, 2) +
-                                                   " % of its size: the flesh is that much thicker than the model; --vertices "
-                                                   "(character.vertices in a scene) asks for finer tets"});
+    remarks.push_back({Gravity::results_wrong,
+                       source.file +
+                           ": parts of the body are thinner than the tets, which enclose it at a distance of " +
+                           number_text(100.0 * distance, 2) +
+                           " % of its size: the flesh is that much thicker than the model; --vertices "
+                           "(character.vertices in a scene) asks for finer tets"});
     return character;
 }
 
@@ -368,11 +390,13 @@ Character make_model_character(const ModelSource& source, RemarkList& remarks)
     const RiggedBody& body = model->body;
     const bool rigged = !body.skeleton.bones.empty();
     if (!rigged && source.skeleton.bones.empty())
-        throw InputError(source.file, 0, "skins", "0",
-                         "the file has no joints: expected a skeleton (character.skeleton in a scene, --skeleton of `pbskin try`)");
+        throw InputError(
+            source.file, 0, "skins", "0",
+            "the file has no joints: expected a skeleton (character.skeleton in a scene, --skeleton of `pbskin try`)");
     if (rigged && !source.skeleton.bones.empty())
-        throw InputError(source.file, 0, "joints of the skins", std::to_string(body.skeleton.bones.size()),
-                         "expected no other skeleton (character.skeleton, --skeleton): the model has joints of its own");
+        throw InputError(
+            source.file, 0, "joints of the skins", std::to_string(body.skeleton.bones.size()),
+            "expected no other skeleton (character.skeleton, --skeleton): the model has joints of its own");
 
     const auto hashed = input.hashed();
     RiggedBody of_flesh = body;
@@ -397,7 +421,8 @@ Positions surface_positions(const Character& character, const Positions& positio
     Positions points = embedded_positions(*character.surface, positions, character.mesh.tets);
     if (!character.artist || character.artist->of_joints.empty()) return points;
     const Positions by_joints = artist_points(character.artist->model->body, pose);
-    for (const auto& [p, share] : character.artist->of_joints) points.row(p) = (1.0 - share) * points.row(p) + share * by_joints.row(p);
+    for (const auto& [p, share] : character.artist->of_joints)
+        points.row(p) = (1.0 - share) * points.row(p) + share * by_joints.row(p);
     return points;
 }
 

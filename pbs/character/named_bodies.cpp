@@ -11,8 +11,9 @@ namespace {
 constexpr int surface_mesher_version = 3;  // raised whenever mesh_surface makes something else of the same surface
 
 // The ring has these dimensions.
-constexpr int ring_version = 1;                                              // raised with what is below, so that the cache knows
-constexpr double ring_strand = 0.36, ring_apart = 0.14, tube_radius = 0.07;  // [m] half the strands' length, half their distance
+constexpr int ring_version = 1;  // raised with what is below, so that the cache knows
+// [m] half the strands' length, half their distance
+constexpr double ring_strand = 0.36, ring_apart = 0.14, tube_radius = 0.07;
 constexpr double ring_end = ring_strand + ring_apart;
 constexpr int around_tube = 32;
 constexpr double ring_spacing = 0.015;  // [m] of the surface along the strands
@@ -39,9 +40,11 @@ std::vector<Centre> centre_line()
               turn = static_cast<int>(std::numbers::pi * ring_apart / ring_spacing);
     for (const double side : {1.0, -1.0}) {
         for (int i = 0; i < straight; ++i)
-            line.push_back({{side * ring_apart, side * (2.0 * ring_strand * i / straight - ring_strand), 0.0}, {side, 0.0, 0.0}});
+            line.push_back(
+                {{side * ring_apart, side * (2.0 * ring_strand * i / straight - ring_strand), 0.0}, {side, 0.0, 0.0}});
         for (int i = 0; i < turn; ++i) {
-            const Vec3 outward = side * Vec3(std::cos(std::numbers::pi * i / turn), std::sin(std::numbers::pi * i / turn), 0.0);
+            const Vec3 outward =
+                side * Vec3(std::cos(std::numbers::pi * i / turn), std::sin(std::numbers::pi * i / turn), 0.0);
             line.push_back({Vec3(0.0, side * ring_strand, 0.0) + ring_apart * outward, outward});
         }
     }
@@ -84,7 +87,8 @@ std::string makehuman_folder()
 
 MakehumanFiles makehuman_files(const std::string& folder)
 {
-    return {folder + "/human_full_size.json", folder + "/default.json", folder + "/target-list.json", folder + "/targets.bin"};
+    return {folder + "/human_full_size.json", folder + "/default.json", folder + "/target-list.json",
+            folder + "/targets.bin"};
 }
 
 Character make_surface_body(const SurfaceBody& body, int vertices, bool with_surface)
@@ -92,8 +96,8 @@ Character make_surface_body(const SurfaceBody& body, int vertices, bool with_sur
     Character character;
     character.name = body.name;
     character.skeleton = body.skeleton;
-    const std::string key =
-        body.name + "-" + std::to_string(vertices) + "-" + content_hash(body.made_from + std::to_string(surface_mesher_version));
+    const std::string key = body.name + "-" + std::to_string(vertices) + "-" +
+                            content_hash(body.made_from + std::to_string(surface_mesher_version));
     character.mesh = cached_mesh(key, [&] { return mesh_surface(body.surface(), meshing_of(body, vertices)); });
     if (with_surface) {
         const SurfaceMesh surface = body.surface();
@@ -104,11 +108,12 @@ Character make_surface_body(const SurfaceBody& body, int vertices, bool with_sur
 
 Character make_ring(const std::string& name, int vertices, bool)
 {
-    const SurfaceBody body{.name = name,
-                           .made_from = std::to_string(ring_version),
-                           .skeleton = ring_skeleton(),
-                           .surface = ring_surface,
-                           .meshing = {.boundary_euler = 0, .inside = {Vec3(ring_apart, 0.0, 0.0), Vec3(-ring_apart, 0.0, 0.0)}}};
+    const SurfaceBody body{
+        .name = name,
+        .made_from = std::to_string(ring_version),
+        .skeleton = ring_skeleton(),
+        .surface = ring_surface,
+        .meshing = {.boundary_euler = 0, .inside = {Vec3(ring_apart, 0.0, 0.0), Vec3(-ring_apart, 0.0, 0.0)}}};
     return make_surface_body(body, vertices, false);
 }
 

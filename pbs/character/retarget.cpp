@@ -21,15 +21,19 @@ constexpr double same_rotation_rad = 1e-4;  // of keys in single precision, with
 
 // The plan of one bone. Without a joint it follows its parent.
 struct BoneFollowing : JointMapping {
-    Eigen::Quaterniond alignment = Eigen::Quaterniond::Identity();  // A: rest direction of the bone -> limb in the rest pose
-    Vec3 limb = Vec3::Zero();                                       // to the end of the joint's limb in the rest pose [clip's units]
+    // A: rest direction of the bone -> limb in the rest pose
+    Eigen::Quaterniond alignment = Eigen::Quaterniond::Identity();
+    // to the end of the joint's limb in the rest pose [clip's units]
+    Vec3 limb = Vec3::Zero();
 };
 
 // The plans of all bones of a skeleton, in its order.
 struct RetargetPlan {
     std::vector<BoneFollowing> bones;  // #bones
-    double scale = 1.0;  // [m] per clip unit: bones' lengths over limbs', of the legs where they are known, else of all that follow
-    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // C: from the axes of the clip's body to those of the skeleton's
+    double scale = 1.0;  // [m] per clip unit: bones' lengths over limbs', of the legs where they are known, else of all
+                         // that follow
+    // C: from the axes of the clip's body to those of the skeleton's
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
     Rotations rest;       // turns of the joints from the zero pose to the rest pose, #joints; empty: they are one
     int root_joint = -1;  // that moves the root bone
 };
@@ -42,8 +46,8 @@ std::vector<int> children_of(const Clip& clip, int joint)
     return children;
 }
 
-// Vector from the joint to the first of limb_end and its descendants at another position, along first children; zero where there is none.
-// limb_end -1: the joint's children, of which a thumb points to the side of its hand.
+// Vector from the joint to the first of limb_end and its descendants at another position, along first children; zero
+// where there is none. limb_end -1: the joint's children, of which a thumb points to the side of its hand.
 Vec3 limb_of(const Clip& clip, const Positions& rest, int joint, int limb_end)
 {
     const double extent = diagonal_m(rest);
@@ -60,7 +64,8 @@ Vec3 limb_of(const Clip& clip, const Positions& rest, int joint, int limb_end)
 Rotations global_rotations(const Rotations& local, const std::vector<int>& parent)
 {
     Rotations global;
-    for (std::size_t j = 0; j < local.size(); ++j) global.push_back(parent[j] < 0 ? local[j] : global[parent[j]] * local[j]);
+    for (std::size_t j = 0; j < local.size(); ++j)
+        global.push_back(parent[j] < 0 ? local[j] : global[parent[j]] * local[j]);
     return global;
 }
 
@@ -86,10 +91,10 @@ RetargetPlan plan_retargeting(const Clip& clip, const Skeleton& skeleton, const 
     if (plan.root_joint < 0) {
         std::vector<std::string> names;
         for (const Bone& bone : skeleton.bones) names.push_back(bone.name);
-        throw InputError(
-            clip.name, 0, "joints", name_list(clip.joints),
-            "no joint has the name of a bone (bones: " + name_list(names) +
-                "): rename the joints of the clip as the bones, or as those of Mixamo or another program that motion.clip knows");
+        throw InputError(clip.name, 0, "joints", name_list(clip.joints),
+                         "no joint has the name of a bone (bones: " + name_list(names) +
+                             "): rename the joints of the clip as the bones, or as those of Mixamo or another program "
+                             "that motion.clip knows");
     }
     const int rest_frame_of_clip = rest_frame(clip, map.of_clip);
     const Positions& rest = rest_places(clip, rest_frame_of_clip);
@@ -201,13 +206,18 @@ int first_frame_of_motion(const Clip& clip)
     const auto is_unturned = [](const Eigen::Quaterniond& turn) {
         return turn.angularDistance(Eigen::Quaterniond::Identity()) <= same_rotation_rad;
     };
-    return std::ranges::all_of(clip.local.front(), is_unturned) || is_t_or_a_pose(clip.places.front(), body_joints(clip)) ? 1 : 0;
+    return std::ranges::all_of(clip.local.front(), is_unturned) ||
+                   is_t_or_a_pose(clip.places.front(), body_joints(clip))
+               ? 1
+               : 0;
 }
 
-Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& sampling, std::vector<PartAngle>* angles)
+Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& sampling,
+                std::vector<PartAngle>* angles)
 {
     const int first = sampling.drops_rest_pose ? first_frame_of_motion(clip) : 0;
-    if (clip.frames() <= first) throw InputError(clip.name, 0, "Frames", std::to_string(clip.frames()), "no frame is left after the first");
+    if (clip.frames() <= first)
+        throw InputError(clip.name, 0, "Frames", std::to_string(clip.frames()), "no frame is left after the first");
     const JointMap map = joint_map(clip, skeleton);
     const RetargetPlan plan = plan_retargeting(clip, skeleton, map);
     const std::vector<BodySegment> segments = body_segments(map);
@@ -225,12 +235,13 @@ Motion retarget(const Clip& clip, const Skeleton& skeleton, const ClipSampling& 
         const ClipPose source = sample(clip, first + time_s / clip.frame_time_s);
         const Vec3 moved = plan.scale * (source.places.row(plan.root_joint) - clip.places[first].row(plan.root_joint));
         motion.steps.push_back(pose_of(plan, skeleton, joint_turns(plan, clip, source.local), plan.axes * moved));
-        const Positions body = posed_heads(skeleton, motion.steps.back()), joints = source.places * plan.axes.transpose();
+        const Positions body = posed_heads(skeleton, motion.steps.back()),
+                        joints = source.places * plan.axes.transpose();
         if (step == 0) check_trunk(clip, map, body, joints);
         for (std::size_t s = 0; s < segments.size(); ++s)
-            found[s].largest_deg =
-                std::max(found[s].largest_deg, angle_deg(body.row(segments[s].to_bone) - body.row(segments[s].from_bone),
-                                                         joints.row(segments[s].to_joint) - joints.row(segments[s].from_joint)));
+            found[s].largest_deg = std::max(
+                found[s].largest_deg, angle_deg(body.row(segments[s].to_bone) - body.row(segments[s].from_bone),
+                                                joints.row(segments[s].to_joint) - joints.row(segments[s].from_joint)));
     }
     if (angles) *angles = found;
     return motion;
@@ -264,7 +275,9 @@ double largest_rotation_deg(const Motion& motion)
     double largest = 0.0;
     for (const Pose& pose : motion.steps)
         for (std::size_t bone = 0; bone < pose.size(); ++bone)
-            largest = std::max(largest, Eigen::AngleAxisd(motion.steps.front()[bone].linear().transpose() * pose[bone].linear()).angle());
+            largest = std::max(
+                largest,
+                Eigen::AngleAxisd(motion.steps.front()[bone].linear().transpose() * pose[bone].linear()).angle());
     return largest * 180.0 / M_PI;
 }
 
@@ -289,10 +302,12 @@ Skeleton skeleton_from_clip(const Clip& clip, double scale)
         bone_of[j] = above;
         if (child[j] < 0) continue;
         bone_of[j] = static_cast<int>(skeleton.bones.size());
-        skeleton.bones.push_back({clip.joints[j], above, scale * rest.row(j).transpose(), scale * rest.row(child[j]).transpose()});
+        skeleton.bones.push_back(
+            {clip.joints[j], above, scale * rest.row(j).transpose(), scale * rest.row(child[j]).transpose()});
     }
     if (skeleton.bones.empty())
-        throw InputError(clip.name, 0, "joints", std::to_string(clip.joints.size()), "expected joints apart from each other");
+        throw InputError(clip.name, 0, "joints", std::to_string(clip.joints.size()),
+                         "expected joints apart from each other");
     return skeleton;
 }
 
@@ -303,8 +318,9 @@ std::string find_clip(const std::string& name, const std::string& folder)
     std::error_code code;  // a name that is too long, or a loop of links, is no file either
     for (const fs::path& candidate : {fs::path(name), fs::path(folder) / name, fs::path(installed_folder) / name})
         if (fs::is_regular_file(candidate, code)) return candidate.string();
-    throw InputError("", 0, "motion.clip", name,
-                     "not found as it is, in '" + folder + "' or in " + installed_folder + " (package assimp-testmodels)");
+    throw InputError(
+        "", 0, "motion.clip", name,
+        "not found as it is, in '" + folder + "' or in " + installed_folder + " (package assimp-testmodels)");
 }
 
 }  // namespace pbs

@@ -14,7 +14,7 @@ namespace {
 
 const double moved_by_30_deg = 2.0 * std::sin(M_PI / 12.0);  // the way of a point over its distance from the joint
 constexpr int least_places = 5, most_places = 1000;          // on a bone, at least two per tet
-constexpr double longest_way = 3.0;                          // along the skin, over the straight one; around an arm it is pi / 2
+constexpr double longest_way = 3.0;  // along the skin, over the straight one; around an arm it is pi / 2
 
 // The difference of the weights at two points, by bone.
 using WeightDifference = std::map<int, double>;
@@ -28,14 +28,16 @@ void add_weights(const RiggedBody& body, const SurfacePoint& point, double sign,
     }
 }
 
-// The triangles with one number for all points at a place that move alike, as along a seam of the texture. Lips that touch stay two points.
+// The triangles with one number for all points at a place that move alike, as along a seam of the texture. Lips that
+// touch stay two points.
 Triangles joined_skin(const RiggedBody& body)
 {
     std::map<std::vector<double>, int> first;
     std::vector<int> number;
     for (Eigen::Index v = 0; v < body.surface.rows(); ++v) {
         std::map<int, double> weights;
-        for (int e = body.skin.first[static_cast<std::size_t>(v)]; e < body.skin.first[static_cast<std::size_t>(v) + 1]; ++e)
+        for (int e = body.skin.first[static_cast<std::size_t>(v)]; e < body.skin.first[static_cast<std::size_t>(v) + 1];
+             ++e)
             weights[body.skin.bone[static_cast<std::size_t>(e)]] += body.skin.weight[static_cast<std::size_t>(e)];
         std::vector<double> key = {body.surface(v, 0), body.surface(v, 1), body.surface(v, 2)};
         for (const auto& [bone, weight] : weights) key.insert(key.end(), {double(bone), weight});
@@ -67,7 +69,8 @@ std::vector<int> parts_without(const std::vector<SharedFace>& faces, const std::
     std::map<int, int> number;
     std::vector<int> part;
     for (std::size_t t = 0; t < tets; ++t)
-        part.push_back(number.try_emplace(classes.find(static_cast<int>(t)), static_cast<int>(number.size())).first->second);
+        part.push_back(
+            number.try_emplace(classes.find(static_cast<int>(t)), static_cast<int>(number.size())).first->second);
     return part;
 }
 
@@ -79,10 +82,12 @@ int corner_of(const Tets& tets, int tet, int vertex)
 }
 
 // A piece without a bone that moves its skin stays with the piece that it shares most faces with.
-void keep_pieces_without_bone(const TetMesh& mesh, const SkinParts& parts, const std::vector<SurfacePoint>& skin, const Skeleton& skeleton,
-                              const std::vector<SharedFace>& faces, std::vector<bool>& is_cut)
+void keep_pieces_without_bone(const TetMesh& mesh, const SkinParts& parts, const std::vector<SurfacePoint>& skin,
+                              const Skeleton& skeleton, const std::vector<SharedFace>& faces, std::vector<bool>& is_cut)
 {
-    const auto moves_skin = [&](int tet, int bone) { return parts.weight_at(skin[static_cast<std::size_t>(tet)], bone) > 0.0; };
+    const auto moves_skin = [&](int tet, int bone) {
+        return parts.weight_at(skin[static_cast<std::size_t>(tet)], bone) > 0.0;
+    };
     while (true) {  // each pass joins pieces
         const std::vector<int> part = parts_without(faces, is_cut, static_cast<std::size_t>(mesh.tets.rows()));
         const std::vector<bool> has_bone = has_bone_inside(mesh, part, skeleton, moves_skin);
@@ -97,7 +102,8 @@ void keep_pieces_without_bone(const TetMesh& mesh, const SkinParts& parts, const
             joins[own] = std::ranges::max_element(others, {}, [](const auto& one) { return one.second; })->first;
         const auto is_joined = [&](int own, int other) { return joins.contains(own) && joins.at(own) == other; };
         for (std::size_t f = 0; f < faces.size(); ++f)
-            if (const int one = of(faces[f].first), other = of(faces[f].second); is_joined(one, other) || is_joined(other, one))
+            if (const int one = of(faces[f].first), other = of(faces[f].second);
+                is_joined(one, other) || is_joined(other, one))
                 is_cut[f] = false;
     }
 }
@@ -108,7 +114,9 @@ TetMesh split(const TetMesh& mesh, const std::vector<SharedFace>& faces, const s
     Classes corners(static_cast<std::size_t>(mesh.tets.size()));
     for (std::size_t f = 0; f < faces.size(); ++f)
         for (const int vertex : faces[f].vertices)
-            if (!is_cut[f]) corners.unite(corner_of(mesh.tets, faces[f].first, vertex), corner_of(mesh.tets, faces[f].second, vertex));
+            if (!is_cut[f])
+                corners.unite(corner_of(mesh.tets, faces[f].first, vertex),
+                              corner_of(mesh.tets, faces[f].second, vertex));
     TetMesh made = mesh;
     std::map<int, int> vertex_of_class;
     std::vector<bool> is_taken(static_cast<std::size_t>(mesh.rest.rows()));
@@ -164,7 +172,8 @@ SkinParts::SkinParts(const RiggedBody& body, std::vector<Pose> poses)
             const double length_m = (body.surface.row(from) - body.surface.row(to)).norm();
             ways_[static_cast<std::size_t>(from)].push_back({to, length_m});
             ways_[static_cast<std::size_t>(to)].push_back({from, length_m});
-            vertices_[static_cast<std::size_t>(body.triangles(t, corner))] = {static_cast<int>(t), Vec3::Unit(corner), 0.0};
+            vertices_[static_cast<std::size_t>(body.triangles(t, corner))] = {static_cast<int>(t), Vec3::Unit(corner),
+                                                                              0.0};
         }
     Classes shells(ways_.size());
     for (const auto& triangle : joined_.rowwise())
@@ -214,8 +223,8 @@ bool SkinParts::are_apart(const SurfacePoint& a, const SurfacePoint& b) const
     return moved_apart_m(a, b) > least_apart * diagonal_m_ && !are_near_along_skin(a, b);
 }
 
-// sum_j (w_j(a) - w_j(b)) T_j x at the middle x of the two points. If joint k alone turns, T_j differs from the identity for k and the
-// bones below it.
+// sum_j (w_j(a) - w_j(b)) T_j x at the middle x of the two points. If joint k alone turns, T_j differs from the
+// identity for k and the bones below it.
 double SkinParts::moved_apart_m(const SurfacePoint& a, const SurfacePoint& b) const
 {
     WeightDifference difference, below;
@@ -224,10 +233,12 @@ double SkinParts::moved_apart_m(const SurfacePoint& a, const SurfacePoint& b) co
     const Vec3 middle = 0.5 * (place(a) + place(b));
     const std::vector<Bone>& bones = body_.skeleton.bones;
     for (const auto& [bone, weight] : difference)
-        for (int joint = bone; joint >= 0; joint = bones[static_cast<std::size_t>(joint)].parent) below[joint] += weight;
+        for (int joint = bone; joint >= 0; joint = bones[static_cast<std::size_t>(joint)].parent)
+            below[joint] += weight;
     double most_m = 0.0;
     for (const auto& [joint, weight] : below)
-        most_m = std::max(most_m, std::abs(weight) * moved_by_30_deg * (middle - bones[static_cast<std::size_t>(joint)].head).norm());
+        most_m = std::max(
+            most_m, std::abs(weight) * moved_by_30_deg * (middle - bones[static_cast<std::size_t>(joint)].head).norm());
     for (const Pose& pose : poses_) {
         Vec3 apart = Vec3::Zero();
         for (const auto& [bone, weight] : difference) apart += weight * (pose[static_cast<std::size_t>(bone)] * middle);
@@ -244,7 +255,8 @@ const SkinParts::Ways& SkinParts::ways_from(const SurfacePoint& point, double lo
         ways = {.from = point, .least_m = {}, .next = {}};
         for (int corner = 0; corner < 3; ++corner) {
             const int vertex = joined_(point.triangle, corner);
-            ways.next.emplace(ways.least_m[vertex] = (body_.surface.row(vertex).transpose() - place(point)).norm(), vertex);
+            ways.next.emplace(ways.least_m[vertex] = (body_.surface.row(vertex).transpose() - place(point)).norm(),
+                              vertex);
         }
     }
     while (!ways.next.empty() && ways.next.top().first <= longest_m) {
@@ -261,10 +273,13 @@ const SkinParts::Ways& SkinParts::ways_from(const SurfacePoint& point, double lo
     return ways;
 }
 
-// From the corners of one triangle to those of the other. Edges make a way longer than it is, by up to about an edge at its ends.
+// From the corners of one triangle to those of the other. Edges make a way longer than it is, by up to about an edge at
+// its ends.
 bool SkinParts::are_near_along_skin(const SurfacePoint& a, const SurfacePoint& b) const
 {
-    const auto shell_of = [&](const SurfacePoint& point) { return shell_[static_cast<std::size_t>(joined_(point.triangle, 0))]; };
+    const auto shell_of = [&](const SurfacePoint& point) {
+        return shell_[static_cast<std::size_t>(joined_(point.triangle, 0))];
+    };
     if (shell_of(a) != shell_of(b)) return false;
     const Vec3 to = place(b);
     std::map<int, double> after_m;
@@ -315,14 +330,17 @@ Carrier carrier_of(const Character& character, Eigen::Index vertex)
     std::map<int, double> of_flesh;
     for (int corner = 0; corner < 4; ++corner) {
         const int v = character.mesh.tets(character.surface->tet(vertex), corner);
-        for (int e = in_tets.first[static_cast<std::size_t>(v)]; e < in_tets.first[static_cast<std::size_t>(v) + 1]; ++e)
+        for (int e = in_tets.first[static_cast<std::size_t>(v)]; e < in_tets.first[static_cast<std::size_t>(v) + 1];
+             ++e)
             of_flesh[in_tets.bone[static_cast<std::size_t>(e)]] +=
                 character.surface->barycentric(vertex, corner) * in_tets.weight[static_cast<std::size_t>(e)];
     }
     Carrier carrier{.bone = parts.bone_at(parts.at_vertex(vertex))};
     carrier.of_flesh = std::ranges::max_element(of_flesh, {}, [](const auto& one) { return one.second; })->first;
     const Vec3 point = body.surface.row(vertex);
-    carrier.gap_m = parts.nearest(point, [&](const SurfacePoint& other) { return parts.bone_at(other) == carrier.of_flesh; }).distance_m;
+    carrier.gap_m =
+        parts.nearest(point, [&](const SurfacePoint& other) { return parts.bone_at(other) == carrier.of_flesh; })
+            .distance_m;
     return carrier;
 }
 
@@ -333,7 +351,8 @@ std::vector<std::pair<int, int>> bones_in_tets(const TetMesh& mesh, const Skelet
     std::vector<std::pair<int, int>> found;
     for (std::size_t b = 0; b < skeleton.bones.size(); ++b) {
         const Vec3 way = skeleton.bones[b].tail - skeleton.bones[b].head;
-        const int places = std::clamp(static_cast<int>(std::ceil(2.0 * way.norm() / size_m)), least_places, most_places);
+        const int places =
+            std::clamp(static_cast<int>(std::ceil(2.0 * way.norm() / size_m)), least_places, most_places);
         for (int k = 0; k < places; ++k) {
             const double along = margin + (1.0 - 2.0 * margin) * (k + 0.5) / places;
             if (const int tet = location.locate(skeleton.bones[b].head + along * way).tet; tet >= 0)
@@ -348,7 +367,8 @@ std::vector<bool> has_bone_inside(const TetMesh& mesh, const std::vector<int>& p
 {
     std::vector<bool> has_bone(part.empty() ? 0 : static_cast<std::size_t>(1 + *std::ranges::max_element(part)));
     for (const auto& [bone, tet] : bones_in_tets(mesh, skeleton, 0.25))
-        if (!may_count || may_count(tet, bone)) has_bone[static_cast<std::size_t>(part[static_cast<std::size_t>(tet)])] = true;
+        if (!may_count || may_count(tet, bone))
+            has_bone[static_cast<std::size_t>(part[static_cast<std::size_t>(tet)])] = true;
     return has_bone;
 }
 

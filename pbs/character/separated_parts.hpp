@@ -12,9 +12,11 @@
 
 namespace pbs {
 
-// The mesher's wrap closes narrow gaps. Parts that touch or nearly touch at rest, such as two shoes or the jaws, become one piece of flesh,
-// although the artist moves them independently of each other. Two points of the artist's surface are *apart* if
-// - the skeleton moves one away from the other by more than `least_apart` of the body's diagonal, in one of the poses or when a joint turns
+// The mesher's wrap closes narrow gaps. Parts that touch or nearly touch at rest, such as two shoes or the jaws, become
+// one piece of flesh, although the artist moves them independently of each other. Two points of the artist's surface
+// are *apart* if
+// - the skeleton moves one away from the other by more than `least_apart` of the body's diagonal, in one of the poses
+// or when a joint turns
 //   by 30 degrees, and
 // - the way between them along the surface is more than three times as long as the straight one, or there is none.
 // The second condition keeps a joint whole, at which the skin is continuous.
@@ -40,7 +42,8 @@ private:
         int to;
         double length_m;
     };
-    // The ways along the skin from one point, as far as they were asked for: many points are compared with the same one.
+    // The ways along the skin from one point, as far as they were asked for: many points are compared with the same
+    // one.
     struct Ways {
         SurfacePoint from;
         std::unordered_map<int, double> least_m;  // by vertex; final below the first one of `next`
@@ -69,29 +72,31 @@ struct Cut {
 };
 
 struct SeparatedFlesh {
-    TetMesh mesh;                           // the tets as before; vertices on both sides of a cut exist twice, the copies last
+    TetMesh mesh;  // the tets as before; vertices on both sides of a cut exist twice, the copies last
     std::vector<SurfacePoint> skin_of_tet;  // the point of the surface with which each tet moves, #T
     std::vector<Cut> cuts;                  // the largest first; none: the mesh is as before
     Eigen::VectorXi tet_at;                 // a tet that has each vertex, #V
 };
 
-// Cuts the faces between tets whose nearest points of the surface (from their centres) are apart. A piece without a bone inside that
-// moves its skin is not cut off, since nothing would hold it.
+// Cuts the faces between tets whose nearest points of the surface (from their centres) are apart. A piece without a
+// bone inside that moves its skin is not cut off, since nothing would hold it.
 SeparatedFlesh separate_parts(const TetMesh& mesh, const SkinParts& parts, const Skeleton& skeleton);
 
 // The flesh that carries a point of the artist's surface.
 struct Carrier {
     int bone = -1;       // with the largest weight of the artist at the point
     int of_flesh = -1;   // with the largest weight in the tet that carries it
-    double gap_m = 0.0;  // at rest, from the point to the nearest one of the surface on which the bone of the flesh has the largest weight
+    double gap_m = 0.0;  // at rest, from the point to the nearest one of the surface on which the bone of the flesh has
+                         // the largest weight
 };
 Carrier carrier_of(const Character& character, Eigen::Index vertex);  // of a model with joints
 
-// The tets that bones pass through, (bone, tet) at places along the bone that are at most half a tet apart, without a margin at each end (a
-// share of its length).
+// The tets that bones pass through, (bone, tet) at places along the bone that are at most half a tet apart, without a
+// margin at each end (a share of its length).
 std::vector<std::pair<int, int>> bones_in_tets(const TetMesh& mesh, const Skeleton& skeleton, double margin);
 
-// For each part (parts_of), whether the middle half of a bone passes through it. may_count(tet, bone): only there; by default everywhere.
+// For each part (parts_of), whether the middle half of a bone passes through it. may_count(tet, bone): only there; by
+// default everywhere.
 std::vector<bool> has_bone_inside(const TetMesh& mesh, const std::vector<int>& part, const Skeleton& skeleton,
                                   const std::function<bool(int, int)>& may_count = {});
 

@@ -55,7 +55,8 @@ Vec3 read_point(const toml::table& joint, const char* key, const std::string& fi
     Vec3 point = Vec3::Constant(std::nan(""));
     if (array && array->size() == 3)
         for (int axis = 0; axis < 3; ++axis) point(axis) = array->get(axis)->value<double>().value_or(std::nan(""));
-    if (!point.allFinite()) throw InputError(file, line_of(node), key, text_of(node), "expected three finite numbers [m]");
+    if (!point.allFinite())
+        throw InputError(file, line_of(node), key, text_of(node), "expected three finite numbers [m]");
     return point;
 }
 
@@ -92,7 +93,8 @@ Skeleton parse_skeleton(const std::string& text, const std::string& name)
     check_keys(table, {"joint"}, name);
     std::vector<NamedJoint> joints;
     if (const toml::node* node = table.get("joint")) {
-        if (!node->is_array()) throw InputError(name, line_of(*node), "joint", "", "expected an array of tables: [[joint]]");
+        if (!node->is_array())
+            throw InputError(name, line_of(*node), "joint", "", "expected an array of tables: [[joint]]");
         for (const toml::node& joint : *node->as_array()) joints.push_back(read_joint(joint, name));
     }
     return order_skeleton(joints, name);

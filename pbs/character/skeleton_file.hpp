@@ -9,9 +9,10 @@
 
 namespace pbs {
 
-// Coordinates in metres; bones come parents first, else in the file's order. InputError by line: no TOML; a key that is unknown, missing or
-// of another type; a coordinate that is not finite or beyond 1e9 m; a name given twice or empty, a parent that is none (the nearest is
-// named), a cycle; no root; a bone without length; no joint, or over 2,000. And in a build without PBS_WITH_RIG_IMPORT.
+// Coordinates in metres; bones come parents first, else in the file's order. InputError by line: no TOML; a key that is
+// unknown, missing or of another type; a coordinate that is not finite or beyond 1e9 m; a name given twice or empty, a
+// parent that is none (the nearest is named), a cycle; no root; a bone without length; no joint, or over 2,000. And in
+// a build without PBS_WITH_RIG_IMPORT.
 Skeleton parse_skeleton(const std::string& text, const std::string& name);  // `name` stands for the file in errors
 
 // A joint as a skeleton file describes it, and the line at which it begins.
@@ -21,7 +22,8 @@ struct NamedJoint {
     int line = 0;              // for errors; 0: not known
 };
 
-// Checked (duplicate names, unknown parents, cycles, no root, bones without length) and sorted; the file's order is kept where it can be.
+// Checked (duplicate names, unknown parents, cycles, no root, bones without length) and sorted; the file's order is
+// kept where it can be.
 Skeleton order_skeleton(const std::vector<NamedJoint>& joints, const std::string& file);
 
 // A rig of many joints folded to fewer bones: each end of a bone is the mean of named points of the rig.

@@ -49,7 +49,8 @@ std::vector<std::string> split(const std::string& line)
     return fields;
 }
 
-Row read_row(const std::vector<std::string>& fields, const Skeleton& skeleton, int vertices, const std::string& file, int line)
+Row read_row(const std::vector<std::string>& fields, const Skeleton& skeleton, int vertices, const std::string& file,
+             int line)
 {
     if (fields.size() != 3) throw InputError(file, line, "", "", "expected three fields: vertex,joint,weight");
     Row row{};
@@ -59,7 +60,8 @@ Row read_row(const std::vector<std::string>& fields, const Skeleton& skeleton, i
     if (row.entry.bone < 0) {
         std::vector<std::string> names;
         for (const Bone& bone : skeleton.bones) names.push_back(bone.name);
-        throw InputError(file, line, "joint", fields[1], "no such joint; the nearest is '" + nearest_name(fields[1], names) + "'");
+        throw InputError(file, line, "joint", fields[1],
+                         "no such joint; the nearest is '" + nearest_name(fields[1], names) + "'");
     }
     if (!read_number(fields[2], row.entry.weight) || !(row.entry.weight >= 0.0 && row.entry.weight <= 1.0))
         throw InputError(file, line, "weight", fields[2], "expected 0 <= weight <= 1");
@@ -80,8 +82,10 @@ Rows read_rows(const std::string& csv, const std::string& path, const Skeleton& 
     for (std::string line; std::getline(text, line);) {
         ++number;
         line.resize(line.find_last_not_of(" \t\r") + 1);
-        if (number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // a byte-order mark, as spreadsheets write it
-        if (number == 1 && line != "vertex,joint,weight") throw InputError(path, 1, "", "", "expected the header vertex,joint,weight");
+        // a byte-order mark, as spreadsheets write it
+        if (number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);
+        if (number == 1 && line != "vertex,joint,weight")
+            throw InputError(path, 1, "", "", "expected the header vertex,joint,weight");
         if (number == 1 || line.empty()) continue;
         const Row row = read_row(split(line), skeleton, vertices, path, number);
         for (const Entry& entry : rows.entries[row.vertex])
@@ -101,7 +105,8 @@ void check_sum(const std::vector<Entry>& entries, std::size_t vertex, int line, 
     double sum = 0.0;
     for (const Entry& entry : entries) sum += entry.weight;
     if (std::abs(sum - 1.0) > sum_tolerance)
-        throw InputError(path, line, "vertex " + std::to_string(vertex), std::to_string(sum), "its weights must sum to one within 1e-6");
+        throw InputError(path, line, "vertex " + std::to_string(vertex), std::to_string(sum),
+                         "its weights must sum to one within 1e-6");
 }
 
 }  // namespace
@@ -138,7 +143,8 @@ Weights weights_by(WeightKind kind, const Character& character)
             if (character.weight_kind == WeightKind::file) return character.weights;
             break;
     }
-    throw InputError(character.name, 0, "skinning.weights", name_of(kind), "expected a character that brings such weights");
+    throw InputError(character.name, 0, "skinning.weights", name_of(kind),
+                     "expected a character that brings such weights");
 }
 
 Character with_weights(WeightKind kind, Character character)
@@ -150,14 +156,16 @@ Character with_weights(WeightKind kind, Character character)
 
 namespace {
 
-// Whether a vertex is on a cut through the flesh, and not on the skin: faces of the boundary come in pairs at one place there.
+// Whether a vertex is on a cut through the flesh, and not on the skin: faces of the boundary come in pairs at one place
+// there.
 std::vector<bool> vertices_at_cuts(const TetMesh& mesh)
 {
     using Corner = std::array<double, 3>;
     using Face = std::array<Corner, 3>;
     const auto place_of = [&](const auto& triangle) {
         Face place;
-        for (int k = 0; k < 3; ++k) Eigen::RowVector3d::Map(place[static_cast<std::size_t>(k)].data()) = mesh.rest.row(triangle(k));
+        for (int k = 0; k < 3; ++k)
+            Eigen::RowVector3d::Map(place[static_cast<std::size_t>(k)].data()) = mesh.rest.row(triangle(k));
         std::ranges::sort(place);
         return place;
     };
@@ -173,11 +181,13 @@ std::vector<bool> vertices_at_cuts(const TetMesh& mesh)
 
 }  // namespace
 
-TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surface, const Triangles& triangles, const Weights& skin,
-                                    int bones, const std::function<bool(Eigen::Index, const SurfacePoint&)>& may_move)
+TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surface, const Triangles& triangles,
+                                    const Weights& skin, int bones,
+                                    const std::function<bool(Eigen::Index, const SurfacePoint&)>& may_move)
 {
     const SurfaceTree tree(surface, triangles);
-    const std::vector<bool> on_boundary = boundary_vertices(mesh.tets, mesh.rest.rows()), at_cut = vertices_at_cuts(mesh);
+    const std::vector<bool> on_boundary = boundary_vertices(mesh.tets, mesh.rest.rows()),
+                            at_cut = vertices_at_cuts(mesh);
     Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(mesh.rest.rows(), bones);
     TransferredWeights transferred;
     for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v) {
@@ -185,7 +195,8 @@ TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surfac
         const Vec3 point = mesh.rest.row(v);
         SurfacePoint nearest = tree.nearest(point);
         if (may_move && !may_move(v, nearest)) {  // at a cut, which lies in the flesh
-            const SurfacePoint other = tree.nearest(point, [&](const SurfacePoint& candidate) { return may_move(v, candidate); });
+            const SurfacePoint other =
+                tree.nearest(point, [&](const SurfacePoint& candidate) { return may_move(v, candidate); });
             if (other.triangle >= 0) nearest = other;
         } else if (!at_cut[static_cast<std::size_t>(v)]) {
             transferred.largest_distance_m = std::max(transferred.largest_distance_m, nearest.distance_m);
@@ -200,9 +211,11 @@ TransferredWeights transfer_weights(const TetMesh& mesh, const Positions& surfac
     return transferred;
 }
 
-CarriedWeight carried_weight(const Weights& skin, const Weights& in_tets, const EmbeddedSurface& surface, const Tets& tets, int bones)
+CarriedWeight carried_weight(const Weights& skin, const Weights& in_tets, const EmbeddedSurface& surface,
+                             const Tets& tets, int bones)
 {
-    CarriedWeight weight{std::vector<double>(bones, 0.0), std::vector<double>(bones, 0.0), std::vector<double>(skin.vertices(), 0.0)};
+    CarriedWeight weight{std::vector<double>(bones, 0.0), std::vector<double>(bones, 0.0),
+                         std::vector<double>(skin.vertices(), 0.0)};
     for (int point = 0; point < skin.vertices(); ++point) {
         std::map<int, double> of_tets;
         for (int corner = 0; corner < 4; ++corner) {

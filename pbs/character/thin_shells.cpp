@@ -29,7 +29,8 @@ std::vector<Shell> shells_of(const SurfaceMesh& surface)
     for (const auto& triangle : joined.rowwise())
         for (const int corner : triangle) classes.unite(triangle(0), corner);
     std::map<int, Shell> by_class;
-    for (int t = 0; t < static_cast<int>(joined.rows()); ++t) by_class[classes.find(joined(t, 0))].triangles.push_back(t);
+    for (int t = 0; t < static_cast<int>(joined.rows()); ++t)
+        by_class[classes.find(joined(t, 0))].triangles.push_back(t);
     std::vector<Shell> shells;
     for (auto& [own, shell] : by_class) {
         for (const int t : shell.triangles) shell.area_m2 += area_of(surface.points, surface.triangles.row(t));
@@ -37,7 +38,8 @@ std::vector<Shell> shells_of(const SurfaceMesh& surface)
         const Eigen::VectorXi corners = own_triangles.reshaped();
         const Positions points = surface.points(corners, Eigen::all);  // of this shell alone, for the middle of the fan
         const auto count = own_triangles.rows();
-        const Triangles of_points = Eigen::VectorXi::LinSpaced(3 * count, 0, static_cast<int>(3 * count) - 1).reshaped(count, 3);
+        const Triangles of_points =
+            Eigen::VectorXi::LinSpaced(3 * count, 0, static_cast<int>(3 * count) - 1).reshaped(count, 3);
         shell.volume_m3 = std::abs(fan_volume(points, of_points));
         shells.push_back(std::move(shell));
     }
@@ -51,7 +53,8 @@ ThickShells thick_shells(const SurfaceMesh& surface, int vertices)
     const std::vector<Shell> shells = shells_of(surface);
     double volume_m3 = 0.0;
     for (const Shell& shell : shells) volume_m3 += shell.volume_m3;
-    const double edge_m = std::cbrt(std::sqrt(2.0) * volume_m3 / vertices);  // of spheres packed as densely as they can be
+    // of spheres packed as densely as they can be
+    const double edge_m = std::cbrt(std::sqrt(2.0) * volume_m3 / vertices);
     const auto largest = std::ranges::max_element(shells, {}, &Shell::volume_m3);
     ThickShells thick;
     std::vector<int> kept;
@@ -74,7 +77,8 @@ SurfaceMesh used_part(const SurfaceMesh& surface)
         own = static_cast<int>(used.size());
         used.push_back(point);
     }
-    return {surface.points(used, Eigen::all), surface.triangles.unaryExpr([&](int corner) { return number.at(corner); })};
+    return {surface.points(used, Eigen::all),
+            surface.triangles.unaryExpr([&](int corner) { return number.at(corner); })};
 }
 
 }  // namespace pbs

@@ -5,9 +5,9 @@
 
 namespace pbs {
 
-// The triangles [#F x 3] of a surface without its thin shells. A shell is thin if four times its volume over its area, which is the
-// diameter of a long cylinder and twice the thickness of a plate, is below the edge of tets with so many vertices in the surface's volume.
-// The shell with the largest volume stays.
+// The triangles [#F x 3] of a surface without its thin shells. A shell is thin if four times its volume over its area,
+// which is the diameter of a long cylinder and twice the thickness of a plate, is below the edge of tets with so many
+// vertices in the surface's volume. The shell with the largest volume stays.
 struct ThickShells {
     Triangles triangles;
     int left_out = 0;  // shells

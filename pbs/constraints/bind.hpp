@@ -1,6 +1,7 @@
 // The bind constraint of a vertex to its nearest bone, Sec. 3.6: a stretch constraint to its projection q on that bone,
 //   C(p) = |p - q| - d,
-// where q is a material point of the bone, moves with it and has infinite mass: the bone takes the reaction, so momentum is not conserved.
+// where q is a material point of the bone, moves with it and has infinite mass: the bone takes the reaction, so
+// momentum is not conserved.
 //   project(BindConstraint<double>{7, rest_distance, 1.0}, 1.0, q, p);
 // A vertex on the bone (d = 0) is drawn to its material point by the same formula: k = 1 puts it there.
 #pragma once
@@ -35,7 +36,8 @@ Vector3<Scalar> gradient(const BindConstraint<Scalar>&, const Vector3<Scalar>& p
     return (p - q) / distance;
 }
 
-// Moves the point [m] by the share k of what removes C; the bone has no inverse mass. A pinned point (w = 0) stays, any other moves alike.
+// Moves the point [m] by the share k of what removes C; the bone has no inverse mass. A pinned point (w = 0) stays, any
+// other moves alike.
 template <typename Scalar>
 void project(const BindConstraint<Scalar>& constraint, Scalar w, const Vector3<Scalar>& q, Vector3<Scalar>& p)
 {

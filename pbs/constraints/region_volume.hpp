@@ -1,11 +1,13 @@
 // The volume constraint of a region, a set of tets: the sum of their volumes is kept,
-//   C(p) = sum of V_t - V0 = sum over the triangles (a, b, c) of the region's surface of (a - o) . (b - a) x (c - a) / 6 - V0,
+//   C(p) = sum of V_t - V0 = sum over the triangles (a, b, c) of the region's surface of (a - o) . (b - a) x (c - a) /
+//   6 - V0,
 // by the divergence theorem: vertices inside the region do not enter it, and it holds for any origin o.
 //   const auto region = make_region_volume_constraint<double>(surface, rest, 1.0);
 //   project(region, w, p, g);
-// Tets within the region may exchange volume. Source: the volume constraint of closed meshes, M. Mueller et al., Position based dynamics,
-// Journal of Visual Communication and Image Representation 18, 2007, Eq. 14, with a region's surface for the mesh.
-// p: positions [m], w: inverse masses in any common unit, each one entry per vertex of the region.
+// Tets within the region may exchange volume. Source: the volume constraint of closed meshes, M. Mueller et al.,
+// Position based dynamics, Journal of Visual Communication and Image Representation 18, 2007, Eq. 14, with a region's
+// surface for the mesh. p: positions [m], w: inverse masses in any common unit, each one entry per vertex of the
+// region.
 #pragma once
 
 #include "pbs/constraints/volume.hpp"
@@ -23,7 +25,8 @@ namespace pbs {
 // Scalar: float or double.
 template <typename Scalar>
 struct RegionVolumeConstraint {
-    std::vector<int> vertex = {};  // of the surface: their numbers in the mesh; value, gradient and project do not read them
+    // of the surface: their numbers in the mesh; value, gradient and project do not read them
+    std::vector<int> vertex = {};
     std::vector<std::array<int, 3>> triangle = {};  // oriented outward, places in `vertex`
     Scalar rest_volume;                             // V0 [m^3], positive
     Scalar stiffness;                               // in [0, 1]
@@ -54,20 +57,23 @@ Scalar value(const RegionVolumeConstraint<Scalar>& constraint, const std::vector
     return value_and_gradient(constraint, p, g);
 }
 
-// grad C [m^2]: a third of the area vectors of the triangles around each vertex. Their sum is zero, as the surface is closed.
+// grad C [m^2]: a third of the area vectors of the triangles around each vertex. Their sum is zero, as the surface is
+// closed.
 template <typename Scalar>
-std::vector<Vector3<Scalar>> gradient(const RegionVolumeConstraint<Scalar>& constraint, const std::vector<Vector3<Scalar>>& p)
+std::vector<Vector3<Scalar>> gradient(const RegionVolumeConstraint<Scalar>& constraint,
+                                      const std::vector<Vector3<Scalar>>& p)
 {
     std::vector<Vector3<Scalar>> g;
     value_and_gradient(constraint, p, g);
     return g;
 }
 
-// Moves the vertices [m] by the share k of what removes the linearised C. A region collapsed to a line or a point has no gradient and
-// stays; what counts as no gradient is rounding_of_gradients (volume.hpp) for every triangle around a vertex. g: memory for the gradient.
+// Moves the vertices [m] by the share k of what removes the linearised C. A region collapsed to a line or a point has
+// no gradient and stays; what counts as no gradient is rounding_of_gradients (volume.hpp) for every triangle around a
+// vertex. g: memory for the gradient.
 template <typename Scalar>
-void project(const RegionVolumeConstraint<Scalar>& constraint, const std::vector<Scalar>& w, std::vector<Vector3<Scalar>>& p,
-             std::vector<Vector3<Scalar>>& g)
+void project(const RegionVolumeConstraint<Scalar>& constraint, const std::vector<Scalar>& w,
+             std::vector<Vector3<Scalar>>& p, std::vector<Vector3<Scalar>>& g)
 {
     const Scalar C = value_and_gradient(constraint, p, g);
     Scalar denominator = 0, sum_of_w = 0, longest2 = 0;

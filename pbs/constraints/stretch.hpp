@@ -27,7 +27,8 @@ Scalar value(const StretchConstraint<Scalar>& constraint, const Vector3<Scalar>&
 
 // grad_p1 C, grad_p2 C; zero where the points coincide, because no direction is better than another there.
 template <typename Scalar>
-std::array<Vector3<Scalar>, 2> gradient(const StretchConstraint<Scalar>&, const Vector3<Scalar>& p1, const Vector3<Scalar>& p2)
+std::array<Vector3<Scalar>, 2> gradient(const StretchConstraint<Scalar>&, const Vector3<Scalar>& p1,
+                                        const Vector3<Scalar>& p2)
 {
     const Scalar length = (p1 - p2).norm();
     if (!(length > Scalar(0))) return {Vector3<Scalar>::Zero(), Vector3<Scalar>::Zero()};
@@ -35,10 +36,11 @@ std::array<Vector3<Scalar>, 2> gradient(const StretchConstraint<Scalar>&, const 
     return {direction, -direction};
 }
 
-// Moves both points [m] by the share k of what removes C. w1, w2: inverse masses, in any common unit; zero is pinned. Eq. 8-9 hold for
-// m_i = 1; with unequal masses each gradient is weighted by w_i, so that Eq. 3-4 still do.
+// Moves both points [m] by the share k of what removes C. w1, w2: inverse masses, in any common unit; zero is pinned.
+// Eq. 8-9 hold for m_i = 1; with unequal masses each gradient is weighted by w_i, so that Eq. 3-4 still do.
 template <typename Scalar>
-void project(const StretchConstraint<Scalar>& constraint, Scalar w1, Scalar w2, Vector3<Scalar>& p1, Vector3<Scalar>& p2)
+void project(const StretchConstraint<Scalar>& constraint, Scalar w1, Scalar w2, Vector3<Scalar>& p1,
+             Vector3<Scalar>& p2)
 {
     const Vector3<Scalar> p12 = p1 - p2;
     const Scalar length = p12.norm();

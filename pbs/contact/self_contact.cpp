@@ -54,7 +54,8 @@ void for_each_bit(unsigned bits, const Visit& visit)
 
 }  // namespace
 
-RestSkin::RestSkin(const TetMesh& mesh) : rest_(mesh.rest), triangles_(boundary_of(mesh.tets)), near_(mesh.rest.rows(), -1)
+RestSkin::RestSkin(const TetMesh& mesh)
+    : rest_(mesh.rest), triangles_(boundary_of(mesh.tets)), near_(mesh.rest.rows(), -1)
 {
     first_.assign(rest_.rows() + 1, 0);
     for (const int v : triangles_.reshaped()) ++first_[v + 1];
@@ -95,7 +96,8 @@ Vec3 RestSkin::nearest(const Vec3& point, const Eigen::Vector4i& near) const
 {
     int start = near_[near(0)];
     for (const int v : near)
-        if ((rest_.row(near_[v]).transpose() - point).squaredNorm() < (rest_.row(start).transpose() - point).squaredNorm())
+        if ((rest_.row(near_[v]).transpose() - point).squaredNorm() <
+            (rest_.row(start).transpose() - point).squaredNorm())
             start = near_[v];
     const int around = descend(point, start);
     Vec3 nearest = rest_.row(around);
@@ -108,9 +110,11 @@ Vec3 RestSkin::nearest(const Vec3& point, const Eigen::Vector4i& near) const
     return nearest;
 }
 
-PointSets::PointSets(const Positions& points, const std::vector<int>& members, int most_in_a_set) : first{0}, member(members)
+PointSets::PointSets(const Positions& points, const std::vector<int>& members, int most_in_a_set)
+    : first{0}, member(members)
 {
-    std::vector<std::pair<int, int>> open = {{0, static_cast<int>(member.size())}};  // a stack: the front of the points comes first
+    // a stack: the front of the points comes first
+    std::vector<std::pair<int, int>> open = {{0, static_cast<int>(member.size())}};
     while (!open.empty()) {
         const auto [begin, end] = open.back();
         open.pop_back();
@@ -146,14 +150,16 @@ SelfContact<Scalar>::SelfContact(const TetMesh& mesh, const std::vector<int>& pl
 {
     Boxes none;
     Kernels::find_points(nullptr, nullptr, nullptr, none);
-    group_boxes_.assign((groups_.sets() + at_once - 1) / at_once, none);  // lanes without a group stay NaN and meet no box
+    // lanes without a group stay NaN and meet no box
+    group_boxes_.assign((groups_.sets() + at_once - 1) / at_once, none);
     cluster_boxes_.assign((group_boxes_.size() + at_once - 1) / at_once, none);
     for (const int row : place) offset_.push_back(stride * row);
     for (const int v : groups_.member) of_group_.push_back(4 * v);
     for (int b = 0; b < blocks_.sets(); ++b) {
         std::set<std::uint32_t> vertices;
         for (int lane = 0; lane < at_once; ++lane) {
-            const int k = blocks_.first[b] + lane, tet = blocks_.member[k < blocks_.first[b + 1] ? k : blocks_.first[b]];
+            const int k = blocks_.first[b] + lane,
+                      tet = blocks_.member[k < blocks_.first[b + 1] ? k : blocks_.first[b]];
             for (int i = 0; i < 4; ++i) vertices.insert(corners_[b].offset[i][lane] = 4 * mesh.tets(tet, i));
         }
         for (const std::uint32_t offset : vertices) of_block_.push_back(offset);
@@ -166,7 +172,8 @@ void SelfContact<Scalar>::find_hits()
 {
     for (int g = 0; g < groups_.sets(); ++g) {
         const std::uint32_t* offsets = of_group_.data();
-        Kernels::find_points(offsets + groups_.first[g], offsets + groups_.first[g + 1], points_.data()->x, vertex_boxes_[g]);
+        Kernels::find_points(offsets + groups_.first[g], offsets + groups_.first[g + 1], points_.data()->x,
+                             vertex_boxes_[g]);
         put(Kernels::box_around(vertex_boxes_[g]), group_boxes_[g / at_once], g % at_once);
     }
     for (int c = 0; c < static_cast<int>(group_boxes_.size()); ++c)
@@ -187,7 +194,8 @@ void SelfContact<Scalar>::find(const Scalar* x)
     const auto by_vertex = [](const auto& a, const auto& b) { return a.vertex[0] < b.vertex[0]; };
     const auto found = static_cast<std::ptrdiff_t>(constraints_.size());
     for (const DepthConstraint<Scalar>& old : before)
-        if (!std::binary_search(constraints_.begin(), constraints_.begin() + found, old, by_vertex)) constraints_.push_back(old);
+        if (!std::binary_search(constraints_.begin(), constraints_.begin() + found, old, by_vertex))
+            constraints_.push_back(old);
     std::stable_sort(constraints_.begin(), constraints_.end(), by_vertex);
 }
 
@@ -195,7 +203,8 @@ template <typename Scalar>
 void SelfContact<Scalar>::find_in_block(int block)
 {
     const Scalar* x = points_.data()->x;
-    const Box box = Kernels::box_of(of_block_.data() + first_of_block_[block], of_block_.data() + first_of_block_[block + 1], x);
+    const Box box =
+        Kernels::box_of(of_block_.data() + first_of_block_[block], of_block_.data() + first_of_block_[block + 1], x);
     int count = 0;
     for (std::size_t k = 0; k < cluster_boxes_.size(); ++k)
         for_each_bit(Kernels::that_meet(cluster_boxes_[k], box), [&](int cluster) {
@@ -209,7 +218,8 @@ void SelfContact<Scalar>::find_in_block(int block)
     if (count == 0) return;
     typename Kernels::Coordinates coordinates;
     Kernels::find_coordinates(corners_[block], x, coordinates);
-    Kernels::find_tets_around(coordinates, corners_[block], inside_.data(), inside_.data() + count, x, tets_around_.data());
+    Kernels::find_tets_around(coordinates, corners_[block], inside_.data(), inside_.data() + count, x,
+                              tets_around_.data());
     const int first = blocks_.first[block];
     const unsigned tets = (1U << (blocks_.first[block + 1] - first)) - 1;
     for (int i = 0; i < count; ++i)
@@ -223,7 +233,9 @@ void SelfContact<Scalar>::add_constraint(const Hit& hit)
 {
     constexpr double most_strain = 10.0, least_depth = 1e-6;  // along the way out; over half of the mean edge
     const Eigen::Vector4i tet = mesh_.tets.row(hit.tet);
-    const auto at = [&](int v) -> Vec3 { return Eigen::Map<const Vector3<Scalar>>(points_[v].x).template cast<double>(); };
+    const auto at = [&](int v) -> Vec3 {
+        return Eigen::Map<const Vector3<Scalar>>(points_[v].x).template cast<double>();
+    };
     Eigen::Matrix3d edges, rest_edges;
     for (int k = 0; k < 3; ++k) {
         edges.col(k) = at(tet(k + 1)) - at(tet(0));
@@ -246,7 +258,8 @@ void SelfContact<Scalar>::add_constraint(const Hit& hit)
 }
 
 template <typename Scalar>
-std::array<Vector3<Scalar>, 5> SelfContact<Scalar>::points(const DepthConstraint<Scalar>& constraint, const Scalar* x) const
+std::array<Vector3<Scalar>, 5> SelfContact<Scalar>::points(const DepthConstraint<Scalar>& constraint,
+                                                           const Scalar* x) const
 {
     std::array<Vector3<Scalar>, 5> points;
     for (int i = 0; i < 5; ++i) points[i] = Eigen::Map<const Vector3<Scalar>>(x + offset_[constraint.vertex[i]]);

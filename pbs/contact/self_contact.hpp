@@ -1,16 +1,18 @@
-// Detection of self-contact: the skin vertices of a deformed body that lie in tets of another part of it, each with its depth constraint.
+// Detection of self-contact: the skin vertices of a deformed body that lie in tets of another part of it, each with its
+// depth constraint.
 //   SelfContact<float> contact(mesh, place, 4);
 //   contact.forget();                      // at the beginning of a frame
 //   contact.find(x);                       // the constraints of these positions, once or more in a frame
 //   contact.project(inverse_mass, x);      // once per iteration
-// A pair of a vertex and a tet counts where X*, the point of the tet at rest that has come to the vertex, is farther than half of the mean
-// edge from the vertex at rest. Positions decide alone, so that frames do not depend on each other, and there are no threads.
+// A pair of a vertex and a tet counts where X*, the point of the tet at rest that has come to the vertex, is farther
+// than half of the mean edge from the vertex at rest. Positions decide alone, so that frames do not depend on each
+// other, and there are no threads.
 //
-// Skin vertices lie in groups of neighbours, groups in clusters, and tets in blocks. The boxes of clusters and groups, compared sixteen at
-// once, lead to the vertices in the box of a block. These are tried in all of its tets.
+// Skin vertices lie in groups of neighbours, groups in clusters, and tets in blocks. The boxes of clusters and groups,
+// compared sixteen at once, lead to the vertices in the box of a block. These are tried in all of its tets.
 //
-// No constraint where no direction can be trusted: in tets that are flat or mirrored, or strained more than tenfold along the way out, as
-// after a teleport; and where a position is not finite.
+// No constraint where no direction can be trusted: in tets that are flat or mirrored, or strained more than tenfold
+// along the way out, as after a teleport; and where a position is not finite.
 #pragma once
 
 #include "pbs/packed/batch.hpp"
@@ -27,8 +29,9 @@ public:
 
     const std::vector<int>& vertices() const { return vertices_; }  // ascending
 
-    // The nearest point of the skin [m], sought from the skin near these vertices of the mesh: from skin vertex to skin vertex as long as
-    // that is nearer, then on the triangles around. Between two sides that are about equally near it may be that of the other one.
+    // The nearest point of the skin [m], sought from the skin near these vertices of the mesh: from skin vertex to skin
+    // vertex as long as that is nearer, then on the triangles around. Between two sides that are about equally near it
+    // may be that of the other one.
     Vec3 nearest(const Vec3& point, const Eigen::Vector4i& near) const;
 
 private:
@@ -56,8 +59,8 @@ public:
     SelfContact(const TetMesh& mesh, const std::vector<int>& place, int stride);
 
     void forget() { constraints_.clear(); }  // at the beginning of a frame
-    // The constraints at these positions, by vertex, then by tet. Vertices of constraints are those of the mesh. A vertex that is in no tet
-    // now keeps the constraints it had, which hold it outside.
+    // The constraints at these positions, by vertex, then by tet. Vertices of constraints are those of the mesh. A
+    // vertex that is in no tet now keeps the constraints it had, which hold it outside.
     void find(const Scalar* x);
     const std::vector<DepthConstraint<Scalar>>& constraints() const { return constraints_; }
 
@@ -71,7 +74,8 @@ private:
     using Kernels = ContactKernels<Scalar>;
     using Box = typename Kernels::Box;
     using Boxes = typename Kernels::Boxes;
-    static constexpr int at_once = Kernels::at_once;  // at most: tets of a block, vertices of a group, groups of a cluster
+    static constexpr int at_once =
+        Kernels::at_once;  // at most: tets of a block, vertices of a group, groups of a cluster
 
     struct Hit {
         int vertex, tet;
@@ -85,14 +89,17 @@ private:
     RestSkin skin_;
     double half_edge_m_;
     PointSets groups_, blocks_;
-    std::vector<int> offset_;                                        // of each vertex in x, #V
-    std::vector<typename Kernels::Point> points_;                    // the vertices as deformed, #V
-    std::vector<std::uint32_t> of_group_, of_block_;                 // offsets in points_ of the vertices of each group, and of each block
-    std::vector<int> first_of_block_;                                // #blocks + 1
-    std::vector<typename Kernels::Corners> corners_;                 // of each block
-    std::vector<Boxes> vertex_boxes_, group_boxes_, cluster_boxes_;  // as deformed: of a group, of a cluster, of sixteen clusters
-    std::vector<std::uint32_t> inside_;                              // offsets of the vertices in the box of a block
-    std::vector<unsigned> tets_around_;                              // of each of these: bit k is that of the block's tet k
+    std::vector<int> offset_;                      // of each vertex in x, #V
+    std::vector<typename Kernels::Point> points_;  // the vertices as deformed, #V
+    // offsets in points_ of the vertices of each group, and of each block
+    std::vector<std::uint32_t> of_group_, of_block_;
+    std::vector<int> first_of_block_;                 // #blocks + 1
+    std::vector<typename Kernels::Corners> corners_;  // of each block
+    // as deformed: of a group, of a cluster, of sixteen clusters
+    std::vector<Boxes> vertex_boxes_, group_boxes_, cluster_boxes_;
+    std::vector<std::uint32_t> inside_;  // offsets of the vertices in the box of a block
+    // of each of these: bit k is that of the block's tet k
+    std::vector<unsigned> tets_around_;
     std::vector<Hit> hits_;
     std::vector<DepthConstraint<Scalar>> constraints_;
 };

@@ -14,7 +14,8 @@ Positions posed_sums(const std::vector<BoneShare>& shares, const Pose& pose, Eig
 {
     Positions sums = Positions::Zero(rows, 3);
     for (const BoneShare& share : shares)
-        sums.row(share.row) += (pose[share.bone].linear() * share.first + share.zeroth * pose[share.bone].translation()).transpose();
+        sums.row(share.row) +=
+            (pose[share.bone].linear() * share.first + share.zeroth * pose[share.bone].translation()).transpose();
     return sums;
 }
 
@@ -54,10 +55,12 @@ BoneHold::BoneHold(const TetMesh& mesh, const BoneSprings& springs, int bones)
         beta << 1.0 - location.barycentric.sum(), location.barycentric;
         Eigen::Vector4d moment;
         moment << point, 1.0;
-        in_tets.try_emplace({location.tet, springs.bone[s]}, Eigen::Matrix4d::Zero()).first->second += k * beta * moment.transpose();
+        in_tets.try_emplace({location.tet, springs.bone[s]}, Eigen::Matrix4d::Zero()).first->second +=
+            k * beta * moment.transpose();
         for (int i = 0, edge = 0; i < 4; ++i) {
             const int vertex = mesh.tets(location.tet, i);
-            shares.try_emplace({vertex, springs.bone[s]}, Eigen::Vector4d::Zero()).first->second += k * beta(i) * moment;
+            shares.try_emplace({vertex, springs.bone[s]}, Eigen::Vector4d::Zero()).first->second +=
+                k * beta(i) * moment;
             for (int j = i + 1; j < 4; ++j) edge_stiffness_(location.tet, edge++) -= k * beta(i) * beta(j);
         }
         Moments& moments = moments_[springs.bone[s]];
@@ -86,7 +89,9 @@ double BoneHold::constant(const Pose& pose, const Positions& centres) const
     for (std::size_t bone = 0; bone < moments_.size(); ++bone) {
         const Moments& moments = moments_[bone];
         const Vec3 t = pose[bone].translation();
-        constant += (moments.second + 2.0 * t.dot(pose[bone].linear() * moments.first) + moments.zeroth * t.squaredNorm()) / 2.0;
+        constant +=
+            (moments.second + 2.0 * t.dot(pose[bone].linear() * moments.first) + moments.zeroth * t.squaredNorm()) /
+            2.0;
     }
     for (Eigen::Index i = 0; i < centres.rows(); ++i) constant -= stiffness_(i) / 2.0 * centres.row(i).squaredNorm();
     return constant;

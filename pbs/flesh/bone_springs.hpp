@@ -1,5 +1,6 @@
-// Springs between points of the flesh and its bones: the attachment of the energy-minimising deformers. A spring s joins the material point
-// X_s, which the tets carry, to the same point of its bone: k_s / 2 |x(X_s) - T X_s|^2, T the bone's transform.
+// Springs between points of the flesh and its bones: the attachment of the energy-minimising deformers. A spring s
+// joins the material point X_s, which the tets carry, to the same point of its bone: k_s / 2 |x(X_s) - T X_s|^2, T the
+// bone's transform.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -18,17 +19,19 @@ struct BoneSprings {
 // The edges of a tet between its corners, in the order of all values per edge of a tet in this folder.
 inline constexpr int edges_of_tet[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
-// One bone's share of row `row` of the target points of the springs. The row is the sum over its shares of B (first, zeroth)^T, where B is
-// the 3 x 4 matrix of the bone's transform.
+// One bone's share of row `row` of the target points of the springs. The row is the sum over its shares of B (first,
+// zeroth)^T, where B is the 3 x 4 matrix of the bone's transform.
 struct BoneShare {
     int row, bone;
     Vec3 first;     // [m] times the unit of zeroth
     double zeroth;  // a stiffness [m], or over one
 };
 
-// The springs summed over tets and vertices. The barycentric coordinates beta of a point in its tet add up to 1, so that
+// The springs summed over tets and vertices. The barycentric coordinates beta of a point in its tet add up to 1, so
+// that
 //   |sum_i beta_i x_i - q|^2 = sum_i beta_i |x_i - q|^2 - sum_{i<j} beta_i beta_j |x_i - x_j|^2.
-// The first sum is a spring of each vertex to a centre c_i, of stiffness a_i; the second one does not depend on the pose.
+// The first sum is a spring of each vertex to a centre c_i, of stiffness a_i; the second one does not depend on the
+// pose.
 class BoneHold {
 public:
     // A spring outside the tets is left out. A bone with no spring left holds nothing.
@@ -37,9 +40,10 @@ public:
     const Eigen::VectorXd& stiffness() const { return stiffness_; }  // a_i over Young's modulus [m], #V
     // -k beta_i beta_j, summed over the springs in each tet, of its edges 01 02 03 12 13 23 [m], #T x 6.
     const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>& edge_stiffness() const { return edge_stiffness_; }
-    const Eigen::MatrixXd& stiffness_of_bones() const { return of_bone_; }  // the part of a_i that each bone contributes [m], #V x #bones
-    // The moments sum_s k_s beta (X_s, 1)^T of the springs of one tet and one bone [m^2, m]. Row i belongs to vertex i of the tet. They are
-    // sorted by tet, then by bone.
+    // the part of a_i that each bone contributes [m], #V x #bones
+    const Eigen::MatrixXd& stiffness_of_bones() const { return of_bone_; }
+    // The moments sum_s k_s beta (X_s, 1)^T of the springs of one tet and one bone [m^2, m]. Row i belongs to vertex i
+    // of the tet. They are sorted by tet, then by bone.
     struct TetMoment {
         int tet, bone;
         Eigen::Matrix4d sum;
@@ -67,12 +71,13 @@ private:
     int left_out_ = 0;
 };
 
-// The springs of the bones as linear constraints of positive stiffness, as a method that projects constraints needs them. In each tet the
-// springs sum up to
+// The springs of the bones as linear constraints of positive stiffness, as a method that projects constraints needs
+// them. In each tet the springs sum up to
 //   sum_s k_s / 2 |beta_s^T x - q_s|^2 = sum_r sigma_r / 2 |v_r^T x - d_r|^2 + constant,
 // with the eigenvalues sigma_r and eigenvectors v_r of the 4 x 4 matrix sum_s k_s beta_s beta_s^T, and
-// d_r = v_r^T (sum_s k_s beta_s q_s) / sigma_r. So at most four constraints per tet replace all of its springs, and none of their
-// stiffnesses is negative. (BoneHold's split into vertices and edges has negative weights on the edges.) Only d_r depends on the pose.
+// d_r = v_r^T (sum_s k_s beta_s q_s) / sigma_r. So at most four constraints per tet replace all of its springs, and
+// none of their stiffnesses is negative. (BoneHold's split into vertices and edges has negative weights on the edges.)
+// Only d_r depends on the pose.
 //   const HoldModes modes(hold);
 //   modes.targets(pose, targets);
 

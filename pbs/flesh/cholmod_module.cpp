@@ -1,5 +1,5 @@
-// The module pbskin_cholmod: analysis and factorisation of a sparse matrix. The simplicial method calls no BLAS, so that the factor is the
-// same for each of its kernels and each number of its threads.
+// The module pbskin_cholmod: analysis and factorisation of a sparse matrix. The simplicial method calls no BLAS, so
+// that the factor is the same for each of its kernels and each number of its threads.
 #include "pbs/flesh/flesh_system.hpp"
 
 #include "pbs/geometry/deferred_sigterm.hpp"
@@ -42,7 +42,8 @@ void copy(const cholmod_factor& from, pbs::CholeskyFactor& to)
 extern "C" void pbskin_cholmod_ordered_factor(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order,
                                               pbs::CholeskyFactor& factor);
 
-void pbskin_cholmod_ordered_factor(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order, pbs::CholeskyFactor& factor)
+void pbskin_cholmod_ordered_factor(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order,
+                                   pbs::CholeskyFactor& factor)
 {
     factor = {};
     cholmod_common common;
@@ -59,7 +60,8 @@ void pbskin_cholmod_ordered_factor(const Eigen::SparseMatrix<double>& lower, con
     cholmod_factor* cholmod = nullptr;
     {
         const pbs::DeferredSigterm deferred;
-        cholmod = cholmod_analyze_p(&matrix, order.empty() ? nullptr : const_cast<int*>(order.data()), nullptr, 0, &common);
+        cholmod =
+            cholmod_analyze_p(&matrix, order.empty() ? nullptr : const_cast<int*>(order.data()), nullptr, 0, &common);
     }
     if (cholmod) cholmod_factorize(&matrix, cholmod, &common);
     if (cholmod && common.status == CHOLMOD_OK && cholmod->minor == cholmod->n) copy(*cholmod, factor);

@@ -52,7 +52,8 @@ double FleshContact<Scalar>::add_value_and_gradient(const Rows<Scalar>& x, Rows<
         energy += k / 2.0 * C * C;
         const auto of_C = pbs::gradient(pair);
         for (int i = 0; i < 5; ++i)
-            for (int axis = 0; axis < 3; ++axis) gradient[place_[pair.vertex[i]]][axis] += Scalar(k * C) * of_C[i](axis);
+            for (int axis = 0; axis < 3; ++axis)
+                gradient[place_[pair.vertex[i]]][axis] += Scalar(k * C) * of_C[i](axis);
     }
     return energy;
 }

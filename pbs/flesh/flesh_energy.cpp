@@ -33,7 +33,8 @@ double sliver_factor(const TetMesh& mesh, Eigen::Index tet)
     return flatness < sliver ? flatness / regular : 1.0;
 }
 
-FleshEnergy::FleshEnergy(const TetMesh& mesh, const FleshMaterial& material, const BoneHold& hold) : hold_(hold.stiffness())
+FleshEnergy::FleshEnergy(const TetMesh& mesh, const FleshMaterial& material, const BoneHold& hold)
+    : hold_(hold.stiffness())
 {
     const Eigen::VectorXd volumes = positive_volumes(mesh.rest, mesh.tets);
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
@@ -43,7 +44,8 @@ FleshEnergy::FleshEnergy(const TetMesh& mesh, const FleshMaterial& material, con
         slivers_ += factor < 1.0;
         for (int e = 0; e < 6; ++e) {
             const auto [i, j] = edges_of_tet[e];
-            tet.w[e] = -material.mu * factor * volumes(t) * gradients.col(i).dot(gradients.col(j)) + hold.edge_stiffness()(t, e);
+            tet.w[e] = -material.mu * factor * volumes(t) * gradients.col(i).dot(gradients.col(j)) +
+                       hold.edge_stiffness()(t, e);
         }
         tet.kappa = factor * material.lambda / (36.0 * volumes(t));
         tet.d = 6.0 * material.alpha * volumes(t);
@@ -89,8 +91,8 @@ double FleshEnergy::value_and_gradient(const Positions& x, const Positions& cent
     return value;
 }
 
-Eigen::SparseMatrix<double> flesh_laplacian(const TetMesh& mesh, const FleshMaterial& material, const FleshEnergy& energy,
-                                            double volume_share)
+Eigen::SparseMatrix<double> flesh_laplacian(const TetMesh& mesh, const FleshMaterial& material,
+                                            const FleshEnergy& energy, double volume_share)
 {
     constexpr double regular = 1e-9;
     std::vector<Eigen::Triplet<double>> entries;
@@ -102,7 +104,8 @@ Eigen::SparseMatrix<double> flesh_laplacian(const TetMesh& mesh, const FleshMate
         const double factor = sliver_factor(mesh, t);
         for (int e = 0; e < 6; ++e) {
             const auto [i, j] = edges_of_tet[e];
-            const double h = tet.w[e] - volume_share * material.lambda * factor * volumes(t) * gradients.col(i).dot(gradients.col(j));
+            const double h = tet.w[e] - volume_share * material.lambda * factor * volumes(t) *
+                                            gradients.col(i).dot(gradients.col(j));
             const auto [low, high] = std::minmax(tet.vertex[i], tet.vertex[j]);
             entries.emplace_back(high, low, -h);
             diagonal(low) += h;
@@ -110,13 +113,15 @@ Eigen::SparseMatrix<double> flesh_laplacian(const TetMesh& mesh, const FleshMate
         }
     }
     for (Eigen::Index i = 0; i < diagonal.size(); ++i)
-        entries.emplace_back(i, i, diagonal(i) > 0.0 ? (1.0 + regular) * diagonal(i) : 1.0);  // 1: a vertex without tets
+        // 1: a vertex without tets
+        entries.emplace_back(i, i, diagonal(i) > 0.0 ? (1.0 + regular) * diagonal(i) : 1.0);
     Eigen::SparseMatrix<double> laplacian(diagonal.size(), diagonal.size());
     laplacian.setFromTriplets(entries.begin(), entries.end());
     return laplacian;
 }
 
-// With e_k = x_k - x_0, 6 V = e_1 . (e_2 x e_3). Its second derivative in e_i and e_j, where (i, j, k) is a cyclic order, is -[e_k]_x.
+// With e_k = x_k - x_0, 6 V = e_1 . (e_2 x e_3). Its second derivative in e_i and e_j, where (i, j, k) is a cyclic
+// order, is -[e_k]_x.
 Eigen::SparseMatrix<double> flesh_hessian(const FleshEnergy& energy, const Positions& x)
 {
     std::vector<Eigen::Triplet<double>> entries;
@@ -149,7 +154,8 @@ Eigen::SparseMatrix<double> flesh_hessian(const FleshEnergy& energy, const Posit
         for (int i = 0; i < 4; ++i)
             for (int j = 0; j < 4; ++j)
                 add_block(tet.vertex[i], tet.vertex[j],
-                          of_edges(i, j) * Eigen::Matrix3d::Identity() + tet.kappa * n[i] * n[j].transpose() + pressure * of_volume[i][j]);
+                          of_edges(i, j) * Eigen::Matrix3d::Identity() + tet.kappa * n[i] * n[j].transpose() +
+                              pressure * of_volume[i][j]);
     }
     for (Eigen::Index i = 0; i < energy.hold().size(); ++i)
         add_block(static_cast<int>(i), static_cast<int>(i), energy.hold()(i) * Eigen::Matrix3d::Identity());
@@ -160,7 +166,8 @@ Eigen::SparseMatrix<double> flesh_hessian(const FleshEnergy& energy, const Posit
 
 FleshMaterial flesh_material(double poisson)
 {
-    if (!(poisson >= 0.0 && poisson < 0.5)) throw InputError("flesh", 0, "poisson", std::to_string(poisson), "expected 0 <= poisson < 1/2");
+    if (!(poisson >= 0.0 && poisson < 0.5))
+        throw InputError("flesh", 0, "poisson", std::to_string(poisson), "expected 0 <= poisson < 1/2");
     const double mu = 1.0 / (2.0 * (1.0 + poisson));
     const double lame = poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
     const double lambda = lame + mu;
@@ -181,7 +188,8 @@ std::vector<NeoHookeanTet> neo_hookean_tets(const TetMesh& mesh)
     return tets;
 }
 
-Eigen::Matrix3d deformation_gradient(const NeoHookeanTet& tet, const Vec3& p1, const Vec3& p2, const Vec3& p3, const Vec3& p4)
+Eigen::Matrix3d deformation_gradient(const NeoHookeanTet& tet, const Vec3& p1, const Vec3& p2, const Vec3& p3,
+                                     const Vec3& p4)
 {
     Eigen::Matrix3d edges;
     edges << p2 - p1, p3 - p1, p4 - p1;

@@ -16,8 +16,8 @@ Four<Scalar>& row(Scalar* rows, std::uint32_t offset)
 
 // Adds the gradient of as many tets as there are lanes; returns their energy. FleshEnergy, line by line.
 template <typename Scalar>
-[[gnu::always_inline]] inline Lanes<Scalar> add_gradient_of_part(const FleshBatch<Scalar>& batch, int first, const Scalar* x,
-                                                                 Scalar* gradient)
+[[gnu::always_inline]] inline Lanes<Scalar> add_gradient_of_part(const FleshBatch<Scalar>& batch, int first,
+                                                                 const Scalar* x, Scalar* gradient)
 {
     Vertices<Scalar> p[4], g[4];
     for (int i = 0; i < 4; ++i) p[i] = gather(x, batch.offset[i] + first);
@@ -42,8 +42,8 @@ template <typename Scalar>
     add(Lanes<Scalar>(Scalar(-1)), to1, g[0]), add(Lanes<Scalar>(Scalar(1)), on2, g[1]);
     add(Lanes<Scalar>(Scalar(1)), on3, g[2]), add(Lanes<Scalar>(Scalar(1)), on4, g[3]);
     for (int i = 0; i < 4; ++i) scatter(g[i], gradient, batch.offset[i] + first);
-    const Lanes<Scalar> of_edges = w[0] * dot(p21, p21) + w[1] * dot(p31, p31) + w[2] * dot(p41, p41) + w[3] * dot(p32, p32) +
-                                   w[4] * dot(p42, p42) + w[5] * dot(p43, p43);
+    const Lanes<Scalar> of_edges = w[0] * dot(p21, p21) + w[1] * dot(p31, p31) + w[2] * dot(p41, p41) +
+                                   w[3] * dot(p32, p32) + w[4] * dot(p42, p42) + w[5] * dot(p43, p43);
     return Scalar(0.5) * (of_edges + pressure * beyond);
 }
 
@@ -100,7 +100,8 @@ double set_gradient_of_hold(const Scalar* centres, int rows, const Scalar* x, Sc
     for (int begin = 0; begin < rows; begin += rows_in_scalar) {
         Four<Scalar> sum_of_rows{};
         for (int i = begin; i < begin + rows_in_scalar && i < rows; ++i) {
-            const Four<Scalar> centre = row(const_cast<Scalar*>(centres), 4u * i), from = row(const_cast<Scalar*>(x), 4u * i) - centre;
+            const Four<Scalar> centre = row(const_cast<Scalar*>(centres), 4u * i),
+                               from = row(const_cast<Scalar*>(x), 4u * i) - centre;
             Four<Scalar> g = centre[3] * from;
             g[3] = Scalar(0);
             row(gradient, 4u * i) = g;
@@ -114,7 +115,8 @@ double set_gradient_of_hold(const Scalar* centres, int rows, const Scalar* x, Sc
 template <typename Scalar>
 double add_gradient_of_tets(const FleshBatch<Scalar>* batches, int count, const Scalar* x, Scalar* gradient)
 {
-    return sum_of_parts<Scalar>(count, [&](int b, int first) { return add_gradient_of_part(batches[b], first, x, gradient); });
+    return sum_of_parts<Scalar>(count,
+                                [&](int b, int first) { return add_gradient_of_part(batches[b], first, x, gradient); });
 }
 
 template <typename Scalar>
@@ -124,7 +126,8 @@ double dot(const Scalar* a, const Scalar* b, int rows)
     double total = 0.0;
     for (int begin = 0; begin < 4 * rows; begin += numbers_in_scalar) {
         Lanes<Scalar> products = Scalar(0);
-        for (int i = begin; i < begin + numbers_in_scalar && i < 4 * rows; i += lanes<Scalar>) products += load(a + i) * load(b + i);
+        for (int i = begin; i < begin + numbers_in_scalar && i < 4 * rows; i += lanes<Scalar>)
+            products += load(a + i) * load(b + i);
         total += sum_of_lanes<Scalar>(products);
     }
     return total;
@@ -137,20 +140,24 @@ void add(Scalar factor, const Scalar* a, int rows, Scalar* to)
 }
 
 template <typename Scalar>
-void solve_supernodes(const Supernode* nodes, int count, const std::uint32_t* below, const Scalar* values, const std::uint32_t* place,
-                      int rows, Scalar* b, Scalar* work)
+void solve_supernodes(const Supernode* nodes, int count, const std::uint32_t* below, const Scalar* values,
+                      const std::uint32_t* place, int rows, Scalar* b, Scalar* work)
 {
     constexpr std::make_integer_sequence<int, widest_supernode> widths;
     for (int k = 0; k < rows; ++k) row(work, 4u * k) = row(b, place[k]);
     for (int n = 0; n < count; ++n)
         with_width(
             nodes[n].width,
-            [&](auto width) { forward<Scalar, width>(nodes[n], below + nodes[n].first_below, values + nodes[n].first_value, work); },
+            [&](auto width) {
+                forward<Scalar, width>(nodes[n], below + nodes[n].first_below, values + nodes[n].first_value, work);
+            },
             widths);
     for (int n = count - 1; n >= 0; --n)
         with_width(
             nodes[n].width,
-            [&](auto width) { backward<Scalar, width>(nodes[n], below + nodes[n].first_below, values + nodes[n].first_value, work); },
+            [&](auto width) {
+                backward<Scalar, width>(nodes[n], below + nodes[n].first_below, values + nodes[n].first_value, work);
+            },
             widths);
     for (int k = 0; k < rows; ++k) row(b, place[k]) = row(work, 4u * k);
 }
@@ -163,7 +170,9 @@ template double dot(const float*, const float*, int);
 template double dot(const double*, const double*, int);
 template void add(float, const float*, int, float*);
 template void add(double, const double*, int, double*);
-template void solve_supernodes(const Supernode*, int, const std::uint32_t*, const float*, const std::uint32_t*, int, float*, float*);
-template void solve_supernodes(const Supernode*, int, const std::uint32_t*, const double*, const std::uint32_t*, int, double*, double*);
+template void solve_supernodes(const Supernode*, int, const std::uint32_t*, const float*, const std::uint32_t*, int,
+                               float*, float*);
+template void solve_supernodes(const Supernode*, int, const std::uint32_t*, const double*, const std::uint32_t*, int,
+                               double*, double*);
 
 }  // namespace pbs

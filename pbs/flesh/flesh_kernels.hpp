@@ -1,5 +1,5 @@
-// The inner loops of the packed solvers of this folder, compiled for the machine (PBS_NATIVE): raw pointers only. A row of an array is four
-// numbers: x, y, z and one more. Arrays are 64 bytes aligned.
+// The inner loops of the packed solvers of this folder, compiled for the machine (PBS_NATIVE): raw pointers only. A row
+// of an array is four numbers: x, y, z and one more. Arrays are 64 bytes aligned.
 #pragma once
 
 #include "pbs/packed/batch.hpp"
@@ -32,8 +32,8 @@ double dot(const Scalar* a, const Scalar* b, int rows);
 template <typename Scalar>
 void add(Scalar factor, const Scalar* a, int rows, Scalar* to);  // to += factor * a
 
-// Columns of a Cholesky factor with the same rows below them. Its values are the triangle by rows, with the reciprocal of each diagonal
-// entry, and then `width` values for each row below.
+// Columns of a Cholesky factor with the same rows below them. Its values are the triangle by rows, with the reciprocal
+// of each diagonal entry, and then `width` values for each row below.
 inline constexpr int widest_supernode = 8;
 struct Supernode {
     int column, width, rows_below;
@@ -41,33 +41,33 @@ struct Supernode {
 };
 // Solves L L^T x = b in place. place: 4 * row of each row of L. work: rows + 1 rows.
 template <typename Scalar>
-void solve_supernodes(const Supernode* nodes, int count, const std::uint32_t* below, const Scalar* values, const std::uint32_t* place,
-                      int rows, Scalar* b, Scalar* work);
+void solve_supernodes(const Supernode* nodes, int count, const std::uint32_t* below, const Scalar* values,
+                      const std::uint32_t* place, int rows, Scalar* b, Scalar* work);
 
-// Columns of a Cholesky factor L of 3 x 3 blocks and the rows below them, L = [L_1; L_2], as the panel P = [L_1^-1; -L_2 L_1^-1]. With it
-// both substitutions are products of a matrix with a vector. A block of rows is four numbers, the last of them zero. A solve takes as long
-// as reading the values: for float a word has those of two columns, as the upper halves of float numbers (bfloat16), since the first matrix
-// of a quasi-Newton method may be that coarse. Values are stored by columns, or pairs of columns, of 4 * blocks; a last odd column has a
-// partner of zeros.
+// Columns of a Cholesky factor L of 3 x 3 blocks and the rows below them, L = [L_1; L_2], as the panel P = [L_1^-1;
+// -L_2 L_1^-1]. With it both substitutions are products of a matrix with a vector. A block of rows is four numbers, the
+// last of them zero. A solve takes as long as reading the values: for float a word has those of two columns, as the
+// upper halves of float numbers (bfloat16), since the first matrix of a quasi-Newton method may be that coarse. Values
+// are stored by columns, or pairs of columns, of 4 * blocks; a last odd column has a partner of zeros.
 template <typename Scalar>
 using PanelValue = std::conditional_t<std::is_same_v<Scalar, float>, std::uint32_t, Scalar>;
 inline constexpr int widest_panel = 48;    // columns, a multiple of 6
 inline constexpr int blocks_together = 4;  // the number of blocks is a multiple
 struct Panel {
     int column_blocks;  // blocks of the columns themselves, which are the first blocks of rows
-    int blocks;         // of all rows; those that fill up the multiple are the dummy behind the last block of the matrix
+    int blocks;  // of all rows; those that fill up the multiple are the dummy behind the last block of the matrix
     std::size_t first_block, first_value;
 
     int columns() const { return (3 * column_blocks + 1) / 2 * 2; }  // an even number
 };
-// Solves L L^T x = b in place for one right-hand side. block: 4 * block of each block of rows of the panels. work: blocks, and the dummy,
-// which is zero. scratch: room for the most blocks of a panel.
+// Solves L L^T x = b in place for one right-hand side. block: 4 * block of each block of rows of the panels. work:
+// blocks, and the dummy, which is zero. scratch: room for the most blocks of a panel.
 template <typename Scalar>
-void solve_panels(const Panel* panels, int count, const std::uint32_t* block, const PanelValue<Scalar>* values, Scalar* work,
-                  Scalar* scratch);
+void solve_panels(const Panel* panels, int count, const std::uint32_t* block, const PanelValue<Scalar>* values,
+                  Scalar* work, Scalar* scratch);
 
-// turned_k = R_k^T rows_k, and rows_k = R_k turned_k, for the vertices k. rotations: three columns of four numbers each per vertex. place:
-// 4 * row of each vertex.
+// turned_k = R_k^T rows_k, and rows_k = R_k turned_k, for the vertices k. rotations: three columns of four numbers each
+// per vertex. place: 4 * row of each vertex.
 template <typename Scalar>
 void turn_back(const Scalar* rotations, const std::uint32_t* place, int vertices, const Scalar* rows, Scalar* turned);
 template <typename Scalar>
@@ -84,12 +84,12 @@ struct alignas(64) ProjectiveBatch {
     Scalar w[6][batch_size];              // of the springs on the edges 01 02 03 12 13 23 [m]
 };
 
-// Adds the gradient of `count` batches and returns their energy. strain, volume: ProjectiveWeights. Tets whose local shapes the formulae
-// refuse get the part of their springs alone; their places, 16 batch + lane, are written to `refused`, and their number is added to
-// refused_count.
+// Adds the gradient of `count` batches and returns their energy. strain, volume: ProjectiveWeights. Tets whose local
+// shapes the formulae refuse get the part of their springs alone; their places, 16 batch + lane, are written to
+// `refused`, and their number is added to refused_count.
 template <typename Scalar>
-double add_gradient_of_projective_tets(const ProjectiveBatch<Scalar>* batches, int count, Scalar strain, Scalar volume, const Scalar* x,
-                                       Scalar* gradient, int* refused, int* refused_count);
+double add_gradient_of_projective_tets(const ProjectiveBatch<Scalar>* batches, int count, Scalar strain, Scalar volume,
+                                       const Scalar* x, Scalar* gradient, int* refused, int* refused_count);
 
 // The kernels of vertex block descent follow.
 
@@ -113,8 +113,8 @@ struct alignas(64) VertexIncidence {
 
 // x_i -= omega H_i^-1 g_i for the vertices of `count` batches (vbd.hpp). centres: rows c_i and a_i.
 template <typename Scalar>
-void move_vertices(const VertexBatch<Scalar>* batches, int count, const VertexIncidence<Scalar>* incidences, const Scalar* centres,
-                   Scalar omega, Scalar* x);
+void move_vertices(const VertexBatch<Scalar>* batches, int count, const VertexIncidence<Scalar>* incidences,
+                   const Scalar* centres, Scalar omega, Scalar* x);
 
 // x = before + omega (x - before), `rows` a multiple of 16.
 template <typename Scalar>
@@ -152,7 +152,8 @@ void visit_tets(NeoHookeanBatch<Scalar>* batches, int count, Scalar alpha, bool 
 // A step begins: predicted = x + momentum (x - before), before = x, x = predicted + applied.
 template <typename Scalar>
 void begin_step(Scalar momentum, int rows, Scalar* x, Scalar* before, Scalar* predicted, const Scalar* applied);
-// A step ends: applied = x - predicted. Returns sum_i (applied_i / w_i) . (x_i - before_i): the work of the forces, over Young's modulus.
+// A step ends: applied = x - predicted. Returns sum_i (applied_i / w_i) . (x_i - before_i): the work of the forces,
+// over Young's modulus.
 template <typename Scalar>
 double end_step(int rows, const Scalar* x, const Scalar* before, const Scalar* predicted, Scalar* applied);
 

@@ -13,11 +13,13 @@
 namespace pbs {
 namespace {
 
-// The function of the module pbskin_cholmod: fills in the factor, or leaves it empty if the matrix is not positive definite.
-using FactorFunction = void(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order, CholeskyFactor& factor);
+// The function of the module pbskin_cholmod: fills in the factor, or leaves it empty if the matrix is not positive
+// definite.
+using FactorFunction = void(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order,
+                            CholeskyFactor& factor);
 
-// The plain implementation: the energy in file order and a loop per entry of the factor, in double. Energy: FleshEnergy or
-// ProjectiveEnergy.
+// The plain implementation: the energy in file order and a loop per entry of the factor, in double. Energy: FleshEnergy
+// or ProjectiveEnergy.
 template <typename Energy>
 class PlainSystem : public FleshSystem<double> {
 public:
@@ -96,8 +98,9 @@ struct PackedTets<Scalar, ProjectiveEnergy> {
     {
         refused_count = 0;
         refused.resize(batch_size * batches.size());
-        double value = add_gradient_of_projective_tets(batches.data(), static_cast<int>(batches.size()), Scalar(weights.strain),
-                                                       Scalar(weights.volume), x, gradient, refused.data(), &refused_count);
+        double value =
+            add_gradient_of_projective_tets(batches.data(), static_cast<int>(batches.size()), Scalar(weights.strain),
+                                            Scalar(weights.volume), x, gradient, refused.data(), &refused_count);
         for (int i = 0; i < refused_count; ++i) value += add_gradient_of_refused(refused[i], x, gradient);
         return value;
     }
@@ -106,7 +109,8 @@ struct PackedTets<Scalar, ProjectiveEnergy> {
         const ProjectiveBatch<Scalar>& batch = batches[place / batch_size];
         const int lane = place % batch_size;
         const auto corner = [&](int i) {
-            return Vec3(Eigen::Map<const Eigen::Matrix<Scalar, 3, 1>>(x + batch.offset[i][lane]).template cast<double>());
+            return Vec3(
+                Eigen::Map<const Eigen::Matrix<Scalar, 3, 1>>(x + batch.offset[i][lane]).template cast<double>());
         };
         ProjectiveTet tet{{}, {}, double(batch.volume[lane]), {}};
         for (int k = 0; k < 9; ++k) tet.inverse_edges(k / 3, k % 3) = double(batch.inverse_edges[k][lane]);
@@ -126,8 +130,9 @@ struct PackedTets<Scalar, ProjectiveEnergy> {
     int refused_count = 0;     // in the last call of add_gradient
 };
 
-// The packed implementation: sixteen tets that share no vertex side by side, in the order of memory of the solvers of Algorithm 1. Threads
-// share the slabs of the mesh; their number changes no bit. The energy is read in the constructor alone.
+// The packed implementation: sixteen tets that share no vertex side by side, in the order of memory of the solvers of
+// Algorithm 1. Threads share the slabs of the mesh; their number changes no bit. The energy is read in the constructor
+// alone.
 template <typename Scalar, typename Energy>
 class PackedSystem : public FleshSystem<Scalar> {
 public:
@@ -146,7 +151,10 @@ public:
         for (std::size_t i = 0; i < this->place_.size(); ++i) centres_[this->place_[i]][3] = Scalar(energy.hold()(i));
     }
 
-    void set_centres(const Positions& centres) override { this->origin_ = load_held_centres(centres, this->place_, centres_); }
+    void set_centres(const Positions& centres) override
+    {
+        this->origin_ = load_held_centres(centres, this->place_, centres_);
+    }
     double value_and_gradient(const Rows<Scalar>& x, Rows<Scalar>& gradient) override
     {
         const double of_hold = set_gradient_of_hold(centres_.data(), centres_.size(), x.data(), gradient.data());
@@ -154,14 +162,18 @@ public:
         return std::accumulate(slab_energy_.begin(), slab_energy_.end(), of_hold);
     }
     void precondition(Rows<Scalar>& residual) override { solve_.apply(residual.data()); }
-    double dot(const Rows<Scalar>& a, const Rows<Scalar>& b) const override { return pbs::dot(a.data(), b.data(), a.size()); }
+    double dot(const Rows<Scalar>& a, const Rows<Scalar>& b) const override
+    {
+        return pbs::dot(a.data(), b.data(), a.size());
+    }
     void add(double factor, const Rows<Scalar>& a, Rows<Scalar>& to) const override
     {
         pbs::add(Scalar(factor), a.data(), a.size(), to.data());
     }
     int refused() const override
     {
-        return std::accumulate(tets_.begin(), tets_.end(), 0, [](int sum, const auto& slab) { return sum + slab.refused_count; });
+        return std::accumulate(tets_.begin(), tets_.end(), 0,
+                               [](int sum, const auto& slab) { return sum + slab.refused_count; });
     }
 
 private:
@@ -178,7 +190,8 @@ HeldFlesh::HeldFlesh(const TetMesh& mesh, const BoneSprings& springs, int bones,
     : hold_(mesh, springs, bones), energy_(mesh, flesh_material(options.poisson), hold_)
 {
     if (!(hold_.stiffness().sum() > 0.0))
-        throw InputError("flesh", 0, "springs", std::to_string(springs.points.rows()), "expected one that lies inside the tets");
+        throw InputError("flesh", 0, "springs", std::to_string(springs.points.rows()),
+                         "expected one that lies inside the tets");
     factor_ = cholesky_factor(flesh_laplacian(mesh, flesh_material(options.poisson), energy_, options.volume_share));
     if (!factor_.usable())
         throw InputError("flesh", 0, "Laplacian", std::to_string(mesh.rest.rows()) + " vertices",
@@ -204,8 +217,10 @@ int width_of_supernode(const CholeskyFactor& factor, int column, int widest)
     int width = 1;
     while (width < widest && column + width < columns) {
         const int last = column + width - 1;
-        const int entries = factor.first[last + 1] - factor.first[last], next = factor.first[last + 2] - factor.first[last + 1];
-        // The rows of a column below its diagonal are among those of the column of the first of them (elimination tree).
+        const int entries = factor.first[last + 1] - factor.first[last],
+                  next = factor.first[last + 2] - factor.first[last + 1];
+        // The rows of a column below its diagonal are among those of the column of the first of them (elimination
+        // tree).
         const bool is_parent = entries > 1 && factor.row[factor.first[last] + 1] == last + 1;
         if (!is_parent || entries != next + 1) break;
         ++width;
@@ -222,7 +237,9 @@ TriangularSolve<Scalar>::TriangularSolve(const CholeskyFactor& factor, const std
         const int width = width_of_supernode(factor, column, widest_supernode);
         const int last = column + width - 1;
         Supernode node{column, width, factor.first[last + 1] - factor.first[last] - 1, below_.size(), values_.size()};
-        const auto entry = [&](int row_in_column, int c) { return factor.value[factor.first[column + c] + row_in_column - c]; };
+        const auto entry = [&](int row_in_column, int c) {
+            return factor.value[factor.first[column + c] + row_in_column - c];
+        };
         for (int row = 0; row < width; ++row) {
             for (int c = 0; c < row; ++c) values_.push_back(Scalar(entry(row, c)));
             values_.push_back(Scalar(1.0 / entry(row, row)));
@@ -240,14 +257,16 @@ TriangularSolve<Scalar>::TriangularSolve(const CholeskyFactor& factor, const std
 template <typename Scalar>
 void TriangularSolve<Scalar>::apply(Scalar* rows)
 {
-    solve_supernodes(supernodes_.data(), static_cast<int>(supernodes_.size()), below_.data(), values_.data(), place_.data(),
-                     static_cast<int>(place_.size()), rows, work_.data());
+    solve_supernodes(supernodes_.data(), static_cast<int>(supernodes_.size()), below_.data(), values_.data(),
+                     place_.data(), static_cast<int>(place_.size()), rows, work_.data());
 }
 
 Eigen::MatrixXd solve_plainly(const CholeskyFactor& factor, const Eigen::MatrixXd& b)
 {
-    const auto rows = static_cast<Eigen::Index>(factor.order.size()), entries = static_cast<Eigen::Index>(factor.value.size());
-    const Eigen::Map<const Eigen::SparseMatrix<double>> L(rows, rows, entries, factor.first.data(), factor.row.data(), factor.value.data());
+    const auto rows = static_cast<Eigen::Index>(factor.order.size()),
+               entries = static_cast<Eigen::Index>(factor.value.size());
+    const Eigen::Map<const Eigen::SparseMatrix<double>> L(rows, rows, entries, factor.first.data(), factor.row.data(),
+                                                          factor.value.data());
     Eigen::MatrixXd permuted = b(factor.order, Eigen::all), x(b.rows(), b.cols());
     L.triangularView<Eigen::Lower>().solveInPlace(permuted);
     L.transpose().triangularView<Eigen::Upper>().solveInPlace(permuted);
@@ -259,8 +278,8 @@ template class TriangularSolve<float>;
 template class TriangularSolve<double>;
 
 template <typename Scalar, typename Energy>
-std::unique_ptr<FleshSystem<Scalar>> make_flesh_system(const TetMesh& mesh, const Energy& energy, const CholeskyFactor& factor, bool packed,
-                                                       int threads)
+std::unique_ptr<FleshSystem<Scalar>> make_flesh_system(const TetMesh& mesh, const Energy& energy,
+                                                       const CholeskyFactor& factor, bool packed, int threads)
 {
     if constexpr (std::is_same_v<Scalar, double>)
         if (!packed) return std::make_unique<PlainSystem<Energy>>(energy, factor);
@@ -268,9 +287,13 @@ std::unique_ptr<FleshSystem<Scalar>> make_flesh_system(const TetMesh& mesh, cons
     return std::make_unique<PackedSystem<Scalar, Energy>>(std::move(slabs), energy, factor);
 }
 
-template std::unique_ptr<FleshSystem<float>> make_flesh_system(const TetMesh&, const FleshEnergy&, const CholeskyFactor&, bool, int);
-template std::unique_ptr<FleshSystem<double>> make_flesh_system(const TetMesh&, const FleshEnergy&, const CholeskyFactor&, bool, int);
-template std::unique_ptr<FleshSystem<float>> make_flesh_system(const TetMesh&, const ProjectiveEnergy&, const CholeskyFactor&, bool, int);
-template std::unique_ptr<FleshSystem<double>> make_flesh_system(const TetMesh&, const ProjectiveEnergy&, const CholeskyFactor&, bool, int);
+template std::unique_ptr<FleshSystem<float>> make_flesh_system(const TetMesh&, const FleshEnergy&,
+                                                               const CholeskyFactor&, bool, int);
+template std::unique_ptr<FleshSystem<double>> make_flesh_system(const TetMesh&, const FleshEnergy&,
+                                                                const CholeskyFactor&, bool, int);
+template std::unique_ptr<FleshSystem<float>> make_flesh_system(const TetMesh&, const ProjectiveEnergy&,
+                                                               const CholeskyFactor&, bool, int);
+template std::unique_ptr<FleshSystem<double>> make_flesh_system(const TetMesh&, const ProjectiveEnergy&,
+                                                                const CholeskyFactor&, bool, int);
 
 }  // namespace pbs

@@ -13,8 +13,8 @@
 namespace pbs {
 
 template <typename Scalar>
-ProjectiveDynamics<Scalar>::ProjectiveDynamics(const TetMesh& mesh, const ProjectiveEnergy& energy, const CholeskyFactor& factor,
-                                               const ProjectiveOptions& options)
+ProjectiveDynamics<Scalar>::ProjectiveDynamics(const TetMesh& mesh, const ProjectiveEnergy& energy,
+                                               const CholeskyFactor& factor, const ProjectiveOptions& options)
     : options_(options),
       system_(make_flesh_system<Scalar>(mesh, energy, factor, options.packed, options.threads)),
       x_(system_->rows()),
@@ -59,7 +59,8 @@ double volume_share_of_projective(double poisson, bool keeps_volume)
     return (weights.strain + weights.volume - material.mu) / material.lambda;
 }
 
-ProjectiveForces projective_forces(const ProjectiveTet& tet, const ProjectiveWeights& weights, const Eigen::Matrix3d& edges)
+ProjectiveForces projective_forces(const ProjectiveTet& tet, const ProjectiveWeights& weights,
+                                   const Eigen::Matrix3d& edges)
 {
     const Eigen::Matrix3d f = edges * tet.inverse_edges;
     const LocalShapes local = local_shapes(f);
@@ -75,7 +76,8 @@ ProjectiveEnergy::ProjectiveEnergy(const TetMesh& mesh, const ProjectiveWeights&
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
         ProjectiveTet tet{{mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)}, {}, 0.0, {}};
         Eigen::Matrix3d edges;
-        for (int k = 0; k < 3; ++k) edges.col(k) = (mesh.rest.row(tet.vertex[k + 1]) - mesh.rest.row(tet.vertex[0])).transpose();
+        for (int k = 0; k < 3; ++k)
+            edges.col(k) = (mesh.rest.row(tet.vertex[k + 1]) - mesh.rest.row(tet.vertex[0])).transpose();
         tet.volume = sliver_factor(mesh, t) * edges.determinant() / 6.0;
         tet.inverse_edges = edges.inverse();
         for (int e = 0; e < 6; ++e) tet.w[e] = hold.edge_stiffness()(t, e);
@@ -91,7 +93,8 @@ double ProjectiveEnergy::value_and_gradient(const Positions& x, const Positions&
     for (const ProjectiveTet& tet : tets_) {
         Eigen::Matrix<double, 3, 4> corners, forces;
         for (int k = 0; k < 4; ++k) corners.col(k) = x.row(tet.vertex[k]).transpose();
-        const ProjectiveForces of_tet = projective_forces(tet, weights_, corners.rightCols<3>().colwise() - corners.col(0));
+        const ProjectiveForces of_tet =
+            projective_forces(tet, weights_, corners.rightCols<3>().colwise() - corners.col(0));
         value += of_tet.value;
         forces.rightCols<3>() = of_tet.columns;
         forces.col(0) = -of_tet.columns.rowwise().sum();
@@ -119,8 +122,8 @@ double larger_root(double s, double kappa)
 
 }  // namespace
 
-// The smallest number's result y determines kappa = y (s_3 - y), and the others are the larger roots. y (their product) grows with y where
-// it passes one for the first time below s_3, or above it.
+// The smallest number's result y determines kappa = y (s_3 - y), and the others are the larger roots. y (their product)
+// grows with y where it passes one for the first time below s_3, or above it.
 Vec3 nearest_unit_product(const Vec3& s)
 {
     const auto at = [&](double y) {
@@ -147,7 +150,8 @@ Vec3 nearest_unit_product(const Vec3& s)
         const double excess = now.prod() - 1.0, change = s(2) - 2.0 * y;  // d kappa / dy
         (excess < 0.0 ? low : high) = y;
         // The larger root r of r^2 - s r + kappa = 0 changes by -1 / (2 r - s) with kappa.
-        const double slope = now(0) * now(1) - y * change * (now(1) / (2.0 * now(0) - s(0)) + now(0) / (2.0 * now(1) - s(1)));
+        const double slope =
+            now(0) * now(1) - y * change * (now(1) / (2.0 * now(0) - s(0)) + now(0) / (2.0 * now(1) - s(1)));
         double next = y - excess / slope;                                   // Newton's method between
         if (!(next > low && next < high)) next = low + 0.5 * (high - low);  // bounds
         if (std::abs(next - y) <= std::numeric_limits<double>::epsilon() * y) break;
@@ -163,7 +167,8 @@ LocalShapes local_shapes(const Eigen::Matrix3d& f)
     if (!result.rotation.allFinite()) return {result.rotation, result.rotation};
     const Eigen::Matrix3d stretch = result.rotation.transpose() * f;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(0.5 * (stretch + stretch.transpose()));
-    const Vec3 s = eigen.eigenvalues().reverse();  // the smallest last; the one of a reflection is the smallest in magnitude, too
+    // the smallest last; the one of a reflection is the smallest in magnitude, too
+    const Vec3 s = eigen.eigenvalues().reverse();
     const Eigen::Matrix3d axes = eigen.eigenvectors().rowwise().reverse();
     result.unit_volume = result.rotation * axes * nearest_unit_product(s).asDiagonal() * axes.transpose();
     return result;

@@ -5,9 +5,9 @@
 //   ProjectiveDynamics<float> solver(mesh, energy, flesh.factor(), {.iterations = 30});
 //   flesh.hold().centres(pose, centres);
 //   ProjectiveSummary summary = solver.minimise(centres, x);   // x: the initial guess in, the last iterate out
-// An iteration projects every tet (local step) and minimises E with R and D fixed (global step), a system whose matrix is constant and
-// factored once. It is written as x <- x - H^-1 grad E(x), which is the same (T. Liu, S. Bouaziz, L. Kavan 2017). E never increases,
-// except for rounding.
+// An iteration projects every tet (local step) and minimises E with R and D fixed (global step), a system whose matrix
+// is constant and factored once. It is written as x <- x - H^-1 grad E(x), which is the same (T. Liu, S. Bouaziz, L.
+// Kavan 2017). E never increases, except for rounding.
 #pragma once
 
 #include "pbs/flesh/bone_springs.hpp"
@@ -20,9 +20,10 @@
 namespace pbs {
 
 struct ProjectiveOptions {
-    int iterations = 30;     // at most
-    double stop_step = 0.0;  // stop where the norm of a step is below this share of the first one, or rounding; 0: never
-    bool packed = true;      // several elements side by side; false: plain code, one after the other, in double
+    int iterations = 30;  // at most
+    double stop_step =
+        0.0;             // stop where the norm of a step is below this share of the first one, or rounding; 0: never
+    bool packed = true;  // several elements side by side; false: plain code, one after the other, in double
     int threads = 1;
 };
 
@@ -37,9 +38,11 @@ template <typename Scalar>
 class ProjectiveDynamics {
 public:
     // factor: of the matrix of the global step. Plain code is in double: packed false needs Scalar double (unchecked).
-    ProjectiveDynamics(const TetMesh& mesh, const ProjectiveEnergy& energy, const CholeskyFactor& factor, const ProjectiveOptions& options);
+    ProjectiveDynamics(const TetMesh& mesh, const ProjectiveEnergy& energy, const CholeskyFactor& factor,
+                       const ProjectiveOptions& options);
 
-    ProjectiveSummary minimise(const Positions& centres, Positions& x);  // x [m], #V x 3; a step that is not finite ends it
+    // x [m], #V x 3; a step that is not finite ends it
+    ProjectiveSummary minimise(const Positions& centres, Positions& x);
 
 private:
     ProjectiveOptions options_;
@@ -47,13 +50,14 @@ private:
     Rows<Scalar> x_, step_;
 };
 
-// The energy of projective dynamics in equilibrium (S. Bouaziz et al., Projective dynamics, 2014; for skinning M. Komaritzan, M. Botsch,
-// Projective skinning, Proc. ACM Comput. Graph. Interact. Tech. 1(1), 2018) of flesh on linear tets that its bones hold by springs
-// (bone_springs.hpp):
+// The energy of projective dynamics in equilibrium (S. Bouaziz et al., Projective dynamics, 2014; for skinning M.
+// Komaritzan, M. Botsch, Projective skinning, Proc. ACM Comput. Graph. Interact. Tech. 1(1), 2018) of flesh on linear
+// tets that its bones hold by springs (bone_springs.hpp):
 //   E(x) = sum_tets V0 [ mu |F - R(F)|^2 + 3 lambda / 2 |F - D(F)|^2 ] + springs
-// R(F) is the nearest rotation and D(F) the nearest matrix of determinant one. mu and lambda are Lame's constants; with these weights, 2 mu
-// V0 and 3 lambda V0 in the notation of the paper, E is linear elasticity where strains are small, since |F - D|^2 is then a third of the
-// squared trace of the strain. For large strains it is another material than that of FleshEnergy, so that its limit is another shape.
+// R(F) is the nearest rotation and D(F) the nearest matrix of determinant one. mu and lambda are Lame's constants; with
+// these weights, 2 mu V0 and 3 lambda V0 in the notation of the paper, E is linear elasticity where strains are small,
+// since |F - D|^2 is then a third of the squared trace of the strain. For large strains it is another material than
+// that of FleshEnergy, so that its limit is another shape.
 //   const ProjectiveEnergy energy(mesh, projective_weights(0.45, true), hold);
 //   double e = energy.value_and_gradient(x, centres, gradient);
 // This is the plain implementation in double, by which the packed one is verified. Everything is over Young's modulus.
@@ -64,8 +68,8 @@ struct ProjectiveWeights {
     double volume = 0.0;  // 3 lambda
 };
 
-// keeps_volume: false without the second term (Komaritzan and Botsch 2018 have none). poisson: from 0 inclusive to 1/2 exclusive; an
-// InputError otherwise.
+// keeps_volume: false without the second term (Komaritzan and Botsch 2018 have none). poisson: from 0 inclusive to 1/2
+// exclusive; an InputError otherwise.
 ProjectiveWeights projective_weights(double poisson, bool keeps_volume);
 
 // The volume_share with which the Laplacian of HeldFlesh is the matrix of the global step, E with R and D fixed.
@@ -73,9 +77,10 @@ double volume_share_of_projective(double poisson, bool keeps_volume);
 
 struct ProjectiveTet {
     std::array<int, 4> vertex;
-    Eigen::Matrix3d inverse_edges;  // of the matrix with the edges 01, 02, 03 at rest as columns [1/m]: F = edges * inverse_edges
-    double volume;                  // at rest, times sliver_factor [m^3]
-    std::array<double, 6> w;        // of the springs on the edges 01 02 03 12 13 23 [m]
+    Eigen::Matrix3d
+        inverse_edges;  // of the matrix with the edges 01, 02, 03 at rest as columns [1/m]: F = edges * inverse_edges
+    double volume;      // at rest, times sliver_factor [m^3]
+    std::array<double, 6> w;  // of the springs on the edges 01 02 03 12 13 23 [m]
 };
 
 // The two terms of one tet.
@@ -83,7 +88,8 @@ struct ProjectiveForces {
     double value;             // [m^3]
     Eigen::Matrix3d columns;  // derivatives by the corners 1, 2, 3; that by corner 0 is minus their sum [m^2]
 };
-ProjectiveForces projective_forces(const ProjectiveTet& tet, const ProjectiveWeights& weights, const Eigen::Matrix3d& edges);
+ProjectiveForces projective_forces(const ProjectiveTet& tet, const ProjectiveWeights& weights,
+                                   const Eigen::Matrix3d& edges);
 
 class ProjectiveEnergy {
 public:
@@ -103,13 +109,14 @@ private:
     Eigen::VectorXd hold_;
 };
 
-// The matrix of determinant one that is nearest to a deformation gradient, the local step for volumes of projective dynamics (S. Bouaziz,
-// S. Martin, T. Liu, L. Kavan, M. Pauly: Projective dynamics, ACM Transactions on Graphics 33(4), 2014).
+// The matrix of determinant one that is nearest to a deformation gradient, the local step for volumes of projective
+// dynamics (S. Bouaziz, S. Martin, T. Liu, L. Kavan, M. Pauly: Projective dynamics, ACM Transactions on Graphics 33(4),
+// 2014).
 //   const LocalShapes local = local_shapes(f);   // rotation and volume-preserving matrix nearest to F
 
-// s* with s*_1 s*_2 s*_3 = 1 that is nearest to s. s: two numbers of zero or more, and a third of either sign, of no larger magnitude. The
-// condition of the minimum is s*_i - s_i + kappa / s*_i = 0 for all i with one kappa, so that a single unknown is left; it is found between
-// bounds by Newton's method and bisection.
+// s* with s*_1 s*_2 s*_3 = 1 that is nearest to s. s: two numbers of zero or more, and a third of either sign, of no
+// larger magnitude. The condition of the minimum is s*_i - s_i + kappa / s*_i = 0 for all i with one kappa, so that a
+// single unknown is left; it is found between bounds by Newton's method and bisection.
 Vec3 nearest_unit_product(const Vec3& s);
 
 struct LocalShapes {

@@ -6,13 +6,16 @@
 // The local step of projective dynamics by formulae without a branch, for a matrix in each lane of a register: twins of
 // projective_dynamics.hpp, which says what they compute and which computes what is refused here.
 //
-// F = R S, R by rotation_formula.hpp, and the nearest matrix of determinant one is D = R g(S). g maps each eigenvalue s_i of S to y_i with
+// F = R S, R by rotation_formula.hpp, and the nearest matrix of determinant one is D = R g(S). g maps each eigenvalue
+// s_i of S to y_i with
 //   y_i^2 - s_i y_i + kappa = 0,   y_1 y_2 y_3 = 1.
-//   1. The eigenvalues of a symmetric 3 x 3 matrix are q + 2 p cos(phi + 2 pi k / 3) (O. K. Smith, Comm. ACM 4(4), 1961). Where two are
+//   1. The eigenvalues of a symmetric 3 x 3 matrix are q + 2 p cos(phi + 2 pi k / 3) (O. K. Smith, Comm. ACM 4(4),
+//   1961). Where two are
 //      nearly equal their difference loses half of the digits. g is symmetric in them, so that the result does not.
 //   2. y_3 is found by Newton's method between bounds. kappa = y_3 (s_3 - y_3), and y_1 and y_2 are the larger roots.
 //   3. No eigenvector is needed: g is a polynomial in S by Newton's divided differences. The equation of y makes them
-//        [s_i, s_j] = P_ij / (P_ij - kappa), P_ij = y_i y_j,   and   [s_1, s_2, s_3] = -kappa / product of all (P_ij - kappa),
+//        [s_i, s_j] = P_ij / (P_ij - kappa), P_ij = y_i y_j,   and   [s_1, s_2, s_3] = -kappa / product of all (P_ij -
+//        kappa),
 //      so that nothing is divided by a difference of eigenvalues.
 namespace pbs {
 namespace {
@@ -48,7 +51,8 @@ template <class Number>
             entry(1, 1), half * (entry(1, 2) + entry(2, 1)), entry(2, 2)};
 }
 
-// Step 1, in descending order. cos(phi) = 1/2 + u is the largest root of 4 c^3 - 3 c = r, so that 4 u^3 + 6 u^2 = 1 + r.
+// Step 1, in descending order. cos(phi) = 1/2 + u is the largest root of 4 c^3 - 3 c = r, so that 4 u^3 + 6 u^2 = 1 +
+// r.
 template <class Number>
 [[gnu::always_inline]] inline Three<Number> eigenvalues(const Symmetric3<Number>& s)
 {
@@ -58,14 +62,16 @@ template <class Number>
     const Number off = s.a01 * s.a01 + (s.a02 * s.a02 + s.a12 * s.a12);
     const Number p = Of::root((d0 * d0 + (d1 * d1 + d2 * d2) + (off + off)) * Of::of(1.0 / 6.0));
     const Number scale = Number(1) / Of::larger(p, Of::of(1e-18));
-    const Number b0 = d0 * scale, b1 = d1 * scale, b2 = d2 * scale, b01 = s.a01 * scale, b02 = s.a02 * scale, b12 = s.a12 * scale;
+    const Number b0 = d0 * scale, b1 = d1 * scale, b2 = d2 * scale, b01 = s.a01 * scale, b02 = s.a02 * scale,
+                 b12 = s.a12 * scale;
     const Number det = b0 * (b1 * b2 - b12 * b12) - b01 * (b01 * b2 - b12 * b02) + b02 * (b01 * b12 - b1 * b02);
     const Number one_plus_r = Of::larger(-Of::larger(Of::of(-0.5) * det - Number(1), Number(-2)), Number(0));
     // The first guess is within 4 % of u; each step squares that.
     const Number root = Of::root(one_plus_r * Of::of(1.0 / 6.0));
     Number u = root * Of::root(Number(6) / (Number(6) + Of::of(3.6) * root));
     for (int step = 0; step < 3; ++step)
-        u = u - (((Number(4) * u + Number(6)) * u) * u - one_plus_r) / Of::larger((Number(12) * u + Number(12)) * u, Of::of(1e-18));
+        u = u - (((Number(4) * u + Number(6)) * u) * u - one_plus_r) /
+                    Of::larger((Number(12) * u + Number(12)) * u, Of::of(1e-18));
     const Number cosine = Of::of(0.5) + u, sine = Of::root(Of::larger(Number(1) - cosine * cosine, Number(0)));
     const Number half_of_two_p = p * cosine, across = p * sine * Of::of(1.7320508075688772);
     return {q + (half_of_two_p + half_of_two_p), q - (half_of_two_p - across), q - (half_of_two_p + across)};
@@ -91,15 +97,16 @@ struct UnitProduct {
     Number beyond;  // |y_1 y_2 y_3 - 1|; not a number, or large, where there is no result
 };
 
-// Step 2. The product grows with y_3 between the bounds: from s_3 to 1 where s_1 s_2 s_3 < 1, and else from s_3 / 2 to s_3. Where it is
-// above one at s_3 / 2, the result is not unique or nearly so, and is refused.
+// Step 2. The product grows with y_3 between the bounds: from s_3 to 1 where s_1 s_2 s_3 < 1, and else from s_3 / 2 to
+// s_3. Where it is above one at s_3 / 2, the result is not unique or nearly so, and is refused.
 template <class Number>
 [[gnu::always_inline]] inline UnitProduct<Number> nearest_unit_product(const Three<Number>& s, Number rounding)
 {
     using Of = NumberFunctions<Number>;
     const Number zero = Number(0), one = Number(1), half = Of::of(0.5);
     const Number s12 = s.first * s.second, volume = s12 * s.third, at_least = Of::larger(s.third, zero);
-    Number low = Of::where_less(volume, one, at_least, half * s.third), high = Of::where_less(volume, one, one, s.third);
+    Number low = Of::where_less(volume, one, at_least, half * s.third),
+           high = Of::where_less(volume, one, one, s.third);
     // kappa is (J - 1) J / |cof S|^2 to first order.
     const Number s13 = s.first * s.third, s23 = s.second * s.third;
     const Number guess = s.third - (volume - one) * s12 / (s12 * s12 + (s13 * s13 + s23 * s23));
@@ -117,7 +124,8 @@ template <class Number>
         const Number change = s.third - (y + y);  // d kappa / dy; a larger root changes by -1 / apart with kappa
         const Number slope = others - y * change * (second.y / first.apart + first.y / second.apart);
         const Number next = y - excess / slope, middle = half * (low + high);
-        y = Of::where_less(rounding, result.beyond, Of::where_less(low, next, Of::where_less(next, high, next, middle), middle), y);
+        y = Of::where_less(rounding, result.beyond,
+                           Of::where_less(low, next, Of::where_less(next, high, next, middle), middle), y);
     }
     return result;
 }
@@ -206,12 +214,15 @@ template <typename Scalar>
     const Stretches<Number> stretches = nearest_unit_volume(stretch_of(r, f), Number(rounding));
     const Symmetric3<Number>&s = stretches.of_f, &g = stretches.unit_volume;
     const Symmetric3<Number> e = {s.a00 - Scalar(1), s.a01, s.a02, s.a11 - Scalar(1), s.a12, s.a22 - Scalar(1)};
-    const Symmetric3<Number> v = {s.a00 - g.a00, s.a01 - g.a01, s.a02 - g.a02, s.a11 - g.a11, s.a12 - g.a12, s.a22 - g.a22};
-    const Number a00 = strain * e.a00 + volume * v.a00, a01 = strain * e.a01 + volume * v.a01, a02 = strain * e.a02 + volume * v.a02;
-    const Number a11 = strain * e.a11 + volume * v.a11, a12 = strain * e.a12 + volume * v.a12, a22 = strain * e.a22 + volume * v.a22;
+    const Symmetric3<Number> v = {s.a00 - g.a00, s.a01 - g.a01, s.a02 - g.a02,
+                                  s.a11 - g.a11, s.a12 - g.a12, s.a22 - g.a22};
+    const Number a00 = strain * e.a00 + volume * v.a00, a01 = strain * e.a01 + volume * v.a01,
+                 a02 = strain * e.a02 + volume * v.a02;
+    const Number a11 = strain * e.a11 + volume * v.a11, a12 = strain * e.a12 + volume * v.a12,
+                 a22 = strain * e.a22 + volume * v.a22;
     Stress<Scalar> result;
-    result.sound = determinant > Number(rotation_formula::least_determinant<Scalar>) && stretches.beyond < Number(8 * rounding) &&
-                   stretches.least_of_p23 > Number(Scalar(least_share));
+    result.sound = determinant > Number(rotation_formula::least_determinant<Scalar>) &&
+                   stretches.beyond < Number(8 * rounding) && stretches.least_of_p23 > Number(Scalar(least_share));
     result.energy = Scalar(0.5) * (strain * squares<Scalar>(e) + volume * squares<Scalar>(v));
     where(!result.sound, result.energy) = Scalar(0);
     for (int i = 0; i < 3; ++i) {
@@ -224,8 +235,9 @@ template <typename Scalar>
 }
 
 template <typename Scalar>
-[[gnu::always_inline]] inline void add_spring(const Lanes<Scalar>& w, const Vertices<Scalar>& a, const Vertices<Scalar>& b,
-                                              Vertices<Scalar>& on_a, Vertices<Scalar>& on_b, Lanes<Scalar>& energy)
+[[gnu::always_inline]] inline void add_spring(const Lanes<Scalar>& w, const Vertices<Scalar>& a,
+                                              const Vertices<Scalar>& b, Vertices<Scalar>& on_a, Vertices<Scalar>& on_b,
+                                              Lanes<Scalar>& energy)
 {
     const LaneVector<Scalar> edge = b - a;
     add(Lanes<Scalar>(-w), edge, on_a);
@@ -235,9 +247,9 @@ template <typename Scalar>
 
 // As many tets as there are lanes; returns their energy. ProjectiveEnergy, line by line.
 template <typename Scalar>
-[[gnu::always_inline]] inline Lanes<Scalar> add_gradient_of_part(const ProjectiveBatch<Scalar>& batch, int first, Scalar strain,
-                                                                 Scalar volume, const Scalar* x, Scalar* gradient,
-                                                                 LaneMask<Scalar>& refused)
+[[gnu::always_inline]] inline Lanes<Scalar> add_gradient_of_part(const ProjectiveBatch<Scalar>& batch, int first,
+                                                                 Scalar strain, Scalar volume, const Scalar* x,
+                                                                 Scalar* gradient, LaneMask<Scalar>& refused)
 {
     using Number = Lanes<Scalar>;
     Vertices<Scalar> p[4], g[4];
@@ -270,8 +282,8 @@ template <typename Scalar>
 }  // namespace
 
 template <typename Scalar>
-double add_gradient_of_projective_tets(const ProjectiveBatch<Scalar>* batches, int count, Scalar strain, Scalar volume, const Scalar* x,
-                                       Scalar* gradient, int* refused, int* refused_count)
+double add_gradient_of_projective_tets(const ProjectiveBatch<Scalar>* batches, int count, Scalar strain, Scalar volume,
+                                       const Scalar* x, Scalar* gradient, int* refused, int* refused_count)
 {
     return sum_of_parts<Scalar>(count, [&](int b, int first) {
         LaneMask<Scalar> in_part;
@@ -282,7 +294,9 @@ double add_gradient_of_projective_tets(const ProjectiveBatch<Scalar>* batches, i
     });
 }
 
-template double add_gradient_of_projective_tets(const ProjectiveBatch<float>*, int, float, float, const float*, float*, int*, int*);
-template double add_gradient_of_projective_tets(const ProjectiveBatch<double>*, int, double, double, const double*, double*, int*, int*);
+template double add_gradient_of_projective_tets(const ProjectiveBatch<float>*, int, float, float, const float*, float*,
+                                                int*, int*);
+template double add_gradient_of_projective_tets(const ProjectiveBatch<double>*, int, double, double, const double*,
+                                                double*, int*, int*);
 
 }  // namespace pbs

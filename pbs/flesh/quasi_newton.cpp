@@ -62,8 +62,8 @@ double QuasiNewton<Scalar>::value_and_gradient(const Rows<Scalar>& x, Rows<Scala
     return contact_ ? of_flesh + contact_->add_value_and_gradient(x, gradient) : of_flesh;
 }
 
-// Contacts are sought at the beginning and after half of the iterations, or at a minimum before. The energy is then another
-// one, about which the kept pairs know nothing. False: it is still the same.
+// Contacts are sought at the beginning and after half of the iterations, or at a minimum before. The energy is then
+// another one, about which the kept pairs know nothing. False: it is still the same.
 template <typename Scalar>
 bool QuasiNewton<Scalar>::seek_contacts(QuasiNewtonSummary& summary)
 {
@@ -83,9 +83,10 @@ double QuasiNewton<Scalar>::set_direction()
     return -system_->dot(direction_, gradient_);
 }
 
-// Halves the step until the energy decreases as it should (Armijo) or, where its change is below its rounding, the slope at the end of the
-// step fulfils the approximate Wolfe conditions (W. Hager, H. Zhang, SIAM J. Optim. 16, 2005): with delta = sufficient and sigma =
-// 1 - 2 delta it lies between sigma * slope and -sigma * slope. False: no step does.
+// Halves the step until the energy decreases as it should (Armijo) or, where its change is below its rounding, the
+// slope at the end of the step fulfils the approximate Wolfe conditions (W. Hager, H. Zhang, SIAM J. Optim. 16, 2005):
+// with delta = sufficient and sigma = 1 - 2 delta it lies between sigma * slope and -sigma * slope. False: no step
+// does.
 template <typename Scalar>
 bool QuasiNewton<Scalar>::search(double slope, QuasiNewtonSummary& summary)
 {
@@ -100,7 +101,8 @@ bool QuasiNewton<Scalar>::search(double slope, QuasiNewtonSummary& summary)
         ++summary.evaluations;
         const bool is_lower = energy <= summary.energy + sufficient * length * slope;
         const bool is_equal = std::abs(energy - summary.energy) <= rounding;
-        const bool is_flatter = is_equal && std::abs(system_->dot(direction_, next_gradient_)) <= sigma * std::abs(slope);
+        const bool is_flatter =
+            is_equal && std::abs(system_->dot(direction_, next_gradient_)) <= sigma * std::abs(slope);
         if (!is_lower && !is_flatter) continue;
         history_.remember(*system_, x_, next_x_, gradient_, next_gradient_);
         std::swap(x_, next_x_);

@@ -1,5 +1,6 @@
-// The quasi-Newton method for elastic bodies of T. Liu, S. Bouaziz, L. Kavan (Quasi-Newton methods for real-time simulation of hyperelastic
-// materials, ACM TOG 36(3), 2017): L-BFGS whose first matrix is a constant Laplacian (flesh_laplacian), factored once for all frames.
+// The quasi-Newton method for elastic bodies of T. Liu, S. Bouaziz, L. Kavan (Quasi-Newton methods for real-time
+// simulation of hyperelastic materials, ACM TOG 36(3), 2017): L-BFGS whose first matrix is a constant Laplacian
+// (flesh_laplacian), factored once for all frames.
 //   QuasiNewton<float> solver(mesh, energy, factor, options);
 //   QuasiNewtonSummary summary = solver.minimise(centres, x);   // x: the initial guess in, the minimum out
 #pragma once
@@ -13,10 +14,11 @@
 namespace pbs {
 
 struct QuasiNewtonOptions {
-    int iterations = 24;         // at most
-    int history = 5;             // pairs of steps and changes of the gradient that L-BFGS keeps
-    double stop_gradient = 0.0;  // stop where the norm of H^-1 g is below this share of its first value, or is rounding; 0: never
-    bool packed = true;          // several elements side by side; false: plain code, one after the other, in double
+    int iterations = 24;  // at most
+    int history = 5;      // pairs of steps and changes of the gradient that L-BFGS keeps
+    double stop_gradient =
+        0.0;  // stop where the norm of H^-1 g is below this share of its first value, or is rounding; 0: never
+    bool packed = true;  // several elements side by side; false: plain code, one after the other, in double
     int threads = 1;
     bool contact = false;  // a penalty on skin in flesh of another part (FleshContact)
 };
@@ -33,7 +35,8 @@ struct QuasiNewtonSummary {
 template <typename Scalar>
 class QuasiNewton {
 public:
-    QuasiNewton(const TetMesh& mesh, const FleshEnergy& energy, const CholeskyFactor& factor, const QuasiNewtonOptions& options);
+    QuasiNewton(const TetMesh& mesh, const FleshEnergy& energy, const CholeskyFactor& factor,
+                const QuasiNewtonOptions& options);
 
     // x [m], #V x 3.
     QuasiNewtonSummary minimise(const Positions& centres, Positions& x);

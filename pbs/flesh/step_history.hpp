@@ -1,5 +1,5 @@
-// The limited memory of L-BFGS: pairs of a step and of the change of the gradient over it (J. Nocedal, S. Wright, Numerical Optimization,
-// section 7.2), which improve any symmetric positive definite first matrix.
+// The limited memory of L-BFGS: pairs of a step and of the change of the gradient over it (J. Nocedal, S. Wright,
+// Numerical Optimization, section 7.2), which improve any symmetric positive definite first matrix.
 //   StepHistory<float> history(5);
 //   history.remember(system, x, next_x, gradient, next_gradient);
 //   history.apply(system, direction, [&](Rows<float>& rows) { system.precondition(rows); });   // g in, H g out
@@ -21,8 +21,8 @@ public:
     void clear() { pairs_.clear(); }
 
     // Keeps the step from x to next_x where its curvature is positive. A full memory loses its oldest pair in any case.
-    void remember(const FleshSystem<Scalar>& system, const Rows<Scalar>& x, const Rows<Scalar>& next_x, const Rows<Scalar>& gradient,
-                  const Rows<Scalar>& next_gradient)
+    void remember(const FleshSystem<Scalar>& system, const Rows<Scalar>& x, const Rows<Scalar>& next_x,
+                  const Rows<Scalar>& gradient, const Rows<Scalar>& next_gradient)
     {
         if (longest_ == 0) return;
         Pair pair;

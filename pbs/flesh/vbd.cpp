@@ -44,10 +44,14 @@ public:
     {
         store(x, x_);
         for (const std::vector<int>& colour : colours_)
-            for (const int i : colour) x_.row(i) -= omega * block_step(vertex_block(stars_[i], i, x_, centres_)).transpose();
+            for (const int i : colour)
+                x_.row(i) -= omega * block_step(vertex_block(stars_[i], i, x_, centres_)).transpose();
         load(x_, x);
     }
-    VertexHold hold(int vertex) const override { return {centres_.row(vertex), stars_[vertex].hold, stars_[vertex].diagonal}; }
+    VertexHold hold(int vertex) const override
+    {
+        return {centres_.row(vertex), stars_[vertex].hold, stars_[vertex].diagonal};
+    }
     void set_hold(int vertex, const VertexHold& hold) override
     {
         centres_.row(vertex) = hold.centre;
@@ -66,9 +70,10 @@ private:
     Positions centres_, x_;
 };
 
-// Sixteen vertices of one colour side by side. The vertices of a colour are cut into chunks of neighbouring ones; in a chunk they are
-// sorted by their number of tets, so that few lanes wait for others. Threads share the chunks of a colour. Their number changes no bit,
-// because no vertex of a colour reads another one. Sixteen dummies follow the rows of the vertices.
+// Sixteen vertices of one colour side by side. The vertices of a colour are cut into chunks of neighbouring ones; in a
+// chunk they are sorted by their number of tets, so that few lanes wait for others. Threads share the chunks of a
+// colour. Their number changes no bit, because no vertex of a colour reads another one. Sixteen dummies follow the rows
+// of the vertices.
 template <typename Scalar>
 class PackedVertexSweep : public VertexSweep<Scalar> {
 public:
@@ -91,13 +96,16 @@ public:
         for (std::size_t i = 0; i < stars.size(); ++i) centres_[this->place_[i]][3] = Scalar(stars[i].hold);
     }
 
-    void set_centres(const Positions& centres) override { this->origin_ = load_held_centres(centres, this->place_, centres_); }
+    void set_centres(const Positions& centres) override
+    {
+        this->origin_ = load_held_centres(centres, this->place_, centres_);
+    }
     void move(double omega, Rows<Scalar>& x) override
     {
         for (const std::vector<Chunk>& chunks : colours_)
             parallel_.for_each(static_cast<int>(chunks.size()), [&](int c) {
-                move_vertices(batches_.data() + chunks[c].first, chunks[c].count, incidences_.data(), centres_.data(), Scalar(omega),
-                              x.data());
+                move_vertices(batches_.data() + chunks[c].first, chunks[c].count, incidences_.data(), centres_.data(),
+                              Scalar(omega), x.data());
             });
     }
     VertexHold hold(int vertex) const override
@@ -126,7 +134,8 @@ private:
 
     void add_chunk(const std::vector<VertexStar>& stars, std::vector<int> vertices)
     {
-        std::stable_sort(vertices.begin(), vertices.end(), [&](int a, int b) { return stars[a].tets.size() > stars[b].tets.size(); });
+        std::stable_sort(vertices.begin(), vertices.end(),
+                         [&](int a, int b) { return stars[a].tets.size() > stars[b].tets.size(); });
         const int before = static_cast<int>(batches_.size()), count = static_cast<int>(vertices.size());
         for (int first = 0; first < count; first += batch_size)
             add_batch(stars, vertices.data() + first, std::min(batch_size, count - first));
@@ -141,14 +150,16 @@ private:
         incidences_.resize(batch.first + batch.count);
         for (int lane = 0; lane < batch_size; ++lane) {
             const VertexStar none, &star = lane < count ? stars[vertices[lane]] : none;
-            const std::uint32_t own = 4u * (lane < count ? this->place_[vertices[lane]] : this->rows_ - batch_size + lane);
+            const std::uint32_t own =
+                4u * (lane < count ? this->place_[vertices[lane]] : this->rows_ - batch_size + lane);
             if (lane < count) lane_of_[vertices[lane]] = {static_cast<int>(batches_.size()) - 1, lane};
             batch.offset[lane] = own;
             batch.diagonal[lane] = Scalar(star.diagonal);
             for (int t = 0; t < batch.count; ++t) {
                 const bool is_tet = t < static_cast<int>(star.tets.size()) && star.diagonal > 0.0;
                 VertexIncidence<Scalar>& incidence = incidences_[batch.first + t];
-                for (int k = 0; k < 3; ++k) incidence.other[k][lane] = is_tet ? 4u * this->place_[star.tets[t].other[k]] : own;
+                for (int k = 0; k < 3; ++k)
+                    incidence.other[k][lane] = is_tet ? 4u * this->place_[star.tets[t].other[k]] : own;
                 for (int k = 0; k < 3; ++k) incidence.w[k][lane] = is_tet ? Scalar(star.tets[t].w[k]) : Scalar(0);
                 incidence.kappa[lane] = is_tet ? Scalar(star.tets[t].kappa) : Scalar(0);
                 incidence.d[lane] = is_tet ? Scalar(star.tets[t].d) : Scalar(0);
@@ -175,8 +186,11 @@ std::vector<double> chebyshev_weights(double rho, int count)
 }
 
 template <typename Scalar>
-VertexBlockDescent<Scalar>::VertexBlockDescent(const TetMesh& mesh, const FleshEnergy& energy, const VertexBlockOptions& options)
-    : options_(checked(options)), sweep_(make_vertex_sweep<Scalar>(mesh, energy, options.packed, options.threads)), x_(sweep_->rows())
+VertexBlockDescent<Scalar>::VertexBlockDescent(const TetMesh& mesh, const FleshEnergy& energy,
+                                               const VertexBlockOptions& options)
+    : options_(checked(options)),
+      sweep_(make_vertex_sweep<Scalar>(mesh, energy, options.packed, options.threads)),
+      x_(sweep_->rows())
 {
     if (options.contact) contact_.emplace(mesh, energy, sweep_->place());
     if (options.acceleration == Acceleration::chebyshev) weights_ = chebyshev_weights(options.rho, options.iterations);
@@ -202,9 +216,10 @@ VertexBlockSummary VertexBlockDescent<Scalar>::minimise(const Positions& centres
     return {options_.iterations, x.allFinite()};
 }
 
-// Contacts are sought at the beginning and after half of the sweeps. In a sweep, the springs of ContactPull stand for their
-// energy: where the sweep lowers the sum of flesh and springs, it lowers the sum of flesh and contact. A spring of stiffness A and gradient
-// g at x_i and the hold of a vertex make one spring, of stiffness a_i + A and centre (a_i c_i + A x_i - g) / (a_i + A).
+// Contacts are sought at the beginning and after half of the sweeps. In a sweep, the springs of ContactPull stand for
+// their energy: where the sweep lowers the sum of flesh and springs, it lowers the sum of flesh and contact. A spring
+// of stiffness A and gradient g at x_i and the hold of a vertex make one spring, of stiffness a_i + A and centre (a_i
+// c_i + A x_i - g) / (a_i + A).
 template <typename Scalar>
 void VertexBlockDescent<Scalar>::sweep(int iteration, double omega)
 {
@@ -219,8 +234,9 @@ void VertexBlockDescent<Scalar>::sweep(int iteration, double omega)
             const double stiffness = hold.stiffness + pull.stiffness;
             if (!(stiffness > 0.0)) continue;
             own.emplace_back(pull.vertex, hold);
-            sweep_->set_hold(pull.vertex, {(hold.stiffness * hold.centre + pull.stiffness * x - pull.gradient) / stiffness, stiffness,
-                                           hold.diagonal + pull.stiffness});
+            sweep_->set_hold(pull.vertex,
+                             {(hold.stiffness * hold.centre + pull.stiffness * x - pull.gradient) / stiffness,
+                              stiffness, hold.diagonal + pull.stiffness});
         }
     sweep_->move(omega, x_);
     for (const auto& [vertex, hold] : own) sweep_->set_hold(vertex, hold);
@@ -251,7 +267,8 @@ std::vector<VertexStar> vertex_stars(const FleshEnergy& energy)
 VertexBlock vertex_block(const VertexStar& star, int vertex, const Positions& x, const Positions& centres)
 {
     const Vec3 x_i = x.row(vertex);
-    VertexBlock block{star.hold * (x_i - centres.row(vertex).transpose()), star.diagonal * Eigen::Matrix3d::Identity(), star.diagonal};
+    VertexBlock block{star.hold * (x_i - centres.row(vertex).transpose()), star.diagonal * Eigen::Matrix3d::Identity(),
+                      star.diagonal};
     for (const IncidentTet& tet : star.tets) {
         Vec3 to[3];
         for (int k = 0; k < 3; ++k) {
@@ -281,7 +298,8 @@ Vec3 block_step(const VertexBlock& block)
 }
 
 template <typename Scalar>
-std::unique_ptr<VertexSweep<Scalar>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, bool packed, int threads)
+std::unique_ptr<VertexSweep<Scalar>> make_vertex_sweep(const TetMesh& mesh, const FleshEnergy& energy, bool packed,
+                                                       int threads)
 {
     if constexpr (std::is_same_v<Scalar, double>)
         if (!packed) return std::make_unique<PlainVertexSweep>(mesh, energy);

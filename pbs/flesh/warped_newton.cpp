@@ -38,7 +38,8 @@ WarpedNewton<Scalar>::WarpedNewton(const TetMesh& mesh, const FleshEnergy& energ
 }
 
 template <typename Scalar>
-WarpedNewtonSummary WarpedNewton<Scalar>::minimise(const Positions& centres, const std::vector<Eigen::Matrix3d>& rotations, Positions& x)
+WarpedNewtonSummary WarpedNewton<Scalar>::minimise(const Positions& centres,
+                                                   const std::vector<Eigen::Matrix3d>& rotations, Positions& x)
 {
     WarpedNewtonSummary summary;
     if (options_.iterations == 0) return summary;
@@ -85,7 +86,8 @@ bool WarpedNewton<Scalar>::is_flatter() const
     return std::abs(system_->dot(direction_, next_gradient_)) <= std::abs(system_->dot(direction_, gradient_));
 }
 
-// The two systems have the same origin, since it depends on the centres alone, but the rows of the vertices in different places.
+// The two systems have the same origin, since it depends on the centres alone, but the rows of the vertices in
+// different places.
 template <typename Scalar>
 void WarpedNewton<Scalar>::sweep(Rows<Scalar>& x, WarpedNewtonSummary& summary)
 {

@@ -1,10 +1,12 @@
-// A quasi-Newton method for elastic flesh in equilibrium whose first matrix is the warped stiffness (warped_solve.hpp), with sweeps of
-// vertex block descent (vbd.hpp) before each step. The two complement each other: a step takes away what is spread over the body, and a
-// sweep what a few tets resist, such as volumes that blending has crushed, at which a step computed from rest would overshoot.
+// A quasi-Newton method for elastic flesh in equilibrium whose first matrix is the warped stiffness (warped_solve.hpp),
+// with sweeps of vertex block descent (vbd.hpp) before each step. The two complement each other: a step takes away what
+// is spread over the body, and a sweep what a few tets resist, such as volumes that blending has crushed, at which a
+// step computed from rest would overshoot.
 //   WarpedNewton<float> solver(mesh, energy, factor, options);
-//   WarpedNewtonSummary summary = solver.minimise(centres, rotations, x);   // x: the initial guess in, the last iterate out
-// The energy of the result is at most that of the initial guess, except for rounding: a step after which the energy is higher is taken back
-// and shortened.
+//   WarpedNewtonSummary summary = solver.minimise(centres, rotations, x);   // x: the initial guess in, the last
+//   iterate out
+// The energy of the result is at most that of the initial guess, except for rounding: a step after which the energy is
+// higher is taken back and shortened.
 #pragma once
 
 #include "pbs/flesh/flesh_system.hpp"
@@ -30,15 +32,18 @@ struct WarpedNewtonSummary {
     int iterations = 0;
     int evaluations = 0;  // of value and gradient
     int sweeps = 0;
-    int taken_back = 0;            // steps after which the energy was higher
-    std::vector<double> energies;  // after the first sweeps and after each step that was kept, over Young's modulus [m^3]
+    int taken_back = 0;  // steps after which the energy was higher
+    // after the first sweeps and after each step that was kept, over Young's modulus [m^3]
+    std::vector<double> energies;
 };
 
 template <typename Scalar>
 class WarpedNewton {
 public:
-    // factor: of flesh_laplacian, for the order of its vertices. InputError: omega outside (0, 2), and those of WarpedSolve.
-    WarpedNewton(const TetMesh& mesh, const FleshEnergy& energy, const CholeskyFactor& factor, const WarpedNewtonOptions& options);
+    // factor: of flesh_laplacian, for the order of its vertices. InputError: omega outside (0, 2), and those of
+    // WarpedSolve.
+    WarpedNewton(const TetMesh& mesh, const FleshEnergy& energy, const CholeskyFactor& factor,
+                 const WarpedNewtonOptions& options);
 
     // centres [m], #V x 3; rotations: of the flesh around each vertex, #V; x [m], #V x 3.
     WarpedNewtonSummary minimise(const Positions& centres, const std::vector<Eigen::Matrix3d>& rotations, Positions& x);

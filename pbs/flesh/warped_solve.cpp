@@ -16,7 +16,8 @@ namespace {
 // A number of column c and this row of a panel.
 void set_value(std::uint32_t* values, int stride, int c, int row, double number)
 {
-    const std::uint32_t upper_half = (std::bit_cast<std::uint32_t>(static_cast<float>(number)) + 0x8000u) >> 16;  // to the nearest
+    // to the nearest
+    const std::uint32_t upper_half = (std::bit_cast<std::uint32_t>(static_cast<float>(number)) + 0x8000u) >> 16;
     values[c / 2 * stride + row] |= c % 2 == 0 ? upper_half : upper_half << 16;
 }
 
@@ -37,7 +38,8 @@ int rows_below(const CholeskyFactor& factor, const Columns& columns)
     return factor.first[last + 1] - factor.first[last] - 1;
 }
 
-// Supernodes, where one that is followed by its parent is merged with it if the zeros that this adds take no longer than another panel.
+// Supernodes, where one that is followed by its parent is merged with it if the zeros that this adds take no longer
+// than another panel.
 std::vector<Columns> merged_supernodes(const CholeskyFactor& factor)
 {
     constexpr std::size_t zeros_of_a_panel = 200;  // of 1, 200, 400 and 800 the quickest on three bodies
@@ -54,7 +56,8 @@ std::vector<Columns> merged_supernodes(const CholeskyFactor& factor)
             const int last = child.first + child.width - 1;
             const bool is_parent = rows_below(factor, child) > 0 && factor.row[factor.first[last] + 1] == next.first;
             const Columns both{child.first, child.width + next.width, child.entries + next.entries};
-            if (!is_parent || both.width > widest_panel || size(both) > size(child) + size(next) + zeros_of_a_panel) break;
+            if (!is_parent || both.width > widest_panel || size(both) > size(child) + size(next) + zeros_of_a_panel)
+                break;
             next = both;
             merged.pop_back();
         }
@@ -67,13 +70,15 @@ std::vector<Columns> merged_supernodes(const CholeskyFactor& factor)
 Eigen::MatrixXd dense(const CholeskyFactor& factor, const Columns& columns)
 {
     const int end = columns.first + columns.width;
-    const auto below_begin = factor.row.begin() + factor.first[end - 1] + 1, below_end = factor.row.begin() + factor.first[end];
+    const auto below_begin = factor.row.begin() + factor.first[end - 1] + 1,
+               below_end = factor.row.begin() + factor.first[end];
     Eigen::MatrixXd L = Eigen::MatrixXd::Zero(columns.width + (below_end - below_begin), columns.width);
     for (int c = 0; c < columns.width; ++c)
         for (int entry = factor.first[columns.first + c]; entry < factor.first[columns.first + c + 1]; ++entry) {
             const int row = factor.row[entry];
-            const auto place =
-                row < end ? row - columns.first : columns.width + (std::lower_bound(below_begin, below_end, row) - below_begin);
+            const auto place = row < end
+                                   ? row - columns.first
+                                   : columns.width + (std::lower_bound(below_begin, below_end, row) - below_begin);
             L(place, c) = factor.value[entry];
         }
     return L;
@@ -120,7 +125,8 @@ void WarpedSolve<Scalar>::make_panels(const CholeskyFactor& factor)
         const std::size_t first_block = blocks_.size();
         for (int row = columns.first; row < end; row += 3) blocks_.push_back(4u * (row / 3));
         for (int k = 0; k < below; k += 3) blocks_.push_back(4u * (factor.row[factor.first[end - 1] + 1 + k] / 3));
-        while ((blocks_.size() - first_block) % blocks_together != 0) blocks_.push_back(4u * static_cast<std::uint32_t>(order_.size()));
+        while ((blocks_.size() - first_block) % blocks_together != 0)
+            blocks_.push_back(4u * static_cast<std::uint32_t>(order_.size()));
         const int blocks = static_cast<int>(blocks_.size() - first_block);
         panels_.push_back({columns.width / 3, blocks, first_block, numbers});
         numbers += 4 * static_cast<std::size_t>(blocks) * panels_.back().columns() / columns_of_a_value;
@@ -131,12 +137,14 @@ void WarpedSolve<Scalar>::make_panels(const CholeskyFactor& factor)
     for (std::size_t p = 0; p < panels_.size(); ++p) {
         Eigen::MatrixXd panel = dense(factor, supernodes[p]);
         const Eigen::Index width = panel.cols();
-        const Eigen::MatrixXd inverse = panel.topRows(width).triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(width, width));
+        const Eigen::MatrixXd inverse =
+            panel.topRows(width).triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(width, width));
         panel.bottomRows(panel.rows() - width) *= -inverse;
         panel.topRows(width) = inverse;
         PanelValue<Scalar>* values = values_.data() + panels_[p].first_value;
         for (int c = 0; c < width; ++c)
-            for (int row = 0; row < panel.rows(); ++row) set_value(values, 4 * panels_[p].blocks, c, row / 3 * 4 + row % 3, panel(row, c));
+            for (int row = 0; row < panel.rows(); ++row)
+                set_value(values, 4 * panels_[p].blocks, c, row / 3 * 4 + row % 3, panel(row, c));
     }
 }
 
@@ -162,8 +170,10 @@ void WarpedSolve<Scalar>::apply(Rows<Scalar>& rows)
         for (int k = 0; k < vertices; ++k)
             for (int axis = 0; axis < 3; ++axis) turned_[k][axis] = Scalar(solution(3 * order_[k] + axis));
     } else {
-        std::fill_n(turned_[vertices], 4, Scalar(0));  // of the panels' further rows, which a frame that is not finite would spoil
-        solve_panels(panels_.data(), static_cast<int>(panels_.size()), blocks_.data(), values_.data(), turned_.data(), scratch_.data());
+        // of the panels' further rows, which a frame that is not finite would spoil
+        std::fill_n(turned_[vertices], 4, Scalar(0));
+        solve_panels(panels_.data(), static_cast<int>(panels_.size()), blocks_.data(), values_.data(), turned_.data(),
+                     scratch_.data());
     }
     turn(rotations_.data(), place_.data(), vertices, turned_.data(), rows.data());
 }

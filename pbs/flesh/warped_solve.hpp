@@ -1,8 +1,9 @@
-// The warped stiffness matrix of M. Mueller, J. Dorsey, L. McMillan, R. Jagnow, B. Cutler (Stable real-time deformations, SCA 2002), as the
-// inverse that a minimiser applies: R K R^T, where K is the second derivative of the flesh's energy at rest and R turns each vertex as the
-// bones around it turn. K is factored once for all poses; a pose costs the rotations alone. Near the minimum R K R^T is close to the second
-// derivative of the energy, since flesh that a bone carries along is as stiff as at rest in the frame of this bone. Unlike the Laplacian
-// (flesh_laplacian) it resists changes of volume as the flesh does and lets it rotate.
+// The warped stiffness matrix of M. Mueller, J. Dorsey, L. McMillan, R. Jagnow, B. Cutler (Stable real-time
+// deformations, SCA 2002), as the inverse that a minimiser applies: R K R^T, where K is the second derivative of the
+// flesh's energy at rest and R turns each vertex as the bones around it turn. K is factored once for all poses; a pose
+// costs the rotations alone. Near the minimum R K R^T is close to the second derivative of the energy, since flesh that
+// a bone carries along is as stiff as at rest in the frame of this bone. Unlike the Laplacian (flesh_laplacian) it
+// resists changes of volume as the flesh does and lets it rotate.
 //   WarpedSolve<float> solve(mesh, energy, factor.order, system->place(), true);
 //   solve.set_rotations(rotations);
 //   solve.apply(rows);   // b in, (R K R^T)^-1 b out
@@ -21,9 +22,11 @@ namespace pbs {
 template <typename Scalar>
 class WarpedSolve {
 public:
-    // order: of the vertices in the factor; that of a factor of the same mesh has few entries. place: the row of each vertex, #V. packed:
-    // false solves with a loop per entry, in double. InputError: K is not positive definite, or the module of CHOLMOD is missing.
-    WarpedSolve(const TetMesh& mesh, const FleshEnergy& energy, const std::vector<int>& order, const std::vector<int>& place, bool packed);
+    // order: of the vertices in the factor; that of a factor of the same mesh has few entries. place: the row of each
+    // vertex, #V. packed: false solves with a loop per entry, in double. InputError: K is not positive definite, or the
+    // module of CHOLMOD is missing.
+    WarpedSolve(const TetMesh& mesh, const FleshEnergy& energy, const std::vector<int>& order,
+                const std::vector<int>& place, bool packed);
 
     void set_rotations(const std::vector<Eigen::Matrix3d>& rotations);  // #V
     void apply(Rows<Scalar>& rows);                                     // [m^2] -> [m]

@@ -48,23 +48,26 @@ template <typename Scalar>
     if constexpr (lanes<Scalar> < 4) {
         return Lanes<Scalar>([&](auto lane) { return work[block[(first + lane) / 4] + (first + lane) % 4]; });
     } else {
-        const auto row = simd_detail::side_by_side<Scalar>([&](int lane) { return block_at(work, block[(first + lane) / 4]); });
+        const auto row =
+            simd_detail::side_by_side<Scalar>([&](int lane) { return block_at(work, block[(first + lane) / 4]); });
         return reinterpret_cast<const Lanes<Scalar>&>(row);
     }
 }
 
 template <typename Scalar, std::size_t... k>
-[[gnu::always_inline]] inline void add_row(const simd_detail::Row<Scalar>& row, Scalar* work, const std::uint32_t* block,
-                                           std::index_sequence<k...>)
+[[gnu::always_inline]] inline void add_row(const simd_detail::Row<Scalar>& row, Scalar* work,
+                                           const std::uint32_t* block, std::index_sequence<k...>)
 {
     ((block_at(work, block[k]) += simd_detail::block<k, Scalar>(row)), ...);
 }
 
 template <typename Scalar>
-[[gnu::always_inline]] inline void add_to_blocks(const Lanes<Scalar>& numbers, Scalar* work, const std::uint32_t* block, int first)
+[[gnu::always_inline]] inline void add_to_blocks(const Lanes<Scalar>& numbers, Scalar* work, const std::uint32_t* block,
+                                                 int first)
 {
     if constexpr (lanes<Scalar> < 4)
-        for (int lane = 0; lane < lanes<Scalar>; ++lane) work[block[(first + lane) / 4] + (first + lane) % 4] += numbers[lane];
+        for (int lane = 0; lane < lanes<Scalar>; ++lane)
+            work[block[(first + lane) / 4] + (first + lane) % 4] += numbers[lane];
     else
         add_row<Scalar>(reinterpret_cast<const simd_detail::Row<Scalar>&>(numbers), work, block + first / 4,
                         std::make_index_sequence<lanes<Scalar> / 4>());
@@ -95,7 +98,8 @@ void substitute_forward(const Panel& panel, const std::uint32_t* block, const Pa
 
 // The columns' blocks become P^T times all blocks.
 template <typename Scalar>
-void substitute_backward(const Panel& panel, const std::uint32_t* block, const PanelValue<Scalar>* values, Scalar* work, Scalar* scratch)
+void substitute_backward(const Panel& panel, const std::uint32_t* block, const PanelValue<Scalar>* values, Scalar* work,
+                         Scalar* scratch)
 {
     const int stride = 4 * panel.blocks, step = step_of_pair<Scalar>(stride);
     for (int row = 0; row < stride; row += lanes<Scalar>) store(gather_blocks(work, block, row), scratch + row);
@@ -110,7 +114,8 @@ void substitute_backward(const Panel& panel, const std::uint32_t* block, const P
         }
         for (int k = 0; k < 2; ++k) x[c + k] = std::experimental::reduce(sums[k]);
     }
-    for (int k = 0; k < panel.column_blocks; ++k) block_at(work, block[k]) = Four<Scalar>{x[3 * k], x[3 * k + 1], x[3 * k + 2], Scalar(0)};
+    for (int k = 0; k < panel.column_blocks; ++k)
+        block_at(work, block[k]) = Four<Scalar>{x[3 * k], x[3 * k + 1], x[3 * k + 2], Scalar(0)};
 }
 
 }  // namespace
@@ -118,8 +123,8 @@ void substitute_backward(const Panel& panel, const std::uint32_t* block, const P
 static_assert(numbers_together % lanes<float> == 0 && numbers_together % lanes<double> == 0);
 
 template <typename Scalar>
-void solve_panels(const Panel* panels, int count, const std::uint32_t* block, const PanelValue<Scalar>* values, Scalar* work,
-                  Scalar* scratch)
+void solve_panels(const Panel* panels, int count, const std::uint32_t* block, const PanelValue<Scalar>* values,
+                  Scalar* work, Scalar* scratch)
 {
     for (const Panel* panel = panels; panel != panels + count; ++panel)
         substitute_forward<Scalar>(*panel, block + panel->first_block, values + panel->first_value, work);
@@ -145,7 +150,8 @@ template <typename Scalar>
 void turn(const Scalar* rotations, const std::uint32_t* place, int vertices, const Scalar* turned, Scalar* rows)
 {
     for (int k = 0; k < vertices; ++k, rotations += 12, turned += 4)
-        store_four<Scalar>(turned[0] * load_four(rotations) + turned[1] * load_four(rotations + 4) + turned[2] * load_four(rotations + 8),
+        store_four<Scalar>(turned[0] * load_four(rotations) + turned[1] * load_four(rotations + 4) +
+                               turned[2] * load_four(rotations + 8),
                            rows + place[k]);
 }
 

@@ -16,7 +16,8 @@
 namespace pbs {
 
 template <typename Scalar>
-XpbdNeoHookean<Scalar>::XpbdNeoHookean(const TetMesh& mesh, const XpbdFlesh& flesh, const XpbdNeoHookeanOptions& options)
+XpbdNeoHookean<Scalar>::XpbdNeoHookean(const TetMesh& mesh, const XpbdFlesh& flesh,
+                                       const XpbdNeoHookeanOptions& options)
     : options_(options),
       system_(make_xpbd_system<Scalar>(mesh, flesh, options.packed, options.threads)),
       x_(system_->rows()),
@@ -70,20 +71,24 @@ template class XpbdNeoHookean<double>;
 
 namespace {
 
-// A visit corrects forces at the shape before it, and so treats the curvature of its two constraints explicitly: with the displacement a
-// that the tet has applied, a_{n+1} = -kappa (y_n + a_n) and x_{n+1} = y_n + a_{n+1} along an eigenvector of W times the curvature, of
-// eigenvalue kappa. These shrink for kappa < (2 + 2 b) / (3 + 4 b), which is 4/7 for the momentum b = 1. At rest the multipliers are -mu V
-// and mu V, and the curvature is at most 2 mu V |dF|^2, so that kappa <= 2 rho with rho = mu V times the largest eigenvalue of
-// sum_i w_i g_i g_i^T. The visits of tets that share their vertices with many others damp each other. A tet that has more than 9/16 of the
-// stiffness of its vertices on average is taken for alone: one tet has all of it, and no tet of this project's bodies more than 0.35.
-// Its vertices get the masses of a stiffness that is larger by the returned factor, 1 elsewhere, #V, so that kappa is at most 0.51 at the
-// default time step of 0.8. stiffness: D_i, #V.
-Eigen::VectorXd curvature_in_excess(const std::vector<NeoHookeanTet>& tets, const FleshMaterial& material, const Eigen::VectorXd& stiffness)
+// A visit corrects forces at the shape before it, and so treats the curvature of its two constraints explicitly: with
+// the displacement a that the tet has applied, a_{n+1} = -kappa (y_n + a_n) and x_{n+1} = y_n + a_{n+1} along an
+// eigenvector of W times the curvature, of eigenvalue kappa. These shrink for kappa < (2 + 2 b) / (3 + 4 b), which is
+// 4/7 for the momentum b = 1. At rest the multipliers are -mu V and mu V, and the curvature is at most 2 mu V |dF|^2,
+// so that kappa <= 2 rho with rho = mu V times the largest eigenvalue of sum_i w_i g_i g_i^T. The visits of tets that
+// share their vertices with many others damp each other. A tet that has more than 9/16 of the stiffness of its vertices
+// on average is taken for alone: one tet has all of it, and no tet of this project's bodies more than 0.35. Its
+// vertices get the masses of a stiffness that is larger by the returned factor, 1 elsewhere, #V, so that kappa is at
+// most 0.51 at the default time step of 0.8. stiffness: D_i, #V.
+Eigen::VectorXd curvature_in_excess(const std::vector<NeoHookeanTet>& tets, const FleshMaterial& material,
+                                    const Eigen::VectorXd& stiffness)
 {
     constexpr double alone = 4.0 * 9.0 / 16.0, stable = 0.4;  // rho at a time step of 1
-    Eigen::VectorXd excess = Eigen::VectorXd::Ones(stiffness.size()), of_flesh = Eigen::VectorXd::Zero(stiffness.size());
+    Eigen::VectorXd excess = Eigen::VectorXd::Ones(stiffness.size()),
+                    of_flesh = Eigen::VectorXd::Zero(stiffness.size());
     const auto of_tet = [&](const NeoHookeanTet& tet) -> Eigen::Vector4d {
-        return material.mu * tet.volume * vertex_gradients(tet, Eigen::Matrix3d::Identity()).colwise().squaredNorm().transpose();
+        return material.mu * tet.volume *
+               vertex_gradients(tet, Eigen::Matrix3d::Identity()).colwise().squaredNorm().transpose();
     };
     for (const NeoHookeanTet& tet : tets)
         for (int i = 0; i < 4; ++i) of_flesh(tet.vertex[i]) += of_tet(tet)(i);
@@ -95,7 +100,8 @@ Eigen::VectorXd curvature_in_excess(const std::vector<NeoHookeanTet>& tets, cons
         Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
         for (int i = 0; i < 4; ++i)
             if (stiffness(tet.vertex[i]) > 0.0) S += g.col(i) * g.col(i).transpose() / stiffness(tet.vertex[i]);
-        const double rho = material.mu * tet.volume * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(S).eigenvalues()(2);
+        const double rho =
+            material.mu * tet.volume * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(S).eigenvalues()(2);
         for (const int vertex : tet.vertex) excess(vertex) = std::max(excess(vertex), rho / stable);
     }
     return excess;
@@ -103,10 +109,12 @@ Eigen::VectorXd curvature_in_excess(const std::vector<NeoHookeanTet>& tets, cons
 
 }  // namespace
 
-XpbdFlesh::XpbdFlesh(const TetMesh& mesh, const FleshEnergy& energy, const BoneHold& bones, const FleshMaterial& of_flesh, double time_step)
+XpbdFlesh::XpbdFlesh(const TetMesh& mesh, const FleshEnergy& energy, const BoneHold& bones,
+                     const FleshMaterial& of_flesh, double time_step)
     : material(of_flesh), tets(neo_hookean_tets(mesh)), hold(bones), first_mode(tets.size() + 1, 0), w(energy.hold())
 {
-    if (!(time_step > 0.0)) throw InputError("flesh", 0, "time_step", std::to_string(time_step), "expected a value above 0");
+    if (!(time_step > 0.0))
+        throw InputError("flesh", 0, "time_step", std::to_string(time_step), "expected a value above 0");
     for (const HoldMode& mode : hold.modes()) ++first_mode[mode.tet + 1];
     for (std::size_t t = 0; t < tets.size(); ++t) first_mode[t + 1] += first_mode[t];
     size_m = diagonal_m(mesh.rest);
@@ -134,8 +142,8 @@ double inner(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b)
     return a.cwiseProduct(b).sum();
 }
 
-// Sixteen tets that share no vertex side by side, in the order of memory of the solvers of Algorithm 1. In each slab of the mesh, first the
-// springs and then the tets are visited. Threads share the slabs; their number changes no bit.
+// Sixteen tets that share no vertex side by side, in the order of memory of the solvers of Algorithm 1. In each slab of
+// the mesh, first the springs and then the tets are visited. Threads share the slabs; their number changes no bit.
 template <typename Scalar>
 class PackedXpbd : public XpbdSystem<Scalar> {
 public:
@@ -161,7 +169,8 @@ public:
                     mode_places_[r] = {s, b, r - flesh.first_mode[tet], lane};
                 fill_hold(slab.holds[b], lane, tet, flesh);
             });
-            slabs_.fill(s, slab.tet_members, slab.tets, [&](int b, int lane, int tet) { fill_tet(slab.tets[b], lane, tet, flesh); });
+            slabs_.fill(s, slab.tet_members, slab.tets,
+                        [&](int b, int lane, int tet) { fill_tet(slab.tets[b], lane, tet, flesh); });
         }
     }
 
@@ -169,21 +178,25 @@ public:
     {
         set_origin(targets);
         for (Slab& slab : batches_)
-            for (HoldBatch<Scalar>& batch : slab.holds) std::fill_n(&batch.target[0][0][0], 4 * 3 * batch_size, Scalar(0));
+            for (HoldBatch<Scalar>& batch : slab.holds)
+                std::fill_n(&batch.target[0][0][0], 4 * 3 * batch_size, Scalar(0));
         for (std::size_t r = 0; r < mode_places_.size(); ++r) {
             const auto& [slab, b, mode, lane] = mode_places_[r];
             HoldBatch<Scalar>& batch = batches_[slab].holds[b];
-            // v^T (x - origin) = d - (sum of v) origin. Far away, the roundings of v in float would be multiplied by the distance.
+            // v^T (x - origin) = d - (sum of v) origin. Far away, the roundings of v in float would be multiplied by
+            // the distance.
             const double sum = is_far_ ? sums_[r] : sum_of_mode(mode_places_[r]);
             for (int axis = 0; axis < 3; ++axis)
-                batch.target[mode][axis][lane] = Scalar(targets(static_cast<Eigen::Index>(r), axis) - sum * this->origin_(axis));
+                batch.target[mode][axis][lane] =
+                    Scalar(targets(static_cast<Eigen::Index>(r), axis) - sum * this->origin_(axis));
         }
     }
 
     void forget() override
     {
         for (Slab& slab : batches_) {
-            for (HoldBatch<Scalar>& batch : slab.holds) std::fill_n(&batch.multiplier[0][0][0], 4 * 3 * batch_size, Scalar(0));
+            for (HoldBatch<Scalar>& batch : slab.holds)
+                std::fill_n(&batch.multiplier[0][0][0], 4 * 3 * batch_size, Scalar(0));
             for (NeoHookeanBatch<Scalar>& batch : slab.tets) {
                 std::fill_n(&batch.multiplier[0][0], 2 * batch_size, Scalar(0));
                 std::fill_n(&batch.applied[0][0], 9 * batch_size, Scalar(0));
@@ -228,8 +241,9 @@ private:
         return sum;
     }
 
-    // The mean of the targets d serves for bodies near the origin. A target is a point times the sum of its v, which may be anything from
-    // -2 to 2: far from the origin, the flesh is where d = (sum of v) o on the whole, by least squares.
+    // The mean of the targets d serves for bodies near the origin. A target is a point times the sum of its v, which
+    // may be anything from -2 to 2: far from the origin, the flesh is where d = (sum of v) o on the whole, by least
+    // squares.
     void set_origin(const Positions& targets)
     {
         constexpr double nearby = 16.0;  // sizes of the body: at most 4 of the 24 bits of a float
@@ -290,7 +304,8 @@ PlainXpbd::PlainXpbd(const XpbdFlesh& flesh) : PlainXpbd(flesh, in_file_order(fl
 {
 }
 
-PlainXpbd::PlainXpbd(const XpbdFlesh& flesh, const std::vector<XpbdVisit>& visits) : XpbdSystem(flesh.w), flesh_(flesh), visits_(visits)
+PlainXpbd::PlainXpbd(const XpbdFlesh& flesh, const std::vector<XpbdVisit>& visits)
+    : XpbdSystem(flesh.w), flesh_(flesh), visits_(visits)
 {
     for (const NeoHookeanTet& tet : flesh.tets) {
         Eigen::Matrix<double, 3, 4> g = vertex_gradients(tet, Eigen::Matrix3d::Identity());
@@ -335,24 +350,28 @@ void PlainXpbd::visit_hold(int t, Rows<double>& x)
     }
 }
 
-// The equations of xpbd_neo_hookean.hpp. All gradients have the form A g_i, with H = dC_H/dF and D = dC_D/dF for A; with
-// S = sum_i w_i g_i g_i^T, sum_i w_i (A g_i) . (B g_i) = tr(A S B^T).
+// The equations of xpbd_neo_hookean.hpp. All gradients have the form A g_i, with H = dC_H/dF and D = dC_D/dF for A;
+// with S = sum_i w_i g_i g_i^T, sum_i w_i (A g_i) . (B g_i) = tr(A S B^T).
 void PlainXpbd::visit_tet(int t, Rows<double>& x, bool with_residual)
 {
     const NeoHookeanTet& tet = flesh_.tets[t];
     State& state = state_[t];
     const auto p = [&](int i) { return Vec3(Vec3::Map(x[tet.vertex[i]])); };
     const Eigen::Matrix3d F = deformation_gradient(tet, p(0), p(1), p(2), p(3));
-    const Eigen::Matrix3d H = hydrostatic_gradient(F), D = deviatoric_gradient(F), HS = H * weighted_[t], DS = D * weighted_[t];
+    const Eigen::Matrix3d H = hydrostatic_gradient(F), D = deviatoric_gradient(F), HS = H * weighted_[t],
+                          DS = D * weighted_[t];
     const double k_H = flesh_.material.lambda * tet.volume, k_D = flesh_.material.mu * tet.volume;
 
     Eigen::Matrix3d residual = Eigen::Matrix3d::Zero();
     if (with_residual) residual = state.applied - state.multipliers(0) * H - state.multipliers(1) * D;
-    const double right_H = -k_H * hydrostatic_value(F, flesh_.material.alpha) - state.multipliers(0) + k_H * inner(HS, residual);
+    const double right_H =
+        -k_H * hydrostatic_value(F, flesh_.material.alpha) - state.multipliers(0) + k_H * inner(HS, residual);
     const double right_D = -k_D * deviatoric_value(F) - state.multipliers(1) + k_D * inner(DS, residual);
-    const double HH = k_H * inner(HS, H) + 1.0, HD = k_H * inner(HS, D), DH = k_D * inner(HS, D), DD = k_D * inner(DS, D) + 1.0;
+    const double HH = k_H * inner(HS, H) + 1.0, HD = k_H * inner(HS, D), DH = k_D * inner(HS, D),
+                 DD = k_D * inner(DS, D) + 1.0;
     const double determinant = HH * DD - HD * DH;  // 1 or more, by Cauchy and Schwarz
-    const Eigen::Vector2d change((right_H * DD - HD * right_D) / determinant, (HH * right_D - DH * right_H) / determinant);
+    const Eigen::Vector2d change((right_H * DD - HD * right_D) / determinant,
+                                 (HH * right_D - DH * right_H) / determinant);
     state.multipliers += change;
 
     const Eigen::Matrix3d more = change(0) * H + change(1) * D - residual;
@@ -362,11 +381,13 @@ void PlainXpbd::visit_tet(int t, Rows<double>& x, bool with_residual)
 }
 
 template <typename Scalar>
-std::unique_ptr<XpbdSystem<Scalar>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, bool packed, int threads)
+std::unique_ptr<XpbdSystem<Scalar>> make_xpbd_system(const TetMesh& mesh, const XpbdFlesh& flesh, bool packed,
+                                                     int threads)
 {
     if constexpr (std::is_same_v<Scalar, double>)
         if (!packed) return std::make_unique<PlainXpbd>(flesh);
-    return std::make_unique<PackedXpbd<Scalar>>(TetSlabs(mesh.tets, static_cast<int>(mesh.rest.rows()), threads), flesh);
+    return std::make_unique<PackedXpbd<Scalar>>(TetSlabs(mesh.tets, static_cast<int>(mesh.rest.rows()), threads),
+                                                flesh);
 }
 
 template std::unique_ptr<XpbdSystem<float>> make_xpbd_system(const TetMesh&, const XpbdFlesh&, bool, int);

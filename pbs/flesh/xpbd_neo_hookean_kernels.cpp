@@ -7,7 +7,8 @@ namespace {
 
 // As many tets as there are lanes: PlainXpbd::visit_tet, line by line.
 template <typename Scalar, bool with_residual>
-[[gnu::always_inline]] inline void visit_part(NeoHookeanBatch<Scalar>& batch, int first, const Lanes<Scalar>& alpha, Scalar* x)
+[[gnu::always_inline]] inline void visit_part(NeoHookeanBatch<Scalar>& batch, int first, const Lanes<Scalar>& alpha,
+                                              Scalar* x)
 {
     using L = Lanes<Scalar>;
     const L one = Scalar(1);
@@ -19,7 +20,8 @@ template <typename Scalar, bool with_residual>
     const LaneMatrix<Scalar> edges{{p[1] - p[0], p[2] - p[0], p[3] - p[0]}};
     LaneMatrix<Scalar> F;
     for (int j = 0; j < 3; ++j) F.column[j] = combined(edges, g[j], g[3 + j], g[6 + j]);
-    const LaneMatrix<Scalar> H{{cross(F.column[1], F.column[2]), cross(F.column[2], F.column[0]), cross(F.column[0], F.column[1])}};
+    const LaneMatrix<Scalar> H{
+        {cross(F.column[1], F.column[2]), cross(F.column[2], F.column[0]), cross(F.column[0], F.column[1])}};
     const L size = sqrt(inner(F, F)), over_size = quotient(one, size);
     LaneMatrix<Scalar> D;
     for (int j = 0; j < 3; ++j) D.column[j] = times(over_size, F.column[j]);
@@ -38,7 +40,8 @@ template <typename Scalar, bool with_residual>
     const L mixed = inner(HS, D);
     const L HH = k_H * inner(HS, H) + one, HD = k_H * mixed, DH = k_D * mixed, DD = k_D * inner(DS, D) + one;
     const L over_determinant = one / (HH * DD - HD * DH);
-    const L change_H = (right_H * DD - HD * right_D) * over_determinant, change_D = (HH * right_D - DH * right_H) * over_determinant;
+    const L change_H = (right_H * DD - HD * right_D) * over_determinant,
+            change_D = (HH * right_D - DH * right_H) * over_determinant;
     multiplier_H += change_H;
     multiplier_D += change_D;
     store(multiplier_H, batch.multiplier[0] + first);

@@ -1,5 +1,6 @@
-// One name for what CGAL 5 and 6 call differently. A result that is one of several kinds, and a value that may be missing, are of Boost up
-// to version 5, and of the standard library since version 6. The traits of a tree of boxes have another name since version 6.
+// One name for what CGAL 5 and 6 call differently. A result that is one of several kinds, and a value that may be
+// missing, are of Boost up to version 5, and of the standard library since version 6. The traits of a tree of boxes
+// have another name since version 6.
 //   if (const auto* point = alternative<Point>(hit->first)) ...
 #pragma once
 

@@ -42,7 +42,8 @@ ChildProcess::ChildProcess(const std::function<ChildEnd()>& work)
     if (process_ == 0) {
         struct sigaction inherited = {};
         sigaction(SIGINT, nullptr, &inherited);
-        if (inherited.sa_handler == SIG_IGN) signal(SIGINT, SIG_DFL);  // of a program that a shell has started in the background
+        // of a program that a shell has started in the background
+        if (inherited.sa_handler == SIG_IGN) signal(SIGINT, SIG_DFL);
         prctl(PR_SET_PDEATHSIG, SIGINT);
         if (getppid() != parent) _exit(128 + SIGINT);  // it ended before the line above
         close(ends[0]);
@@ -97,7 +98,8 @@ void ChildProcess::take_text()
 void listen_to(const std::vector<ChildProcess*>& children, int longest_ms)
 {
     std::vector<pollfd> pipes;
-    for (const ChildProcess* child : children) pipes.push_back({child->pipe_, POLLIN, 0});  // poll leaves out those below 0
+    // poll leaves out those below 0
+    for (const ChildProcess* child : children) pipes.push_back({child->pipe_, POLLIN, 0});
     if (poll(pipes.data(), pipes.size(), longest_ms) <= 0) return;
     for (std::size_t i = 0; i < pipes.size(); ++i)
         if (pipes[i].revents != 0) children[i]->take_text();

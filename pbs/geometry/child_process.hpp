@@ -19,14 +19,15 @@ struct ChildEnd {
     int status = 0;
 };
 
-// A forked process that works for its parent and ends with it: it gets SIGINT when the parent ends, in whatever way. The thread that forked
-// must live as long as the child is needed.
+// A forked process that works for its parent and ends with it: it gets SIGINT when the parent ends, in whatever way.
+// The thread that forked must live as long as the child is needed.
 //   ChildProcess child([] { return ChildEnd{"text", 0}; });
 //   while (child.writes()) listen_to({&child});
 //   const int status = child.wait();      // child.text() is whole
 class ChildProcess {
 public:
-    // InputError if the system has no process or pipe left. Programs that either process starts do not inherit the pipe.
+    // InputError if the system has no process or pipe left. Programs that either process starts do not inherit the
+    // pipe.
     explicit ChildProcess(const std::function<ChildEnd()>& work);
     ~ChildProcess();  // sends SIGINT to a child that has not been waited for, and waits for its end
     ChildProcess(const ChildProcess&) = delete;
@@ -35,7 +36,8 @@ public:
     void ask_to_end() const;                    // by SIGINT; does not wait
     bool writes() const { return pipe_ >= 0; }  // false once no process can write any more
     const std::string& text() const { return text_; }
-    // Waits for the end of the child; returns its status as of waitpid. usage: what the child took of the processor; may be null.
+    // Waits for the end of the child; returns its status as of waitpid. usage: what the child took of the processor;
+    // may be null.
     int wait(rusage* usage = nullptr);
 
 private:
@@ -47,8 +49,8 @@ private:
     std::string text_;
 };
 
-// Waits until one of the children that write has written or has ended, or a signal arrives, and takes what has arrived. A parent must
-// listen while a child works, for it waits when its pipe is full. longest_ms: of the wait; -1: no limit.
+// Waits until one of the children that write has written or has ended, or a signal arrives, and takes what has arrived.
+// A parent must listen while a child works, for it waits when its pipe is full. longest_ms: of the wait; -1: no limit.
 void listen_to(const std::vector<ChildProcess*>& children, int longest_ms = -1);
 
 // A stage of long work. The program prints the name of a stage that takes long.

@@ -60,7 +60,8 @@ bool is_binary_stl(const std::string& path)
     return fs::file_size(path, code) == before_triangles + of_triangle * static_cast<std::uintmax_t>(triangles);
 }
 
-// USD as text, in binary form, or as a .usdz archive, whose first file is a .usd, .usda or .usdc. No reader here takes it.
+// USD as text, in binary form, or as a .usdz archive, whose first file is a .usd, .usda or .usdc. No reader here takes
+// it.
 bool is_usd(const std::string& path, const std::string& beginning)
 {
     const bool is_archive = beginning.starts_with("PK\x03\x04");
@@ -133,7 +134,8 @@ bool may_be_opened_for(const std::string& path, const std::string& file)
     std::error_code code;
     const fs::path target = fs::canonical(file, code);  // links followed
     if (code || !fs::is_regular_file(target, code)) return false;
-    const fs::path own = fs::canonical(path, code), named = fs::weakly_canonical(fs::absolute(path).parent_path(), code);
+    const fs::path own = fs::canonical(path, code),
+                   named = fs::weakly_canonical(fs::absolute(path).parent_path(), code);
     return target == own || lies_below(target, own.parent_path()) || lies_below(target, named);
 }
 

@@ -16,16 +16,18 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Work that does not depend on the machine, counted by each deformer: what a step costs in the units of its method, summed over one step.
+// Work that does not depend on the machine, counted by each deformer: what a step costs in the units of its method,
+// summed over one step.
 //   work += {.tet_visits = tets, .projections = constraints};
 // Zero means none: every deformer of this program counts all of its work. Where nothing counts, as in a program of the
 // user's own, records have empty cells.
 struct WorkCounters {
-    std::int64_t gradients = 0;       // gradients of an energy of the whole body, with or without its value
-    std::int64_t vertex_visits = 0;   // blends, smoothings, rotations and block solves of one vertex
-    std::int64_t tet_visits = 0;      // energies, derivatives, local rotations and volume constraints of one tet
-    std::int64_t projections = 0;     // constraints projected
-    std::int64_t linear_solves = 0;   // systems of the whole body solved; three right-hand sides of one matrix, x, y and z, are one
+    std::int64_t gradients = 0;      // gradients of an energy of the whole body, with or without its value
+    std::int64_t vertex_visits = 0;  // blends, smoothings, rotations and block solves of one vertex
+    std::int64_t tet_visits = 0;     // energies, derivatives, local rotations and volume constraints of one tet
+    std::int64_t projections = 0;    // constraints projected
+    std::int64_t linear_solves =
+        0;  // systems of the whole body solved; three right-hand sides of one matrix, x, y and z, are one
     std::int64_t factorisations = 0;  // numerical factorisations of such a system
 
     bool operator==(const WorkCounters&) const = default;

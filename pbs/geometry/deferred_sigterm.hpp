@@ -1,6 +1,7 @@
-// METIS 5.1 has its own handler of SIGTERM while it orders a matrix or cuts a mesh. At the signal it gives up its work, and the program's
-// handler is not called. Afterwards gk_siguntrap puts the program's handler back by signal() with the semantics of System V: that handler
-// then handles only one signal, and system calls that it interrupts are not restarted.
+// METIS 5.1 has its own handler of SIGTERM while it orders a matrix or cuts a mesh. At the signal it gives up its work,
+// and the program's handler is not called. Afterwards gk_siguntrap puts the program's handler back by signal() with the
+// semantics of System V: that handler then handles only one signal, and system calls that it interrupts are not
+// restarted.
 #pragma once
 
 #include <csignal>
@@ -24,10 +25,10 @@ inline void block_sigterm(sigset_t* blocked_before = nullptr)
     mask_sigterm(SIG_BLOCK, blocked_before);
 }
 
-// While this exists, the calling thread takes no SIGTERM. A pending one is handled afterwards, by the handler that there was before.
-// Threads that are started meanwhile never take it. Other threads must not take it either, since they would run METIS's handler: what
-// starts threads (OpenBLAS, deal.II) is called under this guard, and workers of oneTBB block the signal. Only one thread at a time may call
-// METIS.
+// While this exists, the calling thread takes no SIGTERM. A pending one is handled afterwards, by the handler that
+// there was before. Threads that are started meanwhile never take it. Other threads must not take it either, since they
+// would run METIS's handler: what starts threads (OpenBLAS, deal.II) is called under this guard, and workers of oneTBB
+// block the signal. Only one thread at a time may call METIS.
 //   const DeferredSigterm deferred;
 //   cholmod_analyze(...);
 class DeferredSigterm {
@@ -50,8 +51,8 @@ private:
     struct sigaction action_before_;
 };
 
-// The same for a library that starts threads while it is loaded, except that a thread of this object takes the signal at once: the library
-// may never return, as OpenBLAS where its threads find no memory. METIS must not run meanwhile.
+// The same for a library that starts threads while it is loaded, except that a thread of this object takes the signal
+// at once: the library may never return, as OpenBLAS where its threads find no memory. METIS must not run meanwhile.
 //   const SigtermTakenElsewhere elsewhere;
 //   dlopen(...);
 class SigtermTakenElsewhere {

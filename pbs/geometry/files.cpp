@@ -22,7 +22,8 @@ namespace {
 
 constexpr int most_parts = 64;
 
-// Behind the text in quotes that begins at `place`; one that is not closed ends with its line, or with the file where it may have many.
+// Behind the text in quotes that begins at `place`; one that is not closed ends with its line, or with the file where
+// it may have many.
 std::size_t after_quotes(const std::string& text, std::size_t place)
 {
     const char quote = text[place];
@@ -31,7 +32,8 @@ std::size_t after_quotes(const std::string& text, std::size_t place)
     for (std::size_t at = place + (many_lines ? 3 : 1); at < text.size(); ++at) {
         if (!many_lines && text[at] == '\n') return at;
         if (!many_lines && text[at] == quote) return at + 1;
-        if (text.compare(at, 3, three) == 0) return std::min(text.find_first_not_of(quote, at), at + 5);  // two more belong to the text
+        // two more belong to the text
+        if (text.compare(at, 3, three) == 0) return std::min(text.find_first_not_of(quote, at), at + 5);
         if (text[at] == '\\' && quote == '"') ++at;
     }
     return text.size();
@@ -51,10 +53,12 @@ std::string beginning_of_line(const std::string& text, std::size_t place)
 
 bool is_within_a_word(char before)
 {
-    return std::isalnum(static_cast<unsigned char>(before)) || std::string_view("_-+\"'").find(before) != std::string_view::npos;
+    return std::isalnum(static_cast<unsigned char>(before)) ||
+           std::string_view("_-+\"'").find(before) != std::string_view::npos;
 }
 
-constexpr std::size_t most_name_bytes = 200;  // of NAME: with what is added it stays below the 255 that a file system allows
+constexpr std::size_t most_name_bytes =
+    200;  // of NAME: with what is added it stays below the 255 that a file system allows
 
 std::string beginning_of_temporary(const std::string& path)
 {
@@ -82,8 +86,8 @@ void exchange_unfinished(const char* name, const char* by)
         if (const char* expected = name; entry.compare_exchange_strong(expected, by)) return;
 }
 
-// Like mkstemp(3), with the permissions of any new file: an existing entry, such as a link, is not opened. The name is among the unfinished
-// ones before the file exists, since a signal may come before open() returns.
+// Like mkstemp(3), with the permissions of any new file: an existing entry, such as a link, is not opened. The name is
+// among the unfinished ones before the file exists, since a signal may come before open() returns.
 int open_new(const std::string& beginning, std::string& name)
 {
     for (int tries = 0; tries < 100; ++tries) {
@@ -109,7 +113,8 @@ void flush_folder_of(const std::string& path)
 
 void require_size(const std::string& path, std::uintmax_t bytes, std::uintmax_t most_bytes)
 {
-    if (bytes > most_bytes) throw InputError(path, 0, "bytes", std::to_string(bytes), "expected at most " + std::to_string(most_bytes));
+    if (bytes > most_bytes)
+        throw InputError(path, 0, "bytes", std::to_string(bytes), "expected at most " + std::to_string(most_bytes));
 }
 
 std::string read_text_file(const std::string& path, std::uintmax_t most_bytes)
@@ -119,26 +124,31 @@ std::string read_text_file(const std::string& path, std::uintmax_t most_bytes)
 
 void check_toml_keys(const std::string& text, const std::string& file)
 {
-    // Dots of the keys that lead to a place of the text, and to the inline tables around it. Dots of numbers are counted with the key
-    // before them.
+    // Dots of the keys that lead to a place of the text, and to the inline tables around it. Dots of numbers are
+    // counted with the key before them.
     int dots = 0;
     std::vector<int> around = {0};
-    for (std::size_t place = text.starts_with("\xef\xbb\xbf") ? 3 : 0; place < text.size();) {  // behind a byte-order mark
+    // behind a byte-order mark
+    for (std::size_t place = text.starts_with("\xef\xbb\xbf") ? 3 : 0; place < text.size();) {
         const char c = text[place];
         if (c == '"' || c == '\'') {
-            if (place > 0 && is_within_a_word(text[place - 1]))  // the parser goes on with its word, whatever letters the text has
-                refuse(text, place, file, "quote", beginning_of_line(text, place), "expected a text apart from what is before it");
+            // the parser goes on with its word, whatever letters the text has
+            if (place > 0 && is_within_a_word(text[place - 1]))
+                refuse(text, place, file, "quote", beginning_of_line(text, place),
+                       "expected a text apart from what is before it");
             place = after_quotes(text, place);
         } else if (c == '#') {
             place = std::min(text.find('\n', place), text.size());
         } else {
             if ((c < ' ' && c != '\t' && c != '\r' && c != '\n') || c > '~')  // TOML's bare words are ASCII
-                refuse(text, place, file, "byte", std::to_string(static_cast<unsigned char>(c)), "expected ASCII outside of texts");
+                refuse(text, place, file, "byte", std::to_string(static_cast<unsigned char>(c)),
+                       "expected ASCII outside of texts");
             if (c == '{') around.push_back(dots);
             if (c == '}' && around.size() > 1) around.pop_back();
             if (std::string_view("{},\n").find(c) != std::string_view::npos) dots = around.back();
             if ((dots += c == '.') >= most_parts)
-                refuse(text, place, file, "key", beginning_of_line(text, place), "nested too deep: expected at most 64 parts");
+                refuse(text, place, file, "key", beginning_of_line(text, place),
+                       "nested too deep: expected at most 64 parts");
             ++place;
         }
     }

@@ -28,7 +28,8 @@ namespace {
 #ifndef __has_feature  // clang's
 #define __has_feature(feature) 0
 #endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || __has_feature(address_sanitizer) || \
+    __has_feature(thread_sanitizer)
 constexpr bool sanitized = true;  // slow, and terabytes of addresses are reserved
 #else
 constexpr bool sanitized = false;
@@ -72,7 +73,8 @@ void limit_reading(const std::string& path)
 {
     const std::uintmax_t file_bytes = bytes_of(path);
     limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, static_cast<std::uintmax_t>(base_cpu_limit_s + cpu_limit_s_per_megabyte * 1e-6 * static_cast<double>(file_bytes)));
+    limit(RLIMIT_CPU, static_cast<std::uintmax_t>(base_cpu_limit_s +
+                                                  cpu_limit_s_per_megabyte * 1e-6 * static_cast<double>(file_bytes)));
     if (sanitized) return;
     std::uintmax_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;

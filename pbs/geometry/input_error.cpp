@@ -7,7 +7,8 @@
 namespace pbs {
 namespace {
 
-constexpr std::size_t longest = 80, most_letters = 200;  // of a name that is looked for; a file may hold one of megabytes
+constexpr std::size_t longest = 80,
+                      most_letters = 200;  // of a name that is looked for; a file may hold one of megabytes
 
 std::string shortened(const std::string& text)
 {
@@ -37,11 +38,13 @@ std::size_t bytes_of_character(std::string_view text)
     for (std::size_t at = 1; at < length; ++at)
         if ((byte(at) & 0xC0) != 0x80) return 0;
     const bool is_overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
-    const bool is_none = (first == 0xED && second > 0x9F) || (first == 0xF4 && second > 0x8F);  // a surrogate, beyond U+10FFFF
+    // a surrogate, beyond U+10FFFF
+    const bool is_none = (first == 0xED && second > 0x9F) || (first == 0xF4 && second > 0x8F);
     return is_overlong || is_none ? 0 : length;
 }
 
-// Control characters by their codes, those that UTF-8 has beyond ASCII (U+0080 to U+009F) among them, and bytes that are no UTF-8.
+// Control characters by their codes, those that UTF-8 has beyond ASCII (U+0080 to U+009F) among them, and bytes that
+// are no UTF-8.
 std::string escaped(const std::string& text)
 {
     std::string shown;
@@ -61,7 +64,8 @@ std::string escaped(const std::string& text)
     return shown;
 }
 
-std::string message(const std::string& file, int line, const std::string& field, const std::string& value, const std::string& rule)
+std::string message(const std::string& file, int line, const std::string& field, const std::string& value,
+                    const std::string& rule)
 {
     std::string text = file;
     if (line > 0) text.append(":").append(std::to_string(line));
@@ -90,14 +94,16 @@ int edit_distance(const std::string& a, const std::string& b)
 
 }  // namespace
 
-InputError::InputError(const std::string& file, int line, const std::string& field, const std::string& value, const std::string& rule)
+InputError::InputError(const std::string& file, int line, const std::string& field, const std::string& value,
+                       const std::string& rule)
     : std::runtime_error(message(file, line, field, value, rule))
 {
 }
 
 int line_at(const std::string& text, std::size_t byte)
 {
-    return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size())), '\n'));
+    return 1 + static_cast<int>(std::count(
+                   text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size())), '\n'));
 }
 
 std::string name_list(const std::vector<std::string>& names)

@@ -13,9 +13,10 @@ namespace pbs {
 // what() is that one line. It is what is thrown wherever a comment says "an InputError".
 class InputError : public std::runtime_error {
 public:
-    // line 0: no line is known; an empty field or value is left out, a long one cut to 80 bytes. The message is one line: control
-    // characters and bytes that are no UTF-8 stand in it by their codes (\n, \x1b).
-    InputError(const std::string& file, int line, const std::string& field, const std::string& value, const std::string& rule);
+    // line 0: no line is known; an empty field or value is left out, a long one cut to 80 bytes. The message is one
+    // line: control characters and bytes that are no UTF-8 stand in it by their codes (\n, \x1b).
+    InputError(const std::string& file, int line, const std::string& field, const std::string& value,
+               const std::string& rule);
 };
 
 // "expected an index from 0 to 7"; where one number alone is right, "expected 3". `what` with its article.
@@ -40,7 +41,8 @@ int line_at(const std::string& text, std::size_t byte);
 // All names if there are at most six; otherwise "a, b, c, d, e, f and 2 others".
 std::string name_list(const std::vector<std::string>& names);
 
-// The known name nearest to a mistyped one by edit distance (Levenshtein), the first of equals; empty where there are none.
+// The known name nearest to a mistyped one by edit distance (Levenshtein), the first of equals; empty where there are
+// none.
 //   throw InputError(file, line, key, "", "unknown key; the nearest known one is " + nearest_name(key, known));
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
 

@@ -1,5 +1,6 @@
-// MEDIT's .mesh, a text of keywords, counts and numbers: keywords and counts stand on one line or on two, '#' begins a comment.
-// Format: Frey, "MEDIT: an interactive mesh visualization software" (INRIA, 2001); Marechal, "libMeshb" (INRIA, 2018).
+// MEDIT's .mesh, a text of keywords, counts and numbers: keywords and counts stand on one line or on two, '#' begins a
+// comment. Format: Frey, "MEDIT: an interactive mesh visualization software" (INRIA, 2001); Marechal, "libMeshb"
+// (INRIA, 2018).
 
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -27,7 +28,8 @@ void require_end_of_section(TextWords& words, const char* section, long long cou
     if (word.empty() || is_keyword(word)) return;
     words.next(section);
     if (!number_in(word)) words.fail(section, std::string(word), "expected a keyword or a number");
-    words.fail(section, std::to_string(count), "expected the number of those that are listed; more numbers follow the last of them");
+    words.fail(section, std::to_string(count),
+               "expected the number of those that are listed; more numbers follow the last of them");
 }
 
 struct MeditContent {
@@ -57,7 +59,8 @@ void read_tetrahedra(TextWords& words, MeditContent& content)
     constexpr int most = 2'000'000'000;
     const long long tets = count_of(words, "Tetrahedra");
     for (long long t = 0; t < tets; ++t) {
-        for (int corner = 0; corner < 4; ++corner) content.corners.push_back(static_cast<int>(words.whole("tet vertex", 1, most)));
+        for (int corner = 0; corner < 4; ++corner)
+            content.corners.push_back(static_cast<int>(words.whole("tet vertex", 1, most)));
         words.number("reference of a tet");
     }
     require_end_of_section(words, "Tetrahedra", tets);
@@ -72,7 +75,8 @@ void skip_section(TextWords& words, const std::string& section)
         words.fail("elements", section, "expected four-node tetrahedra");
     while (!words.at_end() && !is_keyword(words.peek())) {
         const std::string_view word = words.next(section.c_str());
-        if (word.front() != '"' && !number_in(word)) words.fail("word", std::string(word), "expected a number or a keyword");
+        if (word.front() != '"' && !number_in(word))
+            words.fail("word", std::string(word), "expected a number or a keyword");
     }
 }
 
@@ -109,8 +113,8 @@ TetMesh read_medit(const std::string& path)
     const auto tets = static_cast<Eigen::Index>(content.corners.size() / 4);
     for (std::size_t k = 0; k < content.corners.size(); ++k)
         if (content.corners[k] > points)
-            throw InputError(path, 0, "tet " + std::to_string(k / 4 + 1) + " vertex", std::to_string(content.corners[k]),
-                             expected_whole("a whole number", 1, points));
+            throw InputError(path, 0, "tet " + std::to_string(k / 4 + 1) + " vertex",
+                             std::to_string(content.corners[k]), expected_whole("a whole number", 1, points));
     return {Eigen::Map<const Positions>(content.coordinates.data(), points, 3),
             (Eigen::Map<const Tets>(content.corners.data(), tets, 4).array() - 1).matrix()};
 }

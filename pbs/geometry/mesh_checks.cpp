@@ -45,7 +45,8 @@ void require_extent(const std::string& path, const Positions& points)
 {
     constexpr double least_extent_m = 1e-9;
     const double extent = (points.colwise().maxCoeff() - points.colwise().minCoeff()).stableNorm();
-    if (!(extent >= least_extent_m)) throw InputError(path, 0, "extent", number_text(extent), "expected at least 1e-9 m");
+    if (!(extent >= least_extent_m))
+        throw InputError(path, 0, "extent", number_text(extent), "expected at least 1e-9 m");
 }
 
 int checked_index(const std::string& path, long long tet, long long index, long long points)
@@ -59,11 +60,11 @@ int checked_index(const std::string& path, long long tet, long long index, long 
 
 namespace {
 
-// |V| / (longest edge)^3 is 0.118 for the regular tet. Rounding of the coordinates alone leaves some 1e-16 D / l of it, D the distance
-// from the origin: 1e-10 keeps clear of that for every mesh with D / l < 1e5.
+// |V| / (longest edge)^3 is 0.118 for the regular tet. Rounding of the coordinates alone leaves some 1e-16 D / l of it,
+// D the distance from the origin: 1e-10 keeps clear of that for every mesh with D / l < 1e5.
 constexpr double flat_tet = 1e-10;
-// Height over length is 1e-4 and less: gradients of barycentric coordinates, which are its inverse, leave a float 3 digits of 7, and the
-// condition number of an energy's Hessian grows with their square.
+// Height over length is 1e-4 and less: gradients of barycentric coordinates, which are its inverse, leave a float 3
+// digits of 7, and the condition number of an energy's Hessian grows with their square.
 constexpr double sliver = 1e-5;
 constexpr double smallest_m = 1e-3, largest_m = 100.0;  // of a character
 
@@ -118,7 +119,8 @@ std::vector<std::array<int, 2>> doubled_vertices(const MeshReading& reading)
     std::vector<Eigen::Index> order(static_cast<std::size_t>(points.rows()));
     std::iota(order.begin(), order.end(), Eigen::Index(0));
     const auto key = [&](Eigen::Index i) { return std::array{points(i, 0), points(i, 1), points(i, 2)}; };
-    std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return std::pair(key(a), a) < std::pair(key(b), b); });
+    std::sort(order.begin(), order.end(),
+              [&](Eigen::Index a, Eigen::Index b) { return std::pair(key(a), a) < std::pair(key(b), b); });
     std::vector<std::array<int, 2>> doubled;
     for (std::size_t i = 1; i < order.size(); ++i) {
         const int vertex = reading.file_vertex[static_cast<std::size_t>(order[i])];
@@ -134,7 +136,8 @@ void check_places(const std::string& path, const Positions& points)
         if (!points.row(i).allFinite())
             throw InputError(path, 0, numbered("vertex", i), listed(points.row(i)), "expected finite coordinates [m]");
         if (!(points.row(i).cwiseAbs().maxCoeff() <= farthest_m))
-            throw InputError(path, 0, numbered("vertex", i), listed(points.row(i)), "expected within 1e9 m of the origin");
+            throw InputError(path, 0, numbered("vertex", i), listed(points.row(i)),
+                             "expected within 1e9 m of the origin");
     }
 }
 
@@ -147,16 +150,18 @@ void check_faces(const std::string& path, const TetMesh& mesh)
         if (face.sorted != before.sorted) continue;
         if (face.even == before.even)
             throw InputError(path, 0, numbered("tet", face.tet), listed(mesh.tets.row(face.tet)),
-                             "expected to lie beside " + numbered("tet", before.tet) + ", with which it shares a face; they overlap");
+                             "expected to lie beside " + numbered("tet", before.tet) +
+                                 ", with which it shares a face; they overlap");
         if (i >= 2 && face.sorted == faces[i - 2].sorted)
             throw InputError(path, 0, numbered("tet", face.tet), listed(mesh.tets.row(face.tet)),
                              "expected faces of at most two tets; one face is in three");
     }
 }
 
-// The first triangle of the boundary that meets another one; nothing: there is none. Where tets were separated and where vertices of the
-// file are in one place, triangles share a place but not all vertices.
-std::optional<int> overlapping_triangle([[maybe_unused]] const MeshReading& reading, [[maybe_unused]] const Triangles& boundary)
+// The first triangle of the boundary that meets another one; nothing: there is none. Where tets were separated and
+// where vertices of the file are in one place, triangles share a place but not all vertices.
+std::optional<int> overlapping_triangle([[maybe_unused]] const MeshReading& reading,
+                                        [[maybe_unused]] const Triangles& boundary)
 {
 #ifdef PBS_WITH_CGAL
     std::vector<int> place(static_cast<std::size_t>(reading.file_vertices));
@@ -166,7 +171,8 @@ std::optional<int> overlapping_triangle([[maybe_unused]] const MeshReading& read
     for (const auto& [a, b] : self_intersections(reading.mesh.rest, boundary)) {
         bool share_a_place = false;
         for (const int of_a : boundary.row(a))
-            for (const int of_b : boundary.row(b)) share_a_place = share_a_place || (of_a != of_b && place_of(of_a) == place_of(of_b));
+            for (const int of_b : boundary.row(b))
+                share_a_place = share_a_place || (of_a != of_b && place_of(of_a) == place_of(of_b));
         if (!share_a_place) return a;
     }
 #endif
@@ -201,8 +207,8 @@ std::string shown(const std::array<int, 2>& edge)
 
 // The first few vertices or edges by number.
 template <typename Item>
-void add_list(const std::string& path, const std::string& field, const std::vector<Item>& items, const std::string& treatment,
-              std::vector<std::string>& remarks)
+void add_list(const std::string& path, const std::string& field, const std::vector<Item>& items,
+              const std::string& treatment, std::vector<std::string>& remarks)
 {
     if (items.empty()) return;
     constexpr std::size_t most = 20;
@@ -223,14 +229,16 @@ void add_size(const std::string& path, const Positions& points, std::vector<std:
 void add_open_and_joined_edges(const std::string& path, const SurfaceMesh& surface, std::vector<std::string>& remarks)
 {
     const auto triangles_at = triangles_at_edges(surface.triangles);
-    if (const auto holes = std::count_if(triangles_at.begin(), triangles_at.end(), [](const auto& edge) { return edge.second == 1; }))
+    if (const auto holes =
+            std::count_if(triangles_at.begin(), triangles_at.end(), [](const auto& edge) { return edge.second == 1; }))
         remarks.push_back(remark(path, "edges of one triangle", holes, "its holes are wrapped over"));
     const auto is_joint = [](const auto& edge) { return edge.second > 2; };
     const auto first = std::find_if(triangles_at.begin(), triangles_at.end(), is_joint);
     if (first == triangles_at.end()) return;
-    remarks.push_back(remark(path, "edges of three or more triangles", std::count_if(triangles_at.begin(), triangles_at.end(), is_joint),
-                             "not manifold there, first from " + listed(surface.points.row(first->first.first), 6) + " to " +
-                                 listed(surface.points.row(first->first.second), 6) + "; the surface is wrapped"));
+    remarks.push_back(remark(
+        path, "edges of three or more triangles", std::count_if(triangles_at.begin(), triangles_at.end(), is_joint),
+        "not manifold there, first from " + listed(surface.points.row(first->first.first), 6) + " to " +
+            listed(surface.points.row(first->first.second), 6) + "; the surface is wrapped"));
 }
 
 // The parts of a surface that no point joins and that are closed.
@@ -245,7 +253,8 @@ std::vector<Triangles> closed_shells(const SurfaceMesh& surface)
     for (const auto& [part, members] : rows) {
         const Triangles shell = surface.triangles(members, Eigen::all);
         const auto triangles_at = triangles_at_edges(shell);
-        if (std::ranges::all_of(triangles_at, [](const auto& edge) { return edge.second == 2; })) shells.push_back(shell);
+        if (std::ranges::all_of(triangles_at, [](const auto& edge) { return edge.second == 2; }))
+            shells.push_back(shell);
     }
     return shells;
 }
@@ -260,17 +269,18 @@ void add_cavities(const std::string& path, const SurfaceMesh& surface, std::vect
         const double of_inner = fan_volume(surface.points, inner);
         const Vec3 point = surface.points.row(inner(0, 0));
         const bool is_cavity = std::ranges::any_of(shells, [&](const Triangles& outer) {
-            return of_inner * fan_volume(surface.points, outer) < 0.0 && std::abs(winding_number(surface.points, outer, point)) > 0.5;
+            return of_inner * fan_volume(surface.points, outer) < 0.0 &&
+                   std::abs(winding_number(surface.points, outer, point)) > 0.5;
         });
         if (!is_cavity) continue;
         ++cavities;
         volume += std::abs(of_inner);
     }
     if (cavities > 0)
-        remarks.push_back(remark(path, "closed cavities", cavities,
-                                 number_text(volume) +
-                                     " m^3 in all, filled by tets: the mesher wraps the outside alone; for a hollow body, "
-                                     "mesh it with another program and use its tets"));
+        remarks.push_back(remark(
+            path, "closed cavities", cavities,
+            number_text(volume) + " m^3 in all, filled by tets: the mesher wraps the outside alone; for a hollow body, "
+                                  "mesh it with another program and use its tets"));
 }
 
 // Skins of characters do so: MakeHuman's at lips and lids. Without CGAL this is not checked, and never for tet meshes.
@@ -281,9 +291,11 @@ void add_crossings([[maybe_unused]] const std::string& path, [[maybe_unused]] co
     const std::vector<std::array<int, 2>> crossings = self_intersections(surface.points, surface.triangles);
     if (crossings.empty()) return;
     Vec3 middle = Vec3::Zero();  // of the first one's first triangle
-    for (const int point : surface.triangles.row(crossings.front()[0])) middle += surface.points.row(point).transpose() / 3.0;
-    remarks.push_back(remark(path, "pairs of triangles that meet", crossings.size(),
-                             "it intersects or touches itself, first at " + listed(middle, 6) + "; what is outside is kept"));
+    for (const int point : surface.triangles.row(crossings.front()[0]))
+        middle += surface.points.row(point).transpose() / 3.0;
+    remarks.push_back(
+        remark(path, "pairs of triangles that meet", crossings.size(),
+               "it intersects or touches itself, first at " + listed(middle, 6) + "; what is outside is kept"));
 #endif
 }
 
@@ -308,14 +320,17 @@ MeshReading check_rest(const std::string& path, TetMesh mesh, bool for_computing
     reading.doubled_vertices = doubled_vertices(reading);
     if (for_computing && !reading.doubled_vertices.empty()) {
         const auto [before, vertex] = reading.doubled_vertices.front();
-        throw InputError(path, 0, numbered("vertex", vertex), listed(mesh.rest.row(vertex)),
-                         "expected a point of its own; " + numbered("vertex", before) + " is there already: merge the two");
+        throw InputError(
+            path, 0, numbered("vertex", vertex), listed(mesh.rest.row(vertex)),
+            "expected a point of its own; " + numbered("vertex", before) + " is there already: merge the two");
     }
     const Triangles boundary = boundary_of(reading.mesh.tets);
-    if (const auto triangle = overlapping_triangle(reading, boundary)) reading.overlapping = reading.file_vertex[boundary(*triangle, 0)];
+    if (const auto triangle = overlapping_triangle(reading, boundary))
+        reading.overlapping = reading.file_vertex[boundary(*triangle, 0)];
     if (for_computing && reading.overlapping >= 0)
         throw InputError(path, 0, "boundary", "vertex " + std::to_string(reading.overlapping),
-                         "expected a surface that does not intersect itself; it does near this vertex: mesh the body anew (pbskin mesh)");
+                         "expected a surface that does not intersect itself; it does near this vertex: mesh the body "
+                         "anew (pbskin mesh)");
     if (!for_computing) {
         MeshReading kept = repaired(mesh, false);
         kept.doubled_vertices = std::move(reading.doubled_vertices);
@@ -347,22 +362,28 @@ std::vector<std::string> remarks_on(const std::string& path, const MeshReading& 
     std::vector<std::string> remarks;
     if (!reading.read_as.empty()) remarks.push_back(remark_on_name(path, reading.read_as));
     if (!reading.listed_at.empty())
-        remarks.push_back(remark(path, "nodes", reading.file_vertices,
-                                 "not listed by their tags; vertices are numbered from 0 by ascending tag, as weights and frames must be"));
-    if (reading.repeated_tets > 0) remarks.push_back(remark(path, "tets listed more than once", reading.repeated_tets, "counted once"));
+        remarks.push_back(remark(
+            path, "nodes", reading.file_vertices,
+            "not listed by their tags; vertices are numbered from 0 by ascending tag, as weights and frames must be"));
+    if (reading.repeated_tets > 0)
+        remarks.push_back(remark(path, "tets listed more than once", reading.repeated_tets, "counted once"));
     if (reading.flipped_tets > 0)
-        remarks.push_back(remark(path, "inverted tets", reading.flipped_tets, "turned, so that every rest volume is positive"));
+        remarks.push_back(
+            remark(path, "inverted tets", reading.flipped_tets, "turned, so that every rest volume is positive"));
     if (reading.flatness < sliver)
-        remarks.push_back(remark(path, numbered("flattest tet", reading.flattest_tet), number_text(reading.flatness, 2),
-                                 "a sliver by its volume over its longest edge cubed, which is 0.118 for a regular tet; the methods that "
-                                 "minimise an energy may end far from its minimum, and FEM may reach no pose: mesh the body anew "
-                                 "(pbskin mesh)"));
+        remarks.push_back(remark(
+            path, numbered("flattest tet", reading.flattest_tet), number_text(reading.flatness, 2),
+            "a sliver by its volume over its longest edge cubed, which is 0.118 for a regular tet; the methods that "
+            "minimise an energy may end far from its minimum, and FEM may reach no pose: mesh the body anew "
+            "(pbskin mesh)"));
     add_list(path, "unused vertices", reading.unused_vertices, "left out; no tet uses them", remarks);
     const bool is_split = !reading.split_vertices.empty();
     add_list(path, "edges at which parts touch", reading.touching_edges,
              is_split ? "split, so that each side has its own" : "kept: no metric needs a manifold boundary", remarks);
-    add_list(path, "vertices at which parts touch", reading.split_vertices, "split, so that each part has its own", remarks);
-    if (reading.cut_faces > 0) remarks.push_back(remark(path, "faces that were cut", reading.cut_faces, "they joined parts that touch"));
+    add_list(path, "vertices at which parts touch", reading.split_vertices, "split, so that each part has its own",
+             remarks);
+    if (reading.cut_faces > 0)
+        remarks.push_back(remark(path, "faces that were cut", reading.cut_faces, "they joined parts that touch"));
     add_list(path, "vertices in one place", reading.doubled_vertices,
              "kept, as at a crack or where bodies touch: no metric needs them joined", remarks);
     if (reading.overlapping >= 0)
@@ -374,16 +395,20 @@ std::vector<std::string> remarks_on(const std::string& path, const MeshReading& 
     return remarks;
 }
 
-std::vector<std::string> remarks_on(const std::string& path, const SurfaceMesh& surface, int unused_points, int triangles_without_area)
+std::vector<std::string> remarks_on(const std::string& path, const SurfaceMesh& surface, int unused_points,
+                                    int triangles_without_area)
 {
     std::vector<std::string> remarks;
-    if (unused_points > 0) remarks.push_back(remark(path, "unused points", unused_points, "left out; no triangle uses them"));
-    if (triangles_without_area > 0) remarks.push_back(remark(path, "triangles without area", triangles_without_area, "left out"));
+    if (unused_points > 0)
+        remarks.push_back(remark(path, "unused points", unused_points, "left out; no triangle uses them"));
+    if (triangles_without_area > 0)
+        remarks.push_back(remark(path, "triangles without area", triangles_without_area, "left out"));
     add_open_and_joined_edges(path, surface, remarks);
     add_crossings(path, surface, remarks);
     add_cavities(path, surface, remarks);
     if (const double volume = fan_volume(surface.points, surface.triangles); volume < 0.0)
-        remarks.push_back(remark(path, "enclosed volume [m^3]", volume, "inside out; taken as the body that it encloses"));
+        remarks.push_back(
+            remark(path, "enclosed volume [m^3]", volume, "inside out; taken as the body that it encloses"));
     add_size(path, surface.points, remarks);
     return remarks;
 }

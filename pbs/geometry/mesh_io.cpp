@@ -32,7 +32,8 @@ TetFormat format_of(const std::string& path)
     if (extension == ".vtu" || extension == ".pvtu" || extension == ".vtk") return TetFormat::vtk;
     if (extension == ".node" || extension == ".ele") return TetFormat::tetgen;
     if (extension == ".tobj") return TetFormat::tobj;
-    throw InputError(path, 0, "extension", extension, "expected a tet mesh: .msh, .vtu, .pvtu, .vtk, .mesh, .tobj, .node or .ele");
+    throw InputError(path, 0, "extension", extension,
+                     "expected a tet mesh: .msh, .vtu, .pvtu, .vtk, .mesh, .tobj, .node or .ele");
 }
 
 TetFile read_as_listed(const std::string& path)
@@ -46,7 +47,8 @@ TetFile read_as_listed(const std::string& path)
     return read_msh(path);
 }
 
-// Keeps the first of the tets on the same four vertices: files list a tet once for each group or partition that it belongs to.
+// Keeps the first of the tets on the same four vertices: files list a tet once for each group or partition that it
+// belongs to.
 int drop_repeated_tets(Tets& tets)
 {
     std::vector<std::pair<std::array<int, 4>, Eigen::Index>> sorted;
@@ -72,8 +74,9 @@ TetFile read_by_content(const std::string& path)
     return file;
 }
 
-// TetGen's pair NAME.node and NAME.ele: plain numbers, '#' begins a comment, vertices counted from 0 or 1 as the first one says.
-// Format: Si, "TetGen, a Delaunay-based quality tetrahedral mesh generator", ACM TOMS 41 (2015), and its manual, section 5.2.
+// TetGen's pair NAME.node and NAME.ele: plain numbers, '#' begins a comment, vertices counted from 0 or 1 as the first
+// one says. Format: Si, "TetGen, a Delaunay-based quality tetrahedral mesh generator", ACM TOMS 41 (2015), and its
+// manual, section 5.2.
 
 // The lines of numbers of one file, one at a time.
 class NumberLines {
@@ -99,7 +102,8 @@ public:
         while (file_.peek() != std::istringstream::traits_type::eof()) {
             read_line(field);
             if (!numbers_.empty())
-                fail(field, std::to_string(count), "expected the number of those that are listed; more lines follow the last of them");
+                fail(field, std::to_string(count),
+                     "expected the number of those that are listed; more lines follow the last of them");
         }
     }
 
@@ -139,8 +143,8 @@ private:
     std::vector<double> numbers_;
 };
 
-// A file of n bytes holds fewer than n entries: a larger count is damage. There may be fewer entries than the count: memory is reserved as
-// they are read.
+// A file of n bytes holds fewer than n entries: a larger count is damage. There may be fewer entries than the count:
+// memory is reserved as they are read.
 long long most_entries(const std::string& path)
 {
     return static_cast<long long>(std::filesystem::file_size(path));
@@ -181,8 +185,8 @@ Tets read_elements(const std::string& path, long long points, long long first)
     return Eigen::Map<const Tets>(corners.data(), count, 4);
 }
 
-// .tobj, the tet meshes of HOBAK: lines "v x y z" and "t a b c d", vertices counted from 0; '#' begins a comment, other lines (the
-// triangles of the surface) are left out.
+// .tobj, the tet meshes of HOBAK: lines "v x y z" and "t a b c d", vertices counted from 0; '#' begins a comment, other
+// lines (the triangles of the surface) are left out.
 
 // `count` numbers after the first word of a line.
 std::vector<double> numbers_of(const std::string& line, std::size_t count, const std::string& path, int number)
@@ -195,7 +199,8 @@ std::vector<double> numbers_of(const std::string& line, std::size_t count, const
         numbers.push_back(*value);
     }
     if (numbers.size() != count)
-        throw InputError(path, number, line.substr(0, 1), line.substr(0, 40), "expected " + std::to_string(count) + " numbers");
+        throw InputError(path, number, line.substr(0, 1), line.substr(0, 40),
+                         "expected " + std::to_string(count) + " numbers");
     return numbers;
 }
 
@@ -228,7 +233,8 @@ TetMesh read_tobj(const std::string& path)
         } else if (is_of_kind(line, 't')) {
             for (const double index : numbers_of(line, 4, path, number)) {
                 if (!(index >= 0.0 && index <= 2e9 && index == std::floor(index)))
-                    throw InputError(path, number, "t", number_text(index, 12), "expected the number of a vertex, from 0");
+                    throw InputError(path, number, "t", number_text(index, 12),
+                                     "expected the number of a vertex, from 0");
                 corners.push_back(static_cast<int>(index));
             }
             lines.push_back(number);
@@ -261,7 +267,8 @@ MeshReading read_tet_mesh(const std::string& path, bool for_computing)
     MeshReading reading = check_rest(path, std::move(file.mesh), for_computing);
     reading.listed_at = std::move(file.listed_at);
     reading.repeated_tets = file.repeated_tets;
-    if (const std::string format = format_extension(path); (format == ".msh" || format == ".mesh") && format != lower_extension(path))
+    if (const std::string format = format_extension(path);
+        (format == ".msh" || format == ".mesh") && format != lower_extension(path))
         reading.read_as = format;
     return reading;
 }

@@ -2,10 +2,11 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
 
-#define PBS_REFUSE(...)                                                                                                          \
-    __VA_ARGS__                                                                                                                  \
-    {                                                                                                                            \
-        throw InputError(path, 0, "", "", "this build reads and writes no mesh files: configure it with -DPBS_WITH_MESH_IO=ON"); \
+#define PBS_REFUSE(...)                                                                                         \
+    __VA_ARGS__                                                                                                 \
+    {                                                                                                           \
+        throw InputError(path, 0, "", "",                                                                       \
+                         "this build reads and writes no mesh files: configure it with -DPBS_WITH_MESH_IO=ON"); \
     }
 
 namespace pbs {

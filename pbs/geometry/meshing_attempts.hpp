@@ -11,8 +11,9 @@
 
 namespace pbs {
 
-// Calls mesh_at(cell size [m]) a few times, along the secant of log #V over log size, until the number of vertices is within 5 % of
-// the wanted one; the nearest mesh otherwise. mesh_at may return an empty mesh where a size does not work out.
+// Calls mesh_at(cell size [m]) a few times, along the secant of log #V over log size, until the number of vertices is
+// within 5 % of the wanted one; the nearest mesh otherwise. mesh_at may return an empty mesh where a size does not work
+// out.
 inline TetMesh mesh_at_vertex_count(int vertices, double first_size, const std::function<TetMesh(double size)>& mesh_at)
 {
     constexpr int max_tries = 8;

@@ -83,8 +83,9 @@ using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
 namespace CGAL {
 
-// Mesh_3 calls it where a point that it is to insert is a vertex already, before it fails. CGAL's own writes two files into the current
-// folder; argument-dependent lookup prefers this one. Mesh_3 also calls it with an empty prefix, for a dump that was not asked for.
+// Mesh_3 calls it where a point that it is to insert is a vertex already, before it fails. CGAL's own writes two files
+// into the current folder; argument-dependent lookup prefers this one. Mesh_3 also calls it with an empty prefix, for a
+// dump that was not asked for.
 static void dump_c3t3(const pbs::Complex& complex, const std::string& prefix)
 {
     if (!prefix.empty()) throw pbs::PointTwice{complex.triangulation().number_of_vertices()};
@@ -95,31 +96,35 @@ static void dump_c3t3(const pbs::Complex& complex, const std::string& prefix)
 namespace pbs {
 namespace {
 
-// Refines and no more. make_mesh_3 would limit the optimisers to the seconds that the refinement took; called by themselves they end by
-// themselves, and the same way each time.
+// Refines and no more. make_mesh_3 would limit the optimisers to the seconds that the refinement took; called by
+// themselves they end by themselves, and the same way each time.
 Complex refined(const Domain& domain, const MeshCriteria& wanted)
 {
     const auto sized = [&domain](double size) {
-        return [&domain, size](const Point& p, int, const Domain::Index&) { return size * domain.body->relative_size(p); };
+        return
+            [&domain, size](const Point& p, int, const Domain::Index&) { return size * domain.body->relative_size(p); };
     };
     const auto facet_size = [&](const Point& p, int, const Domain::Index&) {
         return wanted.facet_size * domain.body->relative_facet_size(p);
     };
-    const Criteria criteria(
-        parameters::edge_size = sized(wanted.facet_size), parameters::facet_angle = 25, parameters::facet_size = facet_size,
-        parameters::facet_distance = wanted.facet_distance,
-        parameters::facet_topology = wanted.is_manifold ? CGAL::FACET_VERTICES_ON_SAME_SURFACE_PATCH : CGAL::FACET_VERTICES_ON_SURFACE,
-        parameters::cell_radius_edge_ratio = wanted.radius_edge_ratio, parameters::cell_size = sized(wanted.cell_size));
-    CGAL::get_default_random() = CGAL::Random(0);  // CGAL seeds it with the clock; a fixed seed makes meshing repeat to the bit
+    const Criteria criteria(parameters::edge_size = sized(wanted.facet_size), parameters::facet_angle = 25,
+                            parameters::facet_size = facet_size, parameters::facet_distance = wanted.facet_distance,
+                            parameters::facet_topology = wanted.is_manifold ? CGAL::FACET_VERTICES_ON_SAME_SURFACE_PATCH
+                                                                            : CGAL::FACET_VERTICES_ON_SURFACE,
+                            parameters::cell_radius_edge_ratio = wanted.radius_edge_ratio,
+                            parameters::cell_size = sized(wanted.cell_size));
+    // CGAL seeds it with the clock; a fixed seed makes meshing repeat to the bit
+    CGAL::get_default_random() = CGAL::Random(0);
     // CGAL prints a warning when no refinement can begin. Such an empty complex is refined again from other points.
     const auto previous = CGAL::set_warning_handler([](const char*, const char*, const char*, int, const char*) {});
     const std::shared_ptr<void> quiet(nullptr, [previous](void*) { CGAL::set_warning_handler(previous); });
     CGAL::Mesh_error_code end = CGAL::CGAL_MESH_3_NO_ERROR;
-    Complex complex = CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(), parameters::no_exude(),
-                                                 wanted.is_manifold ? parameters::manifold() : parameters::non_manifold(),
-                                                 domain.maximal_curve_index() > 0 ? parameters::features() : parameters::no_features(),
-                                                 parameters::mesh_3_options(parameters::maximal_number_of_vertices = wanted.most_vertices,
-                                                                            parameters::pointer_to_error_code = &end));
+    Complex complex = CGAL::make_mesh_3<Complex>(
+        domain, criteria, parameters::no_perturb(), parameters::no_exude(),
+        wanted.is_manifold ? parameters::manifold() : parameters::non_manifold(),
+        domain.maximal_curve_index() > 0 ? parameters::features() : parameters::no_features(),
+        parameters::mesh_3_options(parameters::maximal_number_of_vertices = wanted.most_vertices,
+                                   parameters::pointer_to_error_code = &end));
     if (end != CGAL::CGAL_MESH_3_NO_ERROR) throw TooManyVertices{"more than " + std::to_string(wanted.most_vertices)};
     return complex;
 }
@@ -182,11 +187,13 @@ public:
     // The poles and three rings of three.
     std::vector<SkinPoint> initial_points() const override
     {
-        std::vector<SkinPoint> points = {{Point(-half_length - radius, 0, 0), 1}, {Point(half_length + radius, 0, 0), 1}};
+        std::vector<SkinPoint> points = {{Point(-half_length - radius, 0, 0), 1},
+                                         {Point(half_length + radius, 0, 0), 1}};
         for (int ring = -1; ring <= 1; ++ring)
             for (int k = 0; k < 3; ++k) {
                 const double angle = std::numbers::pi / 3.0 * (2 * k + ring);
-                points.emplace_back(Point(0.7 * half_length * ring, radius * std::cos(angle), radius * std::sin(angle)), 1);
+                points.emplace_back(Point(0.7 * half_length * ring, radius * std::cos(angle), radius * std::sin(angle)),
+                                    1);
             }
         return points;
     }
@@ -213,16 +220,19 @@ private:
 std::unique_ptr<MeshedBody> make_bar()
 {
     const double x = half_length, r = radius;
-    const std::vector<Point> corners = {{-x, -r, -r}, {x, -r, -r}, {x, r, -r}, {-x, r, -r}, {-x, r, r}, {-x, -r, r}, {x, -r, r}, {x, r, r}};
-    const std::vector<PatchTriangle> triangles = {{6, 4, 5, 1}, {2, 0, 3, 2}, {7, 1, 2, 3}, {6, 0, 1, 4}, {5, 3, 0, 5}, {4, 2, 3, 6},
-                                                  {4, 6, 7, 1}, {0, 2, 1, 2}, {1, 7, 6, 3}, {0, 6, 5, 4}, {3, 5, 4, 5}, {2, 4, 7, 6}};
+    const std::vector<Point> corners = {{-x, -r, -r}, {x, -r, -r}, {x, r, -r}, {-x, r, -r},
+                                        {-x, r, r},   {-x, -r, r}, {x, -r, r}, {x, r, r}};
+    const std::vector<PatchTriangle> triangles = {{6, 4, 5, 1}, {2, 0, 3, 2}, {7, 1, 2, 3}, {6, 0, 1, 4},
+                                                  {5, 3, 0, 5}, {4, 2, 3, 6}, {4, 6, 7, 1}, {0, 2, 1, 2},
+                                                  {1, 7, 6, 3}, {0, 6, 5, 4}, {3, 5, 4, 5}, {2, 4, 7, 6}};
     return make_enclosed_body(corners, triangles);
 }
 
 // vertices: see mesh_limb. least: below, cells as large as the body is thick, and no vertex inside.
 TetMesh mesh_builtin(MeshedBody& body, int vertices, int least)
 {
-    if (vertices < least) throw InputError("", 0, "vertices", std::to_string(vertices), "expected at least " + std::to_string(least));
+    if (vertices < least)
+        throw InputError("", 0, "vertices", std::to_string(vertices), "expected at least " + std::to_string(least));
     TetMesh mesh = mesh_at_vertex_count(vertices, 0.78 * std::pow(vertices, -0.36), [&](double size) -> TetMesh {
         try {
             return mesh_body(body, {.facet_size = size,
@@ -235,7 +245,8 @@ TetMesh mesh_builtin(MeshedBody& body, int vertices, int least)
         }
     });
     if (mesh.tets.rows() == 0)
-        throw InputError("", 0, "vertices", std::to_string(vertices), std::string(endless_perturbation) + ": expected another number");
+        throw InputError("", 0, "vertices", std::to_string(vertices),
+                         std::string(endless_perturbation) + ": expected another number");
     return mesh;
 }
 
@@ -249,7 +260,8 @@ TetMesh mesh_body(MeshedBody& body, const MeshCriteria& criteria)
     domain.add_features_and_incidences(edges.begin(), edges.end(), CGAL::First_of_pair_property_map<MeshedBody::Edge>(),
                                        CGAL::Second_of_pair_property_map<MeshedBody::Edge>());
     Complex complex = refined(domain, criteria);
-    while (complex.number_of_facets_in_complex() == 0 && body.double_initial_points()) complex = refined(domain, criteria);
+    while (complex.number_of_facets_in_complex() == 0 && body.double_initial_points())
+        complex = refined(domain, criteria);
     if (criteria.sliver_bound_deg) {
         perturb(complex, domain, criteria);
         CGAL::exude_mesh_3(complex, parameters::sliver_bound = *criteria.sliver_bound_deg);

@@ -1,4 +1,5 @@
-// CGAL's mesher (Mesh_3), compiled once for all bodies, which answer its questions. Only the meshing .cpp files include this.
+// CGAL's mesher (Mesh_3), compiled once for all bodies, which answer its questions. Only the meshing .cpp files include
+// this.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -33,7 +34,8 @@ public:
     virtual std::optional<SkinPoint> crossing(const Line& line) const = 0;
     virtual std::vector<Edge> edges() const { return {}; }
 
-    // Where the refinement begins if there are no edges. CGAL's own points are random: where two fall close together, a short edge stays.
+    // Where the refinement begins if there are no edges. CGAL's own points are random: where two fall close together, a
+    // short edge stays.
     virtual std::vector<SkinPoint> initial_points() const = 0;
     // Asked where the refinement cannot begin with these points; false if there are no more.
     virtual bool double_initial_points() { return false; }
@@ -45,16 +47,18 @@ public:
 
 // What triangles enclose, counterclockwise from outside: three vertices and the patch.
 using PatchTriangle = std::array<unsigned, 4>;
-std::unique_ptr<MeshedBody> make_enclosed_body(const std::vector<Point>& points, const std::vector<PatchTriangle>& triangles);
+std::unique_ptr<MeshedBody> make_enclosed_body(const std::vector<Point>& points,
+                                               const std::vector<PatchTriangle>& triangles);
 
 struct MeshCriteria {
     double facet_size = 0.0, cell_size = 0.0;  // times the relative size: bounds on the radius [m]
     double facet_distance = 0.0;               // [m] between a facet and the skin
     double radius_edge_ratio = 2.0;
-    bool is_manifold = false;                // the mesh of a skin of one patch
-    std::optional<double> sliver_bound_deg;  // perturb and exude; dihedral angles above it are good enough; 0: as good as they get
-    std::size_t most_vertices = 0;           // a refinement that reaches so many ends with TooManyVertices; 0: no bound
-    std::size_t most_questions = 0;          // of the perturbation, for each 4,000 vertices begun; 0: no bound
+    bool is_manifold = false;  // the mesh of a skin of one patch
+    // perturb and exude; dihedral angles above it are good enough; 0: as good as they get
+    std::optional<double> sliver_bound_deg;
+    std::size_t most_vertices = 0;   // a refinement that reaches so many ends with TooManyVertices; 0: no bound
+    std::size_t most_questions = 0;  // of the perturbation, for each 4,000 vertices begun; 0: no bound
 };
 struct TooManyVertices {
     std::string vertices;  // how many, in words
@@ -62,7 +66,8 @@ struct TooManyVertices {
 struct PointTwice {  // a refinement would put a point where a vertex is: rounding in a layer that is too thin
     std::size_t vertices = 0;
 };
-struct EndlessPerturbation {};  // it asked too many questions: that of CGAL 6.0 moves the vertices of some coarse meshes to and fro
+// it asked too many questions: that of CGAL 6.0 moves the vertices of some coarse meshes to and fro
+struct EndlessPerturbation {};
 constexpr const char* endless_perturbation = "CGAL moves their vertices to and fro without end to improve flat tets";
 TetMesh mesh_body(MeshedBody& body, const MeshCriteria& criteria);
 

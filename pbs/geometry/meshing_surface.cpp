@@ -1,5 +1,6 @@
 // Surface -> alpha wrap -> Mesh_3 with a cell size proportional to the local thickness -> perturb -> exude -> checks.
-// Alpha wrap: Portaneri et al., ACM TOG 41(4), 2022. Delaunay refinement, perturbation, exudation: Jamin et al., ACM TOMS 41(4), 2015.
+// Alpha wrap: Portaneri et al., ACM TOG 41(4), 2022. Delaunay refinement, perturbation, exudation: Jamin et al., ACM
+// TOMS 41(4), 2015.
 #include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/meshing.hpp"
 
@@ -76,10 +77,12 @@ public:
     {
         std::map<std::pair<Surface::Vertex_index, Surface::Vertex_index>, std::set<int>> patches_at;
         for (const auto along : surface_.halfedges())
-            patches_at[std::minmax(surface_.source(along), surface_.target(along))].insert(patches_[surface_.face(along)]);
+            patches_at[std::minmax(surface_.source(along), surface_.target(along))].insert(
+                patches_[surface_.face(along)]);
         std::vector<Edge> edges;
         for (const auto& [ends, patches] : patches_at)
-            if (patches.size() == 2) edges.push_back({{surface_.point(ends.first), surface_.point(ends.second)}, patches});
+            if (patches.size() == 2)
+                edges.push_back({{surface_.point(ends.first), surface_.point(ends.second)}, patches});
         return edges;
     }
 
@@ -120,15 +123,17 @@ private:
 
 // |V| / diagonal^3 is 0.19 of the cube. Rounding leaves 1e-16 of a flat surface; a body so thin would be all wrap.
 constexpr double flat_surface = 1e-12;
-constexpr double smallest_m = 1e-9;       // squares and cubes of cells of a smaller surface leave the range that CGAL can compare
+constexpr double smallest_m =
+    1e-9;  // squares and cubes of cells of a smaller surface leave the range that CGAL can compare
 constexpr double sheet_thickness = 0.05;  // over the diagonal: some tets across it at the default number of vertices
 constexpr double grading = 1.0 / 3.0;     // of facets outside a FineBall
 constexpr const char *boundary_not_manifold = "the boundary is not manifold", *no_tets = "no tets";
 
-// Bounds on the work, far above what a sound mesh takes. They count points, so that a slow machine makes the same meshes. A thin layer is
-// refined down to its thickness, whatever cells are wanted: an open tube gets 18,000 vertices instead of 2,000. Otherwise the search
-// overshoots most where the first size fits 2,000 vertices and far more are wanted: its slope of -2.5 instead of -3 gives 2.2 times 99,900
-// and 5.5 times 10 million. A vertex takes up to 3 kB. The wrap of a thin layer has 10,000 points, that of a bulky body some 40,000.
+// Bounds on the work, far above what a sound mesh takes. They count points, so that a slow machine makes the same
+// meshes. A thin layer is refined down to its thickness, whatever cells are wanted: an open tube gets 18,000 vertices
+// instead of 2,000. Otherwise the search overshoots most where the first size fits 2,000 vertices and far more are
+// wanted: its slope of -2.5 instead of -3 gives 2.2 times 99,900 and 5.5 times 10 million. A vertex takes up to 3 kB.
+// The wrap of a thin layer has 10,000 points, that of a bulky body some 40,000.
 constexpr std::size_t least_bound = 30'000, bound_over_wanted = 6, least_in_all = 45'000, in_all_over_wanted = 30,
                       most_wrap_points = 1'000'000;
 
@@ -151,7 +156,8 @@ Surface wrap(const SurfaceMesh& surface, double alpha, double offset)
     for (Eigen::Index i = 0; i < surface.points.rows(); ++i)
         points.emplace_back(surface.points(i, 0), surface.points(i, 1), surface.points(i, 2));
     for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
-        triangles.push_back({static_cast<std::size_t>(surface.triangles(f, 0)), static_cast<std::size_t>(surface.triangles(f, 1)),
+        triangles.push_back({static_cast<std::size_t>(surface.triangles(f, 0)),
+                             static_cast<std::size_t>(surface.triangles(f, 1)),
                              static_cast<std::size_t>(surface.triangles(f, 2))});
     Surface wrapped;
     WrapVisitor visitor;
@@ -160,7 +166,8 @@ Surface wrap(const SurfaceMesh& surface, double alpha, double offset)
     return wrapped;
 }
 
-// How far an inward ray from the middle of each face travels through the body [m], #F; averaged three times with the neighbours.
+// How far an inward ray from the middle of each face travels through the body [m], #F; averaged three times with the
+// neighbours.
 std::vector<double> local_thickness(const Surface& surface, const Tree& tree, double diagonal)
 {
     std::vector<double> thickness(surface.number_of_faces(), diagonal);
@@ -169,9 +176,11 @@ std::vector<double> local_thickness(const Surface& surface, const Tree& tree, do
         const Point middle = CGAL::centroid(surface.point(surface.source(edge)), surface.point(surface.target(edge)),
                                             surface.point(surface.target(surface.next(edge))));
         const Kernel::Vector_3 normal = pmp::compute_face_normal(face, surface);
-        const auto hit = tree.first_intersection(Kernel::Ray_3(middle, -normal), [face](auto other) { return other == face; });
+        const auto hit =
+            tree.first_intersection(Kernel::Ray_3(middle, -normal), [face](auto other) { return other == face; });
         if (!hit) continue;
-        if (const Point* point = alternative<Point>(hit->first)) thickness[face.idx()] = std::sqrt(CGAL::squared_distance(*point, middle));
+        if (const Point* point = alternative<Point>(hit->first))
+            thickness[face.idx()] = std::sqrt(CGAL::squared_distance(*point, middle));
     }
     for (int pass = 0; pass < 3; ++pass) {
         const std::vector<double> before = thickness;
@@ -204,16 +213,19 @@ public:
     double volume() const { return CGAL::to_double(pmp::volume(surface_)); }
     int euler() const
     {
-        return static_cast<int>(num_vertices(surface_)) - static_cast<int>(num_edges(surface_)) + static_cast<int>(num_faces(surface_));
+        return static_cast<int>(num_vertices(surface_)) - static_cast<int>(num_edges(surface_)) +
+               static_cast<int>(num_faces(surface_));
     }
 
     double relative_size(const Point& p) const override
     {
         const double thickness = thickness_[tree_.closest_point_and_primitive(p).second.idx()];
-        return std::clamp(thickness / options_.cells_across, options_.smallest_facet * diagonal_, options_.largest_facet * diagonal_);
+        return std::clamp(thickness / options_.cells_across, options_.smallest_facet * diagonal_,
+                          options_.largest_facet * diagonal_);
     }
 
-    // size 1: cells as in the options; distance 1: facets as near to the wrap as there. sliver_bound_deg: see MeshCriteria.
+    // size 1: cells as in the options; distance 1: facets as near to the wrap as there. sliver_bound_deg: see
+    // MeshCriteria.
     MeshCriteria criteria(double size, double distance, std::optional<double> sliver_bound_deg = {}) const
     {
         return {.facet_size = size,
@@ -246,7 +258,8 @@ Surface boundary_surface(const TetMesh& mesh)
 {
     Triangles boundary = boundary_of(mesh.tets);
     std::vector<Point> points;
-    for (const int v : renumbered(boundary, mesh.rest.rows())) points.emplace_back(mesh.rest(v, 0), mesh.rest(v, 1), mesh.rest(v, 2));
+    for (const int v : renumbered(boundary, mesh.rest.rows()))
+        points.emplace_back(mesh.rest(v, 0), mesh.rest(v, 1), mesh.rest(v, 2));
     std::vector<PatchTriangle> triangles;
     for (const auto& face : boundary.cast<unsigned>().rowwise()) triangles.push_back({face(0), face(1), face(2), 1});
     return surface_of(points, triangles);
@@ -256,23 +269,33 @@ Surface boundary_surface(const TetMesh& mesh)
 class RemeshedBody : public EnclosedBody {
 public:
     RemeshedBody(Surface surface, const Remeshing& options)
-        : EnclosedBody(std::move(surface)), options_(options), tree_(faces(surface_).begin(), faces(surface_).end(), surface_)
+        : EnclosedBody(std::move(surface)),
+          options_(options),
+          tree_(faces(surface_).begin(), faces(surface_).end(), surface_)
     {
         points_a_part_ = static_cast<int>(surface_.number_of_vertices());
         tree_.accelerate_distance_queries();
         std::mt19937 random(options.seed);
         for (const auto face : surface_.faces()) {
             double sum = 0.0;
-            for (const auto edge : CGAL::halfedges_around_face(surface_.halfedge(face), surface_)) sum += pmp::edge_length(edge, surface_);
-            factor_.push_back(1.0 + (options.seed == 0 ? 0.0 : options.most_change * (2.0 * random() / std::mt19937::max() - 1.0)));
+            for (const auto edge : CGAL::halfedges_around_face(surface_.halfedge(face), surface_))
+                sum += pmp::edge_length(edge, surface_);
+            factor_.push_back(
+                1.0 + (options.seed == 0 ? 0.0 : options.most_change * (2.0 * random() / std::mt19937::max() - 1.0)));
             size_.push_back(factor_.back() * sum / 3.0);
         }
     }
 
-    double mean_size() const { return std::accumulate(size_.begin(), size_.end(), 0.0) / static_cast<double>(size_.size()); }
+    double mean_size() const
+    {
+        return std::accumulate(size_.begin(), size_.end(), 0.0) / static_cast<double>(size_.size());
+    }
 
     // The skin alone is finer: cells follow it by their shapes.
-    double relative_size(const Point& p) const override { return size_[tree_.closest_point_and_primitive(p).second.idx()]; }
+    double relative_size(const Point& p) const override
+    {
+        return size_[tree_.closest_point_and_primitive(p).second.idx()];
+    }
     double relative_facet_size(const Point& p) const override
     {
         const std::size_t face = tree_.closest_point_and_primitive(p).second.idx();
@@ -291,7 +314,8 @@ private:
 };
 
 struct Effort {
-    std::size_t most, left;  // of vertices: what each refinement of a wrap may take, and what all together may still take
+    std::size_t most,
+        left;  // of vertices: what each refinement of a wrap may take, and what all together may still take
 };
 
 // Empty where the refinement fails; TooManyVertices and EndlessPerturbation where a bound is reached.
@@ -323,25 +347,28 @@ std::string advice(double volume_ratio)
 {
     if (!is_far_off(volume_ratio)) return "the body has parts thinner than its cells; ask for more vertices";
     if (!std::isfinite(volume_ratio)) return "the surface encloses no volume; give it a thickness";
-    return "its wrap holds " + number_text(volume_ratio, 2) + " times what the surface seems to enclose; close it, or give it a thickness";
+    return "its wrap holds " + number_text(volume_ratio, 2) +
+           " times what the surface seems to enclose; close it, or give it a thickness";
 }
 
 // A defect of the wrap remains at every cell size.
 void check_wrap(const WrappedBody& body, const SurfaceMeshing& options)
 {
     if (options.boundary_euler && body.euler() != *options.boundary_euler)
-        throw InputError("", 0, "Euler number of the wrapped surface", std::to_string(body.euler()),
-                         "expected " + std::to_string(*options.boundary_euler) + ": another wrap_alpha_m, or ask for this number");
+        throw InputError(
+            "", 0, "Euler number of the wrapped surface", std::to_string(body.euler()),
+            "expected " + std::to_string(*options.boundary_euler) + ": another wrap_alpha_m, or ask for this number");
     for (std::size_t i = 0; i < options.inside.size(); ++i)
         if (!body.contains(Point(options.inside[i](0), options.inside[i](1), options.inside[i](2))))
             throw InputError("", 0, "point " + std::to_string(i) + " asked inside", "", "expected inside the surface");
 }
 
-// The cell size that refines to the wanted number of vertices; optimising hardly changes it. TooManyVertices where far larger cells are
-// hardly fewer, so that the number cannot be reached.
+// The cell size that refines to the wanted number of vertices; optimising hardly changes it. TooManyVertices where far
+// larger cells are hardly fewer, so that the number cannot be reached.
 double size_of(WrappedBody& body, int vertices, double distance, Effort& effort)
 {
-    double nearest_size = 1.0, nearest_miss = std::numeric_limits<double>::infinity(), last_size = 0.0, last_count = 0.0;
+    double nearest_size = 1.0, nearest_miss = std::numeric_limits<double>::infinity(), last_size = 0.0,
+           last_count = 0.0;
     mesh_at_vertex_count(vertices, 1.0, [&](double size) {
         TetMesh mesh = mesh_within(effort, body, body.criteria(size, distance));
         const double count = static_cast<double>(mesh.rest.rows()), miss = std::abs(count - vertices);
@@ -358,14 +385,16 @@ double size_of(WrappedBody& body, int vertices, double distance, Effort& effort)
     return nearest_size;
 }
 
-// The first thing wrong with the mesh, which perturbing and exuding may have undone; empty when it is boundary-manifold, in one piece, of
-// the wanted Euler number and dihedral angle, free of self-intersections, and all points lie inside.
+// The first thing wrong with the mesh, which perturbing and exuding may have undone; empty when it is
+// boundary-manifold, in one piece, of the wanted Euler number and dihedral angle, free of self-intersections, and all
+// points lie inside.
 std::string breach_of(const TetMesh& mesh, const SurfaceMeshing& options)
 {
     if (mesh.tets.rows() == 0) return no_tets;
     const Quality quality = quality_of(mesh);
     if (!quality.topology.boundary_manifold) return boundary_not_manifold;
-    if (options.is_one_piece && quality.topology.components != 1) return std::to_string(quality.topology.components) + " pieces";
+    if (options.is_one_piece && quality.topology.components != 1)
+        return std::to_string(quality.topology.components) + " pieces";
     if (options.boundary_euler && quality.topology.boundary_euler != *options.boundary_euler)
         return "Euler number of the boundary " + std::to_string(quality.topology.boundary_euler) + ", expected " +
                std::to_string(*options.boundary_euler);
@@ -379,17 +408,19 @@ std::string breach_of(const TetMesh& mesh, const SurfaceMeshing& options)
     const auto outside = std::count(inside.begin(), inside.end(), false);
     if (outside == 0) return "";
     const auto first = std::find(inside.begin(), inside.end(), false) - inside.begin();
-    return std::to_string(outside) + " of the points asked inside are outside, the first is number " + std::to_string(first);
+    return std::to_string(outside) + " of the points asked inside are outside, the first is number " +
+           std::to_string(first);
 }
 
-// The first mesh of the quality asked; nothing, and why, where none of the distances gives one. is_open: gives up sooner without tets
-// or at a boundary that is not manifold, which is what becomes of a layer too thin to be meshed. is_exceeded: becomes true where a bound is
-// reached.
-std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, double offset, bool is_open, const SurfaceMeshing& options,
-                                    bool& is_exceeded, std::optional<InputError>& why)
+// The first mesh of the quality asked; nothing, and why, where none of the distances gives one. is_open: gives up
+// sooner without tets or at a boundary that is not manifold, which is what becomes of a layer too thin to be meshed.
+// is_exceeded: becomes true where a bound is reached.
+std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, double offset, bool is_open,
+                                    const SurfaceMeshing& options, bool& is_exceeded, std::optional<InputError>& why)
 {
     const auto wanted = static_cast<std::size_t>(options.vertices);
-    Effort effort = {std::max(least_bound, bound_over_wanted * wanted), std::max(least_in_all, in_all_over_wanted * wanted)};
+    Effort effort = {std::max(least_bound, bound_over_wanted * wanted),
+                     std::max(least_in_all, in_all_over_wanted * wanted)};
     WrappedBody body(surface, alpha, offset, options);
     const double ratio = body.volume() / std::abs(fan_volume(surface.points, surface.triangles));
     if (options.is_closed && is_far_off(ratio))
@@ -403,7 +434,8 @@ std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, do
             TetMesh mesh = mesh_within(effort, body, body.criteria(size, distance, options.good_dihedral_deg));
             const std::string breach = breach_of(mesh, options);
             if (breach.empty()) return mesh;
-            why.emplace("", 0, "surface", "", "could not be meshed with the quality asked: " + breach + "; " + advice(ratio));
+            why.emplace("", 0, "surface", "",
+                        "could not be meshed with the quality asked: " + breach + "; " + advice(ratio));
             too_thin += breach == boundary_not_manifold || breach == no_tets;
             if (is_open && too_thin == 2) break;
         } catch (const TooManyVertices& reached) {  // as with every other distance
@@ -420,15 +452,18 @@ std::optional<TetMesh> mesh_wrapped(const SurfaceMesh& surface, double alpha, do
 
 void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
 {
-    if (options.vertices < 150) throw InputError("", 0, "vertices", std::to_string(options.vertices), "expected at least 150");
+    if (options.vertices < 150)
+        throw InputError("", 0, "vertices", std::to_string(options.vertices), "expected at least 150");
     if (surface.triangles.rows() < 4)
-        throw InputError("", 0, "triangles", std::to_string(surface.triangles.rows()), "expected a closed surface: at least 4");
+        throw InputError("", 0, "triangles", std::to_string(surface.triangles.rows()),
+                         "expected a closed surface: at least 4");
     if (!surface.points.allFinite()) throw InputError("", 0, "points", "", "expected finite coordinates [m]");
     if (surface.triangles.minCoeff() < 0 || surface.triangles.maxCoeff() >= surface.points.rows())
         throw InputError("", 0, "triangles", "", "expected indices of points");
     const double diagonal = diagonal_m(surface.points);
     if (!(diagonal >= smallest_m))
-        throw InputError("", 0, "diagonal of the surface [m]", number_text(diagonal), "expected at least " + number_text(smallest_m));
+        throw InputError("", 0, "diagonal of the surface [m]", number_text(diagonal),
+                         "expected at least " + number_text(smallest_m));
     if (options.is_closed && sheet_offset_m(surface) > 0.0)
         throw InputError("", 0, "enclosed volume [m^3]", number_text(fan_volume(surface.points, surface.triangles)),
                          "expected a closed surface round a volume, neither flat nor open");
@@ -439,11 +474,13 @@ void check_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
 double sheet_offset_m(const SurfaceMesh& surface)
 {
     const double diagonal = diagonal_m(surface.points);
-    const bool has_volume = std::abs(fan_volume(surface.points, surface.triangles)) > flat_surface * diagonal * diagonal * diagonal;
+    const bool has_volume =
+        std::abs(fan_volume(surface.points, surface.triangles)) > flat_surface * diagonal * diagonal * diagonal;
     return has_volume ? 0.0 : diagonal * sheet_thickness / 2.0;
 }
 
-std::unique_ptr<MeshedBody> make_enclosed_body(const std::vector<Point>& points, const std::vector<PatchTriangle>& triangles)
+std::unique_ptr<MeshedBody> make_enclosed_body(const std::vector<Point>& points,
+                                               const std::vector<PatchTriangle>& triangles)
 {
     return std::make_unique<EnclosedBody>(surface_of(points, triangles));
 }
@@ -452,18 +489,22 @@ TetMesh mesh_surface(const SurfaceMesh& surface, const SurfaceMeshing& options)
 {
     check_surface(surface, options);
     const double sheet_m = sheet_offset_m(surface);
-    const double alpha = options.wrap_alpha_m > 0.0 ? options.wrap_alpha_m : sheet_m > 0.0 ? sheet_m : diagonal_m(surface.points) / 170.0;
+    const double alpha = options.wrap_alpha_m > 0.0 ? options.wrap_alpha_m
+                         : sheet_m > 0.0            ? sheet_m
+                                                    : diagonal_m(surface.points) / 170.0;
     const double offset = options.wrap_offset_m > 0.0 ? options.wrap_offset_m : sheet_m > 0.0 ? sheet_m : alpha / 3.0;
 
-    // A sheet of the surface, such as hair or a cape, becomes a layer between the offsets on both sides. Where that is too thin to be
-    // meshed, the offset grows; where it takes too many vertices, to the largest one at once.
-    const bool is_open = options.wrap_offset_m == 0.0 && !is_watertight(joined_triangles(surface.points, surface.triangles));
+    // A sheet of the surface, such as hair or a cape, becomes a layer between the offsets on both sides. Where that is
+    // too thin to be meshed, the offset grows; where it takes too many vertices, to the largest one at once.
+    const bool is_open =
+        options.wrap_offset_m == 0.0 && !is_watertight(joined_triangles(surface.points, surface.triangles));
     bool is_exceeded = false;
     std::optional<InputError> why;
     for (const double growth : {1.0, 3.0, 6.0}) {
         if (growth > 1.0 && (!is_open || (growth < 6.0 && is_exceeded))) continue;
         is_exceeded = false;
-        if (const auto mesh = mesh_wrapped(surface, alpha, growth * offset, is_open, options, is_exceeded, why)) return *mesh;
+        if (const auto mesh = mesh_wrapped(surface, alpha, growth * offset, is_open, options, is_exceeded, why))
+            return *mesh;
     }
     if (is_exceeded) throw TooManyTets(*why);
     throw InputError(*why);
@@ -476,7 +517,8 @@ TetMesh mesh_anew(const TetMesh& mesh, const Remeshing& options)
         throw InputError("", 0, "tets", std::to_string(mesh.tets.rows()),
                          "expected some with a manifold boundary, to mesh its inside anew");
     RemeshedBody body(boundary_surface(mesh), options);
-    const SurfaceMeshing required = {.boundary_euler = topology.boundary_euler, .is_one_piece = topology.components == 1};
+    const SurfaceMeshing required = {.boundary_euler = topology.boundary_euler,
+                                     .is_one_piece = topology.components == 1};
     const MeshCriteria criteria = {.facet_size = options.facet_size,
                                    .cell_size = options.cell_size,
                                    .facet_distance = options.facet_distance * body.mean_size(),

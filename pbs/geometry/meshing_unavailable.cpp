@@ -19,8 +19,9 @@ PBS_REFUSE("surface", double sheet_offset_m(const SurfaceMesh&))
 PBS_REFUSE("self-intersection", bool self_intersects(const Positions&, const Triangles&))
 PBS_REFUSE("self-intersection", std::vector<std::array<int, 2>> self_intersections(const Positions&, const Triangles&))
 PBS_REFUSE("self-intersection", int count_self_intersections(const Positions&, const Triangles&))
-PBS_REFUSE("cross-sections",
-           std::vector<std::vector<Positions>> section_outlines(const Positions&, const Triangles&, const std::vector<CuttingPlane>&))
-PBS_REFUSE("points inside", std::vector<bool> points_inside(const Positions&, const Triangles&, const std::vector<Vec3>&))
+PBS_REFUSE("cross-sections", std::vector<std::vector<Positions>> section_outlines(const Positions&, const Triangles&,
+                                                                                  const std::vector<CuttingPlane>&))
+PBS_REFUSE("points inside",
+           std::vector<bool> points_inside(const Positions&, const Triangles&, const std::vector<Vec3>&))
 
 }  // namespace pbs

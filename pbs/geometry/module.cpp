@@ -34,13 +34,15 @@ Module open_module(const std::string& name)
         if (!fs::exists(path, ignored)) continue;
         const SigtermTakenElsewhere elsewhere;  // OpenBLAS starts its threads while it is loaded
         const OneBlasThreadWhileLoading one_thread;
-        // Functions are bound at their first call. Binding those that are never called takes a quarter of the time to load deal.II.
+        // Functions are bound at their first call. Binding those that are never called takes a quarter of the time to
+        // load deal.II.
         if (void* handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL)) return {path.string(), handle};
         throw InputError(path.string(), 0, "", "", std::string("this module cannot be loaded: ") + dlerror());
     }
-    throw InputError(file, 0, "", "",
-                     "this module of the program is missing (looked in " + looked_in +
-                         "): build it with its option on, or name its folder in the environment variable PBSKIN_MODULES");
+    throw InputError(
+        file, 0, "", "",
+        "this module of the program is missing (looked in " + looked_in +
+            "): build it with its option on, or name its folder in the environment variable PBSKIN_MODULES");
 }
 
 }  // namespace
@@ -48,7 +50,8 @@ Module open_module(const std::string& name)
 void* Module::address(const char* symbol) const
 {
     if (void* found = dlsym(handle_, symbol)) return found;
-    throw InputError(path_, 0, "", "", std::string("has no function ") + symbol + ": expected a module of this program's version");
+    throw InputError(path_, 0, "", "",
+                     std::string("has no function ") + symbol + ": expected a module of this program's version");
 }
 
 const Module& load_module(const std::string& name)

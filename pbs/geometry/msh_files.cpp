@@ -1,7 +1,7 @@
-// Gmsh's .msh 1, 2 to 2.2, 4.0 and 4.1, as text and as bytes of either order. Gmsh's library is no help here: it drops elements whose
-// number occurred before and nodes that no element uses, and it does not tell in which order the file lists its nodes, which is the order
-// that exporters give to frames. What is read here is compared with its files in tests/verification.
-// Format: Gmsh reference manual 4.13, "MSH file format" and "Legacy formats".
+// Gmsh's .msh 1, 2 to 2.2, 4.0 and 4.1, as text and as bytes of either order. Gmsh's library is no help here: it drops
+// elements whose number occurred before and nodes that no element uses, and it does not tell in which order the file
+// lists its nodes, which is the order that exporters give to frames. What is read here is compared with its files in
+// tests/verification. Format: Gmsh reference manual 4.13, "MSH file format" and "Legacy formats".
 
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/files.hpp"
@@ -127,12 +127,14 @@ public:
     void leave(const std::string& end, const char* field, long long count)
     {
         if (words_.peek() == end) return;
-        const std::string rule = "expected the number of those that are listed; " + end + " does not follow the last of them";
+        const std::string rule =
+            "expected the number of those that are listed; " + end + " does not follow the last of them";
         if (is_binary_) throw InputError(path_, 0, field, std::to_string(count), rule);
         words_.next(field);
         words_.fail(field, std::to_string(count), rule);
     }
-    // A number of things that follow, each of which takes a byte or more. Version 2 writes it as a word in binary files, too.
+    // A number of things that follow, each of which takes a byte or more. Version 2 writes it as a word in binary
+    // files, too.
     long long count(const char* field)
     {
         const auto most = static_cast<long long>(words_.text().size());
@@ -141,7 +143,10 @@ public:
         if (is_binary_) words_.skip_line();
         return count;
     }
-    long long tag(const char* field) { return version_ >= 4.1 ? whole<std::uint64_t>(field) : whole<std::int32_t>(field); }
+    long long tag(const char* field)
+    {
+        return version_ >= 4.1 ? whole<std::uint64_t>(field) : whole<std::int32_t>(field);
+    }
 
     template <typename Integer>
     long long whole(const char* field, long long low = std::numeric_limits<long long>::min(),
@@ -163,14 +168,16 @@ private:
         version_ = words_.number("version");
         constexpr std::array known = {2.0, 2.1, 2.2, 4.0, 4.1};
         if (std::find(known.begin(), known.end(), version_) == known.end())
-            words_.fail("version", number_text(version_), "expected 1, 2 to 2.2, 4 or 4.1: save it anew (gmsh FILE -save -format msh41)");
+            words_.fail("version", number_text(version_),
+                        "expected 1, 2 to 2.2, 4 or 4.1: save it anew (gmsh FILE -save -format msh41)");
         is_binary_ = words_.whole("file type", 0, 1) == 1;
         if (!is_binary_) return;
         words_.whole("bytes of a number", 8, 8);
         words_.skip_line();
         const auto one = of_bytes<std::int32_t>("order of bytes");
         is_swapped_ = one != 1;
-        if (is_swapped_ && one != 1 << 24) throw InputError(path_, 0, "order of bytes", std::to_string(one), "expected 1 or 16777216");
+        if (is_swapped_ && one != 1 << 24)
+            throw InputError(path_, 0, "order of bytes", std::to_string(one), "expected 1 or 16777216");
     }
 
     // The place of the line that begins with a keyword; npos: there is no such line.
@@ -187,7 +194,8 @@ private:
         for (const auto& [begin, end] : {std::pair(nodes, end_nodes), std::pair(elements, end_elements)}) {
             if (place_of(begin) == std::string::npos)
                 throw InputError(path_, 0, "", "", std::string("the section ") + begin + " is missing");
-            if (place_of(end) == std::string::npos) throw InputError(path_, 0, "", "", std::string("truncated: ") + end + " is missing");
+            if (place_of(end) == std::string::npos)
+                throw InputError(path_, 0, "", "", std::string("truncated: ") + end + " is missing");
         }
     }
 
@@ -227,8 +235,8 @@ Block read_block(MshValues& values, bool of_nodes)
     long long dimension = values.whole<std::int32_t>("entity"), tag = values.whole<std::int32_t>("entity");
     if (values.version() < 4.1) std::swap(dimension, tag);
     const long long last = values.whole<std::int32_t>(of_nodes ? "parametric" : "element type");
-    return {static_cast<int>(std::clamp(dimension, 0LL, 3LL)), of_nodes && last != 0, of_nodes ? 0 : static_cast<int>(last),
-            values.count(of_nodes ? "nodes of a block" : "elements of a block")};
+    return {static_cast<int>(std::clamp(dimension, 0LL, 3LL)), of_nodes && last != 0,
+            of_nodes ? 0 : static_cast<int>(last), values.count(of_nodes ? "nodes of a block" : "elements of a block")};
 }
 
 void read_point(MshValues& values, MshContent& content, int parameters)
@@ -240,7 +248,8 @@ void read_point(MshValues& values, MshContent& content, int parameters)
 void require_sum(const std::string& path, const char* field, long long stated, std::size_t in_blocks)
 {
     if (static_cast<std::size_t>(stated) != in_blocks)
-        throw InputError(path, 0, field, std::to_string(stated), "expected the sum of the blocks, " + std::to_string(in_blocks));
+        throw InputError(path, 0, field, std::to_string(stated),
+                         "expected the sum of the blocks, " + std::to_string(in_blocks));
 }
 
 void read_msh_nodes(const std::string& path, MshValues& values, MshContent& content)
@@ -273,9 +282,11 @@ void read_msh_nodes(const std::string& path, MshValues& values, MshContent& cont
 const ElementType& volume_is_tet(const std::string& path, long long type)
 {
     if (type < 1 || type >= static_cast<long long>(element_types.size()))
-        throw InputError(path, 0, "element type", std::to_string(type), "expected 1 to 31; four-node tetrahedra have type 4");
+        throw InputError(path, 0, "element type", std::to_string(type),
+                         "expected 1 to 31; four-node tetrahedra have type 4");
     const ElementType& of = element_types[static_cast<std::size_t>(type)];
-    if (of.dimension == 3 && type != tet_type) throw InputError(path, 0, "elements", of.name, "expected four-node tetrahedra");
+    if (of.dimension == 3 && type != tet_type)
+        throw InputError(path, 0, "elements", of.name, "expected four-node tetrahedra");
     return of;
 }
 
@@ -288,8 +299,8 @@ void read_corners(MshValues& values, long long type, int nodes, long long tag, M
     }
 }
 
-// Version 1: number, type, two regions, number of nodes. Version 2: number, type, number of tags, tags; in bytes, runs of elements share
-// type and number of tags.
+// Version 1: number, type, two regions, number of nodes. Version 2: number, type, number of tags, tags; in bytes, runs
+// of elements share type and number of tags.
 void read_listed_elements(const std::string& path, MshValues& values, MshContent& content)
 {
     const long long elements = values.count("elements");
@@ -324,7 +335,8 @@ void read_msh_elements(const std::string& path, MshValues& values, MshContent& c
     for (long long b = 0; b < blocks; ++b) {
         const Block block = read_block(values, false);
         const int nodes = volume_is_tet(path, block.type).nodes;
-        for (long long e = 0; e < block.entries; ++e) read_corners(values, block.type, nodes, values.tag("element"), content);
+        for (long long e = 0; e < block.entries; ++e)
+            read_corners(values, block.type, nodes, values.tag("element"), content);
         in_blocks += static_cast<std::size_t>(block.entries);
     }
     values.leave(values.sections().end_elements, "elements", elements);
@@ -340,7 +352,8 @@ std::vector<std::size_t> ascending(const std::vector<long long>& tags)
     return order;
 }
 
-// The head of a $NodeData: texts, of which the first is a name, real numbers, and whole numbers: a step, the components and the nodes.
+// The head of a $NodeData: texts, of which the first is a name, real numbers, and whole numbers: a step, the components
+// and the nodes.
 struct NodeData {
     std::string name;
     long long components = 0, nodes = 0;
@@ -353,7 +366,8 @@ NodeData read_head_of_data(MshValues& values)
         const std::string text = values.text_line("text of $NodeData");
         if (data.name.empty()) data.name = text;
     }
-    for (long long i = values.whole_word("real numbers of $NodeData"); i > 0; --i) values.word("real number of $NodeData");
+    for (long long i = values.whole_word("real numbers of $NodeData"); i > 0; --i)
+        values.word("real number of $NodeData");
     const long long count = values.whole_word("whole numbers of $NodeData");
     for (long long i = 0; i < count; ++i) {
         const long long number = values.whole_word("whole number of $NodeData");
@@ -365,11 +379,13 @@ NodeData read_head_of_data(MshValues& values)
 }
 
 // #nodes x components, in the order of the nodes' tags.
-Eigen::MatrixXd read_node_data(const std::string& path, MshValues& values, const NodeData& data, const std::vector<long long>& tags)
+Eigen::MatrixXd read_node_data(const std::string& path, MshValues& values, const NodeData& data,
+                               const std::vector<long long>& tags)
 {
     const auto nodes = static_cast<Eigen::Index>(tags.size());
     const std::string field = "nodes of $NodeData " + data.name;
-    if (data.nodes != nodes) throw InputError(path, 0, field, std::to_string(data.nodes), "expected each of the " + std::to_string(nodes));
+    if (data.nodes != nodes)
+        throw InputError(path, 0, field, std::to_string(data.nodes), "expected each of the " + std::to_string(nodes));
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(nodes, data.components);
     std::vector<bool> is_known(tags.size());
     for (Eigen::Index i = 0; i < nodes; ++i) {
@@ -399,7 +415,8 @@ std::map<std::string, Eigen::MatrixXd> read_msh_point_arrays(const std::string& 
         if ((data.components != 1 && data.components != 3) || (!name.empty() && name != data.name)) continue;
         const bool has_steps = arrays.contains(data.name), is_partial = data.nodes != std::ssize(content.node_tags);
         if (has_steps && !name.empty())
-            throw InputError(path, 0, "$NodeData", data.name, "expected one of each name: save each step in a file of its own");
+            throw InputError(path, 0, "$NodeData", data.name,
+                             "expected one of each name: save each step in a file of its own");
         if (name.empty() && (has_steps || is_partial))
             arrays[data.name].resize(0, data.components);
         else

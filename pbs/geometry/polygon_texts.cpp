@@ -1,6 +1,7 @@
-// The words and counts of .ply, .off and .stl as texts. CGAL, which reads these files, stops within a word, so that 1.5.2 is 1.5 and an
-// index 1.5 is 1, and leaves out what lies behind a count that is too small. A text that ends early is left to CGAL, which says so.
-// Formats: G. Turk, The PLY polygon file format (1994); Geomview's manual on OFF; M. Burns, Automated Fabrication (1993), Sec. 6.5, on STL.
+// The words and counts of .ply, .off and .stl as texts. CGAL, which reads these files, stops within a word, so
+// that 1.5.2 is 1.5 and an index 1.5 is 1, and leaves out what lies behind a count that is too small. A text that ends
+// early is left to CGAL, which says so. Formats: G. Turk, The PLY polygon file format (1994); Geomview's manual on OFF;
+// M. Burns, Automated Fabrication (1993), Sec. 6.5, on STL.
 #include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/geometry/text_words.hpp"
 
@@ -31,7 +32,8 @@ void require_end(TextWords& words, const char* counts)
 {
     if (words.at_end()) return;
     const std::string word(words.next(counts));
-    words.fail(counts, word, "expected the numbers of points and faces that are listed; this word follows the last of them");
+    words.fail(counts, word,
+               "expected the numbers of points and faces that are listed; this word follows the last of them");
 }
 
 struct PlyProperty {
@@ -72,7 +74,8 @@ void check_ply(TextWords words)
                 if (property.is_index)
                     skip_polygon(words);
                 else
-                    skip_numbers(words, property.is_list && !words.at_end() ? words.whole("property list", 0, most) : 1, "property");
+                    skip_numbers(words, property.is_list && !words.at_end() ? words.whole("property list", 0, most) : 1,
+                                 "property");
             }
     require_end(words, "element");
 }
@@ -82,7 +85,8 @@ void check_off(TextWords words)
 {
     if (words.peek() == "OFF") words.next("OFF");
     if (!number_in(words.peek())) return;
-    const long long points = words.whole("#points", 0, most), faces = words.at_end() ? 0 : words.whole("#faces", 0, most);
+    const long long points = words.whole("#points", 0, most),
+                    faces = words.at_end() ? 0 : words.whole("#faces", 0, most);
     skip_numbers(words, 1, "#edges");
     skip_numbers(words, 3 * points, "point");
     for (long long face = 0; face < faces && !words.at_end(); ++face) {

@@ -61,7 +61,8 @@ std::vector<std::array<int, 2>> self_intersections(const Positions& positions, c
     std::vector<std::pair<Surface::Face_index, Surface::Face_index>> faces;
     pmp::self_intersections(surface_of(positions, triangles), std::back_inserter(faces));
     std::vector<std::array<int, 2>> pairs;
-    for (const auto& [a, b] : faces) pairs.push_back({static_cast<int>(std::min(a, b).idx()), static_cast<int>(std::max(a, b).idx())});
+    for (const auto& [a, b] : faces)
+        pairs.push_back({static_cast<int>(std::min(a, b).idx()), static_cast<int>(std::max(a, b).idx())});
     std::sort(pairs.begin(), pairs.end());
     return pairs;
 }
@@ -86,7 +87,8 @@ std::vector<std::vector<Positions>> section_outlines(const Positions& positions,
         if (!(plane.normal.norm() > 0.0)) throw InputError("", 0, "plane", "", "expected a normal that is not zero");
         std::vector<std::vector<Point>> lines;
         const Kernel::Vector_3 normal(plane.normal.x(), plane.normal.y(), plane.normal.z());
-        cut(Kernel::Plane_3(Point(plane.point.x(), plane.point.y(), plane.point.z()), normal), std::back_inserter(lines));
+        cut(Kernel::Plane_3(Point(plane.point.x(), plane.point.y(), plane.point.z()), normal),
+            std::back_inserter(lines));
         sections.emplace_back();
         for (const auto& line : lines)
             if (line.size() > 3 && line.front() == line.back()) sections.back().push_back(closed_line(line));
@@ -97,7 +99,8 @@ std::vector<std::vector<Positions>> section_outlines(const Positions& positions,
 std::vector<bool> points_inside(const Positions& positions, const Triangles& boundary, const std::vector<Vec3>& points)
 {
     const Surface surface = surface_of(positions, boundary);
-    if (surface.number_of_faces() == 0 || !CGAL::is_closed(surface)) throw InputError("", 0, "boundary", "", "expected a closed surface");
+    if (surface.number_of_faces() == 0 || !CGAL::is_closed(surface))
+        throw InputError("", 0, "boundary", "", "expected a closed surface");
     const CGAL::Side_of_triangle_mesh<Surface, Kernel> side_of(surface);
     std::vector<bool> inside;
     for (const Vec3& p : points) inside.push_back(side_of(Point(p(0), p(1), p(2))) != CGAL::ON_UNBOUNDED_SIDE);

@@ -20,7 +20,8 @@
 namespace pbs {
 namespace {
 
-constexpr double clock_tick_s = 0.05;  // of the file system, far above the 10 ms of slow clocks: changes within one have the same time
+constexpr double clock_tick_s =
+    0.05;  // of the file system, far above the 10 ms of slow clocks: changes within one have the same time
 
 double seconds_of(const timespec& time)
 {
@@ -92,8 +93,10 @@ const std::string& SourceFile::text(std::uintmax_t most_bytes) const
     const auto refuse = [&](const std::string& rule) { throw InputError(path_, 0, "", "", rule); };
     const std::lock_guard lock(content_->mutex);
     std::string& bytes = content_->bytes;
-    if (!content_->open(path_)) refuse("cannot be opened: " + (content_->reason ? words_of(content_->reason) : "expected a file"));
-    require_size(path_, std::max(static_cast<std::uintmax_t>(content_->status.st_size), std::uintmax_t(bytes.size())), most_bytes);
+    if (!content_->open(path_))
+        refuse("cannot be opened: " + (content_->reason ? words_of(content_->reason) : "expected a file"));
+    require_size(path_, std::max(static_cast<std::uintmax_t>(content_->status.st_size), std::uintmax_t(bytes.size())),
+                 most_bytes);
     std::array<char, 1 << 16> buffer;
     for (ssize_t count = 1; count != 0 && !content_->is_whole;) {
         count = ::pread(content_->file.number, buffer.data(), buffer.size(), static_cast<off_t>(bytes.size()));

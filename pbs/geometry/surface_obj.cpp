@@ -1,7 +1,7 @@
-// Wavefront .obj: points, polygons and the names of their objects and groups, in double precision. tinyobjloader, in Debian 12 and 13,
-// reads 2.9D-01 as 2.9 and 1.#QNAN as 1, loses the first point behind a byte order mark and all of UTF-16 without an error, and fails at
-// comments behind faces and at lines that a backslash continues; assimp reads in single precision.
-// Format: Wavefront Technologies, "Advanced Visualizer Manual", appendix B1, "Object files (.obj)".
+// Wavefront .obj: points, polygons and the names of their objects and groups, in double precision. tinyobjloader, in
+// Debian 12 and 13, reads 2.9D-01 as 2.9 and 1.#QNAN as 1, loses the first point behind a byte order mark and all of
+// UTF-16 without an error, and fails at comments behind faces and at lines that a backslash continues; assimp reads in
+// single precision. Format: Wavefront Technologies, "Advanced Visualizer Manual", appendix B1, "Object files (.obj)".
 
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/files.hpp"
@@ -24,8 +24,8 @@
 namespace pbs {
 namespace {
 
-// The words of the lines that hold any. A line of points or corners that ends in a backslash goes on in the next one; behind names and
-// comments a backslash is a part of them.
+// The words of the lines that hold any. A line of points or corners that ends in a backslash goes on in the next one;
+// behind names and comments a backslash is a part of them.
 class Statements {
 public:
     explicit Statements(std::string_view text) : text_(text) {}
@@ -47,8 +47,10 @@ private:
         at_ = std::min(end + 1, text_.size());
         ++line_;
         constexpr std::string_view blanks = " \t\r\v\f", blanks_and_comment = " \t\r\v\f#";
-        for (std::size_t begin = 0; (begin = line.find_first_not_of(blanks, begin)) != std::string_view::npos && line[begin] != '#';) {
-            const std::size_t end_of_word = std::min(line.find_first_of(is_face() ? blanks_and_comment : blanks, begin), line.size());
+        for (std::size_t begin = 0;
+             (begin = line.find_first_not_of(blanks, begin)) != std::string_view::npos && line[begin] != '#';) {
+            const std::size_t end_of_word =
+                std::min(line.find_first_of(is_face() ? blanks_and_comment : blanks, begin), line.size());
             words_.push_back(line.substr(begin, end_of_word - begin));
             begin = end_of_word;
         }
@@ -83,12 +85,14 @@ void add_point(const std::string& path, const Statements& statement, ObjContent&
         const std::optional<double> number = number_in(word);
         if (!number) throw InputError(path, statement.line(), field, word, "expected three numbers");
         if (!(std::abs(*number) <= farthest_m))
-            throw InputError(path, statement.line(), field, word, "expected finite coordinates within 1e9 m of the origin");
+            throw InputError(path, statement.line(), field, word,
+                             "expected finite coordinates within 1e9 m of the origin");
         content.coordinates.push_back(*number);
     }
 }
 
-// Corners are vertex, vertex/texture, vertex//normal or all three, counted from 1, or backwards from -1, the last point so far.
+// Corners are vertex, vertex/texture, vertex//normal or all three, counted from 1, or backwards from -1, the last point
+// so far.
 void add_polygon(const std::string& path, const Statements& statement, ObjContent& content)
 {
     std::vector<std::size_t>& polygon = content.polygons.emplace_back();
@@ -100,7 +104,8 @@ void add_polygon(const std::string& path, const Statements& statement, ObjConten
         const bool is_number = error == std::errc() && (end == word.data() + word.size() || *end == '/');
         if (!is_number || index == 0 || index < -content.points())
             throw InputError(path, statement.line(), "face", std::string(word),
-                             "expected the number of a vertex, from 1 or, backwards, from -1 to " + std::to_string(-content.points()));
+                             "expected the number of a vertex, from 1 or, backwards, from -1 to " +
+                                 std::to_string(-content.points()));
         polygon.push_back(static_cast<std::size_t>(index < 0 ? content.points() + index : index - 1));
     }
     if (polygon.size() < 3) {  // a point or a line
@@ -123,7 +128,8 @@ ObjContent content_of_obj(const std::string& path, const std::string& mesh_name)
         else if ((words[0] == "o" || words[0] == "g") && !mesh_name.empty()) {
             content.is_wanted = std::find(words.begin() + 1, words.end(), mesh_name) != words.end();
             for (auto name = words.begin() + 1; name != words.end(); ++name)
-                if (std::find(content.names.begin(), content.names.end(), *name) == content.names.end()) content.names.emplace_back(*name);
+                if (std::find(content.names.begin(), content.names.end(), *name) == content.names.end())
+                    content.names.emplace_back(*name);
         }
     }
     for (std::size_t f = 0; f < content.polygons.size(); ++f)
@@ -148,8 +154,10 @@ std::vector<int> fans(const std::string& path, const Positions& points, const Ob
         for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
             if (polygon.size() > 3 && of_fan(k).dot(area) < 0.0)
                 throw InputError(path, content.lines[f], "face", std::to_string(polygon.size()) + " corners",
-                                 "expected a convex polygon: this build triangulates no other one; configure it with -DPBS_WITH_CGAL=ON");
-            for (const std::size_t corner : {polygon[0], polygon[k], polygon[k + 1]}) triangles.push_back(static_cast<int>(corner));
+                                 "expected a convex polygon: this build triangulates no other one; configure it with "
+                                 "-DPBS_WITH_CGAL=ON");
+            for (const std::size_t corner : {polygon[0], polygon[k], polygon[k + 1]})
+                triangles.push_back(static_cast<int>(corner));
         }
     }
     return triangles;

@@ -1,5 +1,5 @@
-// .ply, .off and .stl by CGAL, in double precision, and the triangles of polygons. assimp's readers accept truncated files of these, hang
-// or end the process.
+// .ply, .off and .stl by CGAL, in double precision, and the triangles of polygons. assimp's readers accept truncated
+// files of these, hang or end the process.
 #include "pbs/geometry/mesh_io_formats.hpp"
 
 #include "pbs/geometry/content_format.hpp"
@@ -26,7 +26,8 @@ namespace {
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Polygon = std::vector<std::size_t>;
 
-// CGAL splits faces of a mesh: a mesh of this one polygon, its vertices numbered by corner. False if CGAL cannot split the polygon.
+// CGAL splits faces of a mesh: a mesh of this one polygon, its vertices numbered by corner. False if CGAL cannot split
+// the polygon.
 bool add_triangles(const Positions& points, const Polygon& polygon, std::vector<int>& triangles)
 {
     if (polygon.size() == 3) {
@@ -41,7 +42,8 @@ bool add_triangles(const Positions& points, const Polygon& polygon, std::vector<
     }
     mesh.add_face(corners);
     // CGAL 6 triangulates a polygon without area; CGAL 5 refuses it.
-    if (!CGAL::Polygon_mesh_processing::triangulate_faces(mesh) || !(CGAL::Polygon_mesh_processing::area(mesh) > 0.0)) return false;
+    if (!CGAL::Polygon_mesh_processing::triangulate_faces(mesh) || !(CGAL::Polygon_mesh_processing::area(mesh) > 0.0))
+        return false;
     for (const auto face : mesh.faces())
         for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face)))
             triangles.push_back(static_cast<int>(polygon[vertex.idx()]));
@@ -96,7 +98,8 @@ bool read_soup(const std::string& path, std::vector<Point>& points, std::vector<
         const bool is_text = bytes.find('\0') == std::string::npos || as_utf8(bytes) != bytes;
         std::string text = is_text ? in_lower_case(as_utf8(bytes)) : bytes;
         if (is_text) {
-            std::ranges::replace(text, '\t', ' ');  // CGAL expects lower case and a blank behind `solid`; names of solids are not used
+            // CGAL expects lower case and a blank behind `solid`; names of solids are not used
+            std::ranges::replace(text, '\t', ' ');
             check_polygon_text(path, text, extension);
         }
         std::istringstream file(text);
@@ -117,7 +120,8 @@ std::vector<int> triangulated(const std::string& path, const Positions& points, 
     for (std::size_t f = 0; f < polygons.size(); ++f) {
         for (const std::size_t vertex : polygons[f])
             if (vertex >= static_cast<std::size_t>(points.rows()))
-                throw InputError(path, 0, "face " + std::to_string(f) + " vertex", std::to_string(static_cast<long long>(vertex)),
+                throw InputError(path, 0, "face " + std::to_string(f) + " vertex",
+                                 std::to_string(static_cast<long long>(vertex)),
                                  expected_whole("an index", 0, points.rows() - 1));
         if (polygons[f].size() >= 3 && !add_triangles(points, polygons[f], triangles))
             throw InputError(path, 0, "face " + std::to_string(f), "", "expected an area, and no two edges that cross");
@@ -132,8 +136,8 @@ SurfaceMesh read_polygons(const std::string& path)
     const bool whole = read_soup(path, points, polygons);
     if (!whole)
         throw InputError(path, 0, "", "",
-                         "damaged: CGAL read " + std::to_string(points.size()) + " points and " + std::to_string(polygons.size()) +
-                             " faces, and no further");
+                         "damaged: CGAL read " + std::to_string(points.size()) + " points and " +
+                             std::to_string(polygons.size()) + " faces, and no further");
     SurfaceMesh mesh;
     mesh.points.resize(static_cast<Eigen::Index>(points.size()), 3);
     for (std::size_t i = 0; i < points.size(); ++i)

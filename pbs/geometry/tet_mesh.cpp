@@ -40,7 +40,8 @@ int index_of_edge(const Edges& edges, int a, int b)
 {
     const std::pair<int, int> wanted = std::minmax(a, b);
     const auto vertices = [&](Eigen::Index e) { return std::pair(edges(e, 0), edges(e, 1)); };
-    return static_cast<int>(*std::ranges::lower_bound(std::views::iota(Eigen::Index(0), edges.rows()), wanted, {}, vertices));
+    return static_cast<int>(
+        *std::ranges::lower_bound(std::views::iota(Eigen::Index(0), edges.rows()), wanted, {}, vertices));
 }
 
 Nodes nodes_of(const TetMesh& mesh, const Edges& edges, Eigen::Index tet)
@@ -48,7 +49,8 @@ Nodes nodes_of(const TetMesh& mesh, const Edges& edges, Eigen::Index tet)
     Nodes nodes;
     for (int corner = 0; corner < 4; ++corner) nodes[corner] = mesh.tets(tet, corner);
     for (std::size_t e = 0; e < edge_corners.size(); ++e)
-        nodes[4 + e] = static_cast<int>(mesh.rest.rows()) + index_of_edge(edges, nodes[edge_corners[e][0]], nodes[edge_corners[e][1]]);
+        nodes[4 + e] = static_cast<int>(mesh.rest.rows()) +
+                       index_of_edge(edges, nodes[edge_corners[e][0]], nodes[edge_corners[e][1]]);
     return nodes;
 }
 
@@ -90,7 +92,8 @@ Neighbours neighbours_over_faces(const Tets& tets)
 
 // Takes tets without a region, breadth-first from `first`, until there are `most`; calls take(tet) for each.
 template <typename IsFree, typename Take>
-std::vector<int> grow(int first, const Neighbours& neighbours, std::size_t most, const IsFree& is_free, const Take& take)
+std::vector<int> grow(int first, const Neighbours& neighbours, std::size_t most, const IsFree& is_free,
+                      const Take& take)
 {
     std::vector<int> grown = {first};
     take(first);
@@ -117,7 +120,8 @@ std::vector<int> breadth_first(const Neighbours& neighbours)
     return order;
 }
 
-// The other region with most faces to these tets of region `own`, the first of equals; none where there is no other one.
+// The other region with most faces to these tets of region `own`, the first of equals; none where there is no other
+// one.
 int nearest_region(const std::vector<int>& part, int own, const Neighbours& neighbours, const std::vector<int>& region)
 {
     std::map<int, int> faces;
@@ -146,7 +150,8 @@ Eigen::VectorXd tet_volumes(const Positions& positions, const Tets& tets)
 {
     Eigen::VectorXd volumes(tets.rows());
     for (Eigen::Index t = 0; t < tets.rows(); ++t)
-        volumes(t) = tet_volume(positions.row(tets(t, 0)), positions.row(tets(t, 1)), positions.row(tets(t, 2)), positions.row(tets(t, 3)));
+        volumes(t) = tet_volume(positions.row(tets(t, 0)), positions.row(tets(t, 1)), positions.row(tets(t, 2)),
+                                positions.row(tets(t, 3)));
     return volumes;
 }
 
@@ -155,7 +160,8 @@ Eigen::VectorXd positive_volumes(const Positions& rest, const Tets& tets)
     Eigen::VectorXd volumes = tet_volumes(rest, tets);
     for (Eigen::Index t = 0; t < volumes.size(); ++t)
         if (!(volumes(t) > 0.0))
-            throw InputError("mesh", 0, "tet " + std::to_string(t), number_text(volumes(t)) + " m^3", "expected a positive rest volume");
+            throw InputError("mesh", 0, "tet " + std::to_string(t), number_text(volumes(t)) + " m^3",
+                             "expected a positive rest volume");
     return volumes;
 }
 
@@ -198,7 +204,8 @@ Refinement refine(const TetMesh& mesh)
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
         const Nodes nodes = nodes_of(mesh, fine.parents, t);
         for (const Children* children : {&at_corners, &shortest_diagonal(fine.mesh.rest, nodes).tets})
-            for (const auto& [a, b, c, d] : *children) fine.mesh.tets.row(next++) << nodes[a], nodes[b], nodes[c], nodes[d];
+            for (const auto& [a, b, c, d] : *children)
+                fine.mesh.tets.row(next++) << nodes[a], nodes[b], nodes[c], nodes[d];
     }
     return fine;
 }
@@ -256,7 +263,8 @@ Location PointLocation::locate(const Vec3& point) const
     const int cell = index_of(cell_of(point));
     for (int k = first_[cell]; k < first_[cell + 1]; ++k) {
         const Vec3 barycentric = barycentric_in(mesh_, tet_in_cell_[k], point);
-        if (std::min(barycentric.minCoeff(), 1.0 - barycentric.sum()) >= -on_face) return {tet_in_cell_[k], barycentric};
+        if (std::min(barycentric.minCoeff(), 1.0 - barycentric.sum()) >= -on_face)
+            return {tet_in_cell_[k], barycentric};
     }
     return {};
 }
@@ -269,7 +277,8 @@ std::vector<int> tet_regions(const Tets& tets, int region_size)
     for (const int first : breadth_first(neighbours)) {
         if (region[first] != none) continue;
         const std::vector<int> part = grow(
-            first, neighbours, region_size, [&](int t) { return region[t] == none; }, [&](int t) { region[t] = regions; });
+            first, neighbours, region_size, [&](int t) { return region[t] == none; },
+            [&](int t) { region[t] = regions; });
         const bool is_small = 2 * part.size() < static_cast<std::size_t>(region_size);
         const int nearest = is_small ? nearest_region(part, regions, neighbours, region) : none;
         if (nearest == none)
@@ -297,14 +306,15 @@ Vec3 nearest_in_triangle(const Vec3& point, const Eigen::Matrix3d& corners)
     const Vec3 a = corners.row(0), b = corners.row(1), c = corners.row(2), normal = (b - a).cross(c - a);
     const double area2 = normal.squaredNorm();
     if (area2 > 0.0) {
-        const Vec3 barycentric(normal.dot((c - b).cross(point - b)) / area2, normal.dot((a - c).cross(point - c)) / area2,
+        const Vec3 barycentric(normal.dot((c - b).cross(point - b)) / area2,
+                               normal.dot((a - c).cross(point - c)) / area2,
                                normal.dot((b - a).cross(point - a)) / area2);
         if (barycentric.minCoeff() >= 0.0) return barycentric / barycentric.sum();
     }
     Vec3 best = Vec3::UnitX();
     double least = std::numeric_limits<double>::max();
-    for (const Vec3& candidate :
-         {nearest_on_segment(point, a, b, 0, 1), nearest_on_segment(point, b, c, 1, 2), nearest_on_segment(point, c, a, 2, 0)}) {
+    for (const Vec3& candidate : {nearest_on_segment(point, a, b, 0, 1), nearest_on_segment(point, b, c, 1, 2),
+                                  nearest_on_segment(point, c, a, 2, 0)}) {
         const double distance = (corners.transpose() * candidate - point).squaredNorm();
         if (distance >= least) continue;
         least = distance;

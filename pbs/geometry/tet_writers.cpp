@@ -1,6 +1,8 @@
-// Tet meshes as text with 17 digits: Gmsh 4.1, with one entity (3, 1) that holds all tets, and MEDIT. Gmsh's own writer prints 16 digits
+// Tet meshes as text with 17 digits: Gmsh 4.1, with one entity (3, 1) that holds all tets, and MEDIT. Gmsh's own writer
+// prints 16 digits
 // (.msh) or 14 (.mesh), which do not read back to the bit.
-// Formats: Gmsh reference manual 4.8, "MSH file format"; MEDIT, Frey, "MEDIT: an interactive mesh visualization software" (INRIA, 2001).
+// Formats: Gmsh reference manual 4.8, "MSH file format"; MEDIT, Frey, "MEDIT: an interactive mesh visualization
+// software" (INRIA, 2001).
 
 #include "pbs/geometry/files.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"

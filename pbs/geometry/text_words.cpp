@@ -59,7 +59,8 @@ std::optional<double> number_in(std::string_view word)
     double number = 0.0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (word.empty() || end != word.data() + word.size()) return std::nullopt;
-    if (error == std::errc::result_out_of_range) return std::strtod(std::string(word).c_str(), nullptr);  // infinity, or next to zero
+    // infinity, or next to zero
+    if (error == std::errc::result_out_of_range) return std::strtod(std::string(word).c_str(), nullptr);
     return number;
 }
 
@@ -69,7 +70,8 @@ std::string in_lower_case(std::string text)
     return text;
 }
 
-TextWords::TextWords(std::string path, std::string text, char comment) : path_(std::move(path)), text_(std::move(text)), comment_(comment)
+TextWords::TextWords(std::string path, std::string text, char comment)
+    : path_(std::move(path)), text_(std::move(text)), comment_(comment)
 {
 }
 

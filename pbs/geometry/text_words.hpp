@@ -9,11 +9,12 @@
 
 namespace pbs {
 
-// Text without the byte order mark that programs of Windows write; UTF-16 with such a mark becomes UTF-8. Other bytes stay as they are.
+// Text without the byte order mark that programs of Windows write; UTF-16 with such a mark becomes UTF-8. Other bytes
+// stay as they are.
 std::string as_utf8(std::string bytes);
 
-// A number as C, Fortran (2.9D-01) and Python write it, whatever the locale; nan and inf are numbers. Nothing: the word is none, as
-// 1.#QNAN or 1,5.
+// A number as C, Fortran (2.9D-01) and Python write it, whatever the locale; nan and inf are numbers. Nothing: the word
+// is none, as 1.#QNAN or 1,5.
 std::optional<double> number_in(std::string_view word);
 
 std::string in_lower_case(std::string text);
@@ -28,7 +29,8 @@ public:
     std::string_view next(const char* field);  // InputError at the end. A text in quotation marks is one word.
     double number(const char* field);
     long long whole(const char* field, long long low, long long high);
-    [[noreturn]] void fail(const std::string& field, const std::string& value, const std::string& rule) const;  // at the last word
+    // at the last word
+    [[noreturn]] void fail(const std::string& field, const std::string& value, const std::string& rule) const;
 
     // For formats that mix words and bytes.
     void go_to(std::size_t byte) { at_ = begin_ = byte; }

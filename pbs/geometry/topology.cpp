@@ -37,8 +37,8 @@ void for_each_run(const std::vector<Entry>& entries, Key key, Body body)
         }
 }
 
-// Everything that each(add) adds, twice the same, sorted by `less`, which compares vertex(entry) first: into one bucket per vertex, and
-// then within each bucket, all of which are short. Linear in the entries.
+// Everything that each(add) adds, twice the same, sorted by `less`, which compares vertex(entry) first: into one bucket
+// per vertex, and then within each bucket, all of which are short. Linear in the entries.
 template <typename Entry, typename Each, typename Vertex, typename Less>
 std::vector<Entry> sorted_by_vertex(const Each& each, const Vertex& vertex, const Less& less)
 {
@@ -52,7 +52,8 @@ std::vector<Entry> sorted_by_vertex(const Each& each, const Vertex& vertex, cons
     std::vector<Entry> entries(first.back());
     std::vector<std::size_t> next = first;
     each([&](const Entry& entry) { entries[next[vertex(entry)]++] = entry; });
-    for (std::size_t v = 0; v + 1 < first.size(); ++v) std::sort(entries.begin() + first[v], entries.begin() + first[v + 1], less);
+    for (std::size_t v = 0; v + 1 < first.size(); ++v)
+        std::sort(entries.begin() + first[v], entries.begin() + first[v + 1], less);
     return entries;
 }
 
@@ -62,14 +63,16 @@ std::vector<BoundaryEdge> sorted_edges(const Triangles& triangles)
     edges.reserve(3 * triangles.rows());
     for (int t = 0; t < triangles.rows(); ++t)
         for (int side = 0; side < 3; ++side) {
-            BoundaryEdge edge{{triangles(t, side), triangles(t, (side + 1) % 3)}, {3 * t + side, 3 * t + (side + 1) % 3}};
+            BoundaryEdge edge{{triangles(t, side), triangles(t, (side + 1) % 3)},
+                              {3 * t + side, 3 * t + (side + 1) % 3}};
             if (edge.vertex[0] > edge.vertex[1]) {
                 std::swap(edge.vertex[0], edge.vertex[1]);
                 std::swap(edge.corner[0], edge.corner[1]);
             }
             edges.push_back(edge);
         }
-    std::sort(edges.begin(), edges.end(), [](const BoundaryEdge& a, const BoundaryEdge& b) { return a.vertex < b.vertex; });
+    std::sort(edges.begin(), edges.end(),
+              [](const BoundaryEdge& a, const BoundaryEdge& b) { return a.vertex < b.vertex; });
     return edges;
 }
 
@@ -78,7 +81,8 @@ int count_used(const std::vector<bool>& used)
     return static_cast<int>(std::count(used.begin(), used.end(), true));
 }
 
-// Components, Euler characteristic and manifoldness of the boundary. A fan is a class of triangle corners round a vertex.
+// Components, Euler characteristic and manifoldness of the boundary. A fan is a class of triangle corners round a
+// vertex.
 void examine_boundary(const Triangles& boundary, int boundary_vertex_count, Topology& topology)
 {
     const std::vector<BoundaryEdge> edges = sorted_edges(boundary);
@@ -156,8 +160,9 @@ void examine_dihedrals(const TetMesh& mesh, Quality& quality)
 {
     quality.min_dihedral_deg = 180.0;
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
-        const std::array<double, 6> angles_deg = dihedral_angles_deg(mesh.rest.row(mesh.tets(t, 0)), mesh.rest.row(mesh.tets(t, 1)),
-                                                                     mesh.rest.row(mesh.tets(t, 2)), mesh.rest.row(mesh.tets(t, 3)));
+        const std::array<double, 6> angles_deg =
+            dihedral_angles_deg(mesh.rest.row(mesh.tets(t, 0)), mesh.rest.row(mesh.tets(t, 1)),
+                                mesh.rest.row(mesh.tets(t, 2)), mesh.rest.row(mesh.tets(t, 3)));
         const auto [smallest, largest] = std::minmax_element(angles_deg.begin(), angles_deg.end());
         quality.min_dihedral_deg = std::min(quality.min_dihedral_deg, *smallest);
         quality.max_dihedral_deg = std::max(quality.max_dihedral_deg, *largest);
@@ -201,7 +206,8 @@ Edges edges_of(const Tets& tets)
     const auto each = [&](const auto& add) {
         for (Eigen::Index t = 0; t < tets.rows(); ++t)
             for (int a = 0; a < 4; ++a)
-                for (int b = a + 1; b < 4; ++b) add(Pair{std::min(tets(t, a), tets(t, b)), std::max(tets(t, a), tets(t, b))});
+                for (int b = a + 1; b < 4; ++b)
+                    add(Pair{std::min(tets(t, a), tets(t, b)), std::max(tets(t, a), tets(t, b))});
     };
     std::vector<Pair> pairs = sorted_by_vertex<Pair>(
         each, [](const Pair& pair) { return pair[0]; }, std::less<Pair>());
@@ -247,7 +253,8 @@ Triangles joined_triangles(const Positions& points, const Triangles& triangles)
 
 std::optional<DirectedEdge> open_edge(const Triangles& triangles)
 {
-    const std::vector<DirectedEdge> forward = directed_edges(triangles, false), backward = directed_edges(triangles, true);
+    const std::vector<DirectedEdge> forward = directed_edges(triangles, false),
+                                    backward = directed_edges(triangles, true);
     const auto [one, other] = std::mismatch(forward.begin(), forward.end(), backward.begin());
     if (one == forward.end()) return std::nullopt;
     return std::min(*one, *other);
@@ -334,14 +341,14 @@ std::string describe(const Quality& quality)
 {
     const Topology& topology = quality.topology;
     std::ostringstream text;
-    text << quality.vertices << " vertices (" << quality.boundary_vertices << " on the boundary), " << quality.edges << " edges, "
-         << quality.tets << " tets, " << quality.boundary_triangles << " boundary triangles\n";
-    text << std::setprecision(6) << "volume " << quality.volume_m3 << " m^3, edges " << std::setprecision(3) << quality.shortest_edge_m
-         << " to " << quality.longest_edge_m << " m, dihedral angles " << std::fixed << std::setprecision(1) << quality.min_dihedral_deg
-         << " to " << quality.max_dihedral_deg << " deg\n";
-    text << "boundary " << (topology.boundary_manifold ? "manifold" : "NOT manifold") << ", " << topology.boundary_components
-         << " component(s), Euler characteristic " << topology.boundary_euler << "; " << topology.components << " component(s) of tets, "
-         << topology.unused_vertices << " unused vertices\n";
+    text << quality.vertices << " vertices (" << quality.boundary_vertices << " on the boundary), " << quality.edges
+         << " edges, " << quality.tets << " tets, " << quality.boundary_triangles << " boundary triangles\n";
+    text << std::setprecision(6) << "volume " << quality.volume_m3 << " m^3, edges " << std::setprecision(3)
+         << quality.shortest_edge_m << " to " << quality.longest_edge_m << " m, dihedral angles " << std::fixed
+         << std::setprecision(1) << quality.min_dihedral_deg << " to " << quality.max_dihedral_deg << " deg\n";
+    text << "boundary " << (topology.boundary_manifold ? "manifold" : "NOT manifold") << ", "
+         << topology.boundary_components << " component(s), Euler characteristic " << topology.boundary_euler << "; "
+         << topology.components << " component(s) of tets, " << topology.unused_vertices << " unused vertices\n";
     return text.str();
 }
 

@@ -1,5 +1,5 @@
-// The connectivity of a tet mesh: edges, boundary, manifoldness, Euler characteristic. vertices: #V; indices of tets lie from 0 to
-// #V - 1 (unchecked).
+// The connectivity of a tet mesh: edges, boundary, manifoldness, Euler characteristic. vertices: #V; indices of tets
+// lie from 0 to #V - 1 (unchecked).
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -13,17 +13,21 @@
 
 namespace pbs {
 
-Edges edges_of(const Tets& tets);                                              // each edge once, sorted, #E x 2
-Triangles boundary_of(const Tets& tets);                                       // faces of one tet only, oriented outward, #F x 3
-std::vector<bool> boundary_vertices(const Tets& tets, Eigen::Index vertices);  // whether a vertex is in one of boundary_of's faces, #V
+Edges edges_of(const Tets& tets);  // each edge once, sorted, #E x 2
+// faces of one tet only, oriented outward, #F x 3
+Triangles boundary_of(const Tets& tets);
+// whether a vertex is in one of boundary_of's faces, #V
+std::vector<bool> boundary_vertices(const Tets& tets, Eigen::Index vertices);
 
 // Neighbours of vertex i by edges: first[i] .. first[i + 1] - 1 of `neighbour`.
 struct Adjacency {
-    std::vector<int> first, neighbour;  // #V + 1, of all vertices, including those without a tet; 2 #E, those of a vertex ascending
+    // #V + 1, of all vertices, including those without a tet; 2 #E, those of a vertex ascending
+    std::vector<int> first, neighbour;
 };
 Adjacency adjacency_of(const Tets& tets, int vertices);
 
-// The triangles with each corner replaced by the first point at its place. Files of models repeat points along texture seams.
+// The triangles with each corner replaced by the first point at its place. Files of models repeat points along texture
+// seams.
 Triangles joined_triangles(const Positions& points, const Triangles& triangles);
 
 // The vertices that the cells use, ascending, after which the cells name them by their places among these.
@@ -51,7 +55,8 @@ std::vector<TetFace> sorted_faces(const Tets& tets);  // of all tets, by their v
 
 // An edge with its direction in a triangle.
 using DirectedEdge = std::pair<int, int>;
-// The smallest edge, sorted by vertices, that the triangles do not use equally often in both directions; nothing: there is none.
+// The smallest edge, sorted by vertices, that the triangles do not use equally often in both directions; nothing: there
+// is none.
 std::optional<DirectedEdge> open_edge(const Triangles& triangles);
 bool is_closed(const Triangles& triangles);      // has a triangle and no open edge; several parts may touch in an edge
 bool is_watertight(const Triangles& triangles);  // closed, and each edge belongs to two triangles
@@ -74,15 +79,17 @@ std::vector<int> parts_of(const Tets& tets);
 // The tets for which `kept` is true, #T, and the vertices that they use, in their order.
 TetMesh kept_tets(const TetMesh& mesh, const std::vector<bool>& kept);
 
-// Angles [deg] between the faces that meet at each edge: 12, 13, 14, 23, 24, 34; in [0, 180], 0 and 180 where the tet is flat.
+// Angles [deg] between the faces that meet at each edge: 12, 13, 14, 23, 24, 34; in [0, 180], 0 and 180 where the tet
+// is flat.
 std::array<double, 6> dihedral_angles_deg(const Vec3& p1, const Vec3& p2, const Vec3& p3, const Vec3& p4);
 
 // Quality of the rest pose. Without a tet everything except `vertices` and `topology` is zero.
 struct Quality {
-    int vertices = 0, edges = 0, tets = 0;                  // #V; #E, each edge once; #T
-    int boundary_triangles = 0, boundary_vertices = 0;      // #F of boundary_of; those in a boundary face
-    double volume_m3 = 0.0;                                 // signed, so that an inverted tet counts against the others
-    double min_dihedral_deg = 0.0, max_dihedral_deg = 0.0;  // of all tets' dihedral angles, in [0, 180]; 0 and 180: a flat tet
+    int vertices = 0, edges = 0, tets = 0;              // #V; #E, each edge once; #T
+    int boundary_triangles = 0, boundary_vertices = 0;  // #F of boundary_of; those in a boundary face
+    double volume_m3 = 0.0;                             // signed, so that an inverted tet counts against the others
+    double min_dihedral_deg = 0.0,
+           max_dihedral_deg = 0.0;  // of all tets' dihedral angles, in [0, 180]; 0 and 180: a flat tet
     double shortest_edge_m = 0.0, longest_edge_m = 0.0;
     Topology topology;  // of tets and boundary
 };

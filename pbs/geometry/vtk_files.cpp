@@ -70,7 +70,8 @@ private:
 };
 vtkStandardNewMacro(CollectingWindow);
 
-// "ERROR: In x.cxx, line 12\nvtkReader (0x55): words\n\n" and "Generic Warning: In x.cxx, line 12\nwords\n\n" -> "words"
+// "ERROR: In x.cxx, line 12\nvtkReader (0x55): words\n\n" and "Generic Warning: In x.cxx, line 12\nwords\n\n" ->
+// "words"
 std::string sentence_of(const std::string& message)
 {
     std::size_t begin = message.find("): ");
@@ -128,7 +129,8 @@ void set_source(const std::string& path, vtkXMLReader& reader)
     reader.SetInputString(SourceFile(path).text(most_mesh_bytes));
 }
 
-// Without the arrays of points and cells, whose defects are no matter here, except the one that marks what pieces share.
+// Without the arrays of points and cells, whose defects are no matter here, except the one that marks what pieces
+// share.
 template <typename Reader>
 vtkSmartPointer<vtkUnstructuredGrid> xml_grid(const std::string& path)
 {
@@ -142,7 +144,8 @@ vtkSmartPointer<vtkUnstructuredGrid> xml_grid(const std::string& path)
     return grid_of(path, *reader.Get());
 }
 
-// The points, cells and arrays of a file that is read as a whole. array: the only one of the points' that is read; empty: all.
+// The points, cells and arrays of a file that is read as a whole. array: the only one of the points' that is read;
+// empty: all.
 template <typename XmlReader>
 vtkSmartPointer<vtkDataObject> data_of(const std::string& path, XmlReader& reader, const std::string& array)
 {
@@ -211,17 +214,21 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& path)
     const std::string beginning = beginning_of(path);  // any of the formats may have any of the extensions
     if (beginning.starts_with("# vtk DataFile")) return legacy_grid(path);
     if (beginning.find("\"Collection\"") != std::string::npos)
-        throw InputError(path, 0, "type", "Collection", "expected one mesh; `pbskin measure` takes a .pvd for its frames");
-    if (beginning.find("\"PUnstructuredGrid\"") != std::string::npos) return xml_grid<vtkXMLPUnstructuredGridReader>(path);
+        throw InputError(path, 0, "type", "Collection",
+                         "expected one mesh; `pbskin measure` takes a .pvd for its frames");
+    if (beginning.find("\"PUnstructuredGrid\"") != std::string::npos)
+        return xml_grid<vtkXMLPUnstructuredGridReader>(path);
     return xml_grid<vtkXMLUnstructuredGridReader>(path);
 }
 
-// Tets have four nodes, by whichever of their names; a file of a program with cells of any order calls them Lagrange's or Bezier's.
+// Tets have four nodes, by whichever of their names; a file of a program with cells of any order calls them Lagrange's
+// or Bezier's.
 bool is_tet(vtkUnstructuredGrid& grid, vtkIdType cell)
 {
     const int type = grid.GetCellType(cell);
     if (type == VTK_TETRA) return true;
-    return (type == VTK_LAGRANGE_TETRAHEDRON || type == VTK_BEZIER_TETRAHEDRON) && grid.GetCells()->GetCellSize(cell) == 4;
+    return (type == VTK_LAGRANGE_TETRAHEDRON || type == VTK_BEZIER_TETRAHEDRON) &&
+           grid.GetCells()->GetCellSize(cell) == 4;
 }
 
 // The cells that are tets, without copies of other pieces' cells; other volume cells are refused.
@@ -245,7 +252,8 @@ std::vector<vtkIdType> tet_cells(const std::string& path, vtkUnstructuredGrid& g
 void require_length(const std::string& path, const std::string& field, Eigen::Index length, Eigen::Index expected)
 {
     if (length != expected)
-        throw InputError(path, 0, field, std::to_string(length), "expected " + std::to_string(expected) + " entries, one each");
+        throw InputError(path, 0, field, std::to_string(length),
+                         "expected " + std::to_string(expected) + " entries, one each");
 }
 
 // A tuple for each row: Positions or a vector.
@@ -328,8 +336,8 @@ TetMesh read_vtk(const std::string& path)
     for (std::size_t t = 0; t < cells.size(); ++t) {
         grid->GetCellPoints(cells[t], corners);
         if (corners->GetNumberOfIds() != 4)
-            throw InputError(path, 0, "cell " + std::to_string(cells[t]) + " vertices", std::to_string(corners->GetNumberOfIds()),
-                             "expected 4");
+            throw InputError(path, 0, "cell " + std::to_string(cells[t]) + " vertices",
+                             std::to_string(corners->GetNumberOfIds()), "expected 4");
         for (int corner = 0; corner < 4; ++corner)
             mesh.tets(static_cast<Eigen::Index>(t), corner) =
                 checked_index(path, static_cast<long long>(t), corners->GetId(corner), points);
@@ -413,10 +421,12 @@ std::vector<std::string> read_pvd(const std::string& path)
         const char *file = set->GetAttribute("file"), *time = set->GetAttribute("timestep");
         const std::optional<double> time_s = time ? number_in(time) : i;
         const std::string time_text = time ? time : std::to_string(i);
-        if (!file || !time_s) throw InputError(path, 0, "DataSet " + std::to_string(i), time_text, "expected a timestep and a file");
+        if (!file || !time_s)
+            throw InputError(path, 0, "DataSet " + std::to_string(i), time_text, "expected a timestep and a file");
         const std::filesystem::path named = std::filesystem::path(path).parent_path() / file;
         if (!files.emplace(*time_s, named.string()).second)
-            throw InputError(path, 0, "timestep", time_text, "expected one file for each: join its parts before the export");
+            throw InputError(path, 0, "timestep", time_text,
+                             "expected one file for each: join its parts before the export");
     }
     std::vector<std::string> frames;
     for (const auto& [time_s, file] : files) frames.push_back(file);
@@ -430,7 +440,8 @@ void write_pvd(const std::string& path, const std::vector<std::pair<double, std:
     text.imbue(std::locale::classic());
     text.precision(17);
     text << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
-    for (const auto& [time_s, name] : frames) text << "    <DataSet timestep=\"" << time_s << "\" part=\"0\" file=\"" << name << "\"/>\n";
+    for (const auto& [time_s, name] : frames)
+        text << "    <DataSet timestep=\"" << time_s << "\" part=\"0\" file=\"" << name << "\"/>\n";
     text << "  </Collection>\n</VTKFile>\n";
     write_atomically(path, text.str());
 }

@@ -1,6 +1,6 @@
-// How often a closed surface goes round a point: 1 inside of one that faces outwards, -1 of one that faces inwards, 0 outside. The sum of
-// the solid angles of its triangles over 4 pi: A. Van Oosterom, J. Strackee, The solid angle of a plane triangle, IEEE Transactions on
-// Biomedical Engineering 30 (1983), Eq. 8.
+// How often a closed surface goes round a point: 1 inside of one that faces outwards, -1 of one that faces inwards, 0
+// outside. The sum of the solid angles of its triangles over 4 pi: A. Van Oosterom, J. Strackee, The solid angle of a
+// plane triangle, IEEE Transactions on Biomedical Engineering 30 (1983), Eq. 8.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"

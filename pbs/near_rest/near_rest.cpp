@@ -54,7 +54,8 @@ std::vector<bool> all_but(std::vector<bool> held)
 }
 
 constexpr double tolerance = 1e-8;
-constexpr double softest = 1e-9;  // where a step draws back less than this share of a displacement, nothing holds the body
+constexpr double softest =
+    1e-9;  // where a step draws back less than this share of a displacement, nothing holds the body
 
 // A linear map in place of a matrix, with the two operations that GMRES uses.
 struct LinearMap {
@@ -111,7 +112,8 @@ int VolumeConstraints::rank() const
 
 Positions VolumeConstraints::equilibrium(const Positions& load_n, double shear_pa) const
 {
-    const double penalty = 1e4;  // relative to the shear modulus: large enough to converge in a few rounds, small enough to keep digits
+    const double penalty =
+        1e4;  // relative to the shear modulus: large enough to converge in a few rounds, small enough to keep digits
     const Sparse matrix = shear_stiffness() + penalty * Sparse(gradients_.transpose() * gradients_);
     const Eigen::SimplicialLDLT<Sparse> factor(matrix);
     const Eigen::VectorXd load = stacked(load_n, free_) / shear_pa;
@@ -129,12 +131,14 @@ Sparse VolumeConstraints::shear_stiffness() const
     const Eigen::VectorXd volumes = tet_volumes(mesh_.rest, mesh_.tets);
     std::vector<Eigen::Triplet<double>> entries;
     for (Eigen::Index t = 0; t < mesh_.tets.rows(); ++t) {
-        const std::array<Vec3, 4> g = volume_gradients(mesh_.rest, mesh_.tets.row(t));  // of a shape function, times the volume
+        // of a shape function, times the volume
+        const std::array<Vec3, 4> g = volume_gradients(mesh_.rest, mesh_.tets.row(t));
         for (int a = 0; a < 4; ++a)
             for (int b = 0; b < 4; ++b) {
                 const int row = place_[mesh_.tets(t, a)], column = place_[mesh_.tets(t, b)];
                 if (row < 0 || column < 0) continue;
-                const Eigen::Matrix3d block = (g[a].dot(g[b]) * Eigen::Matrix3d::Identity() + g[b] * g[a].transpose()) / volumes(t);
+                const Eigen::Matrix3d block =
+                    (g[a].dot(g[b]) * Eigen::Matrix3d::Identity() + g[b] * g[a].transpose()) / volumes(t);
                 for (int i = 0; i < 3; ++i)
                     for (int j = 0; j < 3; ++j) entries.emplace_back(3 * row + i, 3 * column + j, block(i, j));
             }
@@ -144,19 +148,23 @@ Sparse VolumeConstraints::shear_stiffness() const
     return stiffness;
 }
 
-StepNearRest::StepNearRest(const Positions& rest, const Positions& bind_point, int iterations, double step_s, bool forgets_multipliers)
+StepNearRest::StepNearRest(const Positions& rest, const Positions& bind_point, int iterations, double step_s,
+                           bool forgets_multipliers)
     : rest_(rest), bind_point_(bind_point), iterations_(iterations), step_s_(step_s), forgets_(forgets_multipliers)
 {
 }
 
 // A vertex on its bone, d = 0, is drawn to its material point whichever way it moves.
 template <typename Constraint>
-void StepNearRest::add(const Constraint& constraint, double share, double compliance, const std::vector<double>& inverse_mass)
+void StepNearRest::add(const Constraint& constraint, double share, double compliance,
+                       const std::vector<double>& inverse_mass)
 {
     const auto gradients = gradients_at(rest_, bind_point_, constraint);
     const bool is_bind = gradients.size() == 1;
-    if (!is_bind || gradients[0].squaredNorm() > 0.0) return add_gradients(constraint, gradients, share, compliance, inverse_mass);
-    for (int axis = 0; axis < 3; ++axis) add_gradients(constraint, std::array<Vec3, 1>{Vec3::Unit(axis)}, share, compliance, inverse_mass);
+    if (!is_bind || gradients[0].squaredNorm() > 0.0)
+        return add_gradients(constraint, gradients, share, compliance, inverse_mass);
+    for (int axis = 0; axis < 3; ++axis)
+        add_gradients(constraint, std::array<Vec3, 1>{Vec3::Unit(axis)}, share, compliance, inverse_mass);
 }
 
 template void StepNearRest::add(const BindConstraint<double>&, double, double, const std::vector<double>&);
@@ -164,8 +172,8 @@ template void StepNearRest::add(const StretchConstraint<double>&, double, double
 template void StepNearRest::add(const VolumeConstraint<double>&, double, double, const std::vector<double>&);
 
 template <typename Constraint, std::size_t count>
-void StepNearRest::add_gradients(const Constraint& constraint, const std::array<Vec3, count>& gradients, double share, double compliance,
-                                 const std::vector<double>& inverse_mass)
+void StepNearRest::add_gradients(const Constraint& constraint, const std::array<Vec3, count>& gradients, double share,
+                                 double compliance, const std::vector<double>& inverse_mass)
 {
     Projection projection;
     projection.vertices = static_cast<int>(count);
@@ -194,8 +202,10 @@ void StepNearRest::apply(Positions& displacement)
         for (Projection& projection : projections_) {
             if (iteration == 0 || forgets_) projection.multiplier = 0.0;
             double C = 0.0;
-            for (int i = 0; i < projection.vertices; ++i) C += displacement.row(projection.vertex[i]).dot(projection.gradient[i]);
-            const double change = -projection.share * (C + projection.compliance_per_dt2 * projection.multiplier) / projection.denominator;
+            for (int i = 0; i < projection.vertices; ++i)
+                C += displacement.row(projection.vertex[i]).dot(projection.gradient[i]);
+            const double change = -projection.share * (C + projection.compliance_per_dt2 * projection.multiplier) /
+                                  projection.denominator;
             projection.multiplier += change;
             for (int i = 0; i < projection.vertices; ++i)
                 displacement.row(projection.vertex[i]) += change * projection.moved[i].transpose();
@@ -203,7 +213,8 @@ void StepNearRest::apply(Positions& displacement)
     }
 }
 
-RestingState rest_of(StepNearRest& step, const std::vector<bool>& moves, const Vec3& acceleration_m_s2, const KrylovSpace& space)
+RestingState rest_of(StepNearRest& step, const std::vector<bool>& moves, const Vec3& acceleration_m_s2,
+                     const KrylovSpace& space)
 {
     const auto vertices = static_cast<Eigen::Index>(moves.size());
     const std::vector<int> moving = those_in(moves);
@@ -220,21 +231,23 @@ RestingState rest_of(StepNearRest& step, const std::vector<bool>& moves, const V
     Eigen::VectorXd x = Eigen::VectorXd::Zero(3 * count);
     Eigen::Index iterations = space.most_iterations;
     double error = tolerance;
-    Eigen::internal::gmres(identity_minus_S, right_hand_side, x, Eigen::IdentityPreconditioner(), iterations, Eigen::Index{space.vectors},
-                           error);
+    Eigen::internal::gmres(identity_minus_S, right_hand_side, x, Eigen::IdentityPreconditioner(), iterations,
+                           Eigen::Index{space.vectors}, error);
     state.displacement = unstacked(x, moving, vertices);
     state.residual = (x - S(x) - right_hand_side).norm() / right_hand_side.norm();
     state.converged = state.residual <= 10.0 * tolerance && softest * x.norm() <= right_hand_side.norm();
     return state;
 }
 
-RestingState settle(const TetMesh& mesh, const std::vector<bool>& held, const PbsOptions& options, const Vec3& acceleration_m_s2)
+RestingState settle(const TetMesh& mesh, const std::vector<bool>& held, const PbsOptions& options,
+                    const Vec3& acceleration_m_s2)
 {
     if (options.volume_of != VolumeOf::tets) throw InputError("pbs", 0, "volume_of", "", "expected tets near rest");
     PbsOptions unbound = options;
     unbound.k_bind = 0.0;
     unbound.jiggle.reset();
-    const auto constraints = make_constraint_set<double>(mesh, Eigen::VectorXd::Zero(mesh.rest.rows()), {}, unbound, held);
+    const auto constraints =
+        make_constraint_set<double>(mesh, Eigen::VectorXd::Zero(mesh.rest.rows()), {}, unbound, held);
     StepNearRest step(mesh.rest, {}, options.iterations, 1.0);
     for (const auto& edge : constraints.stretch) step.add(edge, edge.stiffness, 0.0, constraints.inverse_mass);
     for (const auto& tet : constraints.volume) step.add(tet, tet.stiffness, 0.0, constraints.inverse_mass);

@@ -1,8 +1,9 @@
-// Sixteen groups of constraints that share no vertex, side by side: the input of the kernels. Plain data, for builders and kernels alike.
-// ContactKernels declares the kernels of the search for self-contact, which code without batches uses as well.
+// Sixteen groups of constraints that share no vertex, side by side: the input of the kernels. Plain data, for builders
+// and kernels alike. ContactKernels declares the kernels of the search for self-contact, which code without batches
+// uses as well.
 //
-// A group is what one lane projects before it stores its vertices: a single constraint (order `ordered`), or a few that share most of their
-// vertices (order `grouped`), so that each vertex is loaded and stored once for all of them.
+// A group is what one lane projects before it stores its vertices: a single constraint (order `ordered`), or a few that
+// share most of their vertices (order `grouped`), so that each vertex is loaded and stored once for all of them.
 #pragma once
 
 #include <array>
@@ -12,11 +13,12 @@
 
 namespace pbs {
 
-// Groups in a batch; on machines of fewer lanes it is worked off in parts, so that the order of projection is the same everywhere.
+// Groups in a batch; on machines of fewer lanes it is worked off in parts, so that the order of projection is the same
+// everywhere.
 inline constexpr int batch_size = 16;
 
-// edge: one; edge_wedge: two that share a vertex; edge_triangle: three; edge_tet: the six of a tet; tet: one; tet_fan_2, _3: tets round an
-// edge.
+// edge: one; edge_wedge: two that share a vertex; edge_triangle: three; edge_tet: the six of a tet; tet: one;
+// tet_fan_2, _3: tets round an edge.
 enum class GroupKind { edge, edge_wedge, edge_triangle, edge_tet, tet, tet_fan_2, tet_fan_3 };
 
 // The vertices within a group that each of its constraints joins.
@@ -29,13 +31,15 @@ inline constexpr std::array<std::array<int, 2>, 2> joins_of<GroupKind::edge_wedg
 template <>
 inline constexpr std::array<std::array<int, 2>, 3> joins_of<GroupKind::edge_triangle>{{{0, 1}, {1, 2}, {2, 0}}};
 template <>  // opposite edges one after the other
-inline constexpr std::array<std::array<int, 2>, 6> joins_of<GroupKind::edge_tet>{{{0, 1}, {2, 3}, {0, 2}, {1, 3}, {0, 3}, {1, 2}}};
+inline constexpr std::array<std::array<int, 2>, 6> joins_of<GroupKind::edge_tet>{
+    {{0, 1}, {2, 3}, {0, 2}, {1, 3}, {0, 3}, {1, 2}}};
 template <>
 inline constexpr std::array<std::array<int, 4>, 1> joins_of<GroupKind::tet>{{{0, 1, 2, 3}}};
 template <>  // round the edge 0, 1
 inline constexpr std::array<std::array<int, 4>, 2> joins_of<GroupKind::tet_fan_2>{{{0, 1, 2, 3}, {0, 1, 3, 4}}};
 template <>
-inline constexpr std::array<std::array<int, 4>, 3> joins_of<GroupKind::tet_fan_3>{{{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 5}}};
+inline constexpr std::array<std::array<int, 4>, 3> joins_of<GroupKind::tet_fan_3>{
+    {{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 5}}};
 
 // vertices and constraints: how many.
 template <GroupKind kind>
@@ -54,8 +58,8 @@ struct GroupShape {
 template <GroupKind kind>
 inline constexpr bool of_edges = kind <= GroupKind::edge_tet;
 
-// Every group [lane] of a batch. rest: rest length [m] of an edge, six times the rest volume [m^3] of a tet; stiffness: k, of an edge over
-// w1 + w2; zero for a constraint that is not there.
+// Every group [lane] of a batch. rest: rest length [m] of an edge, six times the rest volume [m^3] of a tet; stiffness:
+// k, of an edge over w1 + w2; zero for a constraint that is not there.
 template <typename Scalar, GroupKind kind>
 struct alignas(64) Batch {
     std::uint32_t offset[GroupShape<kind>::vertices][batch_size];  // 4 * vertex
@@ -71,9 +75,9 @@ struct alignas(64) BindBatch {
     Scalar stiffness[batch_size];                        // zero where the vertex is pinned or has no bind constraint
 };
 
-// The inner loops of the search for self-contact (SelfContact), in a source that is compiled for the machine (PBS_NATIVE). They take raw
-// pointers only. x: an array of Point; an offset is the place of a point's first coordinate there, 4 * vertex. Sixteen boxes, vertices or
-// tets are compared at once: bit k of a result is that of lane k.
+// The inner loops of the search for self-contact (SelfContact), in a source that is compiled for the machine
+// (PBS_NATIVE). They take raw pointers only. x: an array of Point; an offset is the place of a point's first coordinate
+// there, 4 * vertex. Sixteen boxes, vertices or tets are compared at once: bit k of a result is that of lane k.
 template <typename Scalar>
 struct ContactKernels {
     static constexpr int at_once = batch_size;
@@ -89,7 +93,8 @@ struct ContactKernels {
     struct alignas(64) Corners {
         std::uint32_t offset[4][at_once];
     };
-    // For each tet, the rows of the inverse of its edges (barycentric coordinates 2 to 4) times six volumes, from its first corner.
+    // For each tet, the rows of the inverse of its edges (barycentric coordinates 2 to 4) times six volumes, from its
+    // first corner.
     struct alignas(64) Coordinates {
         Scalar first[3][at_once], inverse[3][3][at_once], volume[at_once];
     };
@@ -101,10 +106,10 @@ struct ContactKernels {
     static unsigned that_meet(const Boxes& boxes, const Box& box);  // boxes that share a boundary do
 
     static void find_coordinates(const Corners& corners, const Scalar* x, Coordinates& tets);
-    // Finds the tets in which the vertex at each offset has no negative barycentric coordinate. It leaves out flat and mirrored tets and
-    // those of the vertex itself.
-    static void find_tets_around(const Coordinates& tets, const Corners& corners, const std::uint32_t* begin, const std::uint32_t* end,
-                                 const Scalar* x, unsigned* bits);
+    // Finds the tets in which the vertex at each offset has no negative barycentric coordinate. It leaves out flat and
+    // mirrored tets and those of the vertex itself.
+    static void find_tets_around(const Coordinates& tets, const Corners& corners, const std::uint32_t* begin,
+                                 const std::uint32_t* end, const Scalar* x, unsigned* bits);
 };
 
 // Calls f with a std::integral_constant of the kind, which is `first` or a later one.
@@ -112,7 +117,8 @@ template <typename F, GroupKind first = GroupKind::edge>
 constexpr decltype(auto) with_kind(GroupKind kind, F&& f)
 {
     if constexpr (first != GroupKind::tet_fan_3)
-        if (kind != first) return with_kind<F, static_cast<GroupKind>(static_cast<int>(first) + 1)>(kind, std::forward<F>(f));
+        if (kind != first)
+            return with_kind<F, static_cast<GroupKind>(static_cast<int>(first) + 1)>(kind, std::forward<F>(f));
     return f(std::integral_constant<GroupKind, first>());
 }
 

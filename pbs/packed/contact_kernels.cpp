@@ -42,12 +42,14 @@ auto ContactKernels<Scalar>::box_around(const Boxes& boxes) -> Box
 }
 
 template <typename Scalar>
-void ContactKernels<Scalar>::find_points(const std::uint32_t* begin, const std::uint32_t* end, const Scalar* x, Boxes& points)
+void ContactKernels<Scalar>::find_points(const std::uint32_t* begin, const std::uint32_t* end, const Scalar* x,
+                                         Boxes& points)
 {
     constexpr Scalar none = std::numeric_limits<Scalar>::quiet_NaN();
     const auto count = static_cast<int>(end - begin);
     for (int k = 0; k < at_once; ++k)
-        for (int axis = 0; axis < 3; ++axis) points.low[axis][k] = points.high[axis][k] = k < count ? x[begin[k] + axis] : none;
+        for (int axis = 0; axis < 3; ++axis)
+            points.low[axis][k] = points.high[axis][k] = k < count ? x[begin[k] + axis] : none;
 }
 
 template <typename Scalar>
@@ -82,8 +84,9 @@ void ContactKernels<Scalar>::find_coordinates(const Corners& corners, const Scal
 }
 
 template <typename Scalar>
-void ContactKernels<Scalar>::find_tets_around(const Coordinates& tets, const Corners& corners, const std::uint32_t* begin,
-                                              const std::uint32_t* end, const Scalar* x, unsigned* bits)
+void ContactKernels<Scalar>::find_tets_around(const Coordinates& tets, const Corners& corners,
+                                              const std::uint32_t* begin, const std::uint32_t* end, const Scalar* x,
+                                              unsigned* bits)
 {
     for (; begin < end; ++begin, ++bits) {
         unsigned around = 0, own = 0;
@@ -95,7 +98,8 @@ void ContactKernels<Scalar>::find_tets_around(const Coordinates& tets, const Cor
                 beta[i] = load(&row[0][k]) * d[0] + load(&row[1][k]) * d[1] + load(&row[2][k]) * d[2];
             }
             const Lanes<Scalar> volume = load(&tets.volume[k]), first = volume - (beta[0] + beta[1] + beta[2]);
-            const auto is_inside = beta[0] >= Scalar(0) && beta[1] >= Scalar(0) && beta[2] >= Scalar(0) && first >= Scalar(0);
+            const auto is_inside =
+                beta[0] >= Scalar(0) && beta[1] >= Scalar(0) && beta[2] >= Scalar(0) && first >= Scalar(0);
             around |= bits_of(is_inside && volume > Scalar(0)) << k;
         }
         for (int k = 0; k < at_once; k += lanes<std::uint32_t>) {

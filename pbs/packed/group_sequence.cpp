@@ -22,7 +22,8 @@ GroupsAtVertex groups_at_vertices(const std::vector<ConstraintGroup>& groups, in
     at.group.resize(at.first.back());
     std::vector<int> next(at.first.begin(), at.first.end() - 1);
     for (std::size_t g = 0; g < groups.size(); ++g)
-        for (int v = 0; v < vertices_of(groups[g].kind); ++v) at.group[next[groups[g].vertex[v]]++] = static_cast<int>(g);
+        for (int v = 0; v < vertices_of(groups[g].kind); ++v)
+            at.group[next[groups[g].vertex[v]]++] = static_cast<int>(g);
     return at;
 }
 
@@ -128,7 +129,8 @@ std::vector<std::vector<int>> BatchScheduler::schedule(const std::vector<Constra
     return batches;
 }
 
-// From the last group to the first, so that the next one at each vertex is at the end of its list. Returns those that wait for none.
+// From the last group to the first, so that the next one at each vertex is at the end of its list. Returns those that
+// wait for none.
 std::vector<int> BatchScheduler::begin(const std::vector<ConstraintGroup>& groups)
 {
     vertices_of_group_ = vertices_of(groups.front().kind);
@@ -169,10 +171,12 @@ void BatchScheduler::finish(const ConstraintGroup& group, int batch, std::vector
 
 bool BatchScheduler::rests(const ConstraintGroup& group, int since) const
 {
-    return std::all_of(group.vertex.begin(), group.vertex.begin() + vertices_of_group_, [&](int v) { return last_batch_[v] < since; });
+    return std::all_of(group.vertex.begin(), group.vertex.begin() + vertices_of_group_,
+                       [&](int v) { return last_batch_[v] < since; });
 }
 
-std::vector<SlabClusters> clusters_of_slabs(const std::vector<ConstraintGroup>& groups, const VertexOrder& order, int cluster_size)
+std::vector<SlabClusters> clusters_of_slabs(const std::vector<ConstraintGroup>& groups, const VertexOrder& order,
+                                            int cluster_size)
 {
     std::vector<int> first_vertex, sorted(groups.size());
     for (const ConstraintGroup& group : groups) {
@@ -182,7 +186,8 @@ std::vector<SlabClusters> clusters_of_slabs(const std::vector<ConstraintGroup>& 
     }
     std::iota(sorted.begin(), sorted.end(), 0);
     std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) { return first_vertex[a] < first_vertex[b]; });
-    const std::vector<int> slab_of = order.slab_of_new(), place = projection_sequence(groups, static_cast<int>(slab_of.size()));
+    const std::vector<int> slab_of = order.slab_of_new(),
+                           place = projection_sequence(groups, static_cast<int>(slab_of.size()));
     std::vector<std::vector<int>> slabs(order.slabs());
     for (const int g : sorted) slabs[slab_of[first_vertex[g]]].push_back(g);
     std::vector<SlabClusters> clusters(slabs.size());
@@ -205,7 +210,8 @@ TetSlabs::TetSlabs(const Tets& tets, int vertices, int threads)
 {
     const std::vector<SlabClusters> clusters = clusters_of_slabs(tets_, order_, tets_of_cluster);
     for (int slab = 0; slab < slabs(); ++slab)
-        for (const std::vector<int>& cluster : clusters[slab]) of_slab_[slab].insert(of_slab_[slab].end(), cluster.begin(), cluster.end());
+        for (const std::vector<int>& cluster : clusters[slab])
+            of_slab_[slab].insert(of_slab_[slab].end(), cluster.begin(), cluster.end());
 }
 
 std::vector<std::vector<int>> TetSlabs::batches(const std::vector<int>& tets) const
@@ -222,7 +228,8 @@ std::array<std::uint32_t, 4> TetSlabs::offset(int slab, int lane, int tet) const
 {
     const int dummies = rows_ - (slabs() - slab) * dummies_of_slab;
     std::array<std::uint32_t, 4> offset;
-    for (int i = 0; i < 4; ++i) offset[i] = 4u * (tet >= 0 ? order_.new_of_old[tets_[tet].vertex[i]] : dummies + 4 * lane + i);
+    for (int i = 0; i < 4; ++i)
+        offset[i] = 4u * (tet >= 0 ? order_.new_of_old[tets_[tet].vertex[i]] : dummies + 4 * lane + i);
     return offset;
 }
 

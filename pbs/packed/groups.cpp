@@ -31,16 +31,19 @@ std::vector<ConstraintGroup> single_tets(const std::vector<std::array<int, 4>>& 
 {
     std::vector<ConstraintGroup> groups;
     groups.reserve(tets.size());
-    for (const auto& [i, j, k, l] : tets) groups.push_back({GroupKind::tet, {i, j, k, l}, {static_cast<int>(groups.size())}});
+    for (const auto& [i, j, k, l] : tets)
+        groups.push_back({GroupKind::tet, {i, j, k, l}, {static_cast<int>(groups.size())}});
     return groups;
 }
 
 namespace {
 
-// Edges in groups, the largest first: tets whose edges are nearly all free, then triangles, then pairs at a vertex, then what is left.
+// Edges in groups, the largest first: tets whose edges are nearly all free, then triangles, then pairs at a vertex,
+// then what is left.
 class EdgeGrouping {
 public:
-    EdgeGrouping(const std::vector<std::array<int, 2>>& edges, const Tets& mesh_tets) : edges_(edges), free_(edges.size(), true)
+    EdgeGrouping(const std::vector<std::array<int, 2>>& edges, const Tets& mesh_tets)
+        : edges_(edges), free_(edges.size(), true)
     {
         index_.reserve(2 * edges.size());
         for (std::size_t e = 0; e < edges.size(); ++e) index_[key(edges[e][0], edges[e][1])] = static_cast<int>(e);
@@ -55,7 +58,10 @@ public:
     std::vector<ConstraintGroup> groups;
 
 private:
-    static std::uint64_t key(int i, int j) { return std::uint64_t(std::min(i, j)) << 32 | std::uint64_t(std::max(i, j)); }
+    static std::uint64_t key(int i, int j)
+    {
+        return std::uint64_t(std::min(i, j)) << 32 | std::uint64_t(std::max(i, j));
+    }
 
     int free_edge(int i, int j) const
     {
@@ -88,7 +94,8 @@ private:
     void group_triangles(const Tets& tets)
     {
         for (const auto tet : tets.rowwise())
-            for (const auto& [i, j, k] : {std::array{0, 1, 2}, std::array{0, 1, 3}, std::array{0, 2, 3}, std::array{1, 2, 3}})
+            for (const auto& [i, j, k] :
+                 {std::array{0, 1, 2}, std::array{0, 1, 3}, std::array{0, 2, 3}, std::array{1, 2, 3}})
                 if (free_edge(tet(i), tet(j)) >= 0 && free_edge(tet(j), tet(k)) >= 0 && free_edge(tet(k), tet(i)) >= 0)
                     add<GroupKind::edge_triangle>({tet(i), tet(j), tet(k)});
     }
@@ -130,8 +137,9 @@ std::vector<std::array<int, 4>> neighbours_of(const std::vector<Tet>& tets)
     faces.reserve(4 * tets.size());
     for (std::size_t t = 0; t < tets.size(); ++t)
         for (int opposite = 0; opposite < 4; ++opposite) {
-            Face face{
-                {tets[t][(opposite + 1) % 4], tets[t][(opposite + 2) % 4], tets[t][(opposite + 3) % 4]}, static_cast<int>(t), opposite};
+            Face face{{tets[t][(opposite + 1) % 4], tets[t][(opposite + 2) % 4], tets[t][(opposite + 3) % 4]},
+                      static_cast<int>(t),
+                      opposite};
             std::sort(face.vertex.begin(), face.vertex.end());
             faces.push_back(face);
         }
@@ -156,14 +164,17 @@ struct Fan {
 // Tets in fans round an edge, the largest first; among several, the fan whose members have the fewest free neighbours.
 class TetGrouping {
 public:
-    explicit TetGrouping(const std::vector<Tet>& tets) : tets_(tets), neighbour_(neighbours_of(tets)), free_(tets.size(), true)
+    explicit TetGrouping(const std::vector<Tet>& tets)
+        : tets_(tets), neighbour_(neighbours_of(tets)), free_(tets.size(), true)
     {
         for (const int size : {3, 2})
             for (std::size_t t = 0; t < tets.size(); ++t)
                 if (free_[t])
                     if (const std::optional<Fan> fan = best_fan(static_cast<int>(t), size)) add(*fan);
         for (std::size_t t = 0; t < tets.size(); ++t)
-            if (free_[t]) groups.push_back({GroupKind::tet, {tets[t][0], tets[t][1], tets[t][2], tets[t][3]}, {static_cast<int>(t)}});
+            if (free_[t])
+                groups.push_back(
+                    {GroupKind::tet, {tets[t][0], tets[t][1], tets[t][2], tets[t][3]}, {static_cast<int>(t)}});
     }
 
     std::vector<ConstraintGroup> groups;
@@ -198,7 +209,8 @@ private:
 
     int free_neighbours(int t) const
     {
-        return static_cast<int>(std::count_if(neighbour_[t].begin(), neighbour_[t].end(), [&](int n) { return n >= 0 && free_[n]; }));
+        return static_cast<int>(
+            std::count_if(neighbour_[t].begin(), neighbour_[t].end(), [&](int n) { return n >= 0 && free_[n]; }));
     }
 
     // Goes on round a, b from the fan's last tet; nothing where the way is closed or comes back to the first.
@@ -222,7 +234,8 @@ private:
              {Tet{0, 1, 2, 3}, Tet{0, 2, 1, 3}, Tet{0, 3, 1, 2}, Tet{1, 2, 0, 3}, Tet{1, 3, 0, 2}, Tet{2, 3, 0, 1}})
             for (const bool turned : {false, true}) {
                 const Tet& v = tets_[t];
-                std::optional<Fan> fan = Fan{v[a], v[b], turned ? std::vector{v[d], v[c]} : std::vector{v[c], v[d]}, {t}};
+                std::optional<Fan> fan =
+                    Fan{v[a], v[b], turned ? std::vector{v[d], v[c]} : std::vector{v[c], v[d]}, {t}};
                 if (!oriented(t, fan->a, fan->b, fan->ring[0], fan->ring[1])) std::swap(fan->a, fan->b);
                 int free = 0;
                 for (int more = 1; more < size && fan; ++more) {

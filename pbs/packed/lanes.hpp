@@ -1,8 +1,9 @@
-// Registers of all kernels: as many numbers side by side as a register of this machine holds, vectors and matrices of them, and vertices
-// going in and out of registers. For the kernels' translation units alone, which are compiled for one machine: nothing of this may reach
-// another. A vertex is x, y, z, w in memory, one load of four numbers; Vertices<Scalar> is one vertex in every lane. Loads of four and a
-// transpose are some three times quicker than gather and scatter instructions. Four<Scalar> is one point or one column of a matrix, where
-// the vertices of a row differ too much to stand side by side (skinning).
+// Registers of all kernels: as many numbers side by side as a register of this machine holds, vectors and matrices of
+// them, and vertices going in and out of registers. For the kernels' translation units alone, which are compiled for
+// one machine: nothing of this may reach another. A vertex is x, y, z, w in memory, one load of four numbers;
+// Vertices<Scalar> is one vertex in every lane. Loads of four and a transpose are some three times quicker than gather
+// and scatter instructions. Four<Scalar> is one point or one column of a matrix, where the vertices of a row differ too
+// much to stand side by side (skinning).
 #pragma once
 
 #include "pbs/geometry/rotation_formula.hpp"
@@ -90,8 +91,10 @@ template <template <int> typename Pattern, typename Scalar>
 template <typename Scalar>
 [[gnu::always_inline]] inline void transpose(Row<Scalar> (&rows)[4])
 {
-    const Row<Scalar> xy_01 = shuffled<UnpackLow, Scalar>(rows[0], rows[1]), zw_01 = shuffled<UnpackHigh, Scalar>(rows[0], rows[1]);
-    const Row<Scalar> xy_23 = shuffled<UnpackLow, Scalar>(rows[2], rows[3]), zw_23 = shuffled<UnpackHigh, Scalar>(rows[2], rows[3]);
+    const Row<Scalar> xy_01 = shuffled<UnpackLow, Scalar>(rows[0], rows[1]),
+                      zw_01 = shuffled<UnpackHigh, Scalar>(rows[0], rows[1]);
+    const Row<Scalar> xy_23 = shuffled<UnpackLow, Scalar>(rows[2], rows[3]),
+                      zw_23 = shuffled<UnpackHigh, Scalar>(rows[2], rows[3]);
     rows[0] = shuffled<LowHalves, Scalar>(xy_01, xy_23);
     rows[1] = shuffled<HighHalves, Scalar>(xy_01, xy_23);
     rows[2] = shuffled<LowHalves, Scalar>(zw_01, zw_23);
@@ -113,7 +116,9 @@ template <typename Scalar, typename Vertex>
         return (Row<Scalar>)_mm512_insertf64x4(_mm512_castpd256_pd512((__m256d)vertex(0)), (__m256d)vertex(4), 1);
 #else
     else {
-        const auto pair = [&](int lane) { return __builtin_shufflevector(vertex(lane), vertex(lane + 4), 0, 1, 2, 3, 4, 5, 6, 7); };
+        const auto pair = [&](int lane) {
+            return __builtin_shufflevector(vertex(lane), vertex(lane + 4), 0, 1, 2, 3, 4, 5, 6, 7);
+        };
         if constexpr (lanes<Scalar> == 8)
             return pair(0);
         else
@@ -126,7 +131,8 @@ template <typename Scalar, typename Vertex>
 template <typename Scalar>
 [[gnu::always_inline]] inline Row<Scalar> row(const Scalar* vertices, const std::uint32_t* offset)
 {
-    return side_by_side<Scalar>([&](int lane) { return *reinterpret_cast<const Vector<Scalar, 4>*>(vertices + offset[lane]); });
+    return side_by_side<Scalar>(
+        [&](int lane) { return *reinterpret_cast<const Vector<Scalar, 4>*>(vertices + offset[lane]); });
 }
 
 // Numbers 4 which .. 4 which + 3.
@@ -158,11 +164,14 @@ template <typename Scalar>
 [[gnu::always_inline]] inline Vertices<Scalar> gather(const Scalar* vertices, const std::uint32_t* offset)
 {
     if constexpr (lanes<Scalar> < 4) {
-        const auto component = [&](int which) { return Lanes<Scalar>([&](auto lane) { return vertices[offset[lane] + which]; }); };
+        const auto component = [&](int which) {
+            return Lanes<Scalar>([&](auto lane) { return vertices[offset[lane] + which]; });
+        };
         return {component(0), component(1), component(2), component(3)};
     } else {
         using namespace simd_detail;
-        Row<Scalar> rows[4] = {row(vertices, offset), row(vertices, offset + 1), row(vertices, offset + 2), row(vertices, offset + 3)};
+        Row<Scalar> rows[4] = {row(vertices, offset), row(vertices, offset + 1), row(vertices, offset + 2),
+                               row(vertices, offset + 3)};
         transpose<Scalar>(rows);
         const auto lane = [](Row<Scalar> row) { return reinterpret_cast<const Lanes<Scalar>&>(row); };
         return {lane(rows[0]), lane(rows[1]), lane(rows[2]), lane(rows[3])};
@@ -183,7 +192,8 @@ template <typename Scalar>
         const auto row = [](const Lanes<Scalar>& lane) { return reinterpret_cast<const Row<Scalar>&>(lane); };
         Row<Scalar> rows[4] = {row(from.x), row(from.y), row(from.z), row(from.w)};
         transpose<Scalar>(rows);
-        for (int k = 0; k < 4; ++k) store_row<Scalar>(rows[k], vertices, offset + k, std::make_index_sequence<lanes<Scalar> / 4>());
+        for (int k = 0; k < 4; ++k)
+            store_row<Scalar>(rows[k], vertices, offset + k, std::make_index_sequence<lanes<Scalar> / 4>());
     }
 }
 
@@ -250,7 +260,8 @@ template <typename Scalar>
     return total;
 }
 
-// The sum of of_part(batch, first lane) over the parts of `count` batches, in registers and every 32 parts on in double.
+// The sum of of_part(batch, first lane) over the parts of `count` batches, in registers and every 32 parts on in
+// double.
 template <typename Scalar, typename OfPart>
 [[gnu::always_inline]] inline double sum_of_parts(int count, const OfPart& of_part)
 {
@@ -272,7 +283,8 @@ template <typename Scalar>
     return sqrt(dot(a, a));
 }
 
-// The functions that formulae without a branch need (rotation_formula.hpp and others), for a number in each lane of a register.
+// The functions that formulae without a branch need (rotation_formula.hpp and others), for a number in each lane of a
+// register.
 template <class Scalar>
 struct NumberFunctions<std::experimental::native_simd<Scalar>> {
     using Number = std::experimental::native_simd<Scalar>;
@@ -302,8 +314,8 @@ template <typename Scalar>
 
 // A b with b = (b0, b1, b2).
 template <typename Scalar>
-[[gnu::always_inline]] inline LaneVector<Scalar> combined(const LaneMatrix<Scalar>& A, const Lanes<Scalar>& b0, const Lanes<Scalar>& b1,
-                                                          const Lanes<Scalar>& b2)
+[[gnu::always_inline]] inline LaneVector<Scalar> combined(const LaneMatrix<Scalar>& A, const Lanes<Scalar>& b0,
+                                                          const Lanes<Scalar>& b1, const Lanes<Scalar>& b2)
 {
     return times(b0, A.column[0]) + (times(b1, A.column[1]) + times(b2, A.column[2]));
 }
@@ -317,8 +329,8 @@ template <typename Scalar>
 
 // a A + b B.
 template <typename Scalar>
-[[gnu::always_inline]] inline LaneMatrix<Scalar> sum(const Lanes<Scalar>& a, const LaneMatrix<Scalar>& A, const Lanes<Scalar>& b,
-                                                     const LaneMatrix<Scalar>& B)
+[[gnu::always_inline]] inline LaneMatrix<Scalar> sum(const Lanes<Scalar>& a, const LaneMatrix<Scalar>& A,
+                                                     const Lanes<Scalar>& b, const LaneMatrix<Scalar>& B)
 {
     LaneMatrix<Scalar> result;
     for (int j = 0; j < 3; ++j) result.column[j] = times(a, A.column[j]) + times(b, B.column[j]);
@@ -327,7 +339,8 @@ template <typename Scalar>
 
 // A S with the symmetric S: 00 11 22 12 02 01.
 template <typename Scalar>
-[[gnu::always_inline]] inline LaneMatrix<Scalar> times_symmetric(const LaneMatrix<Scalar>& A, const Lanes<Scalar> (&S)[6])
+[[gnu::always_inline]] inline LaneMatrix<Scalar> times_symmetric(const LaneMatrix<Scalar>& A,
+                                                                 const Lanes<Scalar> (&S)[6])
 {
     return {{combined(A, S[0], S[5], S[4]), combined(A, S[5], S[1], S[3]), combined(A, S[4], S[3], S[2])}};
 }
@@ -338,12 +351,14 @@ template <typename Scalar>
 {
     LaneMatrix<Scalar> result;
     for (int j = 0; j < 3; ++j)
-        result.column[j] = {load(columns[3 * j] + first), load(columns[3 * j + 1] + first), load(columns[3 * j + 2] + first)};
+        result.column[j] = {load(columns[3 * j] + first), load(columns[3 * j + 1] + first),
+                            load(columns[3 * j + 2] + first)};
     return result;
 }
 
 template <typename Scalar>
-[[gnu::always_inline]] inline void store_matrix(const LaneMatrix<Scalar>& from, Scalar (&columns)[9][batch_size], int first)
+[[gnu::always_inline]] inline void store_matrix(const LaneMatrix<Scalar>& from, Scalar (&columns)[9][batch_size],
+                                                int first)
 {
     for (int j = 0; j < 3; ++j) {
         store(from.column[j].x, columns[3 * j] + first);

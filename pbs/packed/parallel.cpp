@@ -21,8 +21,8 @@ namespace pbs {
 #ifdef PBS_WITH_THREADS
 namespace {
 
-// Report to the thread sanitizer what threads hand to each other through oneTBB, since it cannot see into a library built without it. It
-// still finds two tasks that touch the same place. In every other build they are nothing.
+// Report to the thread sanitizer what threads hand to each other through oneTBB, since it cannot see into a library
+// built without it. It still finds two tasks that touch the same place. In every other build they are nothing.
 void give([[maybe_unused]] void* place)
 {
 #ifdef PBS_TELL_THREAD_SANITIZER
@@ -76,7 +76,10 @@ public:
     }
 
 private:
-    static int allowed() { return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)); }
+    static int allowed()
+    {
+        return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    }
 
     tbb::task_arena arena_;
     Workers workers_;

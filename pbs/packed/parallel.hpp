@@ -1,4 +1,5 @@
-// Independent tasks on several threads (oneTBB), or one after the other where there is one thread or the build has none.
+// Independent tasks on several threads (oneTBB), or one after the other where there is one thread or the build has
+// none.
 //   const Parallel parallel(threads);
 //   parallel.for_each(slabs, [&](int slab) { ... });
 #pragma once
@@ -11,7 +12,8 @@ namespace pbs {
 // A number of threads to share tasks among; moved, not copied.
 class Parallel {
 public:
-    explicit Parallel(int threads);  // at most this many threads, including the caller's, and no more than oneTBB allows in this process
+    // at most this many threads, including the caller's, and no more than oneTBB allows in this process
+    explicit Parallel(int threads);
     ~Parallel();
     Parallel(Parallel&&) noexcept;             // the other is then for one thread
     Parallel& operator=(Parallel&&) noexcept;  // likewise

@@ -1,4 +1,5 @@
-// An array of rows x, y, z and one more number, as the kernels need it: 64 bytes aligned, and whole blocks of sixteen rows.
+// An array of rows x, y, z and one more number, as the kernels need it: 64 bytes aligned, and whole blocks of sixteen
+// rows.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -46,8 +47,8 @@ void store_rows(const Rows<Scalar>& rows, const std::vector<int>& place, const V
         for (int axis = 0; axis < 3; ++axis) x(i, axis) = double(rows[place[i]][axis]) + origin(axis);
 }
 
-// Loads the centres c_i of the hold, whose stiffness a_i is the fourth number of each row already, relative to their mean weighted by a_i.
-// Returns that mean [m]; zero where nothing is held.
+// Loads the centres c_i of the hold, whose stiffness a_i is the fourth number of each row already, relative to their
+// mean weighted by a_i. Returns that mean [m]; zero where nothing is held.
 template <typename Scalar>
 Vec3 load_held_centres(const Positions& centres, const std::vector<int>& place, Rows<Scalar>& rows)
 {
@@ -69,14 +70,16 @@ class RowSystem {
 public:
     virtual ~RowSystem() = default;
 
-    virtual Rows<Scalar> rows() const { return Rows<Scalar>(rows_); }  // zeros, of vertices and what the kernels need behind them
+    // zeros, of vertices and what the kernels need behind them
+    virtual Rows<Scalar> rows() const { return Rows<Scalar>(rows_); }
     void load(const Positions& x, Rows<Scalar>& rows) const { load_rows(x, place_, origin_, rows); }
     void store(const Rows<Scalar>& rows, Positions& x) const { store_rows(rows, place_, origin_, x); }
     const std::vector<int>& place() const { return place_; }  // the row of each vertex, #V
 
 protected:
     RowSystem(std::vector<int> place, int rows) : place_(std::move(place)), rows_(rows) {}
-    explicit RowSystem(int vertices) : place_(vertices), rows_(vertices) { std::iota(place_.begin(), place_.end(), 0); }  // plain
+    // plain
+    explicit RowSystem(int vertices) : place_(vertices), rows_(vertices) { std::iota(place_.begin(), place_.end(), 0); }
 
     std::vector<int> place_;
     int rows_;

@@ -50,7 +50,8 @@ int vertices_a_slab(int vertices)
 std::vector<int> VertexOrder::slab_of_new() const
 {
     std::vector<int> slab_of(old_of_new.size());
-    for (int slab = 0; slab < slabs(); ++slab) std::fill(slab_of.begin() + slab_begin[slab], slab_of.begin() + slab_begin[slab + 1], slab);
+    for (int slab = 0; slab < slabs(); ++slab)
+        std::fill(slab_of.begin() + slab_begin[slab], slab_of.begin() + slab_begin[slab + 1], slab);
     return slab_of;
 }
 
@@ -76,7 +77,8 @@ VertexOrder order_vertices(const Tets& tets, int vertices, int vertices_a_slab)
             ++levels_in_slab;
         }
     }
-    if (order.slab_begin.size() > 1 && vertices - order.slab_begin.back() < vertices_a_slab / 3) order.slab_begin.pop_back();
+    if (order.slab_begin.size() > 1 && vertices - order.slab_begin.back() < vertices_a_slab / 3)
+        order.slab_begin.pop_back();
     order.slab_begin.push_back(vertices);
     order.new_of_old.resize(vertices);
     for (int i = 0; i < vertices; ++i) order.new_of_old[order.old_of_new[i]] = i;

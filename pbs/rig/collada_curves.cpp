@@ -27,7 +27,8 @@ Numbers numbers_of_source(const pugi::xml_node& source, const ColladaXml& docume
     for (const std::string_view word : words_of(source.child("float_array").text().as_string())) {
         const std::optional<double> number = number_in(word);
         if (!number || !std::isfinite(*number))
-            throw InputError(document.path(), 0, "source " + id_of(source), std::string(word), "expected a finite number");
+            throw InputError(document.path(), 0, "source " + id_of(source), std::string(word),
+                             "expected a finite number");
         read.numbers.push_back(*number);
     }
     return read;
@@ -42,7 +43,8 @@ std::string text_of(const std::vector<double>& numbers)
 }
 
 // A copy of a source with other numbers, below the same parent.
-std::string add_source(pugi::xml_node source, const std::vector<double>& numbers, std::size_t stride, const std::string& suffix)
+std::string add_source(pugi::xml_node source, const std::vector<double>& numbers, std::size_t stride,
+                       const std::string& suffix)
 {
     pugi::xml_node copy = source.parent().insert_copy_after(source, source);
     const std::string id = id_of(source) + suffix, array = id + "-array";
@@ -63,17 +65,20 @@ constexpr double angle_step_deg = 0.5;   // of several angles of a node, between
 
 using Point = std::array<double, 2>;  // time [s] and value
 
-// A Bezier curve as straight pieces, without its first point. With the second differences d of its control points, n pieces are within
-// 6 d / (8 n^2) of it.
-void add_pieces(const std::array<Point, 4>& points, double range, std::vector<double>& times, std::vector<double>& values)
+// A Bezier curve as straight pieces, without its first point. With the second differences d of its control points, n
+// pieces are within 6 d / (8 n^2) of it.
+void add_pieces(const std::array<Point, 4>& points, double range, std::vector<double>& times,
+                std::vector<double>& values)
 {
     const double duration = points[3][0] - points[0][0];
     double difference = 0.0;
     for (std::size_t k = 0; k < 2; ++k)
         for (std::size_t axis = 0; axis < 2; ++axis)
-            difference = std::max(difference, std::abs(points[k][axis] - 2.0 * points[k + 1][axis] + points[k + 2][axis]) /
-                                                  std::max(axis == 0 ? duration : range, 1e-30));
-    const int pieces = std::clamp(static_cast<int>(std::ceil(std::sqrt(0.75 * difference / share_of_range))), 1, most_pieces);
+            difference =
+                std::max(difference, std::abs(points[k][axis] - 2.0 * points[k + 1][axis] + points[k + 2][axis]) /
+                                         std::max(axis == 0 ? duration : range, 1e-30));
+    const int pieces =
+        std::clamp(static_cast<int>(std::ceil(std::sqrt(0.75 * difference / share_of_range))), 1, most_pieces);
     for (int piece = 1; piece <= pieces; ++piece) {
         const double t = double(piece) / pieces, u = 1.0 - t;
         const auto at = [&](std::size_t axis) {
@@ -89,7 +94,8 @@ void add_pieces(const std::array<Point, 4>& points, double range, std::vector<do
 Point control_point(const Numbers& tangents, std::size_t key, double third_s)
 {
     const std::size_t at = key * tangents.stride;
-    return tangents.stride == 1 ? Point{third_s, tangents.numbers[at]} : Point{tangents.numbers[at], tangents.numbers[at + 1]};
+    return tangents.stride == 1 ? Point{third_s, tangents.numbers[at]}
+                                : Point{tangents.numbers[at], tangents.numbers[at + 1]};
 }
 
 // One sampler, with straight pieces between its keys afterwards.
@@ -113,14 +119,17 @@ public:
         const std::size_t keys = times_.count();
         if (is_linear && (kinds_.empty() || values_.stride != 1)) return;
         if (keys == 0 || values_.count() != keys || kinds_.size() != keys || times_.stride != 1)
-            refuse("INTERPOLATION", std::to_string(kinds_.size()), "expected as many times, values and kinds of interpolation");
-        std::vector<double> times = {times_.numbers[0]}, values(values_.numbers.begin(), values_.numbers.begin() + stride());
+            refuse("INTERPOLATION", std::to_string(kinds_.size()),
+                   "expected as many times, values and kinds of interpolation");
+        std::vector<double> times = {times_.numbers[0]},
+                            values(values_.numbers.begin(), values_.numbers.begin() + stride());
         for (std::size_t key = 0; key + 1 < keys; ++key) add_segment(key, times, values);
         if (is_linear && times.size() == keys) return;
         redirect("INPUT", times, 1);
         redirect("OUTPUT", values, values_.stride);
         for (const char* semantic : {"INTERPOLATION", "IN_TANGENT", "OUT_TANGENT"})
-            if (const auto input = sampler_.find_child_by_attribute("input", "semantic", semantic)) sampler_.remove_child(input);
+            if (const auto input = sampler_.find_child_by_attribute("input", "semantic", semantic))
+                sampler_.remove_child(input);
         document_.is_changed = true;
     }
 
@@ -135,7 +144,8 @@ private:
 
     void redirect(const char* semantic, const std::vector<double>& numbers, std::size_t stride)
     {
-        pugi::xml_attribute source = sampler_.find_child_by_attribute("input", "semantic", semantic).attribute("source");
+        pugi::xml_attribute source =
+            sampler_.find_child_by_attribute("input", "semantic", semantic).attribute("source");
         source = add_source(document_.source(sampler_, semantic), numbers, stride, "-of-" + id_of(sampler_)).c_str();
     }
 
@@ -143,7 +153,8 @@ private:
     {
         const double begin = times_.numbers[key], end = times_.numbers[key + 1];
         const auto own = values_.numbers.begin() + stride() * static_cast<std::ptrdiff_t>(key), next = own + stride();
-        if (!(end >= begin)) refuse("time of key " + std::to_string(key + 1), number_text(end), "expected times that do not go back");
+        if (!(end >= begin))
+            refuse("time of key " + std::to_string(key + 1), number_text(end), "expected times that do not go back");
         if (kinds_[key] == "BEZIER") return add_bezier(key, times, values);
         if (kinds_[key] == "STEP") {
             times.push_back(std::max(begin, end - step_s));
@@ -167,13 +178,15 @@ private:
                       out = numbers_of_source(document_.source(sampler_, "OUT_TANGENT"), document_);
         const std::size_t keys = times_.count();
         if (values_.stride != 1)
-            refuse("INTERPOLATION", "BEZIER", "expected curves of single numbers, not of " + std::to_string(values_.stride));
+            refuse("INTERPOLATION", "BEZIER",
+                   "expected curves of single numbers, not of " + std::to_string(values_.stride));
         if (in.count() != keys || out.count() != keys || in.stride > 2 || out.stride > 2)
             refuse("IN_TANGENT and OUT_TANGENT", std::to_string(in.count()),
                    "expected a time and a value for each of " + std::to_string(keys) + " keys");
         const double begin = times_.numbers[key], end = times_.numbers[key + 1];
-        const std::array<Point, 4> points = {Point{begin, values_.numbers[key]}, control_point(out, key, (2.0 * begin + end) / 3.0),
-                                             control_point(in, key + 1, (begin + 2.0 * end) / 3.0), Point{end, values_.numbers[key + 1]}};
+        const std::array<Point, 4> points = {
+            Point{begin, values_.numbers[key]}, control_point(out, key, (2.0 * begin + end) / 3.0),
+            control_point(in, key + 1, (begin + 2.0 * end) / 3.0), Point{end, values_.numbers[key + 1]}};
         const auto [least, most] = std::ranges::minmax(values_.numbers);
         add_pieces(points, most - least, times, values);
     }
@@ -207,7 +220,8 @@ void make_curves_linear(ColladaXml& document)
     const std::set<std::string> several = samplers_of_several_angles(document);
     for (const pugi::xpath_node& found : document.root().select_nodes("library_animations//sampler")) {
         const bool is_one_of_several = several.contains("#" + id_of(found.node()));
-        Sampler(found.node(), is_one_of_several ? angle_step_deg : std::numeric_limits<double>::infinity(), document).make_linear();
+        Sampler(found.node(), is_one_of_several ? angle_step_deg : std::numeric_limits<double>::infinity(), document)
+            .make_linear();
     }
 }
 

@@ -46,7 +46,8 @@ std::vector<std::size_t> whole_numbers_of(std::string_view text)
     std::vector<std::size_t> numbers;
     for (const std::string_view word : words_of(text)) {
         std::size_t number = 0;
-        if (std::from_chars(word.data(), word.data() + word.size(), number).ec == std::errc()) numbers.push_back(number);
+        if (std::from_chars(word.data(), word.data() + word.size(), number).ec == std::errc())
+            numbers.push_back(number);
     }
     return numbers;
 }
@@ -56,7 +57,9 @@ bool is_weight(std::string_view word)
     if (word.starts_with('+')) word.remove_prefix(1);
     double weight = std::numeric_limits<double>::quiet_NaN();
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), weight);
-    if (error == std::errc::result_out_of_range) return !word.starts_with('-') && word.find("e-") != std::string_view::npos;  // nearly zero
+    // nearly zero
+    if (error == std::errc::result_out_of_range)
+        return !word.starts_with('-') && word.find("e-") != std::string_view::npos;
     return end == word.data() + word.size() && std::isfinite(weight) && weight >= 0.0;
 }
 
@@ -97,9 +100,10 @@ void check_skin(const pugi::xml_node& controller, const std::string& path)
     for (const auto& [point, index] : indices.point_and_weight) {
         const std::size_t at = first + stride * index;
         if (at < weights.size() && !is_weight(weights[at]))
-            throw InputError(
-                path, 0, "controller " + std::string(controller.attribute("id").as_string()) + ", weight of point " + std::to_string(point),
-                std::string(weights[at]), "expected a finite number of 0 or more");
+            throw InputError(path, 0,
+                             "controller " + std::string(controller.attribute("id").as_string()) +
+                                 ", weight of point " + std::to_string(point),
+                             std::string(weights[at]), "expected a finite number of 0 or more");
     }
 }
 
@@ -122,8 +126,8 @@ void refuse_negative_indices(const std::string& text, const std::string& path)
         const std::size_t begin = text.find('>', open), close = std::min(text.find('<', open + 1), text.size());
         const std::size_t minus = text.find('-', begin);
         if (minus >= close) continue;
-        throw InputError(path, line_at(text, minus), "p", text.substr(minus, text.find_first_of(" \t\r\n<", minus) - minus),
-                         "expected indices from 0");
+        throw InputError(path, line_at(text, minus), "p",
+                         text.substr(minus, text.find_first_of(" \t\r\n<", minus) - minus), "expected indices from 0");
     }
 }
 
@@ -194,7 +198,8 @@ void use_bases_of_morphs(ColladaXml& document)
     }
 }
 
-// Moves nodes of library_nodes to where the scene instantiates them, if that is one place: their joints are found by their names.
+// Moves nodes of library_nodes to where the scene instantiates them, if that is one place: their joints are found by
+// their names.
 void move_nodes_into_the_scene(ColladaXml& document)
 {
     std::map<std::string, std::vector<pugi::xml_node>> instances;
@@ -202,10 +207,12 @@ void move_nodes_into_the_scene(ColladaXml& document)
         instances[found.node().attribute("url").as_string()].push_back(found.node());
     for (const auto& [url, places] : instances) {
         pugi::xml_node node = document.target(url.c_str()), place = places.front();
-        if (places.size() != 1 || node.name() != std::string_view("node") || node.parent().name() != std::string_view("library_nodes"))
+        if (places.size() != 1 || node.name() != std::string_view("node") ||
+            node.parent().name() != std::string_view("library_nodes"))
             continue;
         bool is_below_itself = false;
-        for (pugi::xml_node above = place; above; above = above.parent()) is_below_itself = is_below_itself || above == node;
+        for (pugi::xml_node above = place; above; above = above.parent())
+            is_below_itself = is_below_itself || above == node;
         if (is_below_itself) continue;
         pugi::xml_node parent = place.parent();
         parent.remove_child(place);
@@ -215,13 +222,15 @@ void move_nodes_into_the_scene(ColladaXml& document)
 }
 
 // Gives the joints of a skeleton, and those that a controller names, names that no other skeleton has.
-void rename_joints(pugi::xml_node controller, const std::vector<pugi::xml_node>& skeletons, const std::string& suffix, ColladaXml& document)
+void rename_joints(pugi::xml_node controller, const std::vector<pugi::xml_node>& skeletons, const std::string& suffix,
+                   ColladaXml& document)
 {
     pugi::xml_node skin = controller.child("skin"), joints = document.source(skin.child("joints"), "JOINT");
     if (!joints.child("Name_array"))
-        throw InputError(document.path(), 0, "controller " + id_of(controller) + ", joints", id_of(joints),
-                         "expected names that are sought in each skeleton (Name_array), since the controller has two: copy the "
-                         "controller, or export glTF 2.0 (.glb)");
+        throw InputError(
+            document.path(), 0, "controller " + id_of(controller) + ", joints", id_of(joints),
+            "expected names that are sought in each skeleton (Name_array), since the controller has two: copy the "
+            "controller, or export glTF 2.0 (.glb)");
     std::set<std::string> names;
     std::string renamed;
     for (const std::string_view name : words_of(joints.child("Name_array").text().as_string())) {
@@ -245,7 +254,8 @@ void rename_joints(pugi::xml_node controller, const std::vector<pugi::xml_node>&
 // Each skeleton of a controller gets a controller of its own, since assimp seeks joints in the whole scene.
 void use_one_controller_per_skeleton(ColladaXml& document)
 {
-    std::map<std::string, std::map<std::string, std::string>> urls_of;  // of each controller: the copy for each set of skeletons
+    // of each controller: the copy for each set of skeletons
+    std::map<std::string, std::map<std::string, std::string>> urls_of;
     for (const pugi::xpath_node& found : document.root().select_nodes("//instance_controller")) {
         const std::string url = found.node().attribute("url").as_string();
         std::string names;
@@ -289,11 +299,13 @@ void move_far_points_to_the_origin(ColladaXml& document, ColladaDocument& result
     for (const pugi::xpath_node& found : document.root().select_nodes("library_geometries/geometry[@id]/mesh")) {
         const std::string id = id_of(found.node().parent());
         const auto [entry, is_new] = result.origins.try_emplace(id, Vec3::Zero());
-        if (!is_new) throw InputError(document.path(), 0, "geometry", id, "two have this id: expected one id per geometry");
+        if (!is_new)
+            throw InputError(document.path(), 0, "geometry", id, "two have this id: expected one id per geometry");
         const pugi::xml_node source = document.source(found.node().child("vertices"), "POSITION");
         const pugi::xml_node accessor = source.child("technique_common").child("accessor");
         const Positions points = rows_of_three(source.child("float_array"));
-        if (points.rows() == 0 || !points.allFinite() || number_of(accessor, "stride", 1) != 3 || number_of(accessor, "offset") != 0)
+        if (points.rows() == 0 || !points.allFinite() || number_of(accessor, "stride", 1) != 3 ||
+            number_of(accessor, "offset") != 0)
             continue;
         const double size = diagonal_m(points);
         if (points.cwiseAbs().maxCoeff() <= far_away * size) continue;
@@ -342,17 +354,18 @@ ColladaDocument prepared(pugi::xml_document& xml, const std::string& path)
 ColladaDocument read_collada_document(const std::string& path)
 {
     const bool is_archive = content_extension(path) == ".zae";
-    const std::vector<std::string> texts = is_archive ? collada_files_in(path) : std::vector{read_text_file(path, most_mesh_bytes)};
+    const std::vector<std::string> texts =
+        is_archive ? collada_files_in(path) : std::vector{read_text_file(path, most_mesh_bytes)};
     ColladaDocument result;
     for (const std::string& text : texts) {
         refuse_negative_indices(text, path);
         pugi::xml_document document;
         result = document.load_buffer(text.data(), text.size()) ? prepared(document, path) : ColladaDocument{};
         if (texts.size() > 1 && !result.text.empty())
-            throw InputError(
-                path, 0, "documents", std::to_string(texts.size()),
-                "expected one in an archive with curves, skins, morphs or places that assimp reads in another way: unpack it, and "
-                "use the .dae");
+            throw InputError(path, 0, "documents", std::to_string(texts.size()),
+                             "expected one in an archive with curves, skins, morphs or places that assimp reads in "
+                             "another way: unpack it, and "
+                             "use the .dae");
     }
     return result;
 }

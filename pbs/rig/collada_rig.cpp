@@ -35,7 +35,8 @@ Eigen::Vector4d numbers_of(const aiQuaternion& q)
 
 // Null where there are no keys.
 template <typename Key>
-std::optional<KeyTrack> track_of(const Key* keys, unsigned count, double tick_rate_hz, const std::string& file, const std::string& node)
+std::optional<KeyTrack> track_of(const Key* keys, unsigned count, double tick_rate_hz, const std::string& file,
+                                 const std::string& node)
 {
     if (count == 0) return std::nullopt;
     KeyTrack track;
@@ -50,7 +51,8 @@ std::optional<KeyTrack> track_of(const Key* keys, unsigned count, double tick_ra
     return track;
 }
 
-RigAnimation animation_of(const aiAnimation& source, unsigned index, const std::map<std::string, int>& node_named, Rig& rig)
+RigAnimation animation_of(const aiAnimation& source, unsigned index, const std::map<std::string, int>& node_named,
+                          Rig& rig)
 {
     const double tick_rate_hz = source.mTicksPerSecond > 0.0 ? source.mTicksPerSecond : default_tick_rate_hz;
     RigAnimation animation;
@@ -65,7 +67,8 @@ RigAnimation animation_of(const aiAnimation& source, unsigned index, const std::
             rig.remarks.push_back("animation " + animation.name + " moves " + name + ", which is no node of the file");
             continue;
         }
-        NodeTracks tracks{node->second, track_of(channel.mPositionKeys, channel.mNumPositionKeys, tick_rate_hz, rig.file, name),
+        NodeTracks tracks{node->second,
+                          track_of(channel.mPositionKeys, channel.mNumPositionKeys, tick_rate_hz, rig.file, name),
                           track_of(channel.mRotationKeys, channel.mNumRotationKeys, tick_rate_hz, rig.file, name),
                           track_of(channel.mScalingKeys, channel.mNumScalingKeys, tick_rate_hz, rig.file, name)};
         for (const auto* track : {&tracks.translation, &tracks.rotation, &tracks.scale}) {
@@ -80,8 +83,8 @@ RigAnimation animation_of(const aiAnimation& source, unsigned index, const std::
     return animation;
 }
 
-// Appends to `rig.animations` those that move a node of the rig; channels of other names are remarks. The matrix of a node that is moved is
-// removed, since an animation replaces its translation, rotation and scale.
+// Appends to `rig.animations` those that move a node of the rig; channels of other names are remarks. The matrix of a
+// node that is moved is removed, since an animation replaces its translation, rotation and scale.
 void add_assimp_animations(const aiScene& scene, Rig& rig)
 {
     std::map<std::string, int> node_named;
@@ -89,7 +92,8 @@ void add_assimp_animations(const aiScene& scene, Rig& rig)
     for (const RigMesh& mesh : rig.meshes) with_mesh.insert(mesh.node);
     for (const bool is_mesh : {true, false})  // of nodes with the same name, the one without a mesh, which is the joint
         for (std::size_t n = rig.nodes.size(); n-- > 0;)
-            if ((with_mesh.count(static_cast<int>(n)) > 0) == is_mesh) node_named[rig.nodes[n].name] = static_cast<int>(n);
+            if ((with_mesh.count(static_cast<int>(n)) > 0) == is_mesh)
+                node_named[rig.nodes[n].name] = static_cast<int>(n);
     for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
         RigAnimation animation = animation_of(*scene.mAnimations[a], a, node_named, rig);
         if (!animation.nodes.empty()) rig.animations.push_back(std::move(animation));
@@ -107,7 +111,8 @@ Eigen::Affine3d to_eigen(const aiMatrix4x4& matrix)
     return affine;
 }
 
-// Animations replace a node's whole transform, so that its parts are needed only where an animation has no keys for them.
+// Animations replace a node's whole transform, so that its parts are needed only where an animation has no keys for
+// them.
 NodeTransform transform_of(const aiNode& node)
 {
     NodeTransform transform;
@@ -140,7 +145,8 @@ int joint_named(const std::string& name, const Nodes& nodes, const Rig& rig)
         if (nodes[n]->mNumMeshes == 0) return static_cast<int>(n);
         with_mesh = static_cast<int>(n);
     }
-    if (with_mesh < 0) throw InputError(rig.file, 0, "joint", name, "the skin names a joint that is no node of the file");
+    if (with_mesh < 0)
+        throw InputError(rig.file, 0, "joint", name, "the skin names a joint that is no node of the file");
     return with_mesh;
 }
 
@@ -155,7 +161,8 @@ Weights skin_of(const aiMesh& mesh, const RigMesh& own, Rig& rig)
                                  std::to_string(weight.mVertexId), "expected a vertex of the mesh");
             points[weight.mVertexId].push_back({static_cast<int>(joint), weight.mWeight});
         }
-    return normalised_skin(with_weights_of_neighbours(points, own, rig.file, rig.remarks), rig.file, own.name, rig.remarks, rig.notes);
+    return normalised_skin(with_weights_of_neighbours(points, own, rig.file, rig.remarks), rig.file, own.name,
+                           rig.remarks, rig.notes);
 }
 
 RigMesh mesh_of(const aiMesh& source, int node, const Nodes& nodes, Rig& rig)
@@ -173,33 +180,39 @@ RigMesh mesh_of(const aiMesh& source, int node, const Nodes& nodes, Rig& rig)
     mesh.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
     mesh.look.material.assign(corners.size() / 3, static_cast<int>(source.mMaterialIndex));
     using Rows = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
-    const auto rows_of = [&](const aiVector3D* rows) { return Eigen::Map<const Rows>(&rows->x, source.mNumVertices, 3); };
+    const auto rows_of = [&](const aiVector3D* rows) {
+        return Eigen::Map<const Rows>(&rows->x, source.mNumVertices, 3);
+    };
     if (source.mNormals) mesh.look.put(0, 0, rows_of(source.mNormals));
     for (unsigned set = 0; set < AI_MAX_NUMBER_OF_TEXTURECOORDS && source.mTextureCoords[set]; ++set) {
         const Rows uv = rows_of(source.mTextureCoords[set]);
         mesh.look.put(0, 3 + 2 * set,
-                      (Eigen::MatrixX2f(uv.rows(), 2) << uv.col(0), (1.0F - uv.col(1).array()).matrix()).finished());  // glTF's v: down
+                      // glTF's v: down
+                      (Eigen::MatrixX2f(uv.rows(), 2) << uv.col(0), (1.0F - uv.col(1).array()).matrix()).finished());
     }
     for (unsigned joint = 0; joint < source.mNumBones; ++joint)
-        mesh.joints.push_back(
-            {joint_named(source.mBones[joint]->mName.C_Str(), nodes, rig), to_eigen(source.mBones[joint]->mOffsetMatrix)});
+        mesh.joints.push_back({joint_named(source.mBones[joint]->mName.C_Str(), nodes, rig),
+                               to_eigen(source.mBones[joint]->mOffsetMatrix)});
     for (const SkinJoint& joint : mesh.joints)
         if (!(std::abs(joint.inverse_bind.linear().determinant()) > 0.0))
-            throw InputError(rig.file, 0, "mesh " + mesh.name + ", joint " + rig.nodes[joint.node].name + ", inverse bind matrix", "",
-                             "expected a matrix that has an inverse");
+            throw InputError(rig.file, 0,
+                             "mesh " + mesh.name + ", joint " + rig.nodes[joint.node].name + ", inverse bind matrix",
+                             "", "expected a matrix that has an inverse");
     if (!mesh.joints.empty()) mesh.skin = skin_of(source, mesh, rig);
     if (source.mNumAnimMeshes > 0)
-        rig.remarks.push_back("mesh " + mesh.name + ": " + std::to_string(source.mNumAnimMeshes) + " morph targets are left out");
+        rig.remarks.push_back("mesh " + mesh.name + ": " + std::to_string(source.mNumAnimMeshes) +
+                              " morph targets are left out");
     return mesh;
 }
 
-// Puts materials into the order in which an FBX file has them: those of one name in assimp's order, and ones that assimp left out, since no
-// mesh uses them, without any property.
+// Puts materials into the order in which an FBX file has them: those of one name in assimp's order, and ones that
+// assimp left out, since no mesh uses them, without any property.
 void order_materials(aiScene& scene, const std::vector<std::string>& names)
 {
     std::vector<aiMaterial*> left(scene.mMaterials, scene.mMaterials + scene.mNumMaterials), ordered;
     for (const std::string& name : names) {
-        const auto named = std::ranges::find_if(left, [&](const aiMaterial* material) { return material->GetName().C_Str() == name; });
+        const auto named =
+            std::ranges::find_if(left, [&](const aiMaterial* material) { return material->GetName().C_Str() == name; });
         ordered.push_back(named == left.end() ? new aiMaterial : *named);
         if (named != left.end()) left.erase(named);
     }
@@ -241,7 +254,9 @@ RigMaterials read_assimp_materials(const std::string& path)
     const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
     if (content_extension(path) == ".fbx") order_materials(*scene, fbx_material_names(path));
     const aiExportDataBlob* glb = exporter.ExportToBlob(scene.get(), "glb2");
-    if (!glb) throw InputError(path, 0, "", "", std::string("the materials, which assimp cannot write: ") + exporter.GetErrorString());
+    if (!glb)
+        throw InputError(path, 0, "", "",
+                         std::string("the materials, which assimp cannot write: ") + exporter.GetErrorString());
     return gltf_materials({static_cast<const char*>(glb->data), glb->size}, path);
 }
 
@@ -256,7 +271,8 @@ Rig read_collada_rig(const std::string& path)
         const auto origin = document.origins.find(mesh.name);
         if (origin == document.origins.end())
             throw InputError(path, 0, "mesh of node " + rig.nodes[mesh.node].name, mesh.name,
-                             "expected the id of a geometry, by which its distance from the origin is known, since the file has points far "
+                             "expected the id of a geometry, by which its distance from the origin is known, since the "
+                             "file has points far "
                              "from it: give each geometry a short id of its own, or export glTF 2.0 (.glb)");
         mesh.points.rowwise() += origin->second.transpose();
     }

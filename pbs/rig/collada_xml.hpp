@@ -15,7 +15,8 @@ inline std::vector<std::string_view> words_of(std::string_view text)
 {
     constexpr const char* spaces = " \t\r\n";
     std::vector<std::string_view> words;
-    for (std::size_t at = text.find_first_not_of(spaces); at != std::string_view::npos; at = text.find_first_not_of(spaces, at)) {
+    for (std::size_t at = text.find_first_not_of(spaces); at != std::string_view::npos;
+         at = text.find_first_not_of(spaces, at)) {
         const std::size_t end = std::min(text.find_first_of(spaces, at), text.size());
         words.push_back(text.substr(at, end - at));
         at = end;
@@ -38,7 +39,8 @@ class ColladaXml {
 public:
     ColladaXml(pugi::xml_document& document, const std::string& path) : root_(document.child("COLLADA")), path_(path)
     {
-        for (const pugi::xpath_node& node : document.select_nodes("//*[@id]")) by_id_.emplace(id_of(node.node()), node.node());
+        for (const pugi::xpath_node& node : document.select_nodes("//*[@id]"))
+            by_id_.emplace(id_of(node.node()), node.node());
     }
 
     pugi::xml_node root() const { return root_; }

@@ -11,12 +11,14 @@
 namespace pbs {
 namespace {
 
-constexpr double ticks_per_s = 46186158000.0, finer_ticks_per_s = 141120000.0;  // of files whose TCDefinition is not 127
+// of files whose TCDefinition is not 127
+constexpr double ticks_per_s = 46186158000.0, finer_ticks_per_s = 141120000.0;
 constexpr double ticks_definition = 127.0;
 
 // The bits of KeyAttrFlags.
-constexpr std::uint32_t constant_bit = 0x2, cubic_bit = 0x8, constant_next_bit = 0x100;  // none of the first two: linear
-constexpr std::uint32_t auto_bit = 0x100, tcb_bit = 0x200;                               // of cubic keys; neither: stored slopes
+// none of the first two: linear
+constexpr std::uint32_t constant_bit = 0x2, cubic_bit = 0x8, constant_next_bit = 0x100;
+constexpr std::uint32_t auto_bit = 0x100, tcb_bit = 0x200;  // of cubic keys; neither: stored slopes
 constexpr std::uint32_t clamp_bit = 0x1000, time_independent_bit = 0x2000, clamp_progressive_bit = 0x4000;
 constexpr std::uint32_t weighted_bit = 0x1000000, next_weighted_bit = 0x2000000;
 constexpr double same_value = 1e-5;  // of keys, for clamp_bit
@@ -31,7 +33,8 @@ struct KeyAttributes {
 // One per key: equal ones of consecutive keys are stored once, with their count.
 std::vector<KeyAttributes> attributes_of(const FbxObject& curve, std::size_t keys, const FbxObjects& objects)
 {
-    const std::vector<double> flags = curve.record->numbers("KeyAttrFlags"), data = curve.record->numbers("KeyAttrDataFloat"),
+    const std::vector<double> flags = curve.record->numbers("KeyAttrFlags"),
+                              data = curve.record->numbers("KeyAttrDataFloat"),
                               counts = curve.record->numbers("KeyAttrRefCount");
     std::vector<KeyAttributes> attributes;
     for (std::size_t group = 0; group < flags.size(); ++group) {
@@ -39,7 +42,8 @@ std::vector<KeyAttributes> attributes_of(const FbxObject& curve, std::size_t key
         for (std::size_t d = 0; d < 4 && 4 * group + d < data.size(); ++d) own.data[d] = data[4 * group + d];
         const double count = group < counts.size() ? counts[group] : 1.0;
         if (!(count >= 0.0 && count <= double(keys - attributes.size())))
-            objects.refuse(curve, "KeyAttrRefCount", number_text(count), "expected as many attributes as there are keys");
+            objects.refuse(curve, "KeyAttrRefCount", number_text(count),
+                           "expected as many attributes as there are keys");
         attributes.insert(attributes.end(), static_cast<std::size_t>(count), own);
     }
     if (!counts.empty() && attributes.size() != keys)
@@ -55,7 +59,8 @@ std::pair<double, double> weights_of(const KeyAttributes& key)
     const std::uint32_t bits = key.data[2] >= 1.0 ? static_cast<std::uint32_t>(std::min(key.data[2], 4294967295.0))
                                                   : std::bit_cast<std::uint32_t>(static_cast<float>(key.data[2]));
     const auto weight = [](std::uint32_t stored) { return std::min(per_weight * stored, 1.0); };
-    return {key.flags & weighted_bit ? weight(bits & 0xffff) : 1.0 / 3.0, key.flags & next_weighted_bit ? weight(bits >> 16) : 1.0 / 3.0};
+    return {key.flags & weighted_bit ? weight(bits & 0xffff) : 1.0 / 3.0,
+            key.flags & next_weighted_bit ? weight(bits >> 16) : 1.0 / 3.0};
 }
 
 // The keys next to one, and the slopes to them; a key at an end has none on one side.
@@ -68,13 +73,14 @@ struct Neighbours {
     bool at_an_end() const { return !(before_s > 0.0 && after_s > 0.0); }
 };
 
-// Autodesk's smooth tangent: half the slope between the neighbours and half the mean of the slopes to them, or the first alone; clamped, so
-// that the tangents of this key do not pass the values of its neighbours.
+// Autodesk's smooth tangent: half the slope between the neighbours and half the mean of the slopes to them, or the
+// first alone; clamped, so that the tangents of this key do not pass the values of its neighbours.
 double auto_slope(const Neighbours& keys, std::uint32_t flags, double weight_before, double weight_after)
 {
     const bool clamps = flags & clamp_progressive_bit;
     if (flags & clamp_bit)
-        for (const auto& [distance_s, change] : {std::pair(keys.before_s, keys.change_before), std::pair(keys.after_s, keys.change_after)})
+        for (const auto& [distance_s, change] :
+             {std::pair(keys.before_s, keys.change_before), std::pair(keys.after_s, keys.change_after)})
             if (distance_s > 0.0 && std::abs(change) <= same_value) return 0.0;
     if (keys.at_an_end()) return clamps ? 0.0 : keys.slope_before() + keys.slope_after();
     double slope = (keys.change_before + keys.change_after) / (keys.before_s + keys.after_s);
@@ -89,24 +95,30 @@ double auto_slope(const Neighbours& keys, std::uint32_t flags, double weight_bef
     return sign * std::min({std::abs(slope), most_before, most_after});
 }
 
-// Kochanek and Bartels: Interpolating splines with local tension, continuity and bias control, SIGGRAPH 1984, Eq. 8 and 9.
+// Kochanek and Bartels: Interpolating splines with local tension, continuity and bias control, SIGGRAPH 1984, Eq. 8
+// and 9.
 std::pair<double, double> tcb_slopes(const Neighbours& keys, const KeyAttributes& key)
 {
     const auto& [tension, continuity, bias, unused] = key.data;
-    const double half = keys.at_an_end() ? 1.0 : 0.5, before = half * (1.0 - tension) * (1.0 + bias) * keys.slope_before(),
+    const double half = keys.at_an_end() ? 1.0 : 0.5,
+                 before = half * (1.0 - tension) * (1.0 + bias) * keys.slope_before(),
                  after = half * (1.0 - tension) * (1.0 - bias) * keys.slope_after();
-    return {(1.0 - continuity) * before + (1.0 + continuity) * after, (1.0 + continuity) * before + (1.0 - continuity) * after};
+    return {(1.0 - continuity) * before + (1.0 + continuity) * after,
+            (1.0 + continuity) * before + (1.0 - continuity) * after};
 }
 
 // The slopes of cubic keys that are not stored but follow from their neighbours.
-void set_slopes(const FbxObject& curve, const std::vector<KeyAttributes>& attributes, const FbxObjects& objects, FbxCurve& keys)
+void set_slopes(const FbxObject& curve, const std::vector<KeyAttributes>& attributes, const FbxObjects& objects,
+                FbxCurve& keys)
 {
     for (std::size_t k = 0; k < keys.size(); ++k) {
         const KeyAttributes& own = attributes[k];
         if (keys[k].interpolation != FbxInterpolation::cubic || !(own.flags & (auto_bit | tcb_bit))) continue;
         Neighbours near;
-        if (k > 0) near.before_s = keys[k].time_s - keys[k - 1].time_s, near.change_before = keys[k].value - keys[k - 1].value;
-        if (k + 1 < keys.size()) near.after_s = keys[k + 1].time_s - keys[k].time_s, near.change_after = keys[k + 1].value - keys[k].value;
+        if (k > 0)
+            near.before_s = keys[k].time_s - keys[k - 1].time_s, near.change_before = keys[k].value - keys[k - 1].value;
+        if (k + 1 < keys.size())
+            near.after_s = keys[k + 1].time_s - keys[k].time_s, near.change_after = keys[k + 1].value - keys[k].value;
         double before = 0.0, after = 0.0;
         if (own.flags & tcb_bit) {
             std::tie(before, after) = tcb_slopes(near, own);
@@ -123,7 +135,8 @@ void set_slopes(const FbxObject& curve, const std::vector<KeyAttributes>& attrib
 
 FbxInterpolation interpolation_of(std::uint32_t flags)
 {
-    if (flags & constant_bit) return flags & constant_next_bit ? FbxInterpolation::constant_next : FbxInterpolation::constant;
+    if (flags & constant_bit)
+        return flags & constant_next_bit ? FbxInterpolation::constant_next : FbxInterpolation::constant;
     return flags & cubic_bit ? FbxInterpolation::cubic : FbxInterpolation::linear;
 }
 
@@ -149,8 +162,8 @@ FbxCurve curve_of(const FbxObject& curve, double rate, double start, const FbxOb
     return keys;
 }
 
-// Does a curve repeat, mirror or continue its keys before the first or behind the last one (record: Pre-Extrapolation or
-// Post-Extrapolation)?
+// Does a curve repeat, mirror or continue its keys before the first or behind the last one (record: Pre-Extrapolation
+// or Post-Extrapolation)?
 bool goes_on(const FbxObject& curve, std::string_view record)
 {
     const FbxRecord* extrapolation = curve.record->record(record);
@@ -182,7 +195,8 @@ public:
         for (const FbxObject* layer : layers) {
             if (objects_.number(*layer, "Mute", 0.0) != 0.0) continue;
             for (const FbxObject* node : objects_.below(*layer, "AnimationCurveNode"))
-                for (const FbxConnection& moved : objects_.above(*node)) add_curves(*layer, layer != layers.front(), *node, moved);
+                for (const FbxConnection& moved : objects_.above(*node))
+                    add_curves(*layer, layer != layers.front(), *node, moved);
         }
         finish();
     }
@@ -190,7 +204,8 @@ public:
 private:
     void set_range()
     {
-        const double begin = objects_.number(stack_, "LocalStart", 0.0), end = objects_.number(stack_, "LocalStop", 0.0);
+        const double begin = objects_.number(stack_, "LocalStart", 0.0),
+                     end = objects_.number(stack_, "LocalStop", 0.0);
         has_range_ = begin != 0.0 || end != 0.0;
         start_ = begin;
         longest_s_ = (end - begin) / rate_;
@@ -211,8 +226,8 @@ private:
         const auto place = std::ranges::find(moved_properties, moved.property);
         const std::string what = moved.property + " of " + moved.object->name;
         if (place == moved_properties.end()) {
-            if (moved.property.ends_with("Rotation") || moved.property.ends_with("Pivot") || moved.property.ends_with("Offset") ||
-                moved.property.starts_with("Geometric"))
+            if (moved.property.ends_with("Rotation") || moved.property.ends_with("Pivot") ||
+                moved.property.ends_with("Offset") || moved.property.starts_with("Geometric"))
                 obstacle_ = "it moves " + what;
             return;
         }
@@ -220,7 +235,8 @@ private:
         if (!seen_.insert({node->second, property}).second) obstacle_ = "two of its layers move " + what;
         const FbxTransform& rest = *reading_.rig.nodes[static_cast<std::size_t>(node->second)].fbx;
         const bool is_added = is_upper && objects_.number(layer, "BlendMode", 0.0) == 0.0;
-        if (is_added && rest.lcl[property] != FbxTransform().lcl[property]) obstacle_ = "its layer " + layer.name + " adds to " + what;
+        if (is_added && rest.lcl[property] != FbxTransform().lcl[property])
+            obstacle_ = "its layer " + layer.name + " adds to " + what;
         if (objects_.number(layer, "Weight", 100.0) != 100.0) obstacle_ = "its layer " + layer.name + " has a weight";
         auto& axes = tracks_[node->second][property];
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -238,8 +254,9 @@ private:
             if (curve.empty()) continue;
             first_s_ = std::min(first_s_, curve.front().time_s);
             last_s_ = std::max(last_s_, curve.back().time_s);
-            if (has_range_ && ((curve.front().time_s > same_time_s && goes_on(*connection.object, "Pre-Extrapolation")) ||
-                               (curve.back().time_s < longest_s_ - same_time_s && goes_on(*connection.object, "Post-Extrapolation"))))
+            if (has_range_ &&
+                ((curve.front().time_s > same_time_s && goes_on(*connection.object, "Pre-Extrapolation")) ||
+                 (curve.back().time_s < longest_s_ - same_time_s && goes_on(*connection.object, "Post-Extrapolation"))))
                 obstacle_ = "one of its curves goes on beyond its keys";
             return curve;
         }
@@ -250,10 +267,12 @@ private:
     void finish()
     {
         RigAnimation animation;
-        animation.name = stack_.name.empty() ? "animation " + std::to_string(reading_.rig.animations.size()) : stack_.name;
+        animation.name =
+            stack_.name.empty() ? "animation " + std::to_string(reading_.rig.animations.size()) : stack_.name;
         if (!obstacle_.empty()) {
-            reading_.rig.remarks.push_back("animation " + animation.name + " is left out: " + obstacle_ +
-                                           "; bake it into one layer of translations, rotations and scales, or export glTF 2.0 (.glb)");
+            reading_.rig.remarks.push_back(
+                "animation " + animation.name + " is left out: " + obstacle_ +
+                "; bake it into one layer of translations, rotations and scales, or export glTF 2.0 (.glb)");
             return;
         }
         if (first_s_ > last_s_) return;  // no key
@@ -264,8 +283,9 @@ private:
             animation.end_s = std::min(last_s_, longest_s_);
         }
         for (auto& [node, tracks] : tracks_)
-            if (std::ranges::any_of(
-                    tracks, [](const auto& axes) { return std::ranges::any_of(axes, [](const auto& c) { return c.has_value(); }); }))
+            if (std::ranges::any_of(tracks, [](const auto& axes) {
+                    return std::ranges::any_of(axes, [](const auto& c) { return c.has_value(); });
+                }))
                 animation.nodes.push_back({.node = node, .fbx = std::move(tracks)});
         reading_.rig.animations.push_back(std::move(animation));
     }
@@ -275,7 +295,8 @@ private:
     const FbxObjects& objects_;
     double rate_ = ticks_per_s, start_ = 0.0;  // [ticks/s], [ticks]
     bool has_range_ = false;
-    double longest_s_ = 0.0, first_s_ = std::numeric_limits<double>::max(), last_s_ = std::numeric_limits<double>::lowest();
+    double longest_s_ = 0.0, first_s_ = std::numeric_limits<double>::max(),
+           last_s_ = std::numeric_limits<double>::lowest();
     std::map<int, FbxTracks> tracks_;  // by node
     std::set<std::pair<int, std::size_t>> seen_;
     std::string obstacle_;

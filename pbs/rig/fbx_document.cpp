@@ -22,11 +22,13 @@ void require_version(std::int64_t version, const std::string& path)
 {
     if (version < oldest_version)
         throw InputError(path, 0, "FBXVersion", std::to_string(version),
-                         "expected 7000 or more (FBX 2011): convert the file with Autodesk's FBX Converter, or export glTF 2.0 (.glb) from "
+                         "expected 7000 or more (FBX 2011): convert the file with Autodesk's FBX Converter, or export "
+                         "glTF 2.0 (.glb) from "
                          "the program that made it");
 }
 
-// A number at the beginning of a text and what follows it. Numbers that are nearer to zero than a double can be are zero.
+// A number at the beginning of a text and what follows it. Numbers that are nearer to zero than a double can be are
+// zero.
 std::optional<double> leading_number(std::string_view& text)
 {
     std::string_view rest = text;
@@ -58,7 +60,8 @@ private:
     [[noreturn]] void refuse(const std::string& rule) const
     {
         const std::size_t place = std::min(at_, text_.size());
-        throw InputError(path_, line_at(text_, place), "", text_.substr(place, std::min<std::size_t>(20, text_.find('\n', place) - place)),
+        throw InputError(path_, line_at(text_, place), "",
+                         text_.substr(place, std::min<std::size_t>(20, text_.find('\n', place) - place)),
                          "no FBX text: " + rule);
     }
 
@@ -80,7 +83,8 @@ private:
         if (depth > deepest) refuse("records nested deeper than " + std::to_string(deepest));
         FbxRecord record;
         const std::size_t end = text_.find_first_of(" \t\r\n:{},\"", at_);
-        if (end == std::string::npos || text_[end] != ':' || end == at_) refuse("expected the name of a record and a colon");
+        if (end == std::string::npos || text_[end] != ':' || end == at_)
+            refuse("expected the name of a record and a colon");
         record.name = text_.substr(at_, end - at_);
         at_ = end + 1;
         add_values(record);
@@ -137,7 +141,8 @@ private:
     {
         std::size_t count = 0;
         ++at_;
-        at_ = static_cast<std::size_t>(std::from_chars(text_.data() + at_, text_.data() + text_.size(), count).ptr - text_.data());
+        at_ = static_cast<std::size_t>(std::from_chars(text_.data() + at_, text_.data() + text_.size(), count).ptr -
+                                       text_.data());
         skip_blank();
         if (next() != '{') refuse("expected { after the length of an array");
         ++at_;
@@ -154,7 +159,8 @@ private:
             if (next() == ',') ++at_;
         }
         if (numbers.size() != count)
-            refuse("the array before it states " + std::to_string(count) + " numbers and has " + std::to_string(numbers.size()));
+            refuse("the array before it states " + std::to_string(count) + " numbers and has " +
+                   std::to_string(numbers.size()));
         ++at_;
         return numbers;
     }
@@ -164,7 +170,8 @@ private:
     std::size_t at_ = 0;
 };
 
-// A record: the byte at which it ends, the number of its values, their bytes, its name, its values, its records, and an empty record.
+// A record: the byte at which it ends, the number of its values, their bytes, its name, its values, its records, and an
+// empty record.
 class FbxBinary {
 public:
     FbxBinary(const std::string& bytes, const std::string& path) : bytes_(bytes), path_(path), at_(binary_header) {}
@@ -271,9 +278,9 @@ private:
         std::vector<Number> numbers(count);
         if (encoding == 0 && count > 0)
             std::memcpy(numbers.data(), packed, size);
-        else if (count > 0 &&
-                 (uncompress(reinterpret_cast<Bytef*>(numbers.data()), &unpacked, reinterpret_cast<const Bytef*>(packed), size) != Z_OK ||
-                  unpacked != sizeof(Number) * static_cast<uLongf>(count)))
+        else if (count > 0 && (uncompress(reinterpret_cast<Bytef*>(numbers.data()), &unpacked,
+                                          reinterpret_cast<const Bytef*>(packed), size) != Z_OK ||
+                               unpacked != sizeof(Number) * static_cast<uLongf>(count)))
             refuse("an array that zlib cannot unpack");
         return {numbers.begin(), numbers.end()};
     }
@@ -330,7 +337,8 @@ std::vector<double> FbxRecord::numbers(std::string_view of_name) const
 FbxRecord read_fbx_document(const std::string& bytes, const std::string& path)
 {
     if (bytes.starts_with(binary_magic)) {
-        if (bytes.size() < binary_header) throw InputError(path, 0, "", "", "damaged FBX: the file ends within its header");
+        if (bytes.size() < binary_header)
+            throw InputError(path, 0, "", "", "damaged FBX: the file ends within its header");
         std::uint32_t version = 0;
         std::memcpy(&version, bytes.data() + binary_header - sizeof version, sizeof version);
         require_version(version, path);
@@ -338,7 +346,8 @@ FbxRecord read_fbx_document(const std::string& bytes, const std::string& path)
     }
     constexpr std::string_view label = "FBXVersion:";
     const std::size_t found = bytes.find(label);
-    std::string_view rest = std::string_view(bytes).substr(found == std::string::npos ? bytes.size() : found + label.size());
+    std::string_view rest =
+        std::string_view(bytes).substr(found == std::string::npos ? bytes.size() : found + label.size());
     rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
     const std::optional<double> version = leading_number(rest);
     if (!version) throw InputError(path, 0, "FBXVersion", "", "missing: the file is no FBX, or damaged");

@@ -1,5 +1,6 @@
-// The syntax of FBX files, binary and text, without what their records mean: a file is a tree of records, each with a name, values and
-// records of its own. Written from the files themselves; Blender's developers have published a description of the binary form.
+// The syntax of FBX files, binary and text, without what their records mean: a file is a tree of records, each with a
+// name, values and records of its own. Written from the files themselves; Blender's developers have published a
+// description of the binary form.
 //   const FbxRecord file = read_fbx_document(read_text_file("hero.fbx"), "hero.fbx");
 //   const FbxRecord* objects = file.record("Objects");
 #pragma once
@@ -31,9 +32,9 @@ struct FbxRecord {
     std::vector<double> numbers(std::string_view of_name) const;
 };
 
-// bytes: of the whole file, `path` for messages. Returns a record whose records are those of the file. An InputError names the
-// line (text) or the byte (binary) where the file is damaged or cut off, and refuses versions below 7000 (before FBX 2011), whose records
-// have other meanings.
+// bytes: of the whole file, `path` for messages. Returns a record whose records are those of the file. An InputError
+// names the line (text) or the byte (binary) where the file is damaged or cut off, and refuses versions below 7000
+// (before FBX 2011), whose records have other meanings.
 FbxRecord read_fbx_document(const std::string& bytes, const std::string& path);
 
 }  // namespace pbs

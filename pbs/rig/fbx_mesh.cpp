@@ -14,14 +14,17 @@ namespace pbs {
 namespace {
 
 constexpr std::size_t most_corners = 1000;  // of a polygon
-constexpr float same_look = 1e-4F;          // of normals and texture coordinates; what differs less is rounding of the exporter
+constexpr float same_look = 1e-4F;  // of normals and texture coordinates; what differs less is rounding of the exporter
 
-// Numbers per corner of polygons, such as normals: a LayerElement of a Geometry. Directly or by an index, for each of what it is mapped to.
+// Numbers per corner of polygons, such as normals: a LayerElement of a Geometry. Directly or by an index, for each of
+// what it is mapped to.
 class Layer {
 public:
     // components: numbers per entry. `values` and `indices` are the names of its records.
     Layer(const FbxRecord& record, std::string_view values, std::string_view indices, int components)
-        : values_(record.numbers(values)), indices_(record.numbers(indices)), components_(static_cast<std::size_t>(components))
+        : values_(record.numbers(values)),
+          indices_(record.numbers(indices)),
+          components_(static_cast<std::size_t>(components))
     {
         const FbxRecord* mapping = record.record("MappingInformationType");
         if (const std::string* text = mapping ? mapping->text(0) : nullptr) mapping_ = *text;
@@ -30,9 +33,13 @@ public:
     // The first number of an entry; null where there is none for this corner.
     const double* at(std::size_t corner, std::size_t polygon, std::size_t point) const
     {
-        std::size_t entry = mapping_ == "ByPolygonVertex" ? corner : mapping_ == "ByPolygon" ? polygon : mapping_ == "AllSame" ? 0 : point;
+        std::size_t entry = mapping_ == "ByPolygonVertex" ? corner
+                            : mapping_ == "ByPolygon"     ? polygon
+                            : mapping_ == "AllSame"       ? 0
+                                                          : point;
         if (!indices_.empty()) {
-            if (entry >= indices_.size() || !(indices_[entry] >= 0.0 && indices_[entry] < double(values_.size()))) return nullptr;
+            if (entry >= indices_.size() || !(indices_[entry] >= 0.0 && indices_[entry] < double(values_.size())))
+                return nullptr;
             entry = static_cast<std::size_t>(indices_[entry]);
         }
         return (entry + 1) * components_ <= values_.size() ? &values_[entry * components_] : nullptr;
@@ -55,7 +62,11 @@ Eigen::Affine3d geometric_transform(const FbxObject& model, const FbxObjects& ob
 class MeshOfModel {
 public:
     MeshOfModel(const FbxObject& geometry, const FbxObject& model, FbxReading& reading)
-        : geometry_(geometry), model_(model), reading_(reading), objects_(reading.objects), geometric_(geometric_transform(model, objects_))
+        : geometry_(geometry),
+          model_(model),
+          reading_(reading),
+          objects_(reading.objects),
+          geometric_(geometric_transform(model, objects_))
     {
         mesh_.name = geometry.name.empty() ? model.name : geometry.name;
         mesh_.node = reading.node_of.at(&model);
@@ -78,7 +89,8 @@ private:
     {
         const std::vector<double> numbers = geometry_.record->numbers("Vertices");
         if (numbers.size() % 3 != 0)
-            objects_.refuse(geometry_, "Vertices", std::to_string(numbers.size()) + " numbers", "expected three for each point");
+            objects_.refuse(geometry_, "Vertices", std::to_string(numbers.size()) + " numbers",
+                            "expected three for each point");
         control_ = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(
             numbers.data(), static_cast<Eigen::Index>(numbers.size() / 3), 3);
         for (const double index : geometry_.record->numbers("PolygonVertexIndex")) {
@@ -89,11 +101,13 @@ private:
             polygons_.corners.push_back(static_cast<int>(point));
             if (!(index < 0.0)) continue;
             if (polygons_.corners.size() > most_corners + (polygons_.ends.empty() ? 0 : polygons_.ends.back()))
-                objects_.refuse(geometry_, "PolygonVertexIndex", "", "expected polygons of at most 1000 corners: triangulate the mesh");
+                objects_.refuse(geometry_, "PolygonVertexIndex", "",
+                                "expected polygons of at most 1000 corners: triangulate the mesh");
             polygons_.ends.push_back(polygons_.corners.size());
         }
         if (polygons_.corners.size() != (polygons_.ends.empty() ? 0 : polygons_.ends.back()))
-            objects_.refuse(geometry_, "PolygonVertexIndex", "", "expected a negative number at the end of the last polygon");
+            objects_.refuse(geometry_, "PolygonVertexIndex", "",
+                            "expected a negative number at the end of the last polygon");
         triangulate(control_, polygons_);
     }
 
@@ -112,7 +126,8 @@ private:
         const auto sets = static_cast<Eigen::Index>(textures.size());
         Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> look;
         look.setZero(static_cast<Eigen::Index>(polygons_.corners.size()), normals || sets > 0 ? 3 + 2 * sets : 0);
-        const std::optional<Layer> normal_layer = normals ? std::optional(layer_of(*normals, "Normals", 3)) : std::nullopt;
+        const std::optional<Layer> normal_layer =
+            normals ? std::optional(layer_of(*normals, "Normals", 3)) : std::nullopt;
         const Eigen::Matrix3d turn = geometric_.linear().inverse().transpose();
         std::size_t polygon = 0;
         for (std::size_t corner = 0; corner < polygons_.corners.size(); ++corner) {
@@ -120,10 +135,12 @@ private:
             const auto point = static_cast<std::size_t>(polygons_.corners[corner]);
             const auto row = static_cast<Eigen::Index>(corner);
             if (const double* normal = normal_layer ? normal_layer->at(corner, polygon, point) : nullptr)
-                look.block<1, 3>(row, 0) = (turn * Vec3(normal[0], normal[1], normal[2])).normalized().cast<float>().transpose();
+                look.block<1, 3>(row, 0) =
+                    (turn * Vec3(normal[0], normal[1], normal[2])).normalized().cast<float>().transpose();
             for (Eigen::Index set = 0; set < sets; ++set)
                 if (const double* uv = textures[static_cast<std::size_t>(set)].at(corner, polygon, point))
-                    look.block<1, 2>(row, 3 + 2 * set) << static_cast<float>(uv[0]), static_cast<float>(1.0 - uv[1]);  // glTF's v: down
+                    // glTF's v: down
+                    look.block<1, 2>(row, 3 + 2 * set) << static_cast<float>(uv[0]), static_cast<float>(1.0 - uv[1]);
         }
         return look.unaryExpr([](float x) { return std::isfinite(x) ? x : 0.0F; });
     }
@@ -140,7 +157,8 @@ private:
         };
         const auto control = [&](int corner) { return polygons_.corners[static_cast<std::size_t>(corner)]; };
         std::ranges::stable_sort(order, [&](int a, int b) {
-            return control(a) != control(b) ? control(a) < control(b) : std::ranges::lexicographical_compare(row(a), row(b));
+            return control(a) != control(b) ? control(a) < control(b)
+                                            : std::ranges::lexicographical_compare(row(a), row(b));
         });
         point_of_corner_.assign(polygons_.corners.size(), -1);
         std::vector<int> first_corner;
@@ -175,7 +193,8 @@ private:
             const double* number = layer ? layer->at(0, polygons_.polygon[static_cast<std::size_t>(f)], 0) : nullptr;
             const double place = number ? *number : 0.0;
             const bool is_known = place >= 0.0 && place < double(materials.size());
-            mesh_.look.material.push_back(is_known ? reading_.material_of.at(materials[static_cast<std::size_t>(place)]) : -1);
+            mesh_.look.material.push_back(is_known ? reading_.material_of.at(materials[static_cast<std::size_t>(place)])
+                                                   : -1);
         }
     }
 
@@ -187,7 +206,8 @@ private:
             for (const FbxObject* cluster : objects_.below(*skin, "Deformer")) {
                 if (cluster->kind != "Cluster" || cluster->record->numbers("Indexes").empty()) continue;
                 if (used && used != skin)
-                    objects_.refuse(geometry_, "Deformer", skin->name, "expected one skin: merge them, or export glTF 2.0 (.glb)");
+                    objects_.refuse(geometry_, "Deformer", skin->name,
+                                    "expected one skin: merge them, or export glTF 2.0 (.glb)");
                 used = skin;
                 add_cluster(*cluster, control_shares);
             }
@@ -195,14 +215,15 @@ private:
         std::vector<std::vector<JointShare>> shares;
         for (const int control : control_of_point_) shares.push_back(control_shares[static_cast<std::size_t>(control)]);
         Rig& rig = reading_.rig;
-        mesh_.skin =
-            normalised_skin(with_weights_of_neighbours(shares, mesh_, rig.file, rig.remarks), rig.file, mesh_.name, rig.remarks, rig.notes);
+        mesh_.skin = normalised_skin(with_weights_of_neighbours(shares, mesh_, rig.file, rig.remarks), rig.file,
+                                     mesh_.name, rig.remarks, rig.notes);
         set_kind_of_skinning(*used);
     }
 
     void add_cluster(const FbxObject& cluster, std::vector<std::vector<JointShare>>& control_shares)
     {
-        const std::vector<double> points = cluster.record->numbers("Indexes"), weights = cluster.record->numbers("Weights"),
+        const std::vector<double> points = cluster.record->numbers("Indexes"),
+                                  weights = cluster.record->numbers("Weights"),
                                   bind = cluster.record->numbers("Transform");
         if (weights.size() != points.size())
             objects_.refuse(cluster, "Weights", std::to_string(weights.size()) + " numbers",
@@ -214,7 +235,8 @@ private:
         mesh_.joints.push_back({node_of(cluster), bind_of(cluster, bind)});
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (!(points[i] >= 0.0 && points[i] < double(control_.rows())))
-                objects_.refuse(cluster, "Indexes", number_text(points[i], 12), expected_whole("a point", 0, control_.rows() - 1));
+                objects_.refuse(cluster, "Indexes", number_text(points[i], 12),
+                                expected_whole("a point", 0, control_.rows() - 1));
             control_shares[static_cast<std::size_t>(points[i])].push_back({joint, weights[i]});
         }
     }
@@ -228,7 +250,8 @@ private:
 
     Eigen::Affine3d bind_of(const FbxObject& cluster, const std::vector<double>& numbers) const
     {
-        if (numbers.size() != 16) objects_.refuse(cluster, "Transform", std::to_string(numbers.size()) + " numbers", "expected 16");
+        if (numbers.size() != 16)
+            objects_.refuse(cluster, "Transform", std::to_string(numbers.size()) + " numbers", "expected 16");
         Eigen::Affine3d bind;
         bind.matrix() = Eigen::Map<const Eigen::Matrix4d>(numbers.data());  // column by column
         if (!bind.matrix().allFinite() || !(std::abs(bind.linear().determinant()) > 0.0))
@@ -243,7 +266,8 @@ private:
         if (kind == "DualQuaternion") {
             mesh_.dual_quaternion_share.assign(static_cast<std::size_t>(mesh_.points.rows()), 1.0);
         } else if (kind == "Blend") {
-            const std::vector<double> points = skin.record->numbers("Indexes"), weights = skin.record->numbers("BlendWeights");
+            const std::vector<double> points = skin.record->numbers("Indexes"),
+                                      weights = skin.record->numbers("BlendWeights");
             std::vector<double> share(static_cast<std::size_t>(control_.rows()), 0.0);
             for (std::size_t i = 0; i < points.size(); ++i) {
                 if (i >= weights.size() || !(points[i] >= 0.0 && points[i] < double(share.size())) ||
@@ -252,9 +276,11 @@ private:
                                     "expected a number from 0 to 1 for each point in Indexes");
                 share[static_cast<std::size_t>(points[i])] = weights[i];
             }
-            for (const int control : control_of_point_) mesh_.dual_quaternion_share.push_back(share[static_cast<std::size_t>(control)]);
+            for (const int control : control_of_point_)
+                mesh_.dual_quaternion_share.push_back(share[static_cast<std::size_t>(control)]);
         } else if (!kind.empty() && kind != "Linear" && kind != "Rigid") {
-            objects_.refuse(skin, "SkinningType", kind, "expected Linear, Rigid, DualQuaternion or Blend: export glTF 2.0 (.glb)");
+            objects_.refuse(skin, "SkinningType", kind,
+                            "expected Linear, Rigid, DualQuaternion or Blend: export glTF 2.0 (.glb)");
         }
     }
 
@@ -262,9 +288,11 @@ private:
     {
         std::size_t targets = 0;
         for (const FbxObject* shapes : objects_.below(geometry_, "Deformer"))
-            for (const FbxObject* channel : objects_.below(*shapes, "Deformer")) targets += objects_.below(*channel, "Geometry").size();
+            for (const FbxObject* channel : objects_.below(*shapes, "Deformer"))
+                targets += objects_.below(*channel, "Geometry").size();
         if (targets > 0)
-            reading_.rig.remarks.push_back("mesh " + mesh_.name + ": " + std::to_string(targets) + " morph targets are left out");
+            reading_.rig.remarks.push_back("mesh " + mesh_.name + ": " + std::to_string(targets) +
+                                           " morph targets are left out");
     }
 
     const FbxObject &geometry_, &model_;
@@ -285,8 +313,9 @@ void add_fbx_meshes(const FbxObject& model, FbxReading& reading)
         if (geometry->kind == "Mesh")
             MeshOfModel(*geometry, model, reading).add();
         else
-            reading.rig.remarks.push_back("geometry " + geometry->name + " of node " + model.name + " is left out: it is a " +
-                                          geometry->kind + "; convert it into a polygon mesh");
+            reading.rig.remarks.push_back("geometry " + geometry->name + " of node " + model.name +
+                                          " is left out: it is a " + geometry->kind +
+                                          "; convert it into a polygon mesh");
     }
 }
 

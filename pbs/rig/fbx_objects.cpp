@@ -10,7 +10,8 @@ namespace {
 // "elbow" of "Model::elbow" in text, and of "elbow\0\1Model" in binary files.
 std::string name_in(const std::string& stated)
 {
-    if (const std::size_t end = stated.find(std::string("\0\1", 2)); end != std::string::npos) return stated.substr(0, end);
+    if (const std::size_t end = stated.find(std::string("\0\1", 2)); end != std::string::npos)
+        return stated.substr(0, end);
     const std::size_t type = stated.find("::");
     return type == std::string::npos ? stated : stated.substr(type + 2);
 }
@@ -34,7 +35,8 @@ std::vector<double> fbx_property(const FbxRecord& record, std::string_view name)
     if (!properties) return numbers;
     for (const FbxRecord& property : properties->records) {
         if (const std::string* own = property.text(0); !own || *own != name) continue;
-        for (std::size_t place = 4; place < property.values.size(); ++place)  // behind the name, two words for its type and its flags
+        // behind the name, two words for its type and its flags
+        for (std::size_t place = 4; place < property.values.size(); ++place)
             if (const std::optional<double> number = property.number(place)) numbers.push_back(*number);
         break;
     }
@@ -58,12 +60,14 @@ void FbxObjects::add_objects()
         const std::string *name = record.text(1), *kind = record.text(2);
         if (!id) continue;
         const auto known = defaults.find(record.name);
-        const auto [object, added] = by_id_.emplace(*id, FbxObject{*id, record.name, name ? name_in(*name) : "", kind ? *kind : "", &record,
-                                                                   known == defaults.end() ? nullptr : known->second});
+        const auto [object, added] =
+            by_id_.emplace(*id, FbxObject{*id, record.name, name ? name_in(*name) : "", kind ? *kind : "", &record,
+                                          known == defaults.end() ? nullptr : known->second});
         if (added)
             in_order_.push_back(&object->second);
         else if (record.name == "Model" || record.name == "Geometry" || record.name == "Deformer")
-            throw InputError(path_, 0, record.name, std::to_string(*id), "expected numbers of objects that are unique, and not 0");
+            throw InputError(path_, 0, record.name, std::to_string(*id),
+                             "expected numbers of objects that are unique, and not 0");
     }
 }
 
@@ -117,7 +121,8 @@ double FbxObjects::number(const FbxObject& object, std::string_view property, do
     std::vector<double> numbers = fbx_property(*object.record, property);
     if (numbers.empty() && object.defaults) numbers = fbx_property(*object.defaults, property);
     if (numbers.empty()) return otherwise;
-    if (!std::isfinite(numbers[0])) refuse(object, std::string(property), number_text(numbers[0]), "expected a finite number");
+    if (!std::isfinite(numbers[0]))
+        refuse(object, std::string(property), number_text(numbers[0]), "expected a finite number");
     return numbers[0];
 }
 
@@ -126,13 +131,15 @@ Vec3 FbxObjects::vector(const FbxObject& object, std::string_view property, cons
     std::vector<double> numbers = fbx_property(*object.record, property);
     if (numbers.empty() && object.defaults) numbers = fbx_property(*object.defaults, property);
     if (numbers.empty()) return otherwise;
-    if (numbers.size() < 3) refuse(object, std::string(property), std::to_string(numbers.size()) + " numbers", "expected 3");
+    if (numbers.size() < 3)
+        refuse(object, std::string(property), std::to_string(numbers.size()) + " numbers", "expected 3");
     const Vec3 vector(numbers[0], numbers[1], numbers[2]);
     if (!vector.allFinite()) refuse(object, std::string(property), "", "expected finite numbers");
     return vector;
 }
 
-void FbxObjects::refuse(const FbxObject& object, const std::string& field, const std::string& value, const std::string& rule) const
+void FbxObjects::refuse(const FbxObject& object, const std::string& field, const std::string& value,
+                        const std::string& rule) const
 {
     const std::string name = object.name.empty() ? std::to_string(object.id) : object.name;
     throw InputError(path_, 0, object.type + " " + name + ", " + field, value, rule);

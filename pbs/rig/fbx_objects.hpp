@@ -19,7 +19,8 @@ struct FbxObject {
     const FbxRecord* defaults = nullptr;          // of the properties of its type; null where the file states none
 };
 
-// A connection from an object to one that belongs to it; property: to which of the upper object's properties it is connected, or empty.
+// A connection from an object to one that belongs to it; property: to which of the upper object's properties it is
+// connected, or empty.
 struct FbxConnection {
     const FbxObject* object = nullptr;
     std::string property;
@@ -27,7 +28,8 @@ struct FbxConnection {
 
 class FbxObjects {
 public:
-    // An InputError where the file has no objects or connections, or a Model, a Geometry or a Deformer has the number of another object.
+    // An InputError where the file has no objects or connections, or a Model, a Geometry or a Deformer has the number
+    // of another object.
     FbxObjects(FbxRecord file, const std::string& path);
     FbxObjects(const FbxObjects&) = delete;
     FbxObjects& operator=(const FbxObjects&) = delete;
@@ -44,12 +46,14 @@ public:
     const std::vector<FbxConnection>& above(const FbxObject& object) const;
     std::vector<const FbxObject*> below(const FbxObject& object, std::string_view type) const;
 
-    // A property of an object, or else of the defaults of its type, or else `otherwise`. An InputError where it is no finite number.
+    // A property of an object, or else of the defaults of its type, or else `otherwise`. An InputError where it is no
+    // finite number.
     double number(const FbxObject& object, std::string_view property, double otherwise) const;
     Vec3 vector(const FbxObject& object, std::string_view property, const Vec3& otherwise) const;
 
     // An InputError that names an object by its name, or else by its number: "Model elbow, FIELD = VALUE: RULE".
-    [[noreturn]] void refuse(const FbxObject& object, const std::string& field, const std::string& value, const std::string& rule) const;
+    [[noreturn]] void refuse(const FbxObject& object, const std::string& field, const std::string& value,
+                             const std::string& rule) const;
 
 private:
     void add_objects();

@@ -34,11 +34,13 @@ std::vector<int> triangles_of(const std::vector<Vec3>& places)
     std::vector<int> ring(places.size()), triangles;
     std::iota(ring.begin(), ring.end(), 0);
     Vec3 normal = Vec3::Zero();
-    for (std::size_t i = 0; i + 1 < places.size(); ++i) normal += (places[i] - places[0]).cross(places[i + 1] - places[0]);
+    for (std::size_t i = 0; i + 1 < places.size(); ++i)
+        normal += (places[i] - places[0]).cross(places[i + 1] - places[0]);
     while (ring.size() > 3) {
         // A convex quadrangle is cut along its first diagonal: the ear is the corner 1.
         std::size_t ear = 1;
-        for (std::size_t tried = 0; tried < ring.size() && !is_ear(places, ring, ear, normal); ++tried) ear = (ear + 1) % ring.size();
+        for (std::size_t tried = 0; tried < ring.size() && !is_ear(places, ring, ear, normal); ++tried)
+            ear = (ear + 1) % ring.size();
         const std::size_t count = ring.size();
         triangles.insert(triangles.end(), {ring[(ear + count - 1) % count], ring[ear], ring[(ear + 1) % count]});
         ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(ear));
@@ -54,7 +56,8 @@ void triangulate(const Positions& points, FbxPolygons& polygons)
     std::size_t begin = 0;
     for (std::size_t polygon = 0; polygon < polygons.ends.size(); begin = polygons.ends[polygon++]) {
         std::vector<Vec3> places;
-        for (std::size_t corner = begin; corner < polygons.ends[polygon]; ++corner) places.push_back(points.row(polygons.corners[corner]));
+        for (std::size_t corner = begin; corner < polygons.ends[polygon]; ++corner)
+            places.push_back(points.row(polygons.corners[corner]));
         if (places.size() < 3) continue;
         for (const int corner : triangles_of(places)) polygons.triangles.push_back(static_cast<int>(begin) + corner);
         polygons.polygon.resize(polygons.triangles.size() / 3, polygon);

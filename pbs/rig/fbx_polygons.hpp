@@ -14,8 +14,8 @@ struct FbxPolygons {
     std::vector<std::size_t> polygon;  // of each triangle
 };
 
-// Fills the triangles by cutting off ears of the polygon's projection along its normal. A polygon whose projection has none, since its
-// edges cross, is split into a fan; those of fewer than three corners have no triangle. points: #P x 3.
+// Fills the triangles by cutting off ears of the polygon's projection along its normal. A polygon whose projection has
+// none, since its edges cross, is split into a fan; those of fewer than three corners have no triangle. points: #P x 3.
 void triangulate(const Positions& points, FbxPolygons& polygons);
 
 }  // namespace pbs

@@ -27,11 +27,13 @@ FbxInheritance inheritance_of(const FbxObject& model, const FbxObjects& objects)
     return static_cast<FbxInheritance>(static_cast<int>(type));
 }
 
-// Without RotationActive, the order of rotations and those before and after are ignored: they are of no use in the program either.
+// Without RotationActive, the order of rotations and those before and after are ignored: they are of no use in the
+// program either.
 void set_rotations(const FbxObject& model, FbxReading& reading, FbxTransform& transform)
 {
     const FbxObjects& objects = reading.objects;
-    const Vec3 before = objects.vector(model, "PreRotation", Vec3::Zero()), after = objects.vector(model, "PostRotation", Vec3::Zero());
+    const Vec3 before = objects.vector(model, "PreRotation", Vec3::Zero()),
+               after = objects.vector(model, "PostRotation", Vec3::Zero());
     const double order = objects.number(model, "RotationOrder", 0.0);
     if (objects.number(model, "RotationActive", 0.0) == 0.0) {
         if (order != 0.0 || !before.isZero() || !after.isZero())
@@ -41,7 +43,8 @@ void set_rotations(const FbxObject& model, FbxReading& reading, FbxTransform& tr
     }
     if (!(order >= 0.0 && order <= 5.0 && order == std::floor(order)))
         objects.refuse(model, "RotationOrder", number_text(order),
-                       "expected an order of Euler angles, 0 to 5: change it in the program that made the file, or export glTF 2.0 (.glb)");
+                       "expected an order of Euler angles, 0 to 5: change it in the program that made the file, or "
+                       "export glTF 2.0 (.glb)");
     transform.rotation_order = static_cast<int>(order);
     transform.pre_rotation_deg = before;
     transform.post_rotation_deg = after;
@@ -51,7 +54,8 @@ FbxTransform transform_of(const FbxObject& model, FbxReading& reading)
 {
     const FbxObjects& objects = reading.objects;
     FbxTransform transform;
-    transform.lcl = {objects.vector(model, "Lcl Translation", Vec3::Zero()), objects.vector(model, "Lcl Rotation", Vec3::Zero()),
+    transform.lcl = {objects.vector(model, "Lcl Translation", Vec3::Zero()),
+                     objects.vector(model, "Lcl Rotation", Vec3::Zero()),
                      objects.vector(model, "Lcl Scaling", Vec3::Ones())};
     transform.rotation_offset = objects.vector(model, "RotationOffset", Vec3::Zero());
     transform.rotation_pivot = objects.vector(model, "RotationPivot", Vec3::Zero());
@@ -67,7 +71,8 @@ void add_nodes(const FbxObject& above, int parent, int depth, FbxReading& readin
     std::vector<RigNode>& nodes = reading.rig.nodes;
     for (const FbxObject* model : reading.objects.below(above, "Model")) {
         if (depth > most_nodes_deep || !reading.node_of.emplace(model, static_cast<int>(nodes.size())).second)
-            reading.objects.refuse(*model, "parent", above.name, "expected one parent, and at most 4096 nodes above each other");
+            reading.objects.refuse(*model, "parent", above.name,
+                                   "expected one parent, and at most 4096 nodes above each other");
         nodes.push_back({model->name, parent, NodeTransform(), transform_of(*model, reading)});
         add_nodes(*model, static_cast<int>(nodes.size()) - 1, depth + 1, reading);
     }
@@ -98,7 +103,8 @@ Rig read_fbx_rig(const std::string& path)
         if (reading.node_of.contains(model)) add_fbx_meshes(*model, reading);
     add_fbx_animations(reading);
     if (const std::size_t count = objects.of_type("Constraint").size(); count > 0)
-        rig.remarks.push_back(std::to_string(count) + " constraints are left out; bake the animation to keep what they move");
+        rig.remarks.push_back(std::to_string(count) +
+                              " constraints are left out; bake the animation to keep what they move");
     return rig;
 }
 

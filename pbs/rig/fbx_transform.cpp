@@ -8,9 +8,11 @@
 namespace pbs {
 namespace {
 
-constexpr std::array<std::array<int, 3>, 6> axes_in_order = {{{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}}};
+constexpr std::array<std::array<int, 3>, 6> axes_in_order = {
+    {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}}};
 
-// x(t) = 3 a (1-t)^2 t + 3 (1-b) (1-t) t^2 + t^3 rises for weights a, b in [0, 1], so that bisection finds the one t with x(t) = share.
+// x(t) = 3 a (1-t)^2 t + 3 (1-b) (1-t) t^2 + t^3 rises for weights a, b in [0, 1], so that bisection finds the one t
+// with x(t) = share.
 double bezier_parameter(double share, double a, double b)
 {
     double low = 0.0, high = 1.0;
@@ -44,10 +46,12 @@ Eigen::Matrix3d euler_rotation(const Vec3& degrees, int order)
 FbxPlacement placed_below(const FbxPlacement& parent, const FbxTransform& node)
 {
     const auto& [translation, rotation_deg, scale] = node.lcl;
-    const Eigen::Matrix3d rotation = euler_rotation(node.pre_rotation_deg, 0) * euler_rotation(rotation_deg, node.rotation_order) *
+    const Eigen::Matrix3d rotation = euler_rotation(node.pre_rotation_deg, 0) *
+                                     euler_rotation(rotation_deg, node.rotation_order) *
                                      euler_rotation(node.post_rotation_deg, 0).transpose();
     const Vec3 behind_rotation =
-        node.scaling_offset + node.scaling_pivot - scale.cwiseProduct(node.scaling_pivot) - node.rotation_pivot;  // Rp^-1 Soff Sp S Sp^-1 0
+        // Rp^-1 Soff Sp S Sp^-1 0
+        node.scaling_offset + node.scaling_pivot - scale.cwiseProduct(node.scaling_pivot) - node.rotation_pivot;
     const Vec3 place = translation + node.rotation_offset + node.rotation_pivot + rotation * behind_rotation;
 
     FbxPlacement placed;
@@ -56,8 +60,8 @@ FbxPlacement placed_below(const FbxPlacement& parent, const FbxTransform& node)
     placed.world.translation() = parent.world * place;
     Eigen::Matrix3d axes = parent.world.linear() * rotation;  // RSrs
     if (node.inheritance == FbxInheritance::Rrs)              // what the parent scales to nothing stays nothing
-        axes =
-            parent.world.linear() * parent.own_scale.unaryExpr([](double s) { return s != 0.0 ? 1.0 / s : 0.0; }).asDiagonal() * rotation;
+        axes = parent.world.linear() *
+               parent.own_scale.unaryExpr([](double s) { return s != 0.0 ? 1.0 / s : 0.0; }).asDiagonal() * rotation;
     else if (node.inheritance == FbxInheritance::RrSs)
         axes = placed.rotation * parent.rotation.transpose() * parent.world.linear();
     placed.world.linear() = axes * scale.asDiagonal();
@@ -80,7 +84,8 @@ FbxTransform transform_at(FbxTransform node, const FbxTracks& tracks, double tim
 {
     for (std::size_t property = 0; property < 3; ++property)
         for (std::size_t axis = 0; axis < 3; ++axis)
-            if (const auto& curve = tracks[property][axis]) node.lcl[property](static_cast<int>(axis)) = value_at(*curve, time_s);
+            if (const auto& curve = tracks[property][axis])
+                node.lcl[property](static_cast<int>(axis)) = value_at(*curve, time_s);
     return node;
 }
 

@@ -18,8 +18,10 @@ using nlohmann::json;
 constexpr double most_glb_bytes = 4.2e9;  // its lengths have 32 bits; some room for the description
 constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8, bytes_per_number = 4;
-constexpr int of_shorts = 5123, of_indices = 5125, of_floats = 5126;           // component types: unsigned short, unsigned int, float
-constexpr int for_vertices = 34962, for_triangles = 34963, triangle_list = 4;  // targets of views, and a mode of primitives
+constexpr int of_shorts = 5123, of_indices = 5125,
+              of_floats = 5126;  // component types: unsigned short, unsigned int, float
+// targets of views, and a mode of primitives
+constexpr int for_vertices = 34962, for_triangles = 34963, triangle_list = 4;
 constexpr const char *scalar = "SCALAR", *vec2 = "VEC2", *vec3 = "VEC3", *vec4 = "VEC4", *mat4 = "MAT4";
 constexpr int bones_per_set = 4;
 
@@ -64,7 +66,8 @@ std::vector<int> smooth_pieces(const Positions& points, const RigLook& look)
     std::vector<int> piece;
     for (Eigen::Index p = 0; p < points.rows(); ++p) {
         std::array<double, 6> key{points(p, 0), points(p, 1), points(p, 2)};
-        for (int axis = 0; axis < 3; ++axis) key[3 + axis] = std::round(100.0 * static_cast<double>(look.numbers(p, axis)));
+        for (int axis = 0; axis < 3; ++axis)
+            key[3 + axis] = std::round(100.0 * static_cast<double>(look.numbers(p, axis)));
         piece.push_back(pieces.emplace(key, static_cast<int>(pieces.size())).first->second);
     }
     return piece;
@@ -77,7 +80,8 @@ std::vector<float> single(const std::vector<double>& numbers)
 
 // The description of a file whose numbers are all in one buffer, in the order in which they are added.
 struct GlbDocument {
-    json document = {{"asset", {{"generator", "pbskin"}, {"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
+    json document = {
+        {"asset", {{"generator", "pbskin"}, {"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
     std::size_t bytes = 0;  // of the buffer
     std::string behind;     // its end, behind the numbers that GlbWriter has written
 
@@ -94,8 +98,10 @@ struct GlbDocument {
     // The number of the accessor. target: 0 for none.
     std::size_t add(std::size_t count, int component_type, const char* type, int target)
     {
-        const std::size_t number = add_view((component_type == of_shorts ? 2 : bytes_per_number) * count * components(type), target);
-        document["accessors"].push_back({{"bufferView", number}, {"componentType", component_type}, {"count", count}, {"type", type}});
+        const std::size_t number =
+            add_view((component_type == of_shorts ? 2 : bytes_per_number) * count * components(type), target);
+        document["accessors"].push_back(
+            {{"bufferView", number}, {"componentType", component_type}, {"count", count}, {"type", type}});
         return document["accessors"].size() - 1;
     }
 
@@ -135,7 +141,8 @@ void animate(std::size_t node, const char* path, std::size_t input, std::size_t 
 {
     json& animation = glb.document["animations"][0];
     animation["name"] = "deformed";
-    animation["channels"].push_back({{"sampler", animation["samplers"].size()}, {"target", {{"node", node}, {"path", path}}}});
+    animation["channels"].push_back(
+        {{"sampler", animation["samplers"].size()}, {"target", {{"node", node}, {"path", path}}}});
     animation["samplers"].push_back({{"input", input}, {"interpolation", "LINEAR"}, {"output", output}});
 }
 
@@ -161,7 +168,8 @@ void add_weights(const Weights& weights, GlbDocument& glb, json& attributes)
             for (int k = 0; k < bones_per_set; ++k) {
                 const int entry = weights.first[p] + set * bones_per_set + k;
                 if (entry >= weights.first[p + 1]) break;
-                bones[static_cast<std::size_t>(bones_per_set * p + k)] = static_cast<std::uint16_t>(weights.bone[entry]);
+                bones[static_cast<std::size_t>(bones_per_set * p + k)] =
+                    static_cast<std::uint16_t>(weights.bone[entry]);
                 shares[static_cast<std::size_t>(bones_per_set * p + k)] = static_cast<float>(weights.weight[entry]);
             }
         attributes["JOINTS_" + std::to_string(set)] = glb.append(bones, vec4, for_vertices);
@@ -179,7 +187,8 @@ void add_bones(const Skeleton& skeleton, GlbDocument& glb)
         const std::size_t node = nodes.size();
         const Vec3 place = bone.parent < 0 ? bone.head : Vec3(bone.head - skeleton.bones[bone.parent].head);
         nodes.push_back({{"name", bone.name}, {"translation", {place.x(), place.y(), place.z()}}});
-        (bone.parent < 0 ? glb.document["scenes"][0]["nodes"] : nodes[static_cast<std::size_t>(bone.parent) + 1]["children"])
+        (bone.parent < 0 ? glb.document["scenes"][0]["nodes"]
+                         : nodes[static_cast<std::size_t>(bone.parent) + 1]["children"])
             .push_back(node);
         joints.push_back(node);
         const Eigen::Matrix4f bind = Eigen::Affine3d(Eigen::Translation3d(-bone.head)).matrix().cast<float>();
@@ -193,8 +202,10 @@ void animate_skin(const GlbSkin& skin, GlbDocument& glb)
 {
     const std::size_t input = add_times(skin.times_s, glb);
     if (skin.target_weights.cols() > 0) {
-        const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights = skin.target_weights.cast<float>();
-        animate(0, "weights", input, glb.append(std::vector<float>(weights.data(), weights.data() + weights.size()), scalar), glb);
+        const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights =
+            skin.target_weights.cast<float>();
+        animate(0, "weights", input,
+                glb.append(std::vector<float>(weights.data(), weights.data() + weights.size()), scalar), glb);
     }
     for (std::size_t b = 0; b < skin.skeleton.bones.size(); ++b) {
         const Bone& bone = skin.skeleton.bones[b];
@@ -224,7 +235,8 @@ void copy(const std::string& from, AtomicFile& file)
 
 }  // namespace
 
-GlbWriter::GlbWriter(std::string path, std::string name, const Triangles& triangles, RigLook look, RigMaterials materials)
+GlbWriter::GlbWriter(std::string path, std::string name, const Triangles& triangles, RigLook look,
+                     RigMaterials materials)
     : path_(std::move(path)),
       name_(std::move(name)),
       data_(path_),
@@ -233,11 +245,13 @@ GlbWriter::GlbWriter(std::string path, std::string name, const Triangles& triang
       materials_(std::move(materials)),
       has_normals_(look_.numbers.cols() > 0 && !look_.numbers.leftCols<3>().isZero())
 {
-    const int count = materials_.document.empty() ? 0 : static_cast<int>(json::parse(materials_.document)["materials"].size());
+    const int count =
+        materials_.document.empty() ? 0 : static_cast<int>(json::parse(materials_.document)["materials"].size());
     std::map<int, std::vector<std::uint32_t>> corners;  // by material, -1: none
     for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
         const int material = look_.material.empty() ? -1 : look_.material[static_cast<std::size_t>(f)];
-        for (const int corner : triangles.row(f)) corners[material < count ? material : -1].push_back(static_cast<std::uint32_t>(corner));
+        for (const int corner : triangles.row(f))
+            corners[material < count ? material : -1].push_back(static_cast<std::uint32_t>(corner));
     }
     const auto write = [&](std::string_view bytes) {
         data_.write(bytes);
@@ -268,13 +282,15 @@ Positions GlbWriter::normals_of(const Positions& points) const
 void GlbWriter::write_rows(const Positions& rows)
 {
     const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> single = rows.cast<float>();
-    data_.write({reinterpret_cast<const char*>(single.data()), sizeof(float) * static_cast<std::size_t>(single.size())});
+    data_.write(
+        {reinterpret_cast<const char*>(single.data()), sizeof(float) * static_cast<std::size_t>(single.size())});
 }
 
 double GlbWriter::bytes(int frames) const
 {
     const auto numbers = static_cast<double>((has_normals_ ? 2 : 1) * first_frame_.size());
-    return data_bytes_ + static_cast<double>(bytes_per_number) * frames * (numbers + frames);  // with a weight per frame and target
+    // with a weight per frame and target
+    return data_bytes_ + static_cast<double>(bytes_per_number) * frames * (numbers + frames);
 }
 
 void GlbWriter::add_frame(double time_s, const Positions& points)
@@ -308,7 +324,8 @@ void GlbWriter::write(const GlbSkin* skin)
     const auto points = static_cast<std::size_t>(first_frame_.rows());
     json mesh = {{"name", name_}, {"primitives", json::array()}}, all;  // all: of all primitives
     for (const auto& [material, corners] : corners_) {
-        mesh["primitives"].push_back({{"mode", triangle_list}, {"indices", glb.add(corners, of_indices, scalar, for_triangles)}});
+        mesh["primitives"].push_back(
+            {{"mode", triangle_list}, {"indices", glb.add(corners, of_indices, scalar, for_triangles)}});
         if (material >= 0) mesh["primitives"].back()["material"] = material;
     }
     for (Eigen::Index set = 0; set < sets_of(look_); ++set)

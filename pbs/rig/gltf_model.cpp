@@ -24,13 +24,14 @@ namespace {
 
 constexpr std::size_t most_elements = 100'000'000;
 
-// Extensions by how their names begin that do not change where vertices are, although nodes and meshes may have them, and the one that
-// stores vertices as integers.
-constexpr std::array<std::string_view, 6> known_extensions = {"KHR_materials_",      "KHR_texture_", "EXT_texture_",
-                                                              "KHR_lights_punctual", "KHR_xmp",      "KHR_mesh_quantization"};
+// Extensions by how their names begin that do not change where vertices are, although nodes and meshes may have them,
+// and the one that stores vertices as integers.
+constexpr std::array<std::string_view, 6> known_extensions = {
+    "KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_punctual", "KHR_xmp", "KHR_mesh_quantization"};
 
 // Takes the place of an image that is not there: a PNG.
-constexpr const char* white_pixel_base64 = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR42mP4DwABAQEAHLCMmQAAAABJRU5ErkJggg==";
+constexpr const char* white_pixel_base64 =
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR42mP4DwABAQEAHLCMmQAAAABJRU5ErkJggg==";
 
 bool file_exists(const std::string& file, void* path)
 {
@@ -56,9 +57,12 @@ Callbacks own_files(std::string& path)
     files.FileExists = file_exists;
     files.ExpandFilePath = [](const std::string& file, void*) { return file; };
     files.ReadWholeFile = read_own_file;
-    files.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; };
+    files.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+        return false;
+    };
     if constexpr (requires { files.GetFileSizeInBytes; })  // not in 2.7
-        files.GetFileSizeInBytes = [](std::size_t* size, std::string* error, const std::string& file, void* path_of_model) {
+        files.GetFileSizeInBytes = [](std::size_t* size, std::string* error, const std::string& file,
+                                      void* path_of_model) {
             std::vector<unsigned char> bytes;
             const bool is_read = read_own_file(&bytes, error, file, path_of_model);
             *size = bytes.size();
@@ -80,17 +84,21 @@ nlohmann::json document_in(const std::string& bytes)
 // Whether an object in this part of a document has the extension.
 bool has_extension(const nlohmann::json& part, const std::string& extension)
 {
-    if (const auto own = part.is_object() ? part.find("extensions") : part.end(); own != part.end() && own->contains(extension))
+    if (const auto own = part.is_object() ? part.find("extensions") : part.end();
+        own != part.end() && own->contains(extension))
         return true;
-    return part.is_structured() && std::ranges::any_of(part, [&](const auto& inner) { return has_extension(inner, extension); });
+    return part.is_structured() &&
+           std::ranges::any_of(part, [&](const auto& inner) { return has_extension(inner, extension); });
 }
 
 // Only an extension of these objects can change where vertices are; materials, textures and images cannot.
 bool may_move_vertices(const std::string& extension, const nlohmann::json& document)
 {
-    if (std::ranges::any_of(known_extensions, [&](std::string_view known) { return extension.starts_with(known); })) return false;
-    return std::ranges::any_of(std::array{"nodes", "meshes", "skins", "animations", "accessors", "bufferViews", "buffers"},
-                               [&](const char* part) { return document.contains(part) && has_extension(document[part], extension); });
+    if (std::ranges::any_of(known_extensions, [&](std::string_view known) { return extension.starts_with(known); }))
+        return false;
+    return std::ranges::any_of(
+        std::array{"nodes", "meshes", "skins", "animations", "accessors", "bufferViews", "buffers"},
+        [&](const char* part) { return document.contains(part) && has_extension(document[part], extension); });
 }
 
 void require_known_extensions(const std::string& bytes, const std::string& path)
@@ -100,11 +108,12 @@ void require_known_extensions(const std::string& bytes, const std::string& path)
     if (required == document.end()) return;
     for (const nlohmann::json& extension : *required)
         if (extension.is_string() && may_move_vertices(extension, document))
-            throw InputError(path, 0, "extensionsRequired", extension.get<std::string>(), "not supported: export the model without it");
+            throw InputError(path, 0, "extensionsRequired", extension.get<std::string>(),
+                             "not supported: export the model without it");
 }
 
-// The text of a .gltf file whose buffers may be named as their files are: tinygltf decodes %20, and takes two letters behind any other %
-// and each + for codes, too.
+// The text of a .gltf file whose buffers may be named as their files are: tinygltf decodes %20, and takes two letters
+// behind any other % and each + for codes, too.
 std::string with_encoded_names(const std::string& text)
 {
     if (text.find_first_of("%+") == std::string::npos) return text;
@@ -133,8 +142,8 @@ std::string one_line(std::string text)
 }
 
 // An image in a buffer view is read by image_bytes.
-bool keep_image_of_a_data_uri(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes, int size,
-                              void*)
+bool keep_image_of_a_data_uri(tinygltf::Image* image, int, std::string*, std::string*, int, int,
+                              const unsigned char* bytes, int size, void*)
 {
     if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
     return true;
@@ -169,7 +178,8 @@ void leave_out_normals_of(std::size_t image, nlohmann::json& document)
 
 bool has_colours(const tinygltf::Mesh& mesh)
 {
-    return std::ranges::any_of(mesh.primitives, [](const tinygltf::Primitive& part) { return part.attributes.count("COLOR_0") > 0; });
+    return std::ranges::any_of(mesh.primitives,
+                               [](const tinygltf::Primitive& part) { return part.attributes.count("COLOR_0") > 0; });
 }
 
 // The place of a number in the file, for errors.
@@ -177,7 +187,10 @@ struct Field {
     const std::string& path;
     const std::string& name;
 
-    [[noreturn]] void refuse(const std::string& value, const std::string& rule) const { throw InputError(path, 0, name, value, rule); }
+    [[noreturn]] void refuse(const std::string& value, const std::string& rule) const
+    {
+        throw InputError(path, 0, name, value, rule);
+    }
 };
 
 // A signed integer c of b bits means max(c / (2^(b-1) - 1), -1), an unsigned one c / (2^b - 1).
@@ -209,7 +222,8 @@ const Component& component_of(int type, const Field& field)
     field.refuse(std::to_string(type), "expected a component type of glTF 2.0: 5120 to 5123, 5125 or 5126");
 }
 
-// A matrix whose columns of bytes would have to be padded is refused by the caller's number of components: only 4 x 4 floats are asked for.
+// A matrix whose columns of bytes would have to be padded is refused by the caller's number of components: only 4 x 4
+// floats are asked for.
 struct Layout {
     int component_type = 0;
     bool normalised = false;
@@ -228,19 +242,21 @@ AccessorNumbers read_elements(const tinygltf::Model& model, int view_index, cons
     const std::size_t element = component.bytes * layout.components;
     const std::size_t stride = view.byteStride > 0 ? view.byteStride : element;
     const bool view_fits = view.byteOffset <= bytes.size() && view.byteLength <= bytes.size() - view.byteOffset;
-    if (!view_fits || layout.offset > view.byteLength || layout.count > most_elements || stride < element || stride > 252 + element ||
+    if (!view_fits || layout.offset > view.byteLength || layout.count > most_elements || stride < element ||
+        stride > 252 + element ||
         (layout.count > 0 && (layout.count - 1) * stride + element > view.byteLength - layout.offset))
         field.refuse(std::to_string(layout.count), "its elements reach beyond the bytes of their buffer");
 
     AccessorNumbers numbers(static_cast<Eigen::Index>(layout.count), static_cast<Eigen::Index>(layout.components));
     for (std::size_t e = 0; e < layout.count; ++e)
         for (std::size_t c = 0; c < layout.components; ++c)
-            numbers(static_cast<Eigen::Index>(e), static_cast<Eigen::Index>(c)) =
-                component.number_at(bytes.data() + view.byteOffset + layout.offset + e * stride + c * component.bytes, layout.normalised);
+            numbers(static_cast<Eigen::Index>(e), static_cast<Eigen::Index>(c)) = component.number_at(
+                bytes.data() + view.byteOffset + layout.offset + e * stride + c * component.bytes, layout.normalised);
     return numbers;
 }
 
-void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor, const Field& field, AccessorNumbers& numbers)
+void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor, const Field& field,
+                  AccessorNumbers& numbers)
 {
     const auto& sparse = accessor.sparse;
     // Counts and offsets are signed in one version of tinygltf and unsigned in another.
@@ -248,12 +264,13 @@ void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& access
     if (is_negative(sparse.count) || is_negative(sparse.indices.byteOffset) || is_negative(sparse.values.byteOffset))
         field.refuse(std::to_string(sparse.count), "expected counts and offsets of 0 or more");
     const auto count = static_cast<std::size_t>(sparse.count), components = static_cast<std::size_t>(numbers.cols());
-    const AccessorNumbers indices =
-        read_elements(model, sparse.indices.bufferView,
-                      {sparse.indices.componentType, false, count, 1, static_cast<std::size_t>(sparse.indices.byteOffset)}, field);
-    const AccessorNumbers values = read_elements(
-        model, sparse.values.bufferView,
-        {accessor.componentType, accessor.normalized, count, components, static_cast<std::size_t>(sparse.values.byteOffset)}, field);
+    const AccessorNumbers indices = read_elements(
+        model, sparse.indices.bufferView,
+        {sparse.indices.componentType, false, count, 1, static_cast<std::size_t>(sparse.indices.byteOffset)}, field);
+    const AccessorNumbers values = read_elements(model, sparse.values.bufferView,
+                                                 {accessor.componentType, accessor.normalized, count, components,
+                                                  static_cast<std::size_t>(sparse.values.byteOffset)},
+                                                 field);
     for (Eigen::Index i = 0; i < indices.rows(); ++i) {
         if (!(indices(i, 0) >= 0.0 && indices(i, 0) < static_cast<double>(numbers.rows())))
             field.refuse(std::to_string(indices(i, 0)), "expected an index of the accessor's elements");
@@ -273,7 +290,8 @@ void refuse_buffers_elsewhere(const std::string& bytes, const std::string& path)
         const std::string file = (std::filesystem::path(path).parent_path() / tinygltf::dlib::urldecode(uri)).string();
         std::error_code ignored;
         if (std::filesystem::exists(file, ignored) && !may_be_opened_for(path, file))
-            throw InputError(path, 0, "referred file", file, "expected a regular file below the folder of the one that refers to it");
+            throw InputError(path, 0, "referred file", file,
+                             "expected a regular file below the folder of the one that refers to it");
     }
 }
 
@@ -290,13 +308,16 @@ void read_gltf_model(const std::string& bytes, const std::string& path, tinygltf
     if (bytes.starts_with("glTF")) {
         constexpr std::size_t version_at = 4;
         if (bytes.size() > version_at && bytes[version_at] != 2)  // little-endian; tinygltf does not ask
-            throw InputError(path, 0, "version of the container", std::to_string(static_cast<unsigned char>(bytes[version_at])),
+            throw InputError(path, 0, "version of the container",
+                             std::to_string(static_cast<unsigned char>(bytes[version_at])),
                              "expected 2: convert the file (gltf-pipeline -i FILE)");
-        read = loader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
-                                           static_cast<unsigned>(bytes.size()), folder);
+        read =
+            loader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
+                                        static_cast<unsigned>(bytes.size()), folder);
     } else {
         const std::string text = with_encoded_names(bytes);
-        read = loader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()), folder);
+        read = loader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()),
+                                          folder);
     }
     if (!read) {
         require_known_extensions(bytes, path);  // which may be why
@@ -304,7 +325,8 @@ void read_gltf_model(const std::string& bytes, const std::string& path, tinygltf
         throw InputError(path, 0, "", "", "no glTF that tinygltf can read: " + one_line(error));
     }
     if (model.asset.version.rfind("2.", 0) != 0)
-        throw InputError(path, 0, "asset.version", model.asset.version, "expected 2.0: convert the file (gltf-pipeline -i FILE)");
+        throw InputError(path, 0, "asset.version", model.asset.version,
+                         "expected 2.0: convert the file (gltf-pipeline -i FILE)");
     if (!model.extensionsRequired.empty()) require_known_extensions(bytes, path);
 }
 
@@ -328,9 +350,9 @@ RigMaterials gltf_materials(const std::string& bytes, const std::string& path)
         const bool is_jpeg = image.starts_with("\xff\xd8\xff"), is_known = is_jpeg || image.starts_with("\x89PNG");
         if (!is_known) {
             const tinygltf::Image& named = model.images[i];
-            materials.remarks.push_back("image " +
-                                        (named.uri.empty() ? number_text(static_cast<double>(i)) + " " + named.name : named.uri) +
-                                        ": expected PNG or JPEG in the file or below its folder; it is white there");
+            materials.remarks.push_back(
+                "image " + (named.uri.empty() ? number_text(static_cast<double>(i)) + " " + named.name : named.uri) +
+                ": expected PNG or JPEG in the file or below its folder; it is white there");
             image = tinygltf::base64_decode(white_pixel_base64);
             leave_out_normals_of(i, document);
         }
@@ -350,14 +372,17 @@ AccessorNumbers accessor_values(const tinygltf::Model& model, int accessor, int 
         field.refuse(std::to_string(accessor), "expected an accessor of the file");
     const tinygltf::Accessor& from = model.accessors[accessor];
     if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(from.type)) != components)
-        field.refuse(std::to_string(accessor), "expected an accessor with " + std::to_string(components) + " numbers per element");
+        field.refuse(std::to_string(accessor),
+                     "expected an accessor with " + std::to_string(components) + " numbers per element");
     if (from.count > most_elements) field.refuse(std::to_string(from.count), "expected at most 100,000,000 elements");
 
-    AccessorNumbers numbers = AccessorNumbers::Zero(static_cast<Eigen::Index>(from.count), components);  // of a purely sparse one
+    // of a purely sparse one
+    AccessorNumbers numbers = AccessorNumbers::Zero(static_cast<Eigen::Index>(from.count), components);
     if (from.bufferView >= 0)
-        numbers =
-            read_elements(model, from.bufferView,
-                          {from.componentType, from.normalized, from.count, static_cast<std::size_t>(components), from.byteOffset}, field);
+        numbers = read_elements(
+            model, from.bufferView,
+            {from.componentType, from.normalized, from.count, static_cast<std::size_t>(components), from.byteOffset},
+            field);
     if (from.sparse.isSparse) apply_sparse(model, from, field, numbers);
     return numbers;
 }

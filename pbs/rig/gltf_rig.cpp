@@ -14,8 +14,9 @@
 namespace pbs {
 namespace {
 
-constexpr double last_row_rounding = 1e-6;    // of a node's matrix in single precision
-constexpr double bind_last_row_error = 1e-4;  // of an inverse bind matrix; a matrix by rows has the place of a joint there
+constexpr double last_row_rounding = 1e-6;  // of a node's matrix in single precision
+constexpr double bind_last_row_error =
+    1e-4;  // of an inverse bind matrix; a matrix by rows has the place of a joint there
 
 // One mesh while its primitives are read.
 class MeshReader {
@@ -32,10 +33,11 @@ public:
             add(source_.primitives[p], field_ + "/primitives/" + std::to_string(p), joints);
         mesh_.points = Eigen::Map<const Positions>(points_.data(), static_cast<Eigen::Index>(points_.size() / 3), 3);
         if (!triangles_.empty()) add_morphs(node);
-        mesh_.triangles = Eigen::Map<const Triangles>(triangles_.data(), static_cast<Eigen::Index>(triangles_.size() / 3), 3);
+        mesh_.triangles =
+            Eigen::Map<const Triangles>(triangles_.data(), static_cast<Eigen::Index>(triangles_.size() / 3), 3);
         if (joints > 0)
-            mesh_.skin = normalised_skin(with_weights_of_neighbours(shares_, mesh_, rig_.file, rig_.remarks), rig_.file, mesh_.name,
-                                         rig_.remarks, rig_.notes);
+            mesh_.skin = normalised_skin(with_weights_of_neighbours(shares_, mesh_, rig_.file, rig_.remarks), rig_.file,
+                                         mesh_.name, rig_.remarks, rig_.notes);
         return mesh_;
     }
 
@@ -77,7 +79,8 @@ private:
     }
 
     // The displacements of a morph target. Primitives without it are not moved.
-    void add_target(const std::map<std::string, int>& target, std::size_t k, const PointRange& points, const std::string& field)
+    void add_target(const std::map<std::string, int>& target, std::size_t k, const PointRange& points,
+                    const std::string& field)
     {
         auto& targets = mesh_.morphs.displacements;
         targets.resize(std::max(targets.size(), k + 1));
@@ -98,8 +101,9 @@ private:
         RigMorphs& morphs = mesh_.morphs;
         const std::vector<double>& stated = node.weights.empty() ? source_.weights : node.weights;
         if (stated.size() > morphs.displacements.size())
-            throw InputError(rig_.file, 0, field_ + "/weights", std::to_string(stated.size()),
-                             "expected one for each of the " + std::to_string(morphs.displacements.size()) + " morph targets");
+            throw InputError(
+                rig_.file, 0, field_ + "/weights", std::to_string(stated.size()),
+                "expected one for each of the " + std::to_string(morphs.displacements.size()) + " morph targets");
         morphs.rest_weights = stated;
         morphs.rest_weights.resize(morphs.displacements.size(), 0.0);
         for (std::size_t k = 0; k < morphs.displacements.size(); ++k) {
@@ -108,11 +112,12 @@ private:
         }
     }
 
-    AccessorNumbers attribute(const tinygltf::Primitive& primitive, const std::string& name, int components, const std::string& field,
-                              decltype(&accessor_numbers) read = accessor_numbers)
+    AccessorNumbers attribute(const tinygltf::Primitive& primitive, const std::string& name, int components,
+                              const std::string& field, decltype(&accessor_numbers) read = accessor_numbers)
     {
         const auto found = primitive.attributes.find(name);
-        if (found == primitive.attributes.end()) throw InputError(rig_.file, 0, field + "/attributes/" + name, "", "missing");
+        if (found == primitive.attributes.end())
+            throw InputError(rig_.file, 0, field + "/attributes/" + name, "", "missing");
         return read(model_, found->second, components, rig_.file, field + "/attributes/" + name);
     }
 
@@ -121,7 +126,8 @@ private:
     {
         std::vector<int> corners;
         if (primitive.indices >= 0) {
-            const AccessorNumbers indices = accessor_numbers(model_, primitive.indices, 1, rig_.file, field + "/indices");
+            const AccessorNumbers indices =
+                accessor_numbers(model_, primitive.indices, 1, rig_.file, field + "/indices");
             for (const double index : indices.col(0)) {
                 if (!(index >= 0.0 && index < points.count))
                     throw InputError(rig_.file, 0, field + "/indices", number_text(index, 12),
@@ -133,7 +139,8 @@ private:
         }
         const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES, fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
         if (list && primitive.indices >= 0 && corners.size() % 3 != 0)
-            throw InputError(rig_.file, 0, field + "/indices", std::to_string(corners.size()) + " of triangles", "expected three for each");
+            throw InputError(rig_.file, 0, field + "/indices", std::to_string(corners.size()) + " of triangles",
+                             "expected three for each");
         for (std::size_t c = 0; c + 2 < corners.size(); c += list ? 3 : 1) {
             // A strip's odd triangles run the other way round (glTF 2.0, Sec. 3.7.2.1).
             const bool odd = !list && !fan && c % 2 == 1;
@@ -149,14 +156,16 @@ private:
         if (primitive.attributes.count(name) == 0) return;
         try {
             const AccessorNumbers rows = attribute(primitive, name, column == 0 ? 3 : 2, field);
-            if (rows.rows() != points.count) throw InputError(rig_.file, 0, field, name, "expected as many as there are points");
+            if (rows.rows() != points.count)
+                throw InputError(rig_.file, 0, field, name, "expected as many as there are points");
             mesh_.look.put(points.first, column, rows.cast<float>());
         } catch (const InputError& error) {
             rig_.remarks.push_back("mesh " + source_.name + ": " + name + " is left out: " + error.what());
         }
     }
 
-    // All sets JOINTS_0 and WEIGHTS_0, JOINTS_1 and WEIGHTS_1, ... of a primitive. Weights may be no numbers: with_weights_of_neighbours.
+    // All sets JOINTS_0 and WEIGHTS_0, JOINTS_1 and WEIGHTS_1, ... of a primitive. Weights may be no numbers:
+    // with_weights_of_neighbours.
     void add_weights(const tinygltf::Primitive& primitive, int points, int joints, const std::string& field)
     {
         const std::size_t first = shares_.size();
@@ -175,7 +184,8 @@ private:
                     if (!(numbers(p, k) >= 0.0 && numbers(p, k) < joints) && std::isfinite(weights(p, k)))
                         throw InputError(rig_.file, 0, field + "/attributes/" + names, number_text(numbers(p, k), 12),
                                          expected_whole("the number of a joint", 0, joints - 1));
-                    shares_[first + static_cast<std::size_t>(p)].push_back({static_cast<int>(numbers(p, k)), weights(p, k)});
+                    shares_[first + static_cast<std::size_t>(p)].push_back(
+                        {static_cast<int>(numbers(p, k)), weights(p, k)});
                 }
         }
     }
@@ -187,15 +197,18 @@ private:
     RigMesh mesh_;
     std::vector<double> points_;
     using Attributes = std::map<std::string, int>;
-    std::map<std::pair<Attributes, std::vector<Attributes>>, PointRange> points_of_;  // primitives with the same ones have the same points
+    // primitives with the same ones have the same points
+    std::map<std::pair<Attributes, std::vector<Attributes>>, PointRange> points_of_;
     std::vector<int> triangles_;
     std::vector<std::vector<JointShare>> shares_;  // of the points, if they are weighted
 };
 
-std::vector<SkinJoint> joints_of(const tinygltf::Model& model, int skin_index, const std::vector<int>& rig_node, const std::string& path)
+std::vector<SkinJoint> joints_of(const tinygltf::Model& model, int skin_index, const std::vector<int>& rig_node,
+                                 const std::string& path)
 {
     const std::string field = "skins/" + std::to_string(skin_index);
-    if (skin_index >= static_cast<int>(model.skins.size())) throw InputError(path, 0, "skin", std::to_string(skin_index), "does not exist");
+    if (skin_index >= static_cast<int>(model.skins.size()))
+        throw InputError(path, 0, "skin", std::to_string(skin_index), "does not exist");
     const tinygltf::Skin& skin = model.skins[skin_index];
     if (skin.joints.empty()) throw InputError(path, 0, field + "/joints", "", "expected at least one joint");
     std::vector<SkinJoint> joints;
@@ -205,31 +218,37 @@ std::vector<SkinJoint> joints_of(const tinygltf::Model& model, int skin_index, c
         joints.push_back({rig_node[node]});
     }
     if (skin.inverseBindMatrices < 0) return joints;  // identities
-    const AccessorNumbers matrices = accessor_numbers(model, skin.inverseBindMatrices, 16, path, field + "/inverseBindMatrices");
+    const AccessorNumbers matrices =
+        accessor_numbers(model, skin.inverseBindMatrices, 16, path, field + "/inverseBindMatrices");
     if (matrices.rows() < static_cast<Eigen::Index>(joints.size()))
-        throw InputError(path, 0, field + "/inverseBindMatrices", std::to_string(matrices.rows()), "expected one per joint");
+        throw InputError(path, 0, field + "/inverseBindMatrices", std::to_string(matrices.rows()),
+                         "expected one per joint");
     for (std::size_t j = 0; j < joints.size(); ++j) {
-        const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix4d>(matrices.row(static_cast<Eigen::Index>(j)).data());  // by columns
+        // by columns
+        const Eigen::Matrix4d matrix =
+            Eigen::Map<const Eigen::Matrix4d>(matrices.row(static_cast<Eigen::Index>(j)).data());
         if (!(std::abs(matrix.topLeftCorner<3, 3>().determinant()) > 0.0))
-            throw InputError(path, 0, field + "/inverseBindMatrices", std::to_string(j), "expected matrices that can be inverted");
+            throw InputError(path, 0, field + "/inverseBindMatrices", std::to_string(j),
+                             "expected matrices that can be inverted");
         if (!(matrix.row(3) - Eigen::RowVector4d::Unit(3)).isZero(bind_last_row_error))
             throw InputError(path, 0, field + "/inverseBindMatrices", "matrix " + std::to_string(j),
-                             matrix.col(3).head<3>().isZero()
-                                 ? "is stored by rows: expected its columns one after the other (transpose the matrices, or export the "
-                                   "model with another program)"
-                                 : "expected the last row 0, 0, 0, 1");
+                             matrix.col(3).head<3>().isZero() ? "is stored by rows: expected its columns one after the "
+                                                                "other (transpose the matrices, or export the "
+                                                                "model with another program)"
+                                                              : "expected the last row 0, 0, 0, 1");
         joints[j].inverse_bind.affine() = matrix.topRows<3>();
     }
     return joints;
 }
 
-// The mesh of node `gltf_node` of the file with all its primitives of triangles. rig_node: the number of each of the file's nodes in the
-// rig. Appends to `rig.meshes`, and to `rig.remarks` what was left out: points and lines.
+// The mesh of node `gltf_node` of the file with all its primitives of triangles. rig_node: the number of each of the
+// file's nodes in the rig. Appends to `rig.meshes`, and to `rig.remarks` what was left out: points and lines.
 void add_gltf_mesh(const tinygltf::Model& model, int gltf_node, const std::vector<int>& rig_node, Rig& rig)
 {
     const tinygltf::Node& node = model.nodes[gltf_node];
     if (node.mesh >= static_cast<int>(model.meshes.size()))
-        throw InputError(rig.file, 0, "nodes/" + std::to_string(gltf_node) + "/mesh", std::to_string(node.mesh), "does not exist");
+        throw InputError(rig.file, 0, "nodes/" + std::to_string(gltf_node) + "/mesh", std::to_string(node.mesh),
+                         "does not exist");
     std::vector<SkinJoint> joints;
     if (node.skin >= 0) joints = joints_of(model, node.skin, rig_node, rig.file);
     RigMesh mesh = MeshReader(model, node.mesh, rig).read(node, static_cast<int>(joints.size()));
@@ -248,8 +267,8 @@ Interpolation interpolation_of(const std::string& name, const std::string& path,
     throw InputError(path, 0, field + "/interpolation", name, "expected LINEAR, STEP or CUBICSPLINE");
 }
 
-std::vector<double> key_times(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler, const std::string& path,
-                              const std::string& field)
+std::vector<double> key_times(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler,
+                              const std::string& path, const std::string& field)
 {
     const AccessorNumbers times = accessor_numbers(model, sampler.input, 1, path, field + "/input");
     if (times.rows() == 0) throw InputError(path, 0, field + "/input", "", "expected at least one key");
@@ -258,8 +277,8 @@ std::vector<double> key_times(const tinygltf::Model& model, const tinygltf::Anim
     return {times.data(), times.data() + times.size()};
 }
 
-KeyTrack track_of(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler, int components, const std::string& path,
-                  const std::string& field)
+KeyTrack track_of(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler, int components,
+                  const std::string& path, const std::string& field)
 {
     KeyTrack track;
     track.interpolation = interpolation_of(sampler.interpolation, path, field);
@@ -275,15 +294,16 @@ KeyTrack track_of(const tinygltf::Model& model, const tinygltf::AnimationSampler
         track.values.back().head(components) = values.row(v).transpose();
         const bool is_key = per_key == 1 || v % 3 == 1;  // between the tangents of a spline
         if (components == 4 && is_key && !(track.values.back().norm() > 0.0))
-            throw InputError(path, 0, field + "/output, key " + std::to_string(v / per_key), "", "expected a quaternion that is not zero");
+            throw InputError(path, 0, field + "/output, key " + std::to_string(v / per_key), "",
+                             "expected a quaternion that is not zero");
     }
     return track;
 }
 
-// The tracks of the weights of all morph targets of a mesh. For each key the file has those of all targets; for a spline it has first all
-// in-tangents, then all weights, then all out-tangents.
-std::vector<KeyTrack> morph_tracks(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler, std::size_t targets,
-                                   const std::string& path, const std::string& field)
+// The tracks of the weights of all morph targets of a mesh. For each key the file has those of all targets; for a
+// spline it has first all in-tangents, then all weights, then all out-tangents.
+std::vector<KeyTrack> morph_tracks(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler,
+                                   std::size_t targets, const std::string& path, const std::string& field)
 {
     KeyTrack track;
     track.interpolation = interpolation_of(sampler.interpolation, path, field);
@@ -291,28 +311,34 @@ std::vector<KeyTrack> morph_tracks(const tinygltf::Model& model, const tinygltf:
     const AccessorNumbers weights = accessor_numbers(model, sampler.output, 1, path, field + "/output");
     const std::size_t per_target = (track.interpolation == Interpolation::cubic_spline ? 3 : 1) * track.times_s.size();
     if (static_cast<std::size_t>(weights.rows()) != per_target * targets)
-        throw InputError(path, 0, field + "/output", std::to_string(weights.rows()),
-                         "expected " + std::to_string(per_target) + " for each of " + std::to_string(targets) + " morph targets");
+        throw InputError(
+            path, 0, field + "/output", std::to_string(weights.rows()),
+            "expected " + std::to_string(per_target) + " for each of " + std::to_string(targets) + " morph targets");
     std::vector<KeyTrack> tracks(targets, track);
     for (Eigen::Index w = 0; w < weights.rows(); ++w)
         tracks[static_cast<std::size_t>(w) % targets].values.emplace_back(weights(w, 0), 0.0, 0.0, 0.0);
     return tracks;
 }
 
-void check(const tinygltf::AnimationChannel& channel, const tinygltf::Model& model, std::size_t samplers, const std::string& path,
-           const std::string& field)
+void check(const tinygltf::AnimationChannel& channel, const tinygltf::Model& model, std::size_t samplers,
+           const std::string& path, const std::string& field)
 {
     if (channel.target_node >= static_cast<int>(model.nodes.size()))
-        throw InputError(path, 0, field + "/target/node", std::to_string(channel.target_node), "expected a node of the file");
+        throw InputError(path, 0, field + "/target/node", std::to_string(channel.target_node),
+                         "expected a node of the file");
     const bool is_of_weights = channel.target_path == "weights";
     if (!is_of_weights && !model.nodes[channel.target_node].matrix.empty())
-        throw InputError(path, 0, field + "/target/node", std::to_string(channel.target_node),
-                         "expected a node without a matrix, whose translation, rotation or scale the animation replaces: export the "
-                         "model with these three");
+        throw InputError(
+            path, 0, field + "/target/node", std::to_string(channel.target_node),
+            "expected a node without a matrix, whose translation, rotation or scale the animation replaces: export the "
+            "model with these three");
     if (channel.sampler < 0 || channel.sampler >= static_cast<int>(samplers))
-        throw InputError(path, 0, field + "/sampler", std::to_string(channel.sampler), "expected a sampler of the animation");
-    if (!is_of_weights && channel.target_path != "translation" && channel.target_path != "rotation" && channel.target_path != "scale")
-        throw InputError(path, 0, field + "/target/path", channel.target_path, "expected translation, rotation, scale or weights");
+        throw InputError(path, 0, field + "/sampler", std::to_string(channel.sampler),
+                         "expected a sampler of the animation");
+    if (!is_of_weights && channel.target_path != "translation" && channel.target_path != "rotation" &&
+        channel.target_path != "scale")
+        throw InputError(path, 0, field + "/target/path", channel.target_path,
+                         "expected translation, rotation, scale or weights");
 }
 
 RigAnimation animation_of(const tinygltf::Model& model, std::size_t index, const std::vector<int>& rig_node, Rig& rig)
@@ -342,7 +368,8 @@ RigAnimation animation_of(const tinygltf::Model& model, std::size_t index, const
         };
         if (channel.target_path == "weights") {
             if (targets_of(moved) == 0) {
-                rig.remarks.push_back("animation " + animation.name + ": its weights of node " + model.nodes[channel.target_node].name +
+                rig.remarks.push_back("animation " + animation.name + ": its weights of node " +
+                                      model.nodes[channel.target_node].name +
                                       " are left out, for no mesh with morph targets is shown there");
                 continue;
             }
@@ -371,8 +398,9 @@ void add_gltf_animations(const tinygltf::Model& model, const std::vector<int>& r
     }
     const auto is_morphed = [&](const RigMesh& mesh) {
         return std::ranges::any_of(rig.animations, [&](const RigAnimation& animation) {
-            return std::ranges::any_of(animation.nodes,
-                                       [&](const NodeTracks& tracks) { return tracks.node == mesh.node && !tracks.morph_weights.empty(); });
+            return std::ranges::any_of(animation.nodes, [&](const NodeTracks& tracks) {
+                return tracks.node == mesh.node && !tracks.morph_weights.empty();
+            });
         });
     };
     for (RigMesh& mesh : rig.meshes)
@@ -391,7 +419,8 @@ NodeTransform transform_of(const tinygltf::Node& node, const std::string& path, 
         Eigen::Affine3d matrix;
         matrix.matrix() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());  // by columns
         if (!node.translation.empty() || !node.rotation.empty() || !node.scale.empty())
-            throw InputError(path, 0, field + "/matrix", "", "expected a matrix or translation, rotation and scale, not both");
+            throw InputError(path, 0, field + "/matrix", "",
+                             "expected a matrix or translation, rotation and scale, not both");
         const Eigen::RowVector4d last(0.0, 0.0, 0.0, 1.0);
         if (!(matrix.matrix().row(3) - last).isZero(last_row_rounding))
             throw InputError(path, 0, field + "/matrix", "", "expected the last row 0, 0, 0, 1");
@@ -401,7 +430,8 @@ NodeTransform transform_of(const tinygltf::Node& node, const std::string& path, 
     transform.translation = vec3_or(node.translation, Vec3::Zero());
     transform.scale = vec3_or(node.scale, Vec3::Ones());
     if (node.rotation.size() == 4) transform.rotation = Eigen::Quaterniond(node.rotation.data());  // x, y, z, w
-    if (!(transform.rotation.norm() > 0.0)) throw InputError(path, 0, field + "/rotation", "", "expected a quaternion that is not zero");
+    if (!(transform.rotation.norm() > 0.0))
+        throw InputError(path, 0, field + "/rotation", "", "expected a quaternion that is not zero");
     transform.rotation.normalize();
     if (!transform.affine().matrix().allFinite()) throw InputError(path, 0, field, "", "expected finite numbers");
     return transform;
@@ -416,7 +446,8 @@ std::vector<int> parents_of(const tinygltf::Model& model, const std::string& pat
             const std::string field = "nodes/" + std::to_string(n) + "/children";
             if (child < 0 || child >= static_cast<int>(model.nodes.size()))
                 throw InputError(path, 0, field, std::to_string(child), "expected a node of the file");
-            if (parent[child] >= 0) throw InputError(path, 0, field, std::to_string(child), "expected one parent per node");
+            if (parent[child] >= 0)
+                throw InputError(path, 0, field, std::to_string(child), "expected one parent per node");
             parent[child] = static_cast<int>(n);
         }
     return parent;
@@ -461,7 +492,8 @@ void take_body_part(const tinygltf::Value& node, const std::string& part, const 
     rig.nodes[static_cast<std::size_t>(rig_node[static_cast<std::size_t>(number)])].body_part = part;
 }
 
-// The table in which VRM states which node is which part of a body: a list in its version 0, an object by parts since then.
+// The table in which VRM states which node is which part of a body: a list in its version 0, an object by parts since
+// then.
 void take_body_parts(const tinygltf::Model& model, const std::vector<int>& rig_node, Rig& rig)
 {
     for (const char* extension : {"VRM", "VRMC_vrm", "VRMC_vrm_animation"}) {
@@ -471,7 +503,8 @@ void take_body_parts(const tinygltf::Model& model, const std::vector<int>& rig_n
         for (std::size_t b = 0; bones.IsArray() && b < bones.ArrayLen(); ++b)
             if (const tinygltf::Value& part = member(bones.Get(static_cast<int>(b)), "bone"); part.IsString())
                 take_body_part(member(bones.Get(static_cast<int>(b)), "node"), part.Get<std::string>(), rig_node, rig);
-        for (const std::string& part : bones.Keys()) take_body_part(member(bones.Get(part), "node"), part, rig_node, rig);
+        for (const std::string& part : bones.Keys())
+            take_body_part(member(bones.Get(part), "node"), part, rig_node, rig);
     }
 }
 
@@ -484,15 +517,18 @@ std::vector<int> nodes_of_scene(const tinygltf::Model& model, const std::string&
         return shown;
     }
     const int scene = std::max(model.defaultScene, 0);
-    if (scene >= static_cast<int>(model.scenes.size())) throw InputError(path, 0, "scene", std::to_string(scene), "does not exist");
+    if (scene >= static_cast<int>(model.scenes.size()))
+        throw InputError(path, 0, "scene", std::to_string(scene), "does not exist");
     waiting = model.scenes[scene].nodes;
     while (!waiting.empty()) {
         const int n = waiting.back();
         waiting.pop_back();
         if (n < 0 || n >= static_cast<int>(model.nodes.size()))
-            throw InputError(path, 0, "scenes/" + std::to_string(scene) + "/nodes", std::to_string(n), "expected a node of the file");
+            throw InputError(path, 0, "scenes/" + std::to_string(scene) + "/nodes", std::to_string(n),
+                             "expected a node of the file");
         if (shown.size() == model.nodes.size())
-            throw InputError(path, 0, "scenes/" + std::to_string(scene) + "/nodes", std::to_string(n), "expected each node once");
+            throw InputError(path, 0, "scenes/" + std::to_string(scene) + "/nodes", std::to_string(n),
+                             "expected each node once");
         shown.push_back(n);
         waiting.insert(waiting.end(), model.nodes[n].children.begin(), model.nodes[n].children.end());
     }

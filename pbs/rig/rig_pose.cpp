@@ -11,7 +11,7 @@
 namespace pbs {
 namespace {
 
-constexpr double same_scale = 1e-3;      // relative; scales of an animation that differ less are rounding of the exporter
+constexpr double same_scale = 1e-3;  // relative; scales of an animation that differ less are rounding of the exporter
 constexpr double same_bind_pose = 1e-3;  // relative to a joint's matrix, single precision with some products
 
 // The keys around a time, and how far it lies between them, 0 to 1.
@@ -23,7 +23,8 @@ struct Between {
 Between keys_around(const KeyTrack& track, double time_s)
 {
     const auto& times_s = track.times_s;
-    const auto after = static_cast<std::size_t>(std::upper_bound(times_s.begin(), times_s.end(), time_s) - times_s.begin());
+    const auto after =
+        static_cast<std::size_t>(std::upper_bound(times_s.begin(), times_s.end(), time_s) - times_s.begin());
     if (after == 0) return {};
     if (after == times_s.size()) return {after - 1, after - 1};
     const double distance_s = times_s[after] - times_s[after - 1];
@@ -35,7 +36,8 @@ Eigen::Vector4d cubic_value(const KeyTrack& track, const Between& at)
 {
     const double t = at.share, t2 = t * t, t3 = t2 * t;
     const auto& values = track.values;
-    return (2.0 * t3 - 3.0 * t2 + 1.0) * values[3 * at.before + 1] + at.distance_s * (t3 - 2.0 * t2 + t) * values[3 * at.before + 2] +
+    return (2.0 * t3 - 3.0 * t2 + 1.0) * values[3 * at.before + 1] +
+           at.distance_s * (t3 - 2.0 * t2 + t) * values[3 * at.before + 2] +
            (3.0 * t2 - 2.0 * t3) * values[3 * at.after + 1] + at.distance_s * (t3 - t2) * values[3 * at.after];
 }
 
@@ -107,7 +109,8 @@ RigMesh carried_by(int carrier, RigMesh mesh, const std::vector<Eigen::Affine3d>
     return mesh;
 }
 
-std::vector<RigMesh> moved_meshes(const Rig& rig, const std::vector<Eigen::Affine3d>& rest, std::vector<std::string>& remarks)
+std::vector<RigMesh> moved_meshes(const Rig& rig, const std::vector<Eigen::Affine3d>& rest,
+                                  std::vector<std::string>& remarks)
 {
     const std::set<int> moving = moving_nodes(rig);
     std::vector<RigMesh> meshes;
@@ -116,7 +119,8 @@ std::vector<RigMesh> moved_meshes(const Rig& rig, const std::vector<Eigen::Affin
         if (!mesh.joints.empty())
             meshes.push_back(mesh);
         else if (carrier >= 0 && !(scale_of(rest[carrier]) > 0.0))
-            remarks.push_back("mesh " + mesh.name + " is left out: its node " + rig.nodes[carrier].name + " has scale 0 at rest");
+            remarks.push_back("mesh " + mesh.name + " is left out: its node " + rig.nodes[carrier].name +
+                              " has scale 0 at rest");
         else if (carrier >= 0)
             meshes.push_back(carried_by(carrier, mesh, rest));
         else if (moving.empty() || (!mesh.morphs.displacements.empty() && scale_of(rest[mesh.node]) > 0.0))
@@ -124,7 +128,8 @@ std::vector<RigMesh> moved_meshes(const Rig& rig, const std::vector<Eigen::Affin
         else
             remarks.push_back("mesh " + mesh.name + " is moved by no joint; it is left out");
     }
-    std::stable_sort(meshes.begin(), meshes.end(), [](const RigMesh& a, const RigMesh& b) { return a.points.rows() > b.points.rows(); });
+    std::stable_sort(meshes.begin(), meshes.end(),
+                     [](const RigMesh& a, const RigMesh& b) { return a.points.rows() > b.points.rows(); });
     return meshes;
 }
 
@@ -134,11 +139,13 @@ const SkinJoint& root_joint(const RigMesh& mesh)
     return *std::ranges::min_element(mesh.joints, {}, &SkinJoint::node);
 }
 
-// From the mesh's coordinates to rest space: by a joint whose bind pose is known from a larger mesh, or else by its own root joint.
+// From the mesh's coordinates to rest space: by a joint whose bind pose is known from a larger mesh, or else by its own
+// root joint.
 Eigen::Affine3d mesh_to_rest(const RigMesh& mesh, const RigBinding& binding, const std::vector<Eigen::Affine3d>& rest)
 {
     for (const SkinJoint& joint : mesh.joints)
-        if (const auto known = binding.bind.find(joint.node); known != binding.bind.end()) return known->second * joint.inverse_bind;
+        if (const auto known = binding.bind.find(joint.node); known != binding.bind.end())
+            return known->second * joint.inverse_bind;
     const SkinJoint& root = root_joint(mesh);
     return rest[root.node] * root.inverse_bind;
 }
@@ -152,15 +159,16 @@ Positions blended(const Positions& points, const Weights& skin, const std::vecto
     return moved;
 }
 
-// The size of a pose over that of the bind pose: that of the joint with as much weight on smaller joints as on larger ones, for a single
-// one may be scaled for its looks. A node that scales them all, as converters put it above a model, may be below a root joint that moves
-// no point.
+// The size of a pose over that of the bind pose: that of the joint with as much weight on smaller joints as on larger
+// ones, for a single one may be scaled for its looks. A node that scales them all, as converters put it above a model,
+// may be below a root joint that moves no point.
 double size_of_pose(const Rig& rig, const RigAnimation* animation, const RigBinding& binding)
 {
     const std::vector<Eigen::Affine3d> pose = node_transforms(rig, animation, animation ? animation->start_s : 0.0);
     std::map<int, double> weight;  // of each joint
     for (const RigMesh& mesh : binding.meshes)
-        for (std::size_t e = 0; e < mesh.skin.bone.size(); ++e) weight[mesh.joints[mesh.skin.bone[e]].node] += mesh.skin.weight[e];
+        for (std::size_t e = 0; e < mesh.skin.bone.size(); ++e)
+            weight[mesh.joints[mesh.skin.bone[e]].node] += mesh.skin.weight[e];
     std::vector<std::tuple<double, int, double>> sizes;  // of a joint, the joint and its weight
     double rest = 0.0;
     for (const auto& [node, own] : weight) {
@@ -178,7 +186,8 @@ double size_of_pose(const Rig& rig, const RigAnimation* animation, const RigBind
 }
 
 // With scales as linear blending has them, and by dual quaternions of the rotations and translations.
-Positions blended_by_dual_quaternions(const Positions& points, const Weights& skin, const std::vector<Eigen::Affine3d>& from_mesh)
+Positions blended_by_dual_quaternions(const Positions& points, const Weights& skin,
+                                      const std::vector<Eigen::Affine3d>& from_mesh)
 {
     Pose pose;
     std::vector<Eigen::Affine3d> scales;
@@ -203,9 +212,10 @@ void add_bind_pose(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& rest
         contradictions += !added && !known->second.isApprox(bind, same_bind_pose);
     }
     if (contradictions > 0)
-        binding.remarks.push_back("mesh " + mesh.name + " was bound to " + std::to_string(contradictions) + " of " +
-                                  std::to_string(mesh.joints.size()) +
-                                  " joints in another pose than a larger mesh; it was brought into the larger mesh's pose");
+        binding.remarks.push_back(
+            "mesh " + mesh.name + " was bound to " + std::to_string(contradictions) + " of " +
+            std::to_string(mesh.joints.size()) +
+            " joints in another pose than a larger mesh; it was brought into the larger mesh's pose");
 }
 
 }  // namespace
@@ -221,7 +231,8 @@ void RigLook::put(Eigen::Index first_point, Eigen::Index column, const decltype(
     const Eigen::Index points = std::max(numbers.rows(), first_point + rows.rows()),
                        columns = std::max(numbers.cols(), column + rows.cols());
     numbers.conservativeResizeLike(decltype(numbers)::Zero(points, columns));
-    numbers.block(first_point, column, rows.rows(), rows.cols()) = rows.unaryExpr([](float x) { return std::isfinite(x) ? x : 0.0F; });
+    numbers.block(first_point, column, rows.rows(), rows.cols()) =
+        rows.unaryExpr([](float x) { return std::isfinite(x) ? x : 0.0F; });
 }
 
 void RigLook::append(const RigLook& other, Eigen::Index points, Eigen::Index triangles)
@@ -239,7 +250,8 @@ const RigAnimation* find_animation(const Rig& rig, const std::string& name)
         if (animation.name == name) return &animation;
         names += (names.empty() ? "" : ", ") + animation.name;
     }
-    throw InputError(rig.file, 0, "animation", name, names.empty() ? "the file has no animation" : "expected one of " + names);
+    throw InputError(rig.file, 0, "animation", name,
+                     names.empty() ? "the file has no animation" : "expected one of " + names);
 }
 
 Vec3 vector_at(const KeyTrack& track, double time_s)
@@ -268,7 +280,8 @@ std::vector<Eigen::Affine3d> node_transforms(const Rig& rig, const RigAnimation*
     std::vector<FbxPlacement> placements;
     for (std::size_t n = 0; n < rig.nodes.size(); ++n) {
         const RigNode& node = rig.nodes[n];
-        placements.push_back(placed(node, tracks_of[n], time_s, node.parent < 0 ? FbxPlacement{} : placements[node.parent]));
+        placements.push_back(
+            placed(node, tracks_of[n], time_s, node.parent < 0 ? FbxPlacement{} : placements[node.parent]));
     }
     std::vector<Eigen::Affine3d> transforms;
     for (const FbxPlacement& placement : placements) transforms.push_back(placement.world);
@@ -287,7 +300,8 @@ Positions morphed_points(const RigMesh& mesh, const RigAnimation* animation, dou
     for (const NodeTracks& tracks : animation->nodes) {
         if (tracks.node != mesh.node) continue;
         for (std::size_t k = 0; k < tracks.morph_weights.size(); ++k)
-            points += (vector_at(tracks.morph_weights[k], time_s).x() - mesh.morphs.rest_weights[k]) * mesh.morphs.displacements[k];
+            points += (vector_at(tracks.morph_weights[k], time_s).x() - mesh.morphs.rest_weights[k]) *
+                      mesh.morphs.displacements[k];
     }
     return points;
 }
@@ -297,11 +311,13 @@ Positions skinned_points(const RigMesh& mesh, const std::vector<Eigen::Affine3d>
     return skinned_points(mesh, node_transforms, mesh.points);
 }
 
-Positions skinned_points(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& node_transforms, const Positions& points)
+Positions skinned_points(const RigMesh& mesh, const std::vector<Eigen::Affine3d>& node_transforms,
+                         const Positions& points)
 {
     Positions moved(points.rows(), 3);
     if (mesh.joints.empty()) {
-        for (Eigen::Index p = 0; p < points.rows(); ++p) moved.row(p) = node_transforms[mesh.node] * Vec3(points.row(p));
+        for (Eigen::Index p = 0; p < points.rows(); ++p)
+            moved.row(p) = node_transforms[mesh.node] * Vec3(points.row(p));
         return moved;
     }
     std::vector<Eigen::Affine3d> from_mesh;  // W_j B_j^-1

@@ -32,13 +32,14 @@ bool is_index(int index, std::size_t count)
 
 bool is_sound(const NodeTransform& rest)
 {
-    return bounded(rest.translation) && bounded(rest.rotation.coeffs()) && rest.rotation.norm() > 0.0 && bounded(rest.scale) &&
-           (!rest.matrix || bounded(rest.matrix->matrix()));
+    return bounded(rest.translation) && bounded(rest.rotation.coeffs()) && rest.rotation.norm() > 0.0 &&
+           bounded(rest.scale) && (!rest.matrix || bounded(rest.matrix->matrix()));
 }
 
 bool is_sound(const Weights& skin, Eigen::Index points, std::size_t joints)
 {
-    return skin.vertices() == points && skin.first.front() == 0 && std::is_sorted(skin.first.begin(), skin.first.end()) &&
+    return skin.vertices() == points && skin.first.front() == 0 &&
+           std::is_sorted(skin.first.begin(), skin.first.end()) &&
            skin.first.back() == static_cast<int>(skin.bone.size()) && skin.weight.size() == skin.bone.size() &&
            std::ranges::all_of(skin.bone, [&](int joint) { return is_index(joint, joints); }) &&
            std::ranges::all_of(skin.weight, [](double weight) { return weight >= 0.0 && weight <= 1.0 + 1e-9; });
@@ -49,9 +50,12 @@ bool is_sound(const RigMesh& mesh, std::size_t nodes)
     const auto points = static_cast<std::size_t>(mesh.points.rows());
     return is_index(mesh.node, nodes) &&
            std::ranges::all_of(mesh.triangles.reshaped(), [&](int corner) { return is_index(corner, points); }) &&
-           mesh.look.numbers.rows() <= mesh.points.rows() && mesh.look.material.size() <= static_cast<std::size_t>(mesh.triangles.rows()) &&
-           std::ranges::all_of(
-               mesh.joints, [&](const SkinJoint& joint) { return is_index(joint.node, nodes) && bounded(joint.inverse_bind.matrix()); }) &&
+           mesh.look.numbers.rows() <= mesh.points.rows() &&
+           mesh.look.material.size() <= static_cast<std::size_t>(mesh.triangles.rows()) &&
+           std::ranges::all_of(mesh.joints,
+                               [&](const SkinJoint& joint) {
+                                   return is_index(joint.node, nodes) && bounded(joint.inverse_bind.matrix());
+                               }) &&
            (mesh.dual_quaternion_share.empty() || mesh.dual_quaternion_share.size() == points) &&
            (mesh.joints.empty() || is_sound(mesh.skin, mesh.points.rows(), mesh.joints.size()));
 }
@@ -61,39 +65,40 @@ bool is_sound(const std::optional<KeyTrack>& track)
     if (!track) return true;
     const auto& times = track->times_s;
     const std::size_t per_key = track->interpolation == Interpolation::cubic_spline ? 3 : 1;
-    return !times.empty() && std::is_sorted(times.begin(), times.end()) && std::isfinite(times.front()) && std::isfinite(times.back()) &&
-           track->values.size() == per_key * times.size() &&
+    return !times.empty() && std::is_sorted(times.begin(), times.end()) && std::isfinite(times.front()) &&
+           std::isfinite(times.back()) && track->values.size() == per_key * times.size() &&
            std::ranges::all_of(track->values, [](const Eigen::Vector4d& value) { return bounded(value); });
 }
 
 bool is_sound(const std::optional<FbxTransform>& node)
 {
-    return !node || (std::ranges::all_of(node->lcl, bounded<Vec3>) && bounded(node->rotation_offset) && bounded(node->rotation_pivot) &&
-                     bounded(node->scaling_offset) && bounded(node->scaling_pivot) && bounded(node->pre_rotation_deg) &&
-                     bounded(node->post_rotation_deg));
+    return !node || (std::ranges::all_of(node->lcl, bounded<Vec3>) && bounded(node->rotation_offset) &&
+                     bounded(node->rotation_pivot) && bounded(node->scaling_offset) && bounded(node->scaling_pivot) &&
+                     bounded(node->pre_rotation_deg) && bounded(node->post_rotation_deg));
 }
 
 bool is_sound(const std::optional<FbxCurve>& curve)
 {
-    return !curve ||
-           (!curve->empty() && std::ranges::is_sorted(*curve, {}, &FbxKey::time_s) && std::ranges::all_of(*curve, [](const FbxKey& key) {
-               return std::isfinite(key.time_s) && std::abs(key.value) <= farthest && std::isfinite(key.slope) &&
-                      std::isfinite(key.next_slope);
-           }));
+    return !curve || (!curve->empty() && std::ranges::is_sorted(*curve, {}, &FbxKey::time_s) &&
+                      std::ranges::all_of(*curve, [](const FbxKey& key) {
+                          return std::isfinite(key.time_s) && std::abs(key.value) <= farthest &&
+                                 std::isfinite(key.slope) && std::isfinite(key.next_slope);
+                      }));
 }
 
 bool is_sound(const FbxTracks& tracks)
 {
-    return std::ranges::all_of(
-        tracks, [](const auto& axes) { return std::ranges::all_of(axes, [](const auto& curve) { return is_sound(curve); }); });
+    return std::ranges::all_of(tracks, [](const auto& axes) {
+        return std::ranges::all_of(axes, [](const auto& curve) { return is_sound(curve); });
+    });
 }
 
 bool is_sound(const RigAnimation& animation, std::size_t nodes)
 {
     return std::isfinite(animation.start_s) && std::isfinite(animation.end_s) && animation.start_s <= animation.end_s &&
            std::ranges::all_of(animation.nodes, [&](const NodeTracks& tracks) {
-               return is_index(tracks.node, nodes) && is_sound(tracks.translation) && is_sound(tracks.rotation) && is_sound(tracks.scale) &&
-                      is_sound(tracks.fbx);
+               return is_index(tracks.node, nodes) && is_sound(tracks.translation) && is_sound(tracks.rotation) &&
+                      is_sound(tracks.scale) && is_sound(tracks.fbx);
            });
 }
 
@@ -111,7 +116,8 @@ std::vector<JointShare> merged(const std::vector<JointShare>& shares)
     return merged;
 }
 
-// The first of equal names stays, the others are "NAME (2)", "NAME (3)", ..., without a number that makes the name of another animation.
+// The first of equal names stays, the others are "NAME (2)", "NAME (3)", ..., without a number that makes the name of
+// another animation.
 void tell_apart(std::vector<RigAnimation>& animations)
 {
     std::set<std::string> names;
@@ -149,7 +155,8 @@ Rig read_any_rig(const std::string& path)
     require_readable(path, most_mesh_bytes);
     const RigFormat format = format_of(path);
     if (format == RigFormat::none)
-        throw InputError(path, 0, "", "", "no rig: expected glTF 2.0 (.glb, .gltf), FBX (.fbx) or COLLADA (.dae, .zae)");
+        throw InputError(path, 0, "", "",
+                         "no rig: expected glTF 2.0 (.glb, .gltf), FBX (.fbx) or COLLADA (.dae, .zae)");
     return checked(read_guarded(path, "rig",
                                 format == RigFormat::gltf  ? read_gltf_rig
                                 : format == RigFormat::fbx ? read_fbx_rig
@@ -171,7 +178,8 @@ RigMaterials read_materials(const std::string& path)
 {
     RigMaterials materials;
     try {
-        materials = read_guarded(path, "materials", format_of(path) == RigFormat::gltf ? read_gltf_materials : read_assimp_materials);
+        materials = read_guarded(path, "materials",
+                                 format_of(path) == RigFormat::gltf ? read_gltf_materials : read_assimp_materials);
     } catch (const InputError& error) {  // a surface needs none
         materials.remarks = {error.what()};
     }
@@ -206,8 +214,8 @@ Rig checked(Rig rig)
     return rig;
 }
 
-Weights normalised_skin(const std::vector<std::vector<JointShare>>& points, const std::string& file, const std::string& mesh,
-                        std::vector<std::string>& remarks, std::vector<std::string>& notes)
+Weights normalised_skin(const std::vector<std::vector<JointShare>>& points, const std::string& file,
+                        const std::string& mesh, std::vector<std::string>& remarks, std::vector<std::string>& notes)
 {
     Weights skin;
     skin.first.push_back(0);
@@ -222,8 +230,8 @@ Weights normalised_skin(const std::vector<std::vector<JointShare>>& points, cons
                 share.weight = 0.0;
             }
             if (!(share.weight >= 0.0 && std::isfinite(share.weight)))
-                throw InputError(file, 0, "mesh " + mesh + ", weight of point " + std::to_string(p), number_text(share.weight),
-                                 "expected a finite number of 0 or more");
+                throw InputError(file, 0, "mesh " + mesh + ", weight of point " + std::to_string(p),
+                                 number_text(share.weight), "expected a finite number of 0 or more");
             sum += share.weight;
         }
         if (!(sum > 0.0)) {
@@ -237,14 +245,18 @@ Weights normalised_skin(const std::vector<std::vector<JointShare>>& points, cons
         skin.end_vertex();
     }
     if (without_weight > 0 && without_weight == static_cast<int>(points.size()))
-        throw InputError(file, 0, "mesh " + mesh + ", weights", "0", "expected a point with a weight: the mesh has a skin");
+        throw InputError(file, 0, "mesh " + mesh + ", weights", "0",
+                         "expected a point with a weight: the mesh has a skin");
     const std::string of_mesh = " of the " + std::to_string(points.size()) + " points of mesh " + mesh;
     if (without_weight > 0)
-        remarks.push_back(std::to_string(without_weight) + of_mesh + " have no weight; they follow the first joint of the skin");
+        remarks.push_back(std::to_string(without_weight) + of_mesh +
+                          " have no weight; they follow the first joint of the skin");
     if (lowest < 0.0)
-        notes.push_back("negative weights of mesh " + mesh + ", down to " + number_text(lowest, 2) + ", are taken as 0, as a rounding");
+        notes.push_back("negative weights of mesh " + mesh + ", down to " + number_text(lowest, 2) +
+                        ", are taken as 0, as a rounding");
     if (other_sums > 0)
-        notes.push_back("the weights of " + std::to_string(other_sums) + of_mesh + " do not sum to one; they were divided by their sum");
+        notes.push_back("the weights of " + std::to_string(other_sums) + of_mesh +
+                        " do not sum to one; they were divided by their sum");
     return skin;
 }
 

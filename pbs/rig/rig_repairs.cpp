@@ -1,4 +1,5 @@
-// Repairs of a rig's meshes that move no point: weights that are no numbers, second sides of shells, and points without a triangle.
+// Repairs of a rig's meshes that move no point: weights that are no numbers, second sides of shells, and points without
+// a triangle.
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/rig/rig_reader.hpp"
@@ -13,8 +14,8 @@ namespace pbs {
 namespace {
 
 constexpr int points_per_bad_one = 100;  // at least: of more bad ones the neighbours say nothing
-// The square of the length of a shell's edges of one triangle, over its area: 4 pi for a disc, 0 for a closed body, and below 1 for a body
-// with openings for its eyes and its neck.
+// The square of the length of a shell's edges of one triangle, over its area: 4 pi for a disc, 0 for a closed body, and
+// below 1 for a body with openings for its eyes and its neck.
 constexpr double most_open = 1.0;
 
 // 14,293
@@ -40,14 +41,16 @@ std::vector<int> first_at_place(const Positions& points)
 {
     std::map<std::array<double, 3>, int> first;
     std::vector<int> place;
-    for (int p = 0; p < points.rows(); ++p) place.push_back(first.try_emplace({points(p, 0), points(p, 1), points(p, 2)}, p).first->second);
+    for (int p = 0; p < points.rows(); ++p)
+        place.push_back(first.try_emplace({points(p, 0), points(p, 1), points(p, 2)}, p).first->second);
     return place;
 }
 
 // The places of a mesh whose weights are known, and how they become those of their neighbours.
 class WeightsByPlace {
 public:
-    WeightsByPlace(const std::vector<std::vector<JointShare>>& points, const RigMesh& mesh) : place_(first_at_place(mesh.points))
+    WeightsByPlace(const std::vector<std::vector<JointShare>>& points, const RigMesh& mesh)
+        : place_(first_at_place(mesh.points))
     {
         for (std::size_t p = 0; p < points.size(); ++p)
             if (has_numbers(points[p])) known_.try_emplace(place_[p], points[p]);
@@ -102,7 +105,8 @@ struct TwoSided {
 
     std::array<std::pair<int, int>, 3> edges() const
     {
-        return {std::pair(corners[0], corners[1]), std::pair(corners[1], corners[2]), std::pair(corners[0], corners[2])};
+        return {std::pair(corners[0], corners[1]), std::pair(corners[1], corners[2]),
+                std::pair(corners[0], corners[2])};
     }
 
     bool is_doubled() const { return side[0].size() == 1 && side[1].size() == 1; }
@@ -128,7 +132,8 @@ public:
         }
     }
 
-    // Of each triangle whether it is on the second side of a nearly closed shell, all of which or a part of which has two sides, #F.
+    // Of each triangle whether it is on the second side of a nearly closed shell, all of which or a part of which has
+    // two sides, #F.
     std::vector<bool> second_sides()
     {
         std::vector<bool> is_second(static_cast<std::size_t>(triangles_.rows()));
@@ -139,7 +144,9 @@ public:
         for (std::size_t f = 0; f < faces_.size(); ++f) {
             if (facing_[f] >= 0) continue;
             const std::vector<std::size_t> shell = shell_from(f);
-            const auto is_known = [&](std::size_t face) { return faces_[face].is_doubled() || faces_[face].is_single(); };
+            const auto is_known = [&](std::size_t face) {
+                return faces_[face].is_doubled() || faces_[face].is_single();
+            };
             if (!std::ranges::all_of(shell, is_known) || !is_nearly_closed(shell)) continue;
             const int inner = is_outward(shell) ? 1 : 0;
             for (const std::size_t face : shell)
@@ -186,8 +193,8 @@ private:
         return open * open <= most_open * area;
     }
 
-    // Whether the sides that face as the first one does are the first sides: those of most triangles that have one side alone. Where all
-    // have two, they are those that enclose a volume and are not inside out.
+    // Whether the sides that face as the first one does are the first sides: those of most triangles that have one side
+    // alone. Where all have two, they are those that enclose a volume and are not inside out.
     bool is_outward(const std::vector<std::size_t>& shell) const
     {
         long as_first = 0;
@@ -205,7 +212,8 @@ private:
     const Triangles& triangles_;
     std::vector<TwoSided> faces_;
     std::map<std::pair<int, int>, std::vector<std::size_t>> at_edge_;
-    std::vector<int> facing_;  // of each face the side that faces as that of the first face of its shell, -1: in no shell yet
+    // of each face the side that faces as that of the first face of its shell, -1: in no shell yet
+    std::vector<int> facing_;
 };
 
 void keep_triangles(const std::vector<int>& kept, RigMesh& mesh)
@@ -222,16 +230,19 @@ void keep_triangles(const std::vector<int>& kept, RigMesh& mesh)
 void keep_points(const std::vector<int>& kept, RigMesh& mesh)
 {
     if (mesh.look.numbers.size() > 0) {
-        mesh.look.numbers.conservativeResizeLike(decltype(mesh.look.numbers)::Zero(mesh.points.rows(), mesh.look.numbers.cols()));
+        mesh.look.numbers.conservativeResizeLike(
+            decltype(mesh.look.numbers)::Zero(mesh.points.rows(), mesh.look.numbers.cols()));
         mesh.look.numbers = decltype(mesh.look.numbers)(mesh.look.numbers(kept, Eigen::all));
     }
     mesh.points = Positions(mesh.points(kept, Eigen::all));
-    for (Positions& displacements : mesh.morphs.displacements) displacements = Positions(displacements(kept, Eigen::all));
+    for (Positions& displacements : mesh.morphs.displacements)
+        displacements = Positions(displacements(kept, Eigen::all));
     if (mesh.joints.empty()) return;
     Weights skin;
     skin.first.push_back(0);
     for (const int p : kept) {
-        for (int e = mesh.skin.first[p]; e < mesh.skin.first[p + 1]; ++e) skin.add(mesh.skin.bone[e], mesh.skin.weight[e]);
+        for (int e = mesh.skin.first[p]; e < mesh.skin.first[p + 1]; ++e)
+            skin.add(mesh.skin.bone[e], mesh.skin.weight[e]);
         skin.end_vertex();
     }
     mesh.skin = std::move(skin);
@@ -239,28 +250,32 @@ void keep_points(const std::vector<int>& kept, RigMesh& mesh)
 
 }  // namespace
 
-std::vector<std::vector<JointShare>> with_weights_of_neighbours(std::vector<std::vector<JointShare>> points, const RigMesh& mesh,
-                                                                const std::string& file, std::vector<std::string>& remarks)
+std::vector<std::vector<JointShare>> with_weights_of_neighbours(std::vector<std::vector<JointShare>> points,
+                                                                const RigMesh& mesh, const std::string& file,
+                                                                std::vector<std::string>& remarks)
 {
-    const auto bad = static_cast<std::size_t>(std::ranges::count_if(points, [](const auto& shares) { return !has_numbers(shares); }));
+    const auto bad = static_cast<std::size_t>(
+        std::ranges::count_if(points, [](const auto& shares) { return !has_numbers(shares); }));
     if (bad == 0) return points;
     const std::string field = "mesh " + mesh.name + ", weights", value = count_of(bad, points.size()) + " points";
     if (points_per_bad_one * bad > points.size())
-        throw InputError(
-            file, 0, field, value,
-            "are no finite numbers: expected at most 1 %, which take the weights of their neighbours; normalise the weights in "
-            "the program that made the model, and export it again");
+        throw InputError(file, 0, field, value,
+                         "are no finite numbers: expected at most 1 %, which take the weights of their neighbours; "
+                         "normalise the weights in "
+                         "the program that made the model, and export it again");
     WeightsByPlace weights(points, mesh);
     weights.spread();
     for (std::size_t p = 0; p < points.size(); ++p) {
         if (has_numbers(points[p])) continue;
         const std::vector<JointShare>* const own = weights.at(p);
         if (own == nullptr)
-            throw InputError(file, 0, field, value,
-                             "are no finite numbers, and point " + std::to_string(p) + " has no neighbour with weights");
+            throw InputError(
+                file, 0, field, value,
+                "are no finite numbers, and point " + std::to_string(p) + " has no neighbour with weights");
         points[p] = *own;
     }
-    remarks.push_back("the weights of " + value + " of mesh " + mesh.name + " are no finite numbers; they take those of their neighbours");
+    remarks.push_back("the weights of " + value + " of mesh " + mesh.name +
+                      " are no finite numbers; they take those of their neighbours");
     return points;
 }
 
@@ -272,8 +287,9 @@ void leave_out_second_sides_and_unused_points(Rig& rig)
         for (int f = 0; f < static_cast<int>(is_second.size()); ++f)
             if (!is_second[f]) kept.push_back(f);
         if (kept.size() < is_second.size()) {
-            rig.remarks.push_back(count_of(is_second.size() - kept.size(), is_second.size()) + " triangles of mesh " + mesh.name +
-                                  " are the second side of others, with their corners in the reverse order; they are left out");
+            rig.remarks.push_back(
+                count_of(is_second.size() - kept.size(), is_second.size()) + " triangles of mesh " + mesh.name +
+                " are the second side of others, with their corners in the reverse order; they are left out");
             keep_triangles(kept, mesh);
         }
         const auto points = static_cast<std::size_t>(mesh.points.rows());

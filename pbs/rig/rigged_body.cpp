@@ -12,8 +12,9 @@
 namespace pbs {
 namespace {
 
-constexpr double same_place = 1e-3;        // of the skeleton's extent: nearer joints do not define a direction
-constexpr double least_agreement = 0.5;    // of the mean distance of the joints below: a middle nearer than that is no direction
+constexpr double same_place = 1e-3;  // of the skeleton's extent: nearer joints do not define a direction
+constexpr double least_agreement =
+    0.5;  // of the mean distance of the joints below: a middle nearer than that is no direction
 constexpr double share_to_farthest = 0.9;  // a bone without a joint below ends inside the flesh
 constexpr double share_of_parent = 0.3;    // the length of a bone whose points say nothing about it
 
@@ -26,20 +27,25 @@ struct JointBelow {
     double weight = 0.0;
 };
 
-// The tails of all bones of a body, whose heads, surface and skin are known: a rig's file says only where its joints are. A bone ends
+// The tails of all bones of a body, whose heads, surface and skin are known: a rig's file says only where its joints
+// are. A bone ends
 // - at the joint below its own joint, whether that joint is a bone or not;
 // - where several are below, in their middle, or at the one that moves most if they lie on opposite sides;
-// - where none is below, at nine tenths of the way to the farthest point that it moves, in the direction of the middle of these points, or
+// - where none is below, at nine tenths of the way to the farthest point that it moves, in the direction of the middle
+// of these points, or
 //   of its parent if that middle is at the joint.
 class Tails {
 public:
-    Tails(const Rig& rig, RiggedBody& body) : rig_(rig), body_(body), weight_(rig.nodes.size()), has_mesh_(rig.nodes.size())
+    Tails(const Rig& rig, RiggedBody& body)
+        : rig_(rig), body_(body), weight_(rig.nodes.size()), has_mesh_(rig.nodes.size())
     {
         place_ = bind_places(node_transforms(rig, nullptr, 0.0));
         extent_m_ = diagonal_m(body.surface);
         for (const RigMesh& mesh : rig.meshes) has_mesh_[mesh.node] = true;
-        for (std::size_t e = 0; e < body.skin.bone.size(); ++e) weight_[body.node[body.skin.bone[e]]] += body.skin.weight[e];
-        for (std::size_t n = rig.nodes.size(); n-- > 0;)  // children come after their parents: one pass sums the subtrees
+        for (std::size_t e = 0; e < body.skin.bone.size(); ++e)
+            weight_[body.node[body.skin.bone[e]]] += body.skin.weight[e];
+        // children come after their parents: one pass sums the subtrees
+        for (std::size_t n = rig.nodes.size(); n-- > 0;)
             if (const int parent = rig.nodes[n].parent; parent >= 0) weight_[parent] += weight_[n];
     }
 
@@ -116,7 +122,9 @@ private:
         if (along.norm() <= same_place * extent_m_) along = Vec3::UnitY();
         along.normalize();
         const double farthest_m = farthest_point(b, along);
-        return bone.head + (farthest_m > same_place * extent_m_ ? share_to_farthest * farthest_m : share_of_parent * parent_m) * along;
+        return bone.head +
+               (farthest_m > same_place * extent_m_ ? share_to_farthest * farthest_m : share_of_parent * parent_m) *
+                   along;
     }
 
     // Among the points that the bone moves more than all others together, or among all that it moves if there are none.
@@ -152,7 +160,8 @@ std::map<int, double> weight_of_nodes(const RigBinding& binding)
     std::map<int, double> weights;
     for (const auto& [node, bind] : binding.bind) weights[node] = 0.0;
     for (const RigMesh& mesh : binding.meshes)
-        for (std::size_t e = 0; e < mesh.skin.bone.size(); ++e) weights[mesh.joints[mesh.skin.bone[e]].node] += mesh.skin.weight[e];
+        for (std::size_t e = 0; e < mesh.skin.bone.size(); ++e)
+            weights[mesh.joints[mesh.skin.bone[e]].node] += mesh.skin.weight[e];
     return weights;
 }
 
@@ -170,7 +179,8 @@ std::string unused_name(const std::string& name, const Skeleton& skeleton)
         if (const std::string other = name + " " + std::to_string(number); find_bone(skeleton, other) < 0) return other;
 }
 
-// Bones with their heads; returns the bone of each node. Nodes are in the order of the tree, so that parents come first.
+// Bones with their heads; returns the bone of each node. Nodes are in the order of the tree, so that parents come
+// first.
 std::map<int, int> add_bones(const Rig& rig, RiggedBody& body)
 {
     std::map<int, int> bone_of_node;
@@ -180,7 +190,8 @@ std::map<int, int> add_bones(const Rig& rig, RiggedBody& body)
             continue;
         }
         const std::string name = unused_name(name_of(rig, node), body.skeleton);
-        if (name != name_of(rig, node)) body.notes.push_back("two joints are named " + name_of(rig, node) + "; one is called " + name);
+        if (name != name_of(rig, node))
+            body.notes.push_back("two joints are named " + name_of(rig, node) + "; one is called " + name);
         const Vec3 head = body.binding.bind.at(node).translation();
         const int parent = bone_above(node, rig, bone_of_node);
         bone_of_node[node] = static_cast<int>(body.skeleton.bones.size());
@@ -250,22 +261,26 @@ bool is_rigged(const Rig& rig)
 }
 
 // From rest space to the posed scene [m].
-std::vector<Eigen::Affine3d> bone_transforms(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms)
+std::vector<Eigen::Affine3d> bone_transforms(const RiggedBody& body,
+                                             const std::vector<Eigen::Affine3d>& node_transforms)
 {
     std::vector<Eigen::Affine3d> transforms;
     for (const int node : body.node)
-        transforms.push_back(Eigen::Scaling(body.binding.metres_per_unit) * node_transforms[node] * body.binding.bind.at(node).inverse());
+        transforms.push_back(Eigen::Scaling(body.binding.metres_per_unit) * node_transforms[node] *
+                             body.binding.bind.at(node).inverse());
     return transforms;
 }
 
 // The way from each bone's parent to it along the joints between them [m], #bones; 0 of a root.
-Eigen::VectorXd ways_from_parents(const Rig& rig, const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms)
+Eigen::VectorXd ways_from_parents(const Rig& rig, const RiggedBody& body,
+                                  const std::vector<Eigen::Affine3d>& node_transforms)
 {
     Eigen::VectorXd ways = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(body.node.size()));
     for (std::size_t b = 0; b < body.node.size(); ++b) {
         const int parent = body.skeleton.bones[b].parent;
         if (parent < 0) continue;
-        for (int node = body.node[b]; node != body.node[static_cast<std::size_t>(parent)]; node = rig.nodes[node].parent)
+        for (int node = body.node[b]; node != body.node[static_cast<std::size_t>(parent)];
+             node = rig.nodes[node].parent)
             ways(static_cast<Eigen::Index>(b)) +=
                 body.binding.metres_per_unit *
                 (node_transforms[node].translation() - node_transforms[rig.nodes[node].parent].translation()).norm();
@@ -273,20 +288,23 @@ Eigen::VectorXd ways_from_parents(const Rig& rig, const RiggedBody& body, const 
     return ways;
 }
 
-// As the motion is compared: with the bind pose, and where joints are between a bone and its parent, with the file's rest pose.
+// As the motion is compared: with the bind pose, and where joints are between a bone and its parent, with the file's
+// rest pose.
 Eigen::VectorXd ways_at_rest(const Rig& rig, const RiggedBody& body)
 {
     Eigen::VectorXd ways = ways_from_parents(rig, body, node_transforms(rig, nullptr, 0.0));
     for (std::size_t b = 0; b < body.node.size(); ++b) {
         const Bone& bone = body.skeleton.bones[b];
         if (bone.parent >= 0 && rig.nodes[body.node[b]].parent == body.node[static_cast<std::size_t>(bone.parent)])
-            ways(static_cast<Eigen::Index>(b)) = (bone.head - body.skeleton.bones[static_cast<std::size_t>(bone.parent)].head).norm();
+            ways(static_cast<Eigen::Index>(b)) =
+                (bone.head - body.skeleton.bones[static_cast<std::size_t>(bone.parent)].head).norm();
     }
     return ways;
 }
 
 // A bone that begins where its parent does has no length that could change.
-void add_frame(const Eigen::VectorXd& ways, const Eigen::VectorXd& at_rest, int frame, std::vector<DistanceChange>& distances)
+void add_frame(const Eigen::VectorXd& ways, const Eigen::VectorXd& at_rest, int frame,
+               std::vector<DistanceChange>& distances)
 {
     for (std::size_t b = 0; b < distances.size(); ++b) {
         const auto row = static_cast<Eigen::Index>(b);
@@ -320,14 +338,15 @@ RiggedBody make_rigged_body(const Rig& rig, const RigAnimation* animation, doubl
     return body;
 }
 
-Positions artist_points(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms, const RigAnimation* animation,
-                        double time_s)
+Positions artist_points(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node_transforms,
+                        const RigAnimation* animation, double time_s)
 {
     Positions points(body.surface.rows(), 3);
     Eigen::Index first = 0;
     for (const RigMesh& mesh : body.binding.meshes) {
         points.middleRows(first, mesh.points.rows()) =
-            body.binding.metres_per_unit * skinned_points(mesh, node_transforms, morphed_points(mesh, animation, time_s));
+            body.binding.metres_per_unit *
+            skinned_points(mesh, node_transforms, morphed_points(mesh, animation, time_s));
         first += mesh.points.rows();
     }
     return points;
@@ -338,7 +357,8 @@ Positions artist_points(const RiggedBody& body, const Pose& pose)
     const auto nodes = static_cast<std::size_t>(body.binding.bind.rbegin()->first) + 1;
     std::vector<Eigen::Affine3d> transforms(nodes, Eigen::Affine3d::Identity());
     for (std::size_t b = 0; b < body.node.size(); ++b)
-        transforms[body.node[b]] = Eigen::Scaling(1.0 / body.binding.metres_per_unit) * pose[b] * body.binding.bind.at(body.node[b]);
+        transforms[body.node[b]] =
+            Eigen::Scaling(1.0 / body.binding.metres_per_unit) * pose[b] * body.binding.bind.at(body.node[b]);
     return artist_points(body, transforms);
 }
 
@@ -349,7 +369,8 @@ Pose rigid_pose(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node
     for (std::size_t b = 0; b < transforms.size(); ++b) {
         const Eigen::JacobiSVD<Eigen::Matrix3d> svd(transforms[b].linear(), Eigen::ComputeFullU | Eigen::ComputeFullV);
         Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
-        if (rotation.determinant() < 0.0) rotation = svd.matrixU() * Vec3(1.0, 1.0, -1.0).asDiagonal() * svd.matrixV().transpose();
+        if (rotation.determinant() < 0.0)
+            rotation = svd.matrixU() * Vec3(1.0, 1.0, -1.0).asDiagonal() * svd.matrixV().transpose();
         if (stretch) *stretch = std::max(*stretch, (svd.singularValues().array() - 1.0).abs().maxCoeff());
         const Vec3& head = body.skeleton.bones[b].head;
         Eigen::Isometry3d rigid = Eigen::Isometry3d::Identity();
@@ -360,7 +381,8 @@ Pose rigid_pose(const RiggedBody& body, const std::vector<Eigen::Affine3d>& node
     return pose;
 }
 
-RigMotion rig_motion(const Rig& rig, const RiggedBody& body, const RigAnimation& animation, const MotionSampling& sampling)
+RigMotion rig_motion(const Rig& rig, const RiggedBody& body, const RigAnimation& animation,
+                     const MotionSampling& sampling)
 {
     RigMotion made;
     made.distances.resize(body.node.size());
@@ -374,14 +396,17 @@ RigMotion rig_motion(const Rig& rig, const RiggedBody& body, const RigAnimation&
         const std::vector<Eigen::Affine3d> transforms = node_transforms(rig, &animation, time_s);
         made.motion.steps.push_back(rigid_pose(body, transforms, &made.stretch));
         if (step % made.motion.steps_per_frame == 0)
-            add_frame(ways_from_parents(rig, body, transforms), at_rest, step / made.motion.steps_per_frame, made.distances);
+            add_frame(ways_from_parents(rig, body, transforms), at_rest, step / made.motion.steps_per_frame,
+                      made.distances);
     }
     return made;
 }
 
-Positions artist_frame(const Rig& rig, const RiggedBody& body, const RigAnimation& animation, const MotionSampling& sampling, int frame)
+Positions artist_frame(const Rig& rig, const RiggedBody& body, const RigAnimation& animation,
+                       const MotionSampling& sampling, int frame)
 {
-    const double time_s = animation.start_s + sampling.start_s + frame * steps_per_frame(sampling) * sampling.time_step_s;
+    const double time_s =
+        animation.start_s + sampling.start_s + frame * steps_per_frame(sampling) * sampling.time_step_s;
     return artist_points(body, node_transforms(rig, &animation, time_s), &animation, time_s);
 }
 

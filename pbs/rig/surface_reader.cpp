@@ -1,5 +1,5 @@
-// Points are joined where their coordinates are equal; assimp's own joining has an absolute tolerance of 1e-5, which would merge a small
-// body.
+// Points are joined where their coordinates are equal; assimp's own joining has an absolute tolerance of 1e-5, which
+// would merge a small body.
 #include "pbs/rig/surface_reader.hpp"
 
 #include "pbs/geometry/content_format.hpp"
@@ -36,11 +36,13 @@ void keep_meshes_named(const std::string& name, Rig& rig)
 {
     std::string names;
     for (const RigMesh& mesh : rig.meshes) names += (names.empty() ? "" : ", ") + mesh.name;
-    std::erase_if(rig.meshes, [&](const RigMesh& mesh) { return mesh.name != name && rig.nodes[mesh.node].name != name; });
+    std::erase_if(rig.meshes,
+                  [&](const RigMesh& mesh) { return mesh.name != name && rig.nodes[mesh.node].name != name; });
     if (rig.meshes.empty()) throw InputError(rig.file, 0, "mesh", name, "expected one of the file's meshes: " + names);
 }
 
-// The scene as it stands. If it has a mesh with a skin: what joints move, in the bind pose, as `pbskin measure hero.glb` has it.
+// The scene as it stands. If it has a mesh with a skin: what joints move, in the bind pose, as `pbskin measure
+// hero.glb` has it.
 SurfaceReading surface_of_rig(const std::string& path, const std::string& mesh_name)
 {
     Rig rig = read_rig(path);
@@ -53,20 +55,22 @@ SurfaceReading surface_of_rig(const std::string& path, const std::string& mesh_n
         rig.remarks.insert(rig.remarks.end(), binding.remarks.begin(), binding.remarks.end());
     } else {
         const std::vector<Eigen::Affine3d> nodes = node_transforms(rig, nullptr, 0.0);
-        for (const RigMesh& mesh : rig.meshes) append(rig.unit_m * skinned_points(mesh, nodes), mesh.triangles, surface.mesh);
+        for (const RigMesh& mesh : rig.meshes)
+            append(rig.unit_m * skinned_points(mesh, nodes), mesh.triangles, surface.mesh);
     }
     surface.remarks = rig.remarks;
     return surface;
 }
 
-// The surface as the file has it: at least one triangle and one point, finite coordinates within 1e9 m, indices in range. Each violation is
-// an InputError that names the file, the place, its value and the rule.
+// The surface as the file has it: at least one triangle and one point, finite coordinates within 1e9 m, indices in
+// range. Each violation is an InputError that names the file, the place, its value and the rule.
 void check_raw_surface(const std::string& path, const SurfaceMesh& mesh)
 {
     if (mesh.triangles.rows() == 0) throw InputError(path, 0, "triangles", "0", "expected at least one triangle");
     for (Eigen::Index i = 0; i < mesh.points.rows(); ++i) {
         if (mesh.points.row(i).cwiseAbs().maxCoeff() <= farthest_m && mesh.points.row(i).allFinite()) continue;
-        throw InputError(path, 0, "vertex " + std::to_string(i), "", "expected finite coordinates within 1e9 m of the origin");
+        throw InputError(path, 0, "vertex " + std::to_string(i), "",
+                         "expected finite coordinates within 1e9 m of the origin");
     }
     require_points(path, mesh.points.rows());
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
@@ -78,19 +82,22 @@ void check_raw_surface(const std::string& path, const SurfaceMesh& mesh)
 
 bool is_rig_extension(const std::string& extension)
 {
-    return extension == ".gltf" || extension == ".glb" || extension == ".dae" || extension == ".zae" || extension == ".fbx";
+    return extension == ".gltf" || extension == ".glb" || extension == ".dae" || extension == ".zae" ||
+           extension == ".fbx";
 }
 
 SurfaceMesh read_by_library(const std::string& path, const std::string& mesh_name)
 {
     const std::string extension = format_extension(path);
     if (extension == ".obj") return read_obj(path, mesh_name);
-    if (!mesh_name.empty()) throw InputError(path, 0, "mesh", mesh_name, "expected no name: such a file holds one mesh");
+    if (!mesh_name.empty())
+        throw InputError(path, 0, "mesh", mesh_name, "expected no name: such a file holds one mesh");
     if (extension == ".vtp") return read_vtp(path);
 #ifdef PBS_WITH_CGAL
     return read_polygons(path);
 #else
-    throw InputError(path, 0, "", "", "this build reads no " + extension + " files: configure it with -DPBS_WITH_CGAL=ON");
+    throw InputError(path, 0, "", "",
+                     "this build reads no " + extension + " files: configure it with -DPBS_WITH_CGAL=ON");
 #endif
 }
 
@@ -101,7 +108,8 @@ int unused_points(const SurfaceMesh& mesh)
     return static_cast<int>(std::count(used.begin(), used.end(), false));
 }
 
-// The points that triangles use, in the order of first use; triangles that joining makes a line or a point are left out.
+// The points that triangles use, in the order of first use; triangles that joining makes a line or a point are left
+// out.
 SurfaceMesh joined(const std::string& path, const SurfaceMesh& mesh)
 {
     std::map<std::array<double, 3>, int> index_of;
@@ -113,7 +121,8 @@ SurfaceMesh joined(const std::string& path, const SurfaceMesh& mesh)
             triangle[static_cast<std::size_t>(k)] =
                 index_of.emplace(std::array{p(0), p(1), p(2)}, static_cast<int>(index_of.size())).first->second;
         }
-        if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0]) triangles.push_back(triangle);
+        if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
+            triangles.push_back(triangle);
     }
     SurfaceMesh surface{Positions(static_cast<Eigen::Index>(index_of.size()), 3),
                         Triangles(static_cast<Eigen::Index>(triangles.size()), 3)};
@@ -122,7 +131,8 @@ SurfaceMesh joined(const std::string& path, const SurfaceMesh& mesh)
         surface.triangles.row(static_cast<Eigen::Index>(f)) << triangles[f][0], triangles[f][1], triangles[f][2];
     require_extent(path, surface.points);
     if (triangles.empty())
-        throw InputError(path, 0, "triangles", std::to_string(mesh.triangles.rows()), "expected one whose three corners differ");
+        throw InputError(path, 0, "triangles", std::to_string(mesh.triangles.rows()),
+                         "expected one whose three corners differ");
     return surface;
 }
 
@@ -138,11 +148,12 @@ SurfaceReading checked_surface(const std::string& path, const std::string& mesh_
     if (is_rig_extension(extension))
         surface = surface_of_rig(path, mesh_name);
     else
-        surface.mesh =
-            read_guarded(path, "surface " + mesh_name, [&](const std::string& file) { return read_by_library(file, mesh_name); });
+        surface.mesh = read_guarded(path, "surface " + mesh_name,
+                                    [&](const std::string& file) { return read_by_library(file, mesh_name); });
     check_raw_surface(path, surface.mesh);
     if (!is_rig_extension(extension))  // the readers of rigs look at each mesh before its node moves it
-        if (const std::string remark = remark_on_single_precision(surface.mesh.points, surface.mesh.triangles); !remark.empty())
+        if (const std::string remark = remark_on_single_precision(surface.mesh.points, surface.mesh.triangles);
+            !remark.empty())
             surface.remarks.push_back(remark);
     return surface;
 }
@@ -166,9 +177,10 @@ std::string remark_on_single_precision(const Positions& points, const Triangles&
     }
     // Each point is up to half a step off in each direction, and the volume by at most the area times that distance.
     const double volume_pct = 100.0 * area * 0.5 * std::sqrt(3.0) * step / std::abs(fan_volume(points, triangles));
-    return "coordinates in single precision up to " + number_text(farthest, 3) + " from the origin, where they are multiples of " +
-           number_text(step, 2) + ": the size of " + number_text(size, 3) + " has only " + number_text(size / step, 1) +
-           " steps, and the volume is " + (volume_pct < 100.0 ? "known to " + number_text(volume_pct, 1) + " %" : "not known") +
+    return "coordinates in single precision up to " + number_text(farthest, 3) +
+           " from the origin, where they are multiples of " + number_text(step, 2) + ": the size of " +
+           number_text(size, 3) + " has only " + number_text(size / step, 1) + " steps, and the volume is " +
+           (volume_pct < 100.0 ? "known to " + number_text(volume_pct, 1) + " %" : "not known") +
            "; move the model to the origin before it is exported, or use a format in double precision";
 }
 
@@ -185,8 +197,9 @@ SurfaceReading read_surface_frame(const std::string& path)
     SurfaceMesh& surface = reading.mesh;
     if (format_extension(path) != ".stl") return reading;
     surface.points = surface.points(surface.triangles.reshaped<Eigen::RowMajor>(), Eigen::all).eval();
-    surface.triangles = Eigen::VectorXi::LinSpaced(surface.points.rows(), 0, static_cast<int>(surface.points.rows()) - 1)
-                            .reshaped<Eigen::RowMajor>(surface.triangles.rows(), 3);
+    surface.triangles =
+        Eigen::VectorXi::LinSpaced(surface.points.rows(), 0, static_cast<int>(surface.points.rows()) - 1)
+            .reshaped<Eigen::RowMajor>(surface.triangles.rows(), 3);
     return reading;
 }
 
@@ -203,8 +216,8 @@ SurfaceMesh read_surface(const std::string& path, std::vector<std::string>& rema
     SurfaceMesh surface = joined(path, read);
     surface.points *= scale;
     for (const std::string& remark : reading.remarks) remarks.push_back(path + ": " + remark);
-    const auto of_surface =
-        remarks_on(path, surface, unused_points(read), static_cast<int>(read.triangles.rows() - surface.triangles.rows()));
+    const auto of_surface = remarks_on(path, surface, unused_points(read),
+                                       static_cast<int>(read.triangles.rows() - surface.triangles.rows()));
     remarks.insert(remarks.end(), of_surface.begin(), of_surface.end());
     if (const std::string content = content_extension(path); !content.empty() && content != lower_extension(path))
         remarks.insert(remarks.begin(), remark_on_name(path, content));

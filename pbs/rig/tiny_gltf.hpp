@@ -1,5 +1,6 @@
-// tinygltf under a namespace of our own. libdraco, which assimp loads, holds another version of it under the same names, and the dynamic
-// linker would mix the two. Its implementation is compiled once, in gltf_model.cpp, without images.
+// tinygltf under a namespace of our own. libdraco, which assimp loads, holds another version of it under the same
+// names, and the dynamic linker would mix the two. Its implementation is compiled once, in gltf_model.cpp, without
+// images.
 #pragma once
 
 #define tinygltf pbs_tinygltf

@@ -37,7 +37,8 @@ Vec3 transform_point(const DualQuaternion& blended, const Vec3& point)
 DualQuaternion blend(const std::vector<DualQuaternion>& bones, const Weights& weights, int vertex)
 {
     const int first = weights.first[vertex], last = weights.first[vertex + 1];
-    const auto heaviest = std::max_element(weights.weight.begin() + first, weights.weight.begin() + last) - weights.weight.begin();
+    const auto heaviest =
+        std::max_element(weights.weight.begin() + first, weights.weight.begin() + last) - weights.weight.begin();
     const DualQuaternion& pivot = bones[weights.bone[heaviest]];
     DualQuaternion sum = DualQuaternion::Zero();
     for (int entry = first; entry < last; ++entry) {
@@ -102,7 +103,8 @@ public:
 private:
     int turned_bone(const TurnedBone& bone)
     {
-        const auto [place, is_new] = index_.try_emplace({bone.bone, bone.pivot}, static_cast<int>(packed_.turned_bones.size()));
+        const auto [place, is_new] =
+            index_.try_emplace({bone.bone, bone.pivot}, static_cast<int>(packed_.turned_bones.size()));
         if (is_new) packed_.turned_bones.push_back(bone);
         return place->second;
     }
@@ -127,16 +129,19 @@ void share_rows(const Weights& weights, RowWriter<Scalar>& writer, PackedWeights
 {
     const std::vector<int> vertices = vertices_by_row(weights);
     for (auto begin = vertices.begin(); begin != vertices.end();) {
-        const auto end = std::find_if(begin, vertices.end(), [&](int vertex) { return row_less(weights, *begin, vertex); });
+        const auto end =
+            std::find_if(begin, vertices.end(), [&](int vertex) { return row_less(weights, *begin, vertex); });
         if (end - begin > 1) {
-            for (auto vertex = begin; vertex != end; ++vertex) packed.matrix[*vertex] = packed.bones + packed.shared.rows();
+            for (auto vertex = begin; vertex != end; ++vertex)
+                packed.matrix[*vertex] = packed.bones + packed.shared.rows();
             writer.append(packed.shared, *begin);
         }
         begin = end;
     }
 }
 
-// A loop of its own pays from some 30 vertices on: it saves 0.2 ns each, and the branch into it, mispredicted, costs some 5 ns.
+// A loop of its own pays from some 30 vertices on: it saves 0.2 ns each, and the branch into it, mispredicted, costs
+// some 5 ns.
 constexpr int shortest_run = 32;
 
 template <class Scalar>
@@ -305,10 +310,12 @@ void BlendSkinning<Scalar>::dual_quaternion_rows(const Pose& pose, const Vec3& o
     place_turned_bones();
     const PackedDualQuaternion<Scalar>* bones = dual_quaternions_.data();
     blend_matrices(raw(packed_.shared, packed_.shared.turned_bone), bones, matrices_.data() + packed_.bones);
-    move_points(packed_, std::as_const(matrices_).data(), raw(packed_.own, packed_.own.turned_bone), bones, rest_.data(), posed);
+    move_points(packed_, std::as_const(matrices_).data(), raw(packed_.own, packed_.own.turned_bone), bones,
+                rest_.data(), posed);
 }
 
-// double writes world coordinates directly; float blends about the middle of the body, and the result is moved there in double.
+// double writes world coordinates directly; float blends about the middle of the body, and the result is moved there in
+// double.
 template <class Scalar>
 template <class Blend>
 void BlendSkinning<Scalar>::blend_in_world(const Pose& pose, Positions& posed, const Blend& blend)
@@ -349,7 +356,9 @@ void BlendSkinning<Scalar>::rotations(const Pose& pose, std::vector<Eigen::Matri
     const PaddedMatrix<Scalar>* own = own_matrices_.data();
     for (std::size_t i = 0; i < rotations.size(); ++i) {
         const PaddedMatrix<Scalar>& matrix = packed_.matrix[i] < 0 ? *own++ : matrices_[packed_.matrix[i]];
-        rotations[i] = Eigen::Map<const Eigen::Matrix<Scalar, 4, 4>>(matrix.numbers).template topLeftCorner<3, 3>().template cast<double>();
+        rotations[i] = Eigen::Map<const Eigen::Matrix<Scalar, 4, 4>>(matrix.numbers)
+                           .template topLeftCorner<3, 3>()
+                           .template cast<double>();
     }
 }
 

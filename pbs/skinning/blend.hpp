@@ -1,5 +1,6 @@
-// The two blends the paper compares itself with: both move rest positions [m], #V x 3, into a pose. Sizes are not checked: `weights` has
-// #V vertices or more, and the pose a transform for every bone that they name. `posed` is resized.
+// The two blends the paper compares itself with: both move rest positions [m], #V x 3, into a pose. Sizes are not
+// checked: `weights` has #V vertices or more, and the pose a transform for every bone that they name. `posed` is
+// resized.
 #pragma once
 
 #include "pbs/skinning/skinning_kernels.hpp"
@@ -14,9 +15,11 @@ void linear_blend_skinning(const Positions& rest, const Weights& weights, const 
 // transforms are rigid, and every vertex has at least one weight.
 void dual_quaternion_skinning(const Positions& rest, const Weights& weights, const Pose& pose, Positions& posed);
 
-// Skinning weights as the blend kernels read them: which vertices need no blending of their own, and the rows of the others.
+// Skinning weights as the blend kernels read them: which vertices need no blending of their own, and the rows of the
+// others.
 
-// A bone's dual quaternion on the side of the pivot's: q and -q are the same rotation, and the heaviest bone of a row decides.
+// A bone's dual quaternion on the side of the pivot's: q and -q are the same rotation, and the heaviest bone of a row
+// decides.
 struct TurnedBone {
     // Index of the bone that is blended.
     int bone, pivot;                                     // index of the row's heaviest bone, the first of equals
@@ -47,10 +50,11 @@ struct VertexStretch {
 // Weights of #V vertices. Scalar: float or double.
 template <class Scalar>
 struct PackedWeights {
-    int bones = 0;                         // the largest bone that has a vertex, and one
-    WeightRows<Scalar> shared;             // blended once per pose: rows that several vertices have (Eq. 2 knows few)
-    WeightRows<Scalar> own;                // rows of one vertex alone, in the order of the vertices
-    std::vector<int> matrix;               // of a vertex: its only bone, or bones + a shared row; -1: blended by a row of its own, #V
+    int bones = 0;              // the largest bone that has a vertex, and one
+    WeightRows<Scalar> shared;  // blended once per pose: rows that several vertices have (Eq. 2 knows few)
+    WeightRows<Scalar> own;     // rows of one vertex alone, in the order of the vertices
+    // of a vertex: its only bone, or bones + a shared row; -1: blended by a row of its own, #V
+    std::vector<int> matrix;
     std::vector<VertexStretch> stretches;  // all vertices, in order
     std::vector<TurnedBone> turned_bones;  // each one that a row uses, listed once
 };
@@ -59,7 +63,8 @@ struct PackedWeights {
 template <class Scalar>
 PackedWeights<Scalar> pack_weights(const Weights& weights);
 
-// The deformers in packed code compute relative to an origin near the body, so that float loses no digits, and return to the world.
+// The deformers in packed code compute relative to an origin near the body, so that float loses no digits, and return
+// to the world.
 
 // The middle of the box around the points [m]; zero of no points.
 Vec3 middle_of_box(const Positions& points);
@@ -71,23 +76,27 @@ Vec3 posed_origin(const Pose& pose, const Vec3& middle);
 template <class Scalar>
 void to_world(const std::vector<Scalar>& rows, const Vec3& origin, Positions& positions);
 
-// The blends for many poses of one body: what does not depend on the pose is packed once, and weights that several vertices
-// have (Eq. 2 knows few) are blended once per pose. A vertex of one bone or of such weights then costs one matrix times a point.
+// The blends for many poses of one body: what does not depend on the pose is packed once, and weights that several
+// vertices have (Eq. 2 knows few) are blended once per pose. A vertex of one bone or of such weights then costs one
+// matrix times a point.
 //   BlendSkinning<float> skinning(rest, weights);
 //   skinning.linear(pose, posed);           // as linear_blend_skinning(rest, weights, pose, posed)
 //   skinning.dual_quaternion(pose, posed);  // as dual_quaternion_skinning(rest, weights, pose, posed)
-// A pose has every bone that the weights name. One thread at a time: the transforms of the last pose are kept in it. Scalar: float or
-// double.
+// A pose has every bone that the weights name. One thread at a time: the transforms of the last pose are kept in it.
+// Scalar: float or double.
 template <class Scalar>
 class BlendSkinning {
 public:
-    BlendSkinning(const Positions& rest, const Weights& weights);  // rest positions [m], #V x 3; weights of as many (unchecked)
+    // rest positions [m], #V x 3; weights of as many (unchecked)
+    BlendSkinning(const Positions& rest, const Weights& weights);
 
-    // Posed positions [m], #V x 3. Float blends about the middle of the body, so that far from the origin no digits are lost.
+    // Posed positions [m], #V x 3. Float blends about the middle of the body, so that far from the origin no digits are
+    // lost.
     void linear(const Pose& pose, Positions& posed);
     void dual_quaternion(const Pose& pose, Positions& posed);  // likewise
 
-    // Without conversion: posed position - origin [m], #V rows x, y, z. Float loses no digits where `origin` is near the posed body.
+    // Without conversion: posed position - origin [m], #V rows x, y, z. Float loses no digits where `origin` is near
+    // the posed body.
     void linear_rows(const Pose& pose, const Vec3& origin, Scalar* posed);
     void dual_quaternion_rows(const Pose& pose, const Vec3& origin, Scalar* posed);  // likewise
 
@@ -96,7 +105,8 @@ public:
 
     int vertices() const { return static_cast<int>(packed_.matrix.size()); }  // #V
 
-    // The rest positions, which a caller may displace between two poses [m]: #V rows x, y, z, in float relative to the middle of the body.
+    // The rest positions, which a caller may displace between two poses [m]: #V rows x, y, z, in float relative to the
+    // middle of the body.
     Scalar* rest_rows() { return rest_.data(); }
 
 private:
@@ -111,9 +121,11 @@ private:
     Vec3 middle_;               // what rest_ is relative to [m]; double: zero
     std::vector<Scalar> rest_;  // #V x 3, and one number that the kernels ask for
 
-    std::vector<Eigen::Isometry3d> placed_;                       // the bones: rest position - middle -> posed position - origin
-    std::vector<PaddedMatrix<Scalar>> matrices_;                  // of the bones, then of the shared rows
-    std::vector<PaddedMatrix<Scalar>> own_matrices_;              // of the rows of one vertex; only `rotations` needs them
+    // the bones: rest position - middle -> posed position - origin
+    std::vector<Eigen::Isometry3d> placed_;
+    std::vector<PaddedMatrix<Scalar>> matrices_;  // of the bones, then of the shared rows
+    // of the rows of one vertex; only `rotations` needs them
+    std::vector<PaddedMatrix<Scalar>> own_matrices_;
     std::vector<PackedDualQuaternion<Scalar>> dual_quaternions_;  // of the turned bones
     std::vector<Scalar> posed_;                                   // #V x 3; empty where nothing has to be converted
 };

@@ -34,7 +34,8 @@ PBS_INLINE Four<Scalar> moved(const PaddedMatrix<Scalar>& matrix, const Scalar* 
         return __builtin_shufflevector(sum, sum, 0, 1, 2, 3) + __builtin_shufflevector(sum, sum, 4, 5, 6, 7);
     } else {
         const Scalar* c = matrix.numbers;
-        return load_four(c) * point[0] + (load_four(c + 4) * point[1] + (load_four(c + 8) * point[2] + load_four(c + 12)));
+        return load_four(c) * point[0] +
+               (load_four(c + 4) * point[1] + (load_four(c + 8) * point[2] + load_four(c + 12)));
     }
 }
 
@@ -54,8 +55,8 @@ PBS_INLINE Transform blended(const BlendRows<Scalar>& rows, int row, const Trans
     return blended;
 }
 
-// v' = v + 2 r x (r x v + r_w v) + 2 (r_w d - d_w r + r x d) for the unit dual quaternion (Kavan 2007, Algorithm 1). A blended one is
-// not unit: 2 / |r|^2 in the place of 2 takes its length out without a square root.
+// v' = v + 2 r x (r x v + r_w v) + 2 (r_w d - d_w r + r x d) for the unit dual quaternion (Kavan 2007, Algorithm 1). A
+// blended one is not unit: 2 / |r|^2 in the place of 2 takes its length out without a square root.
 template <class Scalar>
 PBS_INLINE void move(const PackedDualQuaternion<Scalar>& blended, const Scalar* v, Scalar* moved)
 {
@@ -111,8 +112,8 @@ void move_points(int n, const PackedDualQuaternion<Scalar>* __restrict dual_quat
 template <class Scalar>
 void transform_points(int n, const PaddedMatrix<Scalar>& matrix, const Scalar* rest, Scalar* posed)
 {
-    const Four<Scalar> c0 = load_four(matrix.numbers), c1 = load_four(matrix.numbers + 4), c2 = load_four(matrix.numbers + 8),
-                       t = load_four(matrix.numbers + 12);
+    const Four<Scalar> c0 = load_four(matrix.numbers), c1 = load_four(matrix.numbers + 4),
+                       c2 = load_four(matrix.numbers + 8), t = load_four(matrix.numbers + 12);
     store_points(n, posed, [=](int i) {
         const Scalar* v = rest + 3L * i;
         return c0 * v[0] + (c1 * v[1] + (c2 * v[2] + t));
@@ -120,19 +121,22 @@ void transform_points(int n, const PaddedMatrix<Scalar>& matrix, const Scalar* r
 }
 
 template <class Scalar>
-void transform_points(int n, const int* transform, const PaddedMatrix<Scalar>* matrices, const Scalar* rest, Scalar* posed)
+void transform_points(int n, const int* transform, const PaddedMatrix<Scalar>* matrices, const Scalar* rest,
+                      Scalar* posed)
 {
     store_points(n, posed, [=](int i) { return moved(matrices[transform[i]], rest + 3L * i); });
 }
 
 template <class Scalar>
-void blend_points(const BlendRows<Scalar>& rows, const PaddedMatrix<Scalar>* matrices, const Scalar* rest, Scalar* posed)
+void blend_points(const BlendRows<Scalar>& rows, const PaddedMatrix<Scalar>* matrices, const Scalar* rest,
+                  Scalar* posed)
 {
     store_points(rows.n, posed, [=](int i) { return moved(blended(rows, i, matrices), rest + 3L * i); });
 }
 
 template <class Scalar>
-void blend_points(const BlendRows<Scalar>& rows, const PackedDualQuaternion<Scalar>* dual_quaternions, const Scalar* rest, Scalar* posed)
+void blend_points(const BlendRows<Scalar>& rows, const PackedDualQuaternion<Scalar>* dual_quaternions,
+                  const Scalar* rest, Scalar* posed)
 {
     constexpr int tile = 64;  // points whose dual quaternions wait in the nearest cache, to be used side by side
     PackedDualQuaternion<Scalar> waiting[tile];
@@ -144,7 +148,8 @@ void blend_points(const BlendRows<Scalar>& rows, const PackedDualQuaternion<Scal
 }
 
 template <class Scalar>
-void blend_matrices(const BlendRows<Scalar>& rows, const PaddedMatrix<Scalar>* matrices, PaddedMatrix<Scalar>* blended_matrices)
+void blend_matrices(const BlendRows<Scalar>& rows, const PaddedMatrix<Scalar>* matrices,
+                    PaddedMatrix<Scalar>* blended_matrices)
 {
     for (int i = 0; i < rows.n; ++i) blended_matrices[i] = matrix_of(blended(rows, i, matrices));
 }

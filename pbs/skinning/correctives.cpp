@@ -69,7 +69,8 @@ Eigen::Matrix3d bounded_inverse(const Eigen::Matrix3d& matrix, double least)
     return svd.matrixV() * inverse.asDiagonal() * svd.matrixU().transpose();
 }
 
-// The vertices that the fit, #samples x 3 #vertices, moves farthest in some sample by at least this share of the largest such distance.
+// The vertices that the fit, #samples x 3 #vertices, moves farthest in some sample by at least this share of the
+// largest such distance.
 std::vector<int> moved_vertices(const std::vector<int>& vertices, const MatrixXd& fit, double negligible)
 {
     VectorXd largest(static_cast<Eigen::Index>(vertices.size()));
@@ -83,16 +84,21 @@ std::vector<int> moved_vertices(const std::vector<int>& vertices, const MatrixXd
 // A joint, and what its regression needs in every sweep.
 class JointFit {
 public:
-    // roots: sqrt(w_p) of the samples. residuals: r of the samples times these, #samples x 3 #V. They determine the strength and the
-    // vertices.
-    JointFit(int joint, const std::vector<int>& support, MatrixXd features, const VectorXd& roots, const CorrectiveOptions& options,
-             const RowMajorMatrix& residuals)
-        : joint_{.joint = joint}, options_(options), features_(std::move(features)), roots_(roots), ridge_(roots.asDiagonal() * features_)
+    // roots: sqrt(w_p) of the samples. residuals: r of the samples times these, #samples x 3 #V. They determine the
+    // strength and the vertices.
+    JointFit(int joint, const std::vector<int>& support, MatrixXd features, const VectorXd& roots,
+             const CorrectiveOptions& options, const RowMajorMatrix& residuals)
+        : joint_{.joint = joint},
+          options_(options),
+          features_(std::move(features)),
+          roots_(roots),
+          ridge_(roots.asDiagonal() * features_)
     {
         const MatrixXd targets = residuals(Eigen::all, columns_of(support));
         strength_ = ridge_.best_strength(targets, options.least_strength);
         if (!std::isfinite(strength_)) return;
-        joint_.vertices = moved_vertices(support, features_ * ridge_.coefficients(targets, strength_), options.negligible);
+        joint_.vertices =
+            moved_vertices(support, features_ * ridge_.coefficients(targets, strength_), options.negligible);
         columns_ = columns_of(joint_.vertices);
         joint_.modes = MatrixXd::Zero(static_cast<Eigen::Index>(columns_.size()), 0);
         joint_.drivers = MatrixXd::Zero(0, features_.cols());
@@ -105,7 +111,8 @@ public:
         const MatrixXd coefficients = ridge_.coefficients(targets, strength_);
         const Eigen::BDCSVD<MatrixXd> svd = ridge_.modes(coefficients, strength_);
         Eigen::Index rank = 0;
-        while (rank < std::min<Eigen::Index>(options_.rank, svd.singularValues().size()) && svd.singularValues()(rank) > 0.0 &&
+        while (rank < std::min<Eigen::Index>(options_.rank, svd.singularValues().size()) &&
+               svd.singularValues()(rank) > 0.0 &&
                svd.singularValues()(rank) >= options_.negligible * svd.singularValues()(0))
             ++rank;
         const MatrixXd orthonormal = svd.matrixV().leftCols(rank), drivers = coefficients * orthonormal;
@@ -153,8 +160,10 @@ RidgeRegression::RidgeRegression(const MatrixXd& features) : svd_(features, Eige
 VectorXd RidgeRegression::shares(double strength) const
 {
     const auto squares = svd_.singularValues().array().square();
-    const double smallest = std::numeric_limits<double>::epsilon() * static_cast<double>(std::max(svd_.rows(), svd_.cols()));
-    return (svd_.singularValues().array() <= smallest * svd_.singularValues()(0)).select(0.0, squares / (squares + strength));
+    const double smallest =
+        std::numeric_limits<double>::epsilon() * static_cast<double>(std::max(svd_.rows(), svd_.cols()));
+    return (svd_.singularValues().array() <= smallest * svd_.singularValues()(0))
+        .select(0.0, squares / (squares + strength));
 }
 
 MatrixXd RidgeRegression::coefficients(const MatrixXd& targets, double strength) const
@@ -183,7 +192,8 @@ double RidgeRegression::best_strength(const MatrixXd& targets, double least) con
         least_error = error;
         best = strength;
     };
-    for (double share = 1.0; share >= std::max(0.99 * least, least_tried_strength); share *= 0.1) attempt(share * largest);
+    for (double share = 1.0; share >= std::max(0.99 * least, least_tried_strength); share *= 0.1)
+        attempt(share * largest);
     if (least == 0.0) attempt(0.0);
     return best;
 }
@@ -197,7 +207,8 @@ Eigen::BDCSVD<MatrixXd> RidgeRegression::modes(const MatrixXd& coefficients, dou
 
 CorrectiveFeatures corrective_features_of(const std::vector<int>& parents, const Pose& pose)
 {
-    CorrectiveFeatures features = CorrectiveFeatures::Zero(static_cast<Eigen::Index>(parents.size()), corrective_features);
+    CorrectiveFeatures features =
+        CorrectiveFeatures::Zero(static_cast<Eigen::Index>(parents.size()), corrective_features);
     for (std::size_t bone = 0; bone < parents.size(); ++bone) {
         if (parents[bone] < 0) continue;
         const Eigen::Matrix3d rotation = pose[parents[bone]].linear().transpose() * pose[bone].linear();
@@ -207,14 +218,16 @@ CorrectiveFeatures corrective_features_of(const std::vector<int>& parents, const
     return features;
 }
 
-Positions rest_residual(const Positions& rest, const Weights& weights, const CorrectiveSample& sample, double least_stretch)
+Positions rest_residual(const Positions& rest, const Weights& weights, const CorrectiveSample& sample,
+                        double least_stretch)
 {
     Positions residual;
     linear_blend_skinning(rest, weights, sample.pose, residual);
     residual = sample.shape - residual;
     for (int v = 0; v < weights.vertices(); ++v) {
         Eigen::Matrix3d blended = Eigen::Matrix3d::Zero();
-        for (int e = weights.first[v]; e < weights.first[v + 1]; ++e) blended += weights.weight[e] * sample.pose[weights.bone[e]].linear();
+        for (int e = weights.first[v]; e < weights.first[v + 1]; ++e)
+            blended += weights.weight[e] * sample.pose[weights.bone[e]].linear();
         Eigen::Matrix3d inverse = blended.inverse();
         if (!(inverse.norm() * least_stretch <= 1.0)) inverse = bounded_inverse(blended, least_stretch);
         residual.row(v) = (inverse * residual.row(v).transpose()).transpose();
@@ -234,8 +247,8 @@ Correctives fit_correctives(const Skeleton& skeleton, const Positions& rest, con
 {
     require_option(options.rank >= 1, "rank", options.rank, "expected 1 or more");
     require_option(options.sweeps >= 1, "sweeps", options.sweeps, "expected 1 or more");
-    require_option(options.least_strength >= 0.0 && options.least_strength <= 1.0, "least_strength", options.least_strength,
-                   "expected a number from 0 to 1");
+    require_option(options.least_strength >= 0.0 && options.least_strength <= 1.0, "least_strength",
+                   options.least_strength, "expected a number from 0 to 1");
     require_option(options.least_stretch > 0.0 && options.least_stretch <= 1.0, "least_stretch", options.least_stretch,
                    "expected a number above 0, at most 1");
     require_option(options.negligible >= 0.0 && options.negligible < 1.0, "negligible", options.negligible,
@@ -247,7 +260,8 @@ Correctives fit_correctives(const Skeleton& skeleton, const Positions& rest, con
     Correctives correctives;
     correctives.vertices = static_cast<int>(rest.rows());
     for (const Bone& bone : skeleton.bones) correctives.parents.push_back(bone.parent);
-    const auto count = static_cast<Eigen::Index>(samples.size()), bones = static_cast<Eigen::Index>(skeleton.bones.size());
+    const auto count = static_cast<Eigen::Index>(samples.size()),
+               bones = static_cast<Eigen::Index>(skeleton.bones.size());
     correctives.lowest = correctives.highest = CorrectiveFeatures::Zero(bones, corrective_features);
     RowMajorMatrix residuals(count, rest.size());
     std::vector<MatrixXd> features(bones, MatrixXd(count, corrective_features));  // of each joint
@@ -305,20 +319,25 @@ Positions corrective_displacements(const Correctives& correctives, const Pose& p
     Eigen::Index first = 0;
     for (const JointCorrective& joint : correctives.joints) {
         const VectorXd moved = joint.modes * coefficients.segment(first, joint.modes.cols());
-        for (std::size_t i = 0; i < joint.vertices.size(); ++i) displacements.row(joint.vertices[i]) += moved.segment<3>(3 * i).transpose();
+        for (std::size_t i = 0; i < joint.vertices.size(); ++i)
+            displacements.row(joint.vertices[i]) += moved.segment<3>(3 * i).transpose();
         first += joint.modes.cols();
     }
     return displacements;
 }
 
-void corrected_skinning(const Correctives& correctives, const Positions& rest, const Weights& weights, const Pose& pose, Positions& posed)
+void corrected_skinning(const Correctives& correctives, const Positions& rest, const Weights& weights, const Pose& pose,
+                        Positions& posed)
 {
     linear_blend_skinning(rest + corrective_displacements(correctives, pose), weights, pose, posed);
 }
 
 template <class Scalar>
-CorrectiveSkinning<Scalar>::CorrectiveSkinning(const Correctives& correctives, const Positions& rest, const Weights& weights)
-    : correctives_(correctives), skinning_(rest, weights), rest_(skinning_.rest_rows(), skinning_.rest_rows() + rest.size())
+CorrectiveSkinning<Scalar>::CorrectiveSkinning(const Correctives& correctives, const Positions& rest,
+                                               const Weights& weights)
+    : correctives_(correctives),
+      skinning_(rest, weights),
+      rest_(skinning_.rest_rows(), skinning_.rest_rows() + rest.size())
 {
     for (JointCorrective& joint : correctives_.joints) {
         modes_.push_back(joint.modes.template cast<Scalar>());

@@ -29,8 +29,10 @@ Positions DeltaMush::smoothed(Positions positions) const
         for (Eigen::Index i = 0; i < positions.rows(); ++i) {
             if (neighbours_.first[i] == neighbours_.first[i + 1]) continue;
             Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-            for (int k = neighbours_.first[i]; k < neighbours_.first[i + 1]; ++k) sum += positions.row(neighbours_.neighbour[k]);
-            next.row(i) = positions.row(i) + options_.step * (sum / (neighbours_.first[i + 1] - neighbours_.first[i]) - positions.row(i));
+            for (int k = neighbours_.first[i]; k < neighbours_.first[i + 1]; ++k)
+                sum += positions.row(neighbours_.neighbour[k]);
+            next.row(i) = positions.row(i) +
+                          options_.step * (sum / (neighbours_.first[i + 1] - neighbours_.first[i]) - positions.row(i));
         }
         positions.swap(next);
     }
@@ -42,8 +44,8 @@ Eigen::Matrix3d DeltaMush::covariance(const Positions& posed, const Positions& r
 {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     for (int k = neighbours_.first[vertex]; k < neighbours_.first[vertex + 1]; ++k)
-        sum +=
-            (posed.row(neighbours_.neighbour[k]) - posed.row(vertex)).transpose() * (rest.row(neighbours_.neighbour[k]) - rest.row(vertex));
+        sum += (posed.row(neighbours_.neighbour[k]) - posed.row(vertex)).transpose() *
+               (rest.row(neighbours_.neighbour[k]) - rest.row(vertex));
     return sum;
 }
 
@@ -66,7 +68,8 @@ RefusedRotations<Scalar> PackedRotations<Scalar>::none_yet()
 }
 
 template <class Scalar>
-void PackedRotations<Scalar>::turn(const RefusedRotations<Scalar>& refused, const std::vector<Scalar>& detail, std::vector<Scalar>& posed)
+void PackedRotations<Scalar>::turn(const RefusedRotations<Scalar>& refused, const std::vector<Scalar>& detail,
+                                   std::vector<Scalar>& posed)
 {
     using Rows = Eigen::Matrix<Scalar, 3, 3, Eigen::RowMajor>;
     using Row = Eigen::Matrix<Scalar, 3, 1>;

@@ -37,7 +37,8 @@ void turn(Tile<Scalar>& vertices, int n)
     for (int i = 0; i < n; i += lanes<Scalar>) {
         rotation_formula::Matrix3<Number> from, r;
         for (int k = 0; k < 9; ++k) from.m[k] = load(&vertices.covariance[k][i]);
-        const Number determinant = rotation_formula::nearest(from, Number(rotation_formula::largest_correction<Scalar>), r);
+        const Number determinant =
+            rotation_formula::nearest(from, Number(rotation_formula::largest_correction<Scalar>), r);
         const Number d[3] = {load(&vertices.detail[0][i]), load(&vertices.detail[1][i]), load(&vertices.detail[2][i])};
         const auto sound = determinant > Number(rotation_formula::least_determinant<Scalar>);
         for (int row = 0; row < 3; ++row) {
@@ -82,7 +83,8 @@ PBS_INLINE Four<Scalar> everywhere(Four<Scalar> row)
 
 // Adds the sum over the neighbours of (posed edge) (rest edge)^T, column by column.
 template <class Scalar>
-PBS_INLINE void add_edges(const NeighbourRows<Scalar>& rows, const EdgeRows<Scalar>& shape, int vertex, Four<Scalar> (&columns)[3])
+PBS_INLINE void add_edges(const NeighbourRows<Scalar>& rows, const EdgeRows<Scalar>& shape, int vertex,
+                          Four<Scalar> (&columns)[3])
 {
     const Four<Scalar> point = load_four(shape.posed + 4L * vertex), rest = load_four(shape.rest + 4L * vertex);
     for (int k = rows.first[vertex]; k < rows.first[vertex + 1]; ++k) {
@@ -114,8 +116,8 @@ void smooth_points(const NeighbourRows<Scalar>& rows, Scalar step, const Scalar*
 }
 
 template <class Scalar>
-void add_detail(const NeighbourRows<Scalar>& rows, const EdgeRows<Scalar>& smooth, const EdgeRows<Scalar>& unsmoothed, const Scalar* detail,
-                Scalar* posed, RefusedRotations<Scalar>& refused)
+void add_detail(const NeighbourRows<Scalar>& rows, const EdgeRows<Scalar>& smooth, const EdgeRows<Scalar>& unsmoothed,
+                const Scalar* detail, Scalar* posed, RefusedRotations<Scalar>& refused)
 {
     turn_all(rows.n, posed, refused, [=](int vertex, int place, Tile<Scalar>& waiting) {
         Four<Scalar> columns[3] = {}, wide[3] = {};
@@ -128,21 +130,25 @@ void add_detail(const NeighbourRows<Scalar>& rows, const EdgeRows<Scalar>& smoot
     });
 }
 
-// The centre of a vertex is moved relative to where its first bone moves it, so that differences of nearby points lose no digits.
+// The centre of a vertex is moved relative to where its first bone moves it, so that differences of nearby points lose
+// no digits.
 template <class Scalar>
-void move_by_moments(const MomentRows<Scalar>& rows, const PaddedMatrix<Scalar>* bones, Scalar* posed, RefusedRotations<Scalar>& refused)
+void move_by_moments(const MomentRows<Scalar>& rows, const PaddedMatrix<Scalar>* bones, Scalar* posed,
+                     RefusedRotations<Scalar>& refused)
 {
     turn_all(rows.n, posed, refused, [=](int vertex, int place, Tile<Scalar>& waiting) {
         const Scalar* c = rows.centre + 4L * vertex;
         const auto moved = [c](const Scalar* matrix) {
-            return load_four(matrix) * c[0] + (load_four(matrix + 4) * c[1] + (load_four(matrix + 8) * c[2] + load_four(matrix + 12)));
+            return load_four(matrix) * c[0] +
+                   (load_four(matrix + 4) * c[1] + (load_four(matrix + 8) * c[2] + load_four(matrix + 12)));
         };
         const Four<Scalar> origin = moved(bones[rows.moments[rows.first[vertex]].bone].numbers);
         Four<Scalar> columns[3] = {}, centre = origin;
         for (int k = rows.first[vertex]; k < rows.first[vertex + 1]; ++k) {
             const BoneMoments<Scalar>& moments = rows.moments[k];
             const Scalar* matrix = bones[moments.bone].numbers;
-            const Four<Scalar> x = load_four(matrix), y = load_four(matrix + 4), z = load_four(matrix + 8), to = moved(matrix) - origin;
+            const Four<Scalar> x = load_four(matrix), y = load_four(matrix + 4), z = load_four(matrix + 8),
+                               to = moved(matrix) - origin;
             const Scalar *p = moments.second, *m = moments.first, *share = moments.share;
             columns[0] += (x * p[0] + y * p[1]) + (z * p[2] + to * m[0]);
             columns[1] += (x * p[1] + y * p[3]) + (z * p[4] + to * m[1]);
@@ -153,11 +159,12 @@ void move_by_moments(const MomentRows<Scalar>& rows, const PaddedMatrix<Scalar>*
     });
 }
 
-#define PBS_MUSH_KERNELS(Scalar)                                                                                                     \
-    template void smooth_points(const NeighbourRows<Scalar>&, Scalar, const Scalar*, Scalar*);                                       \
-    template void add_detail(const NeighbourRows<Scalar>&, const EdgeRows<Scalar>&, const EdgeRows<Scalar>&, const Scalar*, Scalar*, \
-                             RefusedRotations<Scalar>&);                                                                             \
-    template void move_by_moments(const MomentRows<Scalar>&, const PaddedMatrix<Scalar>*, Scalar*, RefusedRotations<Scalar>&);
+#define PBS_MUSH_KERNELS(Scalar)                                                                             \
+    template void smooth_points(const NeighbourRows<Scalar>&, Scalar, const Scalar*, Scalar*);               \
+    template void add_detail(const NeighbourRows<Scalar>&, const EdgeRows<Scalar>&, const EdgeRows<Scalar>&, \
+                             const Scalar*, Scalar*, RefusedRotations<Scalar>&);                             \
+    template void move_by_moments(const MomentRows<Scalar>&, const PaddedMatrix<Scalar>*, Scalar*,           \
+                                  RefusedRotations<Scalar>&);
 PBS_MUSH_KERNELS(float)
 PBS_MUSH_KERNELS(double)
 

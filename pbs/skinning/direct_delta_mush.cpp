@@ -25,16 +25,20 @@ void check(const DirectDeltaMushOptions& options)
     require(options.iterations >= 0, "iterations", options.iterations, "expected 0 or more");
     require(options.lambda >= 0.0 && (!is_explicit || options.lambda <= 1.0), "lambda", options.lambda,
             "expected 0 or more, and at most 1 with explicit steps");
-    require(options.kappa >= 0.0 && options.kappa <= options.lambda, "kappa", options.kappa, "expected 0 <= kappa <= lambda");
+    require(options.kappa >= 0.0 && options.kappa <= options.lambda, "kappa", options.kappa,
+            "expected 0 <= kappa <= lambda");
     require(options.alpha >= 0.0 && options.alpha <= 1.0, "alpha", options.alpha, "expected 0 <= alpha <= 1");
-    require(options.negligible >= 0.0 && options.negligible <= 1e-3, "negligible", options.negligible, "expected 0 <= negligible <= 1e-3");
+    require(options.negligible >= 0.0 && options.negligible <= 1e-3, "negligible", options.negligible,
+            "expected 0 <= negligible <= 1e-3");
 }
 
 // X -> B^T X, the p smoothing steps of functions on the vertices.
 class Smoother {
 public:
     Smoother(const Adjacency& neighbours, double step, const DirectDeltaMushOptions& options)
-        : step_(step), iterations_(step > 0.0 ? options.iterations : 0), is_explicit_(options.smoothing == MushSmoothing::explicit_steps)
+        : step_(step),
+          iterations_(step > 0.0 ? options.iterations : 0),
+          is_explicit_(options.smoothing == MushSmoothing::explicit_steps)
     {
         const int vertices = static_cast<int>(neighbours.first.size()) - 1;
         degree_ = Eigen::VectorXd::Ones(vertices);  // of a vertex without neighbours: any
@@ -43,7 +47,8 @@ public:
             const int count = neighbours.first[i + 1] - neighbours.first[i];
             if (count > 0) degree_(i) = count;
             entries.emplace_back(i, i, count);
-            for (int k = neighbours.first[i]; k < neighbours.first[i + 1]; ++k) entries.emplace_back(i, neighbours.neighbour[k], -1.0);
+            for (int k = neighbours.first[i]; k < neighbours.first[i + 1]; ++k)
+                entries.emplace_back(i, neighbours.neighbour[k], -1.0);
         }
         laplacian_.resize(vertices, vertices);
         laplacian_.setFromTriplets(entries.begin(), entries.end());
@@ -106,7 +111,8 @@ struct RawMoments {
 
 using RawRows = std::vector<std::vector<RawMoments>>;  // of each vertex
 
-RawRows raw_moments(const Positions& points, const Weights& weights, const Smoother& by_lambda, const Smoother& by_kappa, double negligible)
+RawRows raw_moments(const Positions& points, const Weights& weights, const Smoother& by_lambda,
+                    const Smoother& by_kappa, double negligible)
 {
     RawRows rows(points.rows());
     const Fields monomials = monomials_of(points);
@@ -150,7 +156,8 @@ BoneMoments<Scalar> packed(const DirectDeltaMush::Moments& moments, double alpha
 
 }  // namespace
 
-DirectDeltaMush::DirectDeltaMush(const TetMesh& mesh, const Weights& weights, const DirectDeltaMushOptions& options) : options_(options)
+DirectDeltaMush::DirectDeltaMush(const TetMesh& mesh, const Weights& weights, const DirectDeltaMushOptions& options)
+    : options_(options)
 {
     check(options);
     const Adjacency neighbours = adjacency_of(mesh.tets, static_cast<int>(mesh.rest.rows()));
@@ -179,7 +186,8 @@ void DirectDeltaMush::apply(const Pose& pose, Positions& posed) const
 {
     posed.resize(centre_.rows(), 3);
     for (Eigen::Index v = 0; v < centre_.rows(); ++v) {
-        const Vec3 centre = centre_.row(v), origin = pose[moments_[first_[v]].bone] * centre;  // sum_j first_j = 0: any origin
+        // sum_j first_j = 0: any origin
+        const Vec3 centre = centre_.row(v), origin = pose[moments_[first_[v]].bone] * centre;
         Vec3 q = origin;
         Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
         for (int k = first_[v]; k < first_[v + 1]; ++k) {
@@ -193,7 +201,8 @@ void DirectDeltaMush::apply(const Pose& pose, Positions& posed) const
 }
 
 template <class Scalar>
-PackedDirectMush<Scalar>::PackedDirectMush(const TetMesh& mesh, const Weights& weights, const DirectDeltaMushOptions& options)
+PackedDirectMush<Scalar>::PackedDirectMush(const TetMesh& mesh, const Weights& weights,
+                                           const DirectDeltaMushOptions& options)
     : posed_(mesh.rest.size()), refused_(mesh.rest.rows()), middle_(middle_of_box(mesh.rest))
 {
     const DirectDeltaMush plain(mesh, weights, options);
@@ -217,7 +226,8 @@ const std::vector<Scalar>& PackedDirectMush<Scalar>::apply_rows(const Pose& pose
         Eigen::Map<Eigen::Matrix<Scalar, 4, 4>> matrix(bones_[bone].numbers);
         matrix = placed.matrix().template cast<Scalar>();
     }
-    const MomentRows<Scalar> rows{static_cast<int>(first_.size()) - 1, first_.data(), moments_.data(), centre_.data(), detail_.data()};
+    const MomentRows<Scalar> rows{static_cast<int>(first_.size()) - 1, first_.data(), moments_.data(), centre_.data(),
+                                  detail_.data()};
     RefusedRotations<Scalar> refused = refused_.none_yet();
     move_by_moments(rows, bones_.data(), posed_.data(), refused);
     PackedRotations<Scalar>::turn(refused, detail_, posed_);

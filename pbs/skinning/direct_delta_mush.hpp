@@ -1,17 +1,20 @@
-// Direct delta mush, variant 0 (B. H. Le, J. P. Lewis: Direct delta mush skinning and variants, ACM Transactions on Graphics 38(4), 2019).
-// It smooths once, in the rest pose, where delta mush smooths in every pose; a pose then costs one blend and one rotation per vertex.
+// Direct delta mush, variant 0 (B. H. Le, J. P. Lewis: Direct delta mush skinning and variants, ACM Transactions on
+// Graphics 38(4), 2019). It smooths once, in the rest pose, where delta mush smooths in every pose; a pose then costs
+// one blend and one rotation per vertex.
 //   const DirectDeltaMush mush(mesh, weights, {.iterations = 10});
 //   mush.apply(pose, posed);
 // With rest positions u_k, in homogeneous coordinates, weights w_kj and rigid transforms M_j:
-//   B = (1 + lambda L D^-1)^-p, C = (1 + kappa L D^-1)^-p                      L: Laplacian of the mesh, D: its diagonal
-//   Psi_ij = sum_k b_ki w_kj u_k u_k^T,   w'_ij = sum_k c_ki w_kj,             sum_j Psi_ij = (. p_i; p_i^T 1)
+//   B = (1 + lambda L D^-1)^-p, C = (1 + kappa L D^-1)^-p                      L: Laplacian of the mesh, D: its
+//   diagonal Psi_ij = sum_k b_ki w_kj u_k u_k^T,   w'_ij = sum_k c_ki w_kj,             sum_j Psi_ij = (. p_i; p_i^T 1)
 //   Omega_ij = (1 - alpha) Psi_ij + alpha w'_ij (p_i p_i^T, p_i; p_i^T, 1)     10 numbers per vertex and bone
-//   sum_j M_j Omega_ij = (Q_i, q_i; p_i^T, 1),   R_i = the rotation nearest to Q_i - q_i p_i^T,   v_i = q_i + R_i (u_i - p_i)
-// alpha = 0 is nearest to delta mush: q_i is then the smoothed LBS. alpha = 1 moves p_i by LBS with the smoothed weights w'; the rotations
-// are those of the limit alpha -> 1, since they do not depend on alpha.
-// Departures that change no result: Psi_ij is stored about p_i and not about the origin, so that floats lose no digits; SVD is replaced by
-// nearest_rotation.hpp, which unlike U V^T is a rotation for every matrix. Departures that do: L is the Laplacian of the tets' edges with
-// unit weights, as in delta_mush.hpp; entries of a weight below `negligible` are dropped, and the others are scaled to a sum of one.
+//   sum_j M_j Omega_ij = (Q_i, q_i; p_i^T, 1),   R_i = the rotation nearest to Q_i - q_i p_i^T,   v_i = q_i + R_i (u_i
+//   - p_i)
+// alpha = 0 is nearest to delta mush: q_i is then the smoothed LBS. alpha = 1 moves p_i by LBS with the smoothed
+// weights w'; the rotations are those of the limit alpha -> 1, since they do not depend on alpha. Departures that
+// change no result: Psi_ij is stored about p_i and not about the origin, so that floats lose no digits; SVD is replaced
+// by nearest_rotation.hpp, which unlike U V^T is a rotation for every matrix. Departures that do: L is the Laplacian of
+// the tets' edges with unit weights, as in delta_mush.hpp; entries of a weight below `negligible` are dropped, and the
+// others are scaled to a sum of one.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -24,8 +27,9 @@ namespace pbs {
 enum class MushSmoothing { implicit_steps, explicit_steps };
 
 struct DirectDeltaMushOptions {
-    int iterations = 10;       // p, 0 or more; 0: LBS
-    double lambda = 1.0;       // of the rotations and, with 1 - alpha, of the translations; 0 or more, explicit_steps: at most 1
+    int iterations = 10;  // p, 0 or more; 0: LBS
+    double lambda =
+        1.0;  // of the rotations and, with 1 - alpha, of the translations; 0 or more, explicit_steps: at most 1
     double kappa = 0.5;        // of the weights w'; from 0 to lambda
     double alpha = 0.5;        // share of w' in the translations, in [0, 1]
     double negligible = 1e-4;  // weight below which a bone is dropped from a vertex; from 0 to 1e-3
@@ -49,7 +53,8 @@ public:
         Vec3 first;              // of Psi [m]
         Eigen::Matrix3d second;  // of Psi [m^2]
     };
-    const std::vector<int>& first() const { return first_; }          // moments of vertex i: first[i] .. first[i + 1] - 1, #V + 1
+    // moments of vertex i: first[i] .. first[i + 1] - 1, #V + 1
+    const std::vector<int>& first() const { return first_; }
     const std::vector<Moments>& moments() const { return moments_; }  // #entries
     const Positions& centre() const { return centre_; }               // p_i [m], #V x 3
     const Positions& detail() const { return detail_; }               // u_i - p_i [m], #V x 3
@@ -64,10 +69,11 @@ private:
 // Direct delta mush in packed float or double.
 //   PackedDirectMush<float> mush(mesh, weights, {.iterations = 10});
 //   mush.apply(pose, posed);
-// Float differs from double by rounding, eps = 1.2e-7. Everything is relative to the middle of the body, so that far from the origin no
-// digits are lost, and moments are relative to the vertex's own centre p_i. A position is in error by a few eps times the size of the body,
-// and by its detail times the error of its rotation: a few eps times the size of the body over the root of the second singular value of the
-// moments. Scalar: float or double. One thread at a time: the last pose is kept in it.
+// Float differs from double by rounding, eps = 1.2e-7. Everything is relative to the middle of the body, so that far
+// from the origin no digits are lost, and moments are relative to the vertex's own centre p_i. A position is in error
+// by a few eps times the size of the body, and by its detail times the error of its rotation: a few eps times the size
+// of the body over the root of the second singular value of the moments. Scalar: float or double. One thread at a time:
+// the last pose is kept in it.
 template <class Scalar>
 class PackedDirectMush {
 public:

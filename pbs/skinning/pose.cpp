@@ -22,7 +22,8 @@ void check_sweep(const Skeleton& skeleton, int joint, const Vec3& axis, int fram
 {
     if (joint < 0 || joint >= static_cast<int>(skeleton.bones.size()))
         throw InputError("joint sweep", 0, "joint", std::to_string(joint), "expected a bone of the skeleton");
-    if (!(axis.stableNorm() > 0.0) || !axis.allFinite()) throw InputError("joint sweep", 0, "axis", "", "expected a direction, not zero");
+    if (!(axis.stableNorm() > 0.0) || !axis.allFinite())
+        throw InputError("joint sweep", 0, "axis", "", "expected a direction, not zero");
     if (frames < 1) throw InputError("joint sweep", 0, "frames", std::to_string(frames), "expected at least 1");
 }
 
@@ -43,7 +44,8 @@ std::vector<int> bones_that_move_as_one(const Skeleton& skeleton, const std::vec
     for (const Bone& bone : skeleton.bones) centre += bone.head / static_cast<double>(skeleton.bones.size());
     const auto moves_with = [&](std::size_t bone, std::size_t other) {
         return std::ranges::all_of(poses, [&](const Pose& pose) {
-            const double turned_m = (pose[bone].linear() - pose[other].linear()).norm() * size_m;  // the Frobenius norm bounds the turn
+            // the Frobenius norm bounds the turn
+            const double turned_m = (pose[bone].linear() - pose[other].linear()).norm() * size_m;
             return turned_m + (pose[bone] * centre - pose[other] * centre).norm() <= most_apart * size_m;
         });
     };
@@ -79,7 +81,8 @@ std::vector<int> bones_meeting(const Skeleton& skeleton, int bone, BoneEnd end)
     return meeting;
 }
 
-Pose pose_from_joints(const Skeleton& skeleton, const std::vector<Eigen::Quaterniond>& local_rotations, const Vec3& root_translation)
+Pose pose_from_joints(const Skeleton& skeleton, const std::vector<Eigen::Quaterniond>& local_rotations,
+                      const Vec3& root_translation)
 {
     Pose pose(skeleton.bones.size());
     for (std::size_t j = 0; j < skeleton.bones.size(); ++j) {
@@ -95,7 +98,8 @@ Pose pose_from_joints(const Skeleton& skeleton, const std::vector<Eigen::Quatern
     return pose;
 }
 
-Motion joint_sweep(const Skeleton& skeleton, int joint, const Vec3& axis, double angle_deg, int frames, double time_step_s)
+Motion joint_sweep(const Skeleton& skeleton, int joint, const Vec3& axis, double angle_deg, int frames,
+                   double time_step_s)
 {
     check_sweep(skeleton, joint, axis, frames);
     Motion motion;
@@ -146,7 +150,8 @@ double PosePath::largest_turn_deg() const
 {
     double largest = 0.0;
     for (std::size_t j = 0; j < from_.size(); ++j)
-        largest = std::max(largest, Eigen::Quaterniond(from_[j].linear()).angularDistance(Eigen::Quaterniond(to_[j].linear())));
+        largest = std::max(largest,
+                           Eigen::Quaterniond(from_[j].linear()).angularDistance(Eigen::Quaterniond(to_[j].linear())));
     return largest * 180.0 / std::numbers::pi;
 }
 
@@ -170,23 +175,29 @@ Positions RootFrame::to_root(const Positions& points) const
 
 int steps_per_frame(const MotionSampling& sampling)
 {
-    if (!(sampling.rate_hz > 0.0)) throw InputError("", 0, "rate_hz", std::to_string(sampling.rate_hz), "expected a rate > 0");
-    if (!(sampling.time_step_s > 0.0)) throw InputError("", 0, "time_step_s", std::to_string(sampling.time_step_s), "expected a time > 0");
+    if (!(sampling.rate_hz > 0.0))
+        throw InputError("", 0, "rate_hz", std::to_string(sampling.rate_hz), "expected a rate > 0");
+    if (!(sampling.time_step_s > 0.0))
+        throw InputError("", 0, "time_step_s", std::to_string(sampling.time_step_s), "expected a time > 0");
     const double steps = 1.0 / (sampling.rate_hz * sampling.time_step_s);
     if (!(std::round(steps) >= 1.0 && std::abs(steps - std::round(steps)) <= rounding * steps))
-        throw InputError("", 0, "rate_hz * time_step_s", std::to_string(1.0 / steps), "expected 1 / n: n steps per frame");
+        throw InputError("", 0, "rate_hz * time_step_s", std::to_string(1.0 / steps),
+                         "expected 1 / n: n steps per frame");
     if (steps > most_steps_per_frame)
-        throw InputError("", 0, "rate_hz * time_step_s", std::to_string(1.0 / steps), "expected at most 100000 steps per frame");
+        throw InputError("", 0, "rate_hz * time_step_s", std::to_string(1.0 / steps),
+                         "expected at most 100000 steps per frame");
     return static_cast<int>(std::round(steps));
 }
 
 int frames_after_the_first(const MotionSampling& sampling, double length_s, double slack_s, const std::string& file)
 {
     if (!(sampling.start_s >= 0.0 && sampling.start_s <= length_s + slack_s))
-        throw InputError(file, 0, "start_s", std::to_string(sampling.start_s), "the clip lasts " + std::to_string(length_s) + " s");
+        throw InputError(file, 0, "start_s", std::to_string(sampling.start_s),
+                         "the clip lasts " + std::to_string(length_s) + " s");
     if (!(sampling.duration_s >= 0.0 && sampling.start_s + sampling.duration_s <= length_s + slack_s))
         throw InputError(file, 0, "duration_s", std::to_string(sampling.duration_s),
-                         "the clip ends at " + std::to_string(length_s) + " s, " + std::to_string(length_s - sampling.start_s) + " s on");
+                         "the clip ends at " + std::to_string(length_s) + " s, " +
+                             std::to_string(length_s - sampling.start_s) + " s on");
     const double duration_s = sampling.duration_s > 0.0 ? sampling.duration_s : length_s - sampling.start_s;
     return static_cast<int>(std::floor(duration_s * sampling.rate_hz + rounding));
 }

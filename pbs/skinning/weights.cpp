@@ -33,7 +33,8 @@ void append_vertex(Weights& weights, const std::vector<int>& bones)
 }
 
 constexpr double negligible = 1e-6;
-constexpr double regular = 1e-9;  // keeps the system of a part that nothing grips from being singular; its weights become 0
+constexpr double regular =
+    1e-9;  // keeps the system of a part that nothing grips from being singular; its weights become 0
 
 using Laplacian = Eigen::SparseMatrix<double>;
 
@@ -68,7 +69,8 @@ Laplacian held_laplacian(const TetMesh& mesh, const std::vector<bool>& known, co
 
 }  // namespace
 
-BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton, const std::function<bool(int, int)>& may_bind)
+BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton,
+                                 const std::function<bool(int, int)>& may_bind)
 {
     if (skeleton.bones.empty()) throw InputError("skeleton", 0, "bones", "0", "expected at least one bone");
     BoneBinding binding{std::vector<int>(rest.rows()), Eigen::VectorXd(rest.rows()), Positions(rest.rows(), 3),
@@ -81,7 +83,8 @@ BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton
         for (int j = 0; j < static_cast<int>(skeleton.bones.size()); ++j) {
             const Projection candidate = project_on_bone(vertex, skeleton.bones[j]);
             const bool may = !may_bind || may_bind(static_cast<int>(i), j);
-            if (j > 0 && (may < may_be_bound || (may == may_be_bound && !(candidate.distance < best.distance)))) continue;
+            if (j > 0 && (may < may_be_bound || (may == may_be_bound && !(candidate.distance < best.distance))))
+                continue;
             nearest = j;
             may_be_bound = may;
             best = candidate;
@@ -97,11 +100,13 @@ BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton
 Positions posed_bind_points(const BoneBinding& binding, const Pose& pose)
 {
     Positions points(binding.rest_point.rows(), 3);
-    for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i) = pose[binding.bone[i]] * Vec3(binding.rest_point.row(i));
+    for (Eigen::Index i = 0; i < points.rows(); ++i)
+        points.row(i) = pose[binding.bone[i]] * Vec3(binding.rest_point.row(i));
     return points;
 }
 
-Positions reprojected_bind_points(const BoneBinding& binding, const Skeleton& skeleton, const Pose& pose, const Positions& positions)
+Positions reprojected_bind_points(const BoneBinding& binding, const Skeleton& skeleton, const Pose& pose,
+                                  const Positions& positions)
 {
     Positions points(positions.rows(), 3);
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
@@ -128,7 +133,8 @@ Weights weights_by_end(const BoneBinding& binding, const BonesAtEnd& at_head, co
     for (std::size_t i = 0; i < binding.bone.size(); ++i) {
         const int bone = binding.bone[i];
         const double t = binding.parameter(i);
-        // Eq. 2: w_j = 1 for 1/6 <= t <= 5/6, otherwise 1 / n over the bones that meet at the nearest end, the head where t < 1/2.
+        // Eq. 2: w_j = 1 for 1/6 <= t <= 5/6, otherwise 1 / n over the bones that meet at the nearest end, the head
+        // where t < 1/2.
         if (t < 1.0 / 6.0)
             append_vertex(weights, at_head[bone]);
         else if (t <= 5.0 / 6.0)
@@ -168,7 +174,8 @@ Weights sparse_weights(const Eigen::MatrixXd& dense, double negligible, const We
         const double sum = (dense.row(v).array() > negligible).select(dense.row(v), 0.0).sum();
         for (int j = 0; j < dense.cols(); ++j)
             if (dense(v, j) > negligible) result.add(j, dense(v, j) / sum);
-        for (int k = otherwise.first[v]; sum == 0.0 && k < otherwise.first[v + 1]; ++k) result.add(otherwise.bone[k], otherwise.weight[k]);
+        for (int k = otherwise.first[v]; sum == 0.0 && k < otherwise.first[v + 1]; ++k)
+            result.add(otherwise.bone[k], otherwise.weight[k]);
         result.end_vertex();
     }
     return result;

@@ -18,19 +18,23 @@ struct BoneBinding {
     Eigen::VectorXd distance;   // d_i = |v_i - rest_point_i| [m], #V
 };
 
-// rest: rest positions [m], #V x 3. A bone without length is the point at its head, with parameter 0. InputError where the skeleton has no
-// bone. may_bind(vertex, bone), if given: the nearest of these bones; of all where a vertex has none.
-BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton, const std::function<bool(int, int)>& may_bind = {});
+// rest: rest positions [m], #V x 3. A bone without length is the point at its head, with parameter 0. InputError where
+// the skeleton has no bone. may_bind(vertex, bone), if given: the nearest of these bones; of all where a vertex has
+// none.
+BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton,
+                                 const std::function<bool(int, int)>& may_bind = {});
 
-// The projection points q_i carried by their posed bones [m], #V x 3. The pose has every bone of the binding (unchecked).
+// The projection points q_i carried by their posed bones [m], #V x 3. The pose has every bone of the binding
+// (unchecked).
 Positions posed_bind_points(const BoneBinding& binding, const Pose& pose);
 
-// The other reading of "its projection on the nearest bone" (Sec. 3.6): positions [m], #V x 3, projected anew on their posed bones'
-// segments.
-Positions reprojected_bind_points(const BoneBinding& binding, const Skeleton& skeleton, const Pose& pose, const Positions& positions);
+// The other reading of "its projection on the nearest bone" (Sec. 3.6): positions [m], #V x 3, projected anew on their
+// posed bones' segments.
+Positions reprojected_bind_points(const BoneBinding& binding, const Skeleton& skeleton, const Pose& pose,
+                                  const Positions& positions);
 
-// The weights of vertex i are the entries first(i) .. first(i + 1) - 1 of `bone` and `weight`; they sum to one. Weights made
-// here and weights read from files obey that; no other weights are checked.
+// The weights of vertex i are the entries first(i) .. first(i + 1) - 1 of `bone` and `weight`; they sum to one. Weights
+// made here and weights read from files obey that; no other weights are checked.
 struct Weights {
     std::vector<int> first;      // begins with 0, #V + 1
     std::vector<int> bone;       // index into Skeleton::bones, #entries
@@ -50,8 +54,9 @@ struct Weights {
 };
 
 // `binding` must belong to this skeleton (unchecked); it determines #V and the order of the vertices.
-Weights paper_weights(const BoneBinding& binding, const Skeleton& skeleton);  // Eq. 2: 1 at 1/6 <= t <= 5/6, else 1 / n of bones_meeting
-Weights rigid_weights(const BoneBinding& binding);                            // nearest bone only
+// Eq. 2: 1 at 1/6 <= t <= 5/6, else 1 / n of bones_meeting
+Weights paper_weights(const BoneBinding& binding, const Skeleton& skeleton);
+Weights rigid_weights(const BoneBinding& binding);  // nearest bone only
 
 // The other reading of Eq. 2's n_joints: near either end, 1 / n over all bones that touch the bone at either end.
 Weights either_end_weights(const BoneBinding& binding, const Skeleton& skeleton);
@@ -60,28 +65,31 @@ Weights either_end_weights(const BoneBinding& binding, const Skeleton& skeleton)
 using BonesAtEnd = std::vector<std::vector<int>>;  // of each bone
 Weights weights_by_end(const BoneBinding& binding, const BonesAtEnd& at_head, const BonesAtEnd& at_tail);
 
-// One row per vertex and one column per bone: what exceeds `negligible`, scaled to a sum of one. A vertex where nothing does has its
-// weights of `otherwise`.
+// One row per vertex and one column per bone: what exceeds `negligible`, scaled to a sum of one. A vertex where nothing
+// does has its weights of `otherwise`.
 Weights sparse_weights(const Eigen::MatrixXd& dense, double negligible, const Weights& otherwise);
 
 // Smooth weights of the bones in the flesh: each bone's weight is harmonic between the vertices where it is known.
 
-// Weights are 1 where their bone grips the flesh and 0 where another does. They predict where the flesh moves with the bones, for example
-// as an initial guess of a solver. gripping_bone: #V, -1 where no bone grips. Linear elements. A connected part that nothing grips belongs
-// to the first bone.
+// Weights are 1 where their bone grips the flesh and 0 where another does. They predict where the flesh moves with the
+// bones, for example as an initial guess of a solver. gripping_bone: #V, -1 where no bone grips. Linear elements. A
+// connected part that nothing grips belongs to the first bone.
 Weights harmonic_weights(const TetMesh& mesh, const std::vector<int>& gripping_bone, int bones);
 
-// The same with given weights, of which a vertex may have several: known: #V, which rows of `weights` are given; weights: #V x #bones.
+// The same with given weights, of which a vertex may have several: known: #V, which rows of `weights` are given;
+// weights: #V x #bones.
 Weights harmonic_extension(const TetMesh& mesh, const std::vector<bool>& known, const Eigen::MatrixXd& weights);
 
 // Weights that vary smoothly because given ones have diffused through the flesh.
 //   const Weights smooth = diffused_weights(mesh, paper_weights(binding, skeleton));
 
-// Steps of the default. Each goes half-way to the mean over the neighbours along the tets' edges, so that weights stay in [0, 1], add up to
-// one and cannot alternate from vertex to vertex. After 8 steps a weight has spread by about two edges.
+// Steps of the default. Each goes half-way to the mean over the neighbours along the tets' edges, so that weights stay
+// in [0, 1], add up to one and cannot alternate from vertex to vertex. After 8 steps a weight has spread by about two
+// edges.
 inline constexpr int diffusion_steps = 8;
 
-// Weights below 1e-6 are left out, and the others of the vertex are scaled to a sum of one. A vertex without tets keeps its own.
+// Weights below 1e-6 are left out, and the others of the vertex are scaled to a sum of one. A vertex without tets keeps
+// its own.
 Weights diffused_weights(const TetMesh& mesh, const Weights& weights, int steps = diffusion_steps);
 
 }  // namespace pbs

@@ -22,10 +22,12 @@ SleepTolerance sleep_tolerance(const TetMesh& mesh, const PbsOptions& options)
 }  // namespace
 
 template <typename Scalar>
-Algorithm1<Scalar>::Algorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
-                               const PbsOptions& options, const std::vector<bool>& held)
+Algorithm1<Scalar>::Algorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance,
+                               const std::vector<bool>& jiggle_zone, const PbsOptions& options,
+                               const std::vector<bool>& held)
     : options_(options),
-      projection_(projection_of(make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, options, held), mesh.tets)),
+      projection_(
+          projection_of(make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, options, held), mesh.tets)),
       sleep_tolerance_(sleep_tolerance(mesh, options)),
       particles_(mesh.rest, jiggle_zone, options)
 {
@@ -36,7 +38,8 @@ Algorithm1<Scalar>::Algorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_
 }
 
 template <typename Scalar>
-std::unique_ptr<Projection<Scalar>> Algorithm1<Scalar>::projection_of(ConstraintSet<Scalar> constraints, const Tets& tets)
+std::unique_ptr<Projection<Scalar>> Algorithm1<Scalar>::projection_of(ConstraintSet<Scalar> constraints,
+                                                                      const Tets& tets)
 {
     bind_ = static_cast<std::int64_t>(constraints.bind.size());
     stretch_ = static_cast<std::int64_t>(constraints.stretch.size());
@@ -98,11 +101,12 @@ WorkCounters Algorithm1<Scalar>::work_of(int iterations) const
 {
     const double awake = 1.0 - projection_->sleeping_share();
     const auto awake_of = [&](std::int64_t constraints) { return std::llround(awake * double(constraints)); };
-    return {.tet_visits = iterations * awake_of(volume_), .projections = iterations * (bind_ + awake_of(stretch_) + awake_of(volume_))};
+    return {.tet_visits = iterations * awake_of(volume_),
+            .projections = iterations * (bind_ + awake_of(stretch_) + awake_of(volume_))};
 }
 
-// Skin in flesh of another part is sought after a quarter and after three quarters of the iterations. Before, the tets that LBS turns
-// inside out would report flesh where there is none.
+// Skin in flesh of another part is sought after a quarter and after three quarters of the iterations. Before, the tets
+// that LBS turns inside out would report flesh where there is none.
 template <typename Scalar>
 void Algorithm1<Scalar>::seek_contacts(int iteration)
 {

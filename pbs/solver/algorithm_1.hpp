@@ -1,6 +1,7 @@
 // Algorithm 1 of the paper for one mesh, in one precision. PbsSolver is its public interface.
-// Where Algorithm 1 is ambiguous: particles outside the jiggling zone start every step at their LBS position and have no velocity; those
-// inside are integrated (particles.hpp). Projections run in Scalar, in float relative to the mean position of the step.
+// Where Algorithm 1 is ambiguous: particles outside the jiggling zone start every step at their LBS position and have
+// no velocity; those inside are integrated (particles.hpp). Projections run in Scalar, in float relative to the mean
+// position of the step.
 #pragma once
 
 #include "pbs/contact/self_contact.hpp"
@@ -19,8 +20,8 @@ template <typename Scalar>
 class Algorithm1 {
 public:
     // See PbsSolver, whose checks are made here.
-    Algorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone, const PbsOptions& options,
-               const std::vector<bool>& held = {});
+    Algorithm1(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
+               const PbsOptions& options, const std::vector<bool>& held = {});
     // See PbsSolver::advance.
     StepSummary advance(const Positions& lbs_positions, const Positions& bind_points, double dt_s);
 

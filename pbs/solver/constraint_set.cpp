@@ -39,7 +39,8 @@ void check_volume_of(const PbsOptions& options)
     require(options.region_tets >= 1, "region_tets", options.region_tets, "expected 1 or more");
     if (options.volume_of == VolumeOf::tets) return;
     const char* owners = options.volume_of == VolumeOf::regions ? "regions" : "tets_and_regions";
-    if (options.sleep) throw InputError("pbs", 0, "volume_of", owners, "expected tets with sleep = true: regions do not sleep");
+    if (options.sleep)
+        throw InputError("pbs", 0, "volume_of", owners, "expected tets with sleep = true: regions do not sleep");
     if (options.volume_form != VolumeForm::derived)
         throw InputError("pbs", 0, "volume_of", owners, "expected tets with a volume_form other than derived");
 }
@@ -52,9 +53,11 @@ void check_mesh(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const
                          "expected one per vertex, " + std::to_string(mesh.rest.rows()));
     };
     if (bind_distance.size() != mesh.rest.rows()) size_error("bind_distance", bind_distance.size());
-    if (!jiggle_zone.empty() && Eigen::Index(jiggle_zone.size()) != mesh.rest.rows()) size_error("jiggle_zone", jiggle_zone.size());
+    if (!jiggle_zone.empty() && Eigen::Index(jiggle_zone.size()) != mesh.rest.rows())
+        size_error("jiggle_zone", jiggle_zone.size());
     if (!held.empty() && Eigen::Index(held.size()) != mesh.rest.rows()) size_error("held", held.size());
-    if (mesh.tets.size() && mesh.rest.rows() == 0) throw InputError("mesh", 0, "points", "0", "expected at least one point");
+    if (mesh.tets.size() && mesh.rest.rows() == 0)
+        throw InputError("mesh", 0, "points", "0", "expected at least one point");
     if (mesh.tets.size() && (mesh.tets.minCoeff() < 0 || mesh.tets.maxCoeff() >= mesh.rest.rows()))
         throw InputError("mesh", 0, "tets", "", expected_whole("vertex indices", 0, mesh.rest.rows() - 1));
     positive_volumes(mesh.rest, mesh.tets);
@@ -64,10 +67,15 @@ void check_held(const std::vector<bool>& held, const std::vector<bool>& jiggle_z
 {
     for (std::size_t i = 0; i < held.size(); ++i) {
         if (!held[i]) continue;
-        const auto refuse = [i](const char* rule) { throw InputError("pbs", 0, "held", "vertex " + std::to_string(i), rule); };
-        if (options.jiggle && !jiggle_zone.empty() && jiggle_zone[i]) refuse("expected a vertex outside the jiggling zone");
-        if (options.lbs_entry == LbsEntry::increment) refuse("expected none with lbs_entry increment: all are integrated");
-        if (options.volume_form != VolumeForm::derived) refuse("expected none with a printed volume_form: all masses are one");
+        const auto refuse = [i](const char* rule) {
+            throw InputError("pbs", 0, "held", "vertex " + std::to_string(i), rule);
+        };
+        if (options.jiggle && !jiggle_zone.empty() && jiggle_zone[i])
+            refuse("expected a vertex outside the jiggling zone");
+        if (options.lbs_entry == LbsEntry::increment)
+            refuse("expected none with lbs_entry increment: all are integrated");
+        if (options.volume_form != VolumeForm::derived)
+            refuse("expected none with a printed volume_form: all masses are one");
     }
 }
 
@@ -81,9 +89,12 @@ std::vector<StretchConstraint<Scalar>> stretch_constraints(const TetMesh& mesh, 
         const int first = edges(e, 0), second = edges(e, 1);
         const bool jiggles = options.jiggle && !jiggle_zone.empty() && jiggle_zone[first] && jiggle_zone[second];
         const double k = jiggles ? options.jiggle->k_stretch : options.k_stretch;
-        const double rest_length = value<double>(StretchConstraint<double>{}, mesh.rest.row(first), mesh.rest.row(second));  // Eq. 10
+        // Eq. 10
+        const double rest_length =
+            value<double>(StretchConstraint<double>{}, mesh.rest.row(first), mesh.rest.row(second));
         const double k_edge = stiffness_at_length(k, rest_length, options.k_stretch_length_m);
-        if (k > 0.0) constraints.push_back({{first, second}, Scalar(rest_length), Scalar(share_removed(k_edge, options))});
+        if (k > 0.0)
+            constraints.push_back({{first, second}, Scalar(rest_length), Scalar(share_removed(k_edge, options))});
     }
     return constraints;
 }
@@ -94,9 +105,9 @@ std::vector<VolumeConstraint<Scalar>> volume_constraints(const TetMesh& mesh, do
     std::vector<VolumeConstraint<Scalar>> constraints;
     for (Eigen::Index t = 0; t < mesh.tets.rows() && k > 0.0; ++t) {
         const std::array<int, 4> vertex = {mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)};
-        const double rest_volume =
-            value<double>(VolumeConstraint<double>{}, mesh.rest.row(vertex[0]), mesh.rest.row(vertex[1]), mesh.rest.row(vertex[2]),
-                          mesh.rest.row(vertex[3]));  // Eq. 11
+        const double rest_volume = value<double>(VolumeConstraint<double>{}, mesh.rest.row(vertex[0]),
+                                                 mesh.rest.row(vertex[1]), mesh.rest.row(vertex[2]),
+                                                 mesh.rest.row(vertex[3]));  // Eq. 11
         constraints.push_back({vertex, Scalar(rest_volume), Scalar(k)});
     }
     return constraints;
@@ -114,8 +125,8 @@ std::vector<RegionVolumeConstraint<Scalar>> region_constraints(const TetMesh& me
 }
 
 template <typename Scalar>
-std::vector<BindConstraint<Scalar>> bind_constraints(const Eigen::VectorXd& distance, const std::vector<bool>& jiggle_zone,
-                                                     const PbsOptions& options)
+std::vector<BindConstraint<Scalar>> bind_constraints(const Eigen::VectorXd& distance,
+                                                     const std::vector<bool>& jiggle_zone, const PbsOptions& options)
 {
     std::vector<BindConstraint<Scalar>> constraints;
     for (int i = 0; i < distance.size(); ++i) {
@@ -162,22 +173,25 @@ void check_options(const PbsOptions& options)
 }
 
 template <typename Scalar>
-ConstraintSet<Scalar> make_constraint_set(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
-                                          const PbsOptions& options, const std::vector<bool>& held)
+ConstraintSet<Scalar> make_constraint_set(const TetMesh& mesh, const Eigen::VectorXd& bind_distance,
+                                          const std::vector<bool>& jiggle_zone, const PbsOptions& options,
+                                          const std::vector<bool>& held)
 {
     check_options(options);
     check_mesh(mesh, bind_distance, jiggle_zone, held);
     check_held(held, jiggle_zone, options);
     const double share = share_removed(options.k_volume, options);
     const bool of_tets = options.volume_of != VolumeOf::regions, of_regions = options.volume_of != VolumeOf::tets;
-    return {bind_constraints<Scalar>(bind_distance, jiggle_zone, options), stretch_constraints<Scalar>(mesh, jiggle_zone, options),
+    return {bind_constraints<Scalar>(bind_distance, jiggle_zone, options),
+            stretch_constraints<Scalar>(mesh, jiggle_zone, options),
             volume_constraints<Scalar>(mesh, of_tets ? share : 0.0), inverse_masses<Scalar>(mesh, options.masses, held),
-            of_regions ? region_constraints<Scalar>(mesh, options.region_tets, share) : std::vector<RegionVolumeConstraint<Scalar>>{}};
+            of_regions ? region_constraints<Scalar>(mesh, options.region_tets, share)
+                       : std::vector<RegionVolumeConstraint<Scalar>>{}};
 }
 
-template ConstraintSet<float> make_constraint_set(const TetMesh&, const Eigen::VectorXd&, const std::vector<bool>&, const PbsOptions&,
-                                                  const std::vector<bool>&);
-template ConstraintSet<double> make_constraint_set(const TetMesh&, const Eigen::VectorXd&, const std::vector<bool>&, const PbsOptions&,
-                                                   const std::vector<bool>&);
+template ConstraintSet<float> make_constraint_set(const TetMesh&, const Eigen::VectorXd&, const std::vector<bool>&,
+                                                  const PbsOptions&, const std::vector<bool>&);
+template ConstraintSet<double> make_constraint_set(const TetMesh&, const Eigen::VectorXd&, const std::vector<bool>&,
+                                                   const PbsOptions&, const std::vector<bool>&);
 
 }  // namespace pbs

@@ -8,7 +8,8 @@
 namespace pbs {
 namespace {
 
-std::vector<int> integrated_vertices(const Positions& rest, const std::vector<bool>& jiggle_zone, const PbsOptions& options)
+std::vector<int> integrated_vertices(const Positions& rest, const std::vector<bool>& jiggle_zone,
+                                     const PbsOptions& options)
 {
     std::vector<int> vertices;
     if (options.lbs_entry == LbsEntry::increment) {
@@ -42,7 +43,8 @@ void Particles::check_input(const Positions& lbs_positions, const Positions& bin
 {
     check_rows("lbs_positions", lbs_positions, x_.rows());
     check_rows("bind_points", bind_points, x_.rows());
-    if (!jiggling_.empty() && !(dt_s > 0.0)) throw InputError("pbs", 0, "dt", std::to_string(dt_s) + " s", "expected a positive time step");
+    if (!jiggling_.empty() && !(dt_s > 0.0))
+        throw InputError("pbs", 0, "dt", std::to_string(dt_s) + " s", "expected a positive time step");
 }
 
 void Particles::predict(const Positions& lbs_positions, double dt_s)

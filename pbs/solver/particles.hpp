@@ -1,5 +1,6 @@
-// The particles of Algorithm 1, before and after their projection. Particles outside the jiggling zone start every step at their LBS
-// position and have no velocity; those inside are integrated; with LbsEntry::increment all are, as if all were inside. All in double.
+// The particles of Algorithm 1, before and after their projection. Particles outside the jiggling zone start every step
+// at their LBS position and have no velocity; those inside are integrated; with LbsEntry::increment all are, as if all
+// were inside. All in double.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -21,10 +22,11 @@ public:
     void predict(const Positions& lbs_positions, double dt_s);  // lines (2)-(3) in the first step, (6)-(9)
     void update(double dt_s);                                   // lines (15)-(18)
 
-    Positions& predicted() { return p_; }               // p_i [m], #V x 3
-    const Positions& predicted() const { return p_; }   // as above
-    const Positions& positions() const { return x_; }   // x_i [m], #V x 3
-    const Positions& velocities() const { return v_; }  // v_i [m/s] of the jiggling vertices, #jiggling x 3; none before the first step
+    Positions& predicted() { return p_; }              // p_i [m], #V x 3
+    const Positions& predicted() const { return p_; }  // as above
+    const Positions& positions() const { return x_; }  // x_i [m], #V x 3
+    // v_i [m/s] of the jiggling vertices, #jiggling x 3; none before the first step
+    const Positions& velocities() const { return v_; }
 
 private:
     void move_by_lbs_increment(const Positions& lbs_positions);
@@ -38,8 +40,8 @@ private:
     Positions lbs_before_;  // LBS positions of the last step [m], by_increment_ alone
 };
 
-// The origin of float projections: the mean position, so that a character far from the origin of the world loses no digits.
-// In double it is the origin of the world.
+// The origin of float projections: the mean position, so that a character far from the origin of the world loses no
+// digits. In double it is the origin of the world.
 template <typename Scalar>
 Vec3 local_origin(const Positions& p);
 

@@ -23,10 +23,11 @@ struct PbsSolver::Implementation {
 
 PbsSolver::PbsSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
                      const PbsOptions& options, const std::vector<bool>& held)
-    : implementation_(
-          options.precision == Precision::f32
-              ? std::make_unique<Implementation>(Implementation{Algorithm1<float>(mesh, bind_distance, jiggle_zone, options, held)})
-              : std::make_unique<Implementation>(Implementation{Algorithm1<double>(mesh, bind_distance, jiggle_zone, options, held)}))
+    : implementation_(options.precision == Precision::f32
+                          ? std::make_unique<Implementation>(
+                                Implementation{Algorithm1<float>(mesh, bind_distance, jiggle_zone, options, held)})
+                          : std::make_unique<Implementation>(
+                                Implementation{Algorithm1<double>(mesh, bind_distance, jiggle_zone, options, held)}))
 {
 }
 
@@ -34,19 +35,21 @@ PbsSolver::~PbsSolver() = default;
 
 StepSummary PbsSolver::advance(const Positions& lbs_positions, const Positions& bind_points, double dt_s)
 {
-    return std::visit([&](auto& algorithm) { return algorithm.advance(lbs_positions, bind_points, dt_s); }, implementation_->algorithm);
+    return std::visit([&](auto& algorithm) { return algorithm.advance(lbs_positions, bind_points, dt_s); },
+                      implementation_->algorithm);
 }
 
 const Positions& PbsSolver::positions() const
 {
-    return std::visit([](const auto& algorithm) -> const Positions& { return algorithm.positions(); }, implementation_->algorithm);
+    return std::visit([](const auto& algorithm) -> const Positions& { return algorithm.positions(); },
+                      implementation_->algorithm);
 }
 
 class PosesSolver::Implementation {
 public:
     virtual ~Implementation() = default;
-    virtual std::vector<StepSummary> advance(const std::vector<Positions>& lbs_positions, const std::vector<Positions>& bind_points,
-                                             double dt_s) = 0;
+    virtual std::vector<StepSummary> advance(const std::vector<Positions>& lbs_positions,
+                                             const std::vector<Positions>& bind_points, double dt_s) = 0;
     virtual const Positions& positions(int pose) const = 0;
 };
 
@@ -77,7 +80,8 @@ const T& of_pose(const std::vector<T>& values, std::size_t pose)
 void check_count(const char* field, std::size_t count, std::size_t poses)
 {
     if (count != 1 && count != poses)
-        throw InputError("pbs", 0, field, std::to_string(count), "expected one per pose, " + std::to_string(poses) + ", or one for all");
+        throw InputError("pbs", 0, field, std::to_string(count),
+                         "expected one per pose, " + std::to_string(poses) + ", or one for all");
 }
 
 void check_poses(const std::vector<PbsOptions>& options)
@@ -86,15 +90,19 @@ void check_poses(const std::vector<PbsOptions>& options)
     if (options.empty()) refuse("poses", "expected one or more");
     for (const PbsOptions& pose : options) {
         if (!is_packed(pose.order)) refuse("order", "expected ordered or grouped for many poses at once");
-        if (pose.order != options[0].order || pose.precision != options[0].precision || pose.masses != options[0].masses)
+        if (pose.order != options[0].order || pose.precision != options[0].precision ||
+            pose.masses != options[0].masses)
             refuse("poses", "expected one order, precision and kind of masses for all");
         if (pose.jiggle.has_value() != options[0].jiggle.has_value()) refuse("jiggle", "expected in all poses or none");
         if (pose.volume_form != VolumeForm::derived) refuse("volume_form", "expected derived for many poses at once");
         if (pose.class_order != ClassOrder::bind_stretch_volume || pose.lbs_entry != LbsEntry::start ||
             pose.bind_on_bone != BindOnBone::pinned || (pose.jiggle && pose.jiggle->k_bind))
-            refuse("poses", "expected Algorithm 1's own reading (class_order, lbs_entry, bind_on_bone, jiggle.k_bind) for many at once");
+            refuse("poses",
+                   "expected Algorithm 1's own reading (class_order, lbs_entry, bind_on_bone, jiggle.k_bind) for many "
+                   "at once");
         if (pose.bind_to != BindTo::bone_distance || pose.volume_of != VolumeOf::tets || pose.k_stretch_length_m != 0.0)
-            refuse("poses", "expected the paper's constraints (bind_to, volume_of, k_stretch_length_m) for many at once");
+            refuse("poses",
+                   "expected the paper's constraints (bind_to, volume_of, k_stretch_length_m) for many at once");
         if (pose.contact) refuse("contact", "expected false for many poses at once");
         if (pose.stop_residual > 0.0 || pose.record_iterations || pose.sleep)
             refuse("poses", "expected no stop_residual, record_iterations or sleep for many at once");
@@ -114,19 +122,21 @@ public:
             particles_.emplace_back(mesh.rest, jiggle_zone, pose);
         }
         const bool jiggle = options.front().jiggle.has_value();
-        const ConstraintSet<Scalar> constraints = make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, of_any(options), held);
-        program_ = make_pose_program(constraints, mesh.tets, jiggle ? jiggle_zone : std::vector<bool>{}, options.front().order);
-        work_an_iteration_ = {
-            .tet_visits = static_cast<std::int64_t>(constraints.volume.size()),
-            .projections = static_cast<std::int64_t>(constraints.bind.size() + constraints.stretch.size() + constraints.volume.size())};
+        const ConstraintSet<Scalar> constraints =
+            make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, of_any(options), held);
+        program_ = make_pose_program(constraints, mesh.tets, jiggle ? jiggle_zone : std::vector<bool>{},
+                                     options.front().order);
+        work_an_iteration_ = {.tet_visits = static_cast<std::int64_t>(constraints.volume.size()),
+                              .projections = static_cast<std::int64_t>(
+                                  constraints.bind.size() + constraints.stretch.size() + constraints.volume.size())};
         for (std::size_t first = 0; first < options.size(); first += poses_a_block) {
             const std::size_t last = std::min(first + poses_a_block, options.size());
             blocks_.emplace_back(program_, std::vector<PbsOptions>(options.begin() + first, options.begin() + last));
         }
     }
 
-    std::vector<StepSummary> advance(const std::vector<Positions>& lbs_positions, const std::vector<Positions>& bind_points,
-                                     double dt_s) override
+    std::vector<StepSummary> advance(const std::vector<Positions>& lbs_positions,
+                                     const std::vector<Positions>& bind_points, double dt_s) override
     {
         check_count("lbs_positions", lbs_positions.size(), particles_.size());
         check_count("bind_points", bind_points.size(), particles_.size());
@@ -135,7 +145,8 @@ public:
             particles_[i].check_input(of_pose(lbs_positions, i), of_pose(bind_points, i), dt_s);
             particles_[i].predict(of_pose(lbs_positions, i), dt_s);  // (2)-(9)
         }
-        parallel_.for_each(static_cast<int>(blocks_.size()), [&](int block) { project_block(block, bind_points); });  // (10)-(14)
+        // (10)-(14)
+        parallel_.for_each(static_cast<int>(blocks_.size()), [&](int block) { project_block(block, bind_points); });
         std::vector<StepSummary> summaries(particles_.size());
         for (std::size_t i = 0; i < particles_.size(); ++i) {
             particles_[i].update(dt_s);  // (15)-(18)
@@ -188,20 +199,23 @@ private:
 
 }  // namespace
 
-PosesSolver::PosesSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
-                         const std::vector<PbsOptions>& options, const std::vector<bool>& held)
+PosesSolver::PosesSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance,
+                         const std::vector<bool>& jiggle_zone, const std::vector<PbsOptions>& options,
+                         const std::vector<bool>& held)
 {
     check_poses(options);
     if (options[0].precision == Precision::f32)
-        implementation_ = std::make_unique<PosesAlgorithm1<Implementation, float>>(mesh, bind_distance, jiggle_zone, options, held);
+        implementation_ =
+            std::make_unique<PosesAlgorithm1<Implementation, float>>(mesh, bind_distance, jiggle_zone, options, held);
     else
-        implementation_ = std::make_unique<PosesAlgorithm1<Implementation, double>>(mesh, bind_distance, jiggle_zone, options, held);
+        implementation_ =
+            std::make_unique<PosesAlgorithm1<Implementation, double>>(mesh, bind_distance, jiggle_zone, options, held);
 }
 
 PosesSolver::~PosesSolver() = default;
 
-std::vector<StepSummary> PosesSolver::advance(const std::vector<Positions>& lbs_positions, const std::vector<Positions>& bind_points,
-                                              double dt_s)
+std::vector<StepSummary> PosesSolver::advance(const std::vector<Positions>& lbs_positions,
+                                              const std::vector<Positions>& bind_points, double dt_s)
 {
     return implementation_->advance(lbs_positions, bind_points, dt_s);
 }

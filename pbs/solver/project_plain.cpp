@@ -7,7 +7,8 @@ void project_bind_constraints(const ConstraintSet<Scalar>& constraints, const st
                               std::vector<Vector3<Scalar>>& p)
 {
     const std::vector<Scalar>& w = constraints.inverse_mass;
-    for (const BindConstraint<Scalar>& bind : constraints.bind) project(bind, w[bind.vertex], q[bind.vertex], p[bind.vertex]);
+    for (const BindConstraint<Scalar>& bind : constraints.bind)
+        project(bind, w[bind.vertex], q[bind.vertex], p[bind.vertex]);
 }
 
 template <typename Scalar>
@@ -45,21 +46,31 @@ void project_volume_constraints_printed(const ConstraintSet<Scalar>& constraints
     }
 }
 
-template void project_bind_constraints(const ConstraintSet<float>&, const std::vector<Vector3<float>>&, std::vector<Vector3<float>>&);
+template void project_bind_constraints(const ConstraintSet<float>&, const std::vector<Vector3<float>>&,
+                                       std::vector<Vector3<float>>&);
 template void project_stretch_constraints(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
 template void project_volume_constraints(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
 template void project_region_constraints(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
-template void project_volume_constraints_printed<Printed::labels_relative>(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
-template void project_volume_constraints_printed<Printed::labels_absolute>(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
-template void project_volume_constraints_printed<Printed::sign>(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
-template void project_volume_constraints_printed<Printed::as_printed>(const ConstraintSet<float>&, std::vector<Vector3<float>>&);
-template void project_bind_constraints(const ConstraintSet<double>&, const std::vector<Vector3<double>>&, std::vector<Vector3<double>>&);
+template void project_volume_constraints_printed<Printed::labels_relative>(const ConstraintSet<float>&,
+                                                                           std::vector<Vector3<float>>&);
+template void project_volume_constraints_printed<Printed::labels_absolute>(const ConstraintSet<float>&,
+                                                                           std::vector<Vector3<float>>&);
+template void project_volume_constraints_printed<Printed::sign>(const ConstraintSet<float>&,
+                                                                std::vector<Vector3<float>>&);
+template void project_volume_constraints_printed<Printed::as_printed>(const ConstraintSet<float>&,
+                                                                      std::vector<Vector3<float>>&);
+template void project_bind_constraints(const ConstraintSet<double>&, const std::vector<Vector3<double>>&,
+                                       std::vector<Vector3<double>>&);
 template void project_stretch_constraints(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
 template void project_volume_constraints(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
 template void project_region_constraints(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
-template void project_volume_constraints_printed<Printed::labels_relative>(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
-template void project_volume_constraints_printed<Printed::labels_absolute>(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
-template void project_volume_constraints_printed<Printed::sign>(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
-template void project_volume_constraints_printed<Printed::as_printed>(const ConstraintSet<double>&, std::vector<Vector3<double>>&);
+template void project_volume_constraints_printed<Printed::labels_relative>(const ConstraintSet<double>&,
+                                                                           std::vector<Vector3<double>>&);
+template void project_volume_constraints_printed<Printed::labels_absolute>(const ConstraintSet<double>&,
+                                                                           std::vector<Vector3<double>>&);
+template void project_volume_constraints_printed<Printed::sign>(const ConstraintSet<double>&,
+                                                                std::vector<Vector3<double>>&);
+template void project_volume_constraints_printed<Printed::as_printed>(const ConstraintSet<double>&,
+                                                                      std::vector<Vector3<double>>&);
 
 }  // namespace pbs

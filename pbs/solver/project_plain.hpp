@@ -37,8 +37,8 @@ void project_volume_constraints_printed(const ConstraintSet<Scalar>& constraints
 //   project_regions(constraints.regions, constraints.inverse_mass, [&](int i) -> Vector3<Scalar>& { return p[i]; });
 // position(i): the position of vertex i [m], a reference or an Eigen::Map.
 template <typename Scalar, typename Position>
-void project_regions(const std::vector<RegionVolumeConstraint<Scalar>>& regions, const std::vector<Scalar>& inverse_mass,
-                     const Position& position)
+void project_regions(const std::vector<RegionVolumeConstraint<Scalar>>& regions,
+                     const std::vector<Scalar>& inverse_mass, const Position& position)
 {
     std::vector<Vector3<Scalar>> p, g;
     std::vector<Scalar> w;
@@ -69,7 +69,8 @@ double rms_of_regions(const std::vector<RegionVolumeConstraint<Scalar>>& regions
     return regions.empty() ? 0.0 : std::sqrt(sum / double(regions.size()));
 }
 
-// The root mean square over two classes together, from that of each and their sizes. Without regions it is that of the first, to the bit.
+// The root mean square over two classes together, from that of each and their sizes. Without regions it is that of the
+// first, to the bit.
 inline double joint_rms(double first, std::size_t ones, double other, std::size_t others)
 {
     if (others == 0) return first;

@@ -10,8 +10,9 @@
 namespace pbs {
 namespace {
 
-// One constraint after the other in the order given: in order `plain` file order, as the paper reads, against which every other order is
-// tested. No constraint sleeps. volume_form: derived, or Eq. 12-20 as printed, which take all masses for one.
+// One constraint after the other in the order given: in order `plain` file order, as the paper reads, against which
+// every other order is tested. No constraint sleeps. volume_form: derived, or Eq. 12-20 as printed, which take all
+// masses for one.
 template <typename Scalar>
 class PlainProjection : public Projection<Scalar> {
 public:
@@ -79,8 +80,9 @@ std::array<void (Projection<Scalar>::*)(), 3> classes_in(ClassOrder order)
     return in_order[static_cast<int>(order)];
 }
 
-// Any projection with its classes in another order: lines 11, 12 and 13 of Algorithm 1, whose names the three calls have, then project the
-// first, second and third class of `class_order`. In Algorithm 1's own order there is no need of it.
+// Any projection with its classes in another order: lines 11, 12 and 13 of Algorithm 1, whose names the three calls
+// have, then project the first, second and third class of `class_order`. In Algorithm 1's own order there is no need of
+// it.
 template <typename Scalar>
 class ReorderedProjection : public Projection<Scalar> {
 public:
@@ -107,21 +109,25 @@ private:
 };
 
 template <typename Scalar>
-std::unique_ptr<Projection<Scalar>> in_own_class_order(ConstraintSet<Scalar> constraints, const Tets& tets, const PbsOptions& options)
+std::unique_ptr<Projection<Scalar>> in_own_class_order(ConstraintSet<Scalar> constraints, const Tets& tets,
+                                                       const PbsOptions& options)
 {
     if (options.sleep && !is_packed(options.order))
         throw InputError("pbs", 0, "sleep", "true", "expected false with order plain or spread, which project all");
     if (options.order == Order::spread) constraints = in_spread_order(std::move(constraints));
-    if (!is_packed(options.order)) return std::make_unique<PlainProjection<Scalar>>(std::move(constraints), options.volume_form);
+    if (!is_packed(options.order))
+        return std::make_unique<PlainProjection<Scalar>>(std::move(constraints), options.volume_form);
     if (options.volume_form != VolumeForm::derived)
-        throw InputError("pbs", 0, "order", "ordered or grouped", "expected plain or spread with a printed volume_form");
+        throw InputError("pbs", 0, "order", "ordered or grouped",
+                         "expected plain or spread with a printed volume_form");
     return std::make_unique<BatchedProjection<Scalar>>(constraints, tets, options);
 }
 
 }  // namespace
 
 template <typename Scalar>
-std::unique_ptr<Projection<Scalar>> make_projection(ConstraintSet<Scalar> constraints, const Tets& tets, const PbsOptions& options)
+std::unique_ptr<Projection<Scalar>> make_projection(ConstraintSet<Scalar> constraints, const Tets& tets,
+                                                    const PbsOptions& options)
 {
     auto projection = in_own_class_order(std::move(constraints), tets, options);
     if (options.class_order == ClassOrder::bind_stretch_volume) return projection;

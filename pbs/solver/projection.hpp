@@ -1,4 +1,5 @@
-// Lines 11-13 of Algorithm 1: each class of constraints projected once, in a chosen order, on positions in a layout of its own.
+// Lines 11-13 of Algorithm 1: each class of constraints projected once, in a chosen order, on positions in a layout of
+// its own.
 //   const auto projection = make_projection(std::move(constraints), mesh.tets, options);
 //   projection->load(p, q, origin);
 //   projection->project_bind_constraints(); ..stretch.. ..volume..
@@ -18,7 +19,8 @@ struct SleepTolerance {
     double length_m = 0.0;  // of bind constraints, and what counts as moved
 };
 
-// Where positions lie between load and store: x, y and z of vertex i are the first numbers of row place[i]. Rows have `stride` numbers.
+// Where positions lie between load and store: x, y and z of vertex i are the first numbers of row place[i]. Rows have
+// `stride` numbers.
 template <typename Scalar>
 struct PositionRows {
     Scalar* data;
@@ -44,17 +46,19 @@ public:
 
     virtual Residuals residuals() const = 0;  // of the positions as they are now, summed in double
 
-    // Constraints far from any that the loaded positions leave unsatisfied, and from what moved in the last step, sleep from now on. Where
-    // options.sleep is not set, and in an order that knows no sleep, nothing sleeps.
+    // Constraints far from any that the loaded positions leave unsatisfied, and from what moved in the last step, sleep
+    // from now on. Where options.sleep is not set, and in an order that knows no sleep, nothing sleeps.
     virtual void sleep(const SleepTolerance&) {}
-    // Wakes what is unsatisfied now and those around it; how many vertices had been asleep there. None: remembers what moved.
+    // Wakes what is unsatisfied now and those around it; how many vertices had been asleep there. None: remembers what
+    // moved.
     virtual int wake(const SleepTolerance&) { return 0; }
     virtual double sleeping_share() const { return 0.0; }  // of stretch and volume constraints
 };
 
-// The order that options.order names. InputError where it does not know what is asked for: Eq. 12-20 as printed are written in `plain`
-// alone, which lets nothing sleep.
+// The order that options.order names. InputError where it does not know what is asked for: Eq. 12-20 as printed are
+// written in `plain` alone, which lets nothing sleep.
 template <typename Scalar>
-std::unique_ptr<Projection<Scalar>> make_projection(ConstraintSet<Scalar> constraints, const Tets& tets, const PbsOptions& options);
+std::unique_ptr<Projection<Scalar>> make_projection(ConstraintSet<Scalar> constraints, const Tets& tets,
+                                                    const PbsOptions& options);
 
 }  // namespace pbs

@@ -42,15 +42,16 @@ Residuals residuals_of(const ConstraintSet<Scalar>& constraints, const std::vect
     residuals.stretch_rms = rms(constraints.stretch, [&](const StretchConstraint<Scalar>& c) {
         return value(c, p[c.vertex[0]], p[c.vertex[1]]) / double(c.rest_length);
     });
-    residuals.volume_rms =
-        joint_rms(rms(constraints.volume,
-                      [&](const VolumeConstraint<Scalar>& c) {
-                          return value(c, p[c.vertex[0]], p[c.vertex[1]], p[c.vertex[2]], p[c.vertex[3]]) / double(c.rest_volume);
-                      }),
-                  constraints.volume.size(), rms_of_regions(constraints.regions, [&](int i) -> const Vector3<Scalar>& { return p[i]; }),
-                  constraints.regions.size());
-    residuals.bind_rms_m =
-        rms(constraints.bind, [&](const BindConstraint<Scalar>& c) { return double(value(c, p[c.vertex], q[c.vertex])); });
+    residuals.volume_rms = joint_rms(
+        rms(constraints.volume,
+            [&](const VolumeConstraint<Scalar>& c) {
+                return value(c, p[c.vertex[0]], p[c.vertex[1]], p[c.vertex[2]], p[c.vertex[3]]) / double(c.rest_volume);
+            }),
+        constraints.volume.size(),
+        rms_of_regions(constraints.regions, [&](int i) -> const Vector3<Scalar>& { return p[i]; }),
+        constraints.regions.size());
+    residuals.bind_rms_m = rms(
+        constraints.bind, [&](const BindConstraint<Scalar>& c) { return double(value(c, p[c.vertex], q[c.vertex])); });
     return residuals;
 }
 
@@ -62,8 +63,10 @@ double largest(const Residuals& residuals)
     return result;
 }
 
-template Residuals residuals_of(const ConstraintSet<float>&, const std::vector<Vector3<float>>&, const std::vector<Vector3<float>>&);
-template Residuals residuals_of(const ConstraintSet<double>&, const std::vector<Vector3<double>>&, const std::vector<Vector3<double>>&);
+template Residuals residuals_of(const ConstraintSet<float>&, const std::vector<Vector3<float>>&,
+                                const std::vector<Vector3<float>>&);
+template Residuals residuals_of(const ConstraintSet<double>&, const std::vector<Vector3<double>>&,
+                                const std::vector<Vector3<double>>&);
 
 void FrameStep::add(StepSummary summary, std::size_t step)
 {

@@ -16,8 +16,9 @@ struct Residuals {
     double bind_rms_m = 0.0;   // rms of |x_i - q_i| - d_i [m]
 };
 
-// finished: all iterations, or, where stop_residual is set, residuals below it. not_finite: a position is infinite or NaN; the state is
-// lost, and a jiggling solver has to be made anew. not_converged: stop_residual is set and was not reached; positions are valid.
+// finished: all iterations, or, where stop_residual is set, residuals below it. not_finite: a position is infinite or
+// NaN; the state is lost, and a jiggling solver has to be made anew. not_converged: stop_residual is set and was not
+// reached; positions are valid.
 enum class Outcome { finished, not_finite, not_converged };
 const char* to_string(Outcome outcome);  // the value's name, as records have it
 
@@ -32,25 +33,29 @@ struct StepSummary {
     std::vector<Residuals> history = {};  // one per iteration, if requested
 };
 
-// How far particles are from satisfying their constraints; summed in double. p: particle positions [m], #V; q: posed bind points [m], #V;
-// sizes are not checked. A class that was left out has the residual zero.
+// How far particles are from satisfying their constraints; summed in double. p: particle positions [m], #V; q: posed
+// bind points [m], #V; sizes are not checked. A class that was left out has the residual zero.
 template <typename Scalar>
 Residuals residuals_of(const ConstraintSet<Scalar>& constraints, const std::vector<Vector3<Scalar>>& p,
                        const std::vector<Vector3<Scalar>>& q);
 
-// The largest of the three, what stop_residual is compared with: two are ratios, one is in metres. NaN where one is NaN.
+// The largest of the three, what stop_residual is compared with: two are ratios, one is in metres. NaN where one is
+// NaN.
 double largest(const Residuals& residuals);
 
-// All steps of a deformer up to a frame, as one: the last step with the worst outcome of all. A step between two frames that did not
-// converge or was not finite is thus recorded with the frame that follows it, even if the deformer has recovered.
-//   FrameStep frame;  for (...) frame.add(deformer.advance(poses[step], dt_s), step);  record(frame.summary(), frame.worst_step());
+// All steps of a deformer up to a frame, as one: the last step with the worst outcome of all. A step between two frames
+// that did not converge or was not finite is thus recorded with the frame that follows it, even if the deformer has
+// recovered.
+//   FrameStep frame;  for (...) frame.add(deformer.advance(poses[step], dt_s), step);  record(frame.summary(),
+//   frame.worst_step());
 class FrameStep {
 public:
     // step: number of the step in the motion, from 0.
     void add(StepSummary summary, std::size_t step);
 
     const StepSummary& summary() const { return summary_; }
-    std::size_t worst_step() const { return worst_step_; }  // the first with the worst outcome; the last step if all finished
+    // the first with the worst outcome; the last step if all finished
+    std::size_t worst_step() const { return worst_step_; }
 
 private:
     StepSummary summary_;

@@ -27,7 +27,8 @@ XpbdSolver::XpbdSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance
     for (const auto& [field, number] : {std::pair("substeps", options.substeps), {"threads", options.threads}})
         if (number < 1) throw InputError("xpbd", 0, field, std::to_string(number), "expected 1 or more");
     projection_ = make_xpbd_projection(constraints_, mesh.tets, options);
-    for (std::size_t i = 0; i < integrated_.size(); ++i) integrated_[i] = options.jiggle && !jiggle_zone.empty() && jiggle_zone[i];
+    for (std::size_t i = 0; i < integrated_.size(); ++i)
+        integrated_[i] = options.jiggle && !jiggle_zone.empty() && jiggle_zone[i];
     integrates_ = std::find(integrated_.begin(), integrated_.end(), true) != integrated_.end();
 }
 
@@ -130,7 +131,8 @@ public:
     {
         for (auto& bind : bind_) {
             const int i = bind.constraint.vertex;
-            project(bind, value(bind.constraint, x_[i], q_[i]), std::array{gradient(bind.constraint, x_[i], q_[i])}, std::array{i});
+            project(bind, value(bind.constraint, x_[i], q_[i]), std::array{gradient(bind.constraint, x_[i], q_[i])},
+                    std::array{i});
         }
     }
 
@@ -138,7 +140,8 @@ public:
     {
         for (auto& edge : stretch_) {
             const auto [i, j] = edge.constraint.vertex;
-            project(edge, value(edge.constraint, x_[i], x_[j]), gradient(edge.constraint, x_[i], x_[j]), edge.constraint.vertex);
+            project(edge, value(edge.constraint, x_[i], x_[j]), gradient(edge.constraint, x_[i], x_[j]),
+                    edge.constraint.vertex);
         }
     }
 
@@ -166,7 +169,8 @@ private:
     };
 
     template <template <typename> typename Constraint>
-    static std::vector<Multiplied<Constraint<Scalar>>> with_multipliers(const std::vector<Compliant<Constraint<double>>>& constraints)
+    static std::vector<Multiplied<Constraint<Scalar>>> with_multipliers(
+        const std::vector<Compliant<Constraint<double>>>& constraints)
     {
         std::vector<Multiplied<Constraint<Scalar>>> multiplied;
         for (const auto& [constraint, compliance] : constraints) {
@@ -178,12 +182,15 @@ private:
 
     // Eq. 18 of Macklin 2016 for the value C and its gradients by these vertices; zero if nothing can move.
     template <typename Constraint, std::size_t n>
-    void project(Multiplied<Constraint>& multiplied, Scalar C, const std::array<Point, n>& gradient, const std::array<int, n>& vertex)
+    void project(Multiplied<Constraint>& multiplied, Scalar C, const std::array<Point, n>& gradient,
+                 const std::array<int, n>& vertex)
     {
         Scalar w_gradient2 = Scalar(0);
         for (std::size_t i = 0; i < n; ++i) w_gradient2 += w_[vertex[i]] * gradient[i].squaredNorm();
-        const Scalar compliance_per_dt2 = multiplied.compliance / Scalar(dt2_s2_), denominator = w_gradient2 + compliance_per_dt2;
-        const Scalar step = w_gradient2 > Scalar(0) ? (-C - compliance_per_dt2 * multiplied.multiplier) / denominator : Scalar(0);
+        const Scalar compliance_per_dt2 = multiplied.compliance / Scalar(dt2_s2_),
+                     denominator = w_gradient2 + compliance_per_dt2;
+        const Scalar step =
+            w_gradient2 > Scalar(0) ? (-C - compliance_per_dt2 * multiplied.multiplier) / denominator : Scalar(0);
         multiplied.multiplier += step;
         for (std::size_t i = 0; i < n; ++i) x_[vertex[i]] += w_[vertex[i]] * step * gradient[i];
     }
@@ -195,15 +202,17 @@ private:
     std::vector<Point> x_, q_;  // relative to the origin [m], #V
 };
 
-// The orders `ordered` and `grouped`: the batches, the slabs and the sequence of BatchedProjection, with a compliance and a multiplier for
-// each constraint. Any machine and any number of threads project alike, and threads give the same bits.
+// The orders `ordered` and `grouped`: the batches, the slabs and the sequence of BatchedProjection, with a compliance
+// and a multiplier for each constraint. Any machine and any number of threads project alike, and threads give the same
+// bits.
 template <typename Scalar>
 class BatchedXpbdProjection : public XpbdProjection {
 public:
     BatchedXpbdProjection(const XpbdConstraints& constraints, const Tets& tets, Order order, int threads)
         : batched_(make_batched_constraints<Scalar>(constraints, tets, order)),
           parallel_(batched_.order.slabs() >= slabs_worth_threads ? threads : 1),
-          particles_(batched_, {constraints.inverse_mass.begin(), constraints.inverse_mass.end()}, rigid_binds(constraints)),
+          particles_(batched_, {constraints.inverse_mass.begin(), constraints.inverse_mass.end()},
+                     rigid_binds(constraints)),
           stretch_(multipliers_of(batched_.stretch)),
           volume_(multipliers_of(batched_.volume))
     {
@@ -233,7 +242,8 @@ private:
     static std::vector<BindConstraint<Scalar>> rigid_binds(const XpbdConstraints& constraints)
     {
         std::vector<BindConstraint<Scalar>> binds;
-        for (const auto& [bind, compliance] : constraints.bind) binds.push_back({bind.vertex, Scalar(bind.rest_distance), Scalar(1)});
+        for (const auto& [bind, compliance] : constraints.bind)
+            binds.push_back({bind.vertex, Scalar(bind.rest_distance), Scalar(1)});
         return binds;
     }
 
@@ -258,7 +268,8 @@ private:
             const std::vector<BatchRun>& runs = program.runs(slab);
             for (std::size_t r = 0; r < runs.size(); ++r)
                 project_compliant_batches(runs[r].kind, program.batches(runs[r]), runs[r].count, Scalar(dt2_s2_),
-                                          multipliers.lambdas[multipliers.first_of_run[slab][r]].of_lane, particles_.xyzw());
+                                          multipliers.lambdas[multipliers.first_of_run[slab][r]].of_lane,
+                                          particles_.xyzw());
         });
     }
 
@@ -269,17 +280,19 @@ private:
 };
 
 template <typename Scalar>
-std::unique_ptr<XpbdProjection> in_precision(const XpbdConstraints& constraints, const Tets& tets, const XpbdOptions& options)
+std::unique_ptr<XpbdProjection> in_precision(const XpbdConstraints& constraints, const Tets& tets,
+                                             const XpbdOptions& options)
 {
-    if (options.order == Order::spread) return std::make_unique<PlainXpbdProjection<Scalar>>(in_spread_order(constraints));
+    if (options.order == Order::spread)
+        return std::make_unique<PlainXpbdProjection<Scalar>>(in_spread_order(constraints));
     if (options.order == Order::plain) return std::make_unique<PlainXpbdProjection<Scalar>>(constraints);
     return std::make_unique<BatchedXpbdProjection<Scalar>>(constraints, tets, options.order, options.threads);
 }
 
 }  // namespace
 
-XpbdConstraints make_xpbd_constraints(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const XpbdOptions& options,
-                                      const std::vector<bool>& held)
+XpbdConstraints make_xpbd_constraints(const TetMesh& mesh, const Eigen::VectorXd& bind_distance,
+                                      const XpbdOptions& options, const std::vector<bool>& held)
 {
     if (!(options.poisson >= 0.25 && options.poisson < 0.5))
         throw InputError("xpbd", 0, "poisson", std::to_string(options.poisson), "expected 1/4 <= poisson < 1/2");
@@ -290,16 +303,20 @@ XpbdConstraints make_xpbd_constraints(const TetMesh& mesh, const Eigen::VectorXd
     XpbdConstraints constraints;
     for (Eigen::Index i = 0; i < lumped.size(); ++i) {
         const bool is_held = !held.empty() && held[i];
-        constraints.inverse_mass.push_back(is_held || !(lumped(i) > 0.0) ? 0.0 : 1.0 / (options.density_kg_m3 * lumped(i)));
+        constraints.inverse_mass.push_back(is_held || !(lumped(i) > 0.0) ? 0.0
+                                                                         : 1.0 / (options.density_kg_m3 * lumped(i)));
     }
-    for (Eigen::Index i = 0; i < bind_distance.size(); ++i) constraints.bind.push_back({{static_cast<int>(i), bind_distance(i), 1.0}});
+    for (Eigen::Index i = 0; i < bind_distance.size(); ++i)
+        constraints.bind.push_back({{static_cast<int>(i), bind_distance(i), 1.0}});
     for (const auto& [edge, volume] : edge_volumes(mesh.tets, volumes)) {
         const double length = (mesh.rest.row(edge.first) - mesh.rest.row(edge.second)).norm();
-        constraints.stretch.push_back({{{edge.first, edge.second}, length, 1.0}, length * length / (15.0 * mu * volume)});
+        constraints.stretch.push_back(
+            {{{edge.first, edge.second}, length, 1.0}, length * length / (15.0 * mu * volume)});
     }
     for (Eigen::Index t = 0; t < mesh.tets.rows() && missing_bulk > 0.0; ++t)
         constraints.volume.push_back(
-            {{{mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)}, volumes(t), 1.0}, volumes(t) / missing_bulk});
+            {{{mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)}, volumes(t), 1.0},
+             volumes(t) / missing_bulk});
     return constraints;
 }
 
@@ -307,7 +324,8 @@ template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const XpbdConstraints& constraints, const Tets& tets, Order order)
 {
     ConstraintClassData<Scalar, 2> stretch;
-    for (const auto& [edge, compliance] : constraints.stretch) stretch.add(edge.vertex, Scalar(edge.rest_length), Scalar(1.0 / compliance));
+    for (const auto& [edge, compliance] : constraints.stretch)
+        stretch.add(edge.vertex, Scalar(edge.rest_length), Scalar(1.0 / compliance));
     ConstraintClassData<Scalar, 4> volume;
     for (const auto& [tet, compliance] : constraints.volume)
         volume.add(tet.vertex, Scalar(6.0 * tet.rest_volume), Scalar(1.0 / (36.0 * compliance)));
@@ -317,7 +335,8 @@ BatchedConstraints<Scalar> make_batched_constraints(const XpbdConstraints& const
 template BatchedConstraints<float> make_batched_constraints(const XpbdConstraints&, const Tets&, Order);
 template BatchedConstraints<double> make_batched_constraints(const XpbdConstraints&, const Tets&, Order);
 
-std::unique_ptr<XpbdProjection> make_xpbd_projection(const XpbdConstraints& constraints, const Tets& tets, const XpbdOptions& options)
+std::unique_ptr<XpbdProjection> make_xpbd_projection(const XpbdConstraints& constraints, const Tets& tets,
+                                                     const XpbdOptions& options)
 {
     return options.precision == Precision::f32 ? in_precision<float>(constraints, tets, options)
                                                : in_precision<double>(constraints, tets, options);

@@ -1,17 +1,20 @@
-// Extended position based dynamics (M. Macklin, M. Mueller, N. Chentanez, MIG 2016) with the paper's constraints and an elastic material.
-// The multiplier of each constraint is kept through all iterations of a step, so that the stiffness does not depend on their number.
+// Extended position based dynamics (M. Macklin, M. Mueller, N. Chentanez, MIG 2016) with the paper's constraints and an
+// elastic material. The multiplier of each constraint is kept through all iterations of a step, so that the stiffness
+// does not depend on their number.
 //   XpbdSolver solver(mesh, bind_distance, jiggle_zone, options);
 //   solver.advance(lbs_positions, bind_points, dt);
 //
-// The compliances follow from the material by the Cauchy solid. Springs on edges have the stiffness 15 mu V_e / l^2, where V_e is a sixth
-// of the rest volume of the tets around the edge. They form an isotropic solid with Lame's constants mu, mu (Poisson's ratio 1/4), as far
-// as edges point in all directions equally. A volume constraint per tet with the bulk modulus K - 5/3 mu adds what is missing. Bind
-// constraints are rigid. As in PBS, particles outside the jiggling zone begin every step at their LBS position without velocity; their mass
-// holds them to their position at the beginning of a substep. With many substeps of one iteration (M. Macklin et al., Small steps in
-// physics simulation, SCA 2019) the multipliers begin at zero in each substep.
+// The compliances follow from the material by the Cauchy solid. Springs on edges have the stiffness 15 mu V_e / l^2,
+// where V_e is a sixth of the rest volume of the tets around the edge. They form an isotropic solid with Lame's
+// constants mu, mu (Poisson's ratio 1/4), as far as edges point in all directions equally. A volume constraint per tet
+// with the bulk modulus K - 5/3 mu adds what is missing. Bind constraints are rigid. As in PBS, particles outside the
+// jiggling zone begin every step at their LBS position without velocity; their mass holds them to their position at the
+// beginning of a substep. With many substeps of one iteration (M. Macklin et al., Small steps in physics simulation,
+// SCA 2019) the multipliers begin at zero in each substep.
 //
-// The projections run in the order and the precision of the options: `plain` one after the other, `ordered` and `grouped` sixteen at once
-// in the sequence of PBS, which settles on another limit. In float, they are relative to the mean position of the step.
+// The projections run in the order and the precision of the options: `plain` one after the other, `ordered` and
+// `grouped` sixteen at once in the sequence of PBS, which settles on another limit. In float, they are relative to the
+// mean position of the step.
 #pragma once
 
 #include "pbs/constraints/bind.hpp"
@@ -40,12 +43,13 @@ struct XpbdConstraints {
     std::vector<double> inverse_mass;                           // [1/kg], #V; zero: held
 };
 
-// bind_distance: d_i [m], #V; empty: no bind constraints. held: #V, or empty. InputError for Poisson's ratios outside [1/4, 1/2).
-XpbdConstraints make_xpbd_constraints(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const XpbdOptions& options,
-                                      const std::vector<bool>& held);
+// bind_distance: d_i [m], #V; empty: no bind constraints. held: #V, or empty. InputError for Poisson's ratios outside
+// [1/4, 1/2).
+XpbdConstraints make_xpbd_constraints(const TetMesh& mesh, const Eigen::VectorXd& bind_distance,
+                                      const XpbdOptions& options, const std::vector<bool>& held);
 
-// The projections of extended position based dynamics in a chosen order, as projection.hpp has those of Algorithm 1: each class once, on
-// positions in a layout of its own, with the multiplier of each constraint.
+// The projections of extended position based dynamics in a chosen order, as projection.hpp has those of Algorithm 1:
+// each class once, on positions in a layout of its own, with the multiplier of each constraint.
 //   const auto projection = make_xpbd_projection(constraints, mesh.tets, options);
 //   projection->load(p, q, origin);
 //   projection->begin_substep(dt_s);
@@ -75,13 +79,15 @@ protected:
 };
 
 // The order and the precision that the options name. tets: those whose edges the order `grouped` may group.
-std::unique_ptr<XpbdProjection> make_xpbd_projection(const XpbdConstraints& constraints, const Tets& tets, const XpbdOptions& options);
+std::unique_ptr<XpbdProjection> make_xpbd_projection(const XpbdConstraints& constraints, const Tets& tets,
+                                                     const XpbdOptions& options);
 
 class XpbdSolver {
 public:
-    // bind_distance: d_i [m], #V; empty: no bind constraints. jiggle_zone: #V, or empty. held: #V, or empty: infinite mass.
-    XpbdSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone, const XpbdOptions& options,
-               const std::vector<bool>& held = {});
+    // bind_distance: d_i [m], #V; empty: no bind constraints. jiggle_zone: #V, or empty. held: #V, or empty: infinite
+    // mass.
+    XpbdSolver(const TetMesh& mesh, const Eigen::VectorXd& bind_distance, const std::vector<bool>& jiggle_zone,
+               const XpbdOptions& options, const std::vector<bool>& held = {});
 
     StepSummary advance(const Positions& lbs_positions, const Positions& bind_points, double dt_s);
     const Positions& positions() const { return x_; }  // [m], #V x 3

@@ -48,7 +48,8 @@ ClosestPoints point_triangle(const FourPoints& points)
     const Vec3 p = points.col(0), a = points.col(1), b = points.col(2), c = points.col(3);
     const Vec3 normal = (b - a).cross(c - a);
     const double squared = normal.squaredNorm();
-    const Vec3 inside(normal.dot((b - p).cross(c - p)), normal.dot((c - p).cross(a - p)), normal.dot((a - p).cross(b - p)));
+    const Vec3 inside(normal.dot((b - p).cross(c - p)), normal.dot((c - p).cross(a - p)),
+                      normal.dot((a - p).cross(b - p)));
     if (squared > 0.0 && inside.minCoeff() > 0.0) {
         ClosestPoints closest;
         closest.weights << 1.0, -inside / squared;
@@ -58,12 +59,14 @@ ClosestPoints point_triangle(const FourPoints& points)
         closest.slopes.col(1) << 0.0, 1.0, 0.0, -1.0;
         return finished(closest, points);
     }
-    return nearer(nearer(point_and_edge(points, 0, 1, 2, 1.0), point_and_edge(points, 0, 2, 3, 1.0)), point_and_edge(points, 0, 3, 1, 1.0));
+    return nearer(nearer(point_and_edge(points, 0, 1, 2, 1.0), point_and_edge(points, 0, 2, 3, 1.0)),
+                  point_and_edge(points, 0, 3, 1, 1.0));
 }
 
 ClosestPoints edge_edge(const FourPoints& points)
 {
-    const Vec3 e = points.col(1) - points.col(0), f = points.col(3) - points.col(2), between = points.col(0) - points.col(2);
+    const Vec3 e = points.col(1) - points.col(0), f = points.col(3) - points.col(2),
+               between = points.col(0) - points.col(2);
     const double ee = e.squaredNorm(), ff = f.squaredNorm(), ef = e.dot(f), determinant = ee * ff - ef * ef;
     if (determinant > parallel * ee * ff) {
         const double s = (ef * f.dot(between) - ff * e.dot(between)) / determinant,
@@ -108,19 +111,21 @@ FourPointGradient distance_gradient(const ClosestPoints& closest)
     return gradient;
 }
 
-// The closest points follow the corners: with t_k = dr / ds_k, G_kl = t_k . t_l and N_k of the blocks (dv_i / ds_k) r + v_i t_k, the
-// Hessian of d^2 is 2 (v v^T (x) I - N G^-1 N^T).
+// The closest points follow the corners: with t_k = dr / ds_k, G_kl = t_k . t_l and N_k of the blocks (dv_i / ds_k) r +
+// v_i t_k, the Hessian of d^2 is 2 (v v^T (x) I - N G^-1 N^T).
 FourPointHessian distance_hessian(const ClosestPoints& closest, const FourPoints& points)
 {
     FourPointHessian half;  // of the Hessian of d^2
     for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 4; ++j) half.block<3, 3>(3 * i, 3 * j) = closest.weights(i) * closest.weights(j) * Eigen::Matrix3d::Identity();
+        for (int j = 0; j < 4; ++j)
+            half.block<3, 3>(3 * i, 3 * j) = closest.weights(i) * closest.weights(j) * Eigen::Matrix3d::Identity();
     if (const int n = closest.parameters; n > 0) {
         const Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 2> tangents = points * closest.slopes.leftCols(n);
         Eigen::Matrix<double, 12, Eigen::Dynamic, 0, 12, 2> mixed(12, n);
         for (int k = 0; k < n; ++k)
             for (int i = 0; i < 4; ++i)
-                mixed.col(k).segment<3>(3 * i) = closest.slopes(i, k) * closest.offset + closest.weights(i) * tangents.col(k);
+                mixed.col(k).segment<3>(3 * i) =
+                    closest.slopes(i, k) * closest.offset + closest.weights(i) * tangents.col(k);
         const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2, 2> metric = tangents.transpose() * tangents;
         half -= mixed * metric.inverse() * mixed.transpose();
     }
@@ -135,7 +140,8 @@ EdgeCross edge_cross(const FourPoints& points)
     const double ee = e.squaredNorm(), ff = f.squaredNorm(), ef = e.dot(f);
     const Vec3 by_e = 2.0 * (ff * e - ef * f), by_f = 2.0 * (ee * f - ef * e);
     const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-    const Eigen::Matrix3d by_ee = 2.0 * (ff * identity - f * f.transpose()), by_ff = 2.0 * (ee * identity - e * e.transpose()),
+    const Eigen::Matrix3d by_ee = 2.0 * (ff * identity - f * f.transpose()),
+                          by_ff = 2.0 * (ee * identity - e * e.transpose()),
                           by_ef = 4.0 * e * f.transpose() - 2.0 * f * e.transpose() - 2.0 * ef * identity;
     EdgeCross cross;
     cross.squared_m4 = e.cross(f).squaredNorm();
@@ -143,7 +149,8 @@ EdgeCross edge_cross(const FourPoints& points)
     constexpr double sign[4] = {-1.0, 1.0, -1.0, 1.0};
     for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 4; ++j) {
-            const Eigen::Matrix3d block = i < 2 ? (j < 2 ? by_ee : by_ef) : (j < 2 ? Eigen::Matrix3d(by_ef.transpose()) : by_ff);
+            const Eigen::Matrix3d block =
+                i < 2 ? (j < 2 ? by_ee : by_ef) : (j < 2 ? Eigen::Matrix3d(by_ef.transpose()) : by_ff);
             cross.hessian.block<3, 3>(3 * i, 3 * j) = sign[i] * sign[j] * block;
         }
     return cross;

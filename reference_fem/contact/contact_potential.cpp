@@ -10,8 +10,9 @@ namespace {
 
 using pbs::Vec3;
 
-constexpr double parallel_share = 1e-3;     // of |e|^2 |f|^2 at rest: |e x f|^2 below which a pair of edges is softened
-constexpr double coupling_in_ranges = 2.0;  // pairs that near have their place in the Hessian, which then changes rarely
+constexpr double parallel_share = 1e-3;  // of |e|^2 |f|^2 at rest: |e x f|^2 below which a pair of edges is softened
+constexpr double coupling_in_ranges =
+    2.0;  // pairs that near have their place in the Hessian, which then changes rarely
 
 }  // namespace
 
@@ -33,9 +34,10 @@ struct ContactPotential::Mollifier {
 ContactPotential::ContactPotential(const SimplexSpace& space, const ContactOptions& options)
     : options_(options), near_(space, options.range_m), triangles_at_node_(space.nodes(), 0)
 {
-    require(options.range_m > 0.0 && std::isfinite(options.range_m), "contact.range_m", options.range_m, "expected > 0");
-    require(options.stiffness_pa > 0.0 && std::isfinite(options.stiffness_pa), "contact.stiffness_pa", options.stiffness_pa,
+    require(options.range_m > 0.0 && std::isfinite(options.range_m), "contact.range_m", options.range_m,
             "expected > 0");
+    require(options.stiffness_pa > 0.0 && std::isfinite(options.stiffness_pa), "contact.stiffness_pa",
+            options.stiffness_pa, "expected > 0");
     for (const auto& triangle : surface().triangles)
         for (const int node : triangle) ++triangles_at_node_[node];
 }
@@ -45,7 +47,8 @@ ContactPotential::Mollifier ContactPotential::mollifier(const Term& term, const 
     Mollifier mollifier;
     if (term.kind == PairKind::point_triangle) return mollifier;
     const FourPoints at_rest = near_.at_rest(term.nodes);
-    const double limit = parallel_share * (at_rest.col(1) - at_rest.col(0)).squaredNorm() * (at_rest.col(3) - at_rest.col(2)).squaredNorm();
+    const double limit = parallel_share * (at_rest.col(1) - at_rest.col(0)).squaredNorm() *
+                         (at_rest.col(3) - at_rest.col(2)).squaredNorm();
     const EdgeCross cross = edge_cross(points);
     if (cross.squared_m4 >= limit) return mollifier;
     const double y = cross.squared_m4 / limit, first = 2.0 * (1.0 - y) / limit, second = -2.0 / (limit * limit);
@@ -55,9 +58,9 @@ ContactPotential::Mollifier ContactPotential::mollifier(const Term& term, const 
     return mollifier;
 }
 
-// A point that is near several triangles of a surface is pressed by it once: each triangle counts, each edge between two of them and
-// each vertex with all its triangles counts against them and for them again (inclusion and exclusion). Terms with the same nearest place
-// and range cancel.
+// A point that is near several triangles of a surface is pressed by it once: each triangle counts, each edge between
+// two of them and each vertex with all its triangles counts against them and for them again (inclusion and exclusion).
+// Terms with the same nearest place and range cancel.
 void ContactPotential::add_terms_of_node(const std::vector<Term>& touched, const Eigen::VectorXd& displacement,
                                          std::vector<Term>& terms) const
 {
@@ -92,20 +95,24 @@ void ContactPotential::add_terms_of_node(const std::vector<Term>& touched, const
         for (std::size_t j = 0; j < i; ++j) {
             std::vector<int> common;
             for (int k = 1; k < 4; ++k)
-                if (std::find(touched[j].nodes.begin() + 1, touched[j].nodes.end(), term.nodes[k]) != touched[j].nodes.end())
+                if (std::find(touched[j].nodes.begin() + 1, touched[j].nodes.end(), term.nodes[k]) !=
+                    touched[j].nodes.end())
                     common.push_back(term.nodes[k]);
             if (common.size() != 2) continue;
             const std::array<int, 4> nodes{term.nodes[0], common[0], common[1], common[1]};
-            add({term.kind, nodes, closest_on_edge(near_.points_of(nodes, displacement)), std::min(term.range_m, touched[j].range_m),
-                 -term.weight_n_m});
+            add({term.kind, nodes, closest_on_edge(near_.points_of(nodes, displacement)),
+                 std::min(term.range_m, touched[j].range_m), -term.weight_n_m});
         }
     }
     for (const auto& [node, of] : corners) {
         if (of.first != triangles_at_node_[node]) continue;
         const std::array<int, 4> nodes{touched.front().nodes[0], node, node, node};
-        add({PairKind::point_triangle, nodes, closest_of_two(near_.points_of(nodes, displacement)), of.second, touched.front().weight_n_m});
+        add({PairKind::point_triangle, nodes, closest_of_two(near_.points_of(nodes, displacement)), of.second,
+             touched.front().weight_n_m});
     }
-    terms.erase(std::remove_if(terms.begin() + first, terms.end(), [](const Term& term) { return term.weight_n_m == 0.0; }), terms.end());
+    terms.erase(
+        std::remove_if(terms.begin() + first, terms.end(), [](const Term& term) { return term.weight_n_m == 0.0; }),
+        terms.end());
 }
 
 std::vector<ContactPotential::Term> ContactPotential::terms_at(const Eigen::VectorXd& displacement) const
@@ -117,14 +124,16 @@ std::vector<ContactPotential::Term> ContactPotential::terms_at(const Eigen::Vect
     };
     for (const NearPair& pair : near_.at(displacement)) {
         const std::array<int, 4> nodes = near_.nodes_of(pair);
-        if (!touched.empty() && (pair.kind != PairKind::point_triangle || touched.front().nodes[0] != nodes[0])) end_node();
+        if (!touched.empty() && (pair.kind != PairKind::point_triangle || touched.front().nodes[0] != nodes[0]))
+            end_node();
         if (!near_.may_be_within(pair, nodes, displacement, pair.range_m)) continue;
         const ClosestPoints closest = closest_points(pair.kind, near_.points_of(nodes, displacement));
         if (!(closest.distance_m < pair.range_m)) continue;
         const bool is_edge = pair.kind == PairKind::edge_edge;
-        const double area =
-            is_edge ? (surface().edge_area[pair.first] + surface().edge_area[pair.second]) / 2.0 : surface().node_area(pair.first);
-        (is_edge ? terms : touched).push_back({pair.kind, nodes, closest, pair.range_m, options_.stiffness_pa / 2.0 * area});
+        const double area = is_edge ? (surface().edge_area[pair.first] + surface().edge_area[pair.second]) / 2.0
+                                    : surface().node_area(pair.first);
+        (is_edge ? terms : touched)
+            .push_back({pair.kind, nodes, closest, pair.range_m, options_.stiffness_pa / 2.0 * area});
     }
     end_node();
     return terms;
@@ -146,8 +155,8 @@ ContactState ContactPotential::state(const Eigen::VectorXd& displacement) const
             state.energy_j = std::numeric_limits<double>::infinity();
             break;
         }
-        state.energy_j +=
-            term.weight_n_m * mollifier(term, near_.points_of(term.nodes, displacement)).value * barrier(distance_m, term.range_m).value;
+        state.energy_j += term.weight_n_m * mollifier(term, near_.points_of(term.nodes, displacement)).value *
+                          barrier(distance_m, term.range_m).value;
     }
     return state;
 }
@@ -176,7 +185,8 @@ void ContactPotential::add_gradient(const Eigen::VectorXd& displacement, Eigen::
 }
 
 // Projected: the barrier's own curvature along the distance, which is never negative, of the terms that press.
-void ContactPotential::add_hessian(const Eigen::VectorXd& displacement, Definiteness definiteness, NodalMatrix& hessian) const
+void ContactPotential::add_hessian(const Eigen::VectorXd& displacement, Definiteness definiteness,
+                                   NodalMatrix& hessian) const
 {
     for (const Term& term : terms_at(displacement)) {
         const FourPoints points = near_.points_of(term.nodes, displacement);

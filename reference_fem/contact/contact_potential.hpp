@@ -1,11 +1,13 @@
-// Frictionless contact of the flesh with itself as a potential: a barrier between the triangles of its surface that come near each other,
-// so that the surface of a minimum does not intersect itself. Newton's method must not take a longer step than largest_step().
-// M. Li et al., Incremental Potential Contact, ACM TOG 39(4), 2020. Two changes make the pressure independent of the mesh: each point is
-// pressed by the nearest place of a surface once, however many triangles meet there (M. Li et al., Convergent Incremental Potential
-// Contact, arXiv 2307.15908, 2023), and the pairs of edges, which only keep edges from passing through each other, have half the range:
-// flat faces come that near at a pressure of 1.2 times the stiffness.
+// Frictionless contact of the flesh with itself as a potential: a barrier between the triangles of its surface that
+// come near each other, so that the surface of a minimum does not intersect itself. Newton's method must not take a
+// longer step than largest_step(). M. Li et al., Incremental Potential Contact, ACM TOG 39(4), 2020. Two changes make
+// the pressure independent of the mesh: each point is pressed by the nearest place of a surface once, however many
+// triangles meet there (M. Li et al., Convergent Incremental Potential Contact, arXiv 2307.15908, 2023), and the pairs
+// of edges, which only keep edges from passing through each other, have half the range: flat faces come that near at a
+// pressure of 1.2 times the stiffness.
 //   ContactPotential contact(space, {.range_m = 0.002, .stiffness_pa = young_pa});
-//   Two flat faces at the distance d < range press on each other with stiffness_pa |db/dd|, b(d) = -range (d/range - 1)^2 ln(d/range).
+//   Two flat faces at the distance d < range press on each other with stiffness_pa |db/dd|, b(d) = -range (d/range -
+//   1)^2 ln(d/range).
 #pragma once
 
 #include "reference_fem/contact/near_pairs.hpp"
@@ -47,7 +49,8 @@ public:
 
     double value(const Eigen::VectorXd& displacement) const override;
     void add_gradient(const Eigen::VectorXd& displacement, Eigen::VectorXd& gradient) const override;
-    void add_hessian(const Eigen::VectorXd& displacement, Definiteness definiteness, NodalMatrix& hessian) const override;
+    void add_hessian(const Eigen::VectorXd& displacement, Definiteness definiteness,
+                     NodalMatrix& hessian) const override;
     bool is_quadratic() const override { return false; }
     double largest_step(const Eigen::VectorXd& displacement, const Eigen::VectorXd& step) const override
     {
@@ -57,7 +60,8 @@ public:
 
     ContactState state(const Eigen::VectorXd& displacement) const;
     std::vector<PressedPair> pressed(const Eigen::VectorXd& displacement) const;
-    // Whether an edge of the surface passes through a triangle. Such a state is no initial guess: the barrier would keep it as it is.
+    // Whether an edge of the surface passes through a triangle. Such a state is no initial guess: the barrier would
+    // keep it as it is.
     bool intersects(const Eigen::VectorXd& displacement) const { return near_.intersects(displacement); }
 
     const ContactSurface& surface() const { return near_.surface(); }
@@ -73,7 +77,8 @@ private:
     struct Mollifier;
 
     std::vector<Term> terms_at(const Eigen::VectorXd& displacement) const;
-    void add_terms_of_node(const std::vector<Term>& touched, const Eigen::VectorXd& displacement, std::vector<Term>& terms) const;
+    void add_terms_of_node(const std::vector<Term>& touched, const Eigen::VectorXd& displacement,
+                           std::vector<Term>& terms) const;
     Mollifier mollifier(const Term& term, const FourPoints& points) const;
 
     ContactOptions options_;

@@ -18,15 +18,18 @@ using Box = Eigen::AlignedBox3d;
 
 constexpr double edge_range_share = 0.5;  // of a pair's range, for pairs of edges
 constexpr double slack_in_ranges = 1.0;   // by which nodes may move before the next search
-constexpr double touching_share = 1e-6;   // of the range: pairs as near as that at rest touch, as those of the two sides of a cut do
-constexpr double rounding_share = 1e-10;  // of an edge's length: places of 1 m are rounded to 1e-14 of edges of a centimetre
+constexpr double touching_share =
+    1e-6;  // of the range: pairs as near as that at rest touch, as those of the two sides of a cut do
+constexpr double rounding_share =
+    1e-10;  // of an edge's length: places of 1 m are rounded to 1e-14 of edges of a centimetre
 
 Vec3 position(const pbs::Positions& rest, const Eigen::VectorXd& displacement, int node)
 {
     return rest.row(node).transpose() + displacement.segment<3>(3 * node);
 }
 
-// Boxes in the order of their lower ends along one axis. A box whose place is not a number has no order, and overlaps none.
+// Boxes in the order of their lower ends along one axis. A box whose place is not a number has no order, and overlaps
+// none.
 struct OrderedBoxes {
     static constexpr int at_once = 16;  // boxes that are compared with one
 
@@ -41,13 +44,15 @@ struct OrderedBoxes {
             ends_m.row(row++) << boxes[k].min().cast<float>().transpose(), boxes[k].max().cast<float>().transpose();
     }
     std::vector<std::pair<double, int>> begin_m_and_number;  // in the list
-    // Lower ones, then upper ones; at_once rows of NaN end them. Rounding keeps the order of numbers, so that no overlap is lost.
+    // Lower ones, then upper ones; at_once rows of NaN end them. Rounding keeps the order of numbers, so that no
+    // overlap is lost.
     Eigen::Array<float, Eigen::Dynamic, 6> ends_m;
 };
 
-// Sweep and prune: calls `found` once for each two boxes that overlap, one of each list or two of the same list. The boxes are sorted along
-// the axis on which the first list is longest. A box is compared with those that begin before its end, sixteen at once, so that the loop
-// is vectorised. Boxes at the front that have all ended before its beginning are skipped.
+// Sweep and prune: calls `found` once for each two boxes that overlap, one of each list or two of the same list. The
+// boxes are sorted along the axis on which the first list is longest. A box is compared with those that begin before
+// its end, sixteen at once, so that the loop is vectorised. Boxes at the front that have all ended before its beginning
+// are skipped.
 template <typename Found>
 void for_each_overlap(const std::vector<Box>& one, const std::vector<Box>& other, const Found& found)
 {
@@ -59,7 +64,8 @@ void for_each_overlap(const std::vector<Box>& one, const std::vector<Box>& other
     const bool is_same_list = &one == &other;
     const OrderedBoxes first(one, a), second = is_same_list ? first : OrderedBoxes(other, a);
     const auto ends_m = [&](int column) { return second.ends_m.col(column).data(); };
-    const float *x = ends_m(a), *y = ends_m(b), *z = ends_m(c), *x_end = ends_m(3 + a), *y_end = ends_m(3 + b), *z_end = ends_m(3 + c);
+    const float *x = ends_m(a), *y = ends_m(b), *z = ends_m(c), *x_end = ends_m(3 + a), *y_end = ends_m(3 + b),
+                *z_end = ends_m(3 + c);
     for (std::size_t i = 0, begin = 0; i < first.begin_m_and_number.size(); ++i) {
         const Eigen::Array3f lower = first.ends_m.row(i).head<3>(), upper = first.ends_m.row(i).tail<3>();
         const float x0 = lower(a), y0 = lower(b), z0 = lower(c), x1 = upper(a), y1 = upper(b), z1 = upper(c);
@@ -67,8 +73,8 @@ void for_each_overlap(const std::vector<Box>& one, const std::vector<Box>& other
         for (std::size_t j = is_same_list ? i + 1 : begin; x[j] <= x1; j += OrderedBoxes::at_once) {
             int overlaps[OrderedBoxes::at_once];
             for (std::size_t k = 0; k < OrderedBoxes::at_once; ++k)
-                overlaps[k] = (x[j + k] <= x1) & (x_end[j + k] >= x0) & (y[j + k] <= y1) & (y_end[j + k] >= y0) & (z[j + k] <= z1) &
-                              (z_end[j + k] >= z0);
+                overlaps[k] = (x[j + k] <= x1) & (x_end[j + k] >= x0) & (y[j + k] <= y1) & (y_end[j + k] >= y0) &
+                              (z[j + k] <= z1) & (z_end[j + k] >= z0);
             for (std::size_t k = 0; k < OrderedBoxes::at_once; ++k)
                 if (overlaps[k]) found(first.begin_m_and_number[i].second, second.begin_m_and_number[j + k].second);
         }
@@ -96,7 +102,8 @@ double relative_motion(PairKind kind, const FourPoints& motion)
 {
     double squared = 0.0;
     for (int i = 0; i < first_points(kind); ++i)
-        for (int j = first_points(kind); j < 4; ++j) squared = std::max(squared, (motion.col(i) - motion.col(j)).squaredNorm());
+        for (int j = first_points(kind); j < 4; ++j)
+            squared = std::max(squared, (motion.col(i) - motion.col(j)).squaredNorm());
     return std::sqrt(squared);
 }
 
@@ -124,7 +131,8 @@ bool share_a_node(const auto& one, const auto& other)
 }
 
 // Four triangles in place of a face, over its corners and the middles of its edges.
-void add_face(const std::array<int, 3>& corner, const std::map<std::pair<int, int>, int>& middles, ContactSurface& surface)
+void add_face(const std::array<int, 3>& corner, const std::map<std::pair<int, int>, int>& middles,
+              ContactSurface& surface)
 {
     if (middles.empty()) {
         surface.triangles.push_back(corner);
@@ -136,8 +144,8 @@ void add_face(const std::array<int, 3>& corner, const std::map<std::pair<int, in
     surface.triangles.push_back(middle);
 }
 
-// Whether the segment from a to b passes through the inside of the triangle in columns 0 to 2, by more than rounding: the four triangles in
-// a face of a quadratic tet lie in one plane where its edges are straight.
+// Whether the segment from a to b passes through the inside of the triangle in columns 0 to 2, by more than rounding:
+// the four triangles in a face of a quadratic tet lie in one plane where its edges are straight.
 bool passes_through(const Vec3& a, const Vec3& b, const Eigen::Matrix3d& triangle)
 {
     const Vec3 p = triangle.col(0), q = triangle.col(1), r = triangle.col(2);
@@ -211,8 +219,8 @@ FourPoints NearPairs::at_rest(const std::array<int, 4>& nodes) const
     return points;
 }
 
-// Three quick bounds come before the distance: the boxes, the gap along the line between the centres, and how far the points move against
-// each other on the way.
+// Three quick bounds come before the distance: the boxes, the gap along the line between the centres, and how far the
+// points move against each other on the way.
 void NearPairs::search(const Eigen::VectorXd& displacement, const Eigen::VectorXd& step) const
 {
     from_ = displacement;
@@ -257,7 +265,8 @@ bool NearPairs::is_covered(const Eigen::VectorXd& displacement) const
     const double share = squared > 0.0 ? std::clamp(along / squared, 0.0, 1.0) : 0.0;
     const double slack_m = slack_in_ranges * range_m_;
     return std::ranges::all_of(surface_.nodes, [&](int node) {
-        const Vec3 off = displacement.segment<3>(3 * node) - from_.segment<3>(3 * node) - share * step_.segment<3>(3 * node);
+        const Vec3 off =
+            displacement.segment<3>(3 * node) - from_.segment<3>(3 * node) - share * step_.segment<3>(3 * node);
         return off.squaredNorm() <= slack_m * slack_m;
     });
 }
@@ -268,10 +277,11 @@ const std::vector<NearPair>& NearPairs::at(const Eigen::VectorXd& displacement) 
     return near_;
 }
 
-bool NearPairs::may_be_within(const NearPair& pair, const std::array<int, 4>& nodes, const Eigen::VectorXd& displacement,
-                              double distance_m) const
+bool NearPairs::may_be_within(const NearPair& pair, const std::array<int, 4>& nodes,
+                              const Eigen::VectorXd& displacement, double distance_m) const
 {
-    return pair.distance_m - relative_motion(pair.kind, motion_of(nodes, displacement) - motion_of(nodes, from_)) < distance_m;
+    return pair.distance_m - relative_motion(pair.kind, motion_of(nodes, displacement) - motion_of(nodes, from_)) <
+           distance_m;
 }
 
 // The longest step for which every pair keeps a tenth of its distance.
@@ -282,7 +292,8 @@ double NearPairs::largest_step(const Eigen::VectorXd& displacement, const Eigen:
     double largest = 1.0;
     for (const NearPair& pair : near_) {
         const std::array<int, 4> nodes = nodes_of(pair);
-        largest = std::min(largest, safe_share(pair.kind, points_of(nodes, displacement), motion_of(nodes, step), largest));
+        largest =
+            std::min(largest, safe_share(pair.kind, points_of(nodes, displacement), motion_of(nodes, step), largest));
     }
     return largest;
 }
@@ -298,7 +309,8 @@ bool NearPairs::intersects(const Eigen::VectorXd& displacement) const
         if (is_found || share_a_node(edge, triangle)) return;
         Eigen::Matrix3d corners;
         for (int k = 0; k < 3; ++k) corners.col(k) = position(rest_, displacement, triangle[k]);
-        is_found = passes_through(position(rest_, displacement, edge[0]), position(rest_, displacement, edge[1]), corners);
+        is_found =
+            passes_through(position(rest_, displacement, edge[0]), position(rest_, displacement, edge[1]), corners);
     });
     return is_found;
 }

@@ -126,8 +126,8 @@ void DistributedSystem::allocate()
 
 void DistributedSystem::assemble()
 {
-    // On straight tets the stiffness has degree 2 (order - 1), gravity's and the traction's load degree order: n points per direction
-    // integrate degree 2 n - 1.
+    // On straight tets the stiffness has degree 2 (order - 1), gravity's and the traction's load degree order: n points
+    // per direction integrate degree 2 n - 1.
     const int order = problem_.options.element_order;
     FEValues<3> values(space_.mapping, space_.element, dealii::QGaussSimplex<3>(order),
                        dealii::update_values | dealii::update_gradients | dealii::update_JxW_values);
@@ -167,7 +167,8 @@ void DistributedSystem::add_tet(const FEValues<3>& values)
                 const unsigned int b = space_.element.system_to_component_index(j).first;
                 const auto& gradient_j = values.shape_grad(j, q);
                 const double shear = gradient_i[b] * gradient_j[a] + (a == b ? gradient_i * gradient_j : 0.0);
-                of_tet_(i, j) += (lame_.lambda_pa * gradient_i[a] * gradient_j[b] + lame_.mu_pa * shear) * values.JxW(q);
+                of_tet_(i, j) +=
+                    (lame_.lambda_pa * gradient_i[a] * gradient_j[b] + lame_.mu_pa * shear) * values.JxW(q);
             }
         }
 }
@@ -176,8 +177,8 @@ void DistributedSystem::add_traction(const FEFaceValues<3>& values)
 {
     for (const unsigned int q : values.quadrature_point_indices())
         for (const unsigned int i : values.dof_indices())
-            load_of_tet_(i) +=
-                problem_.traction_pa(space_.element.system_to_component_index(i).first) * values.shape_value(i, q) * values.JxW(q);
+            load_of_tet_(i) += problem_.traction_pa(space_.element.system_to_component_index(i).first) *
+                               values.shape_value(i, q) * values.JxW(q);
 }
 
 // A spring couples nodes of one tet, so the rank that owns the tet adds it: k N^T N, and k N^T (target - point).
@@ -244,7 +245,8 @@ void DistributedSystem::summarise(const Vector& displacement)
 
 }  // namespace
 
-ElasticSolution solve_distributed(const pbs::TetMesh& mesh, const ElasticProblem& problem, const IterativeOptions& options)
+ElasticSolution solve_distributed(const pbs::TetMesh& mesh, const ElasticProblem& problem,
+                                  const IterativeOptions& options)
 {
     check_problem(mesh, problem);
     return DistributedSystem(mesh, problem).solve(options);

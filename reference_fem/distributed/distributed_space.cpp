@@ -54,7 +54,8 @@ void mark_boundary(const std::vector<bool>& held, const std::vector<bool>& pulle
 }
 
 // Rank 0 alone builds the whole triangulation, cuts it by METIS and sends each rank its part.
-void distribute(const pbs::TetMesh& mesh, const std::vector<int>& held_vertices, const std::vector<int>& pulled_vertices,
+void distribute(const pbs::TetMesh& mesh, const std::vector<int>& held_vertices,
+                const std::vector<int>& pulled_vertices,
                 dealii::parallel::fullydistributed::Triangulation<3>& triangulation)
 {
     const auto ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
@@ -66,8 +67,9 @@ void distribute(const pbs::TetMesh& mesh, const std::vector<int>& held_vertices,
         const pbs::DeferredSigterm deferred;
         dealii::GridTools::partition_triangulation(ranks, whole, dealii::SparsityTools::Partitioner::metis);
     };
-    triangulation.create_triangulation(dealii::TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<3, 3>(
-        build, cut, MPI_COMM_WORLD, static_cast<int>(ranks)));
+    triangulation.create_triangulation(
+        dealii::TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<3, 3>(
+            build, cut, MPI_COMM_WORLD, static_cast<int>(ranks)));
 }
 
 }  // namespace
@@ -100,8 +102,10 @@ std::pair<int, int> DistributedSpace::ends(const Cell& cell, unsigned int node_i
 bool DistributedSpace::node_on_face(const Cell& cell, unsigned int node_in_tet, unsigned int face) const
 {
     const auto [first, second] = ends_in_tet(node_in_tet);
-    const auto corners = {cell->face(face)->vertex_index(0), cell->face(face)->vertex_index(1), cell->face(face)->vertex_index(2)};
-    return std::ranges::count(corners, cell->vertex_index(first)) && std::ranges::count(corners, cell->vertex_index(second));
+    const auto corners = {cell->face(face)->vertex_index(0), cell->face(face)->vertex_index(1),
+                          cell->face(face)->vertex_index(2)};
+    return std::ranges::count(corners, cell->vertex_index(first)) &&
+           std::ranges::count(corners, cell->vertex_index(second));
 }
 
 void DistributedSpace::for_each_own_cell(const std::function<void(const Cell&, const DofIndices&)>& visit) const
@@ -123,18 +127,21 @@ std::vector<double> DistributedSpace::rigid_body_modes() const
         for (unsigned int node = 0; node < nodes_per_tet(); ++node) {
             const auto [first, second] = ends(cell, node);
             const pbs::Positions position = (mesh.rest.row(first) + mesh.rest.row(second)) / 2.0;
-            const Eigen::MatrixXd of_node = reference_fem::rigid_body_modes(position, (low + high) / 2.0, (high - low).norm());
+            const Eigen::MatrixXd of_node =
+                reference_fem::rigid_body_modes(position, (low + high) / 2.0, (high - low).norm());
             for (unsigned int c = 0; c < 3; ++c) {
                 const DofIndex dof = dofs[element.component_to_system_index(c, node)];
                 if (!owned.is_element(dof)) continue;
-                for (int mode = 0; mode < 6; ++mode) modes[mode * rows + owned.index_within_set(dof)] = of_node(c, mode);
+                for (int mode = 0; mode < 6; ++mode)
+                    modes[mode * rows + owned.index_within_set(dof)] = of_node(c, mode);
             }
         }
     });
     return modes;
 }
 
-std::pair<pbs::Edges, pbs::Positions> DistributedSpace::on_rank_0(const std::function<double(DofIndex)>& value_at_own) const
+std::pair<pbs::Edges, pbs::Positions> DistributedSpace::on_rank_0(
+    const std::function<double(DofIndex)>& value_at_own) const
 {
     using Row = std::array<double, 5>;  // first end, second end, value
     std::vector<bool> seen(owned.n_elements(), false);
@@ -145,7 +152,8 @@ std::pair<pbs::Edges, pbs::Positions> DistributedSpace::on_rank_0(const std::fun
             if (!owned.is_element(dof(0)) || seen[owned.index_within_set(dof(0))]) continue;
             seen[owned.index_within_set(dof(0))] = true;
             const auto [first, second] = ends(cell, node);
-            rows.push_back({double(first), double(second), value_at_own(dof(0)), value_at_own(dof(1)), value_at_own(dof(2))});
+            rows.push_back(
+                {double(first), double(second), value_at_own(dof(0)), value_at_own(dof(1)), value_at_own(dof(2))});
         }
     });
     std::vector<Row> gathered;
@@ -169,7 +177,8 @@ SpringsInTets::SpringsInTets(const pbs::TetMesh& mesh, const Attachment& attachm
         const pbs::Vec3 point = attachment.spring_points.row(s);
         const pbs::Location location = where.locate(point);
         if (location.tet < 0) continue;
-        springs_.push_back({location.tet, attachment.spring_stiffness(s), location.barycentric, targets.row(s).transpose() - point});
+        springs_.push_back(
+            {location.tet, attachment.spring_stiffness(s), location.barycentric, targets.row(s).transpose() - point});
     }
     std::ranges::stable_sort(springs_, {}, &SpringInTet::tet);
 }

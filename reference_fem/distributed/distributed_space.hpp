@@ -1,7 +1,7 @@
-// deal.II's side of the distributed solver: the tets spread over the ranks, each rank holding its own and one layer of its neighbours'.
-// To be included by distributed_space.cpp and distributed_elasticity.cpp only: it takes some 20 s to compile.
-// Every rank also holds the plain arrays of the whole mesh (28 bytes a tet and vertex): tet t of them is the coarse cell of id t, so
-// vertices keep their numbers.
+// deal.II's side of the distributed solver: the tets spread over the ranks, each rank holding its own and one layer of
+// its neighbours'. To be included by distributed_space.cpp and distributed_elasticity.cpp only: it takes some 20 s to
+// compile. Every rank also holds the plain arrays of the whole mesh (28 bytes a tet and vertex): tet t of them is the
+// coarse cell of id t, so vertices keep their numbers.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -35,7 +35,8 @@ struct DistributedSpace {
     DistributedSpace(const pbs::TetMesh& mesh, int element_order, const std::vector<int>& held_vertices,
                      const std::vector<int>& pulled_vertices);
 
-    Eigen::Index tet(const Cell& cell) const { return static_cast<Eigen::Index>(cell->id().get_coarse_cell_id()); }  // its number in `mesh`
+    // its number in `mesh`
+    Eigen::Index tet(const Cell& cell) const { return static_cast<Eigen::Index>(cell->id().get_coarse_cell_id()); }
     unsigned int nodes_per_tet() const { return element.n_dofs_per_cell() / 3; }  // 4 with P1, 10 with P2
     // The two vertices of the mesh that a tet's node lies halfway between, lower first; a vertex twice for itself.
     std::pair<int, int> ends(const Cell& cell, unsigned int node_in_tet) const;
@@ -49,10 +50,11 @@ struct DistributedSpace {
 
     const pbs::TetMesh& mesh;                                            // outlives the space
     dealii::parallel::fullydistributed::Triangulation<3> triangulation;  // never refined: coarse cells alone
-    dealii::FESystem<3> element;                                         // three components of FE_SimplexP of order 1 or 2
-    dealii::MappingFE<3> mapping;                                        // of straight tets
-    dealii::DoFHandler<3> dof_handler;                                   // of `element` on `triangulation`
-    dealii::IndexSet owned, relevant;  // degrees of freedom of this rank; and those of its neighbours' tets
+    // three components of FE_SimplexP of order 1 or 2
+    dealii::FESystem<3> element;
+    dealii::MappingFE<3> mapping;       // of straight tets
+    dealii::DoFHandler<3> dof_handler;  // of `element` on `triangulation`
+    dealii::IndexSet owned, relevant;   // degrees of freedom of this rank; and those of its neighbours' tets
 };
 
 // The skeleton's springs by the tet that holds them, so that whoever owns the tet can add them.
@@ -70,7 +72,8 @@ public:
     // targets [m], #S x 3. A point outside every tet is left out.
     SpringsInTets(const pbs::TetMesh& mesh, const Attachment& attachment, const pbs::Positions& targets);
 
-    std::span<const SpringInTet> in(Eigen::Index tet) const;  // in the attachment's order; a view, valid while this lives
+    // in the attachment's order; a view, valid while this lives
+    std::span<const SpringInTet> in(Eigen::Index tet) const;
 
 private:
     std::vector<SpringInTet> springs_;  // by tet, increasing

@@ -45,7 +45,8 @@ void add_attached(const pbs::TetMesh& mesh, const Attachment& attachment, HeldPo
 
 void require_vertices(const pbs::TetMesh& mesh, const std::vector<int>& vertices, const char* field)
 {
-    for (const int v : vertices) require(v >= 0 && v < mesh.rest.rows(), field, v, "expected an index below the number of vertices");
+    for (const int v : vertices)
+        require(v >= 0 && v < mesh.rest.rows(), field, v, "expected an index below the number of vertices");
 }
 
 template <typename Container>
@@ -57,8 +58,8 @@ void broadcast_as_bytes(Container& container, long long size)
     constexpr long long most_bytes = 1 << 30;
     const long long bytes = size * static_cast<long long>(sizeof(*container.data()));
     for (long long sent = 0; sent < bytes; sent += most_bytes)
-        MPI_Bcast(reinterpret_cast<char*>(container.data()) + sent, static_cast<int>(std::min(most_bytes, bytes - sent)), MPI_BYTE, 0,
-                  MPI_COMM_WORLD);
+        MPI_Bcast(reinterpret_cast<char*>(container.data()) + sent,
+                  static_cast<int>(std::min(most_bytes, bytes - sent)), MPI_BYTE, 0, MPI_COMM_WORLD);
 }
 
 // Rows of a row-major matrix with a fixed number of columns.
@@ -82,19 +83,22 @@ void check_problem(const pbs::TetMesh& mesh, const ElasticProblem& problem)
 {
     const LinearOptions& options = problem.options;
     lame_parameters(options.young_pa, options.poisson);
-    require(options.element_order == 1 || options.element_order == 2, "element_order", options.element_order, "expected 1 or 2");
-    require(options.density_kg_m3 >= 0.0 && std::isfinite(options.density_kg_m3), "density_kg_m3", options.density_kg_m3,
-            "expected a finite density >= 0");
-    require(options.gravity_m_s2.allFinite(), "gravity_m_s2", options.gravity_m_s2.transpose(), "expected finite components");
-    require(problem.traction_pa.allFinite(), "traction_pa", problem.traction_pa.transpose(), "expected finite components");
+    require(options.element_order == 1 || options.element_order == 2, "element_order", options.element_order,
+            "expected 1 or 2");
+    require(options.density_kg_m3 >= 0.0 && std::isfinite(options.density_kg_m3), "density_kg_m3",
+            options.density_kg_m3, "expected a finite density >= 0");
+    require(options.gravity_m_s2.allFinite(), "gravity_m_s2", options.gravity_m_s2.transpose(),
+            "expected finite components");
+    require(problem.traction_pa.allFinite(), "traction_pa", problem.traction_pa.transpose(),
+            "expected finite components");
     check_mesh(mesh);
     check_attachment(mesh, problem.attachment);
     require(problem.attachment.bind_distance.size() == 0, "bind_distance", problem.attachment.bind_distance.size(),
             "expected none: the bind constraint is not linear");
-    require(problem.spring_targets.rows() == problem.attachment.spring_points.rows(), "spring_targets", problem.spring_targets.rows(),
-            "expected one per spring point");
-    require(problem.attachment.prescribed_tets.empty() || problem.vertex_targets.rows() == mesh.rest.rows(), "vertex_targets",
-            problem.vertex_targets.rows(), "expected one per vertex");
+    require(problem.spring_targets.rows() == problem.attachment.spring_points.rows(), "spring_targets",
+            problem.spring_targets.rows(), "expected one per spring point");
+    require(problem.attachment.prescribed_tets.empty() || problem.vertex_targets.rows() == mesh.rest.rows(),
+            "vertex_targets", problem.vertex_targets.rows(), "expected one per vertex");
     require_vertices(mesh, problem.held_vertices, "held_vertices");
     require_vertices(mesh, problem.pulled_vertices, "pulled_vertices");
 
@@ -113,7 +117,8 @@ double peak_memory_mb()
     return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-PrescribedNodes::PrescribedNodes(const pbs::TetMesh& mesh, const Attachment& attachment, const pbs::Positions& vertex_targets)
+PrescribedNodes::PrescribedNodes(const pbs::TetMesh& mesh, const Attachment& attachment,
+                                 const pbs::Positions& vertex_targets)
     : mesh_(mesh), vertex_targets_(vertex_targets)
 {
     for (const int tet : attachment.prescribed_tets)

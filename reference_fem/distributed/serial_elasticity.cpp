@@ -64,7 +64,9 @@ void SerialSystem::split_boundary()
     for (const int v : problem_.pulled_vertices) pulled[v] = true;
     const pbs::Triangles boundary = pbs::boundary_of(mesh_.tets);
     for (const auto& triangle : boundary.rowwise()) {
-        const auto all_in = [&](const std::vector<bool>& part) { return part[triangle(0)] && part[triangle(1)] && part[triangle(2)]; };
+        const auto all_in = [&](const std::vector<bool>& part) {
+            return part[triangle(0)] && part[triangle(1)] && part[triangle(2)];
+        };
         if (all_in(held))
             held_.emplace_back(triangle);
         else if (all_in(pulled))
@@ -80,7 +82,8 @@ std::vector<int> SerialSystem::nodes_of(const Eigen::RowVector3i& triangle) cons
     return nodes;
 }
 
-// A constant traction on a flat triangle of area A: A / 3 at each corner on P1; nothing there and A / 3 at each mid-edge on P2.
+// A constant traction on a flat triangle of area A: A / 3 at each corner on P1; nothing there and A / 3 at each
+// mid-edge on P2.
 Eigen::VectorXd SerialSystem::traction_load() const
 {
     Eigen::VectorXd load = Eigen::VectorXd::Zero(space_.dofs());
@@ -88,7 +91,8 @@ Eigen::VectorXd SerialSystem::traction_load() const
         const auto corner = [&](int k) -> pbs::Vec3 { return mesh_.rest.row(triangle(k)); };
         const double area = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 2.0;
         const std::vector<int> nodes = nodes_of(triangle);
-        for (std::size_t k = nodes.size() - 3; k < nodes.size(); ++k) load.segment<3>(3 * nodes[k]) += area / 3.0 * problem_.traction_pa;
+        for (std::size_t k = nodes.size() - 3; k < nodes.size(); ++k)
+            load.segment<3>(3 * nodes[k]) += area / 3.0 * problem_.traction_pa;
     }
     return load;
 }
@@ -121,7 +125,8 @@ ElasticSolution SerialSystem::solve() const
     const PhaseClock assembly;
     const Attachment& attachment = problem_.attachment;
     const AttachedPoints springs(mesh_, space_, attachment.spring_points, attachment.spring_stiffness);
-    SparseMatrix stiffness = stiffness_matrix(space_, lame_parameters(problem_.options.young_pa, problem_.options.poisson));
+    SparseMatrix stiffness =
+        stiffness_matrix(space_, lame_parameters(problem_.options.young_pa, problem_.options.poisson));
     springs.add_to(stiffness);
     const Eigen::VectorXd load = external_load(springs);
 

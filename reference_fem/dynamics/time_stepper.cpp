@@ -4,7 +4,8 @@
 
 namespace reference_fem {
 
-ConsistentMass::ConsistentMass(const SimplexSpace& space, double density_kg_m3) : of_nodes_(mass_matrix(space, density_kg_m3))
+ConsistentMass::ConsistentMass(const SimplexSpace& space, double density_kg_m3)
+    : of_nodes_(mass_matrix(space, density_kg_m3))
 {
 }
 
@@ -42,7 +43,8 @@ TimeScheme newmark()
 
 TimeScheme generalized_alpha(double spectral_radius)
 {
-    require(spectral_radius >= 0.0 && spectral_radius <= 1.0, "spectral_radius", spectral_radius, "expected 0 <= spectral_radius <= 1");
+    require(spectral_radius >= 0.0 && spectral_radius <= 1.0, "spectral_radius", spectral_radius,
+            "expected 0 <= spectral_radius <= 1");
     TimeScheme scheme;
     // The optimal algorithm of Chung and Hulbert; then what second order (gamma) and the highest modes (beta) ask for.
     scheme.alpha_m = (2.0 * spectral_radius - 1.0) / (spectral_radius + 1.0);
@@ -80,8 +82,8 @@ Eigen::VectorXd damping_centre(const TimeScheme& scheme, const Motion& motion, d
            end_share(scheme) * (0.5 - ratio) * step_s * step_s * motion.acceleration;
 }
 
-Eigen::VectorXd moved_acceleration(const TimeScheme& scheme, const Eigen::VectorXd& acceleration, const Eigen::VectorXd& rate,
-                                   double longer_s)
+Eigen::VectorXd moved_acceleration(const TimeScheme& scheme, const Eigen::VectorXd& acceleration,
+                                   const Eigen::VectorXd& rate, double longer_s)
 {
     return acceleration + (scheme.alpha_m - scheme.alpha_f) * longer_s * rate;
 }
@@ -92,10 +94,12 @@ Motion accept(const TimeScheme& scheme, const Motion& motion, const Eigen::Vecto
     Motion next;
     next.displacement = motion.displacement + increment;
     // Eq. (b)
-    next.acceleration = (increment - step_s * motion.velocity - (0.5 - scheme.beta) * step_s * step_s * motion.acceleration) /
-                        (scheme.beta * step_s * step_s);
+    next.acceleration =
+        (increment - step_s * motion.velocity - (0.5 - scheme.beta) * step_s * step_s * motion.acceleration) /
+        (scheme.beta * step_s * step_s);
     // Eq. (c)
-    next.velocity = motion.velocity + step_s * ((1.0 - scheme.gamma) * motion.acceleration + scheme.gamma * next.acceleration);
+    next.velocity =
+        motion.velocity + step_s * ((1.0 - scheme.gamma) * motion.acceleration + scheme.gamma * next.acceleration);
     return next;
 }
 
@@ -105,7 +109,8 @@ PrescribedMotion::PrescribedMotion(const std::vector<bool>& prescribed)
         if (prescribed[i]) dofs_.push_back(static_cast<int>(i));
 }
 
-PrescribedMotion::Differences PrescribedMotion::differences(const Motion& motion, const Eigen::VectorXd& values, double step_s) const
+PrescribedMotion::Differences PrescribedMotion::differences(const Motion& motion, const Eigen::VectorXd& values,
+                                                            double step_s) const
 {
     Differences now;
     now.slope = (values(dofs_) - motion.displacement(dofs_)) / step_s;
@@ -175,7 +180,8 @@ TimeStepper::TimeStepper(const SimplexSpace& space, const std::vector<bool>& pre
       mass_damping_(mass_),
       state_{{}, PrescribedMotion(prescribed), 0.0, {}}
 {
-    if (options.rayleigh_stiffness_s > 0.0) stiffness_damping_ = std::make_unique<StiffnessPotential>(rest_stiffness(space, flesh));
+    if (options.rayleigh_stiffness_s > 0.0)
+        stiffness_damping_ = std::make_unique<StiffnessPotential>(rest_stiffness(space, flesh));
     start(Eigen::VectorXd::Zero(space.dofs()));
 }
 
@@ -200,7 +206,8 @@ LoadPathSummary TimeStepper::advance(const Terms& terms, const MovingData& data,
     double reached = 0.0;
     const LoadPathSummary summary = follow_load_path(
         [&](double fraction) {
-            const NewtonSummary part = attempt(terms, data, reached, fraction, (fraction - reached) * step_s, guess, newton);
+            const NewtonSummary part =
+                attempt(terms, data, reached, fraction, (fraction - reached) * step_s, guess, newton);
             if (part.converged()) reached = fraction;
             return part;
         },
@@ -232,7 +239,8 @@ NewtonSummary TimeStepper::attempt(const Terms& terms, const MovingData& data, d
     factored_step_s_ = step_s;
 
     Eigen::VectorXd w = between(now.displacement, guess, share);
-    const NewtonSummary summary = newton_.minimise(with_inertia(terms), between(now.displacement, end.displacement, share), w, options);
+    const NewtonSummary summary =
+        newton_.minimise(with_inertia(terms), between(now.displacement, end.displacement, share), w, options);
     last_iterate_ = w;
     if (!summary.converged()) return summary;
     accept_step(now, end, w, step_s);
@@ -258,8 +266,8 @@ Eigen::VectorXd TimeStepper::start_acceleration(const Terms& terms, const Eigen:
 Eigen::VectorXd TimeStepper::later_acceleration(double step_s) const
 {
     if (step_s == state_.last_step_s) return state_.motion.acceleration;
-    Eigen::VectorXd acceleration =
-        moved_acceleration(options_.scheme, state_.motion.acceleration, state_.acceleration_rate, step_s - state_.last_step_s);
+    Eigen::VectorXd acceleration = moved_acceleration(options_.scheme, state_.motion.acceleration,
+                                                      state_.acceleration_rate, step_s - state_.last_step_s);
     const auto& prescribed = state_.prescribed.dofs();
     acceleration(prescribed) = state_.motion.acceleration(prescribed);
     return acceleration;
@@ -271,14 +279,18 @@ void TimeStepper::set_damping(double coefficient, const Eigen::VectorXd& centre)
     if (stiffness_damping_) stiffness_damping_->set(coefficient * options_.rayleigh_stiffness_s, centre);
 }
 
-// Where the displacement is prescribed so are the rates at t_(n+1-alpha_f): the centres are put where Eqs. (d), (e) give those.
+// Where the displacement is prescribed so are the rates at t_(n+1-alpha_f): the centres are put where Eqs. (d), (e)
+// give those.
 void TimeStepper::set_centres(const Motion& now, const Motion& end, double step_s)
 {
     const TimeScheme& scheme = options_.scheme;
-    const double c_m = inertia_coefficient(scheme, step_s), c_c = damping_coefficient(scheme, step_s), share = end_share(scheme);
+    const double c_m = inertia_coefficient(scheme, step_s), c_c = damping_coefficient(scheme, step_s),
+                 share = end_share(scheme);
     Eigen::VectorXd of_inertia = inertia_centre(scheme, now, step_s), of_damping = damping_centre(scheme, now, step_s);
     for (const int i : state_.prescribed.dofs()) {
-        const auto at_w = [&](const Eigen::VectorXd& from, const Eigen::VectorXd& to) { return from(i) + share * (to(i) - from(i)); };
+        const auto at_w = [&](const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+            return from(i) + share * (to(i) - from(i));
+        };
         const double w = at_w(now.displacement, end.displacement);
         of_inertia(i) = w - at_w(now.acceleration, end.acceleration) / c_m;
         of_damping(i) = w - at_w(now.velocity, end.velocity) / c_c;

@@ -54,7 +54,8 @@ NodalMatrix linear_stiffness(const SimplexSpace& space, const VibratingOptions& 
 
 }  // namespace
 
-Mode first_mode(const SparseMatrix& stiffness, const ConsistentMass& mass, const std::vector<bool>& prescribed, LinearSolver solver)
+Mode first_mode(const SparseMatrix& stiffness, const ConsistentMass& mass, const std::vector<bool>& prescribed,
+                LinearSolver solver)
 {
     Eigen::MatrixXd block = random_block(prescribed), with_mass(block.rows(), block.cols());
     Mode mode{std::numeric_limits<double>::quiet_NaN(), Eigen::VectorXd::Zero(block.rows())};
@@ -63,10 +64,12 @@ Mode first_mode(const SparseMatrix& stiffness, const ConsistentMass& mass, const
     if (!system.usable()) return mode;
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(block.rows());
     for (int k = 0; k < most_iterations; ++k) {
-        for (Eigen::Index i = 0; i < block.cols(); ++i) block.col(i) = system.solve(mass.times(block.col(i)), zero).displacement;
+        for (Eigen::Index i = 0; i < block.cols(); ++i)
+            block.col(i) = system.solve(mass.times(block.col(i)), zero).displacement;
         for (Eigen::Index i = 0; i < block.cols(); ++i) with_mass.col(i) = mass.times(block.col(i));
         // Ritz vectors: the modes of the body that may move in the block only.
-        const Eigen::MatrixXd reduced_stiffness = block.transpose() * (stiffness * block), reduced_mass = block.transpose() * with_mass;
+        const Eigen::MatrixXd reduced_stiffness = block.transpose() * (stiffness * block),
+                              reduced_mass = block.transpose() * with_mass;
         const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(reduced_stiffness, reduced_mass);
         block = (block * ritz.eigenvectors()).eval();
         const Eigen::VectorXd before = mode.shape;
@@ -93,7 +96,8 @@ TimeStepper VibratingBody::stepper(TimeStepperOptions options)
     return {space_, fixed_, flesh_, options, newton_};
 }
 
-bool VibratingBody::run(TimeStepper& stepper, double step_s, int steps, const std::function<void(int)>& after_step) const
+bool VibratingBody::run(TimeStepper& stepper, double step_s, int steps,
+                        const std::function<void(int)>& after_step) const
 {
     Eigen::VectorXd guess = stepper.motion().displacement;
     for (int k = 1; k <= steps; ++k) {

@@ -41,8 +41,9 @@ public:
     }
 };
 
-// psi = mu |F - R|^2 + lambda / 2 (tr S - 3)^2, F = R S (E. Sifakis, J. Barbic, FEM Simulation of 3D Deformable Solids, SIGGRAPH 2012
-// courses, part I, section 3.4). Its derivatives by F: those through R vanish from the gradient, since R^T dR is skew and S symmetric.
+// psi = mu |F - R|^2 + lambda / 2 (tr S - 3)^2, F = R S (E. Sifakis, J. Barbic, FEM Simulation of 3D Deformable Solids,
+// SIGGRAPH 2012 courses, part I, section 3.4). Its derivatives by F: those through R vanish from the gradient, since
+// R^T dR is skew and S symmetric.
 class Corotational : public ConstitutiveLaw {
 public:
     using ConstitutiveLaw::ConstitutiveLaw;
@@ -68,10 +69,11 @@ public:
     }
 };
 
-// psi = mu / 2 (|F|^2 - 3) - mu (J - 1) + lambda' / 2 (J - 1)^2, J = det F, with lambda' = lambda + mu, without which the small-strain
-// limit would have lambda - mu. Smith, de Goes, Kim 2018, without their term in ln(|F|^2 + 1): like HOBAK, the code of T. Kim, D. Eberle,
-// Dynamic Deformables, SIGGRAPH 2020 courses, that leaves it out too. The price: the tet shrunk to a point, F = 0, is a local minimum.
-// With the square completed, this is mu / 2 (|F|^2 - 3) + lambda' / 2 (J - 1 - mu / lambda')^2 of M. Macklin, M. Mueller, MIG 2021.
+// psi = mu / 2 (|F|^2 - 3) - mu (J - 1) + lambda' / 2 (J - 1)^2, J = det F, with lambda' = lambda + mu, without which
+// the small-strain limit would have lambda - mu. Smith, de Goes, Kim 2018, without their term in ln(|F|^2 + 1): like
+// HOBAK, the code of T. Kim, D. Eberle, Dynamic Deformables, SIGGRAPH 2020 courses, that leaves it out too. The price:
+// the tet shrunk to a point, F = 0, is a local minimum. With the square completed, this is mu / 2 (|F|^2 - 3) + lambda'
+// / 2 (J - 1 - mu / lambda')^2 of M. Macklin, M. Mueller, MIG 2021.
 class StableNeoHookean : public ConstitutiveLaw {
 public:
     using ConstitutiveLaw::ConstitutiveLaw;
@@ -90,8 +92,9 @@ public:
         if (derivatives == Derivatives::first) return response;
 
         response.dilatation_hessian = cofactor_derivative(f);
-        response.shape_hessian = mu * (Tangent::Identity() + outer(response.dilatation_gradient, response.dilatation_gradient) +
-                                       (volume_change - 1.0) * response.dilatation_hessian);
+        response.shape_hessian =
+            mu * (Tangent::Identity() + outer(response.dilatation_gradient, response.dilatation_gradient) +
+                  (volume_change - 1.0) * response.dilatation_hessian);
         return response;
     }
 };
@@ -148,15 +151,17 @@ public:
         const Eigen::Matrix3d left_cauchy_green = f * f.transpose();
         for (int j = 0; j < 3; ++j) {
             response.shape_hessian.block<3, 3>(3 * j, 3 * j) += mu * left_cauchy_green;
-            for (int l = 0; l < 3; ++l) response.shape_hessian.block<3, 3>(3 * j, 3 * l).diagonal().array() += 2.0 * mu * strain(l, j);
+            for (int l = 0; l < 3; ++l)
+                response.shape_hessian.block<3, 3>(3 * j, 3 * l).diagonal().array() += 2.0 * mu * strain(l, j);
         }
         response.dilatation_hessian.setIdentity();
         return response;
     }
 };
 
-// psi = kappa / 4 (J^2 - 1 - 2 ln J) + mu / 2 (J^(-2/3) |F|^2 - 3), kappa = lambda + 2 mu / 3, J = det F > 0: deal.II's step-44 and the
-// program Quasi-Static Finite-Strain Compressible Elasticity of its code gallery, after J. Simo, T. Hughes, Computational Inelasticity.
+// psi = kappa / 4 (J^2 - 1 - 2 ln J) + mu / 2 (J^(-2/3) |F|^2 - 3), kappa = lambda + 2 mu / 3, J = det F > 0: deal.II's
+// step-44 and the program Quasi-Static Finite-Strain Compressible Elasticity of its code gallery, after J. Simo, T.
+// Hughes, Computational Inelasticity.
 class IsochoricNeoHookean : public ConstitutiveLaw {
 public:
     using ConstitutiveLaw::ConstitutiveLaw;
@@ -173,8 +178,9 @@ public:
 
         const double mu = lame_.mu_pa, kappa = lame_.lambda_pa + 2.0 / 3.0 * mu, log_volume = change.log_volume();
         const double isochoric = std::exp(-2.0 / 3.0 * log_volume);
-        response.shape = 0.25 * kappa * ((2.0 + volume_change) * volume_change - 2.0 * log_volume) +
-                         0.5 * mu * (3.0 * std::expm1(-2.0 / 3.0 * log_volume) + isochoric * change.squared_norm_change);
+        response.shape =
+            0.25 * kappa * ((2.0 + volume_change) * volume_change - 2.0 * log_volume) +
+            0.5 * mu * (3.0 * std::expm1(-2.0 / 3.0 * log_volume) + isochoric * change.squared_norm_change);
         response.dilatation = 0.0;
         if (derivatives == Derivatives::none) return response;
 
@@ -190,7 +196,8 @@ public:
         const double volume_curvature =
             0.5 * kappa * (1.0 + 1.0 / (volume * volume)) + shear * 5.0 / 9.0 * first_invariant / (volume * volume);
         const Tangent mixed = outer(volume_gradient, f);
-        response.shape_hessian = volume_slope * cofactor_derivative(f) + volume_curvature * outer(volume_gradient, volume_gradient) +
+        response.shape_hessian = volume_slope * cofactor_derivative(f) +
+                                 volume_curvature * outer(volume_gradient, volume_gradient) +
                                  shear * (Tangent::Identity() - 2.0 / (3.0 * volume) * (mixed + mixed.transpose()));
         response.dilatation_hessian.setZero();
         return response;
@@ -236,7 +243,8 @@ Invariants invariants(const Eigen::Matrix3d& f)
     double second = 0.0;  // of the principal invariants: the sum of the principal minors
     for (int i = 0, j = 1; i < 3; ++i, j = (j + 1) % 3) second += g(i, i) * g(j, j) - g(i, j) * g(j, i);
     const double trace = g.trace(), determinant = g.determinant(), squared_norm = g.squaredNorm();
-    return {f.determinant(), trace + second + determinant, 2.0 * trace + squared_norm, 0.5 * squared_norm - second - determinant};
+    return {f.determinant(), trace + second + determinant, 2.0 * trace + squared_norm,
+            0.5 * squared_norm - second - determinant};
 }
 
 PolarDecomposition polar_decomposition(const Eigen::Matrix3d& f)

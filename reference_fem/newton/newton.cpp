@@ -18,7 +18,8 @@ constexpr int most_blocked_in_a_row = 5;
 bool is_far_from_convex(const NewtonSummary& summary, const NewtonOptions& options)
 {
     const auto last = summary.iterations.rbegin() + 1;
-    const auto convex = std::find_if(last, summary.iterations.rend(), [](const NewtonIteration& it) { return !it.projected; });
+    const auto convex =
+        std::find_if(last, summary.iterations.rend(), [](const NewtonIteration& it) { return !it.projected; });
     return options.indefinite_in_a_row > 0 && convex - last >= options.indefinite_in_a_row;
 }
 
@@ -47,14 +48,16 @@ bool all_quadratic(const Terms& terms)
 
 const char* name_of(NewtonOutcome outcome)
 {
-    constexpr const char* names[] = {"converged", "iterations_exhausted", "no_descent", "not_positive_definite", "not_finite",
-                                     "blocked",   "intersects_itself",    "given_up"};
+    constexpr const char* names[] = {
+        "converged", "iterations_exhausted", "no_descent", "not_positive_definite", "not_finite",
+        "blocked",   "intersects_itself",    "given_up"};
     return names[static_cast<int>(outcome)];
 }
 
 int NewtonSummary::steps() const
 {
-    return static_cast<int>(std::count_if(iterations.begin(), iterations.end(), [](const auto& it) { return it.step_length > 0.0; }));
+    return static_cast<int>(
+        std::count_if(iterations.begin(), iterations.end(), [](const auto& it) { return it.step_length > 0.0; }));
 }
 
 // Energy and gradient of all terms at one displacement.
@@ -116,7 +119,8 @@ double NewtonMinimiser::free_norm(const Eigen::VectorXd& force) const
     return std::sqrt(squared);
 }
 
-Eigen::VectorXd NewtonMinimiser::increment_to(const Eigen::VectorXd& prescribed_values, const Eigen::VectorXd& displacement) const
+Eigen::VectorXd NewtonMinimiser::increment_to(const Eigen::VectorXd& prescribed_values,
+                                              const Eigen::VectorXd& displacement) const
 {
     Eigen::VectorXd increment = Eigen::VectorXd::Zero(displacement.size());
     for (Eigen::Index i = 0; i < increment.size(); ++i)
@@ -179,10 +183,10 @@ bool NewtonMinimiser::may_reuse_factor(const NewtonSummary& summary, const Newto
     return last.step_length == 1.0 && now.residual_n <= options.reuse_contraction * last.residual_n;
 }
 
-// The largest of L, L/2, L/4, ... that lowers the energy by Armijo's share; where that is below rounding, that lowers the residual. L is
-// the step that the terms allow, at most 1. 0: none.
-double NewtonMinimiser::step_length(const Terms& terms, const State& state, const Eigen::VectorXd& displacement, const Step& step,
-                                    const NewtonOptions& options)
+// The largest of L, L/2, L/4, ... that lowers the energy by Armijo's share; where that is below rounding, that lowers
+// the residual. L is the step that the terms allow, at most 1. 0: none.
+double NewtonMinimiser::step_length(const Terms& terms, const State& state, const Eigen::VectorXd& displacement,
+                                    const Step& step, const NewtonOptions& options)
 {
     const double slope = state.gradient.dot(step.direction);
     const double rounding = energy_rounding * state.energy_scale_j;
@@ -191,15 +195,17 @@ double NewtonMinimiser::step_length(const Terms& terms, const State& state, cons
         const Eigen::VectorXd trial = displacement + length * step.direction;
         if (length * std::abs(slope) > rounding) {
             if (slope < 0.0 && energy_at(terms, trial) <= state.energy_j + armijo * length * slope) return length;
-        } else if (const State at_trial = state_at(terms, trial); at_trial.finite() && at_trial.residual_n < state.residual_n) {
+        } else if (const State at_trial = state_at(terms, trial);
+                   at_trial.finite() && at_trial.residual_n < state.residual_n) {
             return length;
         }
     }
     return 0.0;
 }
 
-// Conjugate gradients on H p = -g, where H is indefinite, preconditioned by the projected H. Without negative curvature they end at a
-// tenth of the first residual or after `most_gradients` products. Any of their iterates is a direction of descent.
+// Conjugate gradients on H p = -g, where H is indefinite, preconditioned by the projected H. Without negative curvature
+// they end at a tenth of the first residual or after `most_gradients` products. Any of their iterates is a direction of
+// descent.
 Eigen::VectorXd NewtonMinimiser::truncated_step(const State& state)
 {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(state.gradient.size());
@@ -226,9 +232,11 @@ Eigen::VectorXd NewtonMinimiser::truncated_step(const State& state)
 }
 
 // `system_` must have been factorised. The step that moves the data may raise the energy: contact alone shortens it.
-// The step of a quadratic energy ends in its minimum. Length 0: the direction is not finite, or no length lowers the energy enough.
-NewtonMinimiser::Step NewtonMinimiser::step_from(const Terms& terms, const State& state, const Eigen::VectorXd& displacement,
-                                                 const Eigen::VectorXd& increment, const NewtonOptions& options)
+// The step of a quadratic energy ends in its minimum. Length 0: the direction is not finite, or no length lowers the
+// energy enough.
+NewtonMinimiser::Step NewtonMinimiser::step_from(const Terms& terms, const State& state,
+                                                 const Eigen::VectorXd& displacement, const Eigen::VectorXd& increment,
+                                                 const NewtonOptions& options)
 {
     const bool truncates = indefinite_.size() > 0 && increment.isZero(0.0);
     Step step{truncates ? truncated_step(state) : solution(-state.gradient, increment), 0.0};
@@ -242,8 +250,8 @@ NewtonMinimiser::Step NewtonMinimiser::step_from(const Terms& terms, const State
     return step;
 }
 
-NewtonSummary NewtonMinimiser::minimise(const Terms& terms, const Eigen::VectorXd& prescribed_values, Eigen::VectorXd& displacement,
-                                        const NewtonOptions& options)
+NewtonSummary NewtonMinimiser::minimise(const Terms& terms, const Eigen::VectorXd& prescribed_values,
+                                        Eigen::VectorXd& displacement, const NewtonOptions& options)
 {
     const pbs::Stopwatch stopwatch;
     NewtonSummary summary;
@@ -259,7 +267,8 @@ NewtonSummary NewtonMinimiser::minimise(const Terms& terms, const Eigen::VectorX
     for (int k = 0; k <= options.iterations; ++k) {
         const State state = state_at(terms, displacement);
         const bool carries_increment = !increment.isZero(0.0);
-        summary.iterations.push_back({state.residual_n, state.force_scale_n, state.energy_j, 0.0, false, carries_increment});
+        summary.iterations.push_back(
+            {state.residual_n, state.force_scale_n, state.energy_j, 0.0, false, carries_increment});
         if (!state.finite()) return end(NewtonOutcome::not_finite);
         if (!carries_increment && is_converged(state, options)) return end(NewtonOutcome::converged);
         if (k == options.iterations || is_far_from_convex(summary, options)) break;
@@ -290,12 +299,14 @@ NewtonSummary NewtonMinimiser::minimise(const Terms& terms, const Eigen::VectorX
 
 int LoadPathSummary::newton_steps() const
 {
-    return std::accumulate(steps.begin(), steps.end(), 0, [](int sum, const LoadStep& step) { return sum + step.newton.steps(); });
+    return std::accumulate(steps.begin(), steps.end(), 0,
+                           [](int sum, const LoadStep& step) { return sum + step.newton.steps(); });
 }
 
 int LoadPathSummary::halvings() const
 {
-    return static_cast<int>(std::count_if(steps.begin(), steps.end(), [](const LoadStep& step) { return !step.newton.converged(); }));
+    return static_cast<int>(
+        std::count_if(steps.begin(), steps.end(), [](const LoadStep& step) { return !step.newton.converged(); }));
 }
 
 pbs::WorkCounters LoadPathSummary::work() const
@@ -305,14 +316,16 @@ pbs::WorkCounters LoadPathSummary::work() const
     return work;
 }
 
-LoadPathSummary follow_load_path(const std::function<NewtonSummary(double fraction)>& attempt, Eigen::VectorXd& displacement,
-                                 const LoadPathOptions& options)
+LoadPathSummary follow_load_path(const std::function<NewtonSummary(double fraction)>& attempt,
+                                 Eigen::VectorXd& displacement, const LoadPathOptions& options)
 {
     const pbs::Stopwatch stopwatch;
     LoadPathSummary path;
     double step = std::min(options.first_step, 1.0);
     int converged_in_a_row = 0;
-    const auto has_steps_left = [&] { return options.most_newton_steps == 0 || path.newton_steps() < options.most_newton_steps; };
+    const auto has_steps_left = [&] {
+        return options.most_newton_steps == 0 || path.newton_steps() < options.most_newton_steps;
+    };
     while (!path.converged() && has_steps_left()) {
         const Eigen::VectorXd last_converged = displacement;
         const double fraction = path.reached + step >= 1.0 - 1e-12 ? 1.0 : path.reached + step;

@@ -1,12 +1,13 @@
 // Newton's method for the displacements that minimise a sum of potentials, some degrees of freedom prescribed.
 //   NewtonMinimiser newton(space, prescribed, LinearSolver::cholmod);
 //   const NewtonSummary summary = newton.minimise({&flesh, &springs}, prescribed_values, displacement, {});
-// The increment of the prescribed data goes into the first linear solve. Where the Hessian is not positive definite, the step is that of
-// truncated conjugate gradients (T. Steihaug, SIAM Journal on Numerical Analysis 20, 1983): preconditioned by the factor of the Hessian
-// projected tet by tet, they end where they meet a direction of negative curvature. A step that does not lower the energy enough (Armijo)
-// is halved; with contact, the first trial is the longest step in which nothing meets. Every iteration is recorded, and a step that does
-// not converge is an outcome. The symbolic analysis is kept; so is the factor where every term is quadratic, and on request where the last
-// step with it was good enough (V. E. Shamanskii, Ukrainian Mathematical Journal 19, 1967).
+// The increment of the prescribed data goes into the first linear solve. Where the Hessian is not positive definite,
+// the step is that of truncated conjugate gradients (T. Steihaug, SIAM Journal on Numerical Analysis 20, 1983):
+// preconditioned by the factor of the Hessian projected tet by tet, they end where they meet a direction of negative
+// curvature. A step that does not lower the energy enough (Armijo) is halved; with contact, the first trial is the
+// longest step in which nothing meets. Every iteration is recorded, and a step that does not converge is an outcome.
+// The symbolic analysis is kept; so is the factor where every term is quadratic, and on request where the last step
+// with it was good enough (V. E. Shamanskii, Ukrainian Mathematical Journal 19, 1967).
 #pragma once
 
 #include "pbs/geometry/cost.hpp"
@@ -21,35 +22,39 @@ namespace reference_fem {
 
 // When a minimisation ends.
 struct NewtonOptions {
-    // Converged where |free residual| <= relative_tolerance * sum over the terms of |gradient|, reactions included, or below what the
-    // rounding of positions makes of forces.
+    // Converged where |free residual| <= relative_tolerance * sum over the terms of |gradient|, reactions included, or
+    // below what the rounding of positions makes of forces.
     double relative_tolerance = 1e-8;
     int iterations = 40;  // linear solves at most
-    // iterations_exhausted after so many Hessians in a row that are not positive definite: the energy still falls far from any minimum. 0:
-    // no limit.
+    // iterations_exhausted after so many Hessians in a row that are not positive definite: the energy still falls far
+    // from any minimum. 0: no limit.
     int indefinite_in_a_row = 0;
     int halvings = 25;  // of one step; then no_descent
-    // The factor serves again after a whole step that reduced the residual to at most this share of the one before; 0: for no second step.
-    // Steps then converge linearly, at least at this rate, and cost a small part of a factorisation where the body has many nodes.
+    // The factor serves again after a whole step that reduced the residual to at most this share of the one before; 0:
+    // for no second step. Steps then converge linearly, at least at this rate, and cost a small part of a factorisation
+    // where the body has many nodes.
     double reuse_contraction = 0.0;
-    std::function<bool()> is_over = {};  // asked before each linear solve: true ends the minimisation there; empty: never
+    // asked before each linear solve: true ends the minimisation there; empty: never
+    std::function<bool()> is_over = {};
 };
 
 // A state and the step that left it; the last has none.
 struct NewtonIteration {
-    double residual_n = 0.0;         // norm of the free part of the gradient, before the step
-    double force_scale_n = 0.0;      // what it is measured against
-    double energy_j = 0.0;           // before the step
-    double step_length = 0.0;        // 1: a full Newton step; 0: none was taken
-    bool projected = false;          // the Hessian was not positive definite, or a direction of negative curvature was met just before
+    double residual_n = 0.0;     // norm of the free part of the gradient, before the step
+    double force_scale_n = 0.0;  // what it is measured against
+    double energy_j = 0.0;       // before the step
+    double step_length = 0.0;    // 1: a full Newton step; 0: none was taken
+    bool projected =
+        false;  // the Hessian was not positive definite, or a direction of negative curvature was met just before
     bool carries_increment = false;  // the linear solve that moves the prescribed data
     bool reuses_factor = false;      // of an earlier step, see NewtonOptions::reuse_contraction
     double allowed_step = 1.0;       // the length that contact allows
 };
 
-// no_descent: no length of the step lowers the energy enough; not_positive_definite: not even the projected Hessian can be factored;
-// not_finite: an energy, a gradient or a step is not; blocked: contact allows almost nothing of five steps in a row; intersects_itself: the
-// initial guess does, with contact, and no step was tried; given_up: NewtonOptions::is_over.
+// no_descent: no length of the step lowers the energy enough; not_positive_definite: not even the projected Hessian can
+// be factored; not_finite: an energy, a gradient or a step is not; blocked: contact allows almost nothing of five steps
+// in a row; intersects_itself: the initial guess does, with contact, and no step was tried; given_up:
+// NewtonOptions::is_over.
 enum class NewtonOutcome {
     converged,
     iterations_exhausted,
@@ -76,21 +81,24 @@ struct NewtonSummary {
 
 using Terms = std::vector<const Potential*>;  // of the sum; not owned
 
-// For one mesh and set of prescribed degrees of freedom; keeps nothing of the space. Call forget_factor() after a change of the terms.
+// For one mesh and set of prescribed degrees of freedom; keeps nothing of the space. Call forget_factor() after a
+// change of the terms.
 class NewtonMinimiser {
 public:
     // prescribed: #dofs.
     NewtonMinimiser(const SimplexSpace& space, const std::vector<bool>& prescribed, LinearSolver solver);
 
-    // prescribed_values [m], #dofs, is read at prescribed degrees of freedom only. displacement [m], #dofs: holds the initial guess before
-    // the call and the minimum after it. If the outcome is not converged, it holds the last iterate.
+    // prescribed_values [m], #dofs, is read at prescribed degrees of freedom only. displacement [m], #dofs: holds the
+    // initial guess before the call and the minimum after it. If the outcome is not converged, it holds the last
+    // iterate.
     NewtonSummary minimise(const Terms& terms, const Eigen::VectorXd& prescribed_values, Eigen::VectorXd& displacement,
                            const NewtonOptions& options);
 
     // The terms' Hessian has changed (another time step): a factor kept of quadratic terms is stale.
     void forget_factor() { factor_is_kept_ = false; }
 
-    const PreparedSolver* factor() const { return system_ ? &system_->factor() : nullptr; }  // null before the first solve
+    // null before the first solve
+    const PreparedSolver* factor() const { return system_ ? &system_->factor() : nullptr; }
 
 private:
     struct State;
@@ -109,8 +117,8 @@ private:
     bool factorise_assembled(NewtonSummary& summary);
     Eigen::VectorXd truncated_step(const State& state);
     double free_norm(const Eigen::VectorXd& force) const;  // without the prescribed degrees of freedom
-    Step step_from(const Terms& terms, const State& state, const Eigen::VectorXd& displacement, const Eigen::VectorXd& increment,
-                   const NewtonOptions& options);
+    Step step_from(const Terms& terms, const State& state, const Eigen::VectorXd& displacement,
+                   const Eigen::VectorXd& increment, const NewtonOptions& options);
     double step_length(const Terms& terms, const State& state, const Eigen::VectorXd& displacement, const Step& step,
                        const NewtonOptions& options);
 
@@ -122,14 +130,15 @@ private:
     pbs::WorkCounters work_;  // of this minimisation
     NodalMatrix hessian_;
     std::unique_ptr<EliminatedSystem> system_;
-    SparseMatrix indefinite_;              // the Hessian where the factor is that of the projected one; else empty
-    bool has_negative_curvature_ = false;  // the last truncated step ended there: the next Hessian is projected without a trial
+    SparseMatrix indefinite_;  // the Hessian where the factor is that of the projected one; else empty
+    bool has_negative_curvature_ =
+        false;  // the last truncated step ended there: the next Hessian is projected without a trial
     bool factor_is_kept_ = false;
     double rounding_n_ = 0.0;  // residual that the rounding of positions alone makes
 };
 
-// Follows data from where they are (fraction 0) to where they shall be (fraction 1) in steps that are halved where a step does not
-// converge and doubled again after two that do. An attempt that is given up ends the path.
+// Follows data from where they are (fraction 0) to where they shall be (fraction 1) in steps that are halved where a
+// step does not converge and doubled again after two that do. An attempt that is given up ends the path.
 //   follow_load_path([&](double fraction) { set_targets(fraction); return newton.minimise(...); }, displacement, {});
 // By default the path tries the whole way first, and steps down to 1/64 of it where that fails.
 struct LoadPathOptions {
@@ -156,9 +165,9 @@ struct LoadPathSummary {
     pbs::WorkCounters work() const;                    // of all attempts
 };
 
-// `attempt` moves `displacement` to the state at a fraction. After a failure the displacement is put back to the last converged state,
-// where it also stays if the path ends early.
-LoadPathSummary follow_load_path(const std::function<NewtonSummary(double fraction)>& attempt, Eigen::VectorXd& displacement,
-                                 const LoadPathOptions& options);
+// `attempt` moves `displacement` to the state at a fraction. After a failure the displacement is put back to the last
+// converged state, where it also stays if the path ends early.
+LoadPathSummary follow_load_path(const std::function<NewtonSummary(double fraction)>& attempt,
+                                 Eigen::VectorXd& displacement, const LoadPathOptions& options);
 
 }  // namespace reference_fem

@@ -22,21 +22,24 @@ Tangent without_negative_eigenvalues(const Tangent& tangent)
     return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
 }
 
-// dF / du of node b is g_b(d) I in the rows of column d, so its block with node a is sum over c, d of g_a(c) A(c, d) g_b(d).
+// dF / du of node b is g_b(d) I in the rows of column d, so its block with node a is sum over c, d of g_a(c) A(c, d)
+// g_b(d).
 void add_material_blocks(const Tangent& tangent, const Gradients& gradients, double weight, TetMatrix& stiffness)
 {
     for (Eigen::Index b = 0; b < gradients.rows(); ++b) {
         Eigen::Matrix<double, 9, 3> column = Eigen::Matrix<double, 9, 3>::Zero();
         for (int d = 0; d < 3; ++d) column += weight * gradients(b, d) * tangent.middleCols<3>(3 * d);
         for (Eigen::Index a = 0; a < gradients.rows(); ++a)
-            for (int c = 0; c < 3; ++c) stiffness.block<3, 3>(3 * a, 3 * b) += gradients(a, c) * column.middleRows<3>(3 * c);
+            for (int c = 0; c < 3; ++c)
+                stiffness.block<3, 3>(3 * a, 3 * b) += gradients(a, c) * column.middleRows<3>(3 * c);
     }
 }
 
 // d (A : F) / du of a tet's nodes.
 void add_nodal_forces(const Eigen::Matrix3d& stress, const Gradients& gradients, double weight, TetVector& force)
 {
-    for (Eigen::Index a = 0; a < gradients.rows(); ++a) force.segment<3>(3 * a) += weight * (stress * gradients.row(a).transpose());
+    for (Eigen::Index a = 0; a < gradients.rows(); ++a)
+        force.segment<3>(3 * a) += weight * (stress * gradients.row(a).transpose());
 }
 
 }  // namespace
@@ -54,28 +57,34 @@ ElasticPotential::ElasticPotential(const SimplexSpace& space, Model model, const
 {
 }
 
-ElasticPotential::ElasticPotential(const SimplexSpace& space, Model model, const Lame& lame, Formulation formulation, ElementTables tables)
+ElasticPotential::ElasticPotential(const SimplexSpace& space, Model model, const Lame& lame, Formulation formulation,
+                                   ElementTables tables)
     : tet_nodes_(space.tet_nodes()),
       model_(model),
       formulation_(formulation),
       law_(constitutive_law(model, lame)),
       tables_(std::move(tables))
 {
-    require(tables_.points_per_tet <= most_points, "quadrature points", tables_.points_per_tet, "expected at most 6 per tet");
-    require(formulation != Formulation::taylor_hood, "formulation", "taylor_hood", "expected displacement or mean_dilatation here");
+    require(tables_.points_per_tet <= most_points, "quadrature points", tables_.points_per_tet,
+            "expected at most 6 per tet");
+    require(formulation != Formulation::taylor_hood, "formulation", "taylor_hood",
+            "expected displacement or mean_dilatation here");
     require(formulation == Formulation::displacement || law_->volume_term(), "formulation", "mean_dilatation",
             "expected a law with a volume term lambda / 2 theta^2");
 }
 
-Eigen::Matrix3d ElasticPotential::deformation_gradient(const Eigen::VectorXd& displacement, Eigen::Index tet, int q) const
+Eigen::Matrix3d ElasticPotential::deformation_gradient(const Eigen::VectorXd& displacement, Eigen::Index tet,
+                                                       int q) const
 {
     const auto gradients = tables_.gradients(tet, q);
     Eigen::Matrix3d gradient = Eigen::Matrix3d::Identity();
-    for (Eigen::Index a = 0; a < gradients.rows(); ++a) gradient += displacement.segment<3>(3 * tet_nodes_(tet, a)) * gradients.row(a);
+    for (Eigen::Index a = 0; a < gradients.rows(); ++a)
+        gradient += displacement.segment<3>(3 * tet_nodes_(tet, a)) * gradients.row(a);
     return gradient;
 }
 
-ElasticPotential::TetState ElasticPotential::evaluate(const Eigen::VectorXd& displacement, Eigen::Index tet, Derivatives derivatives) const
+ElasticPotential::TetState ElasticPotential::evaluate(const Eigen::VectorXd& displacement, Eigen::Index tet,
+                                                      Derivatives derivatives) const
 {
     TetState state;
     double integral = 0.0;
@@ -97,8 +106,8 @@ double ElasticPotential::value(const Eigen::VectorXd& displacement) const
         const TetState state = evaluate(displacement, tet, Derivatives::none);
         if (!state.defined) return std::numeric_limits<double>::infinity();
         for (int q = 0; q < tables_.points_per_tet; ++q)
-            energy +=
-                tables_.weight(tet, q) * (state.responses[q].shape + law_->lambda_pa() / 2.0 * state.dilatation[q] * state.dilatation[q]);
+            energy += tables_.weight(tet, q) *
+                      (state.responses[q].shape + law_->lambda_pa() / 2.0 * state.dilatation[q] * state.dilatation[q]);
     }
     return energy;
 }
@@ -111,14 +120,16 @@ void ElasticPotential::add_gradient(const Eigen::VectorXd& displacement, Eigen::
         TetVector force = TetVector::Zero(3 * nodes);
         for (int q = 0; q < tables_.points_per_tet; ++q) {
             const PointResponse& response = state.responses[q];
-            const Eigen::Matrix3d stress = response.shape_gradient + law_->lambda_pa() * state.dilatation[q] * response.dilatation_gradient;
+            const Eigen::Matrix3d stress =
+                response.shape_gradient + law_->lambda_pa() * state.dilatation[q] * response.dilatation_gradient;
             add_nodal_forces(stress, tables_.gradients(tet, q), tables_.weight(tet, q), force);
         }
         for (Eigen::Index a = 0; a < nodes; ++a) gradient.segment<3>(3 * tet_nodes_(tet, a)) += force.segment<3>(3 * a);
     }
 }
 
-void ElasticPotential::add_hessian(const Eigen::VectorXd& displacement, Definiteness definiteness, NodalMatrix& hessian) const
+void ElasticPotential::add_hessian(const Eigen::VectorXd& displacement, Definiteness definiteness,
+                                   NodalMatrix& hessian) const
 {
     const Eigen::Index nodes = tet_nodes_.cols();
     const double lambda_pa = law_->lambda_pa();
@@ -133,7 +144,8 @@ void ElasticPotential::add_hessian(const Eigen::VectorXd& displacement, Definite
             const Eigen::Map<const Eigen::Matrix<double, 9, 1>> direction(response.dilatation_gradient.data());
             Tangent tangent = response.shape_hessian + lambda_pa * state.dilatation[q] * response.dilatation_hessian;
             if (mean)
-                add_nodal_forces(response.dilatation_gradient, tables_.gradients(tet, q), tables_.weight(tet, q), dilatation_force);
+                add_nodal_forces(response.dilatation_gradient, tables_.gradients(tet, q), tables_.weight(tet, q),
+                                 dilatation_force);
             else
                 tangent += lambda_pa * direction * direction.transpose();
             if (definiteness == Definiteness::projected) tangent = without_negative_eigenvalues(tangent);
@@ -228,7 +240,8 @@ void BindPotential::add_gradient(const Eigen::VectorXd& displacement, Eigen::Vec
 }
 
 // n n^T + (1 - d / |r|) (I - n n^T), n = r / |r|; at r = 0 the direction is not defined and only d = 0 has a Hessian.
-void BindPotential::add_hessian(const Eigen::VectorXd& displacement, Definiteness definiteness, NodalMatrix& hessian) const
+void BindPotential::add_hessian(const Eigen::VectorXd& displacement, Definiteness definiteness,
+                                NodalMatrix& hessian) const
 {
     for (Eigen::Index v = 0; v < stiffness_.size(); ++v) {
         if (stiffness_(v) == 0.0) continue;

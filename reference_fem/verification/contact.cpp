@@ -29,7 +29,10 @@ struct PressedBodies {
             displacement, {.first_step = 1.0 / 4.0, .smallest_step = 1.0 / 1024.0});
     }
 
-    static Lame lame_of(const ElasticMaterial& material) { return lame_parameters(material.young_pa, material.poisson); }
+    static Lame lame_of(const ElasticMaterial& material)
+    {
+        return lame_parameters(material.young_pa, material.poisson);
+    }
 
     // The force on the nodes at a height at rest, along z [N].
     double reaction_n(double height_m) const
@@ -49,9 +52,10 @@ struct PressedBodies {
     LoadPathSummary path;
 };
 
-// Two cubes of 1 m, one above the other, nu = 0. The lower one stands on the floor, and the top of the upper one is pressed down by way_m
-// beyond their gap. Nothing moves sideways, so that each is compressed to the length s with the pressure mu (1/s - s), and the gap d
-// follows from the barrier: E |b'(d)| is that pressure. (Free to slide, they would buckle.)
+// Two cubes of 1 m, one above the other, nu = 0. The lower one stands on the floor, and the top of the upper one is
+// pressed down by way_m beyond their gap. Nothing moves sideways, so that each is compressed to the length s with the
+// pressure mu (1/s - s), and the gap d follows from the barrier: E |b'(d)| is that pressure. (Free to slide, they would
+// buckle.)
 namespace blocks {
 
 constexpr double range_m = 1e-3, gap_m = 2.0 * range_m, way_m = 0.1, young_pa = 1e5;
@@ -82,34 +86,39 @@ Closed closed_form()
 
 VerificationRow row_of(const Effort& effort, int element_order, int below, int above)
 {
-    const pbs::TetMesh mesh =
-        joined({box_mesh({0, 0, 0}, {1, 1, 1}, {below, below, 2}), box_mesh({0, 0, 1 + gap_m}, {1, 1, 2 + gap_m}, {above, above, 2})});
-    const PressedBodies bodies(effort, mesh, element_order, {young_pa, 0.0}, {.range_m = range_m, .stiffness_pa = young_pa},
-                               {.displacement = [](const Vec3& x) { return Vec3(0, 0, x.z() > 1.5 ? -gap_m - way_m : 0.0); },
-                                .held = [](const Vec3& x) { return Held(true, true, x.z() < 1e-9 || x.z() > 2 + gap_m - 1e-9); },
-                                .element_order = element_order});
+    const pbs::TetMesh mesh = joined({box_mesh({0, 0, 0}, {1, 1, 1}, {below, below, 2}),
+                                      box_mesh({0, 0, 1 + gap_m}, {1, 1, 2 + gap_m}, {above, above, 2})});
+    const PressedBodies bodies(
+        effort, mesh, element_order, {young_pa, 0.0}, {.range_m = range_m, .stiffness_pa = young_pa},
+        {.displacement = [](const Vec3& x) { return Vec3(0, 0, x.z() > 1.5 ? -gap_m - way_m : 0.0); },
+         .held = [](const Vec3& x) { return Held(true, true, x.z() < 1e-9 || x.z() > 2 + gap_m - 1e-9); },
+         .element_order = element_order});
     const double exact_pa = closed_form().pressure_pa;
-    VerificationRow row =
-        row_about({"contact", elements_of(element_order), material_of("neo_hookean", 0.0),
-                   text_of({below, below, 2}) + " on " + text_of({above, above, 2}), 1.0 / std::max(below, above), bodies.space.dofs()},
-                  {"pressure_of_blocks", "pressure between two blocks"}, bodies.path.converged() ? bodies.reaction_n(0.0) : not_reached,
-                  exact_pa, "Pa", "closed form: uniaxial compression and the barrier's own law");
-    // Every gap is between 0 and the range, so that the blocks together are between 0 and one range too short: dp/ds = -mu (1 + 1/s^2).
+    VerificationRow row = row_about({"contact", elements_of(element_order), material_of("neo_hookean", 0.0),
+                                     text_of({below, below, 2}) + " on " + text_of({above, above, 2}),
+                                     1.0 / std::max(below, above), bodies.space.dofs()},
+                                    {"pressure_of_blocks", "pressure between two blocks"},
+                                    bodies.path.converged() ? bodies.reaction_n(0.0) : not_reached, exact_pa, "Pa",
+                                    "closed form: uniaxial compression and the barrier's own law");
+    // Every gap is between 0 and the range, so that the blocks together are between 0 and one range too short: dp/ds =
+    // -mu (1 + 1/s^2).
     const double s = 1.0 - way_m / 2.0, bound_pa = young_pa / 2.0 * (1.0 + 1.0 / (s * s)) * range_m / 2.0;
-    bound(row, exact_pa - bound_pa, exact_pa + bound_pa, "the gap is at most the contact's range, wherever the rims of the blocks press");
+    bound(row, exact_pa - bound_pa, exact_pa + bound_pa,
+          "the gap is at most the contact's range, wherever the rims of the blocks press");
     return row;
 }
 
 }  // namespace blocks
 
-// Two equal spheres of radius R pressed together by the force F touch within the radius a = (3 F R* / (4 E*))^(1/3), with
-// E* = E / (2 (1 - nu^2)) and R* = R / 2, under the pressure p0 sqrt(1 - r^2/a^2), whose mean of r^2 is 2 a^2 / 5 (H. Hertz, 1881;
-// K. Johnson, Contact mechanics, Cambridge 1985, Eqs. 4.22 to 4.24). A quarter of each: a block of side L whose top is a paraboloid, the
-// sphere to first order. About half of the cells lie inside the contact, and cells grow beyond it: the cell of the rim is 0.51 a wide
-// (5 cells) and 0.36 a (6 or 7 cells).
+// Two equal spheres of radius R pressed together by the force F touch within the radius a = (3 F R* / (4 E*))^(1/3),
+// with E* = E / (2 (1 - nu^2)) and R* = R / 2, under the pressure p0 sqrt(1 - r^2/a^2), whose mean of r^2 is 2 a^2 / 5
+// (H. Hertz, 1881; K. Johnson, Contact mechanics, Cambridge 1985, Eqs. 4.22 to 4.24). A quarter of each: a block of
+// side L whose top is a paraboloid, the sphere to first order. About half of the cells lie inside the contact, and
+// cells grow beyond it: the cell of the rim is 0.51 a wide (5 cells) and 0.36 a (6 or 7 cells).
 namespace spheres {
 
-constexpr double radius_m = 1.0, side_m = 0.3, range_m = 1e-4, gap_m = 2.0 * range_m, young_pa = 1e5, poisson = 0.3, approach_m = 4e-3;
+constexpr double radius_m = 1.0, side_m = 0.3, range_m = 1e-4, gap_m = 2.0 * range_m, young_pa = 1e5, poisson = 0.3,
+                 approach_m = 4e-3;
 
 constexpr double slope_at_pole = 0.3;  // width of the cell at the pole over that of equal cells
 
@@ -128,11 +137,12 @@ VerificationRow row_of(const Effort& effort, int element_order, int n)
     };
     const pbs::TetMesh cube = box_mesh({0, 0, 0}, {1, 1, 1}, {n, n, n});
     const double end_m = side_m + gap_m / 2.0;
-    const PressedBodies bodies(effort, joined({mapped(cube, cap(1.0)), mapped(cube, cap(-1.0))}), element_order, {young_pa, poisson},
-                               {.range_m = range_m, .stiffness_pa = young_pa},
-                               {.displacement = [](const Vec3& x) { return Vec3(0, 0, (x.z() > 0 ? -0.5 : 0.5) * (approach_m + gap_m)); },
-                                .held = [end_m](const Vec3& x) { return Held(x.x() < 1e-9, x.y() < 1e-9, std::abs(x.z()) > end_m - 1e-9); },
-                                .element_order = element_order});
+    const PressedBodies bodies(
+        effort, joined({mapped(cube, cap(1.0)), mapped(cube, cap(-1.0))}), element_order, {young_pa, poisson},
+        {.range_m = range_m, .stiffness_pa = young_pa},
+        {.displacement = [](const Vec3& x) { return Vec3(0, 0, (x.z() > 0 ? -0.5 : 0.5) * (approach_m + gap_m)); },
+         .held = [end_m](const Vec3& x) { return Held(x.x() < 1e-9, x.y() < 1e-9, std::abs(x.z()) > end_m - 1e-9); },
+         .element_order = element_order});
     Eigen::VectorXd pressing = Eigen::VectorXd::Zero(bodies.space.dofs());
     bodies.contact.add_gradient(bodies.displacement, pressing);
     double force_n = 0.0, moment_nm2 = 0.0;  // on the upper body
@@ -142,8 +152,8 @@ VerificationRow row_of(const Effort& effort, int element_order, int n)
             moment_nm2 -= 4.0 * pressing(3 * node + 2) * at.head<2>().squaredNorm();
         }
     const double modulus_pa = young_pa / (2.0 * (1.0 - poisson * poisson));
-    VerificationRow row = row_about({"contact", elements_of(element_order), material_of("neo_hookean", poisson), text_of({n, n, n}),
-                                     side_m * slope_at_pole / n, bodies.space.dofs()},
+    VerificationRow row = row_about({"contact", elements_of(element_order), material_of("neo_hookean", poisson),
+                                     text_of({n, n, n}), side_m * slope_at_pole / n, bodies.space.dofs()},
                                     {"radius_of_contact", "radius of the contact of two spheres"},
                                     bodies.path.converged() ? std::sqrt(2.5 * moment_nm2 / force_n) : not_reached,
                                     std::cbrt(3.0 * force_n * radius_m / 2.0 / (4.0 * modulus_pa)), "m",
@@ -157,8 +167,9 @@ VerificationRow row_of(const Effort& effort, int element_order, int n)
 
 VerificationRows contact_rows(const Effort& effort)
 {
-    VerificationRows rows = {blocks::row_of(effort, 1, 2, 2), blocks::row_of(effort, 1, 3, 2), blocks::row_of(effort, 2, 2, 3),
-                             spheres::row_of(effort, 1, 6), spheres::row_of(effort, 2, 5)};
+    VerificationRows rows = {blocks::row_of(effort, 1, 2, 2), blocks::row_of(effort, 1, 3, 2),
+                             blocks::row_of(effort, 2, 2, 3), spheres::row_of(effort, 1, 6),
+                             spheres::row_of(effort, 2, 5)};
     if (effort.full)
         for (const int n : {6, 7}) rows.push_back(spheres::row_of(effort, 2, n));
     return rows;

@@ -1,6 +1,6 @@
-// Two solvers of systems whose factor does not fit in memory, compared with CHOLMOD on the same cantilever: conjugate gradients with
-// algebraic multigrid in this process, and the program pbskin_distributed on one and two ranks. If that program is not in this program's
-// folder or mpirun is not installed, one row states that the comparison was not made.
+// Two solvers of systems whose factor does not fit in memory, compared with CHOLMOD on the same cantilever: conjugate
+// gradients with algebraic multigrid in this process, and the program pbskin_distributed on one and two ranks. If that
+// program is not in this program's folder or mpirun is not installed, one row states that the comparison was not made.
 #include "reference_fem/verification/problems.hpp"
 
 #include "analysis/records/record_files.hpp"
@@ -18,13 +18,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A residual r is an error of at most |r| over the lowest eigenvalue; a uniform load f across a cantilever has 0.78 of itself in that
-// eigenvalue's mode (R. Blevins, Formulas for natural frequency and mode shape, 1979, Table 8-1), so |error| <= |r| / (0.78 |f|)
-// |solution|.
+// A residual r is an error of at most |r| over the lowest eigenvalue; a uniform load f across a cantilever has 0.78 of
+// itself in that eigenvalue's mode (R. Blevins, Formulas for natural frequency and mode shape, 1979, Table 8-1), so
+// |error| <= |r| / (0.78 |f|) |solution|.
 constexpr double mode_share = 0.78;
-const std::string bound_text = "both solutions' relative residuals over 0.78, the share of a uniform load in a cantilever's first mode";
+const std::string bound_text =
+    "both solutions' relative residuals over 0.78, the share of a uniform load in a cantilever's first mode";
 
-// Whether a shell command succeeds. It ends with this process, and so does a program that takes the place of its shell (exec).
+// Whether a shell command succeeds. It ends with this process, and so does a program that takes the place of its shell
+// (exec).
 bool succeeds(const std::string& command)
 {
     pbs::ChildProcess shell([&] {
@@ -49,7 +51,8 @@ public:
     std::optional<Answer> solve(int ranks, int element_order, const std::string& arguments) const
     {
         const analysis::ScratchFolder folder;
-        const std::string launch = ranks ? "mpirun --allow-run-as-root --oversubscribe -n " + std::to_string(ranks) + " " : "";
+        const std::string launch =
+            ranks ? "mpirun --allow-run-as-root --oversubscribe -n " + std::to_string(ranks) + " " : "";
         if (!succeeds("exec " + launch + "'" + path_.string() + "' --bar 3000 --gravity 0 0 -9.81 --order " +
                       std::to_string(element_order) + " --nodes -o " + folder.path().string() + " " + arguments))
             return {};
@@ -75,12 +78,13 @@ const Divisions divisions = {31, 4, 4};
 const std::string source = "CHOLMOD, one process";
 
 // setting: the identifier of these processes. residuals: the sum of both solutions' relative ones.
-VerificationRow row_of(int element_order, const std::string& processes, const std::string& setting, int dofs, double difference,
-                       double residuals)
+VerificationRow row_of(int element_order, const std::string& processes, const std::string& setting, int dofs,
+                       double difference, double residuals)
 {
     VerificationRow row = row_about(
         {"distributed", elements_of(element_order), linear_material(0.3), text_of(divisions), 1.0 / divisions[1], dofs},
-        {"node_difference", "node differences over displacements, root mean square, " + processes, setting}, difference, 0.0, "1", source);
+        {"node_difference", "node differences over displacements, root mean square, " + processes, setting}, difference,
+        0.0, "1", source);
     bound(row, 0.0, residuals / mode_share, bound_text);
     return row;
 }
@@ -96,17 +100,21 @@ VerificationRow multigrid_row(const Effort& effort, int element_order)
     problem.solver = LinearSolver::cg_ml;
     const BoundaryValueSolution iterative = solve(mesh, solver_material(effort, {1e5, 0.3}), problem);
     return row_of(element_order, "cg_ml in one process", "cg_ml", direct.space->dofs(),
-                  (iterative.displacement - direct.displacement).norm() / direct.displacement.norm(), iterative.residual + direct.residual);
+                  (iterative.displacement - direct.displacement).norm() / direct.displacement.norm(),
+                  iterative.residual + direct.residual);
 }
 
-VerificationRow distributed_row(int element_order, int ranks, const std::optional<Answer>& direct, const std::optional<Answer>& distributed)
+VerificationRow distributed_row(int element_order, int ranks, const std::optional<Answer>& direct,
+                                const std::optional<Answer>& distributed)
 {
-    const std::string processes = std::to_string(ranks) + (ranks == 1 ? " rank" : " ranks"), setting = "ranks_" + std::to_string(ranks);
+    const std::string processes = std::to_string(ranks) + (ranks == 1 ? " rank" : " ranks"),
+                      setting = "ranks_" + std::to_string(ranks);
     if (!direct || !distributed) return row_of(element_order, processes, setting, 0, not_reached, 0.0);
     const auto residual_of = [](const Answer& answer) { return answer.record["relative_residual"].get<double>(); };
-    VerificationRow row = row_of(element_order, processes, setting, direct->record["dofs"].get<int>(),
-                                 (distributed->displacement - direct->displacement).norm() / direct->displacement.norm(),
-                                 residual_of(*direct) + residual_of(*distributed));
+    VerificationRow row =
+        row_of(element_order, processes, setting, direct->record["dofs"].get<int>(),
+               (distributed->displacement - direct->displacement).norm() / direct->displacement.norm(),
+               residual_of(*direct) + residual_of(*distributed));
     row.note = std::to_string(distributed->record["iterations"].get<int>()) + " iterations; at least " +
                std::to_string(distributed->record["tets_of_rank_min"].get<int>()) + " tets a rank";
     return row;
@@ -119,8 +127,8 @@ VerificationRows distributed_rows(const Effort& effort)
     VerificationRows rows = {multigrid_row(effort, 1), multigrid_row(effort, 2)};
     const Program program;
     if (!program.is_installed()) {
-        rows.push_back(row_about({"distributed", {}, {}, text_of(divisions), 0.0, 0}, {"several_processes", "several processes, P1 and P2"},
-                                 0.0, 0.0, "1", source));
+        rows.push_back(row_about({"distributed", {}, {}, text_of(divisions), 0.0, 0},
+                                 {"several_processes", "several processes, P1 and P2"}, 0.0, 0.0, "1", source));
         rows.back().note = "pbskin_distributed is not in the folder of this program, or mpirun is not installed";
         return rows;
     }

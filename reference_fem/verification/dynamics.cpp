@@ -1,6 +1,6 @@
-// A cantilever of linear flesh that vibrates in its first mode, compared with closed forms in time: the mode, phi cos(omega t), is an exact
-// solution of the semi-discrete problem, so every difference is due to the time stepper alone. The frequency itself is compared with beam
-// theory.
+// A cantilever of linear flesh that vibrates in its first mode, compared with closed forms in time: the mode, phi
+// cos(omega t), is an exact solution of the semi-discrete problem, so every difference is due to the time stepper
+// alone. The frequency itself is compared with beam theory.
 
 #include "reference_fem/dynamics/vibrating_body.hpp"
 #include "reference_fem/verification/problems.hpp"
@@ -24,11 +24,12 @@ double second_moment_m4(const Beam& beam)
     return std::pow(beam.depth_m, 4) / 12.0;
 }
 
-// w' = phi + V / (k G A), phi' = M / (E I), M' = -V - rho I omega^2 phi, V' = -rho A omega^2 w along the beam, z = (w, phi, M, V): z' = D
-// z.
+// w' = phi + V / (k G A), phi' = M / (E I), M' = -V - rho I omega^2 phi, V' = -rho A omega^2 w along the beam, z = (w,
+// phi, M, V): z' = D z.
 Eigen::Matrix4d derivative(const Beam& beam, double omega)
 {
-    const double nu = beam.poisson, shear_pa = beam.young_pa / (2.0 * (1.0 + nu)), k = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu);
+    const double nu = beam.poisson, shear_pa = beam.young_pa / (2.0 * (1.0 + nu)),
+                 k = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu);
     const double inertia = beam.density_kg_m3 * omega * omega;
     Eigen::Matrix4d D = Eigen::Matrix4d::Zero();
     D(0, 1) = 1.0;
@@ -40,8 +41,8 @@ Eigen::Matrix4d derivative(const Beam& beam, double omega)
     return D;
 }
 
-// Determinant of the map from (M, V) at the clamped end to (M, V) at the free end: 0 at a natural frequency. Runge and Kutta's fourth-order
-// steps.
+// Determinant of the map from (M, V) at the clamped end to (M, V) at the free end: 0 at a natural frequency. Runge and
+// Kutta's fourth-order steps.
 double free_end_determinant(const Beam& beam, double omega)
 {
     const int steps = 500;
@@ -60,8 +61,9 @@ struct NamedScheme {
     std::string name, key;
     TimeScheme scheme;
 };
-const std::vector<NamedScheme> schemes = {{"Newmark", "newmark", newmark()},
-                                          {"generalised-alpha, rho = 0.8", "generalised-alpha_rho_0.8", generalized_alpha(0.8)}};
+const std::vector<NamedScheme> schemes = {
+    {"Newmark", "newmark", newmark()},
+    {"generalised-alpha, rho = 0.8", "generalised-alpha_rho_0.8", generalized_alpha(0.8)}};
 
 VibratingBody cantilever(const Effort& effort, double nu, int element_order, const Divisions& divisions)
 {
@@ -74,11 +76,11 @@ VibratingBody cantilever(const Effort& effort, double nu, int element_order, con
              .held = [](const pbs::Vec3& x) { return x.x() < 1e-9; }}};
 }
 
-VerificationRow row_of(const VibratingBody& body, double nu, const Divisions& divisions, const RowQuantity& quantity, double value,
-                       double reference, const std::string& source)
+VerificationRow row_of(const VibratingBody& body, double nu, const Divisions& divisions, const RowQuantity& quantity,
+                       double value, double reference, const std::string& source)
 {
-    return row_about({"dynamics", elements_of(body.space().element_order()), linear_material(nu), text_of(divisions), 0.1 / divisions[1],
-                      body.space().dofs()},
+    return row_about({"dynamics", elements_of(body.space().element_order()), linear_material(nu), text_of(divisions),
+                      0.1 / divisions[1], body.space().dofs()},
                      quantity, value, reference, "1", source);
 }
 
@@ -94,7 +96,8 @@ void add_orders(const Effort& effort, VerificationRows& rows)
             body.run(stepper, end_s / steps, steps);
             VerificationRow row =
                 row_of(body, poisson, coarse,
-                       {"first_mode_error", fmt::format("error of the first mode, {}, omega h = {:.3g}", scheme.name, 4.0 / steps),
+                       {"first_mode_error",
+                        fmt::format("error of the first mode, {}, omega h = {:.3g}", scheme.name, 4.0 / steps),
                         fmt::format("{}_omega_h_{:.3g}", scheme.key, 4.0 / steps)},
                        (stepper.motion().displacement - std::cos(4.0) * mode.shape).norm() / mode.shape.norm(), 0.0,
                        "closed form: phi cos(omega t), phi and omega of the semi-discrete problem");
@@ -120,14 +123,19 @@ void add_energy(const Effort& effort, VerificationRows& rows)
     const double before = body.energy_j(stepper);
     const int steps = 1000;
     double drift = 0.0;
-    body.run(stepper, 0.01, steps, [&](int) { drift = std::max(drift, std::abs(body.energy_j(stepper) / before - 1.0)); });
+    body.run(stepper, 0.01, steps,
+             [&](int) { drift = std::max(drift, std::abs(body.energy_j(stepper) / before - 1.0)); });
     rows.push_back(row_of(
-        body, poisson, coarse, {"energy_drift", fmt::format("largest relative drift of the energy in {} steps of 0.01 s, Newmark", steps)},
-        drift, 0.0, "closed form: average acceleration keeps the energy (T. Hughes, The Finite Element Method, 1987, ch. 9)"));
-    bound(rows.back(), 0.0, 1e-12, "rounding: eps times the condition of c_m M + K, here some 100, of random sign in 1000 steps");
+        body, poisson, coarse,
+        {"energy_drift", fmt::format("largest relative drift of the energy in {} steps of 0.01 s, Newmark", steps)},
+        drift, 0.0,
+        "closed form: average acceleration keeps the energy (T. Hughes, The Finite Element Method, 1987, ch. 9)"));
+    bound(rows.back(), 0.0, 1e-12,
+          "rounding: eps times the condition of c_m M + K, here some 100, of random sign in 1000 steps");
 }
 
-// The amplification matrix of (u, h v, h^2 a) for u'' + omega^2 u = 0, Omega = omega h: the scheme's three equations as they stand.
+// The amplification matrix of (u, h v, h^2 a) for u'' + omega^2 u = 0, Omega = omega h: the scheme's three equations as
+// they stand.
 Eigen::Matrix3d amplification(const TimeScheme& s, double Omega)
 {
     Eigen::Matrix3d now, next;
@@ -161,12 +169,13 @@ void add_dissipation(const Effort& effort, VerificationRows& rows)
         const double before = body.energy_j(stepper);
         body.run(stepper, Omega / mode.omega_rad_s, steps);
         const Decay theory = decay(scheme, Omega, steps);
-        VerificationRow row =
-            row_of(body, poisson, coarse,
-                   {"energy_left", fmt::format("energy left after {} steps, generalised-alpha, rho = 0.8, omega h = {:.3g}", steps, Omega),
-                    fmt::format("omega_h_{:.3g}", Omega)},
-                   body.energy_j(stepper) / before, theory.energy_left,
-                   "closed form: powers of the scheme's 3 x 3 amplification matrix (Chung and Hulbert 1993)");
+        VerificationRow row = row_of(
+            body, poisson, coarse,
+            {"energy_left",
+             fmt::format("energy left after {} steps, generalised-alpha, rho = 0.8, omega h = {:.3g}", steps, Omega),
+             fmt::format("omega_h_{:.3g}", Omega)},
+            body.energy_j(stepper) / before, theory.energy_left,
+            "closed form: powers of the scheme's 3 x 3 amplification matrix (Chung and Hulbert 1993)");
         bound(row, row.reference * (1.0 - 1e-9), row.reference * (1.0 + 1e-9),
               "rounding: 1e-13 of the mode a step, seen in an energy that fell by up to 1e-4");
         row.note = fmt::format("spectral radius {:.6f}", theory.spectral_radius);
@@ -181,25 +190,28 @@ void add_rayleigh(const Effort& effort, VerificationRows& rows)
     const double omega = mode.omega_rad_s, pi = std::acos(-1.0);
     for (const auto& [of_mass, of_stiffness] : {std::pair(0.05, 0.0), std::pair(0.0, 0.05), std::pair(0.02, 0.03)}) {
         const double zeta = of_mass + of_stiffness, omega_d = omega * std::sqrt(1.0 - zeta * zeta);
-        TimeStepper stepper =
-            body.stepper({.rayleigh_mass_1_s = 2.0 * of_mass * omega, .rayleigh_stiffness_s = 2.0 * of_stiffness / omega});
+        TimeStepper stepper = body.stepper(
+            {.rayleigh_mass_1_s = 2.0 * of_mass * omega, .rayleigh_stiffness_s = 2.0 * of_stiffness / omega});
         stepper.start(mode.shape);
         const int a_period = 100;
         body.run(stepper, 2.0 * pi / omega_d / a_period, a_period);
         const double one = body.amplitude(stepper, mode);
         body.run(stepper, 2.0 * pi / omega_d / a_period, a_period);
         const double decrement = std::log(one / body.amplitude(stepper, mode));
-        rows.push_back(row_of(
-            body, poisson, coarse,
-            {"damping_ratio", fmt::format("damping ratio of the first mode, {:.2f} by mass and {:.2f} by stiffness", of_mass, of_stiffness),
-             fmt::format("mass_{:.2f}_stiffness_{:.2f}", of_mass, of_stiffness)},
-            decrement / std::hypot(2.0 * pi, decrement), zeta,
-            "closed form: zeta = (a / omega + b omega) / 2, by the logarithmic decrement"));
-        bound(rows.back(), zeta * (1.0 - 2e-3), zeta * (1.0 + 2e-3), "second order of the scheme: (omega h)^2 / 2 at 100 steps a period");
+        rows.push_back(row_of(body, poisson, coarse,
+                              {"damping_ratio",
+                               fmt::format("damping ratio of the first mode, {:.2f} by mass and {:.2f} by stiffness",
+                                           of_mass, of_stiffness),
+                               fmt::format("mass_{:.2f}_stiffness_{:.2f}", of_mass, of_stiffness)},
+                              decrement / std::hypot(2.0 * pi, decrement), zeta,
+                              "closed form: zeta = (a / omega + b omega) / 2, by the logarithmic decrement"));
+        bound(rows.back(), zeta * (1.0 - 2e-3), zeta * (1.0 + 2e-3),
+              "second order of the scheme: (omega h)^2 / 2 at 100 steps a period");
     }
 }
 
-// A solid cantilever differs from the beam by its ends, see cantilever.cpp; the frequency goes with the root of the stiffness.
+// A solid cantilever differs from the beam by its ends, see cantilever.cpp; the frequency goes with the root of the
+// stiffness.
 void add_frequency(const Effort& effort, VerificationRows& rows)
 {
     for (const double nu : {0.0, poisson})
@@ -209,17 +221,19 @@ void add_frequency(const Effort& effort, VerificationRows& rows)
                 const Divisions divisions = {10 * n, n, n};
                 const VibratingBody body = cantilever(effort, nu, element_order, divisions);
                 const Beam beam{1.0, 0.1, young_pa, nu, density_kg_m3};
-                VerificationRow row = row_of(
-                    body, nu, divisions, {"bending_frequency_ratio", "first bending frequency over Timoshenko's"},
-                    body.first_mode().omega_rad_s / timoshenko_rad_s(beam), 1.0,
-                    "closed form: Timoshenko's beam with rotary inertia, shear coefficient of G. R. Cowper, J. Appl. Mech. 33 (1966) "
-                    "335-340");
-                row.note =
-                    fmt::format("Bernoulli and Euler's is {:.4f} of Timoshenko's", bernoulli_euler_rad_s(beam) / timoshenko_rad_s(beam));
+                VerificationRow row = row_of(body, nu, divisions,
+                                             {"bending_frequency_ratio", "first bending frequency over Timoshenko's"},
+                                             body.first_mode().omega_rad_s / timoshenko_rad_s(beam), 1.0,
+                                             "closed form: Timoshenko's beam with rotary inertia, shear coefficient of "
+                                             "G. R. Cowper, J. Appl. Mech. 33 (1966) "
+                                             "335-340");
+                row.note = fmt::format("Bernoulli and Euler's is {:.4f} of Timoshenko's",
+                                       bernoulli_euler_rad_s(beam) / timoshenko_rad_s(beam));
                 if (element_order == 2) {
                     const double clamp = 3.0 * nu * nu * 0.1, shear = 0.75 * (12.0 + 11.0 * nu) / 15.0 * 1e-3;
                     bound(row, 1.0 - shear / 2.0, 1.0 + (clamp + shear) / 2.0,
-                          "solid against beam, halved by the root: 3 nu^2 h / L for the held anticlastic curvature, the shear deflection "
+                          "solid against beam, halved by the root: 3 nu^2 h / L for the held anticlastic curvature, "
+                          "the shear deflection "
                           "of one depth");
                 }
                 rows.push_back(row);
@@ -232,7 +246,8 @@ double bernoulli_euler_rad_s(const Beam& beam)
 {
     const double root = 1.8751040687119611;  // the lowest of cos x cosh x = -1
     return root * root *
-           std::sqrt(beam.young_pa * second_moment_m4(beam) / (beam.density_kg_m3 * area_m2(beam) * std::pow(beam.length_m, 4)));
+           std::sqrt(beam.young_pa * second_moment_m4(beam) /
+                     (beam.density_kg_m3 * area_m2(beam) * std::pow(beam.length_m, 4)));
 }
 
 double timoshenko_rad_s(const Beam& beam)

@@ -1,9 +1,11 @@
-// A bar of stable neo-Hookean flesh whose one end the skeleton turns about the axis, starting smoothly: theta = 1.5 (1 - cos(3 t)) / 2.
+// A bar of stable neo-Hookean flesh whose one end the skeleton turns about the axis, starting smoothly: theta = 1.5 (1
+// - cos(3 t)) / 2.
 //
 //   ####========================|      held whole at one end (nodes) or at five points by springs (embedded)
 //   ####========================|      gravity, Rayleigh damping
 //
-// No closed form: the order in the time step is seen against a step eight times finer than the finest, which leaves 0.02 of it open.
+// No closed form: the order in the time step is seen against a step eight times finer than the finest, which leaves
+// 0.02 of it open.
 #include "reference_fem/elastic_body.hpp"
 #include "reference_fem/verification/problems.hpp"
 
@@ -45,7 +47,8 @@ Skeleton skeleton(bool by_springs)
     }
     for (int t = 0; t < skeleton.mesh.tets.rows(); ++t) {
         const auto corners = skeleton.mesh.tets.row(t);
-        if (std::all_of(corners.begin(), corners.end(), [&](int v) { return skeleton.mesh.rest(v, 0) < cell_m + 1e-9; }))
+        if (std::all_of(corners.begin(), corners.end(),
+                        [&](int v) { return skeleton.mesh.rest(v, 0) < cell_m + 1e-9; }))
             held.prescribed_tets.push_back(t);
     }
     return skeleton;
@@ -85,11 +88,12 @@ void add_orders(const Effort& effort, const Skeleton& skeleton, Dynamics dynamic
         const bool reached = end.rows() > 0 && reference.rows() > 0;
         const std::string scheme = dynamics == Dynamics::newmark ? "newmark" : "generalised-alpha_rho_0.8";
         const std::string setting = fmt::format("{}_{}_step_{:.0f}_ms", scheme, skeleton.key, 1e3 * end_s / steps);
-        VerificationRow row = row_about({"moving_skeleton", elements_of(1), material_of("stable_neo_hookean", 0.3), text_of(divisions),
-                                         cell_m, static_cast<int>(3 * skeleton.mesh.rest.rows())},
-                                        {"distance_to_fine_step", "distance to a step of 2.5 ms, " + setting, setting},
-                                        reached ? (end - reference).norm() / std::sqrt(double(end.rows())) : not_reached, 0.0, "m",
-                                        "this solver with a step eight times finer than the finest");
+        VerificationRow row =
+            row_about({"moving_skeleton", elements_of(1), material_of("stable_neo_hookean", 0.3), text_of(divisions),
+                       cell_m, static_cast<int>(3 * skeleton.mesh.rest.rows())},
+                      {"distance_to_fine_step", "distance to a step of 2.5 ms, " + setting, setting},
+                      reached ? (end - reference).norm() / std::sqrt(double(end.rows())) : not_reached, 0.0, "m",
+                      "this solver with a step eight times finer than the finest");
         row.note = "order in the time step";
         if (steps > 20) expect_order(row, order_between(rows.back().value, row.value), 2.0, scheme_theory);
         rows.push_back(row);

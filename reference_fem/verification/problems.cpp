@@ -52,8 +52,8 @@ double order_between(double coarse, double fine)
     return std::log2(std::abs(coarse) / std::abs(fine));
 }
 
-VerificationRow row_about(const RowSolution& solution, const RowQuantity& quantity, double value, double reference, const std::string& unit,
-                          const std::string& source)
+VerificationRow row_about(const RowSolution& solution, const RowQuantity& quantity, double value, double reference,
+                          const std::string& unit, const std::string& source)
 {
     const auto& [problem, elements, material, mesh, h_m, dofs] = solution;
     return {problem, quantity, elements, material, mesh, h_m, dofs, value, reference, unit, source};
@@ -107,7 +107,9 @@ pbs::Positions grid_points(const pbs::Vec3& lower, const pbs::Vec3& upper, const
     for (int k = 0; k <= n[2]; ++k)
         for (int j = 0; j <= n[1]; ++j)
             for (int i = 0; i <= n[0]; ++i)
-                points.row(v++) = lower + (upper - lower).cwiseProduct(pbs::Vec3(double(i) / n[0], double(j) / n[1], double(k) / n[2]));
+                points.row(v++) =
+                    lower +
+                    (upper - lower).cwiseProduct(pbs::Vec3(double(i) / n[0], double(j) / n[1], double(k) / n[2]));
     return points;
 }
 
@@ -127,14 +129,15 @@ SparseMatrix free_block(const SparseMatrix& matrix, const std::vector<bool>& pre
     std::vector<Eigen::Triplet<double, SparseMatrix::StorageIndex>> entries;
     for (Eigen::Index column = 0; column < matrix.outerSize(); ++column)
         for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry)
-            if (place[entry.row()] >= 0 && place[column] >= 0) entries.emplace_back(place[entry.row()], place[column], entry.value());
+            if (place[entry.row()] >= 0 && place[column] >= 0)
+                entries.emplace_back(place[entry.row()], place[column], entry.value());
     SparseMatrix block(unknowns, unknowns);
     block.setFromTriplets(entries.begin(), entries.end());
     return block;
 }
 
-// The largest magnitude of an eigenvalue of a symmetric operator on R^n: C. Lanczos, J. Res. Nat. Bur. Stand. 45, 1950, with every vector
-// made orthogonal to all before it, twice.
+// The largest magnitude of an eigenvalue of a symmetric operator on R^n: C. Lanczos, J. Res. Nat. Bur. Stand. 45, 1950,
+// with every vector made orthogonal to all before it, twice.
 double largest_eigenvalue(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply, Eigen::Index n)
 {
     const Eigen::Index steps = std::min<Eigen::Index>(most_steps, n);
@@ -171,7 +174,9 @@ pbs::TetMesh box_mesh(const pbs::Vec3& lower, const pbs::Vec3& upper, const Divi
     pbs::TetMesh mesh;
     mesh.rest = grid_points(lower, upper, divisions);
     mesh.tets.resize(6 * nx * ny * nz, 4);
-    const auto vertex = [nx = nx, ny = ny](const Divisions& corner) { return corner[0] + (nx + 1) * (corner[1] + (ny + 1) * corner[2]); };
+    const auto vertex = [nx = nx, ny = ny](const Divisions& corner) {
+        return corner[0] + (nx + 1) * (corner[1] + (ny + 1) * corner[2]);
+    };
     Eigen::Index tet = 0;
     for (int k = 0; k < nz; ++k)
         for (int j = 0; j < ny; ++j)
@@ -216,12 +221,14 @@ pbs::TetMesh joined(const std::vector<pbs::TetMesh>& meshes)
         std::vector<int> number(mesh.rest.rows());
         for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v) {
             const pbs::Vec3 point = mesh.rest.row(v);
-            const std::array<long, 3> place = {std::lround(1e7 * point.x()), std::lround(1e7 * point.y()), std::lround(1e7 * point.z())};
+            const std::array<long, 3> place = {std::lround(1e7 * point.x()), std::lround(1e7 * point.y()),
+                                               std::lround(1e7 * point.z())};
             const auto [found, is_new] = numbers.try_emplace(place, static_cast<int>(points.size()));
             if (is_new) points.push_back(point);
             number[v] = found->second;
         }
-        for (const auto& tet : mesh.tets.rowwise()) tets.push_back({number[tet(0)], number[tet(1)], number[tet(2)], number[tet(3)]});
+        for (const auto& tet : mesh.tets.rowwise())
+            tets.push_back({number[tet(0)], number[tet(1)], number[tet(2)], number[tet(3)]});
     }
     pbs::TetMesh whole;
     whole.rest.resize(points.size(), 3);
@@ -236,20 +243,24 @@ Spectrum spectrum(const SparseMatrix& symmetric, const std::vector<bool>& prescr
     const SparseMatrix block = free_block(symmetric, prescribed);
     auto inverse = prepare(block, LinearSolver::cholmod);
     if (!inverse->usable()) inverse = prepare(block, LinearSolver::umfpack);  // indefinite
-    const double largest = largest_eigenvalue([&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return block * x; }, block.rows());
-    const double of_inverse = largest_eigenvalue([&](const Eigen::VectorXd& x) { return inverse->solve(x); }, block.rows());
+    const double largest =
+        largest_eigenvalue([&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return block * x; }, block.rows());
+    const double of_inverse =
+        largest_eigenvalue([&](const Eigen::VectorXd& x) { return inverse->solve(x); }, block.rows());
     return {static_cast<int>(block.rows()), largest, 1.0 / of_inverse};
 }
 
 Spectrum spectrum(const BoundaryValueSolution& solution, const ElasticMaterial& material)
 {
-    const LinearFlesh flesh(*solution.space, lame_parameters(material.young_pa, material.poisson), solution.formulation);
+    const LinearFlesh flesh(*solution.space, lame_parameters(material.young_pa, material.poisson),
+                            solution.formulation);
     return spectrum(flesh.stiffness(), flesh.prescribed(solution.held));
 }
 
 double rounding_bound(const Spectrum& spectrum)
 {
-    return std::sqrt(static_cast<double>(spectrum.unknowns)) * std::numeric_limits<double>::epsilon() * spectrum.condition();
+    return std::sqrt(static_cast<double>(spectrum.unknowns)) * std::numeric_limits<double>::epsilon() *
+           spectrum.condition();
 }
 
 }  // namespace reference_fem

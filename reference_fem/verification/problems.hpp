@@ -32,7 +32,8 @@ VerificationRows moving_skeleton_rows(const Effort& effort);
 VerificationRows contact_rows(const Effort& effort);
 VerificationRows distributed_rows(const Effort& effort);
 
-// The material that the solver receives in place of `material`: the same, unless the effort asks for an error in lambda.
+// The material that the solver receives in place of `material`: the same, unless the effort asks for an error in
+// lambda.
 ElasticMaterial solver_material(const Effort& effort, const ElasticMaterial& material);
 
 RowElements elements_of(int order, Formulation formulation = Formulation::displacement);
@@ -52,8 +53,8 @@ struct RowSolution {
 };
 
 // The row of a value and its reference, both in `unit`; without bounds.
-VerificationRow row_about(const RowSolution& solution, const RowQuantity& quantity, double value, double reference, const std::string& unit,
-                          const std::string& source);
+VerificationRow row_about(const RowSolution& solution, const RowQuantity& quantity, double value, double reference,
+                          const std::string& unit, const std::string& source);
 void bound(VerificationRow& row, std::optional<double> low, std::optional<double> high, const std::string& from);
 void unbound(VerificationRow& row);
 void expect_order(VerificationRow& row, double observed, double expected, const std::string& from);
@@ -64,13 +65,14 @@ VerificationRows ladder(const std::function<VerificationRow(int n)>& row_of, int
 // The value of a row whose solution was not reached.
 inline constexpr double not_reached = std::numeric_limits<double>::quiet_NaN();
 
-// R. MacNeal, R. Harder, A proposed standard set of problems to test finite element accuracy, Finite Elements in Analysis and Design 1
-// (1985) 3-20, Table 13: an element that is within 2 % of the reference is given an A.
+// R. MacNeal, R. Harder, A proposed standard set of problems to test finite element accuracy, Finite Elements in
+// Analysis and Design 1 (1985) 3-20, Table 13: an element that is within 2 % of the reference is given an A.
 inline constexpr double grade_a = 0.02;
 inline const std::string grade_a_text = "within 2 %: grade A of MacNeal and Harder 1985";
 void bound_by_grade_a(VerificationRow& row);
 
-inline const std::string scheme_theory = "theory of the scheme: J. Chung, G. Hulbert, J. Appl. Mech. 60(2) (1993) 371-375";
+inline const std::string scheme_theory =
+    "theory of the scheme: J. Chung, G. Hulbert, J. Appl. Mech. 60(2) (1993) 371-375";
 
 // Meshes of boxes, bent and joined to the shapes of the benchmarks: no mesher, so that every run has the same tets.
 using Divisions = std::array<int, 3>;  // cells along x, y, z
@@ -98,24 +100,26 @@ VerificationRow cantilever_row(const Effort& effort, double poisson, int element
 VerificationRow torsion_row(const Effort& effort, double poisson, int element_order, Formulation formulation, int n);
 
 // The panel of Cook's membrane: corners (0,0), (48,44), (48,60), (0,44) mm, 1 mm thick. Units: N and mm. Only the half
-// above the middle plane z = 0 is modelled, where u_z = 0. The whole panel is thin and buckles sideways far below the load of the finite
-// strain benchmark.
+// above the middle plane z = 0 is modelled, where u_z = 0. The whole panel is thin and buckles sideways far below the
+// load of the finite strain benchmark.
 pbs::TetMesh membrane(int n);  // n x n x 1 cells, 0.5 mm thick
 
-// Clamped on the left, a uniform shear [N/mm^2] on the right; plane strain: u_z held on the outer face, else it is free.
+// Clamped on the left, a uniform shear [N/mm^2] on the right; plane strain: u_z held on the outer face, else it is
+// free.
 BoundaryValueProblem membrane_problem(double shear, bool plane_strain, int element_order);
 
-// A bound on the effect of rounding on the solution of K u = f, computed from K. It is the tolerance of comparisons in which rounding is
-// the only difference.
+// A bound on the effect of rounding on the solution of K u = f, computed from K. It is the tolerance of comparisons in
+// which rounding is the only difference.
 //   const Spectrum of_k = spectrum(stiffness, prescribed);
 //   EXPECT_LT((ours - exact).norm(), rounding_bound(of_k) * exact.norm());
 //
-// A backward stable direct solver returns the exact solution of (K + E) u' = f with |E| <= c |K| (N. Higham, Accuracy and stability of
-// numerical algorithms, 2nd ed., SIAM 2002: Theorem 10.4 for Cholesky, Theorem 9.4 for LU with a growth of 1), and forming f from
-// prescribed values costs c |K| |u| again (Sec. 3.5). Hence, in the 2-norm over all unknowns (Theorem 7.2), with cond(K) = |K| |K^-1|,
+// A backward stable direct solver returns the exact solution of (K + E) u' = f with |E| <= c |K| (N. Higham, Accuracy
+// and stability of numerical algorithms, 2nd ed., SIAM 2002: Theorem 10.4 for Cholesky, Theorem 9.4 for LU with a
+// growth of 1), and forming f from prescribed values costs c |K| |u| again (Sec. 3.5). Hence, in the 2-norm over all
+// unknowns (Theorem 7.2), with cond(K) = |K| |K^-1|,
 //   |u' - u| <= c cond(K) |u|.
-// c is the sum of up to 3 n + 1 roundings of one unit, n the number of unknowns. Roundings of random sign add up to the square root of
-// their number (Sec. 2.8): sqrt(3 n + 1) times the unit roundoff eps / 2, which is below sqrt(n) eps.
+// c is the sum of up to 3 n + 1 roundings of one unit, n the number of unknowns. Roundings of random sign add up to the
+// square root of their number (Sec. 2.8): sqrt(3 n + 1) times the unit roundoff eps / 2, which is below sqrt(n) eps.
 // The extreme eigenvalues in magnitude of a symmetric matrix, definite or not.
 struct Spectrum {
     int unknowns = 0;                      // n
@@ -123,10 +127,12 @@ struct Spectrum {
     double condition() const { return largest / smallest; }
 };
 
-// The same for the block of the unknowns that are not prescribed. By Lanczos' method on it and on its inverse (by a direct solver), in at
-// most 60 steps each: lower bounds of cond(K), which agree with dense eigenvalues to six digits on the meshes of the tests.
+// The same for the block of the unknowns that are not prescribed. By Lanczos' method on it and on its inverse (by a
+// direct solver), in at most 60 steps each: lower bounds of cond(K), which agree with dense eigenvalues to six digits
+// on the meshes of the tests.
 Spectrum spectrum(const SparseMatrix& symmetric, const std::vector<bool>& prescribed);
-Spectrum spectrum(const BoundaryValueSolution& solution, const ElasticMaterial& material);  // in the solution's own formulation
+// in the solution's own formulation
+Spectrum spectrum(const BoundaryValueSolution& solution, const ElasticMaterial& material);
 
 double rounding_bound(const Spectrum& spectrum);  // sqrt(n) eps cond(K), relative
 inline const std::string rounding_bound_text =
@@ -140,7 +146,8 @@ struct Beam {
 // omega = 1.875104^2 sqrt(E I / (rho A L^4)) [rad/s]: neither shear nor rotary inertia.
 double bernoulli_euler_rad_s(const Beam& beam);
 
-// With both (S. Timoshenko, Phil. Mag. 41, 1921), shear coefficient 10 (1 + nu) / (12 + 11 nu) (G. Cowper, J. Appl. Mech. 33, 1966).
+// With both (S. Timoshenko, Phil. Mag. 41, 1921), shear coefficient 10 (1 + nu) / (12 + 11 nu) (G. Cowper, J. Appl.
+// Mech. 33, 1966).
 double timoshenko_rad_s(const Beam& beam);
 
 }  // namespace reference_fem

@@ -28,7 +28,8 @@ pbs::TetMesh quarter_plate(const Divisions& divisions)
 // Mid-edge nodes of straight tets lie inside the ellipse by up to the sagitta of a chord.
 bool on_outer_face(const Vec3& x, const Divisions& divisions)
 {
-    const double sagitta = std::pow(std::numbers::pi / 2.0 / divisions[1], 2) / 2.0;  // of an ellipse's (x/a)^2 + (y/b)^2, with room
+    // of an ellipse's (x/a)^2 + (y/b)^2, with room
+    const double sagitta = std::pow(std::numbers::pi / 2.0 / divisions[1], 2) / 2.0;
     return std::pow(x.x() / 3.25, 2) + std::pow(x.y() / 2.75, 2) > 1.0 - sagitta;
 }
 
@@ -36,7 +37,8 @@ VerificationRow row_of(const Effort& effort, int element_order, const Divisions&
 {
     const auto held = [&](const Vec3& x) {
         const bool outer = on_outer_face(x, divisions);
-        return Held(outer || std::abs(x.x()) < 1e-9, outer || std::abs(x.y()) < 1e-9, outer && std::abs(x.z() - thickness_m / 2.0) < 1e-9);
+        return Held(outer || std::abs(x.x()) < 1e-9, outer || std::abs(x.y()) < 1e-9,
+                    outer && std::abs(x.z() - thickness_m / 2.0) < 1e-9);
     };
     const BoundaryValueSolution solution =
         solve(quarter_plate(divisions), solver_material(effort, material),
@@ -46,7 +48,8 @@ VerificationRow row_of(const Effort& effort, int element_order, const Divisions&
                               [](const Vec3&, const Vec3& normal) -> Vec3 { return -pressure_pa * normal; }}}});
     return row_about({"thick_plate", elements_of(element_order), linear_material(material.poisson), text_of(divisions),
                       thickness_m / divisions[2], solution.space->dofs()},
-                     {"stress_yy_at_d", "sigma_yy at D"}, solution.stress_at({2.0, 0.0, thickness_m}, material)(1, 1) / 1e6, -5.38, "MPa",
+                     {"stress_yy_at_d", "sigma_yy at D"},
+                     solution.stress_at({2.0, 0.0, thickness_m}, material)(1, 1) / 1e6, -5.38, "MPa",
                      "NAFEMS, The standard NAFEMS benchmarks, TNSB rev. 3, 1990, test LE10");
 }
 
@@ -55,15 +58,16 @@ VerificationRow row_of(const Effort& effort, int element_order, const Divisions&
 VerificationRows thick_plate_rows(const Effort& effort)
 {
     using namespace plate;
-    VerificationRows rows = {row_of(effort, 1, {12, 16, 8}), row_of(effort, 2, {6, 8, 4}), row_of(effort, 2, {12, 16, 8})};
+    VerificationRows rows = {row_of(effort, 1, {12, 16, 8}), row_of(effort, 2, {6, 8, 4}),
+                             row_of(effort, 2, {12, 16, 8})};
     if (effort.full) rows.push_back(row_of(effort, 2, {18, 24, 12}));
     bound_by_grade_a(rows.back());
     return rows;
 }
 
-// Lame's thick sphere, radii 1 and 2 m, under internal pressure; one octant, rollers on the planes of symmetry. The tets are straight,
-// so the sphere is faceted: an error of order 2 in h for every element order.
-// u_r = p a^3 / (E (b^3 - a^3)) ((1 - 2 nu) r + (1 + nu) b^3 / (2 r^2)) (Timoshenko and Goodier, Theory of elasticity, art. 136).
+// Lame's thick sphere, radii 1 and 2 m, under internal pressure; one octant, rollers on the planes of symmetry. The
+// tets are straight, so the sphere is faceted: an error of order 2 in h for every element order. u_r = p a^3 / (E (b^3
+// - a^3)) ((1 - 2 nu) r + (1 + nu) b^3 / (2 r^2)) (Timoshenko and Goodier, Theory of elasticity, art. 136).
 
 namespace sphere {
 
@@ -76,7 +80,9 @@ pbs::TetMesh octant(int n)
 {
     const pbs::TetMesh cube = box_mesh(Vec3::Zero(), Vec3::Ones(), {n, n, n});
     const auto patch = [&](auto direction) {
-        return mapped(cube, [=](const Vec3& p) -> Vec3 { return (inner_m + (outer_m - inner_m) * p.z()) * direction(p).normalized(); });
+        return mapped(cube, [=](const Vec3& p) -> Vec3 {
+            return (inner_m + (outer_m - inner_m) * p.z()) * direction(p).normalized();
+        });
     };
     return joined({patch([](const Vec3& p) { return Vec3(1.0, p.x(), p.y()); }),
                    patch([](const Vec3& p) { return Vec3(p.x(), 1.0, p.y()); }),
@@ -86,7 +92,8 @@ pbs::TetMesh octant(int n)
 double radial_displacement(const ElasticMaterial& material, double r)
 {
     const double nu = material.poisson, a3 = std::pow(inner_m, 3), b3 = std::pow(outer_m, 3);
-    return pressure_pa * a3 / (material.young_pa * (b3 - a3)) * ((1.0 - 2.0 * nu) * r + (1.0 + nu) * b3 / (2.0 * r * r));
+    return pressure_pa * a3 / (material.young_pa * (b3 - a3)) *
+           ((1.0 - 2.0 * nu) * r + (1.0 + nu) * b3 / (2.0 * r * r));
 }
 
 VerificationRow row_of(const Effort& effort, double nu, int element_order, Formulation formulation, int n)
@@ -97,7 +104,9 @@ VerificationRow row_of(const Effort& effort, double nu, int element_order, Formu
         solve(mesh, solver_material(effort, material),
               {.held = [](const Vec3& x) { return Held(x.x() < 1e-9, x.y() < 1e-9, x.z() < 1e-9); },
                .element_order = element_order,
-               .tractions = {{[](const Vec3& centre) { return centre.minCoeff() > 1e-9 && centre.norm() < (inner_m + outer_m) / 2.0; },
+               .tractions = {{[](const Vec3& centre) {
+                                  return centre.minCoeff() > 1e-9 && centre.norm() < (inner_m + outer_m) / 2.0;
+                              },
                               [](const Vec3&, const Vec3& normal) -> Vec3 { return -pressure_pa * normal; }}},
                .formulation = formulation});
     double sum = 0.0;

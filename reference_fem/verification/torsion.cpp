@@ -1,7 +1,7 @@
-// A square bar whose ends turn against each other, free to warp: Saint-Venant's torsion is then the exact solution in three dimensions.
-// Torque = G J theta / L, J = s^4 / 3 (1 - 192 / pi^5 sum over odd n of tanh(n pi / 2) / n^5) (Timoshenko and Goodier, Theory of
-// elasticity, art. 109). The data are displacements, so the strain energy, hence the torque, comes from above, with twice the order of
-// the displacement gradient.
+// A square bar whose ends turn against each other, free to warp: Saint-Venant's torsion is then the exact solution in
+// three dimensions. Torque = G J theta / L, J = s^4 / 3 (1 - 192 / pi^5 sum over odd n of tanh(n pi / 2) / n^5)
+// (Timoshenko and Goodier, Theory of elasticity, art. 109). The data are displacements, so the strain energy, hence the
+// torque, comes from above, with twice the order of the displacement gradient.
 
 #include "reference_fem/newton/newton.hpp"
 #include "reference_fem/potentials/potentials.hpp"
@@ -41,10 +41,11 @@ VerificationRow torsion_row(const Effort& effort, double nu, int element_order, 
         solve(box_mesh({0, -side_m / 2.0, -side_m / 2.0}, {length_m, side_m / 2.0, side_m / 2.0}, {n, n, n}), solved,
               {.displacement = turned, .held = held, .element_order = element_order, .formulation = formulation});
     const double shear_pa = young_pa / (2.0 * (1.0 + nu));
-    return row_about(
-        {"torsion", elements_of(element_order, formulation), linear_material(nu), text_of({n, n, n}), side_m / n, solution.space->dofs()},
-        {"torque", "torque"}, 2.0 * solution.strain_energy_j(solved) / angle, shear_pa * torsion_constant() * angle / length_m, "N m",
-        "closed form: Saint-Venant's series (Timoshenko and Goodier, Theory of elasticity, art. 109)");
+    return row_about({"torsion", elements_of(element_order, formulation), linear_material(nu), text_of({n, n, n}),
+                      side_m / n, solution.space->dofs()},
+                     {"torque", "torque"}, 2.0 * solution.strain_energy_j(solved) / angle,
+                     shear_pa * torsion_constant() * angle / length_m, "N m",
+                     "closed form: Saint-Venant's series (Timoshenko and Goodier, Theory of elasticity, art. 109)");
 }
 
 namespace torsion {
@@ -61,7 +62,8 @@ VerificationRows bounded_ladder(const Effort& effort, int element_order, int coa
     } else {
         finest.high = finest.reference * (1.0 + grade_a);
         finest.bound_from = "from above, as displacements are the data; " + grade_a_text;
-        finest.note = "the warping is as r^2 ln r at the edges, so the energy's order 4 is approached with the logarithm of h";
+        finest.note =
+            "the warping is as r^2 ln r at the edges, so the energy's order 4 is approached with the logarithm of h";
     }
     return rows;
 }
@@ -76,12 +78,14 @@ VerificationRows torsion_rows(const Effort& effort)
     return rows;
 }
 
-// MacNeal and Harder's twisted beam: 12 x 1.1 x 0.32 in, turned by 90 degrees from the clamp to the tip, E = 29e6 psi, nu = 0.22, a unit
-// load at the tip. At the clamp the width lies along y, at the tip along z. A load along z lies in the plane of the tip's width and bends
-// the beam about its thin side where the moment is largest: the large deflection; a load along y is out of that plane.
+// MacNeal and Harder's twisted beam: 12 x 1.1 x 0.32 in, turned by 90 degrees from the clamp to the tip, E = 29e6 psi,
+// nu = 0.22, a unit load at the tip. At the clamp the width lies along y, at the tip along z. A load along z lies in
+// the plane of the tip's width and bends the beam about its thin side where the moment is largest: the large
+// deflection; a load along y is out of that plane.
 //
 // Beam theory alone determines which value belongs to which load: deflection = P / E times the integral of
-// s^2 (cos^2 phi / I_width + sin^2 phi / I_thickness), s the distance to the tip, phi the angle between the load and the width.
+// s^2 (cos^2 phi / I_width + sin^2 phi / I_thickness), s the distance to the tip, phi the angle between the load and
+// the width.
 
 namespace twisted_beam {
 
@@ -97,17 +101,19 @@ double turn(double x)
 
 pbs::TetMesh beam(const Divisions& divisions)
 {
-    return mapped(box_mesh({0, -width_in / 2.0, -thickness_in / 2.0}, {length_in, width_in / 2.0, thickness_in / 2.0}, divisions),
-                  [](const Vec3& p) -> Vec3 {
-                      const double c = std::cos(turn(p.x())), s = std::sin(turn(p.x()));
-                      return {p.x(), c * p.y() - s * p.z(), s * p.y() + c * p.z()};
-                  });
+    return mapped(
+        box_mesh({0, -width_in / 2.0, -thickness_in / 2.0}, {length_in, width_in / 2.0, thickness_in / 2.0}, divisions),
+        [](const Vec3& p) -> Vec3 {
+            const double c = std::cos(turn(p.x())), s = std::sin(turn(p.x()));
+            return {p.x(), c * p.y() - s * p.z(), s * p.y() + c * p.z()};
+        });
 }
 
 // Bending alone, Simpson's rule.
 double beam_theory(const Vec3& load)
 {
-    const double along_width = thickness_in * std::pow(width_in, 3) / 12.0, along_thickness = width_in * std::pow(thickness_in, 3) / 12.0;
+    const double along_width = thickness_in * std::pow(width_in, 3) / 12.0,
+                 along_thickness = width_in * std::pow(thickness_in, 3) / 12.0;
     const auto integrand = [&](double x) {
         const Vec3 width(0.0, std::cos(turn(x)), std::sin(turn(x)));
         const double share = std::pow(load.dot(width), 2);
@@ -128,13 +134,14 @@ VerificationRow row_of(const Effort& effort, const Vec3& load, int element_order
                .tractions = {{[](const Vec3& centre) { return centre.x() > length_in - 1e-6; },
                               [&](const Vec3&, const Vec3&) -> Vec3 { return load / (width_in * thickness_in); }}}});
     const bool in_plane = load.z() != 0.0;
-    VerificationRow row =
-        row_about({"twisted_beam", elements_of(element_order), linear_material(material.poisson), text_of(divisions),
-                   width_in / divisions[1] * 0.0254, solution.space->dofs()},
-                  in_plane ? RowQuantity{"tip_deflection_in_plane", "tip deflection, load along the tip's width (in plane)"}
-                           : RowQuantity{"tip_deflection_out_of_plane", "tip deflection, load across the tip's width (out of plane)"},
-                  solution.work_of_load_j(), in_plane ? 0.005424 : 0.001754, "in",
-                  "R. MacNeal, R. Harder, Finite Elements in Analysis and Design 1 (1985) 3-20, Table 7");
+    VerificationRow row = row_about(
+        {"twisted_beam", elements_of(element_order), linear_material(material.poisson), text_of(divisions),
+         width_in / divisions[1] * 0.0254, solution.space->dofs()},
+        in_plane
+            ? RowQuantity{"tip_deflection_in_plane", "tip deflection, load along the tip's width (in plane)"}
+            : RowQuantity{"tip_deflection_out_of_plane", "tip deflection, load across the tip's width (out of plane)"},
+        solution.work_of_load_j(), in_plane ? 0.005424 : 0.001754, "in",
+        "R. MacNeal, R. Harder, Finite Elements in Analysis and Design 1 (1985) 3-20, Table 7");
     row.note = fmt::format("beam theory, bending alone: {:.6f} in", beam_theory(load));
     return row;
 }
@@ -156,10 +163,10 @@ VerificationRows twisted_beam_rows(const Effort& effort)
     return rows;
 }
 
-// A bar of 3.375 x 1 x 1 m, 27 x 8 x 8 cells, both ends held, one turned by 180 degrees in ten steps, in linear tets: Newton's iterations
-// and the states that it finds by each law, against an earlier implementation of ours with an assembly and a Newton loop of its own.
-// Large rotations distinguish the laws: linear strain takes them for a swelling of 31 % at 90 degrees and turns tets inside out, St
-// Venant-Kirchhoff gives way.
+// A bar of 3.375 x 1 x 1 m, 27 x 8 x 8 cells, both ends held, one turned by 180 degrees in ten steps, in linear tets:
+// Newton's iterations and the states that it finds by each law, against an earlier implementation of ours with an
+// assembly and a Newton loop of its own. Large rotations distinguish the laws: linear strain takes them for a swelling
+// of 31 % at 90 degrees and turns tets inside out, St Venant-Kirchhoff gives way.
 
 namespace half_turn {
 
@@ -169,7 +176,8 @@ const Divisions divisions = {27, 8, 8};
 constexpr double length_m = 3.375, young_pa = 1e5;
 constexpr int steps = 10;
 const std::string source =
-    "our earlier implementation of the same laws and tets, with an assembly and a Newton loop of its own: regression, no outside truth";
+    "our earlier implementation of the same laws and tets, with an assembly and a Newton loop of its own: regression, "
+    "no outside truth";
 
 struct TurnValues {
     double iterations;                                         // of all steps
@@ -239,13 +247,15 @@ VerificationRows rows_of(const Effort& effort, const SimplexSpace& space, const 
 {
     const ElasticMaterial material = solver_material(effort, {young_pa, law.poisson});
     const TurnValues ours =
-        turn(space, ElasticPotential(space, law.model, lame_parameters(material.young_pa, material.poisson), Formulation::displacement));
+        turn(space, ElasticPotential(space, law.model, lame_parameters(material.young_pa, material.poisson),
+                                     Formulation::displacement));
     const RowSolution solution{"half_turn",        elements_of(1),          material_of(law.name, law.poisson),
                                text_of(divisions), length_m / divisions[0], space.dofs()};
     VerificationRows rows;
     for (const auto& [quantity, unit, value] : quantities) {
         const double reference = law.reference.*value;
-        const double same = 1e-6 * std::abs(reference);  // both stop at forces of 1e-8, Newton's last step being quadratic
+        // both stop at forces of 1e-8, Newton's last step being quadratic
+        const double same = 1e-6 * std::abs(reference);
         rows.push_back(row_about(solution, quantity, ours.*value, reference, unit, source));
         bound(rows.back(), reference - same, reference + same,
               "the same discrete problem: 1e-6 of the value, for both stop at a residual of 1e-8 of the forces");
@@ -262,7 +272,8 @@ VerificationRows half_turn_rows(const Effort& effort)
     const SimplexSpace space(box_mesh({0, -0.5, -0.5}, {length_m, 0.5, 0.5}, divisions), 1);
     VerificationRows rows;
     for (const Law& law : laws) {
-        const bool is_quick = law.model == Model::linear || (law.model == Model::stable_neo_hookean && law.poisson != 0.45);
+        const bool is_quick =
+            law.model == Model::linear || (law.model == Model::stable_neo_hookean && law.poisson != 0.45);
         if (!effort.full && !is_quick) continue;
         for (const VerificationRow& row : rows_of(effort, space, law)) rows.push_back(row);
     }

@@ -28,8 +28,8 @@ struct RowElements {
     std::string text() const;  // P2, P2 taylor_hood, one_point
 };
 
-// One row of the verification record: a value of the reference solver compared with the value from theory, another code or a published
-// benchmark.
+// One row of the verification record: a value of the reference solver compared with the value from theory, another code
+// or a published benchmark.
 struct VerificationRow {
     std::string problem = {};  // its name in the list of problems
     RowQuantity quantity = {};
@@ -64,8 +64,9 @@ const analysis::Columns<VerificationRow>& verification_columns();
 
 // How much of a verification problem to run, and with which deliberate error.
 struct Effort {
-    bool full = false;          // all meshes of the sequence
-    double lambda_error = 0.0;  // for tests: a relative error of the solver's first Lame parameter, unknown to the reference values
+    bool full = false;  // all meshes of the sequence
+    double lambda_error =
+        0.0;  // for tests: a relative error of the solver's first Lame parameter, unknown to the reference values
 };
 
 }  // namespace reference_fem

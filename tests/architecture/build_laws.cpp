@@ -19,10 +19,14 @@ std::string cmake_text_above(const SourceTree& tree, const std::string& path)
 
 bool names_word(const std::string& text, const std::string& word)
 {
-    const auto belongs_to_a_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; };
+    const auto belongs_to_a_word = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
+    };
     for (std::size_t place = text.find(word); place != std::string::npos; place = text.find(word, place + 1)) {
         const std::size_t end = place + word.size();
-        if ((place == 0 || !belongs_to_a_word(text[place - 1])) && (end == text.size() || !belongs_to_a_word(text[end]))) return true;
+        if ((place == 0 || !belongs_to_a_word(text[place - 1])) &&
+            (end == text.size() || !belongs_to_a_word(text[end])))
+            return true;
     }
     return false;
 }
@@ -45,8 +49,8 @@ bool is_below(const std::string& path, const std::string& folder)
     return folder == "." || path == folder || path.starts_with(folder + "/");
 }
 
-// pbs_tests(KIND NAME FOLDERS FOLDER... FILES FILE... EXCEPT PATH...) compiles KIND/test.cpp. A variable holds the files that
-// an option leaves out; it is not evaluated here.
+// pbs_tests(KIND NAME FOLDERS FOLDER... FILES FILE... EXCEPT PATH...) compiles KIND/test.cpp. A variable holds the
+// files that an option leaves out; it is not evaluated here.
 bool compiles(const std::vector<std::string>& call, const std::string& kind, const std::string& test)
 {
     if (call.empty() || call[0] != kind) return false;
@@ -70,13 +74,15 @@ bool is_registered(const std::string& cmake, const std::string& path)
     const std::string test = path.substr(path.find('/') + 1, path.rfind('.') - path.find('/') - 1);  // KIND/FOLDER/NAME
     const std::size_t kind_end = test.find('/');
     if (kind_end == std::string::npos) return false;
-    return std::ranges::any_of(calls_of("pbs_tests", cmake),
-                               [&](const auto& call) { return compiles(call, test.substr(0, kind_end), test.substr(kind_end + 1)); });
+    return std::ranges::any_of(calls_of("pbs_tests", cmake), [&](const auto& call) {
+        return compiles(call, test.substr(0, kind_end), test.substr(kind_end + 1));
+    });
 }
 
 bool is_built(const std::string& cmake, const std::string& path)
 {
-    return names_word(cmake, path.substr(path.rfind('/') + 1)) || (path.starts_with("tests/") && is_registered(cmake, path));
+    return names_word(cmake, path.substr(path.rfind('/') + 1)) ||
+           (path.starts_with("tests/") && is_registered(cmake, path));
 }
 
 bool is_folder(const SourceTree& tree, const std::string& folder)
@@ -84,20 +90,21 @@ bool is_folder(const SourceTree& tree, const std::string& folder)
     return std::ranges::any_of(tree, [&](const auto& file) { return file.first.starts_with(folder + "/"); });
 }
 
-const std::vector<std::string> headers_of_kernels = {"array",   "cmath",       "cstddef",           "cstdint",    "limits",
-                                                     "utility", "type_traits", "experimental/simd", "immintrin.h"};
+const std::vector<std::string> headers_of_kernels = {
+    "array", "cmath", "cstddef", "cstdint", "limits", "utility", "type_traits", "experimental/simd", "immintrin.h"};
 const std::vector<std::string> headers_of_registers = {"experimental/simd", "immintrin.h", "x86intrin.h", "arm_neon.h"};
 
 // Targets built for the machine, and the definition that records this.
-const std::vector<std::string> built_for_the_machine = {"target_compile_options(pbs_kernels ",
-                                                        "target_compile_options(pbskin_native_plain ", "\"PBS_KERNEL_FLAGS="};
+const std::vector<std::string> built_for_the_machine = {
+    "target_compile_options(pbs_kernels ", "target_compile_options(pbskin_native_plain ", "\"PBS_KERNEL_FLAGS="};
 
 // The sources of an add_library(NAME ...), with paths from the root.
 std::vector<std::string> sources_of(const SourceTree& tree, const std::string& library)
 {
     std::vector<std::string> sources;
     for (const auto& [path, text] : tree)
-        for (const auto& call : is_cmake_file(path) ? calls_of("add_library", text) : std::vector<std::vector<std::string>>{})
+        for (const auto& call :
+             is_cmake_file(path) ? calls_of("add_library", text) : std::vector<std::vector<std::string>>{})
             for (const std::string& word : call)
                 if (call.front() == library && word.ends_with(".cpp")) sources.push_back(folder_of(path) + "/" + word);
     return sources;
@@ -132,7 +139,8 @@ std::set<std::string> known_to_cmake(const SourceTree& tree)
 // The name that is searched for: find_package(NAME ...), or find_library(VARIABLE NAME ...), also with NAMES before it.
 std::string looked_for(const std::string& line)
 {
-    static const std::regex call(R"(^[^#]*\bfind_(?:(?:package|known)\s*\(\s*|library\s*\(\s*\w+\s+(?:NAMES\s+)?)([\w.+-]+))");
+    static const std::regex call(
+        R"(^[^#]*\bfind_(?:(?:package|known)\s*\(\s*|library\s*\(\s*\w+\s+(?:NAMES\s+)?)([\w.+-]+))");
     std::smatch match;
     return std::regex_search(line, match, call) ? match[1].str() : "";
 }
@@ -176,9 +184,12 @@ Violations unread_tables(const SourceTree& tree)
         bool in_text = false;
         for (std::size_t line = 0; line < lines.size(); ++line) {
             std::smatch table;
-            if (!in_text && std::regex_search(lines[line], table, header) && sources.find('"' + table.str(1) + '"') == std::string::npos)
-                violations.push_back(at(path, static_cast<int>(line) + 1, "no source of the study reads the table " + table.str(1)));
-            for (auto found = lines[line].find(quotes); found != std::string::npos; found = lines[line].find(quotes, found + quotes.size()))
+            if (!in_text && std::regex_search(lines[line], table, header) &&
+                sources.find('"' + table.str(1) + '"') == std::string::npos)
+                violations.push_back(
+                    at(path, static_cast<int>(line) + 1, "no source of the study reads the table " + table.str(1)));
+            for (auto found = lines[line].find(quotes); found != std::string::npos;
+                 found = lines[line].find(quotes, found + quotes.size()))
                 in_text = !in_text;
         }
     }
@@ -202,7 +213,8 @@ Violations machine_flags(const SourceTree& tree)
         const std::string code = line.substr(0, line.find('#'));
         const auto says = [&](const std::string& part) { return code.find(part) != std::string::npos; };
         const bool is_for_one = says("-march") || says("-mtune") || says("-mavx");
-        return is_for_one && std::ranges::none_of(built_for_the_machine, says) ? "built for one machine, and no kernel" : "";
+        return is_for_one && std::ranges::none_of(built_for_the_machine, says) ? "built for one machine, and no kernel"
+                                                                               : "";
     });
 }
 
@@ -213,7 +225,8 @@ Violations registers_at_home(const SourceTree& tree)
     for (const auto& [path, text] : tree)
         if (path.ends_with(".cpp") && !names(kernels, path))
             for (const std::string& header : foreign_headers(tree, path))
-                if (names(headers_of_registers, header)) violations.push_back(at(path, 1, "no kernel, and sees <" + header + ">"));
+                if (names(headers_of_registers, header))
+                    violations.push_back(at(path, 1, "no kernel, and sees <" + header + ">"));
     return violations;
 }
 
@@ -227,7 +240,8 @@ Violations package_list_form(const SourceTree& tree)
     for (const std::string& line : package_lines(tree)) {
         ++number;
         if (line.empty() || line.starts_with('#')) continue;
-        if (!std::regex_match(line, entry)) violations.push_back(at(list, number, "expected: package oldest newest group [names] purpose"));
+        if (!std::regex_match(line, entry))
+            violations.push_back(at(list, number, "expected: package oldest newest group [names] purpose"));
         const std::string package = line.substr(0, line.find(' '));
         if (!packages.insert(package).second) violations.push_back(at(list, number, package + " twice"));
     }

@@ -32,15 +32,17 @@ const std::vector<FolderLaw> folder_laws = {
     {"analysis/statistics/", {"pbs/geometry/", "analysis/records/", "analysis/statistics/"}},
     {"analysis/metrics/", {"pbs/geometry/", "analysis/statistics/", "analysis/metrics/"}},
     {"analysis/verdicts/", {"pbs/geometry/", "analysis/records/", "analysis/statistics/", "analysis/verdicts/"}},
-    {"analysis/check/", {"pbs/geometry/", "analysis/records/", "analysis/statistics/", "analysis/metrics/", "analysis/check/"}},
+    {"analysis/check/",
+     {"pbs/geometry/", "analysis/records/", "analysis/statistics/", "analysis/metrics/", "analysis/check/"}},
     {"experiments/", {"pbs/", "reference_fem/", "analysis/", "experiments/"}},
     {"tests/", {"pbs/", "reference_fem/", "analysis/", "experiments/", "tests/"}},
 };
-const std::vector<std::string> ours = {"pbs/", "reference_fem/", "analysis/", "experiments/", "tests/", "paper_figures/"};
+const std::vector<std::string> ours = {"pbs/",         "reference_fem/", "analysis/",
+                                       "experiments/", "tests/",         "paper_figures/"};
 const std::string generated = "generated/";  // files that the build writes
 
-// The folders of experiments from the bottom up. A file includes its own folder and lower ones; folders of one line do not include each
-// other.
+// The folders of experiments from the bottom up. A file includes its own folder and lower ones; folders of one line do
+// not include each other.
 const std::vector<std::string> layers = {
     "experiments/process/",
     "experiments/settings/",
@@ -49,8 +51,9 @@ const std::vector<std::string> layers = {
     "experiments/run/",
     "experiments/trial/",
     "experiments/studies/shared/",
-    "experiments/studies/(?=[^/]+$)",  // the files in the folder itself: study.hpp, the list of studies, plans and costs
-    "experiments/studies/[^/]+/",      // the folder of each study
+    // the files in the folder itself: study.hpp, the list of studies, plans and costs
+    "experiments/studies/(?=[^/]+$)",
+    "experiments/studies/[^/]+/",  // the folder of each study
     "experiments/(verdicts|distributed|sweeps)/",
     "experiments/command_line/",
 };
@@ -66,7 +69,8 @@ std::optional<Place> place_of(const std::string& path)
     static const std::vector<std::regex> patterns(layers.begin(), layers.end());
     std::smatch match;
     for (std::size_t i = 0; i < layers.size(); ++i)
-        if (std::regex_search(path, match, patterns[i], std::regex_constants::match_continuous)) return Place{match.str(), i};
+        if (std::regex_search(path, match, patterns[i], std::regex_constants::match_continuous))
+            return Place{match.str(), i};
     return std::nullopt;
 }
 
@@ -140,18 +144,21 @@ Violations include_form(const SourceTree& tree)
     for (const auto& [path, text] : tree) {
         if (!is_cpp(path)) continue;
         for (const auto& [line, target, quoted] : includes_of(text)) {
-            if (starts_with_any(target, ours) && !quoted) violations.push_back(at(path, line, "<" + target + ">: ours goes in quotes"));
+            if (starts_with_any(target, ours) && !quoted)
+                violations.push_back(at(path, line, "<" + target + ">: ours goes in quotes"));
             if (quoted && !target.starts_with(generated) && !tree.contains(target))
                 violations.push_back(at(path, line, "\"" + target + "\": no such file, seen from the root"));
         }
-        if (path.ends_with(".hpp") && text.find("#pragma once") == std::string::npos) violations.push_back(at(path, 1, "no #pragma once"));
+        if (path.ends_with(".hpp") && text.find("#pragma once") == std::string::npos)
+            violations.push_back(at(path, 1, "no #pragma once"));
     }
     return violations;
 }
 
 Violations values_compute(const SourceTree& tree)
 {
-    static const std::regex starts_programs(R"(\b(subprocess|ctypes|cffi|os\.system|os\.popen|os\.exec\w*|os\.spawn\w*|scipy)\b)");
+    static const std::regex starts_programs(
+        R"(\b(subprocess|ctypes|cffi|os\.system|os\.popen|os\.exec\w*|os\.spawn\w*|scipy)\b)");
     const auto of_figures = [](const std::string& path) { return path.starts_with("paper_figures/"); };
     Violations violations = in_lines(
         tree, [&](const std::string& path) { return of_figures(path) && path.ends_with(".py"); }, starts_programs,
@@ -166,10 +173,12 @@ Violations deformers_tested_by_name(const SourceTree& tree)
     static const std::regex compares(
         R"re(\bkind(\(\))?\s*([!=]=\s*["']|(\.|->)(starts_with|ends_with|find|compare)\()|["']\s*[!=]=\s*[\w.>-]*\bkind\b)re");
     const auto concerns = [](const std::string& path) {
-        return (is_cpp(path) || path.ends_with(".py")) && starts_with_any(path, {"experiments/", "analysis/", "paper_figures/"}) &&
+        return (is_cpp(path) || path.ends_with(".py")) &&
+               starts_with_any(path, {"experiments/", "analysis/", "paper_figures/"}) &&
                !path.starts_with("experiments/deformers/");
     };
-    return in_lines(tree, concerns, compares, "depends on the name of a deformer's kind: ask its traits or options", {"kind"});
+    return in_lines(tree, concerns, compares, "depends on the name of a deformer's kind: ask its traits or options",
+                    {"kind"});
 }
 
 Violations heavy_headers(const SourceTree& tree)
@@ -180,10 +189,13 @@ Violations heavy_headers(const SourceTree& tree)
         if (!is_cpp(path) || path.starts_with("tests/")) continue;
         const std::set<std::string> seen = foreign_headers(tree, path);
         for (const auto& [header, at_home, most_files] : heavy) {
-            const auto belongs_to = [&header = header](const std::string& target) { return target.starts_with(header); };
+            const auto belongs_to = [&header = header](const std::string& target) {
+                return target.starts_with(header);
+            };
             if (std::ranges::none_of(seen, belongs_to)) continue;
             files[header] += path.ends_with(".cpp");
-            if (!starts_with_any(path, at_home)) violations.push_back(at(path, 1, "sees " + header + " outside its place"));
+            if (!starts_with_any(path, at_home))
+                violations.push_back(at(path, 1, "sees " + header + " outside its place"));
         }
     }
     for (const auto& [header, at_home, most_files] : heavy)

@@ -1,5 +1,5 @@
-// The laws of the architecture hold for the actual source tree, and each law finds what is planted: a law that accepts a planted violation
-// proves nothing. References: the project's rules on includes, functions, build files and text.
+// The laws of the architecture hold for the actual source tree, and each law finds what is planted: a law that accepts
+// a planted violation proves nothing. References: the project's rules on includes, functions, build files and text.
 #include "tests/architecture/laws.hpp"
 
 #include <nlohmann/json.hpp>
@@ -72,11 +72,13 @@ std::string planted_text(const nlohmann::json& written)
     return text;
 }
 
-// planted.json: the law finds one violation in the planted files, whose text contains `finds`, or nothing where that is empty. A file x#
-// stands for nine. One letter of each forbidden text is written by its code, so that the file itself obeys the law.
+// planted.json: the law finds one violation in the planted files, whose text contains `finds`, or nothing where that is
+// empty. A file x# stands for nine. One letter of each forbidden text is written by its code, so that the file itself
+// obeys the law.
 TEST(LawsBite, FindWhatIsPlanted)
 {
-    for (const nlohmann::json& planted : nlohmann::json::parse(std::ifstream(PBS_SOURCE_ROOT "/tests/architecture/planted.json"))) {
+    for (const nlohmann::json& planted :
+         nlohmann::json::parse(std::ifstream(PBS_SOURCE_ROOT "/tests/architecture/planted.json"))) {
         SourceTree tree;
         for (const auto& [path, written] : planted.at("files").items())
             for (int i = 0; i < (path.find('#') == std::string::npos ? 1 : 9); ++i)
@@ -84,7 +86,8 @@ TEST(LawsBite, FindWhatIsPlanted)
         const std::string name = planted.at("name"), finds = planted.at("finds");
         const Violations violations = all_laws.at(planted.at("law"))(tree);
         EXPECT_EQ(violations.size(), finds.empty() ? 0u : 1u) << name;
-        for (const std::string& violation : violations) EXPECT_NE(violation.find(finds), std::string::npos) << name << ": " << violation;
+        for (const std::string& violation : violations)
+            EXPECT_NE(violation.find(finds), std::string::npos) << name << ": " << violation;
     }
 }
 
@@ -100,12 +103,16 @@ const ForbiddenInclude forbidden[] = {
     {include_direction, "reference_fem/x.cpp", "pbs/solver/b.hpp", "reference_fem/"},
     {include_direction, "reference_fem/x.cpp", "reference_fem/verification/a.hpp", "reference_fem/"},
     {include_direction, "reference_fem/laws/x.cpp", "reference_fem/assembly.hpp", "reference_fem/laws/"},
-    {include_direction, "reference_fem/verification/x.cpp", "analysis/metrics/error_norms.hpp", "reference_fem/verification/"},
+    {include_direction, "reference_fem/verification/x.cpp", "analysis/metrics/error_norms.hpp",
+     "reference_fem/verification/"},
     {include_direction, "analysis/records/x.cpp", "analysis/verdicts/verdict.hpp", "analysis/records/"},
     {include_direction, "analysis/statistics/x.cpp", "analysis/metrics/error_norms.hpp", "analysis/statistics/"},
-    {layer_direction, "experiments/studies/stiffness/x.cpp", "experiments/studies/fit/a.hpp", "experiments/studies/stiffness/"},
-    {layer_direction, "experiments/studies/ambiguity/x.cpp", "experiments/studies/jiggle/a.hpp", "experiments/studies/ambiguity/"},
-    {layer_direction, "experiments/studies/shared/x.cpp", "experiments/studies/volume/a.hpp", "experiments/studies/shared/"},
+    {layer_direction, "experiments/studies/stiffness/x.cpp", "experiments/studies/fit/a.hpp",
+     "experiments/studies/stiffness/"},
+    {layer_direction, "experiments/studies/ambiguity/x.cpp", "experiments/studies/jiggle/a.hpp",
+     "experiments/studies/ambiguity/"},
+    {layer_direction, "experiments/studies/shared/x.cpp", "experiments/studies/volume/a.hpp",
+     "experiments/studies/shared/"},
     {layer_direction, "experiments/verdicts/x.cpp", "experiments/distributed/a.hpp", "experiments/verdicts/"},
 };
 
@@ -113,7 +120,8 @@ const ForbiddenInclude forbidden[] = {
 TEST(LawsBite, ForbiddenIncludesAreFoundInTheirLine)
 {
     for (const auto& [law, file, header, folder] : forbidden) {
-        const std::string text = including(folder_of(file) + "/own.hpp") + "\n" + including(header) + including("pbs/geometry/a.hpp");
+        const std::string text =
+            including(folder_of(file) + "/own.hpp") + "\n" + including(header) + including("pbs/geometry/a.hpp");
         EXPECT_EQ(law({{file, text}}), Violations{file + ":3: " + folder + " may not include " + header});
     }
 }
@@ -133,13 +141,16 @@ TEST(LawsBite, EachLayerIncludesTheNext)
 
 TEST(LawsBite, LineOver140Columns)
 {
-    for (const std::string path : {"analysis/x.cpp", "analysis/x.hpp", "tests/x.py", "cmake/x.cmake", "pbs/CMakeLists.txt", "cmake/x.sh",
-                                   "check", "paper_figures/x.js", "tests/x.mjs", "paper_figures/x.css", "experiments/sweeps/Snakefile"})
-        EXPECT_EQ(line_lengths({{path, "\n" + std::string(141, 'x') + "\n"}}), Violations{path + ":2: 141 columns, at most 140"});
+    for (const std::string path :
+         {"analysis/x.cpp", "analysis/x.hpp", "tests/x.py", "cmake/x.cmake", "pbs/CMakeLists.txt", "cmake/x.sh",
+          "check", "paper_figures/x.js", "tests/x.mjs", "paper_figures/x.css", "experiments/sweeps/Snakefile"})
+        EXPECT_EQ(line_lengths({{path, "\n" + std::string(141, 'x') + "\n"}}),
+                  Violations{path + ":2: 141 columns, at most 140"});
     std::string umlauts;
     for (int i = 0; i < 140; ++i) umlauts += "\u00fc";
     EXPECT_TRUE(line_lengths({{"analysis/x.cpp", std::string(140, 'x') + "\n" + umlauts + "\n"}}).empty());
-    EXPECT_TRUE(line_lengths({{"README.md", std::string(141, 'x')}, {"package-lock.json", std::string(141, 'x')}}).empty());
+    EXPECT_TRUE(
+        line_lengths({{"README.md", std::string(141, 'x')}, {"package-lock.json", std::string(141, 'x')}}).empty());
 }
 
 }  // namespace

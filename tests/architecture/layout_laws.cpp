@@ -28,14 +28,16 @@ int columns_of(const std::string& line)
     return static_cast<int>(std::ranges::count_if(line, [](char byte) { return (byte & 0xC0) != 0x80; }));
 }
 
-// In this format a function's braces are alone on their lines, with the indentation of its signature; so are those of loops and branches.
+// In this format a function's braces are alone on their lines, with the indentation of its signature; so are those of
+// loops and branches.
 std::vector<Function> functions_of(const std::vector<std::string>& lines)
 {
     static const std::regex control(R"(^\s*(for|if|else|while|switch|do|try|catch|struct|class|enum|union)\b)");
     std::vector<Function> functions;
     for (std::size_t open = 1; open < lines.size(); ++open) {
         const std::size_t indentation = lines[open].find('{');
-        if (indentation == std::string::npos || lines[open].size() != indentation + 1 || lines[open].find_first_not_of(' ') != indentation)
+        if (indentation == std::string::npos || lines[open].size() != indentation + 1 ||
+            lines[open].find_first_not_of(' ') != indentation)
             continue;
         if (std::regex_search(lines[open - 1], control)) continue;
         const std::string closing = std::string(indentation, ' ') + "}";
@@ -58,9 +60,11 @@ Violations function_sizes(const SourceTree& tree)
             ++functions;
             const std::string what = at(path, line, "function of " + std::to_string(lines) + " lines");
             if (lines > longest_function) violations.push_back(what + ", at most " + std::to_string(longest_function));
-            if (lines > usual_function) above_usual.push_back(what + ", and more than 1 in 10 have over " + std::to_string(usual_function));
+            if (lines > usual_function)
+                above_usual.push_back(what + ", and more than 1 in 10 have over " + std::to_string(usual_function));
         }
-    if (10 * above_usual.size() > functions) violations.insert(violations.end(), above_usual.begin(), above_usual.end());
+    if (10 * above_usual.size() > functions)
+        violations.insert(violations.end(), above_usual.begin(), above_usual.end());
     return violations;
 }
 
@@ -68,7 +72,8 @@ Violations line_lengths(const SourceTree& tree)
 {
     return in_lines(tree, is_line_of_source, [](const std::string& line) {
         const int columns = columns_of(line);
-        return columns > longest_line ? std::to_string(columns) + " columns, at most " + std::to_string(longest_line) : "";
+        return columns > longest_line ? std::to_string(columns) + " columns, at most " + std::to_string(longest_line)
+                                      : "";
     });
 }
 
@@ -87,7 +92,8 @@ Violations unfinished_marks(const SourceTree& tree)
 Violations stray_whitespace(const SourceTree& tree)
 {
     return in_lines(tree, any_file, [](const std::string& line) {
-        return line.find('\t') != std::string::npos || line.ends_with(' ') ? "a tab, or blanks at the end of the line" : "";
+        return line.find('\t') != std::string::npos || line.ends_with(' ') ? "a tab, or blanks at the end of the line"
+                                                                           : "";
     });
 }
 

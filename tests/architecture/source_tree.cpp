@@ -27,7 +27,8 @@ std::string read(const std::filesystem::path& file)
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-void collect_foreign(const SourceTree& tree, const std::string& path, std::set<std::string>& visited, std::set<std::string>& foreign)
+void collect_foreign(const SourceTree& tree, const std::string& path, std::set<std::string>& visited,
+                     std::set<std::string>& foreign)
 {
     const auto file = tree.find(path);
     if (file == tree.end() || !visited.insert(path).second) return;
@@ -48,8 +49,8 @@ SourceTree read_source_tree()
 {
     const std::filesystem::path root = PBS_SOURCE_ROOT;
     SourceTree tree;
-    for (auto entry = std::filesystem::recursive_directory_iterator(root); entry != std::filesystem::recursive_directory_iterator();
-         ++entry) {
+    for (auto entry = std::filesystem::recursive_directory_iterator(root);
+         entry != std::filesystem::recursive_directory_iterator(); ++entry) {
         const std::string path = entry->path().lexically_relative(root).generic_string();
         if (entry->is_directory() && starts_with_any(path + "/", left_out)) entry.disable_recursion_pending();
         if (entry->is_regular_file() && belongs(path)) tree[path] = read(entry->path());
@@ -136,12 +137,13 @@ Violations in_lines(const SourceTree& tree, const std::function<bool(const std::
     return violations;
 }
 
-Violations in_lines(const SourceTree& tree, const std::function<bool(const std::string&)>& concerns, const std::regex& forbidden,
-                    const std::string& what, const std::vector<std::string>& parts)
+Violations in_lines(const SourceTree& tree, const std::function<bool(const std::string&)>& concerns,
+                    const std::regex& forbidden, const std::string& what, const std::vector<std::string>& parts)
 {
     return in_lines(tree, concerns, [&](const std::string& line) {
         std::smatch match;
-        return contains_any(line, parts) && std::regex_search(line, match, forbidden) ? what + ": '" + match.str() + "'" : "";
+        return contains_any(line, parts) && std::regex_search(line, match, forbidden) ? what + ": '" + match.str() + "'"
+                                                                                      : "";
     });
 }
 

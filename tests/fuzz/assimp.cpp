@@ -1,6 +1,6 @@
-// Any bytes as FBX, or as COLLADA, which assimp reads in a child process. The result is a rig whose skeleton, surface and poses are finite
-// and whose weights sum to one, or an InputError. A breakdown of assimp itself is counted, since the child contains it for users too; one
-// of the project's conversion is a finding.
+// Any bytes as FBX, or as COLLADA, which assimp reads in a child process. The result is a rig whose skeleton, surface
+// and poses are finite and whose weights sum to one, or an InputError. A breakdown of assimp itself is counted, since
+// the child contains it for users too; one of the project's conversion is a finding.
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/rig/collada_document.hpp"
 #include "pbs/rig/rig_formats.hpp"

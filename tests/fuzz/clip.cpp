@@ -1,4 +1,5 @@
-// Any bytes as the numbers of a clip that a library has read, for two skeletons: poses of finite numbers, or an InputError.
+// Any bytes as the numbers of a clip that a library has read, for two skeletons: poses of finite numbers, or an
+// InputError.
 #include "pbs/character/clip.hpp"
 #include "tests/fuzz/taken_bytes.hpp"
 #include "tests/fuzz/target.hpp"
@@ -11,7 +12,8 @@ namespace {
 using pbs::Vec3;
 
 const pbs::Skeleton arm = {{{"upper", -1, Vec3(-1, 0, 0), Vec3::Zero()}, {"forearm", 0, Vec3::Zero(), Vec3(1, 0, 0)}}};
-const pbs::Skeleton leg = {{{"pelvis", -1, Vec3(0, 1, 0), Vec3(0, 0.9, 0)}, {"thigh.L", 0, Vec3(0, 0.9, 0), Vec3(0, 0.5, 0)}}};
+const pbs::Skeleton leg = {
+    {{"pelvis", -1, Vec3(0, 1, 0), Vec3(0, 0.9, 0)}, {"thigh.L", 0, Vec3(0, 0.9, 0), Vec3(0, 0.5, 0)}}};
 
 pbs::Positions points_of(const std::vector<double>& numbers)
 {

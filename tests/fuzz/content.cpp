@@ -1,7 +1,7 @@
-// Any bytes as a surface or a tet mesh, whose reader is chosen by the content: the first byte chooses the name, the second one what is
-// asked for. The format does not depend on the name, and the result is a surface or a mesh with valid indices, or an InputError. assimp and
-// VTK read in a child process. A breakdown of theirs is counted, since the child contains it for users too. CGAL is left out in
-// libFuzzer's program.
+// Any bytes as a surface or a tet mesh, whose reader is chosen by the content: the first byte chooses the name, the
+// second one what is asked for. The format does not depend on the name, and the result is a surface or a mesh with
+// valid indices, or an InputError. assimp and VTK read in a child process. A breakdown of theirs is counted, since the
+// child contains it for users too. CGAL is left out in libFuzzer's program.
 #include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -35,7 +35,8 @@ using fuzz::expect;
 constexpr std::array<const char*, 12> names = {"a",     "a.obj", "a.ply", "a.gltf", "a.glb",  "a.dae",
                                                "a.fbx", "a.vtu", "a.vtk", "a.msh",  "a.tobj", "a.node"};
 
-void expect_format_of_content(const std::string& path, const std::string& other_name) noexcept  // an InputError is a finding, too
+// an InputError is a finding, too
+void expect_format_of_content(const std::string& path, const std::string& other_name) noexcept
 {
     const std::string content = pbs::content_extension(path);
     expect(pbs::content_extension(other_name) == content);
@@ -70,7 +71,8 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 void fuzz::try_input(const std::string& bytes)
 {
     if (bytes.size() < 2) return;
-    const std::string content = bytes.substr(2), path = written(names[static_cast<unsigned char>(bytes[0]) % names.size()], content);
+    const std::string content = bytes.substr(2),
+                      path = written(names[static_cast<unsigned char>(bytes[0]) % names.size()], content);
     expect_format_of_content(path, written("b.other", content));
     bytes[1] == 't' ? try_tets(path) : try_surface(path);
 }

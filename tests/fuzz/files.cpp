@@ -1,5 +1,5 @@
-// Any bytes as a file that the program itself reads, selected by their first byte: TetGen's pair (separated by a zero byte), .tobj, .msh,
-// .mesh, .obj, weights and IQM. The result is valid, or an InputError.
+// Any bytes as a file that the program itself reads, selected by their first byte: TetGen's pair (separated by a zero
+// byte), .tobj, .msh, .mesh, .obj, weights and IQM. The result is valid, or an InputError.
 #include "pbs/character/named_bodies.hpp"
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/mesh_io_formats.hpp"
@@ -13,7 +13,8 @@ namespace {
 using fuzz::expect;
 using fuzz::written;
 
-const pbs::Skeleton arm = {{{"upper", -1, pbs::Vec3(-1, 0, 0), pbs::Vec3::Zero()}, {"forearm", 0, pbs::Vec3::Zero(), pbs::Vec3(1, 0, 0)}}};
+const pbs::Skeleton arm = {
+    {{"upper", -1, pbs::Vec3(-1, 0, 0), pbs::Vec3::Zero()}, {"forearm", 0, pbs::Vec3::Zero(), pbs::Vec3(1, 0, 0)}}};
 constexpr int vertices = 4;
 
 void expect_valid(const pbs::TetMesh& mesh)
@@ -34,7 +35,8 @@ void try_weights(const std::string& bytes)
     expect(weights.first.size() == vertices + 1);
     for (int vertex = 0; vertex < vertices; ++vertex) {
         double sum = 0.0;
-        for (int entry = weights.first[vertex]; entry < weights.first[vertex + 1]; ++entry) sum += weights.weight[entry];
+        for (int entry = weights.first[vertex]; entry < weights.first[vertex + 1]; ++entry)
+            sum += weights.weight[entry];
         expect(std::abs(sum - 1.0) < 1e-5);
     }
 }
@@ -43,7 +45,8 @@ void try_iqm(const std::string& bytes)
 {
     const pbs::IqmModel model = pbs::read_iqm(written("fuzz.iqm", bytes));
     if (model.surface.triangles.size() > 0) expect(model.surface.triangles.maxCoeff() < model.surface.points.rows());
-    for (int joint = 0; joint < static_cast<int>(model.joints.size()); ++joint) expect(model.joints[joint].parent < joint);
+    for (int joint = 0; joint < static_cast<int>(model.joints.size()); ++joint)
+        expect(model.joints[joint].parent < joint);
 }
 
 }  // namespace

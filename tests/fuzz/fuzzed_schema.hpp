@@ -1,5 +1,5 @@
-// The keys of the fuzzed scenes: all types of value, tables in tables and lists of tables. The registry is left out, since it would bring
-// every deformer into the instrumented program.
+// The keys of the fuzzed scenes: all types of value, tables in tables and lists of tables. The registry is left out,
+// since it would bring every deformer into the instrumented program.
 #pragma once
 
 #include "experiments/deformers/deformer_options.hpp"

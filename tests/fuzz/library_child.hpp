@@ -1,8 +1,9 @@
-// Runs a library on any bytes in a child process, as child_process.hpp does, and distinguishes the library's own breakdowns, which the
-// child contains, from those of the project's code after it.
+// Runs a library on any bytes in a child process, as child_process.hpp does, and distinguishes the library's own
+// breakdowns, which the child contains, from those of the project's code after it.
 //   const LibraryChild child([&](LibraryChild::Parent& parent) { ...; parent.library_is_done(); ... });
 //   if (child.broke_down_in_library()) return;   // the user gets an InputError
-// The child's coverage counts as that of the fuzzed program: libFuzzer adds the bytes of the section __libfuzzer_extra_counters to its own.
+// The child's coverage counts as that of the fuzzed program: libFuzzer adds the bytes of the section
+// __libfuzzer_extra_counters to its own.
 #pragma once
 
 #include "pbs/geometry/input_error.hpp"
@@ -37,8 +38,8 @@ alignas(4096) __attribute__((section("__libfuzzer_extra_counters"))) inline std:
 
 inline void share_counters()
 {
-    static const bool shared =
-        mmap(shared_counters, sizeof shared_counters, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_FIXED, -1, 0) != MAP_FAILED;
+    static const bool shared = mmap(shared_counters, sizeof shared_counters, PROT_READ | PROT_WRITE,
+                                    MAP_SHARED | MAP_ANONYMOUS | MAP_FIXED, -1, 0) != MAP_FAILED;
     if (!shared) std::abort();
 }
 
@@ -54,7 +55,8 @@ inline void forget_coverage()
 {
     std::memset(shared_counters, 0, sizeof shared_counters);
     if (__start___sancov_cntrs)
-        std::memset(__start___sancov_cntrs, 0, static_cast<std::size_t>(__stop___sancov_cntrs - __start___sancov_cntrs));
+        std::memset(__start___sancov_cntrs, 0,
+                    static_cast<std::size_t>(__stop___sancov_cntrs - __start___sancov_cntrs));
 }
 
 inline void limit_child()
@@ -64,7 +66,8 @@ inline void limit_child()
     std::ifstream statm("/proc/self/statm");
     for (int column = 0; column < 5; ++column) statm >> ignored;
     statm >> pages;  // of data and stack, with the addresses that a sanitizer reserves
-    const rlimit time{seconds, seconds}, core{0, 0}, data{pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + bytes, RLIM_INFINITY};
+    const rlimit time{seconds, seconds}, core{0, 0},
+        data{pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + bytes, RLIM_INFINITY};
     setrlimit(RLIMIT_CPU, &time);
     setrlimit(RLIMIT_CORE, &core);
     setrlimit(RLIMIT_DATA, &data);
@@ -124,7 +127,8 @@ public:
 private:
     [[noreturn]] static void run(Parent parent, const std::function<void(Parent&)>& work)
     {
-        for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTERM, SIGXCPU}) std::signal(signal, SIG_DFL);
+        for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTERM, SIGXCPU})
+            std::signal(signal, SIG_DFL);
         limit_child();
         parent.silence();
         try {
@@ -143,8 +147,10 @@ private:
             long runs = 0, whole = 0, by_signal = 0, at_limit = 0, otherwise = 0;
             ~Counts()
             {
-                std::fprintf(stderr, "library: %ld runs, %ld read, %ld ended by a signal, %ld at the time limit, %ld ended otherwise\n",
-                             runs, whole, by_signal, at_limit, otherwise);
+                std::fprintf(
+                    stderr,
+                    "library: %ld runs, %ld read, %ld ended by a signal, %ld at the time limit, %ld ended otherwise\n",
+                    runs, whole, by_signal, at_limit, otherwise);
             }
         };
         static Counts counts;
@@ -167,7 +173,9 @@ inline void keep_breakdown(const std::string& bytes)
     static int count = 0;
     const char* folder = std::getenv("PBS_FUZZ_BREAKDOWNS");
     if (!folder) return;
-    std::ofstream(std::string(folder) + "/" + std::to_string(getpid()) + "_" + std::to_string(count++), std::ios::binary) << bytes;
+    std::ofstream(std::string(folder) + "/" + std::to_string(getpid()) + "_" + std::to_string(count++),
+                  std::ios::binary)
+        << bytes;
 }
 
 }  // namespace fuzz

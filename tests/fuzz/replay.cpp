@@ -1,4 +1,5 @@
-// Runs a fuzz target on the files of folders, without libFuzzer, so that the seeds and past findings remain tests. `replay_scene FOLDER...`
+// Runs a fuzz target on the files of folders, without libFuzzer, so that the seeds and past findings remain tests.
+// `replay_scene FOLDER...`
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>

@@ -16,7 +16,8 @@ inline void expect_sound(const pbs::Rig& rig)
     expect(body.surface.allFinite());
     for (int point = 0; point < body.skin.vertices(); ++point) {
         double sum = 0.0;
-        for (int entry = body.skin.first[point]; entry < body.skin.first[point + 1]; ++entry) sum += body.skin.weight[entry];
+        for (int entry = body.skin.first[point]; entry < body.skin.first[point + 1]; ++entry)
+            sum += body.skin.weight[entry];
         expect(std::abs(sum - 1.0) < 1e-6);
     }
     for (const pbs::Bone& bone : body.skeleton.bones) expect(bone.head.allFinite() && bone.tail.allFinite());

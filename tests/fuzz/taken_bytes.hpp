@@ -30,7 +30,8 @@ public:
         take_raw(numbers.data(), numbers.size() * sizeof(Number));
         return numbers;
     }
-    bool whole() const { return sound_ && left_ == 0; }  // everything that was taken was there, and nothing is left over
+    // everything that was taken was there, and nothing is left over
+    bool whole() const { return sound_ && left_ == 0; }
 
 private:
     void take_raw(void* data, std::size_t size)

@@ -1,5 +1,5 @@
-// Any text as one that the program itself reads, selected by its first byte: a BVH, a CSV record, or --set (one per line) on a
-// scene. The result is valid or an InputError.
+// Any text as one that the program itself reads, selected by its first byte: a BVH, a CSV record, or --set (one per
+// line) on a scene. The result is valid or an InputError.
 #include "analysis/records/tables.hpp"
 #include "experiments/settings/scene_values.hpp"
 #include "pbs/character/clip.hpp"

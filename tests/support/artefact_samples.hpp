@@ -14,12 +14,13 @@ inline experiments::ArtefactCase small_limb(experiments::ArtefactCase::Claim cla
                                             const std::vector<int>& frames = {1, 3, 5})
 {
     experiments::ArtefactCase of;
-    of.scene = experiments::read_scene("limb_bend",
-                                       {"character.vertices=400", "motion.angle_deg=" + std::to_string(5 * step_deg), "motion.frames=6"});
+    of.scene = experiments::read_scene(
+        "limb_bend", {"character.vertices=400", "motion.angle_deg=" + std::to_string(5 * step_deg), "motion.frames=6"});
     of.claim = claim;
     for (const int frame : frames)
-        of.poses.push_back(
-            {frame, "bend " + std::to_string(step_deg * frame) + " deg", {.motion = "bend", .angle_deg = double(step_deg * frame)}});
+        of.poses.push_back({frame,
+                            "bend " + std::to_string(step_deg * frame) + " deg",
+                            {.motion = "bend", .angle_deg = double(step_deg * frame)}});
     return of;
 }
 
@@ -29,18 +30,20 @@ inline experiments::ArtefactCase twisted_limb(int vertices, const std::string& a
 {
     experiments::ArtefactCase of;
     of.scene =
-        broken(experiments::read_scene("limb_twist", {"character.vertices=" + std::to_string(vertices), "motion.angle_deg=" + angle_deg,
-                                                      "motion.frames=2", "reference.name=", "pbs.order=plain", "pbs.precision=f64",
-                                                      R"(deformers.use=["lbs", "pbs"])", "skinning.weights=\"" + weights + "\""}),
+        broken(experiments::read_scene(
+                   "limb_twist", {"character.vertices=" + std::to_string(vertices), "motion.angle_deg=" + angle_deg,
+                                  "motion.frames=2", "reference.name=", "pbs.order=plain", "pbs.precision=f64",
+                                  R"(deformers.use=["lbs", "pbs"])", "skinning.weights=\"" + weights + "\""}),
                how);
     of.claim = experiments::ArtefactCase::Claim::candy_wrapper;
     of.poses = {{1, "twist_" + angle_deg + "_deg"}};
     return of;
 }
 
-// Both radii have the ratio `size` to rest. PBS projects in the order of the file, in double precision, as claims select it.
-inline experiments::ArtefactSample sample(const std::string& group, std::size_t pose, double size, int element_order = 0,
-                                          const std::string& order = "plain")
+// Both radii have the ratio `size` to rest. PBS projects in the order of the file, in double precision, as claims
+// select it.
+inline experiments::ArtefactSample sample(const std::string& group, std::size_t pose, double size,
+                                          int element_order = 0, const std::string& order = "plain")
 {
     const bool is_pbs = group == "pbs";
     return {group, pose, 0, {size, size}, element_order, is_pbs ? order : "", is_pbs ? "f64" : ""};

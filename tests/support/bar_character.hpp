@@ -27,12 +27,14 @@ inline pbs::Character bar_character(const std::array<int, 3>& cells)
     return character;
 }
 
-// The condition number of the stiffness matrix of bar_character({12, 3, 3}) with quadratic tets is below this. A test that loads the
-// reference at run time cannot compute it; LinearFemDeformer.BarHasTheConditionNumberThatOthersRelyOn does.
+// The condition number of the stiffness matrix of bar_character({12, 3, 3}) with quadratic tets is below this. A test
+// that loads the reference at run time cannot compute it; LinearFemDeformer.BarHasTheConditionNumberThatOthersRelyOn
+// does.
 constexpr double quadratic_bar_condition = 8e5;
 
-// A bar of length 2 along x that overlaps itself, wound to a helix of 8 radians, whose windings are a fifth of the width apart: an angle a
-// and a - 2 pi are both on the bar for a > 2 pi - 4, so that the parts with |x| > pi / 2 - 1 overlap. rest: vertices [m], #V x 3.
+// A bar of length 2 along x that overlaps itself, wound to a helix of 8 radians, whose windings are a fifth of the
+// width apart: an angle a and a - 2 pi are both on the bar for a > 2 pi - 4, so that the parts with |x| > pi / 2 - 1
+// overlap. rest: vertices [m], #V x 3.
 inline pbs::Positions wound(pbs::Positions rest)
 {
     for (auto point : rest.rowwise()) {

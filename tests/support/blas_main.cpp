@@ -1,5 +1,5 @@
-// The main of programs that link BLAS. Like pbskin, they start again where OpenBLAS does not know the processor and selects kernels of
-// 2004, which take twice the time.
+// The main of programs that link BLAS. Like pbskin, they start again where OpenBLAS does not know the processor and
+// selects kernels of 2004, which take twice the time.
 #include "experiments/process/machine.hpp"
 
 #include <gtest/gtest.h>

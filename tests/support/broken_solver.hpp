@@ -12,10 +12,19 @@
 
 namespace test_support {
 
-// The printed volume equation is projected only in the order plain, so volume_sign is compared with nothing_in_plain_order.
-enum class Broken { nothing, nothing_in_plain_order, volume_sign, bind_dropped, stretch_dropped, volume_dropped, nothing_projected };
-inline constexpr std::array every_broken = {Broken::volume_sign, Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped,
-                                            Broken::nothing_projected};
+// The printed volume equation is projected only in the order plain, so volume_sign is compared with
+// nothing_in_plain_order.
+enum class Broken {
+    nothing,
+    nothing_in_plain_order,
+    volume_sign,
+    bind_dropped,
+    stretch_dropped,
+    volume_dropped,
+    nothing_projected
+};
+inline constexpr std::array every_broken = {Broken::volume_sign, Broken::bind_dropped, Broken::stretch_dropped,
+                                            Broken::volume_dropped, Broken::nothing_projected};
 
 inline std::string name_of(Broken how)
 {
@@ -51,8 +60,8 @@ inline experiments::Scene broken(experiments::Scene scene, Broken how)
 }
 
 // The measurements of the quantity whose key has these fields.
-inline std::vector<analysis::Measurement> values_of(const std::vector<analysis::Measurement>& measured, const std::string& quantity,
-                                                    const analysis::CaseKey& of = {})
+inline std::vector<analysis::Measurement> values_of(const std::vector<analysis::Measurement>& measured,
+                                                    const std::string& quantity, const analysis::CaseKey& of = {})
 {
     std::vector<analysis::Measurement> found;
     for (const analysis::Measurement& measurement : measured)

@@ -19,9 +19,10 @@ inline pbs::SurfaceMesh icosphere(double radius, int splits)
     const double g = std::numbers::phi;
     std::vector<pbs::Vec3> points = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                                      {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-    std::vector<std::array<int, 3>> triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                                                 {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                                                 {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+    std::vector<std::array<int, 3>> triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                                                 {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                                                 {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                                                 {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
     for (int split = 0; split < splits; ++split) {
         std::map<std::pair<int, int>, int> middles;
         const auto middle = [&](int a, int b) {
@@ -38,7 +39,8 @@ inline pbs::SurfaceMesh icosphere(double radius, int splits)
         for (pbs::Vec3& p : points) p.normalize();
     }
     pbs::SurfaceMesh sphere{pbs::Positions(points.size(), 3), pbs::Triangles(triangles.size(), 3)};
-    for (std::size_t i = 0; i < points.size(); ++i) sphere.points.row(Eigen::Index(i)) = radius * points[i].normalized().transpose();
+    for (std::size_t i = 0; i < points.size(); ++i)
+        sphere.points.row(Eigen::Index(i)) = radius * points[i].normalized().transpose();
     for (std::size_t f = 0; f < triangles.size(); ++f)
         for (int k = 0; k < 3; ++k) sphere.triangles(Eigen::Index(f), k) = triangles[f][std::size_t(k)];
     return sphere;

@@ -1,5 +1,6 @@
-// Verifies a gradient: the central difference along a direction has an error of O(eps^2), so the error must fall a hundredfold when eps
-// falls tenfold, until rounding dominates. A wrong gradient leaves an error that does not depend on eps.
+// Verifies a gradient: the central difference along a direction has an error of O(eps^2), so the error must fall a
+// hundredfold when eps falls tenfold, until rounding dominates. A wrong gradient leaves an error that does not depend
+// on eps.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,9 +11,11 @@
 
 namespace test_support {
 
-// value(x): the function; x: its argument; size: its length scale, the unit of eps; direction: same shape as x, entries of order one.
+// value(x): the function; x: its argument; size: its length scale, the unit of eps; direction: same shape as x, entries
+// of order one.
 template <typename Value>
-void expect_slope_by_eps_sweep(Value value, const Eigen::VectorXd& x, const Eigen::VectorXd& direction, double slope, double size)
+void expect_slope_by_eps_sweep(Value value, const Eigen::VectorXd& x, const Eigen::VectorXd& direction, double slope,
+                               double size)
 {
     const double magnitude = std::abs(slope) * size + std::abs(value(x));
     double previous_error = 0.0;

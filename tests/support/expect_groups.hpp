@@ -1,4 +1,5 @@
-// The requirements on every grouping of constraints: each constraint is in one group, and joins its vertices as the group's shape defines.
+// The requirements on every grouping of constraints: each constraint is in one group, and joins its vertices as the
+// group's shape defines.
 #pragma once
 
 #include "pbs/packed/groups.hpp"
@@ -35,7 +36,8 @@ inline bool even_permutation(std::vector<int> a, const std::vector<int>& b)
 
 // constraints: the vertices of each. The order of a tet's vertices must keep its orientation.
 template <std::size_t corners>
-void expect_each_once(const std::vector<pbs::ConstraintGroup>& groups, const std::vector<std::array<int, corners>>& constraints)
+void expect_each_once(const std::vector<pbs::ConstraintGroup>& groups,
+                      const std::vector<std::array<int, corners>>& constraints)
 {
     std::vector<int> uses(constraints.size(), 0);
     for (const pbs::ConstraintGroup& group : groups)
@@ -44,8 +46,10 @@ void expect_each_once(const std::vector<pbs::ConstraintGroup>& groups, const std
             if (constraint < 0) continue;
             ASSERT_LT(constraint, static_cast<int>(constraints.size()));
             ++uses[constraint];
-            const std::vector<int> expected(constraints[constraint].begin(), constraints[constraint].end()), found = joined(group, c);
-            ASSERT_TRUE(std::is_permutation(found.begin(), found.end(), expected.begin(), expected.end())) << "constraint " << constraint;
+            const std::vector<int> expected(constraints[constraint].begin(), constraints[constraint].end()),
+                found = joined(group, c);
+            ASSERT_TRUE(std::is_permutation(found.begin(), found.end(), expected.begin(), expected.end()))
+                << "constraint " << constraint;
             if (corners == 4) {
                 ASSERT_TRUE(even_permutation(found, expected)) << "tet " << constraint << " is mirrored";
             }

@@ -1,4 +1,5 @@
-// FBX files made in memory, as text and as binary, record by record, so that a test states each property that it is about.
+// FBX files made in memory, as text and as binary, record by record, so that a test states each property that it is
+// about.
 //   FbxFile file;
 //   const auto root = file.node("root", 0, "LimbNode", {{"Lcl Translation", {1, 0, 0}}});
 //   folder.file("arm.fbx", file.text());
@@ -19,7 +20,8 @@ using FbxProperties = std::map<std::string, FbxNumbers>;
 
 constexpr double fbx_ticks_per_s = 46186158000.0;
 
-inline pbs::FbxRecord fbx_record(const std::string& name, std::vector<pbs::FbxValue> values, std::vector<pbs::FbxRecord> records = {})
+inline pbs::FbxRecord fbx_record(const std::string& name, std::vector<pbs::FbxValue> values,
+                                 std::vector<pbs::FbxRecord> records = {})
 {
     return {name, std::move(values), std::move(records)};
 }
@@ -63,7 +65,8 @@ public:
         if (!property.empty()) connections_.back().values.emplace_back(property);
     }
 
-    std::int64_t node(const std::string& name, std::int64_t above, const std::string& kind, const FbxProperties& properties)
+    std::int64_t node(const std::string& name, std::int64_t above, const std::string& kind,
+                      const FbxProperties& properties)
     {
         return add("Model", name, kind, above, {fbx_properties(properties)});
     }
@@ -71,7 +74,8 @@ public:
     // points: #P x 3; corners: the last one of each polygon is -index - 1.
     std::int64_t mesh(const std::string& name, std::int64_t node, const FbxNumbers& points, const FbxNumbers& corners)
     {
-        return add("Geometry", name, "Mesh", node, {fbx_record("Vertices", {points}), fbx_record("PolygonVertexIndex", {corners})});
+        return add("Geometry", name, "Mesh", node,
+                   {fbx_record("Vertices", {points}), fbx_record("PolygonVertexIndex", {corners})});
     }
 
     std::int64_t skin(std::int64_t mesh, const std::string& kind = "")
@@ -80,18 +84,20 @@ public:
     }
 
     // transform: 16 numbers, column by column.
-    void cluster(std::int64_t skin, std::int64_t joint, const FbxNumbers& points, const FbxNumbers& weights, const FbxNumbers& transform)
+    void cluster(std::int64_t skin, std::int64_t joint, const FbxNumbers& points, const FbxNumbers& weights,
+                 const FbxNumbers& transform)
     {
-        const std::int64_t cluster =
-            add("Deformer", "", "Cluster", skin,
-                {fbx_record("Indexes", {points}), fbx_record("Weights", {weights}), fbx_record("Transform", {transform})});
+        const std::int64_t cluster = add(
+            "Deformer", "", "Cluster", skin,
+            {fbx_record("Indexes", {points}), fbx_record("Weights", {weights}), fbx_record("Transform", {transform})});
         connect(joint, cluster);
     }
 
     std::int64_t animation(const std::string& name, double start_s = 0.0, double stop_s = 0.0)
     {
-        return add("AnimationStack", name, "", 0,
-                   {fbx_properties({{"LocalStart", {start_s * fbx_ticks_per_s}}, {"LocalStop", {stop_s * fbx_ticks_per_s}}})});
+        return add(
+            "AnimationStack", name, "", 0,
+            {fbx_properties({{"LocalStart", {start_s * fbx_ticks_per_s}}, {"LocalStop", {stop_s * fbx_ticks_per_s}}})});
     }
 
     std::int64_t layer(std::int64_t animation, const FbxProperties& properties = {})
@@ -103,15 +109,17 @@ public:
     void curves(std::int64_t layer, std::int64_t node, const std::string& property, const FbxNumbers& defaults,
                 const std::map<int, FbxCurveText>& curves)
     {
-        const std::int64_t curve_node = add("AnimationCurveNode", "", "", layer,
-                                            {fbx_properties({{"d|X", {defaults[0]}}, {"d|Y", {defaults[1]}}, {"d|Z", {defaults[2]}}})});
+        const std::int64_t curve_node =
+            add("AnimationCurveNode", "", "", layer,
+                {fbx_properties({{"d|X", {defaults[0]}}, {"d|Y", {defaults[1]}}, {"d|Z", {defaults[2]}}})});
         connect(curve_node, node, property);
         for (const auto& [axis, curve] : curves) {
             FbxNumbers ticks;
             for (const double time_s : curve.times_s) ticks.push_back(time_s * fbx_ticks_per_s);
             add("AnimationCurve", "", "", curve_node,
                 {fbx_record("KeyTime", {ticks}), fbx_record("KeyValueFloat", {curve.values}),
-                 fbx_record("KeyAttrFlags", {FbxNumbers{double(curve.flags)}}), fbx_record("KeyAttrDataFloat", {curve.data}),
+                 fbx_record("KeyAttrFlags", {FbxNumbers{double(curve.flags)}}),
+                 fbx_record("KeyAttrDataFloat", {curve.data}),
                  fbx_record("KeyAttrRefCount", {FbxNumbers{double(ticks.size())}})},
                 std::string("d|") + "XYZ"[axis]);
         }
@@ -120,8 +128,9 @@ public:
     std::vector<pbs::FbxRecord> records() const
     {
         return {fbx_record("FBXHeaderExtension", {}, {fbx_record("FBXVersion", {version})}),
-                fbx_record("GlobalSettings", {}, {fbx_properties(settings)}), fbx_record("Definitions", {}, definitions),
-                fbx_record("Objects", {}, objects), fbx_record("Connections", {}, connections_)};
+                fbx_record("GlobalSettings", {}, {fbx_properties(settings)}),
+                fbx_record("Definitions", {}, definitions), fbx_record("Objects", {}, objects),
+                fbx_record("Connections", {}, connections_)};
     }
 
     std::string text() const
@@ -136,7 +145,8 @@ public:
     // is_packed: whether zlib packs arrays.
     std::string binary(bool is_packed) const
     {
-        std::string bytes = std::string("Kaydara FBX Binary  \0\x1a\0", 23) + number(static_cast<std::uint32_t>(version));
+        std::string bytes =
+            std::string("Kaydara FBX Binary  \0\x1a\0", 23) + number(static_cast<std::uint32_t>(version));
         for (const pbs::FbxRecord& record : records()) write_binary(record, is_packed, bytes);
         return bytes + std::string(version < 7500 ? 13 : 25, '\0');
     }
@@ -177,14 +187,19 @@ private:
     {
         const bool is_wide = version >= 7500;
         std::string values;
-        for (const pbs::FbxValue& value : record.values) std::visit([&](const auto& v) { values += binary_value(v, is_packed); }, value);
+        for (const pbs::FbxValue& value : record.values)
+            std::visit([&](const auto& v) { values += binary_value(v, is_packed); }, value);
         const std::size_t width = is_wide ? 8 : 4, begin = bytes.size();
-        const auto wide_or_narrow = [&](std::size_t n) { return is_wide ? number(std::uint64_t(n)) : number(std::uint32_t(n)); };
-        bytes += std::string(3 * width, '\0') + number(static_cast<std::uint8_t>(record.name.size())) + record.name + values;
+        const auto wide_or_narrow = [&](std::size_t n) {
+            return is_wide ? number(std::uint64_t(n)) : number(std::uint32_t(n));
+        };
+        bytes +=
+            std::string(3 * width, '\0') + number(static_cast<std::uint8_t>(record.name.size())) + record.name + values;
         for (const pbs::FbxRecord& child : record.records) write_binary(child, is_packed, bytes);
         if (!record.records.empty()) bytes += std::string(3 * width + 1, '\0');
-        bytes.replace(begin, 3 * width,
-                      wide_or_narrow(bytes.size()) + wide_or_narrow(record.values.size()) + wide_or_narrow(values.size()));
+        bytes.replace(
+            begin, 3 * width,
+            wide_or_narrow(bytes.size()) + wide_or_narrow(record.values.size()) + wide_or_narrow(values.size()));
     }
 
     static std::string binary_value(double value, bool) { return "D" + number(value); }
@@ -202,7 +217,8 @@ private:
         if (is_packed) {
             std::string packed(compressBound(data.size()), '\0');
             uLongf size = packed.size();
-            compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(data.data()), data.size());
+            compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(data.data()),
+                     data.size());
             data = packed.substr(0, size);
         }
         return "d" + number(static_cast<std::uint32_t>(numbers.size())) + number(std::uint32_t(is_packed)) +

@@ -20,7 +20,8 @@ inline pbs::Pose turned(double angle_deg, const pbs::Vec3& axis = pbs::Vec3::Uni
 }
 
 // A motion of the whole body.
-inline const Eigen::Isometry3d rigid_motion = Eigen::Translation3d(3, -1, 2) * Eigen::AngleAxisd(2.0, pbs::Vec3(1, 2, -3).normalized());
+inline const Eigen::Isometry3d rigid_motion =
+    Eigen::Translation3d(3, -1, 2) * Eigen::AngleAxisd(2.0, pbs::Vec3(1, 2, -3).normalized());
 
 inline pbs::Positions moved(const pbs::Positions& points)
 {

@@ -1,5 +1,6 @@
-// Every reader of a file from outside: how it reads, and a sound file of a few points, bones or frames. The contract that all of them pass
-// is in tests/robustness/pbs/readers/contract.cpp, and what each of them refuses besides is in bad_files.cpp.
+// Every reader of a file from outside: how it reads, and a sound file of a few points, bones or frames. The contract
+// that all of them pass is in tests/robustness/pbs/readers/contract.cpp, and what each of them refuses besides is in
+// bad_files.cpp.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -36,8 +37,9 @@ std::string with_number(const std::string& text, const std::string& place, const
 // The text with its first `what` replaced, which it has to hold.
 std::string replaced(std::string text, const std::string& what, const std::string& by);
 
-// "read: ...", or the message with which it was refused, which has to begin with the folder and the name without its extension. Nothing is
-// printed, nothing is left in the folder, and the answer comes within five seconds; it takes one on an idle machine.
+// "read: ...", or the message with which it was refused, which has to begin with the folder and the name without its
+// extension. Nothing is printed, nothing is left in the folder, and the answer comes within five seconds; it takes one
+// on an idle machine.
 std::string answer_of(const Reader& reader, const std::string& path);
 
 }  // namespace readers

@@ -14,7 +14,8 @@
 
 namespace test_support {
 
-constexpr int roundings_per_tet = 30;  // of an entry of its forces: edges, cofactors, the dot products of each, and their sum
+constexpr int roundings_per_tet =
+    30;  // of an entry of its forces: edges, cofactors, the dot products of each, and their sum
 
 // The largest number of tets at a vertex.
 inline int largest_valence(const pbs::FleshEnergy& energy)
@@ -30,7 +31,8 @@ template <typename Scalar>
 double rounding_of_part(const pbs::FleshEnergy& energy)
 {
     double part = 0.0;
-    for (const pbs::FleshTet& tet : energy.tets()) part = std::max(part, tet.kappa * tet.d * std::pow(6.0 * tet.d, 2.0 / 3.0));
+    for (const pbs::FleshTet& tet : energy.tets())
+        part = std::max(part, tet.kappa * tet.d * std::pow(6.0 * tet.d, 2.0 / 3.0));
     return std::numeric_limits<Scalar>::epsilon() / 2.0 * part;
 }
 
@@ -42,7 +44,8 @@ double rounding_of_gradient(const pbs::FleshEnergy& energy)
 }
 
 // The eigenvalues of the Hessian, by central differences of the gradient in double [m].
-inline Eigen::VectorXd stiffnesses(const pbs::FleshEnergy& energy, const pbs::Positions& centres, const pbs::Positions& x)
+inline Eigen::VectorXd stiffnesses(const pbs::FleshEnergy& energy, const pbs::Positions& centres,
+                                   const pbs::Positions& x)
 {
     constexpr double step = 1e-5;
     Eigen::MatrixXd hessian(x.size(), x.size());
@@ -58,15 +61,17 @@ inline Eigen::VectorXd stiffnesses(const pbs::FleshEnergy& energy, const pbs::Po
     return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(hessian, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-// The distance from `minimum` of a point whose gradient is nothing but rounding [m]: |H^-1 g|, with independent roundings of at most u =
-// epsilon / 2 in the entries of g, so that n of them add up to sqrt(n) u (N. Higham, T. Mary, SIAM Journal on Scientific Computing 41(5),
-// 2019). Four standard deviations. accumulated: further roundings of each tet, of sums that are kept from iteration to iteration.
+// The distance from `minimum` of a point whose gradient is nothing but rounding [m]: |H^-1 g|, with independent
+// roundings of at most u = epsilon / 2 in the entries of g, so that n of them add up to sqrt(n) u (N. Higham, T. Mary,
+// SIAM Journal on Scientific Computing 41(5), 2019). Four standard deviations. accumulated: further roundings of each
+// tet, of sums that are kept from iteration to iteration.
 template <typename Scalar>
-double displaced_by_rounding(const pbs::FleshEnergy& energy, const pbs::Positions& centres, const pbs::Positions& minimum,
-                             int accumulated = 0)
+double displaced_by_rounding(const pbs::FleshEnergy& energy, const pbs::Positions& centres,
+                             const pbs::Positions& minimum, int accumulated = 0)
 {
     const double roundings = double(largest_valence(energy)) * (roundings_per_tet + accumulated);
-    return 4.0 * std::sqrt(roundings) * rounding_of_part<Scalar>(energy) * stiffnesses(energy, centres, minimum).cwiseInverse().norm();
+    return 4.0 * std::sqrt(roundings) * rounding_of_part<Scalar>(energy) *
+           stiffnesses(energy, centres, minimum).cwiseInverse().norm();
 }
 
 }  // namespace test_support

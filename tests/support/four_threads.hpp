@@ -1,4 +1,5 @@
-// Four threads for the tests of a program, also where there are fewer processors: by default, oneTBB uses no more threads than these.
+// Four threads for the tests of a program, also where there are fewer processors: by default, oneTBB uses no more
+// threads than these.
 #pragma once
 
 #ifdef PBS_WITH_THREADS

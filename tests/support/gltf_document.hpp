@@ -1,4 +1,5 @@
-// A glTF 2.0 document whose numbers are in one buffer, which the text contains as base64: rigs of a few points without other files.
+// A glTF 2.0 document whose numbers are in one buffer, which the text contains as base64: rigs of a few points without
+// other files.
 //   test_support::GltfDocument gltf = test_support::two_joint_document();
 //   gltf.json["nodes"][0]["scale"] = {2, 2, 2};
 //   const pbs::Rig rig = pbs::read_gltf_rig(folder.file("a.gltf", gltf.text()));
@@ -32,7 +33,8 @@ inline std::string base64(const std::string& bytes)
     std::string text;
     for (std::size_t at = 0; at < bytes.size(); at += 3) {
         std::uint32_t three = 0;
-        for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (at + k < bytes.size() ? std::uint8_t(bytes[at + k]) : 0U);
+        for (std::size_t k = 0; k < 3; ++k)
+            three = three << 8 | (at + k < bytes.size() ? std::uint8_t(bytes[at + k]) : 0U);
         for (std::size_t k = 0; k < 4; ++k) text += at + k > bytes.size() ? '=' : digits[three >> (18 - 6 * k) & 63U];
     }
     return text;
@@ -48,7 +50,8 @@ public:
     int put_bytes(const std::vector<Number>& numbers)
     {
         bytes.resize((bytes.size() + 3) / 4 * 4);
-        json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", numbers.size() * sizeof(Number)}});
+        json["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", numbers.size() * sizeof(Number)}});
         bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
         return static_cast<int>(json["bufferViews"].size()) - 1;
     }
@@ -78,13 +81,15 @@ public:
     {
         nlohmann::json document = json;
         if (!bytes.empty())
-            document["buffers"] = {{{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}}};
+            document["buffers"] = {
+                {{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}}};
         return document.dump();
     }
 };
 
-// The rig of two_joint_rig.hpp: a root at (1, 0, 0), an elbow at (1, 2, 0), four points, and an animation of 1 s that turns the elbow half
-// round about z. Accessors: 0 points, 1 indices, 2 joints, 3 weights, 4 inverse bind matrices, 5 times, 6 rotations.
+// The rig of two_joint_rig.hpp: a root at (1, 0, 0), an elbow at (1, 2, 0), four points, and an animation of 1 s that
+// turns the elbow half round about z. Accessors: 0 points, 1 indices, 2 joints, 3 weights, 4 inverse bind matrices, 5
+// times, 6 rotations.
 inline GltfDocument two_joint_document()
 {
     GltfDocument gltf;
@@ -107,17 +112,18 @@ inline GltfDocument two_joint_document()
     return gltf;
 }
 
-// A rigged model as a glTF file: a tetrahedron of 1 m along x, the joints root and elbow, and animations that turn the elbow by 90 degrees,
-// or by the angle of each, in two seconds.
+// A rigged model as a glTF file: a tetrahedron of 1 m along x, the joints root and elbow, and animations that turn the
+// elbow by 90 degrees, or by the angle of each, in two seconds.
 //   const std::string file = test_support::write_rigged_gltf(folder, "arm.gltf", {"Bend", "Wave"});
-inline std::string write_rigged_gltf(const ScratchFolder& folder, const std::string& name, const std::vector<std::string>& animations,
-                                     float duration_s = 2.0f, const std::vector<float>& angles_deg = {})
+inline std::string write_rigged_gltf(const ScratchFolder& folder, const std::string& name,
+                                     const std::vector<std::string>& animations, float duration_s = 2.0f,
+                                     const std::vector<float>& angles_deg = {})
 {
     GltfDocument gltf;
     const int position = gltf.put<float>("VEC3", {0, 0, 0, 1, 0, 0, 0.5, 0.2f, 0, 0.5, 0, 0.2f}),
               weight = gltf.put<float>("VEC4", {1, 0, 0, 0, 0, 1, 0, 0, 0.5, 0.5, 0, 0, 0.5, 0.5, 0, 0}),
-              bind = gltf.put<float>("MAT4",
-                                     {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.5, 0, 0, 1}),
+              bind = gltf.put<float>("MAT4", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0,    0, 0, 1,
+                                              1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.5, 0, 0, 1}),
               joint = gltf.put<std::uint8_t>("VEC4", {0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}),
               times = gltf.put<float>("SCALAR", {0.0f, duration_s}),
               corners = gltf.put<std::uint16_t>("SCALAR", {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3});

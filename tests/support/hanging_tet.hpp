@@ -36,8 +36,8 @@ inline pbs::PbsOptions stretch_alone(int iterations, double k_stretch)
     return options;
 }
 
-// The matrix by which the iterations reduce a small displacement of the particle: an edge of unit direction n leaves (I - k n n^T), one
-// edge after the other.
+// The matrix by which the iterations reduce a small displacement of the particle: an edge of unit direction n leaves (I
+// - k n n^T), one edge after the other.
 inline Eigen::Matrix3d step_matrix(const HangingTet& tet, int iterations, double k_stretch)
 {
     Eigen::Matrix3d sweep = Eigen::Matrix3d::Identity(), step = sweep;

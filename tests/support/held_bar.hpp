@@ -17,7 +17,8 @@ inline pbs::BoneSprings random_springs(int springs, double stiffness, unsigned s
     pbs::BoneSprings held{pbs::Positions(springs, 3), Eigen::VectorXd(springs), {}};
     for (int s = 0; s < springs; ++s) {
         const int bone = s % 2;
-        held.points.row(s) << (bone == 0 ? -1.0 : 1.0) * random.number(0.2, 0.8), random.number(-0.08, 0.08), random.number(-0.08, 0.08);
+        held.points.row(s) << (bone == 0 ? -1.0 : 1.0) * random.number(0.2, 0.8), random.number(-0.08, 0.08),
+            random.number(-0.08, 0.08);
         held.stiffness(s) = stiffness * random.number(0.5, 1.5);
         held.bone.push_back(bone);
     }

@@ -8,12 +8,14 @@ namespace test_support {
 
 struct HeldXpbd : HeldBar {
     explicit HeldXpbd(const std::array<int, 3>& cells, double time_step = 0.8) : HeldXpbd(HeldBar(cells), time_step) {}
-    explicit HeldXpbd(HeldBar bar, double time_step = 0.8) : HeldBar(std::move(bar)), flesh(bent.mesh, energy, hold, material, time_step)
+    explicit HeldXpbd(HeldBar bar, double time_step = 0.8)
+        : HeldBar(std::move(bar)), flesh(bent.mesh, energy, hold, material, time_step)
     {
         flesh.hold.targets(bent.pose, targets);
     }
 
-    // The gradient of the energy and of sum_i |x_i - from_i|^2 / (2 w_i): what vanishes after a step of implicit Euler from rest.
+    // The gradient of the energy and of sum_i |x_i - from_i|^2 / (2 w_i): what vanishes after a step of implicit Euler
+    // from rest.
     pbs::Positions gradient_with_inertia(const pbs::Positions& x, const pbs::Positions& from) const
     {
         return gradient(x) + flesh.w.cwiseInverse().asDiagonal() * (x - from);

@@ -8,7 +8,8 @@
 
 namespace test_support {
 
-// Records every iteration; figure(n) is the combined residual, the absolute volume change [%] and the error [%] at once.
+// Records every iteration; figure(n) is the combined residual, the absolute volume change [%] and the error [%] at
+// once.
 inline experiments::IterationPath path_by(int most, const std::function<double(int)>& value)
 {
     experiments::IterationPath path;
@@ -27,7 +28,8 @@ inline experiments::IterationPath path_to_floor(int most, double floor, double a
     return path_by(most, [=](int n) { return floor + above * std::pow(rate, n); });
 }
 
-// A character whose initial guesses converge to the floor 1 at the given rates, LBS first, by default in the order `ordered` and f32.
+// A character whose initial guesses converge to the floor 1 at the given rates, LBS first, by default in the order
+// `ordered` and f32.
 inline experiments::ConvergencePaths starts_at_rates(int vertices, const std::vector<double>& rates, int most = 1000)
 {
     experiments::ConvergencePaths paths;
@@ -41,7 +43,8 @@ inline experiments::ConvergencePaths starts_at_rates(int vertices, const std::ve
     return paths;
 }
 
-// The same in the paper's order and precision, with the controls: LBS once more, and random positions that never converge.
+// The same in the paper's order and precision, with the controls: LBS once more, and random positions that never
+// converge.
 inline experiments::ConvergencePaths papers_paths(const std::vector<double>& rates)
 {
     experiments::ConvergencePaths paths = starts_at_rates(1780, rates);
@@ -51,7 +54,8 @@ inline experiments::ConvergencePaths papers_paths(const std::vector<double>& rat
 }
 
 // Returns the values that the study measures on these paths.
-inline std::vector<analysis::Measurement> values_of_paths(const std::vector<experiments::ConvergencePaths>& paths, bool ladder = false)
+inline std::vector<analysis::Measurement> values_of_paths(const std::vector<experiments::ConvergencePaths>& paths,
+                                                          bool ladder = false)
 {
     return experiments::convergence_values(experiments::rate_rows({paths, ladder}), ladder);
 }

@@ -10,7 +10,8 @@
 
 namespace test_support {
 
-// Objects may have more values than `expected`; a list with objects has as many elements, each of which is compared in the same way.
+// Objects may have more values than `expected`; a list with objects has as many elements, each of which is compared in
+// the same way.
 inline void expect_facts(const nlohmann::json& actual, const nlohmann::json& expected, const std::string& place)
 {
     const auto is_object = [](const nlohmann::json& value) { return value.is_object(); };

@@ -1,4 +1,5 @@
-// Constitutive laws at a point, for tests: energy, stress and tangent in one call each, and deformation gradients at which they are tested.
+// Constitutive laws at a point, for tests: energy, stress and tangent in one call each, and deformation gradients at
+// which they are tested.
 #pragma once
 
 #include "reference_fem/laws/constitutive_law.hpp"
@@ -42,7 +43,10 @@ struct LawPoint {
 
     LawPoint(Model model, const reference_fem::Lame& lame) : law(constitutive_law(model, lame)) {}
 
-    double energy(const Eigen::Matrix3d& f) const { return energy_density(law->evaluate(f, Derivatives::none), law->lambda_pa()); }
+    double energy(const Eigen::Matrix3d& f) const
+    {
+        return energy_density(law->evaluate(f, Derivatives::none), law->lambda_pa());
+    }
     Eigen::Matrix3d stress(const Eigen::Matrix3d& f) const
     {
         return first_piola_kirchhoff(law->evaluate(f, Derivatives::first), law->lambda_pa());
@@ -56,7 +60,8 @@ struct LawPoint {
 inline bool all_finite(const reference_fem::PointResponse& response)
 {
     return std::isfinite(response.shape) && std::isfinite(response.dilatation) && response.shape_gradient.allFinite() &&
-           response.dilatation_gradient.allFinite() && response.shape_hessian.allFinite() && response.dilatation_hessian.allFinite();
+           response.dilatation_gradient.allFinite() && response.shape_hessian.allFinite() &&
+           response.dilatation_hessian.allFinite();
 }
 
 inline Eigen::Matrix3d diagonal(double a, double b, double c)

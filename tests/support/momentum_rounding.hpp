@@ -1,7 +1,9 @@
-// The drift of momentum that rounding gives to projections which conserve it, for tolerances. A projection adds a distance of at most
-// rounding_of(constraint).step to each of its vertices (projection_rounding.hpp); over all projections, the drift is then at most the sum
-// of mass times step over the sum of mass times correction, and the angular drift the same with arms from the centre of mass, both by their
-// definition (experiments/studies/momentum/momentum_drift.hpp). The sums themselves go through as many roundings as they have terms.
+// The drift of momentum that rounding gives to projections which conserve it, for tolerances. A projection adds a
+// distance of at most rounding_of(constraint).step to each of its vertices (projection_rounding.hpp); over all
+// projections, the drift is then at most the sum of mass times step over the sum of mass times correction, and the
+// angular drift the same with arms from the centre of mass, both by their definition
+// (experiments/studies/momentum/momentum_drift.hpp). The sums themselves go through as many roundings as they have
+// terms.
 #pragma once
 
 #include "experiments/studies/momentum/momentum_drift.hpp"
@@ -21,25 +23,28 @@ struct DriftRounding {
 };
 
 // For stretch and volume constraints in double, with the masses that the projection knows.
-inline DriftRounding drift_rounding(const pbs::Character& character, const pbs::Pose& pose, const pbs::PbsOptions& options,
-                                    experiments::ProjectedClass projected)
+inline DriftRounding drift_rounding(const pbs::Character& character, const pbs::Pose& pose,
+                                    const pbs::PbsOptions& options, experiments::ProjectedClass projected)
 {
     const auto set = pbs::make_constraint_set<double>(character.mesh, character.binding.distance, {}, options);
     const Eigen::Index vertices = character.mesh.rest.rows();
-    const Eigen::VectorXd mass = options.masses == pbs::Masses::unit ? Eigen::VectorXd::Ones(vertices)
-                                                                     : pbs::lumped_volumes(character.mesh.rest, character.mesh.tets);
+    const Eigen::VectorXd mass = options.masses == pbs::Masses::unit
+                                     ? Eigen::VectorXd::Ones(vertices)
+                                     : pbs::lumped_volumes(character.mesh.rest, character.mesh.tets);
     const pbs::Positions lbs = experiments::blended(character, pose);
     const pbs::Vec3 centre = lbs.transpose() * mass / mass.sum();
     const std::vector<double>& w = set.inverse_mass;
     double steps = 0.0, steps_arm = 0.0, corrections = 0.0, corrections_arm = 0.0, terms = 0.0;
-    const auto add = [&]<std::size_t n>(const std::array<int, n>& vertex, const auto& step_of, const auto& project_corners) {
+    const auto add = [&]<std::size_t n>(const std::array<int, n>& vertex, const auto& step_of,
+                                        const auto& project_corners) {
         std::array<pbs::Vec3, n> before, after;
         for (std::size_t i = 0; i < n; ++i) before[i] = after[i] = lbs.row(vertex[i]).transpose() - centre;
         const double step = step_of(before);
         project_corners(after);
         for (std::size_t i = 0; i < n; ++i) {
             const double m = mass(vertex[i]), arm = before[i].norm(), correction = (after[i] - before[i]).norm();
-            steps += m * step, steps_arm += m * arm * step, corrections += m * correction, corrections_arm += m * arm * correction;
+            steps += m * step, steps_arm += m * arm * step, corrections += m * correction,
+                corrections_arm += m * arm * correction;
             terms += 1.0;
         }
     };
@@ -55,7 +60,9 @@ inline DriftRounding drift_rounding(const pbs::Character& character, const pbs::
             const std::array of_corners = {w[c.vertex[0]], w[c.vertex[1]], w[c.vertex[2]], w[c.vertex[3]]};
             add(
                 c.vertex, [&](const auto& p) { return rounding_of(c, of_corners, p).step; },
-                [&](auto& p) { project(c, of_corners[0], of_corners[1], of_corners[2], of_corners[3], p[0], p[1], p[2], p[3]); });
+                [&](auto& p) {
+                    project(c, of_corners[0], of_corners[1], of_corners[2], of_corners[3], p[0], p[1], p[2], p[3]);
+                });
         }
 
     const auto projection = pbs::make_projection<double>(set, character.mesh.tets, options);

@@ -1,9 +1,9 @@
-// The largest possible distance between two evaluations of one projection that round differently (a fused a * b + c rounds once; a
-// reciprocal is taken before or after a product): the distance that one step adds, and the factor by which it amplifies a difference in its
-// input.
-// Derivation, with eps the spacing of numbers at 1. Stretch: s p12 goes through some ten roundings of terms no larger than
-// w k / (w1 + w2) (l + d), volume: some sixteen of terms no larger than w k n L^3 / D, where n = 6 |g|, D = sum w n^2, L the longest edge;
-// the cross products of flat tets cancel, which magnifies their rounding by L^2 sqrt(sum w / D). Positions are rounded once: eps |p|.
+// The largest possible distance between two evaluations of one projection that round differently (a fused a * b + c
+// rounds once; a reciprocal is taken before or after a product): the distance that one step adds, and the factor by
+// which it amplifies a difference in its input. Derivation, with eps the spacing of numbers at 1. Stretch: s p12 goes
+// through some ten roundings of terms no larger than w k / (w1 + w2) (l + d), volume: some sixteen of terms no larger
+// than w k n L^3 / D, where n = 6 |g|, D = sum w n^2, L the longest edge; the cross products of flat tets cancel, which
+// magnifies their rounding by L^2 sqrt(sum w / D). Positions are rounded once: eps |p|.
 #pragma once
 
 #include "pbs/constraints/bind.hpp"
@@ -31,7 +31,8 @@ double largest_coordinate(std::initializer_list<pbs::Vector3<Scalar>> points)
 }
 
 template <typename Scalar>
-RoundingBound rounding_of(const pbs::BindConstraint<Scalar>& c, const pbs::Vector3<Scalar>& q, const pbs::Vector3<Scalar>& p)
+RoundingBound rounding_of(const pbs::BindConstraint<Scalar>& c, const pbs::Vector3<Scalar>& q,
+                          const pbs::Vector3<Scalar>& p)
 {
     const double eps = std::numeric_limits<Scalar>::epsilon(), distance = (p - q).norm();
     const double growth = distance > 0.0 ? 1.0 + c.stiffness * (1.0 + c.rest_distance / distance) : 1.0;
@@ -69,7 +70,8 @@ RoundingBound rounding_of(const pbs::VolumeConstraint<Scalar>& c, const std::arr
     const double P = largest_coordinate<Scalar>({p[0], p[1], p[2], p[3]});
     if (!(D > 0.0)) return {eps * P, 1.0};
     const double six_C = p21.cross(p31).dot(p41) - 6.0 * c.rest_volume, moved = c.stiffness * w_n / D;
-    const double cancellation = L * std::sqrt(w_sum / D);  // in 1 / m: one L of L^2 sqrt(sum w / D) is part of the step itself
+    // in 1 / m: one L of L^2 sqrt(sum w / D) is part of the step itself
+    const double cancellation = L * std::sqrt(w_sum / D);
     return {eps * (P + 16.0 * moved * (L * L * L + 6.0 * c.rest_volume + std::abs(six_C) * L * cancellation)),
             1.0 + 4.0 * moved * (n_largest + 3.0 * std::abs(six_C) * cancellation)};
 }

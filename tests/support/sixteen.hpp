@@ -1,4 +1,5 @@
-// Sixteen groups of vertices, or sixteen poses of one body, and the kernels that project their constraints side by side.
+// Sixteen groups of vertices, or sixteen poses of one body, and the kernels that project their constraints side by
+// side.
 //   Sixteen<float> groups; groups.links = {{{0, 1}}};
 //   Groups<float, GroupKind::edge>::project(groups);
 #pragma once
@@ -34,7 +35,8 @@ struct Sixteen {
     }
 };
 
-// One batch, with vertices of its own in each lane. k: as the kernel takes it, from k and the sum of two inverse masses.
+// One batch, with vertices of its own in each lane. k: as the kernel takes it, from k and the sum of two inverse
+// masses.
 template <typename Scalar, pbs::GroupKind kind>
 struct Packed {
     using Shape = pbs::GroupShape<kind>;
@@ -54,7 +56,8 @@ struct Packed {
             for (int c = 0; c < Shape::constraints; ++c) {
                 const auto& link = from.links[c];
                 batch.rest[c][lane] = (pbs::of_edges<kind> ? Scalar(1) : Scalar(6)) * link.rest[lane];
-                batch.stiffness[c][lane] = stiffness(link.k[lane], from.w[lane][link.vertex[0]] + from.w[lane][link.vertex[1]]);
+                batch.stiffness[c][lane] =
+                    stiffness(link.k[lane], from.w[lane][link.vertex[0]] + from.w[lane][link.vertex[1]]);
                 lambda[c][lane] = link.lambda[lane];
             }
         }
@@ -121,7 +124,8 @@ struct BindBatches {
                 S* to = xyzw[v * lanes + lane];
                 for (int axis = 0; axis < 3; ++axis) to[axis] = from.p[lane][v](axis);
                 to[3] = from.w[lane][v];
-                batches[v].x[lane] = from.q[lane][v](0), batches[v].y[lane] = from.q[lane][v](1), batches[v].z[lane] = from.q[lane][v](2);
+                batches[v].x[lane] = from.q[lane][v](0), batches[v].y[lane] = from.q[lane][v](1),
+                batches[v].z[lane] = from.q[lane][v](2);
                 batches[v].rest_distance[lane] = from.links[v].rest[lane];
                 batches[v].stiffness[lane] = from.w[lane][v] > S(0) ? from.links[v].k[lane] : S(0);
             }
@@ -131,14 +135,16 @@ struct BindBatches {
         BindBatches packed(groups);
         pbs::project_bind_batches<S>(packed.batches, vertices, packed.xyzw[0]);
         for (int v = 0; v < vertices; ++v)
-            for (int lane = 0; lane < lanes; ++lane) groups.p[lane][v] = Eigen::Map<const pbs::Vector3<S>>(packed.xyzw[v * lanes + lane]);
+            for (int lane = 0; lane < lanes; ++lane)
+                groups.p[lane][v] = Eigen::Map<const pbs::Vector3<S>>(packed.xyzw[v * lanes + lane]);
     }
 
     alignas(64) S xyzw[vertices * lanes][4];
     pbs::BindBatch<S> batches[vertices] = {};
 };
 
-// Sixteen poses of up to six vertices: masses and rest values belong to the mesh, and every pose has its own stiffness in each class.
+// Sixteen poses of up to six vertices: masses and rest values belong to the mesh, and every pose has its own stiffness
+// in each class.
 template <typename S, int corners>
 struct Poses {
     using Scalar = S;

@@ -1,6 +1,8 @@
-// The skinners, each called in the same way, and how far rounding may move their positions: for tests that hold for all of them.
+// The skinners, each called in the same way, and how far rounding may move their positions: for tests that hold for all
+// of them.
 //   const pbs::Positions posed = test_support::Delta<float, true>::applied(limb, limb.pose, {.iterations = 3});
-//   EXPECT_LT((posed - expected).rowwise().norm().maxCoeff(), test_support::Delta<float, true>::packed_error({.iterations = 3}));
+//   EXPECT_LT((posed - expected).rowwise().norm().maxCoeff(), test_support::Delta<float,
+//   true>::packed_error({.iterations = 3}));
 #pragma once
 
 #include "pbs/geometry/topology.hpp"
@@ -50,22 +52,25 @@ inline double rotation_gap(const Eigen::Matrix3d& covariance)
 }
 
 // How far rounding may move a mushed position [m] of coordinates up to `farthest`, with the default step.
-//   Smoothing: each mean of n neighbours goes through n + 4 roundings, and means do not amplify those before. Without a motion, the blend
-//   and the rest shape are smoothed in the same roundings.
-//   Rotation: the covariance is a sum of n products of smoothed edges, whose ends are in error by smoothing on both sides, and its
-//   decomposition rounds some 30 times. An error E of the covariance turns its rotation by at most 2 |E| / (s2 + s3), with s2 and s3 its
-//   smaller singular values, the last with the sign of its determinant (C. Kenney, A. J. Laub, SIAM J. Matrix Anal. Appl. 12, 1991), which
-//   moves the vertex by that share of its detail. Sum: the detail, its rotated coordinates and their sum go through six roundings.
+//   Smoothing: each mean of n neighbours goes through n + 4 roundings, and means do not amplify those before. Without a
+//   motion, the blend and the rest shape are smoothed in the same roundings. Rotation: the covariance is a sum of n
+//   products of smoothed edges, whose ends are in error by smoothing on both sides, and its decomposition rounds some
+//   30 times. An error E of the covariance turns its rotation by at most 2 |E| / (s2 + s3), with s2 and s3 its smaller
+//   singular values, the last with the sign of its determinant (C. Kenney, A. J. Laub, SIAM J. Matrix Anal. Appl. 12,
+//   1991), which moves the vertex by that share of its detail. Sum: the detail, its rotated coordinates and their sum
+//   go through six roundings.
 template <class Scalar>
 double mush_error(const pbs::TetMesh& mesh, const Positions& blended, bool moved, double farthest,
                   int iterations = DeltaMushOptions().iterations)
 {
     const pbs::Adjacency neighbours = pbs::adjacency_of(mesh.tets, static_cast<int>(mesh.rest.rows()));
     const auto count = [&](int i) { return neighbours.first[i + 1] - neighbours.first[i]; };
-    const Positions rest = halfway_smoothed(neighbours, mesh.rest, iterations), posed = halfway_smoothed(neighbours, blended, iterations);
+    const Positions rest = halfway_smoothed(neighbours, mesh.rest, iterations),
+                    posed = halfway_smoothed(neighbours, blended, iterations);
     int most = 0;
     for (int i = 0; i < rest.rows(); ++i) most = std::max(most, count(i));
-    const double of_smoothing = moved ? std::sqrt(3.0) * rounding_error_in<Scalar>(iterations * (most + 4), farthest) : 0.0;
+    const double of_smoothing =
+        moved ? std::sqrt(3.0) * rounding_error_in<Scalar>(iterations * (most + 4), farthest) : 0.0;
     double largest = 0.0;
     for (int i = 0; i < rest.rows(); ++i) {
         Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
@@ -77,7 +82,8 @@ double mush_error(const pbs::TetMesh& mesh, const Positions& blended, bool moved
             magnitude += to.norm() * from.norm();
             lengths += to.norm() + from.norm();
         }
-        const double of_covariance = rounding_error_in<Scalar>(count(i) + 3 + 30, magnitude) + 2.0 * of_smoothing * lengths;
+        const double of_covariance =
+            rounding_error_in<Scalar>(count(i) + 3 + 30, magnitude) + 2.0 * of_smoothing * lengths;
         const double of_rotation = 2.0 * of_covariance / rotation_gap(covariance);
         largest = std::max(largest, of_rotation * (mesh.rest.row(i) - rest.row(i)).norm());
     }
@@ -86,13 +92,14 @@ double mush_error(const pbs::TetMesh& mesh, const Positions& blended, bool moved
 
 // Each skinner deforms a body by the settings, plainly in double or packed.
 //   error: of a position [m] of its own limb, of coordinates up to `farthest`, in these settings;
-//   packed_error: the same for packed code compared with plain code; proves: whether that bound is small enough to prove the code;
-//   far_error: by a translation of the pose; blend_error: of what is LBS itself.
+//   packed_error: the same for packed code compared with plain code; proves: whether that bound is small enough to
+//   prove the code; far_error: by a translation of the pose; blend_error: of what is LBS itself.
 
 struct NoOptions {};
 
-// LBS and dual quaternions. Plainly, a position goes through the roundings of a motion, in which dual quaternions divide by |r|^2 >= 1/4 of
-// two bones. Packed, numbers of order one go through some 40 roundings (four columns, two cross products) for each of two bones.
+// LBS and dual quaternions. Plainly, a position goes through the roundings of a motion, in which dual quaternions
+// divide by |r|^2 >= 1/4 of two bones. Packed, numbers of order one go through some 40 roundings (four columns, two
+// cross products) for each of two bones.
 template <typename S, bool is_packed, bool is_linear>
 struct Blend {
     using Options = NoOptions;
@@ -108,7 +115,8 @@ struct Blend {
             pbs::BlendSkinning<S> skinning(body.mesh.rest, body.weights);
             is_linear ? skinning.linear(pose, posed) : skinning.dual_quaternion(pose, posed);
         } else {
-            (is_linear ? pbs::linear_blend_skinning : pbs::dual_quaternion_skinning)(body.mesh.rest, body.weights, pose, posed);
+            (is_linear ? pbs::linear_blend_skinning : pbs::dual_quaternion_skinning)(body.mesh.rest, body.weights, pose,
+                                                                                     posed);
         }
         return posed;
     }
@@ -147,20 +155,23 @@ struct Delta {
         }
         return posed;
     }
-    // LBS goes through some fifteen roundings. At rest it is exact in plain code, and smoothed in the same roundings as the rest shape.
+    // LBS goes through some fifteen roundings. At rest it is exact in plain code, and smoothed in the same roundings as
+    // the rest shape.
     static double error(const Options& options, const Pose& pose, double farthest)
     {
         Positions blended;
         pbs::linear_blend_skinning(limb.mesh.rest, limb.weights, pose, blended);
         const bool moved = packed || blended != limb.mesh.rest;
-        return mush_error<S>(limb.mesh, blended, moved, farthest, options.iterations) + (moved ? rounding_error_in<S>(15, farthest) : 0.0);
+        return mush_error<S>(limb.mesh, blended, moved, farthest, options.iterations) +
+               (moved ? rounding_error_in<S>(15, farthest) : 0.0);
     }
     static double packed_error(const Options& options)
     {
         return 2.0 * mush_error<S>(limb.mesh, limb.lbs, true, 1.1, options.iterations) + rounding_error_in<S>(15, 1.1);
     }
-    // The bound grows with the iterations, for rounding is assumed to add up, and the smoothed covariances become flat. With three
-    // iterations it is far below what delta mush changes, so that it proves the code; with twenty it still holds.
+    // The bound grows with the iterations, for rounding is assumed to add up, and the smoothed covariances become flat.
+    // With three iterations it is far below what delta mush changes, so that it proves the code; with twenty it still
+    // holds.
     static bool proves(const Options& options) { return options.iterations < 20; }
     static double far_error(const Options& options, const Pose&, double distance)
     {
@@ -193,10 +204,10 @@ inline Covariance covariance_of(const DirectDeltaMush& mush, Eigen::Index v, con
     return result;
 }
 
-// How far rounding may move a position [m], coordinates being up to `farthest`, from moments that are in error by the share `of_moments` of
-// the square of `farthest`, and by moving them in Scalar: differences of moved centres go through ten roundings, the covariance through
-// twelve for each bone and 17 more (nearest_rotation.cpp). An error E of it turns the rotation by at most 2 |E| / (s2 + s3), which moves
-// the vertex by that share of its detail.
+// How far rounding may move a position [m], coordinates being up to `farthest`, from moments that are in error by the
+// share `of_moments` of the square of `farthest`, and by moving them in Scalar: differences of moved centres go through
+// ten roundings, the covariance through twelve for each bone and 17 more (nearest_rotation.cpp). An error E of it turns
+// the rotation by at most 2 |E| / (s2 + s3), which moves the vertex by that share of its detail.
 template <class Scalar>
 double direct_error(const DirectDeltaMush& mush, const Pose& pose, double of_moments, double farthest)
 {
@@ -212,12 +223,14 @@ double direct_error(const DirectDeltaMush& mush, const Pose& pose, double of_mom
     return largest + rounding_error_in<Scalar>(12 * bones + 6, std::sqrt(3.0) * farthest) + of_moments * farthest;
 }
 
-// p direct solves with a matrix whose condition number is below (1 + 2 lambda) times the ratio of the largest to the smallest number of
-// neighbours, 14 / 3, in error by at most 3 #V roundings each; the products with u u^T and the change of the origin add ten.
+// p direct solves with a matrix whose condition number is below (1 + 2 lambda) times the ratio of the largest to the
+// smallest number of neighbours, 14 / 3, in error by at most 3 #V roundings each; the products with u u^T and the
+// change of the origin add ten.
 inline double of_smoothing(const DirectDeltaMushOptions& options)
 {
     const double condition = (1.0 + 2.0 * options.lambda) * 14.0 / 3.0;
-    return rounding_error_in<double>(options.iterations * 3.0 * double(bent_bar.mesh.rest.rows()) * condition + 10.0, 1.0);
+    return rounding_error_in<double>(options.iterations * 3.0 * double(bent_bar.mesh.rest.rows()) * condition + 10.0,
+                                     1.0);
 }
 
 template <typename S, bool is_packed>
@@ -258,13 +271,14 @@ struct Direct {
     static bool proves(const Options&) { return true; }
     static double far_error(const Options& options, const Pose& pose, double distance)
     {
-        return packed_error(options) + direct_error<double>(DirectDeltaMush(limb.mesh, limb.weights, options), pose, 0.0, distance + 1.1);
+        return packed_error(options) +
+               direct_error<double>(DirectDeltaMush(limb.mesh, limb.weights, options), pose, 0.0, distance + 1.1);
     }
     static double blend_error() { return rounding_error_in<S>(40, 2.0); }
 };
 
-// Correctives that are fitted to dual quaternions on the way to the limb's pose and back beyond rest, for a body of any size, mirror image
-// and order.
+// Correctives that are fitted to dual quaternions on the way to the limb's pose and back beyond rest, for a body of any
+// size, mirror image and order.
 template <typename S, bool is_packed>
 struct Corrective {
     using Options = pbs::CorrectiveOptions;
@@ -296,14 +310,15 @@ struct Corrective {
             pbs::corrected_skinning(correctives, body.mesh.rest, body.weights, pose, posed);
         return posed;
     }
-    // Coefficients of a ridge of strength s are in error by at most |Y| |dF| (1/4 + 1) / s + |dY| / (2 sqrt s) (P. C. Hansen,
-    // Rank-deficient and discrete ill-posed problems, SIAM 1998, Sec. 5.1). Over the largest squared singular value s is `least_strength`
-    // or more; features and residuals, which are shorter than the body is long, go through some 60 roundings each.
+    // Coefficients of a ridge of strength s are in error by at most |Y| |dF| (1/4 + 1) / s + |dY| / (2 sqrt s) (P. C.
+    // Hansen, Rank-deficient and discrete ill-posed problems, SIAM 1998, Sec. 5.1). Over the largest squared singular
+    // value s is `least_strength` or more; features and residuals, which are shorter than the body is long, go through
+    // some 60 roundings each.
     static double of_fit(const Options& options, double farthest)
     {
-        return rounding_error(
-            options.sweeps * 60.0 * samples * std::sqrt(double(pbs::corrective_features)) * (1.25 + 0.5) / options.least_strength,
-            farthest);
+        return rounding_error(options.sweeps * 60.0 * samples * std::sqrt(double(pbs::corrective_features)) *
+                                  (1.25 + 0.5) / options.least_strength,
+                              farthest);
     }
     static double error(const Options& options, const Pose& pose, double farthest)
     {

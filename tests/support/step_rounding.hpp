@@ -1,7 +1,8 @@
-// How far rounding may move the positions of a step of Algorithm 1 or of XPBD, for tolerances. Each projection rounds the positions of its
-// vertices and a correction, in some ten or sixteen roundings (projection_rounding.hpp). n roundings of either sign add up to at most 6
-// sqrt n of them, except in one of some 10,000 cases (N. Higham, T. Mary, A new approach to probabilistic rounding error analysis, SIAM J.
-// Sci. Comput. 41, 2019, Sec. 2). The projections that follow multiply them by a factor that random disturbances of the blend measure.
+// How far rounding may move the positions of a step of Algorithm 1 or of XPBD, for tolerances. Each projection rounds
+// the positions of its vertices and a correction, in some ten or sixteen roundings (projection_rounding.hpp). n
+// roundings of either sign add up to at most 6 sqrt n of them, except in one of some 10,000 cases (N. Higham, T. Mary,
+// A new approach to probabilistic rounding error analysis, SIAM J. Sci. Comput. 41, 2019, Sec. 2). The projections that
+// follow multiply them by a factor that random disturbances of the blend measure.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -44,10 +45,11 @@ inline TwoBoneLimb blended_to(TwoBoneLimb limb, const pbs::Positions& lbs)
     return limb;
 }
 
-// The largest standard deviation of a coordinate after the step, over that of the coordinates of the blend, or one where the step damps
-// disturbances: the last roundings are not damped. Disturbances have the standard deviation size_m / sqrt 3. The largest of sixteen
-// normally distributed changes is less than their standard deviation with a probability of 0.683^16 = 0.2 %, in one coordinate, and there
-// are thousands. In double precision, where rounding is 1e-8 of a disturbance.
+// The largest standard deviation of a coordinate after the step, over that of the coordinates of the blend, or one
+// where the step damps disturbances: the last roundings are not damped. Disturbances have the standard deviation size_m
+// / sqrt 3. The largest of sixteen normally distributed changes is less than their standard deviation with a
+// probability of 0.683^16 = 0.2 %, in one coordinate, and there are thousands. In double precision, where rounding is
+// 1e-8 of a disturbance.
 template <typename Options>
 double step_condition(const TwoBoneLimb& limb, Options options)
 {
@@ -59,7 +61,8 @@ double step_condition(const TwoBoneLimb& limb, Options options)
     for (int draw = 0; draw < 16; ++draw) {
         pbs::Positions moved = limb.lbs;
         for (Eigen::Index v = 0; v < moved.rows(); ++v) moved.row(v) += random.point(size_m).transpose();
-        largest_m = std::max(largest_m, (stepped(blended_to(limb, moved), options).positions - undisturbed).cwiseAbs().maxCoeff());
+        largest_m = std::max(largest_m,
+                             (stepped(blended_to(limb, moved), options).positions - undisturbed).cwiseAbs().maxCoeff());
     }
     return std::max(1.0, largest_m / (size_m / std::sqrt(3.0)));
 }
@@ -79,8 +82,9 @@ inline double iteration_rounding_m(const TwoBoneLimb& limb, const pbs::PbsOption
     const auto p = [&](int vertex) -> pbs::Vec3 { return limb.lbs.row(vertex); };
     std::vector<double> squares(w.size(), 0.0);
     for (const auto& c : set.bind)
-        squares[c.vertex] +=
-            std::pow(probable_rounding_m(rounding_of<double>(c, limb.bind_points.row(c.vertex), p(c.vertex)), 10, p(c.vertex)), 2);
+        squares[c.vertex] += std::pow(
+            probable_rounding_m(rounding_of<double>(c, limb.bind_points.row(c.vertex), p(c.vertex)), 10, p(c.vertex)),
+            2);
     for (const auto& c : set.stretch) {
         const auto [i, j] = c.vertex;
         const RoundingBound bound = rounding_of<double>(c, w[i], w[j], p(i), p(j));
@@ -94,12 +98,14 @@ inline double iteration_rounding_m(const TwoBoneLimb& limb, const pbs::PbsOption
     return std::sqrt(*std::max_element(squares.begin(), squares.end()));
 }
 
-// The root of the sum of squares over all iterations, in the precision of the options [m], before it is multiplied by later projections.
+// The root of the sum of squares over all iterations, in the precision of the options [m], before it is multiplied by
+// later projections.
 inline double added_rounding_m(const TwoBoneLimb& limb, const pbs::PbsOptions& options)
 {
     const bool f32 = options.precision == pbs::Precision::f32;
     const double eps = f32 ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
-    return std::sqrt(options.iterations) * iteration_rounding_m(limb, options) * eps / std::numeric_limits<double>::epsilon();
+    return std::sqrt(options.iterations) * iteration_rounding_m(limb, options) * eps /
+           std::numeric_limits<double>::epsilon();
 }
 
 // In the precision of the options [m], for coordinates as large as those of the limb.
@@ -108,8 +114,9 @@ inline double step_rounding_m(const TwoBoneLimb& limb, const pbs::PbsOptions& op
     return 6.0 * added_rounding_m(limb, options) * step_condition(limb, options);
 }
 
-// The same of XPBD, between two evaluations. The roundings of a projection are at most those of a PBS projection of stiffness 1, because a
-// compliance makes the correction smaller, and as many again for the term of the multiplier, which balances C.
+// The same of XPBD, between two evaluations. The roundings of a projection are at most those of a PBS projection of
+// stiffness 1, because a compliance makes the correction smaller, and as many again for the term of the multiplier,
+// which balances C.
 inline double step_rounding_m(const TwoBoneLimb& limb, const pbs::XpbdOptions& options)
 {
     pbs::PbsOptions rigid;
@@ -124,10 +131,12 @@ struct ResidualRounding {
     double stretch_rms = 0.0, volume_rms = 0.0;
 };
 
-// How far the residuals of a step in float may be from those in double. Roundings move positions: random changes of the blend, whose
-// standard deviation is that of the roundings if they are at most sqrt 3 times as large, measure what that changes. A residual itself goes
-// through ten roundings: of a length, relative to it, and of products of three edges, relative to the volume at rest.
-inline ResidualRounding residual_rounding(const TwoBoneLimb& limb, pbs::PbsOptions options, const std::vector<bool>& held = {})
+// How far the residuals of a step in float may be from those in double. Roundings move positions: random changes of the
+// blend, whose standard deviation is that of the roundings if they are at most sqrt 3 times as large, measure what that
+// changes. A residual itself goes through ten roundings: of a length, relative to it, and of products of three edges,
+// relative to the volume at rest.
+inline ResidualRounding residual_rounding(const TwoBoneLimb& limb, pbs::PbsOptions options,
+                                          const std::vector<bool>& held = {})
 {
     options.precision = pbs::Precision::f32;
     const double moved_m = std::sqrt(3.0) * added_rounding_m(limb, options);
@@ -139,7 +148,8 @@ inline ResidualRounding residual_rounding(const TwoBoneLimb& limb, pbs::PbsOptio
         });
     };
     const Eigen::VectorXd volumes = pbs::tet_volumes(limb.mesh.rest, limb.mesh.tets);
-    double products = 0.0;  // the sum of the magnitudes of the products of three edges of a blended tet, over six volumes at rest
+    double products =
+        0.0;  // the sum of the magnitudes of the products of three edges of a blended tet, over six volumes at rest
     for (Eigen::Index t = 0; t < volumes.size(); ++t) {
         const auto corner = [&](int c) -> pbs::Vec3 { return limb.lbs.row(limb.mesh.tets(t, c)); };
         double longest = 0.0;

@@ -14,8 +14,8 @@
 
 namespace test_support {
 
-// The smallest mesh: vertices at the origin and at 1 m on each axis, one positively oriented tet of 1/6 m^3 with three edges of 1 m and
-// three of sqrt 2 m.
+// The smallest mesh: vertices at the origin and at 1 m on each axis, one positively oriented tet of 1/6 m^3 with three
+// edges of 1 m and three of sqrt 2 m.
 inline pbs::TetMesh unit_tet()
 {
     return {pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, pbs::Tets{{0, 1, 2, 3}}};
@@ -24,11 +24,12 @@ inline pbs::TetMesh unit_tet()
 // The unit tet and a second one below it on the triangle 0 1 2, of `depth_m` / 6 m^3.
 inline pbs::TetMesh two_tets(double depth_m = 1.0)
 {
-    return {pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -depth_m}}, pbs::Tets{{0, 1, 2, 3}, {0, 2, 1, 4}}};
+    return {pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -depth_m}},
+            pbs::Tets{{0, 1, 2, 3}, {0, 2, 1, 4}}};
 }
 
-// A box of nx x ny x nz cubes, each Kuhn-split into six tets. Corners [m]; cells along x, y, z. (nx+1)(ny+1)(nz+1) vertices, x fastest; 6
-// nx ny nz tets, all positively oriented.
+// A box of nx x ny x nz cubes, each Kuhn-split into six tets. Corners [m]; cells along x, y, z. (nx+1)(ny+1)(nz+1)
+// vertices, x fastest; 6 nx ny nz tets, all positively oriented.
 inline pbs::TetMesh structured_bar(const pbs::Vec3& lower, const pbs::Vec3& upper, const std::array<int, 3>& cells)
 {
     const auto [nx, ny, nz] = cells;
@@ -41,8 +42,10 @@ inline pbs::TetMesh structured_bar(const pbs::Vec3& lower, const pbs::Vec3& uppe
                 mesh.rest.row(vertex(i, j, k)) =
                     lower + (upper - lower).cwiseProduct(pbs::Vec3(double(i) / nx, double(j) / ny, double(k) / nz));
 
-    // Each of the six tets follows a path from corner (0,0,0) to (1,1,1) along the axes in one order; odd orders are mirrored.
-    const std::array<std::array<int, 3>, 6> axis_orders = {{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+    // Each of the six tets follows a path from corner (0,0,0) to (1,1,1) along the axes in one order; odd orders are
+    // mirrored.
+    const std::array<std::array<int, 3>, 6> axis_orders = {
+        {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
     mesh.tets.resize(6 * nx * ny * nz, 4);
     for (int t = 0; t < mesh.tets.rows(); ++t) {
         const int cube = t / 6;
@@ -56,7 +59,8 @@ inline pbs::TetMesh structured_bar(const pbs::Vec3& lower, const pbs::Vec3& uppe
     return mesh;
 }
 
-// Moves every vertex that is not on the box's surface by up to `share` / 2 of a cell along each axis; the seed is fixed.
+// Moves every vertex that is not on the box's surface by up to `share` / 2 of a cell along each axis; the seed is
+// fixed.
 inline pbs::TetMesh jittered(pbs::TetMesh mesh, const pbs::Vec3& cell_size_m, double share)
 {
     const Eigen::RowVector3d low = mesh.rest.colwise().minCoeff(), high = mesh.rest.colwise().maxCoeff();
@@ -69,7 +73,8 @@ inline pbs::TetMesh jittered(pbs::TetMesh mesh, const pbs::Vec3& cell_size_m, do
     return mesh;
 }
 
-// The unit cube of n^3 cells whose inner vertices are displaced at random, so that no symmetry of the mesh hides an error.
+// The unit cube of n^3 cells whose inner vertices are displaced at random, so that no symmetry of the mesh hides an
+// error.
 inline pbs::TetMesh jittered_cube(int n, double share = 0.25)
 {
     return jittered(structured_bar({0, 0, 0}, {1, 1, 1}, {n, n, n}), pbs::Vec3::Constant(1.0 / n), share);
@@ -108,7 +113,8 @@ pbs::TetMesh carved_box(const std::array<int, 3>& cells, Keep keep)
     Eigen::Index count = 0;
     for (Eigen::Index t = 0; t < box.tets.rows(); ++t) {
         const int cell = static_cast<int>(t) / 6;
-        if (keep(cell % cells[0], cell / cells[0] % cells[1], cell / (cells[0] * cells[1]))) kept.row(count++) = box.tets.row(t);
+        if (keep(cell % cells[0], cell / cells[0] % cells[1], cell / (cells[0] * cells[1])))
+            kept.row(count++) = box.tets.row(t);
     }
     box.tets = kept.topRows(count);
     return box;

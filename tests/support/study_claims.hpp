@@ -62,7 +62,8 @@ inline void expect_values_of(const std::string& id, const std::vector<analysis::
     const analysis::Claim of = claim(id);
     std::vector<analysis::Selection> selections = of.others;
     selections.push_back(of.own);
-    for (const analysis::Selection& one : selections) EXPECT_FALSE(judged(of, one, measured).cases.empty()) << id << " " << one.name;
+    for (const analysis::Selection& one : selections)
+        EXPECT_FALSE(judged(of, one, measured).cases.empty()) << id << " " << one.name;
 }
 
 // Carries out the first `runs` runs of the plan, like `pbskin reproduce`.

@@ -35,7 +35,8 @@ Corners<Scalar> gradient_at(const pbs::VolumeConstraint<Scalar>& constraint, con
 }
 
 template <typename Scalar>
-Corners<Scalar> projected(const pbs::VolumeConstraint<Scalar>& constraint, const CornerMasses<Scalar>& w, Corners<Scalar> p)
+Corners<Scalar> projected(const pbs::VolumeConstraint<Scalar>& constraint, const CornerMasses<Scalar>& w,
+                          Corners<Scalar> p)
 {
     project(constraint, w[0], w[1], w[2], w[3], p[0], p[1], p[2], p[3]);
     return p;

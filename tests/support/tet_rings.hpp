@@ -12,7 +12,8 @@
 
 namespace test_support {
 
-// `count` tets of one orientation around the edge 0, 1; ring vertices 2, 3 ... count + 1, and one more if the ring is open.
+// `count` tets of one orientation around the edge 0, 1; ring vertices 2, 3 ... count + 1, and one more if the ring is
+// open.
 inline pbs::Tets tet_ring(int count, bool closed)
 {
     pbs::Tets tets(count, 4);
@@ -34,7 +35,8 @@ inline std::vector<std::array<int, 2>> rows_of(const pbs::Edges& edges)
     return rows;
 }
 
-// The same mesh with randomly renumbered vertices and tets, and each tet's corners permuted at random without a change of orientation.
+// The same mesh with randomly renumbered vertices and tets, and each tet's corners permuted at random without a change
+// of orientation.
 inline pbs::Tets shuffled(const pbs::Tets& tets, int vertices, unsigned seed)
 {
     std::mt19937 engine(seed);
@@ -46,7 +48,8 @@ inline pbs::Tets shuffled(const pbs::Tets& tets, int vertices, unsigned seed)
     pbs::Tets result(tets.rows(), 4);
     for (Eigen::Index t = 0; t < tets.rows(); ++t) {
         for (int corner = 0; corner < 4; ++corner) result(t, corner) = vertex[tets(row[t], corner)];
-        for (int turns = static_cast<int>(engine() % 3); turns > 0; --turns) {  // rotates three corners: an even permutation
+        // rotates three corners: an even permutation
+        for (int turns = static_cast<int>(engine() % 3); turns > 0; --turns) {
             std::swap(result(t, 0), result(t, 1));
             std::swap(result(t, 1), result(t, 2));
         }

@@ -1,4 +1,5 @@
-// A bar with two bones along x that meet at the origin, bent or twisted there: all inputs of a solver step, without files.
+// A bar with two bones along x that meet at the origin, bent or twisted there: all inputs of a solver step, without
+// files.
 //   const TwoBoneLimb limb = two_bone_limb({24, 4, 4}, {0, 0, 1}, 90.0);
 #pragma once
 

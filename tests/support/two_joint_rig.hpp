@@ -1,5 +1,5 @@
-// A rig whose poses can be computed by hand: a root joint at (1, 0, 0), an elbow at (1, 2, 0) and a mesh of four points. Its animation
-// turns the elbow half round about z within 1 s.
+// A rig whose poses can be computed by hand: a root joint at (1, 0, 0), an elbow at (1, 2, 0) and a mesh of four
+// points. Its animation turns the elbow half round about z within 1 s.
 #pragma once
 
 #include "pbs/rig/rig.hpp"

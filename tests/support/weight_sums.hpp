@@ -18,7 +18,8 @@ inline double weight_in(const pbs::Weights& weights, int vertex, int bone)
 inline double sum_of_weights(const pbs::Weights& weights, int vertex)
 {
     const auto first = weights.weight.begin();
-    return std::accumulate(first + weights.first[std::size_t(vertex)], first + weights.first[std::size_t(vertex) + 1], 0.0);
+    return std::accumulate(first + weights.first[std::size_t(vertex)], first + weights.first[std::size_t(vertex) + 1],
+                           0.0);
 }
 
 }  // namespace test_support

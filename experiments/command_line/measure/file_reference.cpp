@@ -25,7 +25,8 @@ ReferenceError FileReference::error_of(const pbs::Positions& positions, const an
     ReferenceError error{.reference = name_, .l2_pct = norms.l2_pct, .linf_m = norms.linf_m};
     if (has_joints_) error.joint_pct = norms.joint_pct;
     error.skin_rms_mm = skin.measure(positions, shape_.positions, at_tips_).rms_mm;
-    if (const auto own = shape_.fields.facts.find("own_error_pct"); own != shape_.fields.facts.end()) error.own_error_pct = own->second;
+    if (const auto own = shape_.fields.facts.find("own_error_pct"); own != shape_.fields.facts.end())
+        error.own_error_pct = own->second;
     if (error.joint_pct && error.own_error_pct) error.above_own_error = *error.joint_pct > *error.own_error_pct;
     return error;
 }
@@ -59,10 +60,10 @@ std::vector<FileReference> file_references(const std::string& argument, std::siz
                               fmt::format("expected one, or one for each of the {} frames", frames));
     for (std::size_t i = 0; i < paths.size(); ++i) references.emplace_back(names[i], rest, rest.read_shape(paths[i]));
     if (std::ranges::all_of(references, &FileReference::is_at_rest))
-        throw pbs::InputError(
-            paths.front(), 0, "displacement", "",
-            "missing: its points are those of the rest mesh, so that it states no deformed shape; expected deformed points, "
-            "or the field `displacement` in plain text as `pbskin references export` writes it");
+        throw pbs::InputError(paths.front(), 0, "displacement", "",
+                              "missing: its points are those of the rest mesh, so that it states no deformed shape; "
+                              "expected deformed points, "
+                              "or the field `displacement` in plain text as `pbskin references export` writes it");
     return references;
 }
 

@@ -1,6 +1,7 @@
-// References of frames: any deformed frame, or one that `pbskin references export` has written, whose fields state where errors are
-// measured.
-//   for (const FileReference& reference : file_references("ref_%04d.vtu", frames, rest)) reference.error_of(positions, skin);
+// References of frames: any deformed frame, or one that `pbskin references export` has written, whose fields state
+// where errors are measured.
+//   for (const FileReference& reference : file_references("ref_%04d.vtu", frames, rest)) reference.error_of(positions,
+//   skin);
 #pragma once
 
 #include "analysis/metrics/error_norms.hpp"
@@ -19,7 +20,8 @@ struct ReferenceError {
     double l2_pct = 0.0;
     std::optional<double> joint_pct = {};  // the reference's file does not state the vertices that Eq. 2 blends
     double linf_m = 0.0, skin_rms_mm = 0.0;
-    std::optional<double> own_error_pct = {};  // U, the reference's own error in the norm of joint_pct; nothing: not known
+    // U, the reference's own error in the norm of joint_pct; nothing: not known
+    std::optional<double> own_error_pct = {};
     std::optional<bool> above_own_error = {};  // otherwise the reference's own error may be the whole difference
 };
 

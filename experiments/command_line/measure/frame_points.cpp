@@ -29,7 +29,8 @@ constexpr std::array units = {Unit{10.0, "millimetres against centimetres"}, Uni
                               Unit{3.28084, "feet against metres"},          Unit{25.4, "millimetres against inches"},
                               Unit{2.54, "centimetres against inches"}};
 
-// The median edge of a body is never stretched or compressed by a factor of two, and hardly by exactly the factor of a unit.
+// The median edge of a body is never stretched or compressed by a factor of two, and hardly by exactly the factor of a
+// unit.
 constexpr double nearness = 0.1, twofold = 2.0;
 
 double rounding_m(const pbs::Positions& rest)
@@ -44,8 +45,8 @@ struct PointVector {
 };
 using PointVectors = std::map<std::string, PointVector>;
 
-// The name of a vector whose first component is called so: u for ux, u_x and u:0, U for U1, D for DX, and u for u, v and w. Empty: it is
-// none.
+// The name of a vector whose first component is called so: u for ux, u_x and u:0, U for U1, D for DX, and u for u, v
+// and w. Empty: it is none.
 std::string stem_of(const std::string& name)
 {
     if (name == "u" || name == "U") return name;
@@ -64,9 +65,12 @@ void add_vectors_of_components(const std::map<std::string, Eigen::MatrixXd>& arr
         const std::string stem = stem_of(x);
         if (stem.empty() || values.cols() != 1) continue;
         std::array components = {x, x, x};
-        for (std::size_t axis = 1; axis < 3; ++axis) components[axis].back() = static_cast<char>(x.back() + static_cast<char>(axis));
+        for (std::size_t axis = 1; axis < 3; ++axis)
+            components[axis].back() = static_cast<char>(x.back() + static_cast<char>(axis));
         const auto y = arrays.find(components[1]), z = arrays.find(components[2]);
-        if (y == arrays.end() || z == arrays.end() || y->second.size() != values.size() || z->second.size() != values.size()) continue;
+        if (y == arrays.end() || z == arrays.end() || y->second.size() != values.size() ||
+            z->second.size() != values.size())
+            continue;
         pbs::Positions rows(values.rows(), 3);
         rows << values, y->second, z->second;
         vectors.try_emplace(stem, PointVector{rows, fmt::format("{}", fmt::join(components, ", "))});
@@ -79,12 +83,12 @@ bool is_named_displacement(const std::string& name)
     return std::regex_match(name, displacement);
 }
 
-// name: that vector alone, if it is an array of the file. Without a name, views of a .msh that do not state one value of each point have no
-// rows.
+// name: that vector alone, if it is an array of the file. Without a name, views of a .msh that do not state one value
+// of each point have no rows.
 PointVectors vectors_of(const std::string& path, const std::string& name, const std::vector<int>& file_point)
 {
-    const auto arrays =
-        pbs::read_guarded(path, "arrays " + name, [&](const std::string& file) { return pbs::read_point_arrays(file, name); });
+    const auto arrays = pbs::read_guarded(path, "arrays " + name,
+                                          [&](const std::string& file) { return pbs::read_point_arrays(file, name); });
     PointVectors vectors;
     for (const auto& [array, values] : arrays)
         if (values.cols() == 3) vectors.emplace(array, PointVector{values});
@@ -92,21 +96,24 @@ PointVectors vectors_of(const std::string& path, const std::string& name, const 
     for (auto& [own_name, vector] : vectors) {
         if (name.empty() && vector.values.rows() == 0) continue;
         if (vector.values.rows() <= std::ranges::max(file_point))
-            throw pbs::InputError(path, 0, own_name, fmt::format("{} rows", vector.values.rows()), "expected one for each point");
+            throw pbs::InputError(path, 0, own_name, fmt::format("{} rows", vector.values.rows()),
+                                  "expected one for each point");
         vector.values = vector.values(file_point, Eigen::all).eval();
     }
     return vectors;
 }
 
 // For a vector without rows, whose array is read by its name for the reason.
-[[noreturn]] void refuse(const std::string& path, const std::string& name, const PointVector& vector, const std::vector<int>& file_point)
+[[noreturn]] void refuse(const std::string& path, const std::string& name, const PointVector& vector,
+                         const std::vector<int>& file_point)
 {
     vectors_of(path, name, file_point);
     throw pbs::InputError(path, 0, name, vector.of_components, "expected one value of each point");
 }
 
-// A vector that moves the points: not zero, not the points themselves, and by its name no other quantity. Scalars are compared with the
-// names of displacements, for programs write many quantities as scalars: forces RF1, rotations UR1, stresses S11.
+// A vector that moves the points: not zero, not the points themselves, and by its name no other quantity. Scalars are
+// compared with the names of displacements, for programs write many quantities as scalars: forces RF1, rotations UR1,
+// stresses S11.
 bool may_be_displacement(const std::string& name, const PointVector& vector, const pbs::Positions& rest)
 {
     static const std::regex other("veloc|accel|force|normal|position|coord", std::regex::icase);
@@ -123,22 +130,25 @@ void require_no_displacement(const std::string& path, const pbs::Positions& rest
         if (vector.values.rows() == 0 || !may_be_displacement(name, vector, rest)) continue;
         const auto place = is_named_displacement(name) ? 0 : std::ssize(names);
         names.insert(names.begin() + place, name);
-        texts.insert(texts.begin() + place, vector.of_components.empty() ? name : fmt::format("{} ({})", name, vector.of_components));
+        texts.insert(texts.begin() + place,
+                     vector.of_components.empty() ? name : fmt::format("{} ({})", name, vector.of_components));
     }
     if (names.empty()) return;
     const std::string quote = names.front().find(' ') == std::string::npos ? "" : "'";
     throw pbs::InputError(
         path, 0, "points", "those of the rest mesh",
-        fmt::format("expected deformed points, but the deformation seems to be in the points' vector {}: add --displacement "
-                    "{}, or --displacement none if the frame is at rest",
-                    fmt::join(texts, " or "), quote + names.front() + quote));
+        fmt::format(
+            "expected deformed points, but the deformation seems to be in the points' vector {}: add --displacement "
+            "{}, or --displacement none if the frame is at rest",
+            fmt::join(texts, " or "), quote + names.front() + quote));
 }
 
 std::string known_vectors(const PointVectors& vectors)
 {
     std::vector<std::string> names;
     for (const auto& [name, vector] : vectors) names.push_back(name);
-    return names.empty() ? "it has none; .vtu, .vtk, .vtp and .msh can have them" : fmt::format("it has {}", fmt::join(names, ", "));
+    return names.empty() ? "it has none; .vtu, .vtk, .vtp and .msh can have them"
+                         : fmt::format("it has {}", fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -148,10 +158,12 @@ void require_as_many_points(const std::string& path, Eigen::Index points, Eigen:
     if (points != expected)
         throw pbs::InputError(
             path, 0, "vertices", std::to_string(points),
-            fmt::format("expected the rest mesh's {}: exporters that join, split or leave out points change the number", expected));
+            fmt::format("expected the rest mesh's {}: exporters that join, split or leave out points change the number",
+                        expected));
 }
 
-void require_same_units(const std::string& path, const pbs::Positions& rest, const pbs::Edges& edges, const pbs::Positions& positions)
+void require_same_units(const std::string& path, const pbs::Positions& rest, const pbs::Edges& edges,
+                        const pbs::Positions& positions)
 {
     const double ratio = analysis::median_edge_ratio(rest, edges, positions);
     if (ratio < twofold && ratio > 1.0 / twofold) return;
@@ -159,8 +171,8 @@ void require_same_units(const std::string& path, const pbs::Positions& rest, con
         for (const double factor : {unit.factor, 1.0 / unit.factor})
             if (std::abs(ratio / factor - 1.0) <= nearness)
                 throw pbs::InputError(path, 0, "median edge", fmt::format("{:.4g} times the rest mesh's", ratio),
-                                      fmt::format("expected the rest mesh's unit; a factor of {:.5g}, as of {}{}", factor, unit.what,
-                                                  factor < 1.0 ? " (the other way round)" : ""));
+                                      fmt::format("expected the rest mesh's unit; a factor of {:.5g}, as of {}{}",
+                                                  factor, unit.what, factor < 1.0 ? " (the other way round)" : ""));
 }
 
 bool are_at_rest(const pbs::Positions& points, const pbs::Positions& rest)
@@ -179,12 +191,14 @@ pbs::Positions shape_of_frame(const std::string& path, const pbs::Positions& poi
     }
     if (!is_at_rest)
         throw pbs::InputError(path, 0, "points", "other than the rest mesh's",
-                              "expected those of the rest mesh with --displacement: points that are deformed already need no such option");
+                              "expected those of the rest mesh with --displacement: points that are deformed already "
+                              "need no such option");
     PointVectors vectors = vectors_of(path, displacement, file_point);
     if (!vectors.contains(displacement)) vectors = vectors_of(path, "", file_point);
     const auto vector = vectors.find(displacement);
     if (vector == vectors.end())
-        throw pbs::InputError(path, 0, "--displacement", displacement, "expected a vector of the points: " + known_vectors(vectors));
+        throw pbs::InputError(path, 0, "--displacement", displacement,
+                              "expected a vector of the points: " + known_vectors(vectors));
     if (vector->second.values.rows() == 0) refuse(path, displacement, vector->second, file_point);
     if (!vector->second.values.allFinite()) throw pbs::InputError(path, 0, displacement, "", "expected finite numbers");
     return rest + vector->second.values;

@@ -59,8 +59,9 @@ const analysis::Columns<SurfaceRow> surface_columns = {{"volume_m3", &SurfaceRow
                                                        {"self_intersections", &SurfaceRow::self_intersections},
                                                        {"edge_strain_max", &SurfaceRow::edge_strain_max}};
 const analysis::Columns<ShellRow> shell_columns = {
-    {"frame", &ShellRow::frame}, {"shell", &ShellRow::shell},         {"mesh", &ShellRow::mesh},
-    {"role", &ShellRow::role},   {"volume_m3", &ShellRow::volume_m3}, {"volume_change_pct", &ShellRow::volume_change_pct}};
+    {"frame", &ShellRow::frame},         {"shell", &ShellRow::shell},
+    {"mesh", &ShellRow::mesh},           {"role", &ShellRow::role},
+    {"volume_m3", &ShellRow::volume_m3}, {"volume_change_pct", &ShellRow::volume_change_pct}};
 
 // Measures the closed shells of a surface frame by frame.
 class SurfaceMeasurement {
@@ -70,15 +71,18 @@ public:
     {
         warn(rest.remarks());
         if (arguments.quiet) return;
-        const auto capped = std::ranges::count_if(rest.shells().counted(), [&](int s) { return !rest.shells().all()[s].caps.empty(); });
-        fmt::print("{}: {} closed shell{}{}, {:.6g} m^3, {} pairs of triangles meet\n", arguments.rest, volumes_m3_.size(),
-                   volumes_m3_.size() == 1 ? "" : "s", capped > 0 ? fmt::format(" ({} by caps)", capped) : "", volumes_m3_.sum(),
+        const auto capped =
+            std::ranges::count_if(rest.shells().counted(), [&](int s) { return !rest.shells().all()[s].caps.empty(); });
+        fmt::print("{}: {} closed shell{}{}, {:.6g} m^3, {} pairs of triangles meet\n", arguments.rest,
+                   volumes_m3_.size(), volumes_m3_.size() == 1 ? "" : "s",
+                   capped > 0 ? fmt::format(" ({} by caps)", capped) : "", volumes_m3_.sum(),
                    text_of(rest.self_intersections(rest.points())));
-        fmt::print("{:<32} {:>14} {:>14} {:>14} {:>18} {:>12}\n", "frame", "volume m^3", "volume %", "volume abs %", "self-intersections",
-                   "edge strain");
+        fmt::print("{:<32} {:>14} {:>14} {:>14} {:>18} {:>12}\n", "frame", "volume m^3", "volume %", "volume abs %",
+                   "self-intersections", "edge strain");
     }
 
-    analysis::FrameValues measure(const std::string& name, const pbs::Positions& points, std::optional<double> time_s = {})
+    analysis::FrameValues measure(const std::string& name, const pbs::Positions& points,
+                                  std::optional<double> time_s = {})
     {
         const Eigen::VectorXd volumes_m3 = rest_.shells().volumes(points), changes_m3 = volumes_m3 - volumes_m3_;
         const double rest_m3 = volumes_m3_.sum();
@@ -101,13 +105,15 @@ public:
             cap_frame_ = name;
         }
         if (!arguments_.quiet)
-            fmt::print("{:<32} {:>14.6g} {:>14.6f} {:>14.6f} {:>18} {:>12.6f}\n", name, row.volume_m3, row.volume_change_pct,
-                       row.volume_abs_change_pct, text_of(row.self_intersections), row.edge_strain_max);
+            fmt::print("{:<32} {:>14.6g} {:>14.6f} {:>14.6f} {:>18} {:>12.6f}\n", name, row.volume_m3,
+                       row.volume_change_pct, row.volume_abs_change_pct, text_of(row.self_intersections),
+                       row.edge_strain_max);
         rows_.push_back(row);
         const analysis::FrameValues values = {
             .metrics = {.volume_change_pct = row.volume_change_pct, .volume_abs_change_pct = row.volume_abs_change_pct},
             .edge_strain_max = row.edge_strain_max,
-            .self_intersections = row.self_intersections ? *row.self_intersections : std::numeric_limits<double>::quiet_NaN()};
+            .self_intersections =
+                row.self_intersections ? *row.self_intersections : std::numeric_limits<double>::quiet_NaN()};
         note_undecided_limits(name, values, bound_pct);
         return values;
     }
@@ -116,12 +122,15 @@ public:
     void finish(bool has_times, MeasuredFrames& measured) const
     {
         if (cap_bound_pct_ > 0.0)
-            warn({fmt::format(
-                "{}: if what lies in the holes moves with their rims, the changes of the volume are right to {:.2g} points of a per "
-                "cent, the widest in frame {} (the area of the caps times the distance of the rims from a rigid motion)",
-                arguments_.rest, cap_bound_pct_, cap_frame_)});
-        measured.properties = {{"measured_share_of_area_pct", fmt::format("{:.1f}", 100.0 * rest_.shells().counted_share())},
-                               {"cap_bound_pct", fmt::format("{:.4g}", cap_bound_pct_)}};
+            warn(
+                {fmt::format("{}: if what lies in the holes moves with their rims, the changes of the volume are right "
+                             "to {:.2g} points of a per "
+                             "cent, the widest in frame {} (the area of the caps times the distance of the rims from a "
+                             "rigid motion)",
+                             arguments_.rest, cap_bound_pct_, cap_frame_)});
+        measured.properties = {
+            {"measured_share_of_area_pct", fmt::format("{:.1f}", 100.0 * rest_.shells().counted_share())},
+            {"cap_bound_pct", fmt::format("{:.4g}", cap_bound_pct_)}};
         measured.not_judged = rest_.not_whole();
         if (measured.not_judged.empty() && !breaks_for_all_) measured.not_judged = undecided_;
         if (!arguments_.quiet && volumes_m3_.size() > 1) print_shells();
@@ -133,23 +142,28 @@ public:
         const double gap_pct = 100.0 * gap_m_ / pbs::diagonal_m(rest);
         constexpr double least_gap_pct = 0.01;
         if (gap_pct > least_gap_pct)
-            warn({fmt::format(
-                "{}: gap between joined points = {:.2g} % of the size in frame {}: a seam of the surface opens, over which its "
-                "volume is measured as if it were closed",
-                arguments_.rest, gap_pct, gap_frame_)});
+            warn(
+                {fmt::format("{}: gap between joined points = {:.2g} % of the size in frame {}: a seam of the surface "
+                             "opens, over which its "
+                             "volume is measured as if it were closed",
+                             arguments_.rest, gap_pct, gap_frame_)});
         if (!moves_ && !rows_.empty())
-            warn({fmt::format(
-                "{}: nothing moves: each frame has the points of the rest mesh; a skin or a cache that another program applies is "
-                "not in such files (export the deformed surface, or measure the rigged model alone)",
-                arguments_.rest)});
+            warn(
+                {fmt::format("{}: nothing moves: each frame has the points of the rest mesh; a skin or a cache that "
+                             "another program applies is "
+                             "not in such files (export the deformed surface, or measure the rigged model alone)",
+                             arguments_.rest)});
     }
 
 private:
-    // Limits that hold for some surfaces in the holes and not for others. One that holds for none in some frame is decided by that.
+    // Limits that hold for some surfaces in the holes and not for others. One that holds for none in some frame is
+    // decided by that.
     void note_undecided_limits(const std::string& name, const analysis::FrameValues& values, double bound_pct)
     {
         const auto moved_by = [&](double pct) {
-            const auto moved = [&](double change_pct) { return std::copysign(std::max(0.0, std::abs(change_pct) + pct), change_pct); };
+            const auto moved = [&](double change_pct) {
+                return std::copysign(std::max(0.0, std::abs(change_pct) + pct), change_pct);
+            };
             analysis::FrameValues other = values;
             other.metrics.volume_change_pct = moved(values.metrics.volume_change_pct);
             other.metrics.volume_abs_change_pct = moved(values.metrics.volume_abs_change_pct);
@@ -157,11 +171,13 @@ private:
         };
         const analysis::FrameValues least = moved_by(-bound_pct), most = moved_by(bound_pct);
         for (const analysis::FrameBound& bound : arguments_.bounds) {
-            const bool holds_for_some = broken_text(bound, least).empty(), holds_for_all = broken_text(bound, most).empty();
+            const bool holds_for_some = broken_text(bound, least).empty(),
+                       holds_for_all = broken_text(bound, most).empty();
             breaks_for_all_ = breaks_for_all_ || !holds_for_some;
             if (undecided_.empty() && holds_for_some && !holds_for_all)
                 undecided_ = fmt::format(
-                    "in frame {} {} holds for some surfaces that could close the holes and not for others (they change the volume by at "
+                    "in frame {} {} holds for some surfaces that could close the holes and not for others (they change "
+                    "the volume by at "
                     "most {:.2g} %)",
                     name, bound.option, bound_pct);
         }
@@ -184,7 +200,8 @@ private:
         constexpr std::size_t most = 20;
         std::vector<std::size_t> order(static_cast<std::size_t>(volumes_m3_.size()));
         for (std::size_t c = 0; c < order.size(); ++c) order[c] = c;
-        std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t c) { return std::abs(volumes_m3_(c)); });
+        std::ranges::stable_sort(order, std::ranges::greater(),
+                                 [&](std::size_t c) { return std::abs(volumes_m3_(c)); });
         fmt::print("\n{:<32} {:>14} {:>14} {:>14}  {}\n", "shell", "rest m^3", "lowest %", "highest %", "counts as");
         for (std::size_t i = 0; i < std::min(order.size(), most) && !shell_rows_.empty(); ++i) {
             double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -220,15 +237,17 @@ const pbs::RigAnimation& animation_of(const MeasureArguments& arguments, const p
     warn(choice.remarks.notes);
     if (taken) return *taken;
     const auto moves_morphs = [](const pbs::RigAnimation& animation) {
-        return std::ranges::any_of(animation.nodes, [](const pbs::NodeTracks& tracks) { return !tracks.morph_weights.empty(); });
+        return std::ranges::any_of(animation.nodes,
+                                   [](const pbs::NodeTracks& tracks) { return !tracks.morph_weights.empty(); });
     };
-    if (const auto first = std::ranges::find_if(rig.animations, moves_morphs); first != rig.animations.end()) return *first;
+    if (const auto first = std::ranges::find_if(rig.animations, moves_morphs); first != rig.animations.end())
+        return *first;
     if (!rig.animations.empty()) return rig.animations.front();
     warn(rig.remarks);
-    throw pbs::InputError(
-        arguments.rest, 0, "animations", "0",
-        "expected one that moves nodes, joints or morph targets of glTF, to measure along it; other deformed surfaces are measured as "
-        "frames (pbskin measure REST FRAME...)");
+    throw pbs::InputError(arguments.rest, 0, "animations", "0",
+                          "expected one that moves nodes, joints or morph targets of glTF, to measure along it; other "
+                          "deformed surfaces are measured as "
+                          "frames (pbskin measure REST FRAME...)");
 }
 
 std::vector<NamedPoints> meshes_of(const pbs::RiggedBody& body)
@@ -254,7 +273,8 @@ constexpr const char* explanation = "pbskin explain volume_change_pct explains a
 
 int measure_surfaces(const MeasureArguments& arguments)
 {
-    const std::vector<std::string> paths = frame_files(arguments.frames, {.any_step = arguments.any_step, .of_surfaces = true}),
+    const std::vector<std::string> paths = frame_files(arguments.frames,
+                                                       {.any_step = arguments.any_step, .of_surfaces = true}),
                                    names = frame_names(paths);
     require_separate_outputs(arguments, paths);
     std::set<std::string> shown;  // remarks, which most frames share
@@ -288,9 +308,11 @@ int measure_rig(const MeasureArguments& arguments)
     const RestSurface rest(arguments.rest, {body.surface, body.triangles}, holes_of(arguments), meshes_of(body));
     SurfaceMeasurement measurement(arguments, rest);
     const double duration_s = animation.end_s - animation.start_s;
-    const double rate_hz = trial_rate_hz(duration_s, arguments.most_frames.value_or(most_frames_of_a_rig), arguments.rest);
+    const double rate_hz =
+        trial_rate_hz(duration_s, arguments.most_frames.value_or(most_frames_of_a_rig), arguments.rest);
     const pbs::MotionSampling sampling = {.rate_hz = rate_hz, .time_step_s = 1.0 / rate_hz};
-    constexpr double slack_s = 1e-6;  // the last frame of a motion that was divided may lie behind its end by a rounding
+    constexpr double slack_s =
+        1e-6;  // the last frame of a motion that was divided may lie behind its end by a rounding
     const int last = pbs::frames_after_the_first(sampling, duration_s, slack_s, arguments.rest);
     std::vector<std::string> names, paths;
     for (int frame = 0; frame <= last; ++frame) {
@@ -307,9 +329,10 @@ int measure_rig(const MeasureArguments& arguments)
         return measurement.measure(names[i], points, frame * sampling.time_step_s);
     });
     if (!moves && measured.refused.empty())
-        throw pbs::InputError(arguments.rest, 0, "animation", animation.name,
-                              "expected one that moves the surface; deformed surfaces can be measured as frames (pbskin measure REST "
-                              "FRAME...)");
+        throw pbs::InputError(
+            arguments.rest, 0, "animation", animation.name,
+            "expected one that moves the surface; deformed surfaces can be measured as frames (pbskin measure REST "
+            "FRAME...)");
     measurement.finish(true, measured);
     return reported(arguments, measured, explanation);
 }

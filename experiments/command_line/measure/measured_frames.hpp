@@ -1,6 +1,7 @@
 // `pbskin measure` for frames of any kind: each is measured and compared with the bounds, and the result is reported.
-//   MeasuredFrames measured = measure_each(arguments, paths, names, [&](std::size_t frame) { return values_of(read(paths[frame])); });
-//   return reported(arguments, measured, "pbskin explain volume_change_pct explains a column");
+//   MeasuredFrames measured = measure_each(arguments, paths, names, [&](std::size_t frame) { return
+//   values_of(read(paths[frame])); }); return reported(arguments, measured, "pbskin explain volume_change_pct explains
+//   a column");
 #pragma once
 
 #include "analysis/check/check.hpp"
@@ -28,7 +29,8 @@ struct MeasuredFrames {
     std::vector<analysis::MeasuredFrame> frames;
     std::vector<analysis::RefusedFrame> refused;
     bool all_hold = true;
-    std::string not_judged = {};                                       // why the limits say nothing of the whole body; empty: they do
+    // why the limits say nothing of the whole body; empty: they do
+    std::string not_judged = {};
     std::vector<std::pair<std::string, std::string>> properties = {};  // of the report: name, value
     pbs::Stopwatch stopwatch = {};
 };
@@ -36,15 +38,17 @@ struct MeasuredFrames {
 // InputError if --csv, --shells or --junit names the rest, a frame, a reference or one file twice.
 void require_separate_outputs(const MeasureArguments& arguments, const std::vector<std::string>& frames);
 
-// measure_frame returns the values of a frame and prints its row; an InputError of it is reported, and the other frames are measured.
-// paths: of the frames in messages; names: in reports.
-MeasuredFrames measure_each(const MeasureArguments& arguments, const std::vector<std::string>& paths, const std::vector<std::string>& names,
+// measure_frame returns the values of a frame and prints its row; an InputError of it is reported, and the other frames
+// are measured. paths: of the frames in messages; names: in reports.
+MeasuredFrames measure_each(const MeasureArguments& arguments, const std::vector<std::string>& paths,
+                            const std::vector<std::string>& names,
                             const std::function<analysis::FrameValues(std::size_t)>& measure_frame);
 
 // Writes the reports and prints the result in one line and what to do next. Returns the exit status.
 int reported(const MeasureArguments& arguments, const MeasuredFrames& measured, const std::string& explanation);
 
-// Measures a rest tet mesh and its frames; a surface and its frames; a rigged model along its animation. Each returns the exit status.
+// Measures a rest tet mesh and its frames; a surface and its frames; a rigged model along its animation. Each returns
+// the exit status.
 int measure_tets(const MeasureArguments& arguments);
 int measure_surfaces(const MeasureArguments& arguments);
 int measure_rig(const MeasureArguments& arguments);

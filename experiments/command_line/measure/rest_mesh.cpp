@@ -69,16 +69,20 @@ RestMesh::FramePoints RestMesh::points_in(const std::string& path) const
 
 FileShape RestMesh::shape_of(const std::string& path, const FramePoints& frame) const
 {
-    FileShape shape{.positions = frame.points, .is_at_rest = are_at_rest(frame.points, mesh_.rest), .fields = read_plain_fields(path)};
+    FileShape shape{.positions = frame.points,
+                    .is_at_rest = are_at_rest(frame.points, mesh_.rest),
+                    .fields = read_plain_fields(path)};
     for (auto& [name, values] : shape.fields.of_points) {
         if (values.rows() != file_vertices_)
-            throw pbs::InputError(path, 0, name, fmt::format("{} rows", values.rows()), fmt::format("expected {}", file_vertices_));
+            throw pbs::InputError(path, 0, name, fmt::format("{} rows", values.rows()),
+                                  fmt::format("expected {}", file_vertices_));
         values = values(frame.places, Eigen::all).eval();
     }
     const auto displacement = shape.fields.of_points.find("displacement");
     if (!shape.is_at_rest || displacement == shape.fields.of_points.end()) return shape;
     if (displacement->second.cols() != 3)
-        throw pbs::InputError(path, 0, "components of displacement", std::to_string(displacement->second.cols()), "expected 3");
+        throw pbs::InputError(path, 0, "components of displacement", std::to_string(displacement->second.cols()),
+                              "expected 3");
     shape.positions = mesh_.rest + displacement->second;
     shape.is_at_rest = false;
     return shape;
@@ -89,12 +93,14 @@ const std::vector<int>& RestMesh::places_in(const std::string& path, const pbs::
     const std::vector<Corners> corners = sorted_corners(tets);
     if (!listed_corners_.empty() && corners == listed_corners_) return listed_vertex_;
     if (corners.size() != corners_.size())
-        throw pbs::InputError(path, 0, "tets", std::to_string(corners.size()), fmt::format("expected the rest mesh's {}", corners_.size()));
+        throw pbs::InputError(path, 0, "tets", std::to_string(corners.size()),
+                              fmt::format("expected the rest mesh's {}", corners_.size()));
     if (const auto other = std::ranges::mismatch(corners_, corners).in1; other != corners_.end())
-        throw pbs::InputError(path, 0, "tets", "",
-                              fmt::format("expected the rest mesh's, on the same vertices; it has a tet on {}, and this frame "
-                                          "does not: was the order of the vertices kept on export?",
-                                          fmt::join(*other, " ")));
+        throw pbs::InputError(
+            path, 0, "tets", "",
+            fmt::format("expected the rest mesh's, on the same vertices; it has a tet on {}, and this frame "
+                        "does not: was the order of the vertices kept on export?",
+                        fmt::join(*other, " ")));
     return file_vertex_;
 }
 

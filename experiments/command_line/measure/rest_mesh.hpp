@@ -1,4 +1,5 @@
-// Frames of tets that another program has written. They must have the vertices of the rest mesh, in the same order and in the same unit.
+// Frames of tets that another program has written. They must have the vertices of the rest mesh, in the same order and
+// in the same unit.
 //   const RestMesh rest(pbs::read_tet_mesh("rest.msh", false), "");
 //   const pbs::Positions positions = rest.read_frame("frame_0001.vtu");
 #pragma once
@@ -21,12 +22,14 @@ struct FileShape {
 
 class RestMesh {
 public:
-    RestMesh(const pbs::MeshReading& reading, std::string displacement);  // the name of a vector of the frames' points; frame_points.hpp
+    // the name of a vector of the frames' points; frame_points.hpp
+    RestMesh(const pbs::MeshReading& reading, std::string displacement);
 
-    // [m], #V x 3. InputError for another number of vertices, for other tets, and for positions in another unit. The order of the tets and
-    // of their corners may differ, for readers and exporters change it; the metrics take that of the rest mesh. Where the file's points are
-    // those of the rest mesh and no vector is named, a .vtu in plain text may state the shape as a field `displacement` [m], as exported
-    // references do; `is_displaced`, if wanted, becomes true then.
+    // [m], #V x 3. InputError for another number of vertices, for other tets, and for positions in another unit. The
+    // order of the tets and of their corners may differ, for readers and exporters change it; the metrics take that of
+    // the rest mesh. Where the file's points are those of the rest mesh and no vector is named, a .vtu in plain text
+    // may state the shape as a field `displacement` [m], as exported references do; `is_displaced`, if wanted, becomes
+    // true then.
     pbs::Positions read_frame(const std::string& path, bool* is_displaced = nullptr) const;
     FileShape read_shape(const std::string& path) const;  // the same with the file's fields, for references
 
@@ -43,15 +46,16 @@ private:
     };
     FramePoints points_in(const std::string& path) const;
     FileShape shape_of(const std::string& path, const FramePoints& frame) const;
-    // Where a frame has the vertices. One of a .msh that lists its nodes in another order than by their tags may have either order; the
-    // tets show which. InputError for other tets.
+    // Where a frame has the vertices. One of a .msh that lists its nodes in another order than by their tags may have
+    // either order; the tets show which. InputError for other tets.
     const std::vector<int>& places_in(const std::string& path, const pbs::Tets& tets) const;
 
     pbs::TetMesh mesh_;
     std::vector<int> file_vertex_;  // of the rest mesh's file, #V
     int file_vertices_ = 0;
     pbs::Edges edges_;
-    std::vector<Corners> corners_;         // each tet's in ascending order as the file numbers them, and the tets sorted
+    // each tet's in ascending order as the file numbers them, and the tets sorted
+    std::vector<Corners> corners_;
     std::vector<int> listed_vertex_;       // the place where the file lists each vertex, #V, and the tets by these;
     std::vector<Corners> listed_corners_;  // empty: in the order of corners_
     std::string displacement_;

@@ -60,7 +60,8 @@ std::vector<Polygon> polygons_in(const pbs::Triangles& triangles, const std::set
         ++count;
     }
     std::vector<Polygon> polygons;
-    for (const auto& [root, polygon] : members) polygons.push_back({{polygon.first.begin(), polygon.first.end()}, polygon.second});
+    for (const auto& [root, polygon] : members)
+        polygons.push_back({{polygon.first.begin(), polygon.first.end()}, polygon.second});
     std::ranges::sort(polygons);
     return polygons;
 }
@@ -72,15 +73,21 @@ void require_same_polygons(const std::string& path, const pbs::Triangles& rest, 
         throw pbs::InputError(path, 0, "triangles", std::to_string(frame.rows()),
                               fmt::format("expected the rest surface's {}", rest.rows()));
     if (rest == frame) return;
-    const std::vector<Polygon> expected = polygons_in(rest, edges_in(frame)), found = polygons_in(frame, edges_in(rest));
-    const auto is_polygon = [](const Polygon& polygon) { return polygon.second == static_cast<int>(polygon.first.size()) - 2; };
+    const std::vector<Polygon> expected = polygons_in(rest, edges_in(frame)),
+                               found = polygons_in(frame, edges_in(rest));
+    const auto is_polygon = [](const Polygon& polygon) {
+        return polygon.second == static_cast<int>(polygon.first.size()) - 2;
+    };
     const auto other = std::ranges::mismatch(expected, found).in1;
     if (other == expected.end() && std::ranges::all_of(expected, is_polygon)) return;
-    const std::vector<int>& points = (other == expected.end() ? *std::ranges::find_if_not(expected, is_polygon) : *other).first;
-    throw pbs::InputError(path, 0, "triangles", "",
-                          fmt::format("expected the rest surface's, on the same points; it has one on {}, and this frame does not: was the "
-                                      "order of the vertices kept on export?",
-                                      fmt::join(points.begin(), points.begin() + std::min<std::ptrdiff_t>(4, std::ssize(points)), " ")));
+    const std::vector<int>& points =
+        (other == expected.end() ? *std::ranges::find_if_not(expected, is_polygon) : *other).first;
+    throw pbs::InputError(
+        path, 0, "triangles", "",
+        fmt::format(
+            "expected the rest surface's, on the same points; it has one on {}, and this frame does not: was the "
+            "order of the vertices kept on export?",
+            fmt::join(points.begin(), points.begin() + std::min<std::ptrdiff_t>(4, std::ssize(points)), " ")));
 }
 
 std::string place_text(const pbs::Positions& points, int point)
@@ -90,7 +97,8 @@ std::string place_text(const pbs::Positions& points, int point)
 
 }  // namespace
 
-RestSurface::RestSurface(std::string path, pbs::SurfaceMesh surface, analysis::Holes holes, std::vector<NamedPoints> meshes)
+RestSurface::RestSurface(std::string path, pbs::SurfaceMesh surface, analysis::Holes holes,
+                         std::vector<NamedPoints> meshes)
     : path_(std::move(path)),
       surface_(std::move(surface)),
       meshes_(std::move(meshes)),
@@ -108,20 +116,24 @@ RestSurface::RestSurface(std::string path, pbs::SurfaceMesh surface, analysis::H
         rule += "its largest shell has two sides and nothing between them";
     else
         rule += fmt::format(
-            "its largest shell, {}, has {} edges that do not lie between two triangles, first from {} to {}: close the holes, "
+            "its largest shell, {}, has {} edges that do not lie between two triangles, first from {} to {}: close the "
+            "holes, "
             "or measure tets (pbskin mesh wraps the surface)",
             name_of(static_cast<int>(largest - all.begin())), largest->open_edges,
-            place_text(surface_.points, largest->first_open_edge.first), place_text(surface_.points, largest->first_open_edge.second));
+            place_text(surface_.points, largest->first_open_edge.first),
+            place_text(surface_.points, largest->first_open_edge.second));
     throw pbs::InputError(path_, 0, "closed shells", fmt::format("0 of {}", all.size()), rule);
 }
 
-pbs::Positions RestSurface::read_frame(const std::string& path, const std::string& displacement, std::vector<std::string>& remarks) const
+pbs::Positions RestSurface::read_frame(const std::string& path, const std::string& displacement,
+                                       std::vector<std::string>& remarks) const
 {
     const pbs::SurfaceReading reading = pbs::read_surface_frame(path);
     if (reading.has_skin)
-        throw pbs::InputError(path, 0, "skin", "",
-                              "expected a frame without a skin, since a mesh with one is read in its bind pose: measure the rigged model "
-                              "along its animation (pbskin measure MODEL), or export the posed points without a skin, as .obj");
+        throw pbs::InputError(
+            path, 0, "skin", "",
+            "expected a frame without a skin, since a mesh with one is read in its bind pose: measure the rigged model "
+            "along its animation (pbskin measure MODEL), or export the posed points without a skin, as .obj");
     const pbs::SurfaceMesh& frame = reading.mesh;
     remarks = reading.remarks;
     require_as_many_points(path, frame.points.rows(), surface_.points.rows());
@@ -178,7 +190,8 @@ std::string RestSurface::not_whole() const
     const auto open = std::ranges::count(shells_.all(), ShellRole::open, &Shell::role);
     if (holes_ == analysis::Holes::leave_open || open == 0) return "";
     return fmt::format(
-        "closed and capped shells are {:.0f} % of the surface's area, and {} open shell{} excluded: close the holes of the "
+        "closed and capped shells are {:.0f} % of the surface's area, and {} open shell{} excluded: close the holes of "
+        "the "
         "body, measure tets (pbskin mesh), or judge the closed shells alone (--closed-only)",
         100.0 * shells_.counted_share(), open, open == 1 ? " is" : "s are");
 }
@@ -187,19 +200,22 @@ std::vector<std::string> RestSurface::remarks() const
 {
     const auto& all = shells_.all();
     std::vector<std::string> remarks;
-    const auto add = [&](const std::string& field, const std::function<bool(const Shell&)>& applies, const std::string& treatment) {
+    const auto add = [&](const std::string& field, const std::function<bool(const Shell&)>& applies,
+                         const std::string& treatment) {
         std::vector<int> shells;
         for (int s = 0; s < static_cast<int>(all.size()); ++s)
             if (applies(all[s])) shells.push_back(s);
         if (!shells.empty())
-            remarks.push_back(
-                fmt::format("{}: {} = {} of {} shells ({}): {}", path_, field, shells.size(), all.size(), listed(shells), treatment));
+            remarks.push_back(fmt::format("{}: {} = {} of {} shells ({}): {}", path_, field, shells.size(), all.size(),
+                                          listed(shells), treatment));
     };
     const auto has_role = [](ShellRole role) { return [role](const Shell& shell) { return shell.role == role; }; };
     add(
-        "open shells", [](const Shell& shell) { return !shell.caps.empty(); }, "their holes are capped (--closed-only excludes them)");
+        "open shells", [](const Shell& shell) { return !shell.caps.empty(); },
+        "their holes are capped (--closed-only excludes them)");
     add("open shells", has_role(ShellRole::open),
-        holes_ == analysis::Holes::cap ? "excluded, for their holes are half as large as they are, or no simple loops" : "excluded");
+        holes_ == analysis::Holes::cap ? "excluded, for their holes are half as large as they are, or no simple loops"
+                                       : "excluded");
     add("shells without thickness", has_role(ShellRole::flat), "excluded, for they enclose no volume");
     add("copies of another shell", has_role(ShellRole::copy), "excluded");
     add("cavities", has_role(ShellRole::cavity), "their volume is subtracted from that of the shell around them");
@@ -211,11 +227,13 @@ std::vector<std::string> RestSurface::remarks() const
         "triangles turned", [](const Shell& shell) { return shell.role != ShellRole::open && shell.turned > 0; },
         "the surface was inside out, or not all of its triangles faced to one side");
     if (const double gap_m = shells_.largest_gap_m(surface_.points); gap_m > 0.0)
-        remarks.push_back(fmt::format("{}: gap between points of a seam = {:.3g} m: joined, as if it were a rounding", path_, gap_m));
+        remarks.push_back(
+            fmt::format("{}: gap between points of a seam = {:.3g} m: joined, as if it were a rounding", path_, gap_m));
     constexpr double most_of_it = 0.5;
     if (shells_.counted_share() < most_of_it)
         remarks.push_back(
-            fmt::format("{}: closed shells = {:.0f} % of the surface's area: what is measured is a small part of it; close the holes "
+            fmt::format("{}: closed shells = {:.0f} % of the surface's area: what is measured is a small part of it; "
+                        "close the holes "
                         "of the others, or measure tets (pbskin mesh)",
                         path_, 100.0 * shells_.counted_share()));
     return remarks;

@@ -35,9 +35,11 @@ void write_numbers(const std::string& file, const Number* numbers, std::size_t c
     pbs::write_atomically(file, std::string(reinterpret_cast<const char*>(numbers), count * sizeof(Number)));
 }
 
-std::vector<double> read_numbers(const fs::path& folder, const std::string& file, std::size_t count, const std::string& shape)
+std::vector<double> read_numbers(const fs::path& folder, const std::string& file, std::size_t count,
+                                 const std::string& shape)
 {
-    if (!fs::is_regular_file(folder / file)) throw pbs::InputError(file, 0, "", "", "missing: expected the program to write it");
+    if (!fs::is_regular_file(folder / file))
+        throw pbs::InputError(file, 0, "", "", "missing: expected the program to write it");
     if (const auto bytes = fs::file_size(folder / file); bytes != count * sizeof(double))
         throw pbs::InputError(file, 0, "bytes", std::to_string(bytes),
                               fmt::format("expected {}: {} numbers of 8 bytes", count * sizeof(double), shape));
@@ -52,7 +54,8 @@ nlohmann::json character_json(const pbs::Character& character, std::size_t poses
     nlohmann::json bones = nlohmann::json::array();
     const auto point = [](const pbs::Vec3& p) { return nlohmann::json{p.x(), p.y(), p.z()}; };
     for (const pbs::Bone& bone : character.skeleton.bones)
-        bones.push_back({{"name", bone.name}, {"parent", bone.parent}, {"head_m", point(bone.head)}, {"tail_m", point(bone.tail)}});
+        bones.push_back(
+            {{"name", bone.name}, {"parent", bone.parent}, {"head_m", point(bone.head)}, {"tail_m", point(bone.tail)}});
     return {{"schema", 1},
             {"name", character.name},
             {"vertices", character.mesh.rest.rows()},
@@ -74,8 +77,9 @@ std::vector<double> dense_weights(const pbs::Weights& weights, std::size_t bones
 
 bool same(const pbs::Pose& a, const pbs::Pose& b)
 {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const Eigen::Isometry3d& one, const Eigen::Isometry3d& other) { return one.matrix() == other.matrix(); });
+    return std::equal(
+        a.begin(), a.end(), b.begin(), b.end(),
+        [](const Eigen::Isometry3d& one, const Eigen::Isometry3d& other) { return one.matrix() == other.matrix(); });
 }
 
 // How a program failed, with the last line that it printed: of a Python program, that is the exception.
@@ -83,7 +87,8 @@ std::string end_of(const ProgramRun& program)
 {
     if (!program.started) return "cannot be started: " + program.last_words;
     const std::string last_line = program.last_words.substr(program.last_words.find_last_of('\n') + 1);
-    const std::string end = program.status < 0 ? "ended by a signal" : fmt::format("ended with status {}", program.status);
+    const std::string end =
+        program.status < 0 ? "ended by a signal" : fmt::format("ended with status {}", program.status);
     return end + ": expected status 0" + (last_line.empty() ? "" : "; its last line: " + last_line);
 }
 
@@ -172,8 +177,8 @@ std::string load(const std::string& library, LibraryFunctions& functions)
     return missing;
 }
 
-// An InputError if the library cannot be loaded, lacks a function, was compiled for another version of pbskin_deformer.h, or reports a
-// failure.
+// An InputError if the library cannot be loaded, lacks a function, was compiled for another version of
+// pbskin_deformer.h, or reports a failure.
 class LibraryDeformer : public TimedDeformer {
 public:
     explicit LibraryDeformer(const ExternalOptions& options) : options_(options)
@@ -181,7 +186,8 @@ public:
         const std::string why_not = load(options.library, functions_);
         if (!why_not.empty()) refuse_external(options, why_not);
     }
-    ~LibraryDeformer() override { release(); }  // the library itself stays loaded: its threads and statics may be in use
+    // the library itself stays loaded: its threads and statics may be in use
+    ~LibraryDeformer() override { release(); }
     LibraryDeformer(const LibraryDeformer&) = delete;
     LibraryDeformer& operator=(const LibraryDeformer&) = delete;
 
@@ -215,7 +221,8 @@ private:
     {
         const std::vector<double> transforms = transform_rows(pose);
         const int status = functions_.advance(deformer_, transforms.data(), dt_s, x.data());
-        if (status != 0) refuse_external(options_, fmt::format("pbskin_deformer_advance returned {}: expected 0", status));
+        if (status != 0)
+            refuse_external(options_, fmt::format("pbskin_deformer_advance returned {}: expected 0", status));
         return {};
     }
     void release()
@@ -245,7 +252,8 @@ void find_files(const SceneValues& values, const std::string& table, ExternalOpt
         if (!word.empty() && fs::is_regular_file(folder / word, code)) word = fs::absolute(folder / word).string();
     options.scene = values.file();
     options.name = spec.name;
-    if (options.command.empty() == options.library.empty()) values.refuse(table + ".command", "expected either a command or a library");
+    if (options.command.empty() == options.library.empty())
+        values.refuse(table + ".command", "expected either a command or a library");
     if (!options.library.empty()) options.library = fs::absolute(folder / options.library).string();
     const std::vector<std::string> files = options.library.empty() ? options.command : std::vector{options.library};
     for (const std::string& file : files) options.file_hashes.push_back(hash_of(file));
@@ -276,7 +284,8 @@ std::vector<double> transform_rows(const pbs::Pose& pose)
     return numbers;
 }
 
-void write_exchange(const std::string& folder, const pbs::Character& character, const std::vector<pbs::Pose>& poses, double time_step_s)
+void write_exchange(const std::string& folder, const pbs::Character& character, const std::vector<pbs::Pose>& poses,
+                    double time_step_s)
 {
     const pbs::TetMesh& mesh = character.mesh;
     write_numbers(folder + "/rest.f64", mesh.rest.data(), static_cast<std::size_t>(mesh.rest.size()));
@@ -289,14 +298,15 @@ void write_exchange(const std::string& folder, const pbs::Character& character, 
     }
     write_numbers(folder + "/weights.f64", weights.data(), weights.size());
     write_numbers(folder + "/poses.f64", transforms.data(), transforms.size());
-    pbs::write_atomically(folder + "/character.json", analysis::record_text(character_json(character, poses.size(), time_step_s)));
+    pbs::write_atomically(folder + "/character.json",
+                          analysis::record_text(character_json(character, poses.size(), time_step_s)));
 }
 
 ExchangedPositions read_exchange(const std::string& folder, Eigen::Index vertices, std::size_t poses)
 {
     const std::size_t per_pose = static_cast<std::size_t>(3 * vertices);
-    const std::vector<double> numbers =
-        read_numbers(folder, "positions.f64", poses * per_pose, fmt::format("{} poses x {} vertices x 3", poses, vertices));
+    const std::vector<double> numbers = read_numbers(folder, "positions.f64", poses * per_pose,
+                                                     fmt::format("{} poses x {} vertices x 3", poses, vertices));
     ExchangedPositions read;
     for (std::size_t pose = 0; pose < poses; ++pose)
         read.positions.emplace_back(Eigen::Map<const pbs::Positions>(numbers.data() + pose * per_pose, vertices, 3));
@@ -304,7 +314,8 @@ ExchangedPositions read_exchange(const std::string& folder, Eigen::Index vertice
     read.seconds = read_numbers(folder, "seconds.f64", poses, fmt::format("{} poses x 1", poses));
     for (const double seconds : *read.seconds)
         if (!(seconds >= 0.0 && std::isfinite(seconds)))
-            throw pbs::InputError("seconds.f64", 0, "time", fmt::format("{}", seconds), "expected a finite time of at least 0 s");
+            throw pbs::InputError("seconds.f64", 0, "time", fmt::format("{}", seconds),
+                                  "expected a finite time of at least 0 s");
     return read;
 }
 
@@ -330,16 +341,19 @@ DeformerKind external_kind()
 {
     using Options = ExternalOptions;
     DeformerKind kind = kind_of<void>(
-        "external", "a deformer of the user's own: a program that reads poses and writes positions, or a shared library",
+        "external",
+        "a deformer of the user's own: a program that reads poses and writes positions, or a shared library",
         OptionFields<Options>("external", true)
-            .key("name", KeyType::text, "", {.is_stated = true, .meaning = "the name of this deformer in deformers.use and in the records"})
-            .add(
-                "command", &Options::command,
-                {.meaning = "the program and its arguments; files are relative to the scene; the folder of the exchanged files is added as "
-                            "the last argument"})
+            .key("name", KeyType::text, "",
+                 {.is_stated = true, .meaning = "the name of this deformer in deformers.use and in the records"})
+            .add("command", &Options::command,
+                 {.meaning = "the program and its arguments; files are relative to the scene; the folder of the "
+                             "exchanged files is added as "
+                             "the last argument"})
             .add("library", &Options::library,
                  {.meaning = "a shared library with the functions of pbskin_deformer.h, relative to the scene"})
-            .add("has_memory", &Options::has_memory, {.meaning = "it gets every time step in order, not only the frames"}),
+            .add("has_memory", &Options::has_memory,
+                 {.meaning = "it gets every time step in order, not only the frames"}),
         find_files);
     kind.needs_list = true;
     kind.make = [](const DeformerSpec& spec) -> std::unique_ptr<Deformer> {
@@ -347,7 +361,9 @@ DeformerKind external_kind()
         return options.library.empty() ? make_program_deformer(options) : std::make_unique<LibraryDeformer>(options);
     };
     kind.options_json = external_json;
-    kind.traits = [](const DeformerSpec& spec) { return DeformerTraits{.has_own_clock = options_of<Options>(spec).library.empty()}; };
+    kind.traits = [](const DeformerSpec& spec) {
+        return DeformerTraits{.has_own_clock = options_of<Options>(spec).library.empty()};
+    };
     return kind;
 }
 

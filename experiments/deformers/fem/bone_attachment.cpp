@@ -29,7 +29,8 @@ void hold_tets(const pbs::Character& character, BoneAttachment& bones)
     for (int j = 0; j < static_cast<int>(bones.capsules.size()); ++j) {
         // All of a tet is inside if its corners are, for a capsule is convex.
         const auto may_hold = [&](int v) {
-            return bones.capsules[j].contains(mesh.rest.row(v)) && (bones.vertex_bone[v] == -1 || bones.vertex_bone[v] == j);
+            return bones.capsules[j].contains(mesh.rest.row(v)) &&
+                   (bones.vertex_bone[v] == -1 || bones.vertex_bone[v] == j);
         };
         for (int tet = 0; tet < mesh.tets.rows(); ++tet) {
             const auto corners = mesh.tets.row(tet);
@@ -39,9 +40,10 @@ void hold_tets(const pbs::Character& character, BoneAttachment& bones)
             bones.tet_bone.push_back(j);
         }
         if (bones.tet_bone.empty() || bones.tet_bone.back() != j)
-            throw pbs::InputError(character.name, 0, "bone", character.skeleton.bones[j].name,
-                                  "expected four vertices of whole tets inside its capsule that are not in one plane; refine the mesh, "
-                                  "raise core_radius or use attachment smooth, embedded or held");
+            throw pbs::InputError(
+                character.name, 0, "bone", character.skeleton.bones[j].name,
+                "expected four vertices of whole tets inside its capsule that are not in one plane; refine the mesh, "
+                "raise core_radius or use attachment smooth, embedded or held");
     }
 }
 
@@ -60,7 +62,8 @@ void bind_vertices(const pbs::Character& character, const FemOptions& options, B
 // Springs at the sample points of the capsules, each with the stiffness of its share of the volume.
 void tie_springs(const pbs::Character& character, const FemOptions& options, BoneAttachment& bones)
 {
-    pbs::CapsuleSprings held = pbs::bone_springs(character, spring_placement(options.attachment), spring_options(options));
+    pbs::CapsuleSprings held =
+        pbs::bone_springs(character, spring_placement(options.attachment), spring_options(options));
     bones.capsules = std::move(held.capsules);
     bones.attachment.spring_points = std::move(held.springs.points);
     bones.attachment.spring_stiffness = options.young_pa * held.springs.stiffness;

@@ -27,7 +27,8 @@ void LinearFemDeformer::reset(const pbs::Character& character)
 {
     character_ = &character;
     bones_ = bone_attachment(character, options_);
-    elasticity_ = std::make_unique<reference_fem::LinearElasticity>(character.mesh, linear_options(options_), bones_.attachment);
+    elasticity_ =
+        std::make_unique<reference_fem::LinearElasticity>(character.mesh, linear_options(options_), bones_.attachment);
     frames_not_finite_ = most_iterations_ = 0;
     largest_residual_ = 0.0;
     start(elasticity_->setup().spring_tet, elasticity_->prescribed_vertices());
@@ -38,7 +39,8 @@ pbs::StepSummary LinearFemDeformer::advance(const pbs::Pose& pose, double)
     const pbs::Stopwatch stopwatch;
     const pbs::RootFrame frame(character_->skeleton, pose);
     const reference_fem::Targets held = targets_of(frame.pose());
-    const reference_fem::SolveSummary solve = elasticity_->solve(held.springs, held.vertices, frame.from_world(options_.gravity_m_s2));
+    const reference_fem::SolveSummary solve =
+        elasticity_->solve(held.springs, held.vertices, frame.from_world(options_.gravity_m_s2));
     facts_.last_state = positions_ = frame.to_world(elasticity_->positions());
 
     pbs::StepSummary summary;
@@ -67,10 +69,12 @@ nlohmann::json LinearFemDeformer::record() const
 
 namespace {
 
-constexpr double largest_turn_deg = 45.0;     // of a bone in one solve
-constexpr int most_indefinite_in_a_row = 40;  // of a reference without contact: in a fold its energy falls without limit
+constexpr double largest_turn_deg = 45.0;  // of a bone in one solve
+constexpr int most_indefinite_in_a_row =
+    40;  // of a reference without contact: in a fold its energy falls without limit
 constexpr double tip_in_limb_radii = 1.0 / 3.0;
-constexpr double far_turn_deg = 15.0;  // beyond it the solution with fewer nodes is a better initial guess than the last pose's
+constexpr double far_turn_deg =
+    15.0;  // beyond it the solution with fewer nodes is a better initial guess than the last pose's
 
 // The local limb radius of each bone [m], #bones.
 std::vector<double> limb_radii(const pbs::Character& character)
@@ -83,7 +87,8 @@ std::vector<double> limb_radii(const pbs::Character& character)
 reference_fem::ContactOptions contact_options(const FemOptions& options, const std::vector<double>& limb_radius_m)
 {
     if (!options.has_contact()) return {};
-    const double mean_m = std::accumulate(limb_radius_m.begin(), limb_radius_m.end(), 0.0) / static_cast<double>(limb_radius_m.size());
+    const double mean_m =
+        std::accumulate(limb_radius_m.begin(), limb_radius_m.end(), 0.0) / static_cast<double>(limb_radius_m.size());
     return {.range_m = options.contact_range * mean_m, .stiffness_pa = options.contact_stiffness * options.young_pa};
 }
 
@@ -103,9 +108,11 @@ reference_fem::ElasticOptions solver_options(const FemOptions& options, const st
                                           .path = {.most_newton_steps = options.most_newton_steps}};
     if (options.dynamics == reference_fem::Dynamics::quasi_static) elastic.newton.reuse_contraction = 0.1;
     if (options.most_newton_steps == 0) return elastic;
-    // Quadratic elements start at the solution of linear ones, so that there is no way to halve where they need many steps.
+    // Quadratic elements start at the solution of linear ones, so that there is no way to halve where they need many
+    // steps.
     const bool has_no_way = options.nested_start && options.element_order == 2;
-    elastic.newton.iterations = has_no_way ? options.most_newton_steps : std::min(elastic.newton.iterations, options.most_newton_steps);
+    elastic.newton.iterations =
+        has_no_way ? options.most_newton_steps : std::min(elastic.newton.iterations, options.most_newton_steps);
     if (!options.has_contact()) elastic.newton.indefinite_in_a_row = most_indefinite_in_a_row;
     return elastic;
 }
@@ -144,10 +151,12 @@ void ElasticFemDeformer::reset(const pbs::Character& character)
     character_ = &character;
     bones_ = bone_attachment(character, options_);
     limb_radius_m_ = limb_radii(character);
-    body_ = std::make_unique<reference_fem::ElasticBody>(character.mesh, solver_options(options_, limb_radius_m_), bones_.attachment);
+    body_ = std::make_unique<reference_fem::ElasticBody>(character.mesh, solver_options(options_, limb_radius_m_),
+                                                         bones_.attachment);
     guide_weights_ = {};
     if (options_.attachment != FemAttachment::bind)
-        guide_weights_ = pbs::harmonic_weights(character.mesh, gripping_bones(bones_, character.mesh.tets, body_->setup().spring_tet),
+        guide_weights_ = pbs::harmonic_weights(character.mesh,
+                                               gripping_bones(bones_, character.mesh.tets, body_->setup().spring_tet),
                                                static_cast<int>(character.skeleton.bones.size()));
     reached_pose_ = rest_pose(character.skeleton);
     fewer_nodes_.reset();
@@ -190,7 +199,8 @@ void ElasticFemDeformer::give_up_when(std::function<bool()> is_over)
     body_->give_up_when(std::move(is_over));
 }
 
-// The flesh between two places that press on each other has a tip where they are at most the limb's radius apart at rest.
+// The flesh between two places that press on each other has a tip where they are at most the limb's radius apart at
+// rest.
 void ElasticFemDeformer::find_tips()
 {
     facts_.tips.clear();
@@ -252,9 +262,11 @@ void ElasticFemDeformer::record_solve(const FrameSolve& solve)
         smallest_gap_m_ = std::min(smallest_gap_m_, contact.smallest_distance_m);
     }
     const reference_fem::Targets held = targets_of(reached_pose_);
-    if (held.springs.rows() > 0) record_grip(held.springs, (held.springs - body_->spring_points_deformed()).rowwise().norm());
+    if (held.springs.rows() > 0)
+        record_grip(held.springs, (held.springs - body_->spring_points_deformed()).rowwise().norm());
     if (options_.attachment == FemAttachment::bind)
-        record_grip(held.bind_points, (body_->positions() - held.bind_points).rowwise().norm() - bones_.attachment.bind_distance);
+        record_grip(held.bind_points,
+                    (body_->positions() - held.bind_points).rowwise().norm() - bones_.attachment.bind_distance);
 }
 
 // Where Newton's method was not tried with these nodes, the state is the last one with fewer nodes.
@@ -265,19 +277,22 @@ pbs::Positions ElasticFemDeformer::last_iterate_at(const pbs::Positions& points_
 }
 
 // Solves for equilibria along a path of poses, each placed in the world.
-void ElasticFemDeformer::follow(const pbs::PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2, FrameSolve& solve)
+void ElasticFemDeformer::follow(const pbs::PosePath& way, const Eigen::Isometry3d& place, const pbs::Vec3& gravity_m_s2,
+                                FrameSolve& solve)
 {
     const pbs::Positions& rest = character_->mesh.rest;
     const int stages = std::max(1, static_cast<int>(std::ceil(way.largest_turn_deg() / largest_turn_deg)));
     for (int stage = 0; stage < stages; ++stage) {
         const auto on_the_way = [&](double fraction) { return (stage + fraction) / stages; };
         const pbs::Pose from = placed(way.at(on_the_way(0.0)), place);
-        const pbs::Positions before = rest + Eigen::Map<const pbs::Positions>(body_->displacement().data(), rest.rows(), 3);
+        const pbs::Positions before =
+            rest + Eigen::Map<const pbs::Positions>(body_->displacement().data(), rest.rows(), 3);
         const auto targets_at = [&](double fraction) {
             pbs::Pose pose = placed(way.at(on_the_way(fraction)), place);
             reference_fem::Targets held = targets_of(pose);
             if (options_.attachment == FemAttachment::bind) return held;
-            for (std::size_t j = 0; j < pose.size(); ++j) pose[j] = pose[j] * from[j].inverse();  // the motion of each bone
+            // the motion of each bone
+            for (std::size_t j = 0; j < pose.size(); ++j) pose[j] = pose[j] * from[j].inverse();
             pbs::dual_quaternion_skinning(before, guide_weights_, pose, held.guide);
             return held;
         };
@@ -288,13 +303,15 @@ void ElasticFemDeformer::follow(const pbs::PosePath& way, const Eigen::Isometry3
     reached_pose_ = placed(way.at(solve.reached), place);
 }
 
-// With a limit on Newton's steps, a body whose solution with fewer nodes was not reached is not reached either: it would take longer.
+// With a limit on Newton's steps, a body whose solution with fewer nodes was not reached is not reached either: it
+// would take longer.
 bool ElasticFemDeformer::may_go_the_way(const FrameSolve& solve) const
 {
     if (options_.most_newton_steps == 0) return true;
-    const bool has_spent_its_steps =
-        !solve.stages.empty() && solve.stages.back().steps.back().newton.outcome == reference_fem::NewtonOutcome::iterations_exhausted;
-    const bool fewer_nodes_failed = facts_.fewer_nodes.deformer && facts_.fewer_nodes.step.outcome != pbs::Outcome::finished;
+    const bool has_spent_its_steps = !solve.stages.empty() && solve.stages.back().steps.back().newton.outcome ==
+                                                                  reference_fem::NewtonOutcome::iterations_exhausted;
+    const bool fewer_nodes_failed =
+        facts_.fewer_nodes.deformer && facts_.fewer_nodes.step.outcome != pbs::Outcome::finished;
     return !has_spent_its_steps && !fewer_nodes_failed;
 }
 
@@ -342,7 +359,8 @@ FrameSolve ElasticFemDeformer::settle_from_start(const pbs::RootFrame& frame)
 {
     body_->start_from(frame.to_root(start_));
     start_ = {};
-    const reference_fem::NewtonSummary newton = body_->solve_at_once(targets_of(frame.pose()), frame.from_world(options_.gravity_m_s2));
+    const reference_fem::NewtonSummary newton =
+        body_->solve_at_once(targets_of(frame.pose()), frame.from_world(options_.gravity_m_s2));
     reached_pose_ = frame.pose();
     failures_in_a_row_ = 0;
     if (newton.outcome == reference_fem::NewtonOutcome::intersects_itself) {
@@ -357,7 +375,8 @@ FrameSolve ElasticFemDeformer::start_at(const pbs::RootFrame& frame)
 {
     FrameSolve solve;
     body_->start_from(frame.to_world(character_->mesh.rest));
-    follow(pbs::PosePath(character_->skeleton, rest_pose(character_->skeleton), frame.pose()), frame.root(), options_.gravity_m_s2, solve);
+    follow(pbs::PosePath(character_->skeleton, rest_pose(character_->skeleton), frame.pose()), frame.root(),
+           options_.gravity_m_s2, solve);
     return solve;
 }
 
@@ -394,7 +413,8 @@ nlohmann::json ElasticFemDeformer::record() const
 
 experiments::Deformer* pbskin_make_fem(const experiments::FemOptions& options)
 {
-    const bool linear = options.model == reference_fem::Model::linear && options.dynamics == reference_fem::Dynamics::quasi_static;
+    const bool linear =
+        options.model == reference_fem::Model::linear && options.dynamics == reference_fem::Dynamics::quasi_static;
     if (linear) return new experiments::LinearFemDeformer(options);
     return new experiments::ElasticFemDeformer(options);
 }

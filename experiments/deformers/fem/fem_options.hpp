@@ -12,10 +12,11 @@ namespace experiments {
 template <typename Options>
 class OptionFields;  // experiments/settings/option_fields.hpp
 
-// How the bones hold the flesh. smooth: springs, whose density decreases smoothly to zero from the axis of each bone to the surface of a
-// capsule around it. embedded: each bone is a rigid capsule inside the flesh, tied to it by stiff springs of one density. nodes: whole tets
-// inside the capsule are prescribed. bind: the paper's bind constraint as an energy, for nonlinear models. held: as smooth, and each bone
-// holds the flesh that it alone moves, as a skull holds a head (pbs::SpringPlacement).
+// How the bones hold the flesh. smooth: springs, whose density decreases smoothly to zero from the axis of each bone to
+// the surface of a capsule around it. embedded: each bone is a rigid capsule inside the flesh, tied to it by stiff
+// springs of one density. nodes: whole tets inside the capsule are prescribed. bind: the paper's bind constraint as an
+// energy, for nonlinear models. held: as smooth, and each bone holds the flesh that it alone moves, as a skull holds a
+// head (pbs::SpringPlacement).
 enum class FemAttachment { smooth, embedded, nodes, bind, held };
 
 struct FemOptions {
@@ -30,22 +31,27 @@ struct FemOptions {
     double rayleigh_mass_1_s = 0.0;  // damping C = rayleigh_mass M + rayleigh_stiffness K(rest)
     double rayleigh_stiffness_s = 0.0;
     FemAttachment attachment = FemAttachment::smooth;
-    double core_radius = 0.0;    // capsule radius over local limb radius; 0: 0.7 with smooth, otherwise 0.35
-    double spring_factor = 0.0;  // q: springs of density q E / r^2, r the capsule's radius (on its axis, if smooth); 0: 10 with smooth,
-                                 // otherwise 1e4. Doubling that of embedded bones changes no reported value
+    double core_radius = 0.0;  // capsule radius over local limb radius; 0: 0.7 with smooth, otherwise 0.35
+    double spring_factor =
+        0.0;  // q: springs of density q E / r^2, r the capsule's radius (on its axis, if smooth); 0: 10 with smooth,
+              // otherwise 1e4. Doubling that of embedded bones changes no reported value
     pbs::AttachmentKernel attachment_kernel = pbs::AttachmentKernel::biweight;  // of smooth: how the density decreases
-    double attachment_ends = 1.0;                                               // of smooth: over so many capsule radii at each end
-    int attachment_samples = 1;      // of smooth and embedded: multiplies the numbers of sample points along, across and around a bone
-    bool contact = true;             // the surface does not pass through itself; see has_contact
-    double contact_range = 0.025;    // distance below which the surface presses on itself, over the mean local limb radius
+    double attachment_ends = 1.0;  // of smooth: over so many capsule radii at each end
+    int attachment_samples =
+        1;  // of smooth and embedded: multiplies the numbers of sample points along, across and around a bone
+    bool contact = true;  // the surface does not pass through itself; see has_contact
+    double contact_range =
+        0.025;  // distance below which the surface presses on itself, over the mean local limb radius
     double contact_stiffness = 1.0;  // of the barrier, over Young's modulus
     reference_fem::LinearSolver solver = reference_fem::LinearSolver::cholmod;
     int most_newton_steps = 0;  // quasi-static: per stage of the way to a pose, which is then not reached; 0: no limit
-    bool nested_start = false;  // nonlinear: the way to a far pose begins at the solution with fewer nodes (order 1, unrefined)
+    bool nested_start =
+        false;  // nonlinear: the way to a far pose begins at the solution with fewer nodes (order 1, unrefined)
 
     bool has_contact() const
     {
-        return contact && model != reference_fem::Model::linear && dynamics != reference_fem::Dynamics::generalized_alpha;
+        return contact && model != reference_fem::Model::linear &&
+               dynamics != reference_fem::Dynamics::generalized_alpha;
     }
     // Bound vertices have no capsules, prescribed tets have no springs, and both have no sample points.
     bool has_capsules() const { return attachment != FemAttachment::bind; }
@@ -87,5 +93,6 @@ const OptionFields<FemOptions>& fem_fields();
 
 }  // namespace experiments
 
-// The entry for deformers into the module lib/libpbskin_fem.so, which carries deal.II and is loaded when a scene first uses a reference.
+// The entry for deformers into the module lib/libpbskin_fem.so, which carries deal.II and is loaded when a scene first
+// uses a reference.
 extern "C" experiments::Deformer* pbskin_make_fem(const experiments::FemOptions& options);  // the caller owns it

@@ -13,9 +13,15 @@ namespace {
 
 nlohmann::json to_json(const reference_fem::SetupSummary& setup)
 {
-    return {{"dofs", setup.dofs},         {"assemble_s", setup.assemble_s}, {"analyse_s", setup.analyse_s},
-            {"factor_s", setup.factor_s}, {"elements", setup.elements},     {"solver", setup.solver},
-            {"blas", setup.blas},         {"factored", setup.factored},     {"reciprocal_condition_estimate", setup.reciprocal_condition}};
+    return {{"dofs", setup.dofs},
+            {"assemble_s", setup.assemble_s},
+            {"analyse_s", setup.analyse_s},
+            {"factor_s", setup.factor_s},
+            {"elements", setup.elements},
+            {"solver", setup.solver},
+            {"blas", setup.blas},
+            {"factored", setup.factored},
+            {"reciprocal_condition_estimate", setup.reciprocal_condition}};
 }
 
 }  // namespace
@@ -45,7 +51,8 @@ void FemDeformer::start(const std::vector<int>& spring_tet, const std::vector<bo
         ++inside[bone];
         if (hold_weight_[s] >= gripping_density) tets[bone].insert(spring_tet[s]);
     }
-    for (std::size_t k = 0; k < bones_.tet_bone.size(); ++k) tets[bones_.tet_bone[k]].insert(bones_.attachment.prescribed_tets[k]);
+    for (std::size_t k = 0; k < bones_.tet_bone.size(); ++k)
+        tets[bones_.tet_bone[k]].insert(bones_.attachment.prescribed_tets[k]);
     for (std::size_t j = 0; j < bones; ++j) {
         for (const int tet : tets[j]) vertices[j].insert(mesh.tets.row(tet).begin(), mesh.tets.row(tet).end());
         for (const int v : vertices[j]) ++bones_at_vertex[v];
@@ -55,7 +62,8 @@ void FemDeformer::start(const std::vector<int>& spring_tet, const std::vector<bo
     grips_ = nlohmann::json::array();
     for (std::size_t j = 0; j < bones; ++j) {
         const auto on_skin = std::ranges::count_if(vertices[j], [&](int v) { return skin[v]; });
-        const double share = vertices[j].empty() ? 0.0 : static_cast<double>(on_skin) / static_cast<double>(vertices[j].size());
+        const double share =
+            vertices[j].empty() ? 0.0 : static_cast<double>(on_skin) / static_cast<double>(vertices[j].size());
         const pbs::BoneCapsule& capsule = bones_.capsules[j];
         nlohmann::json& grip = grips_.emplace_back(nlohmann::json{{"bone", character_->skeleton.bones[j].name},
                                                                   {"radius_m", capsule.radius_m},
@@ -85,7 +93,8 @@ void FemDeformer::record_grip(const pbs::Positions& targets, const Eigen::Vector
     double error_squared = 0.0, motion_squared = 0.0;
     for (Eigen::Index s = 0; s < targets.rows(); ++s) {
         if (!std::isfinite(errors_m(s))) continue;  // outside the flesh
-        if (hold_weight_[s] >= gripping_density) largest_grip_error_m_ = std::max(largest_grip_error_m_, std::abs(errors_m(s)));
+        if (hold_weight_[s] >= gripping_density)
+            largest_grip_error_m_ = std::max(largest_grip_error_m_, std::abs(errors_m(s)));
         squared[hold_bone_[s]] += hold_weight_[s] * errors_m(s) * errors_m(s);
         weight[hold_bone_[s]] += hold_weight_[s];
         error_squared += hold_weight_[s] * errors_m(s) * errors_m(s);
@@ -93,7 +102,8 @@ void FemDeformer::record_grip(const pbs::Positions& targets, const Eigen::Vector
     }
     for (std::size_t j = 0; j < weight.size(); ++j)
         if (weight[j] > 0.0) grip_error_m_[j] = std::max(grip_error_m_[j], std::sqrt(squared[j] / weight[j]));
-    if (motion_squared > 0.0) grip_error_over_motion_ = std::max(grip_error_over_motion_, std::sqrt(error_squared / motion_squared));
+    if (motion_squared > 0.0)
+        grip_error_over_motion_ = std::max(grip_error_over_motion_, std::sqrt(error_squared / motion_squared));
 }
 
 nlohmann::json attachment_json(const FemOptions& options)
@@ -101,7 +111,8 @@ nlohmann::json attachment_json(const FemOptions& options)
     nlohmann::json attachment = {{"kind", name_of(options.attachment)}};
     if (options.has_capsules()) attachment["core_radius"] = options.used_core_radius();
     if (options.has_spring_factor()) attachment["spring_factor"] = options.used_spring_factor();
-    if (options.is_smooth()) attachment.update({{"kernel", name_of(options.attachment_kernel)}, {"ends", options.attachment_ends}});
+    if (options.is_smooth())
+        attachment.update({{"kernel", name_of(options.attachment_kernel)}, {"ends", options.attachment_ends}});
     if (options.has_sample_points()) attachment["samples"] = options.attachment_samples;
     return attachment;
 }
@@ -110,7 +121,8 @@ nlohmann::json FemDeformer::recorded(const reference_fem::SetupSummary& setup) c
 {
     nlohmann::json attachment = attachment_json(options_);
     attachment["bones"] = grips_;
-    if (bones_.loose_parts > 0) attachment.update({{"loose_parts", bones_.loose_parts}, {"loose_pct", 100.0 * bones_.loose_share}});
+    if (bones_.loose_parts > 0)
+        attachment.update({{"loose_parts", bones_.loose_parts}, {"loose_pct", 100.0 * bones_.loose_share}});
     for (std::size_t j = 0; j < grips_.size(); ++j) {
         if (grips_[j].contains("samples")) attachment["bones"][j]["grip_error_rms_m"] = grip_error_m_[j];
         if (grips_[j].contains("bound_vertices")) attachment["bones"][j]["bind_error_rms_m"] = grip_error_m_[j];
@@ -123,15 +135,17 @@ nlohmann::json FemDeformer::recorded(const reference_fem::SetupSummary& setup) c
         {"setup", to_json(setup)},
         {"frames", frames_},
         {"largest_rotation_deg", largest_rotation_rad_ * 180.0 / std::numbers::pi},
-        {"root_motion", options_.dynamics == reference_fem::Dynamics::quasi_static
-                            ? "the root's rigid motion is removed before the solve and applied after; gravity is turned into its frame"
-                            : "the root moves as the pose has it: the solve is in the world"}};
+        {"root_motion",
+         options_.dynamics == reference_fem::Dynamics::quasi_static
+             ? "the root's rigid motion is removed before the solve and applied after; gravity is turned into its frame"
+             : "the root moves as the pose has it: the solve is in the world"}};
     if (options_.model == reference_fem::Model::linear)
-        json.update(
-            {{"fictitious_strain", 1.0 - std::cos(largest_rotation_rad_)},
-             {"fictitious_strain_note", "In the linear model a rotation by theta produces a fictitious strain of 1 - cos(theta)."}});
+        json.update({{"fictitious_strain", 1.0 - std::cos(largest_rotation_rad_)},
+                     {"fictitious_strain_note",
+                      "In the linear model a rotation by theta produces a fictitious strain of 1 - cos(theta)."}});
     if (!hold_bone_.empty())
-        json.update({{"largest_grip_error_m", largest_grip_error_m_}, {"grip_error_over_motion", grip_error_over_motion_}});
+        json.update(
+            {{"largest_grip_error_m", largest_grip_error_m_}, {"grip_error_over_motion", grip_error_over_motion_}});
     return json;
 }
 
@@ -152,7 +166,8 @@ void NewtonRecord::add_frame(const FrameSolve& solve, const reference_fem::Jacob
         halvings_ += stage.halvings();
         for (const reference_fem::LoadStep& step : stage.steps) {
             factorisations_ += step.newton.factorisations;
-            projected_ += static_cast<int>(std::ranges::count_if(step.newton.iterations, [](const auto& it) { return it.projected; }));
+            projected_ += static_cast<int>(
+                std::ranges::count_if(step.newton.iterations, [](const auto& it) { return it.projected; }));
         }
         newton_steps += stage.newton_steps();
         seconds += stage.seconds;
@@ -195,7 +210,8 @@ nlohmann::json NewtonRecord::to_json() const
             {"not_converged", not_converged_},
             {"lowest_det_f", lowest_det_f_},
             {"most_inverted_points", most_inverted_points_},
-            {"volume_change_pct", {{"lowest", 100.0 * smallest_volume_change_}, {"highest", 100.0 * largest_volume_change_}}},
+            {"volume_change_pct",
+             {{"lowest", 100.0 * smallest_volume_change_}, {"highest", 100.0 * largest_volume_change_}}},
             {"solve_s", {{"mean", seconds_ / frames}, {"longest", longest_s_}}}};
 }
 

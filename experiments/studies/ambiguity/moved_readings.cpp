@@ -53,7 +53,8 @@ double distance_m(const ReadMotion& a, const ReadMotion& b, const std::vector<bo
 // One reading's way through the motion, one frame per turn, in the order and precision that are judged.
 class TimedReading {
 public:
-    TimedReading(const StudyCase& study_case, const pbs::Character& base, const pbs::Motion& motion, const Overrides& reading)
+    TimedReading(const StudyCase& study_case, const pbs::Character& base, const pbs::Motion& motion,
+                 const Overrides& reading)
         : motion_(motion), dt_s_(motion.time_step_s)
     {
         const Scene scene = study_case.scene(reading);
@@ -107,8 +108,8 @@ ReadMotion move(const pbs::Character& character, const Scene& scene)
     return moved;
 }
 
-std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading& reading, const ReadMotion& a, const ReadMotion& b,
-                                         const ReadMotion& resting, const std::vector<bool>& zone)
+std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading& reading, const ReadMotion& a,
+                                         const ReadMotion& b, const ReadMotion& resting, const std::vector<bool>& zone)
 {
     using analysis::mean;
     std::vector<VolumeChange> rows;
@@ -124,7 +125,8 @@ std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading
     for (std::size_t frame = 0; frame < a.pbs.angle_deg.size(); ++frame) {
         const double angle = a.pbs.angle_deg[frame];
         if (std::abs(angle - 90.0) >= 1e-6 && std::abs(angle - 170.0) >= 1e-6) continue;
-        add(fmt::format("volume_change_at_{:.0f}_deg_pct", angle), a.pbs.volume_change_pct[frame], b.pbs.volume_change_pct[frame]);
+        add(fmt::format("volume_change_at_{:.0f}_deg_pct", angle), a.pbs.volume_change_pct[frame],
+            b.pbs.volume_change_pct[frame]);
         add(fmt::format("volume_abs_change_at_{:.0f}_deg_pct", angle), a.pbs.volume_abs_change_pct[frame],
             b.pbs.volume_abs_change_pct[frame]);
     }
@@ -149,7 +151,8 @@ std::vector<JudgedReading> values_of_frames(const StudyCase& study_case, const s
     for (std::size_t i = 0; i < timed.size(); ++i) {
         const double per_s = 1.0 / spread_of(seconds[i][0]).median;
         const analysis::CaseKey of_frame = {.body = scene.character.body, .deformer = "pbs"};
-        judged_readings.push_back({judged({{"C10", "frames_per_s", of_frame, per_s, per_s, per_s, "1/s"}}), !timed[i]->finite()});
+        judged_readings.push_back(
+            {judged({{"C10", "frames_per_s", of_frame, per_s, per_s, per_s, "1/s"}}), !timed[i]->finite()});
     }
     return judged_readings;
 }

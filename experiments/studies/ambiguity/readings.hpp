@@ -1,5 +1,5 @@
-// The readings of the paper, and the changes that each of them makes in the judged values of each claim: the values of A and B, and whether
-// the claim's bound judges them otherwise.
+// The readings of the paper, and the changes that each of them makes in the judged values of each claim: the values of
+// A and B, and whether the claim's bound judges them otherwise.
 //   ReadingComparison comparison{"limb", readings_of(of, "all")};
 //   comparison.measure({"C03", "C12"}, [&](const auto& touching) { return values_of(of, touching); });
 //   table_of(used_columns(claim_change_columns(), comparison.changes), comparison.changes).write("ambiguity.csv");
@@ -22,9 +22,9 @@ namespace experiments {
 
 inline constexpr const char* own_reading = "as_the_scene";  // the baseline of readings in which nothing jiggles
 
-// A reading of the paper at a place that can be read in more than one way: a set of keys of the scene. Reading A of a place is the baseline
-// that a reading names, and B is the reading itself. Substeps are no reading where nothing jiggles: every step then begins with LBS, and
-// the step before has no influence.
+// A reading of the paper at a place that can be read in more than one way: a set of keys of the scene. Reading A of a
+// place is the baseline that a reading names, and B is the reading itself. Substeps are no reading where nothing
+// jiggles: every step then begins with LBS, and the step before has no influence.
 struct Reading {
     std::string place;  // an identifier; empty: a baseline
     std::string name;
@@ -35,14 +35,16 @@ struct Reading {
     bool jiggles() const { return settings.contains("jiggle"); }
 };
 
-// The baselines and readings of cases.toml, each baseline before its readings. which: all, of_a_step, of_motion. The latter are those whose
-// steps depend on the last one, since particles are integrated.
+// The baselines and readings of cases.toml, each baseline before its readings. which: all, of_a_step, of_motion. The
+// latter are those whose steps depend on the last one, since particles are integrated.
 std::vector<Reading> readings_of(const StudyCase& study_case, const std::string& which);
 
-// Why a reading cannot change a claim, from how the claim's values are measured and not from the results; empty where it can.
+// Why a reading cannot change a claim, from how the claim's values are measured and not from the results; empty where
+// it can.
 std::string untouched_because(const std::string& claim, const Reading& reading, const Reading& baseline);
 
-// The number of a unit of a claim, for a character that is moved by one reading, and whether it lies within the claim's bound.
+// The number of a unit of a claim, for a character that is moved by one reading, and whether it lies within the claim's
+// bound.
 struct JudgedValue {
     std::string claim, quantity;
     analysis::CaseKey of;
@@ -59,15 +61,16 @@ struct JudgedReading {
     std::vector<ReadingValues::LeftOut> left_out = {};
 };
 
-// The units of all claims, one quantity at a time, whatever the order, precision and other settings are that a claim is judged in.
+// The units of all claims, one quantity at a time, whatever the order, precision and other settings are that a claim is
+// judged in.
 std::vector<JudgedValue> judged(const std::vector<analysis::Measurement>& measured);
 
 // A hash of everything that decides whether a value holds: another bound gives another digest.
 std::string digest_of(const std::vector<analysis::Claim>& claims);
 
-// verdict_flips: yes, no, not_touched, no_value. A value that B lacks because the reading broke down does not hold, so the verdict flips
-// where A's held. Where A or B has no value for another reason, there is no statement about the verdict. A quantity that is left out of
-// readings has a row with the reason.
+// verdict_flips: yes, no, not_touched, no_value. A value that B lacks because the reading broke down does not hold, so
+// the verdict flips where A's held. Where A or B has no value for another reason, there is no statement about the
+// verdict. A quantity that is left out of readings has a row with the reason.
 struct ClaimChange {
     std::string body, place, reading_a, reading_b, claim;
     std::string quantity = {};
@@ -79,12 +82,13 @@ struct ClaimChange {
 };
 const analysis::Columns<ClaimChange>& claim_change_columns();  // case_body: of the value's case, or its scene
 
-std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const JudgedReading& a,
-                                       const JudgedReading& b);
-ClaimChange untouched_claim(const std::string& body, const std::string& claim, const Reading& reading, const std::string& reason);
+std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading,
+                                       const JudgedReading& a, const JudgedReading& b);
+ClaimChange untouched_claim(const std::string& body, const std::string& claim, const Reading& reading,
+                            const std::string& reason);
 
-// Readings and their baselines, claim by claim. Only readings that can touch one of the claims are measured, and their baselines before
-// them.
+// Readings and their baselines, claim by claim. Only readings that can touch one of the claims are measured, and their
+// baselines before them.
 struct ReadingComparison {
     using Measure = std::function<std::vector<JudgedReading>(const std::vector<Reading>&)>;  // one per reading
 
@@ -117,11 +121,11 @@ struct VolumeChange {
 extern const analysis::Columns<VolumeChange> volume_change_columns;
 
 // a: moved by the reading's baseline; resting: by the scene's own reading, from which jiggling is measured; zone: #V
-std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading& reading, const ReadMotion& a, const ReadMotion& b,
-                                         const ReadMotion& resting, const std::vector<bool>& zone);
+std::vector<VolumeChange> volume_changes(const std::string& scene, const Reading& reading, const ReadMotion& a,
+                                         const ReadMotion& b, const ReadMotion& resting, const std::vector<bool>& zone);
 
-// C10a: frames per second of processor time, including LBS, of all readings in turns, in the order and precision that are judged (plain,
-// f64).
+// C10a: frames per second of processor time, including LBS, of all readings in turns, in the order and precision that
+// are judged (plain, f64).
 std::vector<JudgedReading> values_of_frames(const StudyCase& study_case, const std::vector<Overrides>& readings);
 
 }  // namespace experiments

@@ -1,7 +1,8 @@
-// The readings of the paper (cases.toml): how much each changes the values that claims are judged by, and whether it turns a verdict round.
-// A reading differs from the scene in one place, as keys of the scene. README.md describes the runs and records. Every value is measured by
-// its claim's own study (Study::read), with two exceptions: C01 and C02 take steps of the scene without the study's further deformers, and
-// C10 takes a frame's processor time, where its study takes wall time.
+// The readings of the paper (cases.toml): how much each changes the values that claims are judged by, and whether it
+// turns a verdict round. A reading differs from the scene in one place, as keys of the scene. README.md describes the
+// runs and records. Every value is measured by its claim's own study (Study::read), with two exceptions: C01 and C02
+// take steps of the scene without the study's further deformers, and C10 takes a frame's processor time, where its
+// study takes wall time.
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/headline.hpp"
 #include "experiments/deformers/registry.hpp"
@@ -24,7 +25,8 @@ std::vector<Reading> readings_of(const StudyCase& study_case, const std::string&
 {
     const nlohmann::json document = cases_document("ambiguity");
     std::vector<Reading> readings;
-    const auto add = [&](const std::string& place, const std::string& name, const std::string& baseline, const Overrides& overrides) {
+    const auto add = [&](const std::string& place, const std::string& name, const std::string& baseline,
+                         const Overrides& overrides) {
         const Scene scene = study_case.scene(overrides);
         nlohmann::json settings = to_json(spec_of(scene, "pbs")).at("options");
         settings["weights"] = scene.resolved.at("skinning").at("weights");
@@ -35,9 +37,11 @@ std::vector<Reading> readings_of(const StudyCase& study_case, const std::string&
         if (which != "all" && (which == "of_motion") != place.value("motion", false)) continue;
         const std::string baseline = place.value("baseline", own_reading);
         const auto& baselines = document.at("baseline");
-        const auto named = std::ranges::find_if(baselines, [&](const nlohmann::json& table) { return table.at("name") == baseline; });
+        const auto named =
+            std::ranges::find_if(baselines, [&](const nlohmann::json& table) { return table.at("name") == baseline; });
         const Overrides common = named->at("overrides");
-        if (std::ranges::find(readings, baseline, &Reading::name) == readings.end()) add("", baseline, baseline, common);
+        if (std::ranges::find(readings, baseline, &Reading::name) == readings.end())
+            add("", baseline, baseline, common);
         for (const Overrides reading : place.at("readings")) {
             Overrides overrides = common;
             overrides.insert(overrides.end(), reading.begin() + 1, reading.end());
@@ -60,9 +64,11 @@ std::string untouched_because(const std::string& claim, const Reading& reading, 
         if (has("unless", reading.name)) return "";
         const bool by_jiggle = rule.value("jiggling", false) && reading.jiggles();
         const bool has_no_effect =
-            rule.contains("settings") && std::ranges::all_of(differing, [&](const std::string& name) { return has("settings", name); });
+            rule.contains("settings") &&
+            std::ranges::all_of(differing, [&](const std::string& name) { return has("settings", name); });
         const bool lacks_the_cause =
-            rule.contains("only") && std::ranges::none_of(differing, [&](const std::string& name) { return has("only", name); });
+            rule.contains("only") &&
+            std::ranges::none_of(differing, [&](const std::string& name) { return has("only", name); });
         if (by_jiggle || has_no_effect || lacks_the_cause) return rule.at("reason");
     }
     return "";
@@ -76,8 +82,10 @@ const analysis::Columns<ClaimChange>& claim_change_columns()
         auto& body = *std::ranges::find(of_case, "body", &analysis::Column<analysis::CaseKey>::name);
         body = {"case_body", &analysis::CaseKey::body};
         body.group = body.name;
-        return MEMBER_COLUMNS(ClaimChange, body, place, reading_a, reading_b, claim, quantity) + within(&ClaimChange::of, of_case) +
-               MEMBER_COLUMNS(ClaimChange, unit, bound, a, b, change, b_over_a, holds_a, holds_b, verdict_flips, reason);
+        return MEMBER_COLUMNS(ClaimChange, body, place, reading_a, reading_b, claim, quantity) +
+               within(&ClaimChange::of, of_case) +
+               MEMBER_COLUMNS(ClaimChange, unit, bound, a, b, change, b_over_a, holds_a, holds_b, verdict_flips,
+                              reason);
     }();
     return columns;
 }
@@ -97,7 +105,8 @@ std::string why(const JudgedValue* a, const JudgedValue* b, bool b_broke_down)
     if (b_broke_down) return "B breaks down";
     if (!a || !b) return std::string(a ? "B" : "A") + " has no such value";
     const auto limit = [](const char* which, const JudgedValue& value) {
-        return value.limit == analysis::Limit::none ? "" : std::string(which) + ": " + analysis::recorded_name(value.limit);
+        return value.limit == analysis::Limit::none ? ""
+                                                    : std::string(which) + ": " + analysis::recorded_name(value.limit);
     };
     const std::string of_a = limit("A", *a), of_b = limit("B", *b);
     return of_a + (of_a.empty() || of_b.empty() ? "" : "; ") + of_b;
@@ -125,7 +134,8 @@ ClaimChange compared(ClaimChange row, const JudgedValue* a, const JudgedValue* b
     return row;
 }
 
-ClaimChange without_value(ClaimChange row, const std::string& verdict_flips, const std::string& reason, const std::string& quantity = "")
+ClaimChange without_value(ClaimChange row, const std::string& verdict_flips, const std::string& reason,
+                          const std::string& quantity = "")
 {
     row.quantity = quantity, row.verdict_flips = verdict_flips, row.reason = reason;
     return row;
@@ -137,7 +147,8 @@ ClaimChange row_of(const std::string& body, const std::string& claim, const Read
 }
 
 // The values by each reading, measured by the study of the claims, which has `read`, or as above.
-std::vector<JudgedReading> values_of(const Study& study, const StudyCase& study_case, const std::vector<Reading>& readings)
+std::vector<JudgedReading> values_of(const Study& study, const StudyCase& study_case,
+                                     const std::vector<Reading>& readings)
 {
     std::vector<Overrides> overrides;
     for (const Reading& reading : readings) overrides.push_back(reading.overrides);
@@ -165,8 +176,9 @@ std::string measure_volume(const StudyCase& study_case, ReadingComparison& compa
         const ReadMotion& b = moved.emplace(reading.name, move(reweighted(character, read), read)).first->second;
         if (!b.finite) breakdown += reading.name + " is not finite. ";
         if (!reading.place.empty())
-            std::ranges::copy(volume_changes(study_case.name, reading, moved.at(reading.baseline), b, moved.at(own_reading), zone),
-                              std::back_inserter(volumes));
+            std::ranges::copy(
+                volume_changes(study_case.name, reading, moved.at(reading.baseline), b, moved.at(own_reading), zone),
+                std::back_inserter(volumes));
     }
     comparison.measure(study_case.value<std::vector<std::string>>("claims"), [&](const std::vector<Reading>& readings) {
         std::vector<JudgedReading> judged_readings;
@@ -188,9 +200,11 @@ std::string measure_claims(const StudyCase& study_case, ReadingComparison& compa
     const auto claims = study_case.value<std::vector<std::string>>("claims");
     for (const Study& study : studies()) {
         std::vector<std::string> own;
-        std::ranges::copy_if(claims, std::back_inserter(own), [&](const std::string& id) { return claim_named(id).study == study.name; });
+        std::ranges::copy_if(claims, std::back_inserter(own),
+                             [&](const std::string& id) { return claim_named(id).study == study.name; });
         if (!own.empty())
-            comparison.measure(own, [&](const std::vector<Reading>& touching) { return values_of(study, study_case, touching); });
+            comparison.measure(
+                own, [&](const std::vector<Reading>& touching) { return values_of(study, study_case, touching); });
     }
     return comparison.breakdown;
 }
@@ -199,11 +213,15 @@ std::string measure_claims(const StudyCase& study_case, ReadingComparison& compa
 nlohmann::json settings_of(const StudyCase& study_case, const std::vector<Reading>& readings)
 {
     std::vector<analysis::Claim> judging;
-    for (const std::string& claim : study_case.value<std::vector<std::string>>("claims")) judging.push_back(claim_named(claim));
+    for (const std::string& claim : study_case.value<std::vector<std::string>>("claims"))
+        judging.push_back(claim_named(claim));
     nlohmann::json recorded = nlohmann::json::array();
     for (const Reading& reading : readings)
         recorded.push_back({{"name", reading.name}, {"baseline", reading.baseline}, {"settings", reading.settings}});
-    return {{"case", study_case.values()}, {"scene", to_json(study_case.scene())}, {"readings", recorded}, {"bounds", digest_of(judging)}};
+    return {{"case", study_case.values()},
+            {"scene", to_json(study_case.scene())},
+            {"readings", recorded},
+            {"bounds", digest_of(judging)}};
 }
 
 StudyPlan plan(bool full)
@@ -235,8 +253,8 @@ bool conclude(const FinishedRuns& finished)
 
 }  // namespace
 
-std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading, const JudgedReading& a,
-                                       const JudgedReading& b)
+std::vector<ClaimChange> claim_changes(const std::string& body, const std::string& claim, const Reading& reading,
+                                       const JudgedReading& a, const JudgedReading& b)
 {
     const ClaimChange row = row_of(body, claim, reading);
     std::vector<ClaimChange> changes;
@@ -245,12 +263,16 @@ std::vector<ClaimChange> claim_changes(const std::string& body, const std::strin
     for (const JudgedValue& of_b : b.values)
         if (of_b.claim == claim && !find(a, of_b)) changes.push_back(compared(row, nullptr, &of_b, b.broke_down));
     for (const ReadingValues::LeftOut& left_out : b.left_out)
-        if (left_out.claim == claim) changes.push_back(without_value(row, "no_value", left_out.reason, left_out.quantity));
-    if (changes.empty()) changes.push_back(without_value(row, "no_value", b.broke_down ? "B breaks down" : "neither reading has a value"));
+        if (left_out.claim == claim)
+            changes.push_back(without_value(row, "no_value", left_out.reason, left_out.quantity));
+    if (changes.empty())
+        changes.push_back(
+            without_value(row, "no_value", b.broke_down ? "B breaks down" : "neither reading has a value"));
     return changes;
 }
 
-ClaimChange untouched_claim(const std::string& body, const std::string& claim, const Reading& reading, const std::string& reason)
+ClaimChange untouched_claim(const std::string& body, const std::string& claim, const Reading& reading,
+                            const std::string& reason)
 {
     return without_value(row_of(body, claim, reading), "not_touched", reason);
 }
@@ -268,7 +290,8 @@ void ReadingComparison::measure(const std::vector<std::string>& claims, const Me
         const Reading& baseline = *std::ranges::find(readings, reading.baseline, &Reading::name);
         const bool is_left_out = reading.jiggles() && !without_jiggle.empty();
         for (const std::string& claim : claims) {
-            pairs.push_back({reading, baseline, claim, is_left_out ? without_jiggle : untouched_because(claim, reading, baseline)});
+            pairs.push_back(
+                {reading, baseline, claim, is_left_out ? without_jiggle : untouched_because(claim, reading, baseline)});
             if (!pairs.back().untouched_because.empty()) continue;
             for (const Reading* compared_reading : {&baseline, &reading})
                 if (std::ranges::find(measured, compared_reading->name, &Reading::name) == measured.end())
@@ -283,8 +306,9 @@ void ReadingComparison::measure(const std::vector<std::string>& claims, const Me
     }
     for (const auto& [reading, baseline, claim, reason] : pairs)
         if (reason.empty())
-            std::ranges::copy(claim_changes(body, claim, reading, *by_name.at(baseline.name), *by_name.at(reading.name)),
-                              std::back_inserter(changes));
+            std::ranges::copy(
+                claim_changes(body, claim, reading, *by_name.at(baseline.name), *by_name.at(reading.name)),
+                std::back_inserter(changes));
         else
             changes.push_back(untouched_claim(body, claim, reading, reason));
 }
@@ -293,8 +317,8 @@ std::string digest_of(const std::vector<analysis::Claim>& claims)
 {
     nlohmann::json table = nlohmann::json::array();
     for (const analysis::Claim& claim : claims) {
-        table.push_back({claim.id, static_cast<int>(claim.rule), claim.own.quantities, to_json_of(claim.own.of), to_json_of(claim.own.over),
-                         claim.case_fields, static_cast<int>(claim.mean)});
+        table.push_back({claim.id, static_cast<int>(claim.rule), claim.own.quantities, to_json_of(claim.own.of),
+                         to_json_of(claim.own.over), claim.case_fields, static_cast<int>(claim.mean)});
         for (const analysis::Threshold& threshold : claim.own.thresholds)
             table.push_back({threshold.quantity, threshold.low, threshold.high, to_json_of(threshold.of)});
     }
@@ -312,8 +336,9 @@ std::vector<JudgedValue> judged(const std::vector<analysis::Measurement>& measur
             own.of.iterations.reset();
             if (own.of.deformer.starts_with("pbs")) own.of.deformer = "pbs";
             for (const analysis::JudgedCase& judged_case : analysis::judged(claim, own, measured).cases)
-                values.push_back({claim.id, quantity, judged_case.of, judged_case.unit, threshold_text(judged_case.threshold),
-                                  judged_case.value, judged_case.holds, judged_case.limit});
+                values.push_back({claim.id, quantity, judged_case.of, judged_case.unit,
+                                  threshold_text(judged_case.threshold), judged_case.value, judged_case.holds,
+                                  judged_case.limit});
         }
     return values;
 }

@@ -32,9 +32,10 @@ const Columns<ProfileRow> profile_columns =
                                                        {"outlines", &JointSection::outlines},
                                                        {"limb_share", &JointSection::limb_share}});
 
-const Columns<IntersectionRow> intersection_columns = within(&IntersectionRow::place, artefact_place_columns) +
-                                                      within(&IntersectionRow::deformer, artefact_deformer_columns) +
-                                                      MEMBER_COLUMNS(IntersectionRow, surface, triangles, pairs, pairs_at_rest);
+const Columns<IntersectionRow> intersection_columns =
+    within(&IntersectionRow::place, artefact_place_columns) +
+    within(&IntersectionRow::deformer, artefact_deformer_columns) +
+    MEMBER_COLUMNS(IntersectionRow, surface, triangles, pairs, pairs_at_rest);
 
 ArtefactDeformer recorded(const DeformerSpec& spec)
 {
@@ -93,8 +94,9 @@ public:
         const Shapes shapes = body.posed.shapes(spec, poses_of(spec));
         for (std::size_t pose = 0; pose < shapes.size(); ++pose) {
             if (!shapes[pose].finished) {
-                records_.breakdown += fmt::format("{} did not reach {} on {} vertices: {}. ", spec.label, of_.poses[pose].name,
-                                                  body.posed.character().mesh.rest.rows(), shapes[pose].worst_element);
+                records_.breakdown +=
+                    fmt::format("{} did not reach {} on {} vertices: {}. ", spec.label, of_.poses[pose].name,
+                                body.posed.character().mesh.rest.rows(), shapes[pose].worst_element);
                 continue;
             }
             for (std::size_t joint = 0; joint < body.joints.size(); ++joint)
@@ -112,12 +114,13 @@ private:
         return static_cast<std::size_t>(of_.second_order_poses);
     }
 
-    void add_profile(const ArtefactBody& body, const DeformerSpec& spec, const Shape& shape, std::size_t pose, std::size_t joint)
+    void add_profile(const ArtefactBody& body, const DeformerSpec& spec, const Shape& shape, std::size_t pose,
+                     std::size_t joint)
     {
         const JointProfile profile = body.sections[joint].measure(shape.positions, body.posed.pose(pose));
         const ArtefactDeformer deformer = recorded(spec);
-        records_.samples.push_back(
-            {group_of(of_.scene, spec), pose, joint, extremes_of(profile), element_order_of(spec), deformer.order, deformer.precision});
+        records_.samples.push_back({group_of(of_.scene, spec), pose, joint, extremes_of(profile),
+                                    element_order_of(spec), deformer.order, deformer.precision});
         for (const JointSection& section : profile)
             records_.profiles.push_back({place_of(of_, body, pose), body.joints[joint].name, deformer, section});
     }
@@ -128,8 +131,11 @@ private:
         const pbs::Positions own = shape.positions.topRows(character.mesh.rest.rows());
         add_count(body, spec, pose, "tets_boundary", body.posed.boundary(), own, character.mesh.rest);
         if (!character.surface) return;
-        const auto embedded = [&](const pbs::Positions& x) { return pbs::embedded_positions(*character.surface, x, character.mesh.tets); };
-        add_count(body, spec, pose, "rendered", character.surface->triangles, embedded(own), embedded(character.mesh.rest));
+        const auto embedded = [&](const pbs::Positions& x) {
+            return pbs::embedded_positions(*character.surface, x, character.mesh.tets);
+        };
+        add_count(body, spec, pose, "rendered", character.surface->triangles, embedded(own),
+                  embedded(character.mesh.rest));
     }
 
     void add_count(const ArtefactBody& body, const DeformerSpec& spec, std::size_t pose, const std::string& surface,
@@ -137,7 +143,8 @@ private:
     {
         const auto [at_rest, is_new] = at_rest_.try_emplace(surface, 0);
         if (is_new) at_rest->second = pbs::count_self_intersections(rest, triangles);
-        records_.intersections.push_back({place_of(of_, body, pose), recorded(spec), surface, static_cast<int>(triangles.rows()),
+        records_.intersections.push_back({place_of(of_, body, pose), recorded(spec), surface,
+                                          static_cast<int>(triangles.rows()),
                                           pbs::count_self_intersections(now, triangles), at_rest->second});
     }
 
@@ -209,11 +216,13 @@ double limb_radius(const pbs::Character& character, int parent, int child)
     return sum_m / count;
 }
 
-// The radius of the circle that has the area of the limb's section across the joint; zero where the plane misses the skin.
+// The radius of the circle that has the area of the limb's section across the joint; zero where the plane misses the
+// skin.
 double section_radius(const pbs::Character& character, const pbs::Bone& parent, const pbs::Bone& child)
 {
     const pbs::Vec3 normal = along(parent).normalized() + along(child).normalized();
-    const auto sections = pbs::section_outlines(character.mesh.rest, pbs::boundary_of(character.mesh.tets), {{child.head, normal}});
+    const auto sections =
+        pbs::section_outlines(character.mesh.rest, pbs::boundary_of(character.mesh.tets), {{child.head, normal}});
     const pbs::Positions* own = analysis::enclosing_outline(sections.front(), {child.head, normal});
     return own ? std::sqrt(analysis::outline_size(*own).area_m2 / std::numbers::pi) : 0.0;
 }
@@ -221,7 +230,8 @@ double section_radius(const pbs::Character& character, const pbs::Bone& parent, 
 std::optional<LimbJoint> found(const pbs::Character& character, const JointByHand& named)
 {
     if (!why_left_out(character, named).empty()) return {};
-    const int parent = pbs::find_bone(character.skeleton, named.parent), child = pbs::find_bone(character.skeleton, named.child);
+    const int parent = pbs::find_bone(character.skeleton, named.parent),
+              child = pbs::find_bone(character.skeleton, named.child);
     const pbs::Bone &before = character.skeleton.bones[parent], &after = character.skeleton.bones[child];
     return LimbJoint{name_of(named),
                      parent,
@@ -300,14 +310,16 @@ JointSections::JointSections(const pbs::Character& character, const LimbJoint& j
 
 double JointSections::bend_deg(const pbs::Pose& pose) const
 {
-    const pbs::Vec3 before = direction(skeleton_, joint_.parent, pose), after = direction(skeleton_, joint_.child, pose);
+    const pbs::Vec3 before = direction(skeleton_, joint_.parent, pose),
+                    after = direction(skeleton_, joint_.child, pose);
     return std::atan2(before.cross(after).norm(), before.dot(after)) * 180.0 / std::numbers::pi;
 }
 
 std::vector<pbs::CuttingPlane> JointSections::planes(const pbs::Pose& pose) const
 {
     const pbs::Pose still(pose.size(), Eigen::Isometry3d::Identity());
-    const pbs::Vec3 before = direction(skeleton_, joint_.parent, pose), after = direction(skeleton_, joint_.child, pose);
+    const pbs::Vec3 before = direction(skeleton_, joint_.parent, pose),
+                    after = direction(skeleton_, joint_.child, pose);
     std::vector<pbs::CuttingPlane> planes;
     for (const double offset_m : offsets_m_) {
         const int bone = offset_m < 0.0 ? joint_.parent : joint_.child;
@@ -342,7 +354,8 @@ JointProfile JointSections::measure(const pbs::Positions& positions, const pbs::
     JointProfile profile;
     for (std::size_t i = 0; i < now.size(); ++i) {
         const analysis::OutlineSize &size = now[i].size, &rest = rest_[i].size;
-        profile.push_back({offsets_m_[i], share(size.area_m2, rest.area_m2), share(size.smallest_radius_m, rest.smallest_radius_m),
+        profile.push_back({offsets_m_[i], share(size.area_m2, rest.area_m2),
+                           share(size.smallest_radius_m, rest.smallest_radius_m),
                            share(size.largest_radius_m, rest.largest_radius_m), now[i].outlines, now[i].limb_share});
     }
     return profile;
@@ -359,7 +372,8 @@ std::string why_left_out(const pbs::Character& character, const JointByHand& joi
     const auto& bones = character.skeleton.bones;
     for (const std::string& bone : {joint.parent, joint.child})
         if (pbs::find_bone(character.skeleton, bone) < 0) return "no_bone_" + bone;
-    const int parent = pbs::find_bone(character.skeleton, joint.parent), child = pbs::find_bone(character.skeleton, joint.child);
+    const int parent = pbs::find_bone(character.skeleton, joint.parent),
+              child = pbs::find_bone(character.skeleton, joint.child);
     return section_radius(character, bones[parent], bones[child]) > 0.0 ? "" : "no_flesh_round_the_joint";
 }
 
@@ -369,8 +383,8 @@ std::vector<JointByHand> joints_by_hand(const std::string& body)
     const nlohmann::json document = cases_document("artefacts");
     for (const nlohmann::json& joint : document.at("joint"))
         if (joint.at("body") == body)
-            joints.push_back(
-                {joint.at("parent"), joint.at("child"), joint.at("reach").at(0), joint.at("reach").at(1), joint.value("no_section", "")});
+            joints.push_back({joint.at("parent"), joint.at("child"), joint.at("reach").at(0), joint.at("reach").at(1),
+                              joint.value("no_section", "")});
     return joints;
 }
 
@@ -386,7 +400,8 @@ std::vector<LimbJoint> limb_joints(const pbs::Character& character)
         const int parent = station.carriers[0], child = station.carriers[1];
         if (!passes_through(character.skeleton.bones[parent], character.skeleton.bones[child])) continue;
         joints.push_back({station.name, parent, child, station.point, limb_radius(character, parent, child),
-                          0.5 * along(character.skeleton.bones[parent]).norm(), 0.5 * along(character.skeleton.bones[child]).norm()});
+                          0.5 * along(character.skeleton.bones[parent]).norm(),
+                          0.5 * along(character.skeleton.bones[child]).norm()});
     }
     return joints;
 }

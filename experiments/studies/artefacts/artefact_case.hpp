@@ -1,8 +1,9 @@
-// One body, turned at a joint or in poses of a clip, under all deformers, as it is examined for the artefacts of blending.
+// One body, turned at a joint or in poses of a clip, under all deformers, as it is examined for the artefacts of
+// blending.
 //   const ArtefactRecords records = find_artefacts(of, body);
 //   table_of(profile_columns, records.profiles).write("profiles.csv");
-// Every deformer of the scene runs on the body's own mesh, PBS also in the other orders and precisions. The same, except what no claim
-// selects, runs on the body's other meshes. Their spread is the range of a value.
+// Every deformer of the scene runs on the body's own mesh, PBS also in the other orders and precisions. The same,
+// except what no claim selects, runs on the body's other meshes. Their spread is the range of a value.
 #pragma once
 
 #include "analysis/metrics/cross_section.hpp"
@@ -18,20 +19,21 @@
 
 namespace experiments {
 
-// The joints of a body that lie inside a limb, and the axes about which each is turned to show what blending does to it.
+// The joints of a body that lie inside a limb, and the axes about which each is turned to show what blending does to
+// it.
 //   for (const LimbJoint& joint : limb_joints(character)) ...   // elbow, mid-forearm, wrist, knee
 struct LimbJoint {
-    std::string name;                      // "thigh.L|shin.L"
-    int parent, child;                     // bones
-    pbs::Vec3 point;                       // rest [m]
-    double radius_m;                       // of the limb there: mean rest distance of the skin's vertices that are bound to the two bones
+    std::string name;   // "thigh.L|shin.L"
+    int parent, child;  // bones
+    pbs::Vec3 point;    // rest [m]
+    double radius_m;    // of the limb there: mean rest distance of the skin's vertices that are bound to the two bones
     double reach_parent_m, reach_child_m;  // how far along each bone sections are taken
 };
 
 // A joint lies between two bones that meet at less than 60 degrees at rest and share their flesh with no other bone
-// (frame_measurement.hpp). Its reach is half of each bone. Bodies with two sides have the joints of their left side (x >= 0). Where the
-// rule misjudges the bones, the joints are given by hand (joints_by_hand); their radius is that of the circle with the area of the section
-// across the joint.
+// (frame_measurement.hpp). Its reach is half of each bone. Bodies with two sides have the joints of their left side (x
+// >= 0). Where the rule misjudges the bones, the joints are given by hand (joints_by_hand); their radius is that of the
+// circle with the area of the section across the joint.
 std::vector<LimbJoint> limb_joints(const pbs::Character& character);
 
 // A joint given by its bones, and the share of each bone on which a section's outline encloses the limb alone.
@@ -47,7 +49,8 @@ std::vector<JointByHand> joints_by_hand(const std::string& body);  // none: the 
 
 pbs::Vec3 twist_axis(const pbs::Skeleton& skeleton, const LimbJoint& joint);  // the child's direction
 
-// Across both bones, so that a turn about it bends the limb further in the direction in which it is bent at rest; z for a straight limb.
+// Across both bones, so that a turn about it bends the limb further in the direction in which it is bent at rest; z for
+// a straight limb.
 pbs::Vec3 hinge_axis(const pbs::Skeleton& skeleton, const LimbJoint& joint);
 
 // The vertices of the two bones that are no farther from the joint, along the bone, than this share of its length, #V.
@@ -57,12 +60,13 @@ std::vector<bool> near_joint(const pbs::Character& character, const LimbJoint& j
 //   const JointSections sections(character, joint);
 //   sections.measure(positions, pose);            // a profile, one section per station
 //   extremes_of(profile).smallest_radius;         // of the narrowest section, over the same at rest
-// Stations lie on the bones, up to 2 limb radii or the joint's reach away from it. Over 3 radii on each side, their planes turn evenly from
-// the direction of one bone to that of the other. On the inside of a joint that is bent by an angle they meet 6 radii / angle away from it,
-// so that they do not cut the limb's other half. The planes move with the bones and are the same for all deformers. Only the limb's own
-// outline is measured, the one that encloses the bone. Where the skin is folded deeply into a joint, this outline may enclose both halves.
+// Stations lie on the bones, up to 2 limb radii or the joint's reach away from it. Over 3 radii on each side, their
+// planes turn evenly from the direction of one bone to that of the other. On the inside of a joint that is bent by an
+// angle they meet 6 radii / angle away from it, so that they do not cut the limb's other half. The planes move with the
+// bones and are the same for all deformers. Only the limb's own outline is measured, the one that encloses the bone.
+// Where the skin is folded deeply into a joint, this outline may enclose both halves.
 struct JointSection {
-    double offset_m = 0.0;                                           // from the joint in the rest pose, negative on the parent
+    double offset_m = 0.0;  // from the joint in the rest pose, negative on the parent
     double area = 1.0, smallest_radius = 1.0, largest_radius = 1.0;  // over the same station's at rest
     int outlines = 0;                                                // that the plane cuts out of the whole body
     double limb_share = 1.0;  // share of the outline's length whose skin is bound to the parent or a bone below it
@@ -137,7 +141,8 @@ bool is_turned(const ArtefactPose& pose, const ArtefactBody& body, std::size_t j
 
 // The extremes of one deformer's sections in one pose at one joint.
 struct ArtefactSample {
-    std::string group;  // the kind of deformer; reference: flesh with the reference's Poisson's ratio; with another one: the label
+    std::string group;  // the kind of deformer; reference: flesh with the reference's Poisson's ratio; with another
+                        // one: the label
     std::size_t pose = 0, joint = 0;
     SectionExtremesOverRest extremes;
     int element_order = 0;                   // of the reference
@@ -153,8 +158,10 @@ struct ArtefactPlace {
 struct ArtefactDeformer {
     std::string deformer, order, precision;  // order and precision: for PBS only
 };
-inline const analysis::Columns<ArtefactPlace> artefact_place_columns = MEMBER_COLUMNS(ArtefactPlace, body, vertices, pose);
-inline const analysis::Columns<ArtefactDeformer> artefact_deformer_columns = MEMBER_COLUMNS(ArtefactDeformer, deformer, order, precision);
+inline const analysis::Columns<ArtefactPlace> artefact_place_columns =
+    MEMBER_COLUMNS(ArtefactPlace, body, vertices, pose);
+inline const analysis::Columns<ArtefactDeformer> artefact_deformer_columns =
+    MEMBER_COLUMNS(ArtefactDeformer, deformer, order, precision);
 ArtefactDeformer recorded(const DeformerSpec& spec);
 
 struct ProfileRow {

@@ -24,21 +24,25 @@ using analysis::within;
 
 using Extreme = double SectionExtremesOverRest::*;
 
-constexpr const char* nearly_incompressible = "nh_p2_nu_049";  // shows how flesh that keeps its volume performs under the claims' bounds
+constexpr const char* nearly_incompressible =
+    "nh_p2_nu_049";  // shows how flesh that keeps its volume performs under the claims' bounds
 
-// The samples of one group in one pose at one joint. The first one is of the own mesh and, for the reference, of the highest element order.
-std::vector<ArtefactSample> chosen(const std::vector<ArtefactSample>& samples, const std::string& group, std::size_t pose,
-                                   std::size_t joint)
+// The samples of one group in one pose at one joint. The first one is of the own mesh and, for the reference, of the
+// highest element order.
+std::vector<ArtefactSample> chosen(const std::vector<ArtefactSample>& samples, const std::string& group,
+                                   std::size_t pose, std::size_t joint)
 {
     std::vector<ArtefactSample> chosen;
     for (const ArtefactSample& sample : samples)
         if (sample.group == group && sample.pose == pose && sample.joint == joint) chosen.push_back(sample);
-    std::stable_sort(chosen.begin(), chosen.end(), [](const auto& a, const auto& b) { return a.element_order > b.element_order; });
+    std::stable_sort(chosen.begin(), chosen.end(),
+                     [](const auto& a, const auto& b) { return a.element_order > b.element_order; });
     return chosen;
 }
 
 // By order and precision of projection, which only PBS has; the own mesh comes first.
-std::map<std::pair<std::string, std::string>, std::vector<ArtefactSample>> by_order(const std::vector<ArtefactSample>& samples)
+std::map<std::pair<std::string, std::string>, std::vector<ArtefactSample>> by_order(
+    const std::vector<ArtefactSample>& samples)
 {
     std::map<std::pair<std::string, std::string>, std::vector<ArtefactSample>> orders;
     for (const ArtefactSample& sample : samples) orders[{sample.order, sample.precision}].push_back(sample);
@@ -54,7 +58,8 @@ std::vector<double> sizes(const std::vector<ArtefactSample>& samples, Extreme ex
 
 bool is_wide(const std::vector<ArtefactSample>& samples)
 {
-    return !samples.empty() && std::ranges::max(sizes(samples, &SectionExtremesOverRest::largest_radius)) > widest_over_rest;
+    return !samples.empty() &&
+           std::ranges::max(sizes(samples, &SectionExtremesOverRest::largest_radius)) > widest_over_rest;
 }
 
 // "pbs 7.56 times as wide as at rest, 34 % of that outline the limb's own skin"
@@ -66,14 +71,15 @@ std::string remark_on_width(const std::vector<ArtefactSample>& samples, std::siz
         if (!is_wide(own)) continue;
         const auto radius = [](const ArtefactSample& sample) { return sample.extremes.largest_radius; };
         const SectionExtremesOverRest widest = std::ranges::max(own, {}, radius).extremes;
-        remarks.push_back(fmt::format("{} {:.3g} times as wide as at rest, {:.0f} % of that outline the limb's own skin", group,
-                                      widest.largest_radius, 100.0 * widest.limb_share_of_widest));
+        remarks.push_back(
+            fmt::format("{} {:.3g} times as wide as at rest, {:.0f} % of that outline the limb's own skin", group,
+                        widest.largest_radius, 100.0 * widest.limb_share_of_widest));
     }
     return fmt::format("{}", fmt::join(remarks, "; "));
 }
 
-analysis::CaseKey key_of(const ArtefactCase& artefact_case, const ArtefactBody& body, std::size_t pose, const std::string& joint,
-                         const std::string& deformer)
+analysis::CaseKey key_of(const ArtefactCase& artefact_case, const ArtefactBody& body, std::size_t pose,
+                         const std::string& joint, const std::string& deformer)
 {
     analysis::CaseKey key = artefact_case.poses[pose].key;
     key.body = body.posed.character().name;
@@ -104,8 +110,8 @@ ArtefactBody with_weights(ArtefactBody body, pbs::Weights weights)
     return body;
 }
 
-// The body's weights, but near each joint its two bones have each other's: within a quarter of a bone, so that the strain jumps inside the
-// region in which it is measured.
+// The body's weights, but near each joint its two bones have each other's: within a quarter of a bone, so that the
+// strain jumps inside the region in which it is measured.
 pbs::Weights exchanged_weights(const ArtefactBody& body)
 {
     pbs::Weights weights = body.posed.character().weights;
@@ -125,7 +131,8 @@ public:
     explicit Comparison(const ArtefactCase& artefact_case) : of_(artefact_case) {}
 
     // weights: those of `body`: paper, or a control's.
-    void compare(const ArtefactBody& body, const ArtefactBody& rigid, const DeformerSpec& spec, const std::string& weights = "paper")
+    void compare(const ArtefactBody& body, const ArtefactBody& rigid, const DeformerSpec& spec,
+                 const std::string& weights = "paper")
     {
         const Shapes own = body.posed.shapes(spec), of_rigid = rigid.posed.shapes(spec);
         const ArtefactDeformer deformer = recorded(spec);
@@ -143,8 +150,10 @@ public:
                 const Smoothness smooth = measure(body, spec, own[pose], pose, joint, weights),
                                  rough = measure(rigid, spec, of_rigid[pose], pose, joint, "rigid");
                 if (weights != "paper") result_.smoothness.pop_back();  // rigid weights are recorded once
-                add("strain_jump_over_rigid_weights", key_at(pose, body.joints[joint].name), smooth.strain_jump_rms, rough.strain_jump_rms);
-                add("curvature_over_rigid_weights", key_at(pose, body.joints[joint].name), smooth.bending_rms_rad, rough.bending_rms_rad);
+                add("strain_jump_over_rigid_weights", key_at(pose, body.joints[joint].name), smooth.strain_jump_rms,
+                    rough.strain_jump_rms);
+                add("curvature_over_rigid_weights", key_at(pose, body.joints[joint].name), smooth.bending_rms_rad,
+                    rough.bending_rms_rad);
             }
         }
     }
@@ -176,15 +185,16 @@ private:
         return analysis::MeshMetrics(mesh.rest, mesh.tets).measure(shape.positions).volume_abs_change_pct;
     }
 
-    analysis::Smoothness measure(const ArtefactBody& body, const DeformerSpec& spec, const Shape& shape, std::size_t pose,
-                                 std::size_t joint, const std::string& weights)
+    analysis::Smoothness measure(const ArtefactBody& body, const DeformerSpec& spec, const Shape& shape,
+                                 std::size_t pose, std::size_t joint, const std::string& weights)
     {
         const pbs::Character& character = body.posed.character();
         const analysis::SmoothnessMetrics smoothness_metrics(character.mesh.rest, character.mesh.tets,
                                                              near_joint(character, body.joints[joint]));
         const analysis::Smoothness smoothness = smoothness_metrics.measure(shape.positions);
-        result_.smoothness.push_back({character.name, static_cast<int>(character.mesh.rest.rows()), weights, of_.poses[pose].name,
-                                      body.joints[joint].name, recorded(spec), smoothness, volume_change_pct(body, shape)});
+        result_.smoothness.push_back({character.name, static_cast<int>(character.mesh.rest.rows()), weights,
+                                      of_.poses[pose].name, body.joints[joint].name, recorded(spec), smoothness,
+                                      volume_change_pct(body, shape)});
         return smoothness;
     }
 
@@ -200,12 +210,14 @@ std::vector<analysis::Measurement> section_values(const ArtefactCase& artefact_c
                                                   const std::vector<ArtefactSample>& samples)
 {
     const bool is_bulge = artefact_case.claim == ArtefactCase::Claim::bulge;
-    const Extreme extreme = is_bulge ? &SectionExtremesOverRest::largest_radius : &SectionExtremesOverRest::smallest_radius;
+    const Extreme extreme =
+        is_bulge ? &SectionExtremesOverRest::largest_radius : &SectionExtremesOverRest::smallest_radius;
     const char* quantity = is_bulge ? "largest_section_radius_over_reference" : "smallest_section_radius_over_rest";
     std::vector<analysis::Measurement> measurements;
     for (const auto& [pose, joint, reference_name, outcome, remark] : section_outcomes(artefact_case, body, samples)) {
         if (outcome != SectionOutcome::measured && outcome != SectionOutcome::pbs_did_not_finish) continue;
-        const std::vector<double> base = is_bulge ? sizes(chosen(samples, "reference", pose, joint), extreme) : std::vector{1.0};
+        const std::vector<double> base =
+            is_bulge ? sizes(chosen(samples, "reference", pose, joint), extreme) : std::vector{1.0};
         for (const std::string group : {"pbs", "lbs", "dqs", "pbs_author", "reference", nearly_incompressible}) {
             if (is_bulge && group == "reference") continue;
             for (const auto& [order, own] : by_order(chosen(samples, group, pose, joint))) {
@@ -224,8 +236,8 @@ std::vector<analysis::Measurement> section_values(const ArtefactCase& artefact_c
 
 const char* name_of(SectionOutcome outcome)
 {
-    static constexpr const char* names[] = {"measured", "pbs_did_not_finish", "reference_not_reached", "bent_by_more_than_110_deg",
-                                            "inside_another_part"};
+    static constexpr const char* names[] = {"measured", "pbs_did_not_finish", "reference_not_reached",
+                                            "bent_by_more_than_110_deg", "inside_another_part"};
     return names[static_cast<int>(outcome)];
 }
 
@@ -246,7 +258,8 @@ std::vector<JudgedSection> section_outcomes(const ArtefactCase& artefact_case, c
                 section.outcome = SectionOutcome::inside_another_part;
             else if (chosen(samples, "pbs", pose, joint).empty())
                 section.outcome = SectionOutcome::pbs_did_not_finish;
-            if (over_reference && section.outcome != SectionOutcome::bent_too_far) section.remark = remark_on_width(samples, pose, joint);
+            if (over_reference && section.outcome != SectionOutcome::bent_too_far)
+                section.remark = remark_on_width(samples, pose, joint);
             sections.push_back(section);
         }
     return sections;
@@ -261,16 +274,17 @@ RECORD_SETTINGS_AND(ArtefactCase,
                         .derived("joints_by_hand", joints_by_hand_of),
                     scene, poses, joint, claim, second_order_poses)
 
-const analysis::Columns<SectionRow> section_columns = MEMBER_COLUMNS(SectionRow, claim, body, pose, joint, reference, outcome, remark);
+const analysis::Columns<SectionRow> section_columns =
+    MEMBER_COLUMNS(SectionRow, claim, body, pose, joint, reference, outcome, remark);
 
 std::vector<SectionRow> section_rows(const ArtefactCase& artefact_case, const ArtefactBody& body,
                                      const std::vector<JudgedSection>& sections)
 {
     std::vector<SectionRow> rows;
-    const auto add = [&](std::size_t pose, const std::string& joint, const std::string& reference, const std::string& outcome,
-                         const std::string& remark) {
-        rows.push_back(
-            {name_of(artefact_case.claim), body.posed.character().name, artefact_case.poses[pose].name, joint, reference, outcome, remark});
+    const auto add = [&](std::size_t pose, const std::string& joint, const std::string& reference,
+                         const std::string& outcome, const std::string& remark) {
+        rows.push_back({name_of(artefact_case.claim), body.posed.character().name, artefact_case.poses[pose].name,
+                        joint, reference, outcome, remark});
     };
     for (const JudgedSection& section : sections)
         add(section.pose, body.joints[section.joint].name, section.reference, name_of(section.outcome), section.remark);
@@ -278,14 +292,16 @@ std::vector<SectionRow> section_rows(const ArtefactCase& artefact_case, const Ar
         const std::string why = why_left_out(body.posed.character(), joint);
         if (why.empty() || !(artefact_case.joint.empty() || artefact_case.joint == name_of(joint))) continue;
         for (std::size_t pose = 0; pose < artefact_case.poses.size(); ++pose)
-            if (artefact_case.poses[pose].turned.empty() || std::ranges::count(artefact_case.poses[pose].turned, joint.child) > 0)
+            if (artefact_case.poses[pose].turned.empty() ||
+                std::ranges::count(artefact_case.poses[pose].turned, joint.child) > 0)
                 add(pose, name_of(joint), "", why, "");
     }
     return rows;
 }
 
 const Columns<SmoothnessRow> smoothness_columns =
-    MEMBER_COLUMNS(SmoothnessRow, body, vertices, weights, pose, joint) + within(&SmoothnessRow::deformer, artefact_deformer_columns) +
+    MEMBER_COLUMNS(SmoothnessRow, body, vertices, weights, pose, joint) +
+    within(&SmoothnessRow::deformer, artefact_deformer_columns) +
     within(&SmoothnessRow::smoothness, MEMBER_COLUMNS(Smoothness, strain_jump_rms, bending_rms_rad)) +
     Columns<SmoothnessRow>{{"volume_abs_change_pct", &SmoothnessRow::volume_abs_change_pct}};
 
@@ -304,7 +320,8 @@ WeightsComparison compare_weights(const ArtefactCase& artefact_case)
     meshes.insert(meshes.end(), artefact_case.vertices.begin(), artefact_case.vertices.end());
     for (const int vertices : meshes) {
         const ArtefactBody paper(by_eq_2, vertices);
-        const ArtefactBody rigid = with_weights(paper, pbs::weights_by(pbs::WeightKind::rigid, paper.posed.character()));
+        const ArtefactBody rigid =
+            with_weights(paper, pbs::weights_by(pbs::WeightKind::rigid, paper.posed.character()));
         for (const DeformerSpec& spec : specs) comparison.compare(paper, rigid, spec);
         if (vertices != 0) continue;
         const pbs::Weights diffused = pbs::weights_by(pbs::WeightKind::diffused, paper.posed.character());

@@ -1,6 +1,7 @@
-// Do the artefacts of blending occur, and how smooth is the skin? Measured are cross-sections of a limb along a joint that is twisted (C04,
-// the candy wrapper of LBS) or bent (C05, the bulge of DQS), the weights of Eq. 2 against rigid ones (C06), and the number of
-// self-intersections of the skin, which the paper states that it does not handle. README.md describes the runs and records.
+// Do the artefacts of blending occur, and how smooth is the skin? Measured are cross-sections of a limb along a joint
+// that is twisted (C04, the candy wrapper of LBS) or bent (C05, the bulge of DQS), the weights of Eq. 2 against rigid
+// ones (C06), and the number of self-intersections of the skin, which the paper states that it does not handle.
+// README.md describes the runs and records.
 //
 //   limb_twist     30 ... 180 deg    o=======o~~~~~~~o
 //   limb_bend      30 ... 150 deg    o=======o
@@ -54,8 +55,8 @@ private:
     std::map<std::pair<std::string, int>, std::optional<pbs::Character>> bodies_;
 };
 
-// A joint that turns by step_deg from pose to pose, without the rest pose, one pose of a clip, or a movement halfway and
-// at its end.
+// A joint that turns by step_deg from pose to pose, without the rest pose, one pose of a clip, or a movement halfway
+// and at its end.
 ArtefactCase case_of(const StudyCase& study_case, CaseBodies& bodies, const std::string& movement = "")
 {
     ArtefactCase made;
@@ -64,7 +65,8 @@ ArtefactCase case_of(const StudyCase& study_case, CaseBodies& bodies, const std:
     made.second_order_poses = study_case.value("second_order_poses", 0);
     const double finer = study_case.value("finer", 0.0);  // a further mesh, by its size over that of the body's own
     const auto character = [&]() -> const pbs::Character& { return bodies.body(study_case.scene()); };
-    if (finer > 0.0) made.vertices.push_back(static_cast<int>(finer * static_cast<double>(character().mesh.rest.rows())));
+    if (finer > 0.0)
+        made.vertices.push_back(static_cast<int>(finer * static_cast<double>(character().mesh.rest.rows())));
     Overrides overrides;
     if (study_case.has("frame"))
         made.poses = {{study_case.value<int>("frame"),
@@ -91,7 +93,8 @@ ArtefactCase case_of(const StudyCase& study_case, CaseBodies& bodies, const std:
             const auto joint = std::ranges::find(joints, made.joint, &LimbJoint::name);
             if (joint == joints.end())
                 throw pbs::InputError(character().name, 0, "joint", made.joint, "expected it among the body's joints");
-            const pbs::Vec3 axis = what == "twist" ? twist_axis(character().skeleton, *joint) : hinge_axis(character().skeleton, *joint);
+            const pbs::Vec3 axis =
+                what == "twist" ? twist_axis(character().skeleton, *joint) : hinge_axis(character().skeleton, *joint);
             overrides.push_back("motion.joint=" + character().skeleton.bones[joint->child].name);
             overrides.push_back(fmt::format("motion.axis=[{:.9f},{:.9f},{:.9f}]", axis.x(), axis.y(), axis.z()));
         }
@@ -108,10 +111,12 @@ std::vector<ReadingValues> read_sections(const StudyCase& study_case, const std:
     const ArtefactBody body(base);
     const pbs::Character& character = body.posed.character();
     const pbs::Motion motion = make_motion(base.scene.motion, character.skeleton, base.scene.file);
-    const auto add = [&](std::vector<ArtefactSample>& samples, const char* group, std::size_t pose, const pbs::Positions& shape) {
+    const auto add = [&](std::vector<ArtefactSample>& samples, const char* group, std::size_t pose,
+                         const pbs::Positions& shape) {
         const int element_order = group == std::string("reference") ? 1 : 0;
         for (std::size_t joint = 0; joint < body.joints.size(); ++joint)
-            samples.push_back({group, pose, joint, extremes_of(body.sections[joint].measure(shape, body.posed.pose(pose))), element_order});
+            samples.push_back({group, pose, joint,
+                               extremes_of(body.sections[joint].measure(shape, body.posed.pose(pose))), element_order});
     };
     std::vector<ArtefactSample> reference;
     const Shapes flesh = body.posed.shapes(spec_of(base.scene, base.scene.reference));
@@ -120,10 +125,12 @@ std::vector<ReadingValues> read_sections(const StudyCase& study_case, const std:
     std::vector<ReadingValues> values_of_readings;
     for (const Overrides& reading : readings) {
         const Scene scene = study_case.scene(reading);
-        const std::vector<pbs::Positions> shapes = shapes_in_motion(reweighted(character, scene), motion, spec_of(scene, "pbs"));
+        const std::vector<pbs::Positions> shapes =
+            shapes_in_motion(reweighted(character, scene), motion, spec_of(scene, "pbs"));
         std::vector<ArtefactSample> samples = reference;
         for (std::size_t pose = 0; pose < base.poses.size(); ++pose)
-            if (const pbs::Positions& shape = shapes.at(static_cast<std::size_t>(base.poses[pose].frame)); shape.allFinite())
+            if (const pbs::Positions& shape = shapes.at(static_cast<std::size_t>(base.poses[pose].frame));
+                shape.allFinite())
                 add(samples, "pbs", pose, shape);
         const bool finite = std::ranges::all_of(shapes, [](const pbs::Positions& shape) { return shape.allFinite(); });
         values_of_readings.push_back({section_values(base, body, samples), !finite});
@@ -136,10 +143,11 @@ StudyPlan plan(bool full)
     CaseBodies bodies;
     return plan_of_cases("artefacts", full, [&bodies](const StudyCase& study_case, StudyPlan& plan) {
         if (!study_case.has("movements"))
-            plan.runs.push_back(work_run(study_case.name, case_of(study_case, bodies), study_case.cost_s, look_and_record));
-        for (const auto& movement : study_case.value<std::vector<std::string>>("movements", {}))
             plan.runs.push_back(
-                work_run(study_case.name + "_" + movement, case_of(study_case, bodies, movement), study_case.cost_s, look_and_record));
+                work_run(study_case.name, case_of(study_case, bodies), study_case.cost_s, look_and_record));
+        for (const auto& movement : study_case.value<std::vector<std::string>>("movements", {}))
+            plan.runs.push_back(work_run(study_case.name + "_" + movement, case_of(study_case, bodies, movement),
+                                         study_case.cost_s, look_and_record));
     });
 }
 

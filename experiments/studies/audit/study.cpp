@@ -1,5 +1,5 @@
-// The paper against itself: its mesh sizes, its Table 1 and its equations for the volume constraint. Writes DIR/audit/print/printed.csv,
-// by which C13 to C15 are judged.
+// The paper against itself: its mesh sizes, its Table 1 and its equations for the volume constraint. Writes
+// DIR/audit/print/printed.csv, by which C13 to C15 are judged.
 
 #include "analysis/records/record_files.hpp"
 #include "experiments/settings/recorded_settings.hpp"
@@ -75,7 +75,8 @@ std::pair<Tet, Corners> random_tet(std::mt19937& random)
     return {Tet{{0, 1, 2, 3}, value_at(Tet{}, p) / 1.3, 1.0}, p};
 }
 
-// Eq. 11-16 in double: about ten roundings of products of about 10 m^3, over a step of 1e-2 m and a gradient of about 0.1 m^2.
+// Eq. 11-16 in double: about ten roundings of products of about 10 m^3, over a step of 1e-2 m and a gradient of about
+// 0.1 m^2.
 constexpr double rounding = 1e-10;
 
 // The largest error among `tets` random tets.
@@ -107,7 +108,8 @@ std::vector<PrintedValue> mesh_size_values(const std::array<TableOneRow, 5>& tab
         for (const TableOneRow& row : table) mean += row.*count / static_cast<double>(table.size());
         return PrintedValue{"C13", quantity, {}, printed, 0.75 * mean, 1.25 * mean};
     };
-    return {of_mean("mean_vertices", 2000.0, &TableOneRow::vertices), of_mean("mean_tets", 10000.0, &TableOneRow::tets)};
+    return {of_mean("mean_vertices", 2000.0, &TableOneRow::vertices),
+            of_mean("mean_tets", 10000.0, &TableOneRow::tets)};
 }
 
 std::vector<PrintedValue> table_1_values()
@@ -117,10 +119,12 @@ std::vector<PrintedValue> table_1_values()
     std::vector<PrintedValue> values;
     for (const TableOneRow& row : table_1()) {
         const analysis::CaseKey key = {.model = row.model};
+        values.push_back({"C14", "stretch_constraints", key, double(row.stretch), double(row.vertices + row.tets + 1),
+                          double(6 * row.tets)});
         values.push_back(
-            {"C14", "stretch_constraints", key, double(row.stretch), double(row.vertices + row.tets + 1), double(6 * row.tets)});
-        values.push_back({"C14", "bind_constraints", key, double(row.bind), double(row.vertices), double(row.vertices)});
-        values.push_back({"C14", "ct_total_ms", key, row.total_ms, row.stretch_ms + row.volume_ms - 3.0 * half_a_digit_ms, infinite});
+            {"C14", "bind_constraints", key, double(row.bind), double(row.vertices), double(row.vertices)});
+        values.push_back({"C14", "ct_total_ms", key, row.total_ms,
+                          row.stretch_ms + row.volume_ms - 3.0 * half_a_digit_ms, infinite});
         values.push_back({"C14", "ct_total_of_1_s_ms", key, row.total_ms,
                           steps_in_1_s * 1e3 / (row.frames_per_s + half_a_digit_fps) - half_a_digit_ms,
                           steps_in_1_s * 1e3 / (row.frames_per_s - half_a_digit_fps) + half_a_digit_ms});
@@ -138,24 +142,29 @@ std::vector<PrintedValue> equation_values(int tets, unsigned seed)
             const Point quotient = difference_quotient(tet, p, corner);
             return (gradient(tet, p[0], p[1], p[2], p[3])[corner] - quotient).norm() / quotient.norm();
         });
-        const analysis::CaseKey key = {.equation = equations[corner], .gradient_of = "p" + std::to_string(corner + 1), .reading = reading};
+        const analysis::CaseKey key = {
+            .equation = equations[corner], .gradient_of = "p" + std::to_string(corner + 1), .reading = reading};
         values.push_back({"C15", "gradient_error", key, largest, 0.0, rounding});
     };
     for (int corner = 0; corner < 4; ++corner)
-        add_gradient(corner, "as_printed", [](const auto&... of) { return pbs::gradient_printed<Printed::labels_absolute>(of...); });
+        add_gradient(corner, "as_printed",
+                     [](const auto&... of) { return pbs::gradient_printed<Printed::labels_absolute>(of...); });
     for (int corner = 1; corner < 4; ++corner)
-        add_gradient(corner, "relative_to_p1", [](const auto&... of) { return pbs::gradient_printed<Printed::labels_relative>(of...); });
+        add_gradient(corner, "relative_to_p1",
+                     [](const auto&... of) { return pbs::gradient_printed<Printed::labels_relative>(of...); });
     const auto add_correction = [&](const std::string& equation, const std::string& reading, auto project) {
         const double largest = largest_error(tets, seed, [&](const Tet& tet, Corners p) {
             const double before = value_at(tet, p);
             project(tet, p[0], p[1], p[2], p[3]);
             return std::abs(value_at(tet, p) / before);
         });
-        values.push_back({"C15", "constraint_after_over_before", {.equation = equation, .reading = reading}, largest, 0.0, 1.0});
+        values.push_back(
+            {"C15", "constraint_after_over_before", {.equation = equation, .reading = reading}, largest, 0.0, 1.0});
     };
     add_correction("17-20", "derived_gradients", [](auto&... of) { pbs::project_printed<Printed::sign>(of...); });
     add_correction("12-20", "as_printed", [](auto&... of) { pbs::project_printed<Printed::as_printed>(of...); });
-    add_correction("8", "derived_gradients", [](const Tet& tet, auto&... p) { pbs::project(tet, 1.0, 1.0, 1.0, 1.0, p...); });
+    add_correction("8", "derived_gradients",
+                   [](const Tet& tet, auto&... p) { pbs::project(tet, 1.0, 1.0, 1.0, 1.0, p...); });
     values.back().claim = "control_of_C15";
     return values;
 }

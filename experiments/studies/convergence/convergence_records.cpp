@@ -18,13 +18,15 @@ namespace {
 using analysis::Columns;
 using analysis::within;
 
-const Columns<PathCase> case_columns = MEMBER_COLUMNS(PathCase, body, pose, vertices, tets, own_mesh, order, precision, k_stretch, start);
+const Columns<PathCase> case_columns =
+    MEMBER_COLUMNS(PathCase, body, pose, vertices, tets, own_mesh, order, precision, k_stretch, start);
 
 // Six digits are enough for drawing. All digits would double the size of the record.
 Look rounded(Look look)
 {
-    for (const auto member : {&Look::stretch_rms, &Look::volume_rms, &Look::bind_rms_m, &Look::combined, &Look::volume_change_pct,
-                              &Look::volume_abs_change_pct, &Look::error_joint_pct, &Look::whole_joint_pct})
+    for (const auto member :
+         {&Look::stretch_rms, &Look::volume_rms, &Look::bind_rms_m, &Look::combined, &Look::volume_change_pct,
+          &Look::volume_abs_change_pct, &Look::error_joint_pct, &Look::whole_joint_pct})
         look.*member = std::stod(fmt::format("{:.6g}", look.*member));
     return look;
 }
@@ -42,7 +44,8 @@ std::vector<Look> thinned(const IterationPath& path)
     return kept;
 }
 
-RateRow rate_row(const ConvergencePaths& paths, const IterationPath& path, double floor, PathKind kind, const std::string& start)
+RateRow rate_row(const ConvergencePaths& paths, const IterationPath& path, double floor, PathKind kind,
+                 const std::string& start)
 {
     RateRow row{.kind = kind, .key = paths.key, .character = paths.character, .twist = paths.twist, .of = paths.of};
     row.of.start = start;
@@ -61,12 +64,14 @@ RateRow rate_row(const ConvergencePaths& paths, const IterationPath& path, doubl
 }
 
 const Columns<Look> residual_look_columns =
-    MEMBER_COLUMNS(Look, iteration, stretch_rms, volume_rms, bind_rms_m, combined, volume_change_pct, volume_abs_change_pct, inverted_tets);
+    MEMBER_COLUMNS(Look, iteration, stretch_rms, volume_rms, bind_rms_m, combined, volume_change_pct,
+                   volume_abs_change_pct, inverted_tets);
 
 const Columns<Look> error_look_columns = MEMBER_COLUMNS(Look, iteration, error_joint_pct, whole_joint_pct);
 
 const Columns<ReferenceQuality> quality_columns =
-    MEMBER_COLUMNS(ReferenceQuality, masked_share_pct) + Columns<ReferenceQuality>{{"reference_bound_pct", &ReferenceQuality::bound_pct}};
+    MEMBER_COLUMNS(ReferenceQuality, masked_share_pct) +
+    Columns<ReferenceQuality>{{"reference_bound_pct", &ReferenceQuality::bound_pct}};
 
 // A value of one setting, and what it bounds where a tolerance was not reached.
 struct PathValue {
@@ -86,7 +91,9 @@ std::vector<Group> groups_of(const std::vector<RateRow>& rows, bool ladder)
     std::size_t group = 0;
     for (const RateRow& row : rows) {
         if (row.kind == PathKind::guess && row.of.start == name_of(SolverStart::lbs)) {  // the first path of a mesh
-            const auto is_same = [&](const Group& other) { return setting(other.front().front()->of) == setting(row.of); };
+            const auto is_same = [&](const Group& other) {
+                return setting(other.front().front()->of) == setting(row.of);
+            };
             group = static_cast<std::size_t>(std::ranges::find_if(groups, is_same) - groups.begin());
             if (group == groups.size()) groups.emplace_back();
             groups[group].emplace_back();
@@ -97,8 +104,8 @@ std::vector<Group> groups_of(const std::vector<RateRow>& rows, bool ladder)
 }
 
 // place: of the path among those of its mesh. key: the part in which the values of a group differ.
-void add(std::vector<analysis::Measurement>& to, const std::string& claim, const std::string& quantity, const analysis::CaseKey& key,
-         const Group& group, std::size_t place, const ValueOf& value_of)
+void add(std::vector<analysis::Measurement>& to, const std::string& claim, const std::string& quantity,
+         const analysis::CaseKey& key, const Group& group, std::size_t place, const ValueOf& value_of)
 {
     const auto value_on = [&](const MeshRows& rows) { return value_of(*rows.at(place), *rows.front()); };
     const std::optional<PathValue> own = value_on(group.front());
@@ -122,13 +129,15 @@ void add(std::vector<analysis::Measurement>& to, const std::string& claim, const
     to.push_back(measured);
 }
 
-const std::pair<const char*, Reached RateRow::*> tolerances[] = {{"residual", &RateRow::residual}, {"volume", &RateRow::volume}};
+const std::pair<const char*, Reached RateRow::*> tolerances[] = {{"residual", &RateRow::residual},
+                                                                 {"volume", &RateRow::volume}};
 
 ValueOf iterations_to(Reached RateRow::*tolerance)
 {
     return [tolerance](const RateRow& row, const RateRow&) {
         const Reached& reached = row.*tolerance;
-        return PathValue{double(reached.iterations), reached.within ? analysis::Limit::none : analysis::Limit::more_than};
+        return PathValue{double(reached.iterations),
+                         reached.within ? analysis::Limit::none : analysis::Limit::more_than};
     };
 }
 
@@ -138,9 +147,10 @@ ValueOf over_lbs(Reached RateRow::*tolerance)
     return [tolerance](const RateRow& row, const RateRow& lbs_row) -> std::optional<PathValue> {
         const Reached &other = row.*tolerance, &lbs = lbs_row.*tolerance;
         if (!other.within && !lbs.within) return {};
-        return PathValue{std::max(other.iterations, 1) / double(std::max(lbs.iterations, 1)), !other.within ? analysis::Limit::at_least
-                                                                                              : !lbs.within ? analysis::Limit::at_most
-                                                                                                            : analysis::Limit::none};
+        return PathValue{std::max(other.iterations, 1) / double(std::max(lbs.iterations, 1)),
+                         !other.within ? analysis::Limit::at_least
+                         : !lbs.within ? analysis::Limit::at_most
+                                       : analysis::Limit::none};
     };
 }
 
@@ -149,26 +159,33 @@ std::optional<PathValue> error_over_lbs(const RateRow& row, const RateRow& lbs)
     return PathValue{row.paper.error_joint_pct / lbs.paper.error_joint_pct};
 }
 
-constexpr double exponent_level = 0.99;  // sizes in any other order than their own lie beyond it in less than 1 % of all cases
+constexpr double exponent_level =
+    0.99;  // sizes in any other order than their own lie beyond it in less than 1 % of all cases
 
 }  // namespace
 
-const Columns<LookRow> residual_columns = within(&LookRow::of, case_columns) + within(&LookRow::look, residual_look_columns);
-const Columns<LookRow> towards_columns = within(&LookRow::of, case_columns) + within(&LookRow::look, error_look_columns);
+const Columns<LookRow> residual_columns =
+    within(&LookRow::of, case_columns) + within(&LookRow::look, residual_look_columns);
+const Columns<LookRow> towards_columns =
+    within(&LookRow::of, case_columns) + within(&LookRow::look, error_look_columns);
 
 using Rates = Columns<RateRow>;
 using Looks = Columns<Look>;
 const Columns<RateRow> rate_columns =
     within(&RateRow::of, case_columns) + MEMBER_COLUMNS(RateRow, iterations, outcome, floor) +
-    within(&RateRow::paper, Looks{{"residual_24", &Look::combined}}) + within(&RateRow::last, Looks{{"last_residual", &Look::combined}}) +
-    Rates{{"rate_per_iteration", &RateRow::rate}} +
-    within(&RateRow::residual, Columns<Reached>{{"iterations_to_residual", &Reached::iterations}, {"residual_reached", &Reached::within}}) +
-    within(&RateRow::volume, Columns<Reached>{{"iterations_to_volume", &Reached::iterations}, {"volume_reached", &Reached::within}}) +
+    within(&RateRow::paper, Looks{{"residual_24", &Look::combined}}) +
+    within(&RateRow::last, Looks{{"last_residual", &Look::combined}}) + Rates{{"rate_per_iteration", &RateRow::rate}} +
+    within(&RateRow::residual,
+           Columns<Reached>{{"iterations_to_residual", &Reached::iterations}, {"residual_reached", &Reached::within}}) +
+    within(&RateRow::volume,
+           Columns<Reached>{{"iterations_to_volume", &Reached::iterations}, {"volume_reached", &Reached::within}}) +
     within(&RateRow::paper, Looks{{"volume_abs_change_24_pct", &Look::volume_abs_change_pct}}) +
     within(&RateRow::last, Looks{{"last_volume_abs_change_pct", &Look::volume_abs_change_pct}}) +
-    Rates{{"reference", &RateRow::reference}} + within(&RateRow::paper, Looks{{"error_24_pct", &Look::error_joint_pct}}) +
+    Rates{{"reference", &RateRow::reference}} +
+    within(&RateRow::paper, Looks{{"error_24_pct", &Look::error_joint_pct}}) +
     within(&RateRow::nearest, Looks{{"least_error_iteration", &Look::iteration}}) +
-    within(&RateRow::last, Looks{{"last_error_pct", &Look::error_joint_pct}}) + within(&RateRow::quality, quality_columns);
+    within(&RateRow::last, Looks{{"last_error_pct", &Look::error_joint_pct}}) +
+    within(&RateRow::quality, quality_columns);
 
 std::vector<LookRow> look_rows(const ConvergenceResult& result)
 {
@@ -192,10 +209,12 @@ std::vector<RateRow> rate_rows(const ConvergenceResult& result)
         for (std::size_t start = 0; start < paths.paths.size(); ++start)
             rows.push_back(rate_row(paths, paths.paths[start], floor, PathKind::guess, name_of(all_starts[start])));
         for (std::size_t control = 0; control < paths.controls.size(); ++control)
-            rows.push_back(rate_row(paths, paths.controls[control], floor, PathKind::control, control == 0 ? "lbs" : "random"));
+            rows.push_back(
+                rate_row(paths, paths.controls[control], floor, PathKind::control, control == 0 ? "lbs" : "random"));
         if (paths.author)
             rows.push_back(
-                rate_row(paths, *paths.author, paths.author->looks.back().combined, PathKind::author, "author"));  // its own floor
+                // its own floor
+                rate_row(paths, *paths.author, paths.author->looks.back().combined, PathKind::author, "author"));
     }
     return rows;
 }
@@ -223,13 +242,16 @@ std::vector<analysis::Measurement> convergence_values(const std::vector<RateRow>
             key.k_stretch = row.of.k_stretch;
             const bool is_lbs = place == 0, is_guess = !is_lbs && row.kind != PathKind::author;
             if (is_guess) key.initial_guess = row.of.start;
-            if (is_guess) add(measurements, "C03", "error_after_24_iterations_over_lbs_guess", key, group, place, error_over_lbs);
+            if (is_guess)
+                add(measurements, "C03", "error_after_24_iterations_over_lbs_guess", key, group, place, error_over_lbs);
             for (const auto& [name, tolerance] : tolerances) {
                 key.tolerance = name;
                 if (is_guess)
-                    add(measurements, "C03", "iterations_over_lbs_guess" + in_a_twist, key, group, place, over_lbs(tolerance));
+                    add(measurements, "C03", "iterations_over_lbs_guess" + in_a_twist, key, group, place,
+                        over_lbs(tolerance));
                 else if (is_lbs || tolerance == &RateRow::residual)
-                    add(measurements, "C12", "iterations_to_tolerance" + of_limbs, key, group, place, iterations_to(tolerance));
+                    add(measurements, "C12", "iterations_to_tolerance" + of_limbs, key, group, place,
+                        iterations_to(tolerance));
             }
         }
     }
@@ -252,7 +274,8 @@ std::vector<analysis::Measurement> convergence_conclusions(const std::vector<ana
             analysis::CaseKey of = ladder;
             of.vertices = vertices.front();
             of.vertices_to = vertices.back();
-            exponents.push_back({"C12", "exponent_of_iterations_over_vertices", of, exponent.estimate, exponent.low, exponent.high, "1"});
+            exponents.push_back({"C12", "exponent_of_iterations_over_vertices", of, exponent.estimate, exponent.low,
+                                 exponent.high, "1"});
         }
     return exponents;
 }

@@ -1,10 +1,10 @@
-// C03, C12: how fast the solver converges, from which initial guess, and towards what. Every run iterates the paper's constraints far past
-// its 24 iterations from four initial guesses and measures residuals, volume and the error to the reference (shared/posed_reference.hpp).
-// Two controls and the author's later code are iterated in the paper's order and precision.
-// README.md describes the runs and records.
+// C03, C12: how fast the solver converges, from which initial guess, and towards what. Every run iterates the paper's
+// constraints far past its 24 iterations from four initial guesses and measures residuals, volume and the error to the
+// reference (shared/posed_reference.hpp). Two controls and the author's later code are iterated in the paper's order
+// and precision. README.md describes the runs and records.
 //
-// The reference of a pose takes minutes, so that only the poses that `ensemble` has too are compared with it, and the ladder without
-// solutions on finer tets, and therefore without a bound.
+// The reference of a pose takes minutes, so that only the poses that `ensemble` has too are compared with it, and the
+// ladder without solutions on finer tets, and therefore without a bound.
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/deformers/deformer_options.hpp"
@@ -42,7 +42,8 @@ public:
     const pbs::Positions& before(std::size_t step)
     {
         for (; next_ < step; ++next_) {
-            solver_.advance(positions_, pbs::posed_bind_points(character_.binding, motion_.steps[next_]), motion_.time_step_s);
+            solver_.advance(positions_, pbs::posed_bind_points(character_.binding, motion_.steps[next_]),
+                            motion_.time_step_s);
             positions_ = solver_.positions();
         }
         return positions_;
@@ -70,7 +71,8 @@ pbs::Positions random_positions(const pbs::Positions& shape)
     std::mt19937_64 engine(1);
     pbs::Positions positions(shape.rows(), 3);
     for (Eigen::Index vertex = 0; vertex < shape.rows(); ++vertex)
-        for (int axis = 0; axis < 3; ++axis) positions(vertex, axis) = low(axis) + 0x1p-53 * double(engine() >> 11) * size(axis);
+        for (int axis = 0; axis < 3; ++axis)
+            positions(vertex, axis) = low(axis) + 0x1p-53 * double(engine() >> 11) * size(axis);
     return positions;
 }
 
@@ -87,23 +89,27 @@ public:
         : of_(convergence_case),
           solutions_(solutions),
           own_(own),
-          settings_(own || scene.character.vertices <= convergence_case.every_setting_to ? convergence_case.settings.size() : 1),
+          settings_(own || scene.character.vertices <= convergence_case.every_setting_to
+                        ? convergence_case.settings.size()
+                        : 1),
           posed_(scene, frame_numbers(convergence_case.frames)),
           motion_(make_motion(scene.motion, posed_.character().skeleton, scene.file))
     {
-        for (std::size_t frame = 0; frame < convergence_case.frames.size(); ++frame) references_.push_back(reference_in(frame));
+        for (std::size_t frame = 0; frame < convergence_case.frames.size(); ++frame)
+            references_.push_back(reference_in(frame));
     }
 
     void add_to(ConvergenceResult& result) const
     {
         for (std::size_t frame = 0; frame < references_.size(); ++frame)
             if (!references_[frame].why.empty())
-                result.breakdown +=
-                    fmt::format("{} in {}: not reached, {}. ", of_.reference.label, of_.frames[frame].name, references_[frame].why);
+                result.breakdown += fmt::format("{} in {}: not reached, {}. ", of_.reference.label,
+                                                of_.frames[frame].name, references_[frame].why);
         for (const double k_stretch : of_.k_stretch) {
             pbs::PbsOptions options = options_of<pbs::PbsOptions>(spec_of(of_.scene, "pbs"));
             options.k_stretch = k_stretch;
-            const std::vector<FrameStarts> starts = starts_of(posed_.character(), motion_, frame_numbers(of_.frames), options);
+            const std::vector<FrameStarts> starts =
+                starts_of(posed_.character(), motion_, frame_numbers(of_.frames), options);
             for (std::size_t setting = 0; setting < settings_; ++setting)
                 for (std::size_t frame = 0; frame < starts.size(); ++frame)
                     add(follow(starts[frame], frame, of_.settings[setting], options), result);
@@ -122,17 +128,21 @@ private:
         const pbs::Character& character = posed_.character();
         if (!of_.frames[frame].compared) return {"none"};
         if (!own_ && !of_.ladder) return {"own_mesh_alone"};
-        if (character.mesh.rest.rows() > of_.reference_to) return {fmt::format("left_out_above_{}_vertices", of_.reference_to)};
+        if (character.mesh.rest.rows() > of_.reference_to)
+            return {fmt::format("left_out_above_{}_vertices", of_.reference_to)};
         const ReferenceEffort effort = of_.ladder ? ReferenceEffort::own_tets : of_.effort;
-        PosedReference reference(character, of_.reference, posed_.pose(frame), of_.scene.motion.time_step_s, effort, solutions_);
-        if (!reference.is_reached()) return {.name = of_.reference.label + "_was_not_reached", .why = reference.why_not_reached()};
+        PosedReference reference(character, of_.reference, posed_.pose(frame), of_.scene.motion.time_step_s, effort,
+                                 solutions_);
+        if (!reference.is_reached())
+            return {.name = of_.reference.label + "_was_not_reached", .why = reference.why_not_reached()};
         return {.name = of_.reference.label, .solved = std::move(reference)};
     }
 
     static ReferenceQuality quality_of(const PosedReference& reference)
     {
         ReferenceQuality quality{.masked_share_pct = reference.masked_share_pct()};
-        if (const double bound_pct = reference.bound().joint_pct; std::isfinite(bound_pct)) quality.bound_pct = bound_pct;
+        if (const double bound_pct = reference.bound().joint_pct; std::isfinite(bound_pct))
+            quality.bound_pct = bound_pct;
         return quality;
     }
 
@@ -140,35 +150,40 @@ private:
     {
         for (std::size_t start = 0; start < paths.paths.size(); ++start)
             if (!paths.paths[start].finite)
-                result.breakdown += fmt::format("{} from {} is not finite. ", paths.of.pose, name_of(static_cast<SolverStart>(start)));
+                result.breakdown +=
+                    fmt::format("{} from {} is not finite. ", paths.of.pose, name_of(static_cast<SolverStart>(start)));
         result.all.push_back(std::move(paths));
     }
 
-    ConvergencePaths follow(const FrameStarts& starts, std::size_t frame, const ProjectionSetting& setting, pbs::PbsOptions options) const
+    ConvergencePaths follow(const FrameStarts& starts, std::size_t frame, const ProjectionSetting& setting,
+                            pbs::PbsOptions options) const
     {
         options.order = setting.order;
         options.precision = setting.precision;
         const pbs::Character& character = posed_.character();
         const FrameReference& reference = references_[frame];
-        const IterationMetrics iteration_metrics(character, starts.bind_points, reference.solved ? &*reference.solved : nullptr);
-        ConvergencePaths paths{
-            .of = {of_.scene.character.body, of_.frames[frame].name, int(character.mesh.rest.rows()), int(character.mesh.tets.rows()), own_,
-                   name_of(options.order), name_of(options.precision), options.k_stretch},
-            .key = of_.frames[frame].key,
-            .character = !of_.scene.motion.clip.empty() || !of_.scene.motion.movements.empty(),
-            .twist = of_.frames[frame].twist,
-            .reference = reference.name};
+        const IterationMetrics iteration_metrics(character, starts.bind_points,
+                                                 reference.solved ? &*reference.solved : nullptr);
+        ConvergencePaths paths{.of = {of_.scene.character.body, of_.frames[frame].name, int(character.mesh.rest.rows()),
+                                      int(character.mesh.tets.rows()), own_, name_of(options.order),
+                                      name_of(options.precision), options.k_stretch},
+                               .key = of_.frames[frame].key,
+                               .character = !of_.scene.motion.clip.empty() || !of_.scene.motion.movements.empty(),
+                               .twist = of_.frames[frame].twist,
+                               .reference = reference.name};
         if (reference.solved) paths.quality = quality_of(*reference.solved);
         const auto iterated = [&](const std::vector<pbs::Positions>& guesses, const IterationMetrics& metrics) {
             return iterate(character, options, starts.bind_points, guesses, of_.most_iterations, metrics);
         };
         const auto& shapes = starts.shapes;
-        paths.paths = iterated({shapes.begin(), of_.from_lbs_alone ? shapes.begin() + 1 : shapes.end()}, iteration_metrics);
+        paths.paths =
+            iterated({shapes.begin(), of_.from_lbs_alone ? shapes.begin() + 1 : shapes.end()}, iteration_metrics);
         const bool is_papers = setting.order == pbs::Order::plain && setting.precision == pbs::Precision::f64;
         if (is_papers && !paths.twist && !of_.ladder) {
             const IterationMetrics without_reference(character, starts.bind_points);
             paths.controls = iterated({shapes.front(), starts.random}, without_reference);
-            if (paths.character) paths.author = author_path(character, posed_.pose(frame), of_.most_iterations, without_reference);
+            if (paths.character)
+                paths.author = author_path(character, posed_.pose(frame), of_.most_iterations, without_reference);
         }
         return paths;
     }
@@ -198,13 +213,17 @@ std::string measure_and_record(const ConvergenceCase& convergence_case, const st
     return result.breakdown;
 }
 
-// frames = [{ pose = "crouch", frame = 164, compared = true }, ...], or with angle_deg or time_s. The frame is named after these.
+// frames = [{ pose = "crouch", frame = 164, compared = true }, ...], or with angle_deg or time_s. The frame is named
+// after these.
 NamedFrame frame_of(const std::string& motion, const nlohmann::json& values)
 {
-    NamedFrame frame{.frame = values.at("frame"), .name = motion, .key = {.motion = motion}, .twist = motion == "twist"};
+    NamedFrame frame{
+        .frame = values.at("frame"), .name = motion, .key = {.motion = motion}, .twist = motion == "twist"};
     frame.compared = values.value("compared", false);
-    if (values.contains("angle_deg")) frame.name += fmt::format("_{:g}", frame.key.angle_deg.emplace(values.at("angle_deg")));
-    if (values.contains("time_s")) frame.name += fmt::format("_at_{:g}_s", frame.key.time_s.emplace(values.at("time_s")));
+    if (values.contains("angle_deg"))
+        frame.name += fmt::format("_{:g}", frame.key.angle_deg.emplace(values.at("angle_deg")));
+    if (values.contains("time_s"))
+        frame.name += fmt::format("_at_{:g}_s", frame.key.time_s.emplace(values.at("time_s")));
     if (values.contains("pose")) frame.name += "_" + (frame.key.pose = values.at("pose"));
     return frame;
 }
@@ -214,7 +233,10 @@ std::vector<NamedFrame> ends_of(const std::vector<std::string>& movements, int f
 {
     std::vector<NamedFrame> ends;
     for (const std::string& name : movements)
-        ends.push_back({static_cast<int>(ends.size() + 1) * frames, name, {.motion = "range_of_motion", .pose = name}, is_twist(name)});
+        ends.push_back({static_cast<int>(ends.size() + 1) * frames,
+                        name,
+                        {.motion = "range_of_motion", .pose = name},
+                        is_twist(name)});
     return ends;
 }
 
@@ -231,7 +253,8 @@ StudyPlan plan(bool full)
         ConvergenceCase convergence_case{.scene = in_file.scene()};
         if (in_file.value("through_movements", false)) {
             const auto movements = movements_of(pbs::make_character(convergence_case.scene.character).skeleton);
-            convergence_case.scene = in_file.scene({fmt::format("motion.movements=['{}']", fmt::join(movements, "','"))});
+            convergence_case.scene =
+                in_file.scene({fmt::format("motion.movements=['{}']", fmt::join(movements, "','"))});
             convergence_case.frames = ends_of(movements, convergence_case.scene.motion.frames);
         } else {
             const auto motion = in_file.value<std::string>("motion");
@@ -252,8 +275,8 @@ StudyPlan plan(bool full)
     });
 }
 
-// C03, C12: the paths in one pose, on the scene's mesh and in its order. C12 is judged on characters alone. The first reading's k_stretch
-// names the case of all of them.
+// C03, C12: the paths in one pose, on the scene's mesh and in its order. C12 is judged on characters alone. The first
+// reading's k_stretch names the case of all of them.
 std::vector<ReadingValues> read_paths(const StudyCase& study_case, const std::vector<Overrides>& readings)
 {
     std::vector<ReadingValues> values_of_readings;
@@ -270,7 +293,8 @@ std::vector<ReadingValues> read_paths(const StudyCase& study_case, const std::ve
         if (!k_stretch) k_stretch = options.k_stretch;
         result.all.front().of.k_stretch = *k_stretch;
         values_of_readings.push_back({convergence_values(rate_rows(result)), !result.breakdown.empty()});
-        if (!result.all.front().character) values_of_readings.back().left_out = all_but("C12a", {}, "judged on characters alone");
+        if (!result.all.front().character)
+            values_of_readings.back().left_out = all_but("C12a", {}, "judged on characters alone");
     }
     return values_of_readings;
 }
@@ -283,8 +307,8 @@ const char* name_of(SolverStart start)
     return names[static_cast<int>(start)];
 }
 
-std::vector<FrameStarts> starts_of(const pbs::Character& character, const pbs::Motion& motion, const std::vector<int>& frames,
-                                   const pbs::PbsOptions& options)
+std::vector<FrameStarts> starts_of(const pbs::Character& character, const pbs::Motion& motion,
+                                   const std::vector<int>& frames, const pbs::PbsOptions& options)
 {
     const pbs::Character rigid = pbs::with_weights(pbs::WeightKind::rigid, character);
     WarmStarted warm(character, motion, options);
@@ -300,12 +324,14 @@ std::vector<FrameStarts> starts_of(const pbs::Character& character, const pbs::M
     return starts;
 }
 
-IterationPath author_path(const pbs::Character& character, const pbs::Pose& pose, int most, const IterationMetrics& iteration_metrics)
+IterationPath author_path(const pbs::Character& character, const pbs::Pose& pose, int most,
+                          const IterationMetrics& iteration_metrics)
 {
     pbs::AuthorSolver solver(character.mesh, character.skeleton, character.binding, {});
     const std::vector<pbs::BoneSegment> bones = solver.posed_bones(pose);
     pbs::Positions lbs;
-    pbs::linear_blend_skinning(character.mesh.rest, pbs::author_weights(character.binding, character.skeleton), pose, lbs);
+    pbs::linear_blend_skinning(character.mesh.rest, pbs::author_weights(character.binding, character.skeleton), pose,
+                               lbs);
     StepLoops loops;
     loops.load = [&] { solver.predict(pose); };
     loops.bind = [&] { solver.project(bones); };  // all classes
@@ -319,14 +345,16 @@ IterationPath author_path(const pbs::Character& character, const pbs::Pose& pose
 
 RECORD_SETTINGS(NamedFrame, frame, name, key, twist, compared)
 RECORD_SETTINGS(ProjectionSetting, order, precision)
-RECORD_SETTINGS_AND(
-    ConvergenceCase,
-    .derived("looks", [](const ConvergenceCase& convergence_case) -> nlohmann::json { return looked_at(convergence_case.most_iterations); })
-        .constant("residual_tolerance", residual_tolerance)
-        .constant("satisfied_residual", satisfied_residual)
-        .constant("volume_tolerance_pct", analysis::kept_volume_pct),
-    scene, frames, k_stretch, settings, other_vertices, every_setting_to, ladder, exponents, from_lbs_alone, most_iterations, reference,
-    effort, reference_to)
+RECORD_SETTINGS_AND(ConvergenceCase,
+                    .derived("looks",
+                             [](const ConvergenceCase& convergence_case) -> nlohmann::json {
+                                 return looked_at(convergence_case.most_iterations);
+                             })
+                        .constant("residual_tolerance", residual_tolerance)
+                        .constant("satisfied_residual", satisfied_residual)
+                        .constant("volume_tolerance_pct", analysis::kept_volume_pct),
+                    scene, frames, k_stretch, settings, other_vertices, every_setting_to, ladder, exponents,
+                    from_lbs_alone, most_iterations, reference, effort, reference_to)
 
 ConvergenceResult measure_convergence(const ConvergenceCase& convergence_case, const std::string& solutions)
 {

@@ -1,11 +1,11 @@
-// The study splits the error of PBS against the first member of the family. With x_n the shape after n iterations, x_inf the same
-// constraints converged, x_h the reference and x_0 its limit on ever finer meshes,
+// The study splits the error of PBS against the first member of the family. With x_n the shape after n iterations,
+// x_inf the same constraints converged, x_h the reference and x_0 its limit on ever finer meshes,
 //   x_n - x_0 = (x_n - x_inf) + (x_inf - x_h) + (x_h - x_0)
 //               solver          model           discretisation
-// exactly, vertex by vertex; the norm of the whole is at most the sum of those of the parts. The first two are measured, the third is
-// bounded by PosedReference.
-// The effect of the reference's own assumptions is measured as well: flesh that the bones hold in other ways, and the linear model. All
-// distances except whole_joint_pct are outside the tips of the reference's creases.
+// exactly, vertex by vertex; the norm of the whole is at most the sum of those of the parts. The first two are
+// measured, the third is bounded by PosedReference. The effect of the reference's own assumptions is measured as well:
+// flesh that the bones hold in other ways, and the linear model. All distances except whole_joint_pct are outside the
+// tips of the reference's creases.
 #pragma once
 
 #include "analysis/records/tables.hpp"
@@ -33,12 +33,12 @@ struct EnsembleCase {
 };
 nlohmann::json to_json(const EnsembleCase& ensemble_case);
 
-// The flesh with quadratic elements on the character's own tets, held in other ways: by stiffer springs, thinner bones, embedded bones or
-// the paper's bind constraint; and the linear model, held by smooth springs and by embedded bones.
+// The flesh with quadratic elements on the character's own tets, held in other ways: by stiffer springs, thinner bones,
+// embedded bones or the paper's bind constraint; and the linear model, held by smooth springs and by embedded bones.
 std::vector<DeformerSpec> other_attachments(const DeformerSpec& flesh);
 
-// The check of KeptReference::own_error_pct: on the body's own tets, the bound that nested solutions and other tets give, and the distance
-// of linear elements.
+// The check of KeptReference::own_error_pct: on the body's own tets, the bound that nested solutions and other tets
+// give, and the distance of linear elements.
 struct OwnTetsRow {
     analysis::CaseKey of;
     std::optional<double> bound_pct = {}, linear_distance_pct = {};
@@ -56,7 +56,8 @@ struct PartsRow {
 struct AttachmentRow {
     analysis::CaseKey of;
     std::string reference, model, attachment;
-    std::optional<double> spring_factor = {}, core_radius = {};  // prescribed nodes have no q, the bind constraint no radius
+    // prescribed nodes have no q, the bind constraint no radius
+    std::optional<double> spring_factor = {}, core_radius = {};
     double difference_pct = 0.0, k_stretch = 0.0, model_pct = 0.0;
     bool finished = false;
 };

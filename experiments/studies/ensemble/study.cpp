@@ -1,5 +1,5 @@
-// Is the error of PBS that of its solver, of its model or of the reference's discretisation (ensemble.hpp)? README.md describes the poses
-// and records.
+// Is the error of PBS that of its solver, of its model or of the reference's discretisation (ensemble.hpp)? README.md
+// describes the poses and records.
 //
 //   pbskin reproduce ensemble            two poses, 20 minutes on one core
 //   pbskin reproduce ensemble --full     three poses, an hour
@@ -27,20 +27,24 @@ const Columns<OwnTetsRow> own_tets_columns =
     within(&OwnTetsRow::of, pose_columns()) + MEMBER_COLUMNS(OwnTetsRow, bound_pct, linear_distance_pct);
 
 const Columns<PartsRow> part_columns =
-    within(&PartsRow::of, pose_columns()) + MEMBER_COLUMNS(PartsRow, k_stretch, iterations, error_joint_pct, solver_pct, model_pct,
-                                                           discretisation_pct, not_converged_pct, error_l2_pct, error_linf_m,
-                                                           whole_joint_pct, masked_share_pct, observed_order, order_is_reliable);
+    within(&PartsRow::of, pose_columns()) + MEMBER_COLUMNS(PartsRow, k_stretch, iterations, error_joint_pct, solver_pct,
+                                                           model_pct, discretisation_pct, not_converged_pct,
+                                                           error_l2_pct, error_linf_m, whole_joint_pct,
+                                                           masked_share_pct, observed_order, order_is_reliable);
 
 const Columns<AttachmentRow> attachment_columns =
-    within(&AttachmentRow::of, pose_columns()) +
-    MEMBER_COLUMNS(AttachmentRow, reference, model, attachment, spring_factor, core_radius, difference_pct, k_stretch, model_pct, finished);
+    within(&AttachmentRow::of, pose_columns()) + MEMBER_COLUMNS(AttachmentRow, reference, model, attachment,
+                                                                spring_factor, core_radius, difference_pct, k_stretch,
+                                                                model_pct, finished);
 
-RECORD_SETTINGS(EnsembleCase, of, scene, frame, flesh, effort, pbs, other_flesh, k_stretch, iterations, converged_iterations)
+RECORD_SETTINGS(EnsembleCase, of, scene, frame, flesh, effort, pbs, other_flesh, k_stretch, iterations,
+                converged_iterations)
 
 std::vector<DeformerSpec> other_attachments(const DeformerSpec& reference)
 {
     std::vector<DeformerSpec> others;
-    const auto add = [&](const char* label, FemAttachment attachment, double spring_factor, double core_radius, bool is_linear = false) {
+    const auto add = [&](const char* label, FemAttachment attachment, double spring_factor, double core_radius,
+                         bool is_linear = false) {
         DeformerSpec& other = others.emplace_back(reference);
         other.name = other.label = label;
         auto& options = options_of<FemOptions>(other);
@@ -68,12 +72,14 @@ namespace {
 OwnTetsRow own_tets_row(const EnsembleCase& ensemble_case, const PosedReference& reference)
 {
     OwnTetsRow row{.of = ensemble_case.of};
-    if (const double bound_pct = reference.bound_on_own_tets().joint_pct; std::isfinite(bound_pct)) row.bound_pct = bound_pct;
+    if (const double bound_pct = reference.bound_on_own_tets().joint_pct; std::isfinite(bound_pct))
+        row.bound_pct = bound_pct;
     const NestedSolution *linear = nullptr, *quadratic = nullptr;
     for (const NestedSolution& solution : reference.solutions())
         if (solution.finished && solution.refinements == 0 && solution.other_tets == 0 && !solution.along_the_bones)
             (solution.element_order == 1 ? linear : quadratic) = &solution;
-    if (linear && quadratic) row.linear_distance_pct = reference.distance(linear->positions, quadratic->positions).joint_pct;
+    if (linear && quadratic)
+        row.linear_distance_pct = reference.distance(linear->positions, quadratic->positions).joint_pct;
     return row;
 }
 
@@ -91,7 +97,10 @@ pbs::PbsOptions in_double(const DeformerSpec& spec, double k_stretch, int iterat
 class Splitting {
 public:
     Splitting(const EnsembleCase& ensemble_case, const PosedCharacter& base, const PosedReference& reference)
-        : of_(ensemble_case), base_(base), reference_(reference), reference_shape_{reference.reference().positions, true}
+        : of_(ensemble_case),
+          base_(base),
+          reference_(reference),
+          reference_shape_{reference.reference().positions, true}
     {
     }
 
@@ -101,8 +110,10 @@ public:
         for (const DeformerSpec& other : of_.other_flesh) others.push_back(base_.shapes(other).front());
         for (const double k_stretch : of_.k_stretch) {
             const pbs::PbsOptions whole = in_double(of_.pbs, k_stretch, of_.converged_iterations);
-            std::vector<pbs::PbsOptions> options_of_runs = {whole, in_double(of_.pbs, k_stretch, of_.converged_iterations / 2)};
-            for (const int iterations : of_.iterations) options_of_runs.push_back(in_double(of_.pbs, k_stretch, iterations));
+            std::vector<pbs::PbsOptions> options_of_runs = {
+                whole, in_double(of_.pbs, k_stretch, of_.converged_iterations / 2)};
+            for (const int iterations : of_.iterations)
+                options_of_runs.push_back(in_double(of_.pbs, k_stretch, iterations));
             const std::vector<Shapes> shapes = base_.shapes(options_of_runs);
             const Shape &converged = shapes[0].front(), &half_way = shapes[1].front();
             for (std::size_t n = 2; n < shapes.size(); ++n) {
@@ -137,7 +148,8 @@ private:
         return row;
     }
 
-    AttachmentRow attachment(double k_stretch, const Shape& converged, const DeformerSpec& flesh, const Shape& shape) const
+    AttachmentRow attachment(double k_stretch, const Shape& converged, const DeformerSpec& flesh,
+                             const Shape& shape) const
     {
         const auto& fem = options_of<FemOptions>(flesh);
         AttachmentRow row{of_.of, flesh.label, name_of(fem.model), name_of(fem.attachment)};
@@ -200,8 +212,8 @@ bool conclude(const FinishedRuns& finished)
 EnsembleRecords measure_ensemble(const EnsembleCase& ensemble_case, const std::string& solutions)
 {
     const PosedCharacter body(ensemble_case.scene, {ensemble_case.frame});
-    const PosedReference reference(body.character(), ensemble_case.flesh, body.pose(0), ensemble_case.scene.motion.time_step_s,
-                                   ensemble_case.effort, solutions);
+    const PosedReference reference(body.character(), ensemble_case.flesh, body.pose(0),
+                                   ensemble_case.scene.motion.time_step_s, ensemble_case.effort, solutions);
     EnsembleRecords records;
     if (!reference.is_reached()) return records;
     records.own_tets.push_back(own_tets_row(ensemble_case, reference));

@@ -1,5 +1,5 @@
-// A bar that is held at one end, with the same tets and the same held vertices for PBS and for the finite elements; and Young's modulus of
-// the linear elastic bar that hangs as another body does under the same gravity and density.
+// A bar that is held at one end, with the same tets and the same held vertices for PBS and for the finite elements; and
+// Young's modulus of the linear elastic bar that hangs as another body does under the same gravity and density.
 //   const Cantilever cantilever = make_cantilever(bar);
 //   const YoungFit fit = fit_young(cantilever, elastic_sag(cantilever, options), pbs_displacement, 9.81);
 //   fit.young_pa.estimate, fit.misfit_pct
@@ -36,14 +36,16 @@ struct YoungFit {
     // 95 %, leaving out one fifth of the free length at a time: wide where no single modulus bends as the body does.
     analysis::Interval young_pa;
     double misfit_pct = analysis::not_known;  // what is left: rms over the fifths of |u - u_elastic| / |u|
-    double rise = analysis::not_known;   // the least share by which the misfit rises if the modulus changes by 10 %; infinite for misfit 0
+    double rise = analysis::not_known;   // the least share by which the misfit rises if the modulus changes by 10 %;
+                                         // infinite for misfit 0
     std::string outcome = "not_finite";  // or converged
     bool identifiable = false;           // the misfit rises by at least 1 %
 };
 
-// displacement [m], #V x 3, under gravity_m_s2 along -z with the density of the elastic sag. A displacement that is not finite, or against
-// gravity, has no modulus: NaN, and the outcome not_finite.
-YoungFit fit_young(const Cantilever& cantilever, const ElasticSag& elastic, const pbs::Positions& displacement, double gravity_m_s2);
+// displacement [m], #V x 3, under gravity_m_s2 along -z with the density of the elastic sag. A displacement that is not
+// finite, or against gravity, has no modulus: NaN, and the outcome not_finite.
+YoungFit fit_young(const Cantilever& cantilever, const ElasticSag& elastic, const pbs::Positions& displacement,
+                   double gravity_m_s2);
 
 // The bars and settings of one run of the study, and its rows.
 struct SagCase {

@@ -27,7 +27,8 @@ Interval interval_of(const Measurement& measurement)
 
 Measurement conclusion(const std::string& quantity, const CaseKey& of, const Interval& value, std::size_t n = 0)
 {
-    return {"C09", quantity, of, value.estimate, value.low, value.high, "1", "", analysis::Limit::none, static_cast<int>(n)};
+    return {"C09",      quantity, of, value.estimate,        value.low,
+            value.high, "1",      "", analysis::Limit::none, static_cast<int>(n)};
 }
 
 // The ratio of the frequency where a field of the case is changed by a factor to the frequency of the case.
@@ -40,7 +41,8 @@ std::vector<Measurement> frequency_ratios(const std::vector<Measurement>& measur
         CaseKey changed = frequency.of;
         *(changed.*field) *= factor;
         if (const Measurement* there = analysis::find_measurement(measured, frequency.quantity, changed))
-            ratios.push_back(conclusion(quantity, frequency.of, analysis::ratio(interval_of(*there), interval_of(frequency))));
+            ratios.push_back(
+                conclusion(quantity, frequency.of, analysis::ratio(interval_of(*there), interval_of(frequency))));
     }
     return ratios;
 }
@@ -55,7 +57,8 @@ void add_share(const std::vector<Measurement>& measured, std::vector<Measurement
         of.body = left.of.body;
     }
     const double share = analysis::mean(swings);
-    if (!swings.empty()) to.push_back(conclusion("share_of_settings_that_swing", of, {share, share, share}, swings.size()));
+    if (!swings.empty())
+        to.push_back(conclusion("share_of_settings_that_swing", of, {share, share, share}, swings.size()));
 }
 
 void add_correlation(const std::string& quantity, const CaseKey& of, const Series& series, std::vector<Measurement>& to)
@@ -66,7 +69,8 @@ void add_correlation(const std::string& quantity, const CaseKey& of, const Serie
         values.push_back(measurement.value);
     }
     if (series.size() >= least_for_correlation)
-        to.push_back(conclusion(quantity, of, analysis::rank_correlation_without_one(stiffness, values), series.size()));
+        to.push_back(
+            conclusion(quantity, of, analysis::rank_correlation_without_one(stiffness, values), series.size()));
 }
 
 // The ratio is NaN where nothing swings beyond its place at any stiffness.
@@ -90,7 +94,8 @@ void add_frequencies(CaseKey of, const Series& series, std::vector<Measurement>&
     add_correlation("rank_correlation_of_frequency_and_k_stretch", of, series, to);
     of.k_stretch = softest;
     of.k_stretch_to = stiffest;
-    to.push_back(conclusion("frequency_ratio_over_k_stretch", of, analysis::ratio(interval_of(fastest), interval_of(slowest))));
+    to.push_back(
+        conclusion("frequency_ratio_over_k_stretch", of, analysis::ratio(interval_of(fastest), interval_of(slowest))));
 }
 
 void add_half_step(const std::vector<Measurement>& measured, std::vector<Measurement>& to)
@@ -98,8 +103,8 @@ void add_half_step(const std::vector<Measurement>& measured, std::vector<Measure
     const auto halvings = frequency_ratios(measured, "frequency_ratio_at_half_time_step", &CaseKey::time_step_s, 0.5);
     if (halvings.empty()) return;
     const auto [least, most] = std::ranges::minmax(halvings, {}, &Measurement::value);
-    to.push_back(
-        conclusion(halvings.front().quantity, halvings.front().of, {halvings.front().value, least.value, most.value}, halvings.size()));
+    to.push_back(conclusion(halvings.front().quantity, halvings.front().of,
+                            {halvings.front().value, least.value, most.value}, halvings.size()));
 }
 
 }  // namespace
@@ -109,8 +114,10 @@ std::vector<Measurement> jiggle_conclusions(const std::vector<Measurement>& meas
     std::vector<Measurement> conclusions;
     add_share(measured, conclusions);
     for (const auto stiffness : {&CaseKey::k_stretch, &CaseKey::young_pa})
-        for (const auto& [of, series] : series_over(measured, "amplitude", stiffness)) add_amplitudes(of, series, conclusions);
-    for (const auto& [of, series] : series_over(measured, "frequency_hz", &CaseKey::k_stretch)) add_frequencies(of, series, conclusions);
+        for (const auto& [of, series] : series_over(measured, "amplitude", stiffness))
+            add_amplitudes(of, series, conclusions);
+    for (const auto& [of, series] : series_over(measured, "frequency_hz", &CaseKey::k_stretch))
+        add_frequencies(of, series, conclusions);
     add_half_step(measured, conclusions);
     std::ranges::move(frequency_ratios(measured, "frequency_ratio_at_twice_iterations", &CaseKey::iterations, 2.0),
                       std::back_inserter(conclusions));

@@ -26,13 +26,15 @@ using analysis::within;
 namespace {
 
 const Columns<DampedOscillation> outcome_columns = {{"outcome", &DampedOscillation::outcome}};
-const Columns<Interval> frequency_columns = {
-    {"frequency_hz", &Interval::estimate}, {"frequency_low_hz", &Interval::low}, {"frequency_high_hz", &Interval::high}};
+const Columns<Interval> frequency_columns = {{"frequency_hz", &Interval::estimate},
+                                             {"frequency_low_hz", &Interval::low},
+                                             {"frequency_high_hz", &Interval::high}};
 const Columns<Interval> damping_columns = {
     {"damping_ratio", &Interval::estimate}, {"damping_low", &Interval::low}, {"damping_high", &Interval::high}};
-const Columns<DampedOscillation> swing_columns = within(&DampedOscillation::frequency_hz, frequency_columns) +
-                                                 within(&DampedOscillation::damping_ratio, damping_columns) +
-                                                 Columns<DampedOscillation>{{"explained", &DampedOscillation::explained}};
+const Columns<DampedOscillation> swing_columns =
+    within(&DampedOscillation::frequency_hz, frequency_columns) +
+    within(&DampedOscillation::damping_ratio, damping_columns) +
+    Columns<DampedOscillation>{{"explained", &DampedOscillation::explained}};
 
 constexpr double first_young_pa = 1e5;         // of the reference, before its frequency is matched
 constexpr double rayleigh_stiffness_s = 0.02;  // of the control with damping
@@ -43,12 +45,13 @@ std::vector<ZoneRow> zone_rows(const pbs::ZoneContents& zone)
 {
     std::vector<ZoneRow> rows;
     for (const pbs::BoneInZone& bone : zone.bones)
-        rows.push_back(
-            {zone.share, zone.skin_share, static_cast<int>(zone.pieces.size()), static_cast<int>(zone.pieces.front().size()), bone});
+        rows.push_back({zone.share, zone.skin_share, static_cast<int>(zone.pieces.size()),
+                        static_cast<int>(zone.pieces.front().size()), bone});
     return rows;
 }
 
-Measurement measurement(const std::string& quantity, const analysis::CaseKey& key, const Interval& value, const std::string& unit = "1")
+Measurement measurement(const std::string& quantity, const analysis::CaseKey& key, const Interval& value,
+                        const std::string& unit = "1")
 {
     return {"C09", quantity, key, value.estimate, value.low, value.high, unit};
 }
@@ -64,7 +67,8 @@ void add_values(std::vector<Measurement>& measurements, const analysis::CaseKey&
     const bool is_of_the_paper = !key.k_bind && key.masses != name_of(pbs::Masses::lumped);
     if (response.finished) measurements.push_back(exact_value("amplitude", key, response.overshoot_over_jolt));
     if (is_of_the_paper)
-        measurements.push_back(exact_value("last_share_of_peak", key, response.finished ? response.left_over_peak : analysis::not_known));
+        measurements.push_back(
+            exact_value("last_share_of_peak", key, response.finished ? response.left_over_peak : analysis::not_known));
     if (!response.swing.found()) return;
     const std::string damping = is_of_the_paper ? "damping_ratio" : "damping_ratio_in_other_readings";
     measurements.push_back(measurement(damping, key, response.swing.damping_ratio));
@@ -72,7 +76,8 @@ void add_values(std::vector<Measurement>& measurements, const analysis::CaseKey&
 }
 
 // The response of PBS at each setting.
-std::vector<ResponseRow> responses_of_pbs(const JoltCase& jolt_case, const pbs::Character& character, const std::vector<int>& probe)
+std::vector<ResponseRow> responses_of_pbs(const JoltCase& jolt_case, const pbs::Character& character,
+                                          const std::vector<int>& probe)
 {
     std::vector<ResponseRow> rows;
     for (const Overrides& setting : jolt_case.settings) {
@@ -97,11 +102,11 @@ DeformerSpec dynamic_reference(double young_pa)
     return spec;
 }
 
-// The same flesh as an elastic body in time, with the Young's modulus with which it swings as fast as PBS does at one setting; damping and
-// amplitude can then be compared. The frequency is proportional to sqrt(E): E is chosen by that of a first modulus, then solved again.
-// Nothing where one of them does not swing.
-std::optional<ResponseRow> reference_row(const JoltCase& jolt_case, const pbs::Character& character, const std::vector<int>& probe,
-                                         const ResponseRow& own)
+// The same flesh as an elastic body in time, with the Young's modulus with which it swings as fast as PBS does at one
+// setting; damping and amplitude can then be compared. The frequency is proportional to sqrt(E): E is chosen by that of
+// a first modulus, then solved again. Nothing where one of them does not swing.
+std::optional<ResponseRow> reference_row(const JoltCase& jolt_case, const pbs::Character& character,
+                                         const std::vector<int>& probe, const ResponseRow& own)
 {
     const DampedOscillation& swing = own.response.swing;
     if (!swing.found()) return std::nullopt;
@@ -113,7 +118,8 @@ std::optional<ResponseRow> reference_row(const JoltCase& jolt_case, const pbs::C
     row.time_step_ms = 1e3 * jolt.time_step_s;
     row.young_pa = first_young_pa;
     for (const bool is_matched : {false, true}) {
-        if (is_matched) row.young_pa *= std::pow(swing.frequency_hz.estimate / row.response.swing.frequency_hz.estimate, 2);
+        if (is_matched)
+            row.young_pa *= std::pow(swing.frequency_hz.estimate / row.response.swing.frequency_hz.estimate, 2);
         row.response = jolt_response(character, dynamic_reference(row.young_pa), probe, jolt);
         if (!row.response.finished || !row.response.swing.found()) return std::nullopt;
     }
@@ -127,15 +133,16 @@ void add_over_reference(std::vector<Measurement>& measurements, const std::strin
     analysis::CaseKey at = key_of(body, own);
     at.reference = reference.deformer;
     at.young_pa = reference.young_pa;
-    measurements.push_back(measurement("frequency_over_reference", at, analysis::ratio(own_swing.frequency_hz, swing.frequency_hz)));
     measurements.push_back(
-        exact_value("amplitude_over_reference", at, own.response.overshoot_over_jolt / reference.response.overshoot_over_jolt));
+        measurement("frequency_over_reference", at, analysis::ratio(own_swing.frequency_hz, swing.frequency_hz)));
+    measurements.push_back(exact_value("amplitude_over_reference", at,
+                                       own.response.overshoot_over_jolt / reference.response.overshoot_over_jolt));
     measurements.push_back(measurement("damping_ratio_of_reference", at, swing.damping_ratio));
 }
 
-// LBS at each k_stretch, which it does not have; the author's later code; and finite elements in time: with damping at each Young's
-// modulus, without it at the first, at which those with damping come to rest within the steps. Linear elements suffice where nothing turns,
-// and average acceleration adds no damping of its own.
+// LBS at each k_stretch, which it does not have; the author's later code; and finite elements in time: with damping at
+// each Young's modulus, without it at the first, at which those with damping come to rest within the steps. Linear
+// elements suffice where nothing turns, and average acceleration adds no damping of its own.
 void add_controls(const JoltCase& jolt_case, const pbs::Character& character, const std::vector<int>& probe,
                   const std::vector<ResponseRow>& rows, std::vector<Measurement>& measurements)
 {
@@ -144,12 +151,13 @@ void add_controls(const JoltCase& jolt_case, const pbs::Character& character, co
     for (const ResponseRow& row : rows) {
         if (key_of("", row) != key_of("", {.k_stretch = row.k_stretch})) continue;
         const analysis::CaseKey key = {.body = character.name, .deformer = "lbs", .k_stretch = row.k_stretch};
-        measurements.push_back(
-            exact_value("amplitude", key, jolt_response(character, default_spec("lbs"), probe, jolt).overshoot_over_jolt));
+        measurements.push_back(exact_value(
+            "amplitude", key, jolt_response(character, default_spec("lbs"), probe, jolt).overshoot_over_jolt));
     }
     DeformerSpec author = default_spec("pbs_author");
     options_of<pbs::AuthorOptions>(author).gravity_m_s2.setZero();
-    add_values(measurements, {.body = character.name, .deformer = "pbs_author"}, jolt_response(character, author, probe, jolt));
+    add_values(measurements, {.body = character.name, .deformer = "pbs_author"},
+               jolt_response(character, author, probe, jolt));
     const auto response = [&](double young_pa, double damping_s) {
         DeformerSpec spec = dynamic_reference(young_pa);
         auto& options = options_of<FemOptions>(spec);
@@ -197,7 +205,8 @@ std::vector<int> probe_of(const StopCase& stop, const pbs::Character& character)
     for (std::size_t v = 0; v < zone.size(); ++v)
         if (zone[v] && character.binding.bone[v] == bone) probe.push_back(static_cast<int>(v));
     if (probe.empty())
-        throw pbs::InputError("jiggle/cases.toml", 0, "stops", stop.bone, "expected a bone with vertices in the jiggling zone");
+        throw pbs::InputError("jiggle/cases.toml", 0, "stops", stop.bone,
+                              "expected a bone with vertices in the jiggling zone");
     return probe;
 }
 
@@ -225,7 +234,8 @@ std::vector<StoppedDeformer> stopped_deformers(const StopCase& stop)
     own.poisson = fem.poisson;
     own.density_kg_m3 = fem.density_kg_m3;
     own.jiggle = true;
-    for (const int finer : {1, stop.finer_steps}) deformers.push_back({xpbd, {"xpbd", none, own.young_pa, none}, finer});
+    for (const int finer : {1, stop.finer_steps})
+        deformers.push_back({xpbd, {"xpbd", none, own.young_pa, none}, finer});
     fem.dynamics = reference_fem::Dynamics::generalized_alpha;
     fem.contact = false;  // generalised alpha has none
     for (const double damping_s : stop.rayleigh_stiffness_s) {
@@ -236,7 +246,8 @@ std::vector<StoppedDeformer> stopped_deformers(const StopCase& stop)
 }
 
 // The response of a deformer. Where it does not swing, no frequency is on record.
-StopRow stop_row(const StopCase& stop, const pbs::Character& character, const std::vector<int>& probe, const StoppedDeformer& deformer)
+StopRow stop_row(const StopCase& stop, const pbs::Character& character, const std::vector<int>& probe,
+                 const StoppedDeformer& deformer)
 {
     MotionSpec motion = stop.scene.motion;
     motion.frames *= deformer.finer;
@@ -244,10 +255,12 @@ StopRow stop_row(const StopCase& stop, const pbs::Character& character, const st
     motion.time_step_s /= deformer.finer;
     const int still_steps = static_cast<int>(std::lround(stop.still_s / motion.time_step_s));
     StopRow row = deformer.described;
-    row.response = stop_response(character, deformer.spec, probe, make_motion(motion, character.skeleton, stop.scene.file), still_steps);
+    row.response = stop_response(character, deformer.spec, probe,
+                                 make_motion(motion, character.skeleton, stop.scene.file), still_steps);
     row.time_step_ms = 1e3 * motion.time_step_s;
     DampedOscillation& swing = row.response.swing;
-    if (!swing.found()) swing.frequency_hz = swing.damping_ratio = {analysis::not_known, analysis::not_known, analysis::not_known};
+    if (!swing.found())
+        swing.frequency_hz = swing.damping_ratio = {analysis::not_known, analysis::not_known, analysis::not_known};
     return row;
 }
 
@@ -255,14 +268,15 @@ StopRow stop_row(const StopCase& stop, const pbs::Character& character, const st
 
 const Columns<ResponseRow> response_columns =
     MEMBER_COLUMNS(ResponseRow, deformer, k_stretch, time_step_ms, iterations, masses, k_bind, young_pa) +
-    within(&ResponseRow::response,
-           within(&JoltResponse::swing, outcome_columns + swing_columns) +
-               MEMBER_COLUMNS(JoltResponse, peak_over_jolt, overshoot_over_jolt, left_over_peak, speed_growth, finished));
+    within(&ResponseRow::response, within(&JoltResponse::swing, outcome_columns + swing_columns) +
+                                       MEMBER_COLUMNS(JoltResponse, peak_over_jolt, overshoot_over_jolt, left_over_peak,
+                                                      speed_growth, finished));
 
-const Columns<ZoneRow> zone_columns = MEMBER_COLUMNS(ZoneRow, share_of_vertices, share_on_skin, pieces, largest_piece) +
-                                      within(&ZoneRow::bone, Columns<pbs::BoneInZone>{{"bone", &pbs::BoneInZone::name},
-                                                                                      {"share_of_zone", &pbs::BoneInZone::share_of_zone},
-                                                                                      {"share_of_bone", &pbs::BoneInZone::share_of_bone}});
+const Columns<ZoneRow> zone_columns =
+    MEMBER_COLUMNS(ZoneRow, share_of_vertices, share_on_skin, pieces, largest_piece) +
+    within(&ZoneRow::bone, Columns<pbs::BoneInZone>{{"bone", &pbs::BoneInZone::name},
+                                                    {"share_of_zone", &pbs::BoneInZone::share_of_zone},
+                                                    {"share_of_bone", &pbs::BoneInZone::share_of_bone}});
 
 RECORD_SETTINGS(Jolt, direction, length_m, time_step_s, still_steps, steps)
 
@@ -271,7 +285,8 @@ RECORD_SETTINGS_AND(JoltCase,
                                             {"first_young_pa", first_young_pa},
                                             {"steps_a_period", reference_steps_a_period},
                                             {"periods", reference_periods}})
-                        .constant("controls", {{"rayleigh_stiffness_s", rayleigh_stiffness_s}, {"steps", control_steps}}),
+                        .constant("controls",
+                                  {{"rayleigh_stiffness_s", rayleigh_stiffness_s}, {"steps", control_steps}}),
                     scene, overrides, settings, jolt, with_reference, young_pa)
 
 Scene scene_of(const JoltCase& jolt_case, Overrides setting)
@@ -301,8 +316,9 @@ std::string record_jolts(const JoltCase& jolt_case, const std::string& folder)
     std::string breakdown;
     for (const ResponseRow& row : rows)
         if (!row.response.finished) breakdown += text_of(key_of(character.name, row)) + ". ";
-    std::erase_if(rows,
-                  [](const ResponseRow& row) { return row.order != ResponseRow().order || row.precision != ResponseRow().precision; });
+    std::erase_if(rows, [](const ResponseRow& row) {
+        return row.order != ResponseRow().order || row.precision != ResponseRow().precision;
+    });
     rows.insert(rows.end(), references.begin(), references.end());
     table_of(zone_columns, zone_rows(zone)).write(analysis::path_in(folder, "zone.csv"));
     table_of(response_columns, rows).write(analysis::path_in(folder, "responses.csv"));
@@ -310,10 +326,10 @@ std::string record_jolts(const JoltCase& jolt_case, const std::string& folder)
     return breakdown;
 }
 
-RECORD_SETTINGS_AND(
-    StopCase,
-    .constant("finite_elements", {{"dynamics", "generalized_alpha"}, {"contact", false}}).constant("settled_share", settled_share), scene,
-    bone, k_stretch, rayleigh_stiffness_s, finer_steps, still_s)
+RECORD_SETTINGS_AND(StopCase,
+                    .constant("finite_elements", {{"dynamics", "generalized_alpha"}, {"contact", false}})
+                        .constant("settled_share", settled_share),
+                    scene, bone, k_stretch, rayleigh_stiffness_s, finer_steps, still_s)
 
 std::string record_stop(const StopCase& stop, const std::string& folder)
 {

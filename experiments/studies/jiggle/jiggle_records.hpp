@@ -20,8 +20,8 @@ namespace experiments {
 // The step response of a body's flesh: the skeleton is moved by a jolt in one time step and then held still.
 //   const JoltResponse response = jolt_response(character, spec, probe, {});
 //   response.swing.frequency_hz.estimate, response.left_over_peak
-// The quantity that swings is the mean displacement of the probe's vertices along the jolt, from where they lay before, moved with the
-// skeleton.
+// The quantity that swings is the mean displacement of the probe's vertices along the jolt, from where they lay before,
+// moved with the skeleton.
 struct Jolt {
     pbs::Vec3 direction = pbs::Vec3::UnitY();  // unit
     double length_m = 0.02;
@@ -31,37 +31,38 @@ struct Jolt {
 };
 
 struct JoltResponse {
-    double path_m = 0.0;                  // length of the jolt, or of the probe's path on its bones: the unit of what is over the jolt
+    double path_m = 0.0;  // length of the jolt, or of the probe's path on its bones: the unit of what is over the jolt
     std::vector<double> excursion_m{};    // of the probe, one per step, beginning with that of the jolt
     std::vector<double> speed_rms_m_s{};  // of all the body's vertices
     analysis::DampedOscillation swing{};  // fitted to the excursion
     double peak_over_jolt = 0.0;          // largest excursion, either way; 1 where flesh stays behind at first
     double overshoot_over_jolt = 0.0;     // largest excursion beyond the place on the skeleton
     double settling_s = 0.0;              // after which the excursion stays within a tenth of its peak
-    double rest_over_jolt = 0.0;          // of stop_response: where the probe comes to rest, from its place without inertia
-    double left_over_peak = 0.0;          // largest excursion of the last tenth
-    double speed_growth = 0.0;            // largest speed after the first tenth over that within it; above 1, energy has grown
-    bool finished = true;                 // every step
+    double rest_over_jolt = 0.0;  // of stop_response: where the probe comes to rest, from its place without inertia
+    double left_over_peak = 0.0;  // largest excursion of the last tenth
+    double speed_growth = 0.0;    // largest speed after the first tenth over that within it; above 1, energy has grown
+    bool finished = true;         // every step
 };
 
 inline constexpr double settled_share = 0.1;  // of the peak, within which the excursion is settled
-JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe, const Jolt& jolt);
+JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe,
+                           const Jolt& jolt);
 
-// The skeleton goes through a motion and is then held still. What swings is the mean displacement of the probe's vertices from where they
-// come to rest (their mean in the last tenth), along the probe's last velocity. The excursion begins with the first still step. InputError
-// where the motion does not move the probe.
+// The skeleton goes through a motion and is then held still. What swings is the mean displacement of the probe's
+// vertices from where they come to rest (their mean in the last tenth), along the probe's last velocity. The excursion
+// begins with the first still step. InputError where the motion does not move the probe.
 JoltResponse stop_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe,
                            const pbs::Motion& motion, int still_steps);
 
-// A limb that moves and stops. PBS and XPBD have their jiggling zone; XPBD and the finite elements have one material, that of the scene's
-// reference, and nothing is fitted. The other minimisers have no inertia.
+// A limb that moves and stops. PBS and XPBD have their jiggling zone; XPBD and the finite elements have one material,
+// that of the scene's reference, and nothing is fitted. The other minimisers have no inertia.
 struct StopCase {
     Scene scene;                                                      // a movement, with pbs, xpbd and a reference
     std::string bone;                                                 // the probe: its vertices in the zone
     std::vector<double> k_stretch = {0.05, 0.1, 0.2, 0.5, 0.9};       // of PBS in the zone
     std::vector<double> rayleigh_stiffness_s = {0.001, 0.003, 0.01};  // dampings of the finite elements
-    int finer_steps = 4;                                              // of these, and of a second run of XPBD, for each step of PBS
-    double still_s = 2.0;                                             // after the motion
+    int finer_steps = 4;   // of these, and of a second run of XPBD, for each step of PBS
+    double still_s = 2.0;  // after the motion
 };
 
 // The response of the zone's largest piece to a jolt, at each setting.
@@ -70,8 +71,8 @@ struct JoltCase {
     Overrides overrides = {};              // of the scene
     std::vector<Overrides> settings = {};  // each one on top of these
     Jolt jolt = {};                        // except its time step, which each setting has
-    bool with_reference = false;           // for each setting that swings; then the settings' own values are left to another run
-    std::vector<double> young_pa = {};     // of the finite elements that are controls
+    bool with_reference = false;  // for each setting that swings; then the settings' own values are left to another run
+    std::vector<double> young_pa = {};  // of the finite elements that are controls
 };
 
 Scene scene_of(const JoltCase& jolt_case, Overrides setting = {});
@@ -111,21 +112,24 @@ ResponseRow setting_of(const Scene& scene);  // of its PBS; the response is left
 // The case of a setting. k_bind is set only where the zone is not bound as the rest is.
 analysis::CaseKey key_of(const std::string& body, const ResponseRow& row);
 
-// What one body's responses measure, per setting: the amplitude, which is the overshoot over the jolt, of those that finish; the damping
-// ratio and the frequency of those that swing (DampedOscillation::found). If the zone is bound and all masses are 1, as in the paper: the
-// share of the peak that is left at the end (C09a), NaN where the setting breaks down. Otherwise the damping ratio is a quantity of its
-// own.
+// What one body's responses measure, per setting: the amplitude, which is the overshoot over the jolt, of those that
+// finish; the damping ratio and the frequency of those that swing (DampedOscillation::found). If the zone is bound and
+// all masses are 1, as in the paper: the share of the peak that is left at the end (C09a), NaN where the setting breaks
+// down. Otherwise the damping ratio is a quantity of its own.
 std::vector<analysis::Measurement> response_values(const std::string& body, const std::vector<ResponseRow>& rows);
 
 // These conclusions follow from the measured values:
-// - in the paper's solver: the share of the paper's settings that swing; the rank correlation of the frequency with k_stretch, with its
+// - in the paper's solver: the share of the paper's settings that swing; the rank correlation of the frequency with
+// k_stretch, with its
 //   range when one setting is left out, and the ratio of the frequencies at the ends of k_stretch;
-// - the ratio of the largest and the smallest amplitude over k_stretch and their rank correlation (C09b), in each order and precision. The
+// - the ratio of the largest and the smallest amplitude over k_stretch and their rank correlation (C09b), in each order
+// and precision. The
 //   damped finite elements have Young's modulus in the place of k_stretch;
 // - the ratio of frequencies with twice the iterations and with the default;
-// - the ratio of frequencies with half the time step and with the whole, for the first setting, with its range over all halvings. Without
-//   gravity Algorithm 1 makes it 2 on any body: by lines 7, 8 and 16 a particle moves on by its last movement, x_n + (x_n - x_n-1), however
-//   long a step is, so that the frequency is one per step.
+// - the ratio of frequencies with half the time step and with the whole, for the first setting, with its range over all
+// halvings. Without
+//   gravity Algorithm 1 makes it 2 on any body: by lines 7, 8 and 16 a particle moves on by its last movement, x_n +
+//   (x_n - x_n-1), however long a step is, so that the frequency is one per step.
 std::vector<analysis::Measurement> jiggle_conclusions(const std::vector<analysis::Measurement>& measured);
 
 // Both.

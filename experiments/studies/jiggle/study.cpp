@@ -1,8 +1,9 @@
-// Jiggle: does flesh in the paper's jiggling zone swing and come to rest by itself (C09a), by an amount that k_stretch alone sets (C09b)?
-// README.md describes the runs and records.
+// Jiggle: does flesh in the paper's jiggling zone swing and come to rest by itself (C09a), by an amount that k_stretch
+// alone sets (C09b)? README.md describes the runs and records.
 //
-// The limb is moved along its bones, the only direction in which the bind constraints leave all of its skin free; bodies are moved up.
-// Flesh has no gravity, so that it lies still before the jolt. An arm that stops is compared with finite elements of the same material.
+// The limb is moved along its bones, the only direction in which the bind constraints leave all of its skin free;
+// bodies are moved up. Flesh has no gravity, so that it lies still before the jolt. An arm that stops is compared with
+// finite elements of the same material.
 #include "analysis/records/record_files.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "experiments/deformers/deformer_options.hpp"
@@ -45,7 +46,8 @@ void sum_up(JoltResponse& response, const Jolt& jolt)
     const auto last = std::find_if(excursion.rbegin(), excursion.rend(), beyond);
     response.settling_s = jolt.time_step_s * static_cast<double>(excursion.rend() - last);
     response.left_over_peak = ratio(largest(excursion.end() - tenth, excursion.end()), peak);
-    response.speed_growth = ratio(largest(speed.begin() + tenth, speed.end()), largest(speed.begin(), speed.begin() + tenth));
+    response.speed_growth =
+        ratio(largest(speed.begin() + tenth, speed.end()), largest(speed.begin(), speed.begin() + tenth));
     response.swing = analysis::fit_damped_oscillation(excursion, jolt.time_step_s);
 }
 
@@ -55,8 +57,8 @@ bool advances(Deformer& deformer, const pbs::Pose& pose, double time_step_s)
 }
 
 // Holds a pose and measures how far the probe lies from its place [m] along the jolt.
-void swing(Deformer& deformer, const pbs::Pose& pose, const pbs::Positions& place, const std::vector<int>& probe, const Jolt& jolt,
-           JoltResponse& response)
+void swing(Deformer& deformer, const pbs::Pose& pose, const pbs::Positions& place, const std::vector<int>& probe,
+           const Jolt& jolt, JoltResponse& response)
 {
     const Eigen::Index vertices = place.rows();
     for (int step = 0; step < jolt.steps && response.finished; ++step) {
@@ -95,21 +97,24 @@ StudyPlan plan(bool full)
 {
     return plan_of_cases("jiggle", full, [](const StudyCase& study_case, StudyPlan& plan) {
         if (study_case.has("stops"))
-            plan.runs.push_back(work_run<StopCase>(study_case.name, {study_case.scene(), study_case.value<std::string>("stops")},
+            plan.runs.push_back(work_run<StopCase>(study_case.name,
+                                                   {study_case.scene(), study_case.value<std::string>("stops")},
                                                    study_case.cost_s, record_stop));
         else
             plan.runs.push_back(work_run(study_case.name, jolt_case(study_case), study_case.cost_s, record_jolts));
     });
 }
 
-// C09a of readings: a jolt without gravity at the reading's own stiffness in the zone, at 0.1 there, at half the time step and at twice the
-// iterations. A reading whose flesh does not jiggle takes Table 1's 0.9 in the zone. All count as the paper's own setting.
+// C09a of readings: a jolt without gravity at the reading's own stiffness in the zone, at 0.1 there, at half the time
+// step and at twice the iterations. A reading whose flesh does not jiggle takes Table 1's 0.9 in the zone. All count as
+// the paper's own setting.
 constexpr double table_1_k_stretch = 0.9, soft_k_stretch = 0.1;
-constexpr double least_answer = 1e-3;  // of the jolt; flesh that LBS carries along moves by rounding, some 1e-5, which is no swing
+constexpr double least_answer =
+    1e-3;  // of the jolt; flesh that LBS carries along moves by rounding, some 1e-5, which is no swing
 
 // named: the setting under which the values are recorded, which is the paper's, whatever the reading makes of it.
-ResponseRow jolted(const pbs::Character& character, const std::vector<int>& probe, const Jolt& jolt, const DeformerSpec& read,
-                   ResponseRow named, double k_stretch)
+ResponseRow jolted(const pbs::Character& character, const std::vector<int>& probe, const Jolt& jolt,
+                   const DeformerSpec& read, ResponseRow named, double k_stretch)
 {
     DeformerSpec spec = read;
     auto& options = options_of<pbs::PbsOptions>(spec);
@@ -126,13 +131,14 @@ ResponseRow jolted(const pbs::Character& character, const std::vector<int>& prob
     return named;
 }
 
-std::vector<ResponseRow> jolts_of(const StudyCase& study_case, const pbs::Character& character, const std::vector<int>& probe,
-                                  const Overrides& reading)
+std::vector<ResponseRow> jolts_of(const StudyCase& study_case, const pbs::Character& character,
+                                  const std::vector<int>& probe, const Overrides& reading)
 {
     const Scene scene = study_case.scene(reading);
     const DeformerSpec spec = spec_of(scene, "pbs");
     const auto& options = options_of<pbs::PbsOptions>(spec);
-    const double dt_s = study_case.scene().motion.time_step_s, k = options.jiggle ? options.jiggle->k_stretch : table_1_k_stretch;
+    const double dt_s = study_case.scene().motion.time_step_s,
+                 k = options.jiggle ? options.jiggle->k_stretch : table_1_k_stretch;
     const int substeps = static_cast<int>(std::lround(dt_s / scene.motion.time_step_s));
     const auto jolt = [&](const ResponseRow& named, double k_stretch) {
         Jolt of_setting{.direction = study_case.direction("along"), .time_step_s = named.time_step_ms / 1e3 / substeps};
@@ -140,7 +146,8 @@ std::vector<ResponseRow> jolts_of(const StudyCase& study_case, const pbs::Charac
         of_setting.steps = substeps * study_case.value<int>("jolt_steps");
         return jolted(character, probe, of_setting, spec, named, k_stretch);
     };
-    const ResponseRow named{.k_stretch = table_1_k_stretch, .time_step_ms = 1e3 * dt_s, .iterations = options.iterations};
+    const ResponseRow named{
+        .k_stretch = table_1_k_stretch, .time_step_ms = 1e3 * dt_s, .iterations = options.iterations};
     ResponseRow soft = named, half = named, twice = named;
     soft.k_stretch = soft_k_stretch;
     half.time_step_ms *= 0.5;
@@ -163,13 +170,15 @@ std::vector<ReadingValues> read_jolts(const StudyCase& study_case, const std::ve
 
 }  // namespace
 
-JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe, const Jolt& jolt)
+JoltResponse jolt_response(const pbs::Character& character, const DeformerSpec& spec, const std::vector<int>& probe,
+                           const Jolt& jolt)
 {
     const std::unique_ptr<Deformer> deformer = make_deformer(spec);
     deformer->reset(character);
     const std::size_t bones = character.skeleton.bones.size();
     const pbs::Vec3 way_m = jolt.length_m * jolt.direction;
-    const pbs::Pose still(bones, Eigen::Isometry3d::Identity()), moved(bones, Eigen::Isometry3d(Eigen::Translation3d(way_m)));
+    const pbs::Pose still(bones, Eigen::Isometry3d::Identity()),
+        moved(bones, Eigen::Isometry3d(Eigen::Translation3d(way_m)));
     JoltResponse response;
     for (int step = 0; step < jolt.still_steps && response.finished; ++step)
         response.finished = advances(*deformer, still, jolt.time_step_s);
@@ -193,7 +202,8 @@ JoltResponse stop_response(const pbs::Character& character, const DeformerSpec& 
         stop.length_m += moved_m.norm();
         stop.direction = moved_m.normalized();
     }
-    if (!(stop.length_m > 0.0)) throw pbs::InputError("stop", 0, "motion", "", "expected a motion that moves the probe");
+    if (!(stop.length_m > 0.0))
+        throw pbs::InputError("stop", 0, "motion", "", "expected a motion that moves the probe");
     const std::unique_ptr<Deformer> deformer = make_deformer(spec), at_rest = make_deformer(without_inertia(spec));
     deformer->reset(character);
     at_rest->reset(character);

@@ -1,7 +1,7 @@
-// C07: do projections conserve linear and angular momentum? Measured are single projections, and a pass over each class in every order,
-// from the LBS shape of a bent limb and of the human's crouch, in both precisions, with equal and unequal masses. Eq. 8-9 as printed, for
-// m_i = 1, are measured for comparison, as is the momentum that the bones take up from the bind constraints.
-// Writes DIR/momentum/CASE/measurements.csv.
+// C07: do projections conserve linear and angular momentum? Measured are single projections, and a pass over each class
+// in every order, from the LBS shape of a bent limb and of the human's crouch, in both precisions, with equal and
+// unequal masses. Eq. 8-9 as printed, for m_i = 1, are measured for comparison, as is the momentum that the bones take
+// up from the bind constraints. Writes DIR/momentum/CASE/measurements.csv.
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/deformers/deformer_options.hpp"
@@ -39,14 +39,15 @@ struct Momentum {
     }
 };
 
-// Positions relative to the centre of mass, rounded once to the scalar of the projection. They must be kept in memory: where the optimiser
-// sees both a position in double and its rounded value, GCC 12 at -O3 uses the former in place of the latter, and the difference to the
-// corrected position then contains the rounding of the initial one.
+// Positions relative to the centre of mass, rounded once to the scalar of the projection. They must be kept in memory:
+// where the optimiser sees both a position in double and its rounded value, GCC 12 at -O3 uses the former in place of
+// the latter, and the difference to the corrected position then contains the rounding of the initial one.
 template <typename Scalar>
 std::vector<pbs::Vector3<Scalar>> rounded(const pbs::Positions& positions, const pbs::Vec3& centre)
 {
     std::vector<pbs::Vector3<Scalar>> points;
-    for (const auto& position : positions.rowwise()) points.push_back((position.transpose() - centre).template cast<Scalar>());
+    for (const auto& position : positions.rowwise())
+        points.push_back((position.transpose() - centre).template cast<Scalar>());
     return points;
 }
 
@@ -78,7 +79,8 @@ MomentumDrift single_projections(const pbs::Character& character, const pbs::Pos
     const auto set = pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, {}, options);
     const pbs::Positions positions = blended(character, pose);
     const pbs::Vec3 centre = positions.transpose() * mass / mass.sum();
-    const auto points = rounded<Scalar>(positions, centre), q = rounded<Scalar>(pbs::posed_bind_points(character.binding, pose), centre);
+    const auto points = rounded<Scalar>(positions, centre),
+               q = rounded<Scalar>(pbs::posed_bind_points(character.binding, pose), centre);
     const auto& w = set.inverse_mass;
     double linear = 0.0, angular = 0.0, linear_sum = 0.0, angular_sum = 0.0;
     const auto add = [&]<std::size_t n>(const std::array<int, n>& vertices, const auto& project_corners) {
@@ -99,7 +101,8 @@ MomentumDrift single_projections(const pbs::Character& character, const pbs::Pos
         for (const auto& edge : set.stretch)
             add(edge.vertex, [&](auto& p) { project(edge, w[edge.vertex[0]], w[edge.vertex[1]], p[0], p[1]); });
     if (projected == ProjectedClass::volume)
-        for (const auto& tet : set.volume) add(tet.vertex, [&](auto& p) { project_as(options.volume_form, tet, w, p); });
+        for (const auto& tet : set.volume)
+            add(tet.vertex, [&](auto& p) { project_as(options.volume_form, tet, w, p); });
     if (projected == ProjectedClass::bind)
         for (const auto& bind : set.bind)
             add(std::array{bind.vertex}, [&](auto& p) { project(bind, w[bind.vertex], q[bind.vertex], p[0]); });
@@ -107,11 +110,12 @@ MomentumDrift single_projections(const pbs::Character& character, const pbs::Pos
 }
 
 template <typename Scalar>
-MomentumDrift one_pass(const pbs::Character& character, const pbs::Pose& pose, const pbs::PbsOptions& options, ProjectedClass projected,
-                       const Eigen::VectorXd& mass)
+MomentumDrift one_pass(const pbs::Character& character, const pbs::Pose& pose, const pbs::PbsOptions& options,
+                       ProjectedClass projected, const Eigen::VectorXd& mass)
 {
     const auto projection = pbs::make_projection<Scalar>(
-        pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, {}, options), character.mesh.tets, options);
+        pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, {}, options), character.mesh.tets,
+        options);
     pbs::Positions before = blended(character, pose), after = before;
     const pbs::Vec3 origin = pbs::local_origin<Scalar>(before);
     projection->load(before, pbs::posed_bind_points(character.binding, pose), origin);
@@ -150,8 +154,8 @@ const std::pair<ProjectedClass, const char*> classes[] = {
     {ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}, {ProjectedClass::bind, "bind"}};
 
 // The bones take up the momentum of bind constraints, which is no part of the claim.
-void add(std::vector<analysis::Measurement>& rows, ProjectedClass projected, const std::string& suffix, const analysis::CaseKey& key,
-         const MomentumDrift& drift)
+void add(std::vector<analysis::Measurement>& rows, ProjectedClass projected, const std::string& suffix,
+         const analysis::CaseKey& key, const MomentumDrift& drift)
 {
     const std::string bones = projected == ProjectedClass::bind ? "_taken_by_bones" : "";
     for (const auto& [quantity, value] : {std::pair{"linear_drift", drift.linear}, {"angular_drift", drift.angular}})
@@ -169,9 +173,12 @@ std::string measure_drift(const MomentumCase& momentum_case, const std::string& 
             for (const auto& [projected, class_name] : classes) {
                 options.precision = precision;
                 options.masses = setting.known;
-                analysis::CaseKey key = {
-                    .body = momentum_case.name, .precision = precision_name, .masses = setting.name, .constraint = class_name};
-                add(rows, projected, "", key, drift_of_projections(posed.character(), posed.pose(0), options, projected, setting.counted));
+                analysis::CaseKey key = {.body = momentum_case.name,
+                                         .precision = precision_name,
+                                         .masses = setting.name,
+                                         .constraint = class_name};
+                add(rows, projected, "", key,
+                    drift_of_projections(posed.character(), posed.pose(0), options, projected, setting.counted));
                 for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::grouped, pbs::Order::plain}) {
                     options.order = order;
                     key.order = name_of(order);
@@ -186,12 +193,14 @@ std::string measure_drift(const MomentumCase& momentum_case, const std::string& 
 StudyPlan plan(bool full)
 {
     return plan_of_cases("momentum", full, [](const StudyCase& study_case, StudyPlan& plan) {
-        plan.runs.push_back(work_run<MomentumCase>(study_case.name, {study_case.name, study_case.scene(), study_case.value<int>("frame")},
-                                                   study_case.cost_s, measure_drift));
+        plan.runs.push_back(work_run<MomentumCase>(
+            study_case.name, {study_case.name, study_case.scene(), study_case.value<int>("frame")}, study_case.cost_s,
+            measure_drift));
     });
 }
 
-// Single projections and a pass of each class that is judged, from the reading's LBS shape. Momentum is that of the reading's masses.
+// Single projections and a pass of each class that is judged, from the reading's LBS shape. Momentum is that of the
+// reading's masses.
 std::vector<ReadingValues> read_drifts(const StudyCase& study_case, const std::vector<Overrides>& readings)
 {
     std::vector<ReadingValues> values_of_readings;
@@ -216,12 +225,13 @@ std::vector<ReadingValues> read_drifts(const StudyCase& study_case, const std::v
 
 }  // namespace
 
-MomentumDrift drift_of_projections(const pbs::Character& character, const pbs::Pose& pose, const pbs::PbsOptions& options,
-                                   ProjectedClass projected, pbs::Masses counted)
+MomentumDrift drift_of_projections(const pbs::Character& character, const pbs::Pose& pose,
+                                   const pbs::PbsOptions& options, ProjectedClass projected, pbs::Masses counted)
 {
     const Eigen::VectorXd mass = masses_of(character, counted);
-    return options.precision == pbs::Precision::f32 ? single_projections<float>(character, pose, options, projected, mass)
-                                                    : single_projections<double>(character, pose, options, projected, mass);
+    return options.precision == pbs::Precision::f32
+               ? single_projections<float>(character, pose, options, projected, mass)
+               : single_projections<double>(character, pose, options, projected, mass);
 }
 
 MomentumDrift drift_of_a_pass(const pbs::Character& character, const pbs::Pose& pose, const pbs::PbsOptions& options,

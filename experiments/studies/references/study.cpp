@@ -1,10 +1,10 @@
-// The references that methods are compared with: each pose with every member of the family, solved once and kept as data. The default form
-// solves two poses again, and learns the correctives of the limb again, and compares them with what is kept. README.md describes the poses,
-// members and files.
+// The references that methods are compared with: each pose with every member of the family, solved once and kept as
+// data. The default form solves two poses again, and learns the correctives of the limb again, and compares them with
+// what is kept. README.md describes the poses, members and files.
 //
 //   pbskin reproduce references            two poses, three minutes
-//   pbskin reproduce references --full     all poses, two to three hours; what is solved is kept, so that it goes on where it was
-//   interrupted
+//   pbskin reproduce references --full     all poses, two to three hours; what is solved is kept, so that it goes on
+//   where it was interrupted
 #include "analysis/metrics/error_norms.hpp"
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
@@ -34,9 +34,9 @@
 namespace experiments {
 namespace {
 
-// The largest distance between two files of correctives, over the body's size. Each file rounds a coordinate of a mode by half of 5e-6 of
-// the size, and the limb has eight modes, whose coefficients are at most one. The tolerance allows as much again for solutions, which end
-// at 1e-5 of their first step.
+// The largest distance between two files of correctives, over the body's size. Each file rounds a coordinate of a mode
+// by half of 5e-6 of the size, and the limb has eight modes, whose coefficients are at most one. The tolerance allows
+// as much again for solutions, which end at 1e-5 of their first step.
 constexpr double same_correctives = 2 * 8 * std::numbers::sqrt3 * 5e-6;
 constexpr double same_solution = 1e-5;  // of the body's size: the largest difference of two solutions of one problem
 
@@ -66,17 +66,18 @@ struct ReferenceRow {
     std::optional<double> energy_j = {}, lowest_det_f = {};
     int newton_steps = 0;
     double solve_s = 0.0;
-    std::optional<double> from_kept_m = {};  // largest distance of a vertex from the kept solution; nothing: not compared
+    // largest distance of a vertex from the kept solution; nothing: not compared
+    std::optional<double> from_kept_m = {};
 };
 const analysis::Columns<ReferenceRow> reference_columns =
-    MEMBER_COLUMNS(ReferenceRow, pose, body, stratum, member, outcome, own_error_pct, linear_distance_pct, left_out_pct, energy_j,
-                   lowest_det_f, newton_steps, solve_s, from_kept_m);
+    MEMBER_COLUMNS(ReferenceRow, pose, body, stratum, member, outcome, own_error_pct, linear_distance_pct, left_out_pct,
+                   energy_j, lowest_det_f, newton_steps, solve_s, from_kept_m);
 
 KeptReference solved(const ReferenceCase& reference_case, const EnsembleMember& member, const pbs::Character& character,
                      const pbs::Pose& bones, const std::string& solutions)
 {
-    const PosedReference reference(character, flesh_of(reference_case.flesh, member), bones, reference_case.pose.scene.motion.time_step_s,
-                                   ReferenceEffort::own_tets, solutions);
+    const PosedReference reference(character, flesh_of(reference_case.flesh, member), bones,
+                                   reference_case.pose.scene.motion.time_step_s, ReferenceEffort::own_tets, solutions);
     KeptReference kept{.member = member, .outcome = "not_reached", .at_tips = reference.masked()};
     for (const NestedSolution& solution : reference.solutions()) kept.seconds += solution.seconds;
     const NestedSolution& finest = reference.solutions().front();
@@ -87,11 +88,13 @@ KeptReference solved(const ReferenceCase& reference_case, const EnsembleMember& 
     kept.energy_j = finest.energy_j;
     kept.lowest_det_f = finest.lowest_det_f;
     for (const NestedSolution& solution : reference.solutions())
-        if (solution.finished && solution.element_order == 1) kept.linear_distance_pct = reference.error_of(solution.positions).joint_pct;
+        if (solution.finished && solution.element_order == 1)
+            kept.linear_distance_pct = reference.error_of(solution.positions).joint_pct;
     return kept;
 }
 
-ReferenceRow row_of(const ReferenceCase& reference_case, const KeptReference& reference, const analysis::ErrorMetrics& metrics)
+ReferenceRow row_of(const ReferenceCase& reference_case, const KeptReference& reference,
+                    const analysis::ErrorMetrics& metrics)
 {
     ReferenceRow row{.pose = reference_case.pose.name,
                      .body = reference_case.pose.of.body,
@@ -109,7 +112,8 @@ ReferenceRow row_of(const ReferenceCase& reference_case, const KeptReference& re
 }
 
 // Returns what differs, or an empty text.
-std::string compared_with_kept(const KeptReferences& solved, const pbs::Character& character, std::vector<ReferenceRow>& rows)
+std::string compared_with_kept(const KeptReferences& solved, const pbs::Character& character,
+                               std::vector<ReferenceRow>& rows)
 {
     const KeptReferences kept = read_references(solved.pose, character, solved.bones);
     const pbs::Positions& rest = character.mesh.rest;
@@ -123,8 +127,8 @@ std::string compared_with_kept(const KeptReferences& solved, const pbs::Characte
         if (!now.is_reached() || !before.is_reached()) continue;
         rows[m].from_kept_m = (now.positions - before.positions).rowwise().norm().maxCoeff();
         if (*rows[m].from_kept_m > same_solution * size_m)
-            differing +=
-                fmt::format("{}, {}: a vertex lies {:.2g} m from the kept solution. ", solved.pose, now.member.name, *rows[m].from_kept_m);
+            differing += fmt::format("{}, {}: a vertex lies {:.2g} m from the kept solution. ", solved.pose,
+                                     now.member.name, *rows[m].from_kept_m);
     }
     return differing;
 }
@@ -140,11 +144,13 @@ std::string solve_and_record(const ReferenceCase& reference_case, const std::str
     const analysis::ErrorMetrics metrics(error_domain(character, {}));
     std::vector<ReferenceRow> rows;
     for (const EnsembleMember& member : reference_case.members) {
-        references.members.push_back(solved(reference_case, member, character, references.bones, solutions_of_run(folder)));
+        references.members.push_back(
+            solved(reference_case, member, character, references.bones, solutions_of_run(folder)));
         rows.push_back(row_of(reference_case, references.members.back(), metrics));
     }
     const std::string differing = reference_case.is_compared ? compared_with_kept(references, character, rows) : "";
-    analysis::write_text_atomically(analysis::path_in(folder, reference_case.pose.name + ".ref"), packed(references, character));
+    analysis::write_text_atomically(analysis::path_in(folder, reference_case.pose.name + ".ref"),
+                                    packed(references, character));
     table_of(reference_columns, rows).write(analysis::path_in(folder, "references.csv"));
     return differing;
 }
@@ -175,43 +181,52 @@ struct LearnedRow {
     std::string body;
     int poses = 0, modes = 0;
     double seconds = 0.0;
-    std::optional<double> from_kept_m = {};  // largest distance of a vertex from its place by the kept file, over the poses of the training
+    // largest distance of a vertex from its place by the kept file, over the poses of the training
+    std::optional<double> from_kept_m = {};
 };
-const analysis::Columns<LearnedRow> learned_columns = MEMBER_COLUMNS(LearnedRow, body, poses, modes, seconds, from_kept_m);
+const analysis::Columns<LearnedRow> learned_columns =
+    MEMBER_COLUMNS(LearnedRow, body, poses, modes, seconds, from_kept_m);
 
-double largest_distance_m(const pbs::Correctives& one, const pbs::Correctives& other, const std::vector<pbs::CorrectiveSample>& samples)
+double largest_distance_m(const pbs::Correctives& one, const pbs::Correctives& other,
+                          const std::vector<pbs::CorrectiveSample>& samples)
 {
     double largest_m = 0.0;
     for (const pbs::CorrectiveSample& sample : samples)
-        largest_m = std::max(
-            largest_m,
-            (corrective_displacements(one, sample.pose) - corrective_displacements(other, sample.pose)).rowwise().norm().maxCoeff());
+        largest_m = std::max(largest_m,
+                             (corrective_displacements(one, sample.pose) - corrective_displacements(other, sample.pose))
+                                 .rowwise()
+                                 .norm()
+                                 .maxCoeff());
     return largest_m;
 }
 
 std::string learn_and_record(const LearnedCase& learned_case, const std::string& folder)
 {
     const pbs::Stopwatch stopwatch;
-    const pbs::Character character = pbs::with_weights(pbs::WeightKind::diffused, pbs::make_character(learned_case.scene.character));
+    const pbs::Character character =
+        pbs::with_weights(pbs::WeightKind::diffused, pbs::make_character(learned_case.scene.character));
     std::vector<pbs::Pose> poses;
     for (const Scene& scene : learned_case.motions) {
         const pbs::Motion motion = make_motion(scene.motion, character.skeleton, scene.file);
         poses.insert(poses.end(), motion.steps.begin(), motion.steps.end());
     }
-    const JointRotations known = poses.empty() ? rotations_of_movements(character.skeleton) : rotations_in(character.skeleton, poses);
+    const JointRotations known =
+        poses.empty() ? rotations_of_movements(character.skeleton) : rotations_in(character.skeleton, poses);
     const std::vector<pbs::CorrectiveSample> samples =
         solved_on_linear_elements(character, learned_case.flesh, drawn_poses(character.skeleton, known));
-    const pbs::Correctives learned = pbs::fit_correctives(character.skeleton, character.mesh.rest, character.weights, samples);
+    const pbs::Correctives learned =
+        pbs::fit_correctives(character.skeleton, character.mesh.rest, character.weights, samples);
     const std::string text = text_of(learned, character);
-    LearnedRow row{learned_case.body, static_cast<int>(samples.size()), static_cast<int>(learned.modes()), stopwatch.seconds()};
+    LearnedRow row{learned_case.body, static_cast<int>(samples.size()), static_cast<int>(learned.modes()),
+                   stopwatch.seconds()};
     std::string differing;
     if (learned_case.is_compared) {
         const std::string file = file_of_correctives(learned_case.body);
         const pbs::Correctives kept = parse_correctives(pbs::read_text_file(file), file, character);
         row.from_kept_m = largest_distance_m(parse_correctives(text, "", character), kept, samples);
         if (*row.from_kept_m > same_correctives * pbs::diagonal_m(character.mesh.rest))
-            differing = fmt::format("correctives of {}: a vertex lies {:.2g} m from its place by the kept file. ", learned_case.body,
-                                    *row.from_kept_m);
+            differing = fmt::format("correctives of {}: a vertex lies {:.2g} m from its place by the kept file. ",
+                                    learned_case.body, *row.from_kept_m);
     }
     analysis::write_text_atomically(analysis::path_in(folder, learned_case.body + ".toml"), text);
     table_of(learned_columns, std::vector<LearnedRow>{row}).write(analysis::path_in(folder, "correctives.csv"));
@@ -226,7 +241,8 @@ LearnedCase learned_case(const StudyCase& in_file, bool full)
         motion.erase(motion.begin());
         learned.motions.push_back(read_scene(scene, motion));
     }
-    learned.scene = learned.motions.empty() ? read_scene("human_01_01", {"character.body=" + learned.body}) : learned.motions.front();
+    learned.scene = learned.motions.empty() ? read_scene("human_01_01", {"character.body=" + learned.body})
+                                            : learned.motions.front();
     learned.flesh = options_of<FemOptions>(flesh_of(reference_flesh(learned.scene), family().front()));
     return learned;
 }

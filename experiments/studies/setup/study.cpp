@@ -1,5 +1,6 @@
-// C17: are characters of other resolutions and topologies accommodated without set-up? The text of one scene is run on every body and on a
-// ladder of sizes, each meshed anew. Only character.body and character.vertices change. A body that fails is tried with further keys.
+// C17: are characters of other resolutions and topologies accommodated without set-up? The text of one scene is run on
+// every body and on a ladder of sizes, each meshed anew. Only character.body and character.vertices change. A body that
+// fails is tried with further keys.
 //
 //   human at 1,200, 2,400 and 4,800 vertices; man, lady, frankie where installed; ring, a body with a handle;
 //   as a control, an open surface and a body without bones; for comparison, the bodies under the author's later code
@@ -43,10 +44,13 @@ std::vector<std::string> shared_overrides(double rate_hz, const std::string& def
 
 analysis::CaseKey key_of(const BodySetup& setup)
 {
-    return {.body = setup.body, .motion = "01_01", .deformer = is_unsuitable(setup.body) ? "pbs_unsuitable" : setup.deformer};
+    return {.body = setup.body,
+            .motion = "01_01",
+            .deformer = is_unsuitable(setup.body) ? "pbs_unsuitable" : setup.deformer};
 }
 
-std::vector<Measurement> measured_in(const fs::path& run_folder, const BodySetup& setup, const std::vector<std::string>& changed)
+std::vector<Measurement> measured_in(const fs::path& run_folder, const BodySetup& setup,
+                                     const std::vector<std::string>& changed)
 {
     const analysis::CsvTable metrics = analysis::read_csv((run_folder / "metrics.csv").string());
     return analysis::from_record((run_folder / "run.json").string(), [&](const nlohmann::json& run) {
@@ -81,8 +85,10 @@ RECORD_SETTINGS(BodySetup, body, vertices, further, deformer)
 RECORD_SETTINGS_AND(SetupCase,
                     .derived("scene",
                              [](const SetupCase& setup_case) {
-                                 const bool has_scene = !is_unsuitable(setup_case.setup.body);  // the others are made by the run
-                                 return has_scene ? to_json(scene_of(setup_case.setup, setup_case.rate_hz)) : nlohmann::json();
+                                 // the others are made by the run
+                                 const bool has_scene = !is_unsuitable(setup_case.setup.body);
+                                 return has_scene ? to_json(scene_of(setup_case.setup, setup_case.rate_hz))
+                                                  : nlohmann::json();
                              })
                         .derived("compared_with",
                                  [](const SetupCase& setup_case) {
@@ -100,8 +106,10 @@ std::vector<std::string> keys_changed(const nlohmann::json& shared, const nlohma
 
 const std::vector<std::vector<std::string>>& further_keys()
 {
-    static const std::vector<std::vector<std::string>> keys = {
-        {}, {R"(skinning.weights="rigid")"}, {R"(pbs.precision="f64")"}, {R"(pbs.precision="f64")", "pbs.k_volume=0.5"}};
+    static const std::vector<std::vector<std::string>> keys = {{},
+                                                               {R"(skinning.weights="rigid")"},
+                                                               {R"(pbs.precision="f64")"},
+                                                               {R"(pbs.precision="f64")", "pbs.k_volume=0.5"}};
     return keys;
 }
 
@@ -115,10 +123,11 @@ BodySetup with_files(const BodySetup& setup, const std::string& folder)
     if (!is_unsuitable(setup.body)) return setup;
     const bool is_open = setup.body == "open_surface";
     const std::string mesh = analysis::path_in(folder, setup.body + ".vtk");
-    analysis::write_text_atomically(mesh, std::string("# vtk DataFile Version 3.0\na pyramid\nASCII\nDATASET UNSTRUCTURED_GRID\n"
-                                                      "POINTS 5 double\n-1 -1 -1 1 -1 -1 1 -1 1 -1 -1 1 0 1 0\n") +
-                                              (is_open ? "CELLS 4 16\n3 0 1 4 3 1 2 4 3 2 3 4 3 3 0 4\nCELL_TYPES 4\n5 5 5 5\n"
-                                                       : "CELLS 2 10\n4 0 1 2 4 4 0 2 3 4\nCELL_TYPES 2\n10 10\n"));
+    analysis::write_text_atomically(
+        mesh, std::string("# vtk DataFile Version 3.0\na pyramid\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                          "POINTS 5 double\n-1 -1 -1 1 -1 -1 1 -1 1 -1 -1 1 0 1 0\n") +
+                  (is_open ? "CELLS 4 16\n3 0 1 4 3 1 2 4 3 2 3 4 3 3 0 4\nCELL_TYPES 4\n5 5 5 5\n"
+                           : "CELLS 2 10\n4 0 1 2 4 4 0 2 3 4\nCELL_TYPES 2\n10 10\n"));
     BodySetup own{"", setup.vertices, {"character.mesh=" + mesh}, setup.deformer};
     if (is_open) {  // CMU's unit of length
         own.further.push_back("character.skeleton=" + pbs::find_clip("01_01.bvh", ""));
@@ -143,10 +152,11 @@ std::vector<TriedSetup> tried_setups(const BodySetup& setup, const Trial& trial)
     return tried;
 }
 
-std::vector<Measurement> setup_measurements(const analysis::CaseKey& key, const analysis::CsvTable& metrics, const nlohmann::json& run,
-                                            const std::vector<std::string>& changed)
+std::vector<Measurement> setup_measurements(const analysis::CaseKey& key, const analysis::CsvTable& metrics,
+                                            const nlohmann::json& run, const std::vector<std::string>& changed)
 {
-    const std::vector<double> change_pct = metrics.numbers("volume_change_pct"), inverted = metrics.numbers("inverted_tets");
+    const std::vector<double> change_pct = metrics.numbers("volume_change_pct"),
+                              inverted = metrics.numbers("inverted_tets");
     std::vector<bool> good;
     double largest_pct = 0.0;
     for (std::size_t frame = 0; frame < change_pct.size(); ++frame) {
@@ -155,9 +165,11 @@ std::vector<Measurement> setup_measurements(const analysis::CaseKey& key, const 
     }
     analysis::BootstrapOptions options;
     options.autocorrelation_time = analysis::integrated_autocorrelation_time(change_pct);
-    const analysis::Interval share = analysis::bootstrap_share(good, options), mean = analysis::bootstrap_mean(change_pct);
+    const analysis::Interval share = analysis::bootstrap_share(good, options),
+                             mean = analysis::bootstrap_mean(change_pct);
     const nlohmann::json& seconds = run.at("cost").at("cpu_seconds");
-    const double set_up_s = seconds.at("character").get<double>() + seconds.at("motion").get<double>() + seconds.at("set_up").get<double>();
+    const double set_up_s =
+        seconds.at("character").get<double>() + seconds.at("motion").get<double>() + seconds.at("set_up").get<double>();
     const double keys = static_cast<double>(changed.size());
     return {{"C17", "keys_changed", key, keys, keys, keys, "1"},
             {"C17", "share_of_sound_frames", key, share.estimate, share.low, share.high, "1"},
@@ -169,19 +181,22 @@ std::vector<Measurement> setup_measurements(const analysis::CaseKey& key, const 
 std::vector<Measurement> not_set_up(const analysis::CaseKey& key)
 {
     const double none = analysis::not_known;
-    return {{"C17", "keys_changed", key, none, none, none, "1"}, {"C17", "share_of_sound_frames", key, 0.0, 0.0, 0.0, "1"}};
+    return {{"C17", "keys_changed", key, none, none, none, "1"},
+            {"C17", "share_of_sound_frames", key, 0.0, 0.0, 0.0, "1"}};
 }
 
 namespace {
 
-// Runs the body in `folder`/run and writes measurements.csv, changed_keys.csv and trials.csv. Every trial meshes anew, unless its tets come
-// with the program. Returns the failure of the last trial, if any.
+// Runs the body in `folder`/run and writes measurements.csv, changed_keys.csv and trials.csv. Every trial meshes anew,
+// unless its tets come with the program. Returns the failure of the last trial, if any.
 std::string set_up_and_record(const SetupCase& setup_case, const std::string& folder)
 {
     const auto& [setup, rate_hz] = setup_case;
     const fs::path run_folder = fs::path(folder) / "run";
     pbs::make_meshes_anew();
-    const auto run = [&](const BodySetup& own) { return run_scene(scene_of(own, setup_case.rate_hz), run_folder.string()).failure(); };
+    const auto run = [&](const BodySetup& own) {
+        return run_scene(scene_of(own, setup_case.rate_hz), run_folder.string()).failure();
+    };
     const BodySetup own = with_files(setup, folder);
     const std::vector<TriedSetup> tried = tried_setups(own, run);
 
@@ -189,17 +204,20 @@ std::string set_up_and_record(const SetupCase& setup_case, const std::string& fo
     const bool runs = tried.back().failure.empty();
     const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
     const auto is_of_the_body = [&](const std::string& key) {
-        return std::ranges::any_of(own.further, [&](const std::string& setting) { return setting.starts_with(key + "="); });
+        return std::ranges::any_of(own.further,
+                                   [&](const std::string& setting) { return setting.starts_with(key + "="); });
     };
     std::vector<std::string> changed;
     if (runs) changed = keys_changed(shared_scene(rate_hz, setup.deformer).resolved, scene_of(last, rate_hz).resolved);
     std::erase_if(changed, is_of_the_body);
-    analysis::measurement_table(runs ? measured_in(run_folder, setup, changed) : not_set_up(key_of(setup))).write(path("measurements.csv"));
+    analysis::measurement_table(runs ? measured_in(run_folder, setup, changed) : not_set_up(key_of(setup)))
+        .write(path("measurements.csv"));
     table_of(key_columns, changed).write(path("changed_keys.csv"));
     std::vector<TrialRow> trials;
     for (std::size_t i = 0; i < tried.size(); ++i) {
         std::string failure = tried[i].failure;
-        if (const auto at = failure.find(folder); at != std::string::npos) failure.erase(at, folder.size() + 1);  // it may name a file
+        // it may name a file
+        if (const auto at = failure.find(folder); at != std::string::npos) failure.erase(at, folder.size() + 1);
         trials.push_back({int(i), fmt::format("{}", fmt::join(further_keys()[i], " ")), failure});
     }
     table_of(trial_columns, trials).write(path("trials.csv"));
@@ -209,10 +227,12 @@ std::string set_up_and_record(const SetupCase& setup_case, const std::string& fo
 StudyPlan plan(bool full)
 {
     return plan_of_cases("setup", full, [](const StudyCase& study_case, StudyPlan& plan) {
-        const BodySetup setup{
-            study_case.value<std::string>("body"), study_case.value("vertices", 0), {}, study_case.value<std::string>("deformer", "pbs")};
-        plan.runs.push_back(
-            work_run<SetupCase>(study_case.name, {setup, study_case.value<double>("rate_hz")}, study_case.cost_s, set_up_and_record));
+        const BodySetup setup{study_case.value<std::string>("body"),
+                              study_case.value("vertices", 0),
+                              {},
+                              study_case.value<std::string>("deformer", "pbs")};
+        plan.runs.push_back(work_run<SetupCase>(study_case.name, {setup, study_case.value<double>("rate_hz")},
+                                                study_case.cost_s, set_up_and_record));
     });
 }
 

@@ -13,13 +13,16 @@ namespace experiments {
 //   const LoadedBody body = jiggling_flesh(character, RestOfBody::held);
 //   effective_stiffness_n_m(body, displacement, 9.81);
 //
-//   bone o=========o      ####------------------------+   a character's jiggling zone (Sec. 4), or the free length of a bar along x whose
+//   bone o=========o      ####------------------------+   a character's jiggling zone (Sec. 4), or the free length of a
+//   bar along x whose
 //        ~ ~ ~ ~ ~ ~      ####      bar, along x      |   first tenth is held
-//          | | | |  g     ####------------------------+   force = mass times gravity, stiffness = force over the mean displacement
+//          | | | |  g     ####------------------------+   force = mass times gravity, stiffness = force over the mean
+//          displacement
 inline constexpr double flesh_density_kg_m3 = 1000.0;
 inline constexpr double held_share = 0.1;  // of a bar's length
 
-// Outside the zone particles begin each step where LBS puts them. Projections move them (the paper's solver), or they are held there.
+// Outside the zone particles begin each step where LBS puts them. Projections move them (the paper's solver), or they
+// are held there.
 enum class RestOfBody { projected, held };
 
 struct LoadedBody {
@@ -44,8 +47,8 @@ double mean_displacement_m(const LoadedBody& body, const pbs::Positions& displac
 // Weight of the zone [N].
 double weight_n(const LoadedBody& body, double gravity_m_s2);
 
-// That weight over the zone's mean displacement [N/m]. With m_i = 1 gravity moves every particle alike, so the weight is that of the same
-// flesh at `flesh_density_kg_m3`. It cancels in ratios of stiffnesses.
+// That weight over the zone's mean displacement [N/m]. With m_i = 1 gravity moves every particle alike, so the weight
+// is that of the same flesh at `flesh_density_kg_m3`. It cancels in ratios of stiffnesses.
 double effective_stiffness_n_m(const LoadedBody& body, const pbs::Positions& displacement, double gravity_m_s2);
 
 // Table 1 of the paper.

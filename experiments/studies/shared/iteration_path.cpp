@@ -17,12 +17,14 @@ namespace experiments {
 namespace {
 
 template <typename Scalar>
-std::vector<IterationPath> iterate_in(const pbs::Character& character, const pbs::PbsOptions& options, const pbs::Positions& bind_points,
-                                      const std::vector<pbs::Positions>& starts, int most, const IterationMetrics& iteration_metrics)
+std::vector<IterationPath> iterate_in(const pbs::Character& character, const pbs::PbsOptions& options,
+                                      const pbs::Positions& bind_points, const std::vector<pbs::Positions>& starts,
+                                      int most, const IterationMetrics& iteration_metrics)
 {
     pbs::Positions start;
-    const StepLoops loops = step_loops(pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, {}, options),
-                                       character.mesh.tets, options, {start, bind_points});
+    const StepLoops loops =
+        step_loops(pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, {}, options),
+                   character.mesh.tets, options, {start, bind_points});
     std::vector<IterationPath> paths;
     for (const pbs::Positions& each : starts) {
         start = each;
@@ -34,7 +36,8 @@ std::vector<IterationPath> iterate_in(const pbs::Character& character, const pbs
 Reached reached(const IterationPath& path, double Look::*value, double bound)
 {
     Reached result{path.looks.back().iteration, false};
-    for (auto look = path.looks.rbegin(); look != path.looks.rend() && (*look).*value <= bound; ++look) result = {look->iteration, true};
+    for (auto look = path.looks.rbegin(); look != path.looks.rend() && (*look).*value <= bound; ++look)
+        result = {look->iteration, true};
     return result;
 }
 
@@ -42,12 +45,14 @@ Reached reached(const IterationPath& path, double Look::*value, double bound)
 template <typename Constraint>
 void shuffle(std::vector<Constraint>& constraints, std::mt19937_64& engine)
 {
-    for (std::size_t left = constraints.size(); left > 1; --left) std::swap(constraints[left - 1], constraints[engine() % left]);
+    for (std::size_t left = constraints.size(); left > 1; --left)
+        std::swap(constraints[left - 1], constraints[engine() % left]);
 }
 
 }  // namespace
 
-IterationMetrics::IterationMetrics(const pbs::Character& character, const pbs::Positions& bind_points, const PosedReference* reference)
+IterationMetrics::IterationMetrics(const pbs::Character& character, const pbs::Positions& bind_points,
+                                   const PosedReference* reference)
     : mesh_metrics_(character.mesh.rest, character.mesh.tets),
       bind_points_(bind_points),
       bind_distance_(character.binding.distance),
@@ -64,7 +69,8 @@ Look IterationMetrics::measure(int iteration, const pbs::Positions& positions) c
     look.volume_rms = std::sqrt((mesh_metrics_.volume_ratios(positions).array() - 1.0).square().mean());
     look.bind_rms_m = analysis::bind_rms(positions, bind_points_, bind_distance_);
     const double bind_rms = look.bind_rms_m / bind_distance_.mean();
-    look.combined = std::sqrt((look.stretch_rms * look.stretch_rms + look.volume_rms * look.volume_rms + bind_rms * bind_rms) / 3.0);
+    look.combined = std::sqrt(
+        (look.stretch_rms * look.stretch_rms + look.volume_rms * look.volume_rms + bind_rms * bind_rms) / 3.0);
     look.volume_change_pct = metrics.volume_change_pct;
     look.volume_abs_change_pct = metrics.volume_abs_change_pct;
     look.inverted_tets = metrics.inverted_tets;
@@ -81,15 +87,16 @@ std::vector<int> looked_at(int most)
     constexpr int each = 64;
     constexpr double step = 1.02;
     std::vector<int> looks;
-    for (int iteration = 0; iteration < most; iteration = iteration < each ? iteration + 1 : int(std::ceil(step * iteration)))
+    for (int iteration = 0; iteration < most;
+         iteration = iteration < each ? iteration + 1 : int(std::ceil(step * iteration)))
         looks.push_back(iteration);
     looks.push_back(most);
     return looks;
 }
 
 template <typename Scalar>
-StepLoops step_loops(const pbs::ConstraintSet<Scalar>& constraints, const pbs::Tets& tets, const pbs::PbsOptions& options,
-                     const StepStart& start)
+StepLoops step_loops(const pbs::ConstraintSet<Scalar>& constraints, const pbs::Tets& tets,
+                     const pbs::PbsOptions& options, const StepStart& start)
 {
     struct State {
         pbs::Vec3 origin = pbs::Vec3::Zero();
@@ -118,10 +125,13 @@ StepLoops step_loops(const pbs::ConstraintSet<Scalar>& constraints, const pbs::T
     return loops;
 }
 
-template StepLoops step_loops(const pbs::ConstraintSet<float>&, const pbs::Tets&, const pbs::PbsOptions&, const StepStart&);
-template StepLoops step_loops(const pbs::ConstraintSet<double>&, const pbs::Tets&, const pbs::PbsOptions&, const StepStart&);
+template StepLoops step_loops(const pbs::ConstraintSet<float>&, const pbs::Tets&, const pbs::PbsOptions&,
+                              const StepStart&);
+template StepLoops step_loops(const pbs::ConstraintSet<double>&, const pbs::Tets&, const pbs::PbsOptions&,
+                              const StepStart&);
 
-IterationPath follow(const StepLoops& loops, const pbs::Positions& guess, int most, const IterationMetrics& iteration_metrics)
+IterationPath follow(const StepLoops& loops, const pbs::Positions& guess, int most,
+                     const IterationMetrics& iteration_metrics)
 {
     IterationPath path{{}, guess};
     loops.load();
@@ -136,14 +146,16 @@ IterationPath follow(const StepLoops& loops, const pbs::Positions& guess, int mo
     return path;
 }
 
-std::vector<IterationPath> iterate(const pbs::Character& character, const pbs::PbsOptions& options, const pbs::Positions& bind_points,
-                                   const std::vector<pbs::Positions>& starts, int most, const IterationMetrics& iteration_metrics)
+std::vector<IterationPath> iterate(const pbs::Character& character, const pbs::PbsOptions& options,
+                                   const pbs::Positions& bind_points, const std::vector<pbs::Positions>& starts,
+                                   int most, const IterationMetrics& iteration_metrics)
 {
     pbs::PbsOptions own = options;
     own.jiggle.reset();
     own.sleep = false;
-    return own.precision == pbs::Precision::f32 ? iterate_in<float>(character, own, bind_points, starts, most, iteration_metrics)
-                                                : iterate_in<double>(character, own, bind_points, starts, most, iteration_metrics);
+    return own.precision == pbs::Precision::f32
+               ? iterate_in<float>(character, own, bind_points, starts, most, iteration_metrics)
+               : iterate_in<double>(character, own, bind_points, starts, most, iteration_metrics);
 }
 
 double floor_of(const std::vector<IterationPath>& paths)

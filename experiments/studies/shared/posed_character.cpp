@@ -21,7 +21,8 @@ pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose)
     return positions;
 }
 
-pbs::Positions carried_by_lbs(const pbs::Positions& shape, const pbs::Character& character, const pbs::Pose& from, const pbs::Pose& to)
+pbs::Positions carried_by_lbs(const pbs::Positions& shape, const pbs::Character& character, const pbs::Pose& from,
+                              const pbs::Pose& to)
 {
     pbs::Pose moved = to;
     for (std::size_t b = 0; b < moved.size(); ++b) moved[b] = moved[b] * from[b].inverse();
@@ -30,7 +31,8 @@ pbs::Positions carried_by_lbs(const pbs::Positions& shape, const pbs::Character&
     return carried;
 }
 
-std::vector<pbs::Positions> shapes_in_motion(const pbs::Character& character, const pbs::Motion& motion, const DeformerSpec& spec)
+std::vector<pbs::Positions> shapes_in_motion(const pbs::Character& character, const pbs::Motion& motion,
+                                             const DeformerSpec& spec)
 {
     const std::unique_ptr<Deformer> deformer = make_deformer(spec);
     deformer->reset(character);
@@ -58,16 +60,19 @@ PosedCharacter::PosedCharacter(const Scene& scene, const std::vector<int>& frame
     const pbs::Motion motion = make_motion(scene.motion, character_.skeleton, scene.file);
     for (const int frame : frames) {
         poses_.push_back(motion.steps.at(static_cast<std::size_t>(frame) * motion.steps_per_frame));
-        angles_deg_.push_back(motion.angle_deg.empty() ? std::numeric_limits<double>::quiet_NaN() : motion.angle_deg[frame]);
+        angles_deg_.push_back(motion.angle_deg.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                                       : motion.angle_deg[frame]);
     }
 }
 
-Shape PosedCharacter::shape_of(const pbs::StepSummary& step, const pbs::Positions& positions, const pbs::Positions& last_state) const
+Shape PosedCharacter::shape_of(const pbs::StepSummary& step, const pbs::Positions& positions,
+                               const pbs::Positions& last_state) const
 {
     Shape shape{positions, step.outcome == pbs::Outcome::finished, step.seconds};
     if (shape.finished) return shape;
     const pbs::TetMesh& mesh = character_.mesh;
-    const Eigen::VectorXd ratios = pbs::tet_volumes(last_state, mesh.tets).cwiseQuotient(pbs::tet_volumes(mesh.rest, mesh.tets));
+    const Eigen::VectorXd ratios =
+        pbs::tet_volumes(last_state, mesh.tets).cwiseQuotient(pbs::tet_volumes(mesh.rest, mesh.tets));
     shape.worst_element = worst_element(broken_frame(0, step.outcome, last_state, ratios));
     return shape;
 }
@@ -115,14 +120,17 @@ analysis::ErrorNorms PosedCharacter::distance(const Shape& shape, const Shape& o
 
 const DeformerSpec& spec_of(const Scene& scene, const std::string& name)
 {
-    const auto found = std::find_if(scene.deformers.begin(), scene.deformers.end(), [&](const auto& spec) { return spec.name == name; });
-    if (found == scene.deformers.end()) throw pbs::InputError(scene.file, 0, "deformers.use", name, "expected this deformer in the scene");
+    const auto found = std::find_if(scene.deformers.begin(), scene.deformers.end(),
+                                    [&](const auto& spec) { return spec.name == name; });
+    if (found == scene.deformers.end())
+        throw pbs::InputError(scene.file, 0, "deformers.use", name, "expected this deformer in the scene");
     return *found;
 }
 
 const analysis::Columns<analysis::CaseKey>& pose_columns()
 {
-    static const analysis::Columns<analysis::CaseKey> columns = MEMBER_COLUMNS(analysis::CaseKey, body, motion, pose, angle_deg);
+    static const analysis::Columns<analysis::CaseKey> columns =
+        MEMBER_COLUMNS(analysis::CaseKey, body, motion, pose, angle_deg);
     return columns;
 }
 

@@ -19,18 +19,22 @@
 
 namespace experiments {
 
-// The columns of a pose that the tables of several studies share: body, motion, pose, angle_deg. It is a function, since columns of other
-// files are made from it before main() begins.
+// The columns of a pose that the tables of several studies share: body, motion, pose, angle_deg. It is a function,
+// since columns of other files are made from it before main() begins.
 const analysis::Columns<analysis::CaseKey>& pose_columns();
 
 // The shape that linear blend skinning gives [m], #V x 3.
 pbs::Positions blended(const pbs::Character& character, const pbs::Pose& pose);
 
-// The shapes that a deformer gives a character in all frames of a motion [m], #V x 3. With memory it takes the steps between them, too.
-std::vector<pbs::Positions> shapes_in_motion(const pbs::Character& character, const pbs::Motion& motion, const DeformerSpec& spec);
+// The shapes that a deformer gives a character in all frames of a motion [m], #V x 3. With memory it takes the steps
+// between them, too.
+std::vector<pbs::Positions> shapes_in_motion(const pbs::Character& character, const pbs::Motion& motion,
+                                             const DeformerSpec& spec);
 
-// A shape that LBS carries with the bones' motion from one pose to another [m], #V x 3: where a frame begins that continues the one before.
-pbs::Positions carried_by_lbs(const pbs::Positions& shape, const pbs::Character& character, const pbs::Pose& from, const pbs::Pose& to);
+// A shape that LBS carries with the bones' motion from one pose to another [m], #V x 3: where a frame begins that
+// continues the one before.
+pbs::Positions carried_by_lbs(const pbs::Positions& shape, const pbs::Character& character, const pbs::Pose& from,
+                              const pbs::Pose& to);
 
 // The character with the weights that the scene states, if it states any.
 pbs::Character reweighted(const pbs::Character& character, const Scene& scene);
@@ -39,7 +43,8 @@ struct Shape {
     pbs::Positions positions;  // vertices [m], #V x 3
     bool finished = false;     // false: not finite or not converged; nothing is measured against it
     double seconds = 0.0;
-    std::string worst_element = {};  // in the solver's last state, if it did not finish: "worst tet 7 of volume ratio -0.1, 2 inverted"
+    // in the solver's last state, if it did not finish: "worst tet 7 of volume ratio -0.1, 2 inverted"
+    std::string worst_element = {};
 };
 using Shapes = std::vector<Shape>;  // one per pose
 
@@ -48,25 +53,28 @@ public:
     // frames: of the scene's motion, increasing.
     PosedCharacter(const Scene& scene, const std::vector<int>& frames);
 
-    // A deformer goes from pose to pose in their order, without the frames between. One with memory starts at rest for each pose, since it
-    // would take the poses for the frames of a motion. poses: only the first so many.
+    // A deformer goes from pose to pose in their order, without the frames between. One with memory starts at rest for
+    // each pose, since it would take the poses for the frames of a motion. poses: only the first so many.
     Shapes shapes(const DeformerSpec& spec, std::optional<std::size_t> poses = {}) const;
 
-    // PBS with each of these options, from the paper's LBS. All options and all poses are solved together (pbs::PosesSolver).
+    // PBS with each of these options, from the paper's LBS. All options and all poses are solved together
+    // (pbs::PosesSolver).
     std::vector<Shapes> shapes(const std::vector<pbs::PbsOptions>& options) const;
 
-    // Between two shapes, on this character's vertices, which are the first ones of a refined character; by the metrics of every record.
-    // Not a number where one of them did not finish.
+    // Between two shapes, on this character's vertices, which are the first ones of a refined character; by the metrics
+    // of every record. Not a number where one of them did not finish.
     analysis::ErrorNorms distance(const Shape& shape, const Shape& other) const;
 
     const pbs::Character& character() const { return character_; }
-    void set_weights(pbs::Weights weights) { character_.weights = std::move(weights); }  // that all deformers blend with from now on
+    // that all deformers blend with from now on
+    void set_weights(pbs::Weights weights) { character_.weights = std::move(weights); }
     const pbs::Pose& pose(std::size_t pose) const { return poses_[pose]; }
     const pbs::Triangles& boundary() const { return boundary_; }            // of its tets
     double angle_deg(std::size_t pose) const { return angles_deg_[pose]; }  // of a sweep; not a number for a clip
 
 private:
-    Shape shape_of(const pbs::StepSummary& step, const pbs::Positions& positions, const pbs::Positions& last_state) const;
+    Shape shape_of(const pbs::StepSummary& step, const pbs::Positions& positions,
+                   const pbs::Positions& last_state) const;
 
     pbs::Character character_;
     double time_step_s_;

@@ -30,8 +30,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Each step takes about 15 s and 5 GB on tets cut into eight. In a fold without contact their number has no limit. Measured: 84 steps on
-// the human standing with stiffer springs, and 119 on the limb bent by 90 degrees whose skin has 13.5 edges per radius.
+// Each step takes about 15 s and 5 GB on tets cut into eight. In a fold without contact their number has no limit.
+// Measured: 84 steps on the human standing with stiffer springs, and 119 on the limb bent by 90 degrees whose skin
+// has 13.5 edges per radius.
 constexpr int most_newton_steps = 200;
 // Rigid capsules take 8 to 35 steps where they are reached, and in some deep flexions more than 200.
 constexpr int most_newton_steps_rigid = 60;
@@ -42,29 +43,33 @@ constexpr double analysis::ErrorNorms::*norms[] = {&analysis::ErrorNorms::l2_pct
 
 constexpr double same_energy = 1e-6;  // relative: Newton's method leaves less
 
-// The skin is finer where a joint is bent. A crease has the edges of the character's own cells alone to form at otherwise. On the limb and
-// the human, solutions with four and six edges per radius have their creases in other places than finer ones. These meshes are not cut into
-// eight, which would take 50,000 vertices and 400,000 nodes of the human, and are solved from linear elements alone.
+// The skin is finer where a joint is bent. A crease has the edges of the character's own cells alone to form at
+// otherwise. On the limb and the human, solutions with four and six edges per radius have their creases in other places
+// than finer ones. These meshes are not cut into eight, which would take 50,000 vertices and 400,000 nodes of the
+// human, and are solved from linear elements alone.
 constexpr double least_bend_cosine = 0.866, ball_in_radii = 2.0 / 3.0;
 constexpr double edges_per_radius_of_meshes[] = {9.0, 9.0, 13.5};
 constexpr int meshes_without_creases = 2;
 constexpr double correlated_errors = 1.25;  // see posed_reference.hpp
 
-// Raised where this file makes something else of a solve or of its result: the options of a level, the fields of a solution, the vertices'
-// places in other tets, or the tips of creases.
+// Raised where this file makes something else of a solve or of its result: the options of a level, the fields of a
+// solution, the vertices' places in other tets, or the tips of creases.
 constexpr int kept_format = 1;
 
 // Visits the fields of a solution that are written to its file, except for the positions and the smallest det F.
 template <typename Solution, typename Visit>
 void for_each_field(Solution& solution, const Visit& visit)
 {
-    visit("element_order", solution.element_order), visit("refinements", solution.refinements), visit("other_tets", solution.other_tets);
-    visit("edges_per_radius", solution.edges_per_radius), visit("vertices", solution.vertices), visit("tets", solution.tets),
-        visit("volume_m3", solution.volume_m3);
-    visit("along_the_bones", solution.along_the_bones), visit("finished", solution.finished), visit("energy_j", solution.energy_j);
-    visit("inverted_tets", solution.inverted_tets), visit("j_min", solution.j_min), visit("worst_tet", solution.worst_tet);
-    visit("newton_steps", solution.newton_steps), visit("projected", solution.projected), visit("seconds", solution.seconds),
-        visit("at_tips", solution.at_tips);
+    visit("element_order", solution.element_order), visit("refinements", solution.refinements),
+        visit("other_tets", solution.other_tets);
+    visit("edges_per_radius", solution.edges_per_radius), visit("vertices", solution.vertices),
+        visit("tets", solution.tets), visit("volume_m3", solution.volume_m3);
+    visit("along_the_bones", solution.along_the_bones), visit("finished", solution.finished),
+        visit("energy_j", solution.energy_j);
+    visit("inverted_tets", solution.inverted_tets), visit("j_min", solution.j_min),
+        visit("worst_tet", solution.worst_tet);
+    visit("newton_steps", solution.newton_steps), visit("projected", solution.projected),
+        visit("seconds", solution.seconds), visit("at_tips", solution.at_tips);
 }
 
 std::string text_of(const std::vector<NestedSolution>& solutions)
@@ -74,9 +79,11 @@ std::string text_of(const std::vector<NestedSolution>& solutions)
         nlohmann::json& entry = list.emplace_back();
         for_each_field(solution, [&](const char* name, const auto& value) { entry[name] = value; });
         if (solution.lowest_det_f) entry["lowest_det_f"] = *solution.lowest_det_f;
-        entry["positions"] = std::vector<double>(solution.positions.data(), solution.positions.data() + solution.positions.size());
+        entry["positions"] =
+            std::vector<double>(solution.positions.data(), solution.positions.data() + solution.positions.size());
     }
-    const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(list);  // which has numbers that are not finite, too
+    // which has numbers that are not finite, too
+    const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(list);
     return {bytes.begin(), bytes.end()};
 }
 
@@ -90,7 +97,8 @@ std::vector<NestedSolution> solutions_in(const std::string& text)
             for_each_field(solution, [&](const char* name, auto& value) { entry.at(name).get_to(value); });
             if (entry.contains("lowest_det_f")) solution.lowest_det_f = entry["lowest_det_f"];
             const std::vector<double> numbers = entry.at("positions");
-            solution.positions = Eigen::Map<const pbs::Positions>(numbers.data(), static_cast<Eigen::Index>(numbers.size()) / 3, 3);
+            solution.positions =
+                Eigen::Map<const pbs::Positions>(numbers.data(), static_cast<Eigen::Index>(numbers.size()) / 3, 3);
         }
     } catch (const nlohmann::json::exception&) {
         return {};
@@ -115,7 +123,8 @@ analysis::ErrorNorms larger_of(const analysis::ErrorNorms& one, const analysis::
 
 std::string worst_tet_of(const NestedSolution& solution)
 {
-    return fmt::format("worst tet {} of volume ratio {:.3g}, {} inverted", solution.worst_tet, solution.j_min, solution.inverted_tets);
+    return fmt::format("worst tet {} of volume ratio {:.3g}, {} inverted", solution.worst_tet, solution.j_min,
+                       solution.inverted_tets);
 }
 
 DeformerSpec reference_flesh(const Scene& scene)
@@ -134,7 +143,8 @@ DeformerSpec reference_flesh(const Scene& scene)
     return flesh;
 }
 
-std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, const pbs::Pose& pose, double edges_per_radius)
+std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, const pbs::Pose& pose,
+                                               double edges_per_radius)
 {
     const std::vector<pbs::BoneCapsule> limbs = pbs::bone_capsules(character, 1.0);
     const std::vector<pbs::Bone>& bones = character.skeleton.bones;
@@ -151,8 +161,8 @@ std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, 
     return fine;
 }
 
-PosedReference::PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s,
-                               ReferenceEffort effort, const std::string& solutions)
+PosedReference::PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose,
+                               double time_step_s, ReferenceEffort effort, const std::string& solutions)
     : character_(character),
       spec_(spec),
       pose_(pose),
@@ -216,13 +226,13 @@ void PosedReference::keep(const std::string& file, const Solutions& solutions) c
     }
 }
 
-// By the module that solves, the settings, and all that the module reads of the characters and the pose. The program itself makes these
-// and does not count.
+// By the module that solves, the settings, and all that the module reads of the characters and the pose. The program
+// itself makes these and does not count.
 std::string PosedReference::file_of(const std::string& name, const std::vector<Level>& levels) const
 {
     static const std::string module = pbs::hash_of_file(load_module_with_blas("pbskin_fem").path());
-    const std::string stated =
-        analysis::record_text({module, kept_format, to_json(spec_), time_step_s_, character_.refinements, levels.size()});
+    const std::string stated = analysis::record_text(
+        {module, kept_format, to_json(spec_), time_step_s_, character_.refinements, levels.size()});
     analysis::StateHash hash;
     const auto put = [&](const auto* data, std::size_t size) { hash.add_bytes(data, size * sizeof *data); };
     const auto put_mesh = [&](const pbs::Character& character) {
@@ -238,7 +248,8 @@ std::string PosedReference::file_of(const std::string& name, const std::vector<L
     put(stated.data(), stated.size());
     put_mesh(character_);  // by which the bones' sizes and the places of its vertices in other tets are found
     for (const Level& level : levels) put_mesh(level.character), put(&level.element_order, 1);
-    for (const pbs::Bone& bone : character_.skeleton.bones) put(bone.head.data(), 3), put(bone.tail.data(), 3), put(&bone.parent, 1);
+    for (const pbs::Bone& bone : character_.skeleton.bones)
+        put(bone.head.data(), 3), put(bone.tail.data(), 3), put(&bone.parent, 1);
     for (const auto& of_bone : pose_) put(of_bone.data(), of_bone.matrix().size());
     return (fs::path(kept_in_) / (name + "-" + hash.hex() + ".cbor")).string();
 }
@@ -250,7 +261,8 @@ PosedReference::Solutions PosedReference::solved(const std::vector<Level>& level
     auto& options = options_of<FemOptions>(nested);
     options.element_order = levels.front().element_order;
     options.nested_start = !levels.front().along_the_bones;
-    if (options.element_order == 1) options.formulation = reference_fem::Formulation::displacement;  // mean dilatation is the same there
+    // mean dilatation is the same there
+    if (options.element_order == 1) options.formulation = reference_fem::Formulation::displacement;
     const std::unique_ptr<Deformer> deformer = make_deformer(nested);
     deformer->reset(levels.front().character);
     TriedSolution solution{deformer.get(), deformer->advance(pose_, time_step_s_)};
@@ -265,12 +277,14 @@ PosedReference::Solutions PosedReference::solved(const std::vector<Level>& level
     return solutions;
 }
 
-// First along the bones on the character's own tets. The equilibrium with the lower energy there is kept among the nested solutions.
+// First along the bones on the character's own tets. The equilibrium with the lower energy there is kept among the
+// nested solutions.
 void PosedReference::solve_on_other_tets()
 {
     add("along_the_bones", {{.character = character_, .element_order = 2, .along_the_bones = true}});
     NestedSolution &nested = solutions_[1], &alone = solutions_.back();
-    if (alone.finished && (!nested.finished || alone.energy_j < (1.0 - same_energy) * nested.energy_j)) std::swap(nested, alone);
+    if (alone.finished && (!nested.finished || alone.energy_j < (1.0 - same_energy) * nested.energy_j))
+        std::swap(nested, alone);
     unsigned seed = 0;
     creases_ = !fine_at_bent_joints(character_, pose_, edges_per_radius_of_meshes[0]).empty();
     if (creases_)
@@ -295,8 +309,9 @@ void PosedReference::solve_on_tets(unsigned seed, double edges_per_radius)
         {{.character = *other, .element_order = 2, .other_tets = seed, .edges_per_radius = edges_per_radius}});
 }
 
-// The energy is compared per volume, since other tets are smaller than the skin that they fill: by 0.03 % of the limb and 0.2 to 0.3 % of
-// the human. Solutions whose energies differ by less than that may be taken in the wrong order. The bound does not depend on it.
+// The energy is compared per volume, since other tets are smaller than the skin that they fill: by 0.03 % of the limb
+// and 0.2 to 0.3 % of the human. Solutions whose energies differ by less than that may be taken in the wrong order. The
+// bound does not depend on it.
 void PosedReference::choose_the_reference()
 {
     const auto energy_density = [](const NestedSolution& solution) { return solution.energy_j / solution.volume_m3; };
@@ -304,9 +319,9 @@ void PosedReference::choose_the_reference()
         const NestedSolution& solution = solutions_[i];
         if (!(solution.lowest_det_f > 0.0)) continue;
         const bool is_first = !which_ && i < nested_;
-        const bool is_lower =
-            creases_ && solution.element_order == 2 &&
-            (!which_ || solutions_[*which_].element_order == 1 || energy_density(solution) < energy_density(solutions_[*which_]));
+        const bool is_lower = creases_ && solution.element_order == 2 &&
+                              (!which_ || solutions_[*which_].element_order == 1 ||
+                               energy_density(solution) < energy_density(solutions_[*which_]));
         if (is_first || is_lower) which_ = i;
     }
 }
@@ -330,14 +345,16 @@ NestedSolution PosedReference::solution_of(const TriedSolution& tried, const Lev
     } else {
         const pbs::EmbeddedSurface in_tets = pbs::embed(rest, {}, level.character.mesh);
         std::vector<pbs::Location> places;
-        for (Eigen::Index v = 0; v < rest.rows(); ++v) places.push_back({in_tets.tet(v), in_tets.barycentric.row(v).tail<3>().transpose()});
+        for (Eigen::Index v = 0; v < rest.rows(); ++v)
+            places.push_back({in_tets.tet(v), in_tets.barycentric.row(v).tail<3>().transpose()});
         solution.positions = facts.moved(places);
     }
     const nlohmann::json newton = tried.deformer->record().at("newton");
     solution.newton_steps = newton.at("newton_steps").at("most");
     solution.projected = newton.at("projected_hessians");
     const pbs::Tets& tets = character_.mesh.tets;
-    const Eigen::VectorXd ratios = pbs::tet_volumes(solution.positions, tets).cwiseQuotient(pbs::tet_volumes(rest, tets));
+    const Eigen::VectorXd ratios =
+        pbs::tet_volumes(solution.positions, tets).cwiseQuotient(pbs::tet_volumes(rest, tets));
     solution.j_min = ratios.minCoeff(&solution.worst_tet);
     solution.inverted_tets = static_cast<int>((ratios.array() <= 0.0).count());
     if (!solution.finished) return solution;
@@ -349,7 +366,8 @@ NestedSolution PosedReference::solution_of(const TriedSolution& tried, const Lev
 
 void PosedReference::observe_order()
 {
-    if (!std::all_of(solutions_.begin(), solutions_.begin() + nested_, [](const NestedSolution& solution) { return solution.finished; }))
+    if (!std::all_of(solutions_.begin(), solutions_.begin() + nested_,
+                     [](const NestedSolution& solution) { return solution.finished; }))
         return;
     constexpr std::size_t finest = 0, quadratic = 1, linear_refined = 2, linear = 3;
     const auto to_finest = [&](std::size_t solution) {
@@ -382,7 +400,8 @@ analysis::ErrorNorms PosedReference::bound() const
     const analysis::ErrorNorms apart = distance(solutions_[quadratic].positions, solutions_[finest].positions),
                                to_finest = error_of(solutions_[finest].positions);
     for (const auto norm : norms)
-        bound.*norm = creases_ ? correlated_errors * spread_.*norm : to_finest.*norm + order_->bound(apart.*norm) + spread_.*norm;
+        bound.*norm =
+            creases_ ? correlated_errors * spread_.*norm : to_finest.*norm + order_->bound(apart.*norm) + spread_.*norm;
     return bound;
 }
 
@@ -409,14 +428,15 @@ analysis::ErrorNorms PosedReference::distance(const pbs::Positions& positions, c
 
 std::vector<EnsembleMember> family()
 {
-    return {{.name = "smooth"},
-            {.name = "stiffer_springs", .spring_factor = 100.0},
-            {.name = "thinner_bones", .core_radius = 0.5},
-            {.name = "stiffer_springs_thinner_bones", .spring_factor = 100.0, .core_radius = 0.5},
-            {.name = "nu_0.3", .poisson = 0.3},
-            {.name = "nu_0.49", .poisson = 0.49, .formulation = reference_fem::Formulation::mean_dilatation},
-            {.name = "rigid_capsules", .attachment = FemAttachment::embedded, .spring_factor = 1e4, .core_radius = 0.35},
-            {.name = "held_parts", .attachment = FemAttachment::held}};
+    return {
+        {.name = "smooth"},
+        {.name = "stiffer_springs", .spring_factor = 100.0},
+        {.name = "thinner_bones", .core_radius = 0.5},
+        {.name = "stiffer_springs_thinner_bones", .spring_factor = 100.0, .core_radius = 0.5},
+        {.name = "nu_0.3", .poisson = 0.3},
+        {.name = "nu_0.49", .poisson = 0.49, .formulation = reference_fem::Formulation::mean_dilatation},
+        {.name = "rigid_capsules", .attachment = FemAttachment::embedded, .spring_factor = 1e4, .core_radius = 0.35},
+        {.name = "held_parts", .attachment = FemAttachment::held}};
 }
 
 RECORD_SETTINGS(EnsembleMember, name, attachment, spring_factor, core_radius, poisson, formulation)

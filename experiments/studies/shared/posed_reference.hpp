@@ -1,21 +1,21 @@
-// The finite element reference in one pose, with a bound on its own error: linear and quadratic elements on the character's own tets and on
-// these tets cut into eight; quadratic ones on other tets in the same skin, which is finer where joints are bent; and on the own tets along
-// the whole way of the bones. All have the same bones and contact.
+// The finite element reference in one pose, with a bound on its own error: linear and quadratic elements on the
+// character's own tets and on these tets cut into eight; quadratic ones on other tets in the same skin, which is finer
+// where joints are bent; and on the own tets along the whole way of the bones. All have the same bones and contact.
 //   const PosedReference reference(character, spec, pose, time_step_s);
 //   if (reference.is_reached()) reference.error_of(positions).joint_pct <= reference.bound().joint_pct ...
 // Where no joint is bent, or without other tets, the reference is the finest nested solution. Its bound is that of
 // analysis/statistics/grid_convergence.hpp plus the largest distance of a further mesh.
-// Where a joint is bent, flesh can crease. A crease takes its place by the elements' edges, differs from mesh to mesh, and is resolved only
-// by elements much smaller than the limb, so that nested solutions show no order. There the reference is the solution of the lowest energy,
-// which approximates the equilibrium best in energy. Its bound is 1.25 times the largest distance of a solution on other tets, of that on
-// tets cut into eight, or of the two equilibria on the own tets.
-// Let e be the error of the reference, e' that of another solution, and c the cosine between the two. In the root mean square norms their
-// squared distance is |e|^2 + |e'|^2 - 2 c |e| |e'|, which is at least (1 - c^2) |e|^2 whatever |e'| is. The factor 1.25 therefore covers c
-// up to 0.6, and every c where |e'| is at least 1.8 |e|. Meshes whose creases lie in the same place have nearly the same error. This is why
-// the largest distance is taken: one mesh whose crease lies elsewhere is enough. The bound of linf_m has the same factor without this
-// derivation.
-// The tips of the creases of all solutions are left out. The equilibrium of compressed flesh is not unique: of two equilibria on the own
-// tets the one with the lower energy counts.
+// Where a joint is bent, flesh can crease. A crease takes its place by the elements' edges, differs from mesh to mesh,
+// and is resolved only by elements much smaller than the limb, so that nested solutions show no order. There the
+// reference is the solution of the lowest energy, which approximates the equilibrium best in energy. Its bound is 1.25
+// times the largest distance of a solution on other tets, of that on tets cut into eight, or of the two equilibria on
+// the own tets. Let e be the error of the reference, e' that of another solution, and c the cosine between the two. In
+// the root mean square norms their squared distance is |e|^2 + |e'|^2 - 2 c |e| |e'|, which is at least (1 - c^2) |e|^2
+// whatever |e'| is. The factor 1.25 therefore covers c up to 0.6, and every c where |e'| is at least 1.8 |e|. Meshes
+// whose creases lie in the same place have nearly the same error. This is why the largest distance is taken: one mesh
+// whose crease lies elsewhere is enough. The bound of linf_m has the same factor without this derivation. The tips of
+// the creases of all solutions are left out. The equilibrium of compressed flesh is not unique: of two equilibria on
+// the own tets the one with the lower energy counts.
 #pragma once
 
 #include "analysis/metrics/error_norms.hpp"
@@ -37,9 +37,10 @@
 
 namespace experiments {
 
-// The flesh that convergence, ensemble and work_precision compare with: neo-Hookean, with the Young's modulus, Poisson's ratio and density
-// of the scene's first [[fem]] deformer, held by smooth springs. Its energy is infinite at det F <= 0, so that
-// no quadrature point of a converged solution is inverted. pbs::InputError without a [[fem]] deformer.
+// The flesh that convergence, ensemble and work_precision compare with: neo-Hookean, with the Young's modulus,
+// Poisson's ratio and density of the scene's first [[fem]] deformer, held by smooth springs. Its energy is infinite at
+// det F <= 0, so that no quadrature point of a converged solution is inverted. pbs::InputError without a [[fem]]
+// deformer.
 DeformerSpec reference_flesh(const Scene& scene);
 
 // One of the solutions.
@@ -57,10 +58,11 @@ struct NestedSolution {
     double j_min = 1.0;                       // smallest volume ratio of such a tet
     int worst_tet = -1;                       // that tet
     int newton_steps = 0;                     // on the whole path to the pose
-    int projected = 0;     // those with a projected Hessian: it was not positive definite, or the last step met negative curvature
+    int projected =
+        0;  // those with a projected Hessian: it was not positive definite, or the last step met negative curvature
     double seconds = 0.0;  // wall time, without that of the solution with fewer nodes
-    // Positions of the character's vertices [m], #V x 3. If Newton's method did not finish, they are those of its last state. If the
-    // solution with fewer nodes did not finish, they are the positions of that solution.
+    // Positions of the character's vertices [m], #V x 3. If Newton's method did not finish, they are those of its last
+    // state. If the solution with fewer nodes did not finish, they are the positions of that solution.
     pbs::Positions positions = {};
     std::vector<bool> at_tips = {};  // of creases, #V; empty if it did not finish
 };
@@ -69,33 +71,38 @@ analysis::ErrorNorms larger_of(const analysis::ErrorNorms& norms, const analysis
 // "worst tet 812 of volume ratio -0.04, 3 inverted"
 std::string worst_tet_of(const NestedSolution& solution);
 
-// The solutions of a reference: both orders on the own tets, without a bound; those on the refined tets too; those on other tets and along
-// the bones too.
+// The solutions of a reference: both orders on the own tets, without a bound; those on the refined tets too; those on
+// other tets and along the bones too.
 enum class ReferenceEffort { own_tets, refined, other_tets };
 NAMED_OPTIONS(ReferenceEffort, own_tets, refined, other_tets)
 
-// The folder in which all studies of a results folder keep solutions: DIR/reference_solutions of a run in DIR/STUDY/RUN. What an
-// interrupted run or another study has solved is not solved again. The files' names depend on all that is solved and on the module
-// pbskin_fem that solves it, but not on the rest of the program.
+// The folder in which all studies of a results folder keep solutions: DIR/reference_solutions of a run in
+// DIR/STUDY/RUN. What an interrupted run or another study has solved is not solved again. The files' names depend on
+// all that is solved and on the module pbskin_fem that solves it, but not on the rest of the program.
 std::string solutions_of_run(const std::string& folder);
 
-// Smaller triangles of the skin on the inner side of each joint that a pose bends by more than 30 degrees: so many edges per radius of the
-// limb within two thirds of it.
-std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, const pbs::Pose& pose, double edges_per_radius);
+// Smaller triangles of the skin on the inner side of each joint that a pose bends by more than 30 degrees: so many
+// edges per radius of the limb within two thirds of it.
+std::vector<pbs::FineBall> fine_at_bent_joints(const pbs::Character& character, const pbs::Pose& pose,
+                                               double edges_per_radius);
 
 class PosedReference {
 public:
-    // spec: a [[fem]] deformer with a nonlinear model and attachment smooth, embedded or held; its element order does not matter.
-    // character: not refined itself. solutions: a folder in which solutions are kept and found again; "": none.
+    // spec: a [[fem]] deformer with a nonlinear model and attachment smooth, embedded or held; its element order does
+    // not matter. character: not refined itself. solutions: a folder in which solutions are kept and found again; "":
+    // none.
     PosedReference(const pbs::Character& character, const DeformerSpec& spec, const pbs::Pose& pose, double time_step_s,
                    ReferenceEffort effort = ReferenceEffort::other_tets, const std::string& solutions = "");
 
     const std::string& label() const { return label_; }  // of spec
-    // The reference finished with det F > 0 at all quadrature points. With other tets, where a joint is bent, it has the lowest energy of
-    // all such quadratic solutions. Otherwise, or if there is none, it is the finest such solution on the own or the refined tets.
+    // The reference finished with det F > 0 at all quadrature points. With other tets, where a joint is bent, it has
+    // the lowest energy of all such quadratic solutions. Otherwise, or if there is none, it is the finest such solution
+    // on the own or the refined tets.
     bool is_reached() const { return which_.has_value(); }
-    const NestedSolution& reference() const { return solutions_.at(which_.value()); }  // std::bad_optional_access if it is not reached
-    const std::vector<NestedSolution>& solutions() const { return solutions_; }        // the finest nested one first, those that failed too
+    // std::bad_optional_access if it is not reached
+    const NestedSolution& reference() const { return solutions_.at(which_.value()); }
+    // the finest nested one first, those that failed too
+    const std::vector<NestedSolution>& solutions() const { return solutions_; }
     // Empty if the reference is reached; otherwise the worst tet of the finest solution's last state.
     std::string why_not_reached() const { return is_reached() ? "" : worst_tet_of(solutions_.front()); }
 
@@ -103,20 +110,23 @@ public:
     const std::vector<bool>& masked() const { return masked_; }
     double masked_share_pct() const { return error_metrics_.share_pct(masked_); }
 
-    // Positions are those of the character's vertices [m], #V x 3. The error is the distance from the reference. Both are measured outside
-    // the tips of creases, except by error_on_whole_body.
+    // Positions are those of the character's vertices [m], #V x 3. The error is the distance from the reference. Both
+    // are measured outside the tips of creases, except by error_on_whole_body.
     analysis::ErrorNorms distance(const pbs::Positions& positions, const pbs::Positions& other) const;
-    analysis::ErrorNorms error_of(const pbs::Positions& positions) const { return distance(positions, reference().positions); }
+    analysis::ErrorNorms error_of(const pbs::Positions& positions) const
+    {
+        return distance(positions, reference().positions);
+    }
     analysis::ErrorNorms error_on_whole_body(const pbs::Positions& positions) const;
 
     // The observed order is empty unless the four nested solutions finished.
     const std::optional<analysis::NestedOrder>& order() const { return order_; }
-    // The largest distance from the reference of a solution on other tets and, where a joint is bent, of that on tets cut into eight; or of
-    // the two equilibria on the own tets; 0 without any. Not a number where one of these solutions did not finish. Where the way along the
-    // bones did not, there is no second equilibrium.
+    // The largest distance from the reference of a solution on other tets and, where a joint is bent, of that on tets
+    // cut into eight; or of the two equilibria on the own tets; 0 without any. Not a number where one of these
+    // solutions did not finish. Where the way along the bones did not, there is no second equilibrium.
     analysis::ErrorNorms spread() const { return spread_; }
-    // Bounds the distance of the reference from the limit: by the order and the spread, or by the spread where a joint is bent. NaN where
-    // there is no order.
+    // Bounds the distance of the reference from the limit: by the order and the spread, or by the spread where a joint
+    // is bent. NaN where there is no order.
     analysis::ErrorNorms bound() const;
     // The same for its quadratic solution on the own tets. NaN where there is no such bound.
     analysis::ErrorNorms bound_on_own_tets() const;
@@ -158,9 +168,11 @@ private:
     analysis::ErrorNorms spread_;
 };
 
-// The family of references that a comparison of deformers has to survive: nobody knows how flesh is held by its bones, nor how
-// compressible it is. The members differ in the attachment (factor q of the springs, radius of the bones) and in Poisson's ratio.
-//   for (const EnsembleMember& member : family()) PosedReference(character, flesh_of(reference_flesh(scene), member), pose, dt) ...
+// The family of references that a comparison of deformers has to survive: nobody knows how flesh is held by its bones,
+// nor how compressible it is. The members differ in the attachment (factor q of the springs, radius of the bones) and
+// in Poisson's ratio.
+//   for (const EnsembleMember& member : family()) PosedReference(character, flesh_of(reference_flesh(scene), member),
+//   pose, dt) ...
 struct EnsembleMember {
     std::string name;  // smooth, stiffer_springs, ...
     FemAttachment attachment = FemAttachment::smooth;
@@ -169,9 +181,9 @@ struct EnsembleMember {
 };
 nlohmann::json to_json(const EnsembleMember& member);
 
-// q 10 and 100 with a core radius of 0.5 and 0.7; and, with 10 and 0.7, Poisson's ratio 0.3 and (with mean dilatation) 0.49; bones that are
-// rigid capsules; and bones that hold the flesh that they alone move. The first one, smooth, is held like the reference of the other
-// studies (reference_flesh).
+// q 10 and 100 with a core radius of 0.5 and 0.7; and, with 10 and 0.7, Poisson's ratio 0.3 and (with mean dilatation)
+// 0.49; bones that are rigid capsules; and bones that hold the flesh that they alone move. The first one, smooth, is
+// held like the reference of the other studies (reference_flesh).
 std::vector<EnsembleMember> family();
 
 inline constexpr std::size_t further_members = 7;  // of the family, after the first one

@@ -39,7 +39,8 @@ Spread spread_of_ratios(const std::vector<double>& numerator, const std::vector<
     if (numerator.empty() || numerator.size() != denominator.size())
         throw std::logic_error("ratios of two variants need the same number of rounds");
     std::vector<double> ratios;
-    for (std::size_t round = 0; round < numerator.size(); ++round) ratios.push_back(factor * numerator[round] / denominator[round]);
+    for (std::size_t round = 0; round < numerator.size(); ++round)
+        ratios.push_back(factor * numerator[round] / denominator[round]);
     return spread_of(ratios);
 }
 

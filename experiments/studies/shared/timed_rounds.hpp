@@ -1,6 +1,6 @@
-// Timings that can be compared. All variants take turns, A B C A B C ..., so that a disturbance of the machine meets them alike; each one
-// has the median and the quartiles over the rounds. The cost of one variant relative to another is the median of the ratios within a
-// round, which a disturbance changes less than a ratio of medians.
+// Timings that can be compared. All variants take turns, A B C A B C ..., so that a disturbance of the machine meets
+// them alike; each one has the median and the quartiles over the rounds. The cost of one variant relative to another is
+// the median of the ratios within a round, which a disturbance changes less than a ratio of medians.
 //   const auto samples = take_turns({[&] { return seconds_of(a); }, [&] { return seconds_of(b); }}, {.seconds = 2.0});
 //   spread_of(samples[0][0]).median
 //   spread_of_ratios(samples[0][0], samples[1][0]).median   // a over b
@@ -38,13 +38,16 @@ using Samples = std::vector<std::vector<double>>;  // [value][round]
 std::vector<Samples> take_turns(const std::vector<TimedVariant>& variants, const Rounds& rounds);
 
 Spread spread_of(const std::vector<double>& samples);
-Spread spread_of_ratios(const std::vector<double>& numerator, const std::vector<double>& denominator, double factor = 1.0);  // by round
+// by round
+Spread spread_of_ratios(const std::vector<double>& numerator, const std::vector<double>& denominator,
+                        double factor = 1.0);
 Spread scaled(const Spread& spread, double factor);
 
 // The median under `name`, its quartiles under "quartiles", and the number of rounds.
 void put_spread(nlohmann::json& json, const std::string& name, const Spread& spread);
 
-// The columns NAME of the median, and NAME with these endings of the quartiles. The number of rounds has no column here.
+// The columns NAME of the median, and NAME with these endings of the quartiles. The number of rounds has no column
+// here.
 struct QuartileEndings {
     std::string lower = "_low", upper = "_high";
 };
@@ -59,11 +62,13 @@ double cpu_seconds(const Work& work)
     return thread_cpu_s() - start;
 }
 
-// A scene that runs in a process of its own, so that its peak memory, its loaded libraries and its breakdowns are its own.
+// A scene that runs in a process of its own, so that its peak memory, its loaded libraries and its breakdowns are its
+// own.
 //   const nlohmann::json run = run_scene_alone(scene, folder);
 //   run.at("cost").at("peak_memory_mb")
 
 // The run.json of the run in `folder`. The new process calls `prepare` first. Errors as in_own_process and run_scene.
-nlohmann::json run_scene_alone(const Scene& scene, const std::string& folder, const std::function<void()>& prepare = {});
+nlohmann::json run_scene_alone(const Scene& scene, const std::string& folder,
+                               const std::function<void()>& prepare = {});
 
 }  // namespace experiments

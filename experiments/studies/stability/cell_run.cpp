@@ -31,7 +31,8 @@ pbs::Character spoilt(pbs::Character character, Defect defect, double thinness)
     character.mesh = distorted(character.mesh, defect, thinness);
     character.binding = pbs::bind_to_nearest_bone(character.mesh.rest, character.skeleton);
     character.weights = pbs::paper_weights(character.binding, character.skeleton);
-    for (int vertex = 0; vertex < character.weights.vertices(); ++vertex) character.blended[vertex] = character.weights.blended(vertex);
+    for (int vertex = 0; vertex < character.weights.vertices(); ++vertex)
+        character.blended[vertex] = character.weights.blended(vertex);
     return character;
 }
 
@@ -41,7 +42,8 @@ std::vector<pbs::Pose> way_of(const StabilityCell& cell, const pbs::Skeleton& sk
     std::vector<pbs::Pose> way;
     if (!pbs::is_character(cell.body)) {
         const int forearm = pbs::find_bone(skeleton, "forearm");
-        way = pbs::joint_sweep(skeleton, forearm, disturbance.axis, disturbance.angle_deg, disturbance.turning_steps + 1, cell.time_step_s)
+        way = pbs::joint_sweep(skeleton, forearm, disturbance.axis, disturbance.angle_deg,
+                               disturbance.turning_steps + 1, cell.time_step_s)
                   .steps;
     } else if (disturbance.angle_deg == 0.0) {
         way = {pbs::Pose(skeleton.bones.size(), Eigen::Isometry3d::Identity())};
@@ -51,7 +53,8 @@ std::vector<pbs::Pose> way_of(const StabilityCell& cell, const pbs::Skeleton& sk
     }
     if (disturbance.teleport_m > 0.0) {
         way = {way.back(), way.back()};
-        for (Eigen::Isometry3d& bone : way.back()) bone.pretranslate(disturbance.teleport_m * pbs::Vec3::Ones().normalized());
+        for (Eigen::Isometry3d& bone : way.back())
+            bone.pretranslate(disturbance.teleport_m * pbs::Vec3::Ones().normalized());
     }
     if (disturbance.stays || disturbance.start != Start::none) way = {way.back()};
     return way;
@@ -111,26 +114,32 @@ public:
     explicit Solved(const Arguments&... arguments) : solver_(arguments...)
     {
     }
-    pbs::StepSummary advance(const Drive& drive, double dt_s) override { return solver_.advance(drive.blended, drive.bind_points, dt_s); }
+    pbs::StepSummary advance(const Drive& drive, double dt_s) override
+    {
+        return solver_.advance(drive.blended, drive.bind_points, dt_s);
+    }
     const pbs::Positions& positions() const override { return solver_.positions(); }
 
 private:
     Solver solver_;
 };
 
-// Algorithm 1 with particles of unequal masses, which the paper's m_i = 1 excludes: seeded masses from 1 to `ratio` with logarithms that
-// are uniformly distributed over the vertices.
+// Algorithm 1 with particles of unequal masses, which the paper's m_i = 1 excludes: seeded masses from 1 to `ratio`
+// with logarithms that are uniformly distributed over the vertices.
 class UnequalMasses : public DrivenBody {
 public:
-    UnequalMasses(const pbs::Character& character, const std::vector<bool>& jiggle_zone, const pbs::PbsOptions& options, double ratio)
+    UnequalMasses(const pbs::Character& character, const std::vector<bool>& jiggle_zone, const pbs::PbsOptions& options,
+                  double ratio)
         : iterations_(options.iterations), particles_(character.mesh.rest, jiggle_zone, options)
     {
         const auto loops_in = [&](auto scalar) {
             using Scalar = decltype(scalar);
-            auto constraints = pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, jiggle_zone, options);
+            auto constraints =
+                pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, jiggle_zone, options);
             std::mt19937 engine(stability_seed);
             std::uniform_real_distribution<double> share(0.0, 1.0);
-            for (Scalar& inverse_mass : constraints.inverse_mass) inverse_mass = static_cast<Scalar>(std::pow(ratio, -share(engine)));
+            for (Scalar& inverse_mass : constraints.inverse_mass)
+                inverse_mass = static_cast<Scalar>(std::pow(ratio, -share(engine)));
             return step_loops(constraints, character.mesh.tets, options, {particles_.predicted(), bind_points_});
         };
         loops_ = options.precision == pbs::Precision::f32 ? loops_in(float()) : loops_in(double());
@@ -161,7 +170,9 @@ private:
 class Posed : public DrivenBody {
 public:
     Posed(const StabilityCell& cell, const pbs::Character& character)
-        : deformer_(make_deformer(cell.spec)), is_to_start_(cell.disturbance.start != Start::none), nudge_m_(cell.nudge_m)
+        : deformer_(make_deformer(cell.spec)),
+          is_to_start_(cell.disturbance.start != Start::none),
+          nudge_m_(cell.nudge_m)
     {
         deformer_->reset(character);
     }
@@ -191,7 +202,8 @@ std::unique_ptr<DrivenBody> make_pbs(const StabilityCell& cell, const pbs::Chara
     const Eigen::VectorXd& distance = character.binding.distance;
     if (cell.mass_ratio > 1.0) return std::make_unique<UnequalMasses>(character, zone, options, cell.mass_ratio);
     const std::vector<bool> held = cell.held_end ? end_of(character) : std::vector<bool>{};
-    for (std::size_t i = 0; i < std::min(held.size(), zone.size()); ++i) zone[i] = zone[i] && !held[i];  // a held vertex does not jiggle
+    // a held vertex does not jiggle
+    for (std::size_t i = 0; i < std::min(held.size(), zone.size()); ++i) zone[i] = zone[i] && !held[i];
     return std::make_unique<Solved<pbs::PbsSolver>>(mesh, distance, zone, options, held);
 }
 
@@ -216,9 +228,11 @@ bool is_over(const Course& course)
 
 std::optional<int> iterations_until_reached(const Course& course)
 {
-    const auto reached = std::find_if(course.steps.begin(), course.steps.end(), [](const auto& step) { return step.solved; });
+    const auto reached =
+        std::find_if(course.steps.begin(), course.steps.end(), [](const auto& step) { return step.solved; });
     if (reached == course.steps.end()) return std::nullopt;
-    return std::accumulate(course.iterations.begin(), course.iterations.begin() + (reached - course.steps.begin()) + 1, 0);
+    return std::accumulate(course.iterations.begin(), course.iterations.begin() + (reached - course.steps.begin()) + 1,
+                           0);
 }
 
 Course follow(const StabilityCell& cell, const pbs::Positions* undisturbed)
@@ -230,7 +244,8 @@ Course follow(const StabilityCell& cell, const pbs::Positions* undisturbed)
     for (int step = 0; step < body.steps(); ++step) {
         const Drive drive = body.drive(step);
         const pbs::StepSummary step_summary = driven->advance(drive, cell.time_step_s);
-        course.steps.push_back(analysis::stability_step(course.last, driven->positions(), {drive.bind_points, character.binding.distance},
+        course.steps.push_back(analysis::stability_step(course.last, driven->positions(),
+                                                        {drive.bind_points, character.binding.distance},
                                                         character.mesh.tets, body.diagonal_m(), undisturbed));
         course.steps.back().solved = step_summary.outcome == pbs::Outcome::finished;
         course.iterations.push_back(step_summary.iterations);
@@ -247,7 +262,8 @@ std::optional<pbs::Positions> undisturbed_state(StabilityCell cell)
     cell.disturbance.start = Start::none;
     Course course = follow(cell, nullptr);
     for (auto& step : course.steps) step.inverted_tets = 0;
-    if (analysis::outcome_of(course.steps, course.disturbed_steps).outcome != analysis::StabilityOutcome::converged) return std::nullopt;
+    if (analysis::outcome_of(course.steps, course.disturbed_steps).outcome != analysis::StabilityOutcome::converged)
+        return std::nullopt;
     return course.last;
 }
 
@@ -296,14 +312,16 @@ bool all_upright(const pbs::TetMesh& mesh, const std::vector<int>& tets)
 Scene stability_scene(const std::string& body)
 {
     const std::string of_body = "character.body=" + body;
-    if (pbs::is_character(body)) return read_scene("human_01_01", {of_body, "motion.start_s=6.72", "motion.duration_s=0.36"});
+    if (pbs::is_character(body))
+        return read_scene("human_01_01", {of_body, "motion.start_s=6.72", "motion.duration_s=0.36"});
     return read_scene("limb_bend", {of_body, "character.vertices=" + std::to_string(limb_vertices)});
 }
 
 const pbs::Character& stability_character(const StabilityCell& cell)
 {
     static std::map<std::string, pbs::Character> kept;
-    const std::string key = cell.body + std::to_string(static_cast<int>(cell.defect)) + std::to_string(std::log10(cell.thinness));
+    const std::string key =
+        cell.body + std::to_string(static_cast<int>(cell.defect)) + std::to_string(std::log10(cell.thinness));
     if (const auto found = kept.find(key); found != kept.end()) return found->second;
     pbs::Character character = pbs::make_character(stability_scene(cell.body).character);
     if (cell.defect != Defect::none) character = spoilt(std::move(character), cell.defect, cell.thinness);
@@ -336,15 +354,16 @@ std::unique_ptr<DrivenBody> make_driven_body(const StabilityCell& cell, const pb
 {
     if (options_if<pbs::PbsOptions>(cell.spec)) return make_pbs(cell, character);
     if (const auto* xpbd = options_if<pbs::XpbdOptions>(cell.spec))
-        return std::make_unique<Solved<pbs::XpbdSolver>>(character.mesh, character.binding.distance, zone_of(character, xpbd->jiggle),
-                                                         *xpbd);
+        return std::make_unique<Solved<pbs::XpbdSolver>>(character.mesh, character.binding.distance,
+                                                         zone_of(character, xpbd->jiggle), *xpbd);
     return std::make_unique<Posed>(cell, character);
 }
 
 std::string endings_text()
 {
     return fmt::format(
-        "\nA run ends early when it is not finite, when the last {} steps all fulfil the bounds of `converged`, or when {} consecutive "
+        "\nA run ends early when it is not finite, when the last {} steps all fulfil the bounds of `converged`, or "
+        "when {} consecutive "
         "steps "
         "were\nnot reached (each further attempt would be expensive).\n",
         settled_for_good, given_up_after);
@@ -358,8 +377,8 @@ CellResult run_cell(const StabilityCell& cell)
     Course course = follow(cell, undisturbed ? &*undisturbed : nullptr);
     result.stability = analysis::outcome_of(course.steps, course.disturbed_steps);
     if (cell.disturbance.start != Start::none) result.iterations_until_reached = iterations_until_reached(course);
-    result.steps_not_reached =
-        static_cast<int>(std::count_if(course.steps.begin(), course.steps.end(), [](const auto& s) { return !s.solved; }));
+    result.steps_not_reached = static_cast<int>(
+        std::count_if(course.steps.begin(), course.steps.end(), [](const auto& s) { return !s.solved; }));
     result.steps = std::move(course.steps);
     result.has_undisturbed = undisturbed.has_value();
     result.cpu_s = process_cpu_s() - start_s;

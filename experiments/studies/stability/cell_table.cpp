@@ -24,8 +24,9 @@ namespace {
 using analysis::CsvTable;
 using analysis::StabilityOutcome;
 
-constexpr StabilityOutcome outcomes[] = {StabilityOutcome::converged, StabilityOutcome::bounded, StabilityOutcome::inverted,
-                                         StabilityOutcome::diverged, StabilityOutcome::not_finite};
+constexpr StabilityOutcome outcomes[] = {StabilityOutcome::converged, StabilityOutcome::bounded,
+                                         StabilityOutcome::inverted, StabilityOutcome::diverged,
+                                         StabilityOutcome::not_finite};
 
 using Group = std::vector<const MeasuredCell*>;
 using Keyed = std::vector<std::pair<analysis::CaseKey, Group>>;
@@ -79,7 +80,8 @@ bool never_rests(const CellResult& result)
     const analysis::StabilityBounds bounds;
     const auto& steps = result.steps;
     const auto looked_at = std::min<std::ptrdiff_t>(std::ssize(steps), bounds.still_steps);
-    return std::any_of(steps.end() - looked_at, steps.end(), [&](const auto& step) { return step.motion > bounds.rest_motion; });
+    return std::any_of(steps.end() - looked_at, steps.end(),
+                       [&](const auto& step) { return step.motion > bounds.rest_motion; });
 }
 
 // Whatever its shape, which may have inverted tets or differ from that of the undisturbed body.
@@ -91,7 +93,8 @@ bool is_at_rest(const CellResult& result)
 template <typename Predicate>
 analysis::Interval share(const Group& cells, Predicate predicate)
 {
-    const auto counted = std::ranges::count_if(cells, [&](const MeasuredCell* measured) { return predicate(measured->result); });
+    const auto counted =
+        std::ranges::count_if(cells, [&](const MeasuredCell* measured) { return predicate(measured->result); });
     return analysis::share_interval(static_cast<int>(counted), static_cast<int>(cells.size()));
 }
 
@@ -100,20 +103,23 @@ std::string yes_or_no(bool value)
     return value ? "yes" : "no";
 }
 
-// The deformer with so many iterations and all its other options. The numbers, texts and truth values of JSON are spelled as in TOML.
+// The deformer with so many iterations and all its other options. The numbers, texts and truth values of JSON are
+// spelled as in TOML.
 DeformerSpec with_iterations(const DeformerSpec& spec, int iterations)
 {
     const DeformerKind& kind = *find_deformer_kind(spec.kind);
     nlohmann::json options = kind.options_json(spec);
     options["iterations"] = iterations;
     std::vector<std::string> overrides;
-    for (const auto& [name, setting] : options.items()) overrides.push_back(spec.kind + "." + name + "=" + setting.dump());
+    for (const auto& [name, setting] : options.items())
+        overrides.push_back(spec.kind + "." + name + "=" + setting.dump());
     DeformerSpec changed = spec;
     kind.read(SceneValues("schema = 1\n", "stability", overrides, scene_schema()), spec.kind, changed);
     return changed;
 }
 
-// The result of so many iterations from the broken shape of the cell, or from the deformer's own initial guess [m], #V x 3.
+// The result of so many iterations from the broken shape of the cell, or from the deformer's own initial guess [m], #V
+// x 3.
 pbs::Positions result_of(StabilityCell cell, int iterations, bool is_broken)
 {
     if (!is_broken) cell.disturbance.start = Start::none;
@@ -145,7 +151,8 @@ bool is_far(const StabilityCell& cell, const pbs::Positions& positions, const pb
     return (positions - other).rowwise().norm().maxCoeff() > analysis::StabilityBounds{}.farthest * diagonal_m;
 }
 
-// The least number of iterations from which on all distances are within the bound. pct: by increasing number of iterations.
+// The least number of iterations from which on all distances are within the bound. pct: by increasing number of
+// iterations.
 std::optional<int> first_to_stay(const std::map<int, std::optional<double>>& pct)
 {
     std::optional<int> first;
@@ -181,8 +188,9 @@ const analysis::Columns<CellRow> cell_columns =
     analysis::Columns<CellRow>{{"precision", &CellRow::precision}} +
     within(&CellRow::of, Cells{{"time_step_s", &StabilityCell::time_step_s}}) +
     MEMBER_COLUMNS(CellRow, steps, outcome, recovery_steps, recovery_s, iterations_until_reached, undisturbed_at_rest,
-                   largest_reach_diagonals, last_reach_diagonals, last_motion_diagonals, last_from_undisturbed_diagonals,
-                   most_inverted_tets, last_inverted_tets, steps_not_reached, as_published, cpu_s);
+                   largest_reach_diagonals, last_reach_diagonals, last_motion_diagonals,
+                   last_from_undisturbed_diagonals, most_inverted_tets, last_inverted_tets, steps_not_reached,
+                   as_published, cpu_s);
 
 CellRow cell_row(const MeasuredCell& measured)
 {
@@ -218,14 +226,16 @@ CsvTable stability_measurements(const std::vector<MeasuredCell>& cells)
 {
     std::vector<analysis::Measurement> rows;
     for (const auto& [sweep, group] : by_sweep(cells)) {
-        const auto add = [&, key = sweep](const std::string& quantity, const Group& among, const analysis::Interval& share) {
+        const auto add = [&, key = sweep](const std::string& quantity, const Group& among,
+                                          const analysis::Interval& share) {
             rows.push_back({"C08", quantity, key, share.estimate, share.low, share.high, "1"});
             rows.back().n = static_cast<int>(among.size());
         };
         const auto add_at_rest = [&, whole = group](const std::string& quantity, double least_s, double most_s) {
             Group among = whole;
-            std::erase_if(
-                among, [&](const auto* measured) { return measured->cell.time_step_s < least_s || measured->cell.time_step_s > most_s; });
+            std::erase_if(among, [&](const auto* measured) {
+                return measured->cell.time_step_s < least_s || measured->cell.time_step_s > most_s;
+            });
             if (among.empty()) return;
             const double at_rest = share(among, is_at_rest).estimate;
             add(quantity, among, {at_rest, at_rest, at_rest});
@@ -260,24 +270,26 @@ std::string blind_spots(const std::vector<CellRow>& cells)
 CsvTable map_csv(const std::vector<CellRow>& cells, const std::string& factor, const std::string& second_factor)
 {
     analysis::Columns<CellRow> columns;
-    for (const char* name : {"factor", "value", "unit", "second_factor", "second_value", "second_unit", "precision", "outcome", "steps",
-                             "last_inverted_tets", "recovery_steps"})
+    for (const char* name : {"factor", "value", "unit", "second_factor", "second_value", "second_unit", "precision",
+                             "outcome", "steps", "last_inverted_tets", "recovery_steps"})
         columns.push_back(cell_columns.named(name));
     std::vector<CellRow> map = cells;
-    std::erase_if(map, [&](const CellRow& cell) { return cell.of.factor != factor || cell.of.second_factor != second_factor; });
+    std::erase_if(
+        map, [&](const CellRow& cell) { return cell.of.factor != factor || cell.of.second_factor != second_factor; });
     return table_of(columns, map);
 }
 
-const analysis::Columns<StartRow> start_columns =
-    MEMBER_COLUMNS(StartRow, body, model, precision, pose, start, setting, setting_value, outcome, iterations_until_reached,
-                   most_iterations, from_own_result_pct, own_change_pct, inverted_tets, own_inverted_tets, reason, cpu_s);
+const analysis::Columns<StartRow> start_columns = MEMBER_COLUMNS(
+    StartRow, body, model, precision, pose, start, setting, setting_value, outcome, iterations_until_reached,
+    most_iterations, from_own_result_pct, own_change_pct, inverted_tets, own_inverted_tets, reason, cpu_s);
 
 StartRow run_broken_start(const StabilityCell& cell, int most_iterations)
 {
     const double start_s = process_cpu_s();
     StartRow row = row_of(cell);
     row.most_iterations = most_iterations;
-    const pbs::Positions own = result_of(cell, most_iterations, false), half = result_of(cell, most_iterations / 2, false);
+    const pbs::Positions own = result_of(cell, most_iterations, false),
+                         half = result_of(cell, most_iterations / 2, false);
     row.own_change_pct = joint_pct(cell, half, own);
     std::map<int, std::optional<double>> pct;
     pbs::Positions last;
@@ -306,15 +318,19 @@ std::string start_criteria_text(int most_iterations)
 {
     return fmt::format(
         "\n## Broken initial shapes of the deformers that minimise an energy\n\n"
-        "A deformer begins at a broken shape and runs 1, 2, 4, ... up to {} iterations. Its own result is that of {} iterations from its\n"
-        "normal initial guess. Distances are root mean squares over the vertices at the joints, over their mean distance to the bones.\n"
+        "A deformer begins at a broken shape and runs 1, 2, 4, ... up to {} iterations. Its own result is that of {} "
+        "iterations from its\n"
+        "normal initial guess. Distances are root mean squares over the vertices at the joints, over their mean "
+        "distance to the bones.\n"
         "The first that applies:\n\n"
         "| outcome | when |\n|---|---|\n"
         "| not_finite | a position of a result is not finite |\n"
         "| diverged | after the most iterations a vertex is farther than {:g} D from its place in the own result |\n"
-        "| reached | after the most iterations the distance from the own result is at most {:g} %, and the own result moved by no more "
+        "| reached | after the most iterations the distance from the own result is at most {:g} %, and the own result "
+        "moved by no more "
         "in the second half of its iterations |\n"
-        "| not_reached | none of these: another equilibrium, too few iterations, or an own result that has not settled |\n"
+        "| not_reached | none of these: another equilibrium, too few iterations, or an own result that has not settled "
+        "|\n"
         "| not_applicable | the method has no initial shape; `reason` states why |\n",
         most_iterations, most_iterations, analysis::StabilityBounds{}.farthest, reached_within_pct);
 }

@@ -27,9 +27,9 @@ std::string precision_of(const StabilityCell& cell)
 
 RECORD_SETTINGS(Disturbance, axis, angle_deg, turning_steps, teleport_m, start, stays)
 
-RECORD_SETTINGS_AND(StabilityCell, .record("deformer", &StabilityCell::spec), body, model, factor, value, unit, second_factor, second_value,
-                    second_unit, named, disturbance, time_step_s, still_steps, defect, thinness, mass_ratio, held_end, nudge_m,
-                    as_published)
+RECORD_SETTINGS_AND(StabilityCell, .record("deformer", &StabilityCell::spec), body, model, factor, value, unit,
+                    second_factor, second_value, second_unit, named, disturbance, time_step_s, still_steps, defect,
+                    thinness, mass_ratio, held_end, nudge_m, as_published)
 
 std::string setting_of(const StabilityCell& cell)
 {
@@ -102,7 +102,8 @@ const nlohmann::json& document()
 const nlohmann::json& sweep_named(const std::string& name)
 {
     const nlohmann::json& sweeps = document().at("sweep");
-    const auto named = std::ranges::find_if(sweeps, [&](const nlohmann::json& sweep) { return sweep.at("name") == name; });
+    const auto named =
+        std::ranges::find_if(sweeps, [&](const nlohmann::json& sweep) { return sweep.at("name") == name; });
     if (named == sweeps.end()) throw std::logic_error("stability/cases.toml: no sweep " + name);
     return *named;
 }
@@ -197,10 +198,12 @@ std::vector<StabilityCell> undisturbed(std::vector<StabilityCell> cells)
 
 void refuse_unknown_keys(const nlohmann::json& entry)
 {
-    static const std::set<std::string> known = {"of",          "undisturbed", "deformer", "overrides", "model",  "as_published",
-                                                "still_steps", "nudge_m",     "twisted",  "few",       "sweeps", "maps"};
+    static const std::set<std::string> known = {"of",      "undisturbed",  "deformer",    "overrides",
+                                                "model",   "as_published", "still_steps", "nudge_m",
+                                                "twisted", "few",          "sweeps",      "maps"};
     for (const auto& [key, value] : entry.items())
-        if (!known.contains(key)) throw std::logic_error("stability/cases.toml: nothing reads the key " + key + " of cells");
+        if (!known.contains(key))
+            throw std::logic_error("stability/cases.toml: nothing reads the key " + key + " of cells");
 }
 
 }  // namespace

@@ -22,9 +22,9 @@ namespace experiments {
 // The shape that the first step receives instead of the blended one. none: the blended one.
 enum class Start { none, flattened, mirrored, random, point };
 
-// The body begins at rest in the first pose of its motion and stays in the last. A limb's forearm turns about `axis` (rest world axes) to
-// angle_deg in even steps; a character lands from a jump, 36 steps of its clip. In other cells the whole body is moved in one step, or its
-// initial shape is broken.
+// The body begins at rest in the first pose of its motion and stays in the last. A limb's forearm turns about `axis`
+// (rest world axes) to angle_deg in even steps; a character lands from a jump, 36 steps of its clip. In other cells the
+// whole body is moved in one step, or its initial shape is broken.
 struct Disturbance {
     pbs::Vec3 axis = pbs::Vec3::UnitZ();
     double angle_deg = 90.0;  // 0: a character stays in its rest pose
@@ -34,7 +34,8 @@ struct Disturbance {
     bool stays = false;  // in the last pose from the beginning
 };
 
-// Tets that are distorted before anything is bound: a seeded share of the vertices is moved until a tet at each is thin.
+// Tets that are distorted before anything is bound: a seeded share of the vertices is moved until a tet at each is
+// thin.
 enum class Defect { none, slivers, needles };
 
 template <>
@@ -69,16 +70,19 @@ struct StabilityCell {
     double thinness = 1.0;    // share of the height or edge that the moved vertices keep
     double mass_ratio = 1.0;  // heaviest over lightest particle of a PBS body, seeded
     bool held_end = false;    // a tenth of the limb has infinite mass
-    // The whole body is moved along x by this length in every second step, for a method that does not step a pose that equals the last one.
+    // The whole body is moved along x by this length in every second step, for a method that does not step a pose that
+    // equals the last one.
     double nudge_m = 0.0;
 
-    bool as_published = false;  // the paper's method with settings that it allows; those in the paper's order and f64 are judged
+    bool as_published =
+        false;  // the paper's method with settings that it allows; those in the paper's order and f64 are judged
 };
 
 std::string precision_of(const StabilityCell& cell);  // f32, f64
 nlohmann::json to_json(const Disturbance& disturbance);
 nlohmann::json to_json(const StabilityCell& cell);  // all members
-std::string setting_of(const StabilityCell& cell);  // body, method, place and last pose: all members except those of the way to it
+// body, method, place and last pose: all members except those of the way to it
+std::string setting_of(const StabilityCell& cell);
 
 void append(std::vector<StabilityCell>& cells, std::vector<StabilityCell> more);
 
@@ -138,8 +142,9 @@ struct CellResult {
     std::vector<analysis::StabilityStep> steps;
     bool has_undisturbed = false;  // the same body comes to rest when it begins in the last pose
     int steps_not_reached = 0;
-    // From a broken initial state: the method's iterations up to and including the first step that was reached. For Newton's method this is
-    // the number until the residual was within tolerance, including a first solve that failed. PBS and XPBD always do all their iterations.
+    // From a broken initial state: the method's iterations up to and including the first step that was reached. For
+    // Newton's method this is the number until the residual was within tolerance, including a first solve that failed.
+    // PBS and XPBD always do all their iterations.
     std::optional<int> iterations_until_reached;
     double cpu_s = 0.0;
 };
@@ -147,10 +152,12 @@ struct CellResult {
 CellResult run_cell(const StabilityCell& cell);
 std::string endings_text();  // when a run ends early, as Markdown
 
-// A good mesh made bad on purpose: some vertices are moved so that a tet at each becomes thin, without inverting any tet.
+// A good mesh made bad on purpose: some vertices are moved so that a tet at each becomes thin, without inverting any
+// tet.
 //   const pbs::TetMesh spoilt = distorted(mesh, Defect::slivers, 1e-4);
-// slivers: a vertex keeps the share `thinness` of its height over the opposite face of one tet. needles: it keeps that share of the length
-// of one edge. A seeded twentieth of the vertices is moved, no two of the same tet. Vertices that would invert a tet are skipped.
+// slivers: a vertex keeps the share `thinness` of its height over the opposite face of one tet. needles: it keeps that
+// share of the length of one edge. A seeded twentieth of the vertices is moved, no two of the same tet. Vertices that
+// would invert a tet are skipped.
 pbs::TetMesh distorted(const pbs::TetMesh& mesh, Defect defect, double thinness);
 
 struct MeasuredCell {
@@ -180,39 +187,46 @@ struct CellRow {
 extern const analysis::Columns<CellRow> cell_columns;
 CellRow cell_row(const MeasuredCell& measured);
 
-// The shares of the cells as published, of their controls, and of the deformers that C08 compares, by body, deformer, jiggle, order,
-// precision and factor, each with the number of its cells; one row per quantity. Cells at rest are bounded or inverted, no vertex moves in
-// the last steps, and the last step is solved; they are counted by the size of their time steps. Their share and that of diverged cells
-// have no interval: one cell refutes "unconditionally", and all cells are no sample. The shares of inverted cells, of cells in motion
-// (bounded or inverted, and moving until the end) and of cells that end as if undisturbed have the 95 % interval of Clopper and Pearson, as
-// if the cells were drawn at random from the settings between them.
+// The shares of the cells as published, of their controls, and of the deformers that C08 compares, by body, deformer,
+// jiggle, order, precision and factor, each with the number of its cells; one row per quantity. Cells at rest are
+// bounded or inverted, no vertex moves in the last steps, and the last step is solved; they are counted by the size of
+// their time steps. Their share and that of diverged cells have no interval: one cell refutes "unconditionally", and
+// all cells are no sample. The shares of inverted cells, of cells in motion (bounded or inverted, and moving until the
+// end) and of cells that end as if undisturbed have the 95 % interval of Clopper and Pearson, as if the cells were
+// drawn at random from the settings between them.
 analysis::CsvTable stability_measurements(const std::vector<MeasuredCell>& cells);
 
-// The text states why the map is unreliable: an outcome that occurs in no cell, or a cell in which the printed sign does not
-// diverge. Empty where there is no such defect.
+// The text states why the map is unreliable: an outcome that occurs in no cell, or a cell in which the printed sign
+// does not diverge. Empty where there is no such defect.
 std::string blind_spots(const std::vector<CellRow>& cells);
 
 // The cells of a map, one row each, with both values and the outcome.
-analysis::CsvTable map_csv(const std::vector<CellRow>& cells, const std::string& factor, const std::string& second_factor);
+analysis::CsvTable map_csv(const std::vector<CellRow>& cells, const std::string& factor,
+                           const std::string& second_factor);
 
-// Does a deformer that minimises an energy find its own result again from a broken initial shape, and after how many iterations?
-//   for (const StabilityCell& cell : stability_cells("broken_starts")) rows.push_back(run_broken_start(cell, most_iterations));
-// The deformer runs from the broken shape with 1, 2, 4, ... iterations, up to the most, and once with the most from its own initial guess.
-// The result of the latter is its own result. These runs differ from a scene only in the initial shape and in the number of iterations.
-// The outcomes in cells.csv cannot show this: there a deformer without memory forgets a broken shape after one step.
+// Does a deformer that minimises an energy find its own result again from a broken initial shape, and after how many
+// iterations?
+//   for (const StabilityCell& cell : stability_cells("broken_starts")) rows.push_back(run_broken_start(cell,
+//   most_iterations));
+// The deformer runs from the broken shape with 1, 2, 4, ... iterations, up to the most, and once with the most from its
+// own initial guess. The result of the latter is its own result. These runs differ from a scene only in the initial
+// shape and in the number of iterations. The outcomes in cells.csv cannot show this: there a deformer without memory
+// forgets a broken shape after one step.
 
-// The distance from the deformer's own result below which it counts as reached: root mean square over the vertices at the joints, over
-// their mean distance to the bones.
+// The distance from the deformer's own result below which it counts as reached: root mean square over the vertices at
+// the joints, over their mean distance to the bones.
 inline constexpr double reached_within_pct = 1.0;
 
-// diverged: a vertex is farther than a diagonal of the body from its place in the own result (StabilityBounds::farthest).
+// diverged: a vertex is farther than a diagonal of the body from its place in the own result
+// (StabilityBounds::farthest).
 enum class StartOutcome { reached, not_reached, diverged, not_finite, not_applicable };
 template <>
-inline constexpr NameTable<StartOutcome, 5> option_names<StartOutcome>{{{StartOutcome::reached, "reached"},
-                                                                        {StartOutcome::not_reached, "not_reached"},
-                                                                        {StartOutcome::diverged, "diverged"},
-                                                                        {StartOutcome::not_finite, "not_finite"},
-                                                                        {StartOutcome::not_applicable, "not_applicable"}}};
+inline constexpr NameTable<StartOutcome, 5> option_names<StartOutcome>{
+    {{StartOutcome::reached, "reached"},
+     {StartOutcome::not_reached, "not_reached"},
+     {StartOutcome::diverged, "diverged"},
+     {StartOutcome::not_finite, "not_finite"},
+     {StartOutcome::not_applicable, "not_applicable"}}};
 
 // A row of starts.csv.
 struct StartRow {
@@ -222,10 +236,12 @@ struct StartRow {
     std::string setting = {};                  // the option that the row changes; empty: all have their defaults
     std::optional<double> setting_value = {};  // its value
     StartOutcome outcome = StartOutcome::not_reached;
-    std::optional<int> iterations_until_reached = {};  // the first number of iterations from which on all are within the distance
+    // the first number of iterations from which on all are within the distance
+    std::optional<int> iterations_until_reached = {};
     int most_iterations = 0;
     std::optional<double> from_own_result_pct = {};  // after the most iterations; empty: not finite
-    std::optional<double> own_change_pct = {};       // of the own result in the second half of the iterations; empty: not finite
+    // of the own result in the second half of the iterations; empty: not finite
+    std::optional<double> own_change_pct = {};
     std::optional<int> inverted_tets = {}, own_inverted_tets = {};
     std::string reason = {};  // why a start is not applicable
     double cpu_s = 0.0;

@@ -1,13 +1,15 @@
-// C08: is the method unconditionally stable, large time steps included? Each cell of the map disturbs a body, then holds it still, and has
-// one of five outcomes by the same bounds for every method (analysis/metrics/stability_outcome.hpp). README.md describes the runs, the
-// records, the threshold of rest, and why the study itself may fail.
+// C08: is the method unconditionally stable, large time steps included? Each cell of the map disturbs a body, then
+// holds it still, and has one of five outcomes by the same bounds for every method
+// (analysis/metrics/stability_outcome.hpp). README.md describes the runs, the records, the threshold of rest, and why
+// the study itself may fail.
 //
-// Without jiggle the time step has no effect; those cells have the model pbs_no_memory and are not judged. A broken or moved initial state
-// has no effect after one step, so that only this step can fail. The finite elements in equilibrium take a broken initial state as the
-// initial guess of Newton's method in the last pose, without a load path. The finite elements in time have no such cells.
+// Without jiggle the time step has no effect; those cells have the model pbs_no_memory and are not judged. A broken or
+// moved initial state has no effect after one step, so that only this step can fail. The finite elements in equilibrium
+// take a broken initial state as the initial guess of Newton's method in the last pose, without a load path. The finite
+// elements in time have no such cells.
 //
-// The verdict follows from the share of cells at rest at the end. The bind constraint bounds a body that has lost its shape, so the shares
-// of diverged and inverted bodies and of those that end as if undisturbed are reported as well.
+// The verdict follows from the share of cells at rest at the end. The bind constraint bounds a body that has lost its
+// shape, so the shares of diverged and inverted bodies and of those that end as if undisturbed are reported as well.
 #include "analysis/records/record_files.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
@@ -38,19 +40,21 @@ nlohmann::json scenes_of(const Cells& cells)
 }
 
 RECORD_SETTINGS_AND(StabilityCase,
-                    .derived("scenes", [](const StabilityCase& stability_case) { return scenes_of(stability_case.cells); })
+                    .derived("scenes",
+                             [](const StabilityCase& stability_case) { return scenes_of(stability_case.cells); })
                         .constant("seed", stability_seed)
                         .constant("criteria", analysis::criteria_text() + endings_text()),
                     cells)
 
-RECORD_SETTINGS_AND(BrokenStartsCase,
-                    .derived("scenes", [](const BrokenStartsCase& broken_starts_case) { return scenes_of(broken_starts_case.cells); })
-                        .constant("seed", stability_seed)
-                        .derived("criteria",
-                                 [](const BrokenStartsCase& broken_starts_case) {
-                                     return start_criteria_text(broken_starts_case.most_iterations);
-                                 }),
-                    cells, most_iterations)
+RECORD_SETTINGS_AND(
+    BrokenStartsCase,
+    .derived("scenes", [](const BrokenStartsCase& broken_starts_case) { return scenes_of(broken_starts_case.cells); })
+        .constant("seed", stability_seed)
+        .derived("criteria",
+                 [](const BrokenStartsCase& broken_starts_case) {
+                     return start_criteria_text(broken_starts_case.most_iterations);
+                 }),
+    cells, most_iterations)
 
 std::string run_and_record(const StabilityCase& stability_case, const std::string& folder)
 {
@@ -69,7 +73,8 @@ std::string run_and_record(const StabilityCase& stability_case, const std::strin
 std::string start_and_record(const BrokenStartsCase& broken_starts_case, const std::string& folder)
 {
     std::vector<StartRow> rows;
-    for (const StabilityCell& cell : broken_starts_case.cells) rows.push_back(run_broken_start(cell, broken_starts_case.most_iterations));
+    for (const StabilityCell& cell : broken_starts_case.cells)
+        rows.push_back(run_broken_start(cell, broken_starts_case.most_iterations));
     for (const StartRow& row : starts_not_applicable()) rows.push_back(row);
     table_of(start_columns, rows).write(analysis::path_in(folder, "starts.csv"));
     return {};
@@ -78,9 +83,11 @@ std::string start_and_record(const BrokenStartsCase& broken_starts_case, const s
 StudyPlan plan(bool full)
 {
     return plan_of_cases("stability", full, [](const StudyCase& study_case, StudyPlan& plan) {
-        const Cells cells = stability_cells(study_case.value<std::string>("cells"), study_case.value("body", StabilityCell().body));
+        const Cells cells =
+            stability_cells(study_case.value<std::string>("cells"), study_case.value("body", StabilityCell().body));
         if (study_case.has("most_iterations"))
-            plan.runs.push_back(work_run<BrokenStartsCase>(study_case.name, {cells, study_case.value<int>("most_iterations")},
+            plan.runs.push_back(work_run<BrokenStartsCase>(study_case.name,
+                                                           {cells, study_case.value<int>("most_iterations")},
                                                            study_case.cost_s, start_and_record));
         else
             plan.runs.push_back(work_run<StabilityCase>(study_case.name, {cells}, study_case.cost_s, run_and_record));

@@ -84,7 +84,8 @@ void shuffle_if(int seed, std::vector<Constraint>& constraints)
 
 void add_pbs(const LoadedBody& body, const StiffnessSetting& setting, pbs::StepNearRest& step)
 {
-    auto set = pbs::make_constraint_set<double>(body.mesh, bind_distance_of(body), body.zone, pbs_options(body, setting), body.held);
+    auto set = pbs::make_constraint_set<double>(body.mesh, bind_distance_of(body), body.zone,
+                                                pbs_options(body, setting), body.held);
     const auto add_class = [&](auto& constraints) {
         shuffle_if(setting.order_seed, constraints);
         for (const auto& constraint : constraints) step.add(constraint, constraint.stiffness, 0.0, set.inverse_mass);
@@ -94,17 +95,20 @@ void add_pbs(const LoadedBody& body, const StiffnessSetting& setting, pbs::StepN
 
 void add_xpbd(const LoadedBody& body, const StiffnessSetting& setting, pbs::StepNearRest& step)
 {
-    const pbs::XpbdConstraints of_body = make_xpbd_constraints(body.mesh, body.bind_distance, xpbd_options(setting), body.held);
+    const pbs::XpbdConstraints of_body =
+        make_xpbd_constraints(body.mesh, body.bind_distance, xpbd_options(setting), body.held);
     const auto add_class = [&](auto constraints) {
         shuffle_if(setting.order_seed, constraints);
-        for (const auto& [constraint, compliance] : constraints) step.add(constraint, 1.0, compliance, of_body.inverse_mass);
+        for (const auto& [constraint, compliance] : constraints)
+            step.add(constraint, 1.0, compliance, of_body.inverse_mass);
     };
     add_class(of_body.bind), add_class(of_body.stretch), add_class(of_body.volume);
 }
 
 // still: pbs::RestingState or SteppedBody.
 template <typename Still>
-StiffnessRow row_of(const LoadedBody& body, const StiffnessSetting& setting, const std::string& by, const Still& still, double gravity_m_s2)
+StiffnessRow row_of(const LoadedBody& body, const StiffnessSetting& setting, const std::string& by, const Still& still,
+                    double gravity_m_s2)
 {
     return {.body = body.name,
             .load = body.load,
@@ -123,13 +127,14 @@ constexpr double softer_pa = 3.0e4, stiffer_pa = 3.0e5;  // as stiff as few and 
 
 std::vector<LoadedBody> bodies_of(const std::string& body, int vertices)
 {
-    if (body == "bar") return {hanging_bar(pbs::make_character({.body = body, .vertices = vertices > 0 ? vertices : 1000}).mesh)};
+    if (body == "bar")
+        return {hanging_bar(pbs::make_character({.body = body, .vertices = vertices > 0 ? vertices : 1000}).mesh)};
     const pbs::Character character = pbs::make_character({.body = body, .vertices = vertices, .surface = false});
     return {jiggling_flesh(character, RestOfBody::projected), jiggling_flesh(character, RestOfBody::held)};
 }
 
-// Small steps do not run on the bar, whose slowest motion takes more of them than the linear solver's Krylov space has. Where the rest of
-// the body is projected, they are the control of the iterations alone.
+// Small steps do not run on the bar, whose slowest motion takes more of them than the linear solver's Krylov space has.
+// Where the rest of the body is projected, they are the control of the iterations alone.
 bool suits(const StiffnessSweep& sweep, const LoadedBody& body, const StiffnessSetting& setting)
 {
     if (setting.method != Method::xpbd_small_steps) return true;
@@ -148,7 +153,8 @@ std::vector<StiffnessSetting> materials_of(const StiffnessSweep& sweep)
     materials.push_back({.method = Method::xpbd, .young_pa = softer_pa});
     if (many) materials.push_back({.method = Method::xpbd, .young_pa = stiffer_pa});
     materials.push_back({.method = Method::xpbd_small_steps, .young_pa = softer_pa});
-    if (sweep.body == "limb" && sweep.varied != Varied::resolution)  // no theory says what the failing control does on other meshes
+    // no theory says what the failing control does on other meshes
+    if (sweep.body == "limb" && sweep.varied != Varied::resolution)
         materials.push_back({.method = Method::xpbd_forgetting, .young_pa = softer_pa});
     return materials;
 }
@@ -224,13 +230,15 @@ pbs::RestingState rest_near_rest(const LoadedBody& body, const StiffnessSetting&
         add_pbs(body, setting, step);
     pbs::RestingState rest = pbs::rest_of(step, body.zone, body.direction);
     for (std::size_t v = 0; v < body.zone.size(); ++v)
-        if (body.zone[v]) rest.displacement.row(static_cast<Eigen::Index>(v)) += step_s * step_s * body.direction.transpose();
+        if (body.zone[v])
+            rest.displacement.row(static_cast<Eigen::Index>(v)) += step_s * step_s * body.direction.transpose();
     step.apply(rest.displacement);
     ++rest.steps;
     return rest;
 }
 
-SteppedBody step_until_still(const LoadedBody& body, const StiffnessSetting& setting, double gravity_m_s2, int most_steps)
+SteppedBody step_until_still(const LoadedBody& body, const StiffnessSetting& setting, double gravity_m_s2,
+                             int most_steps)
 {
     const pbs::Vec3 gravity = gravity_m_s2 * body.direction;
     if (is_xpbd(setting.method)) {
@@ -273,7 +281,8 @@ std::string record_stiffness(const StiffnessSweep& sweep, const std::string& fol
                 if (is_stepped(sweep, body, setting)) rows.push_back(stepped_stiffness(body, setting));
             }
     table_of(stiffness_columns, rows).write(analysis::path_in(folder, "stiffness.csv"));
-    analysis::measurement_table(stiffness_ratios(rows, sweep.varied)).write(analysis::path_in(folder, "measurements.csv"));
+    analysis::measurement_table(stiffness_ratios(rows, sweep.varied))
+        .write(analysis::path_in(folder, "measurements.csv"));
     return "";
 }
 

@@ -1,4 +1,5 @@
-// How a stiffness changes when one thing is doubled and nothing else: the values of claim C11, and exponents over a whole sweep.
+// How a stiffness changes when one thing is doubled and nothing else: the values of claim C11, and exponents over a
+// whole sweep.
 //   measurement_table(stiffness_ratios(rows, Varied::iterations)).write("measurements.csv");
 #pragma once
 
@@ -14,15 +15,15 @@
 
 namespace experiments {
 
-// A solver with its settings, and where a loaded body comes to rest with it: by the linear map of a step near rest, and by the solver
-// itself.
+// A solver with its settings, and where a loaded body comes to rest with it: by the linear map of a step near rest, and
+// by the solver itself.
 //   const StiffnessSetting setting{.method = Method::pbs, .k_stretch = 0.2, .iterations = 24, .time_step_ms = 10.0};
 //   effective_stiffness_n_m(body, rest_near_rest(body, setting).displacement, 1.0);
 //   table_of(stiffness_columns, {linear_stiffness(body, setting)}).write("stiffness.csv");
 
-// exponent: k' = 1 - (1 - k)^(1 / iterations). xpbd keeps its multipliers over the iterations of a step. xpbd_small_steps takes as many
-// steps of one iteration as there are iterations; LBS puts the body outside the zone back in each of them. xpbd_forgetting
-// resets its multipliers in every iteration: a control that has to fail.
+// exponent: k' = 1 - (1 - k)^(1 / iterations). xpbd keeps its multipliers over the iterations of a step.
+// xpbd_small_steps takes as many steps of one iteration as there are iterations; LBS puts the body outside the zone
+// back in each of them. xpbd_forgetting resets its multipliers in every iteration: a control that has to fail.
 enum class Method { pbs, exponent, xpbd, xpbd_small_steps, xpbd_forgetting };
 template <>
 inline constexpr NameTable<Method, 5> option_names<Method>{{{Method::pbs, "pbs"},
@@ -52,14 +53,15 @@ nlohmann::json to_json(const StiffnessSetting& setting);
 // Under 1 m/s^2. The displacement is that after the step, including what the zone carries along outside of it.
 pbs::RestingState rest_near_rest(const LoadedBody& body, const StiffnessSetting& setting);
 
-// Takes time steps under the given gravity until the body hangs still. This checks the linear map, and shows the effect of large
-// displacements.
+// Takes time steps under the given gravity until the body hangs still. This checks the linear map, and shows the effect
+// of large displacements.
 struct SteppedBody {
     pbs::Positions displacement;  // [m], #V x 3
     bool converged = false;       // the mean displacement changed by less than 1e-6 of itself for 25 steps
     int steps = 0;
 };
-SteppedBody step_until_still(const LoadedBody& body, const StiffnessSetting& setting, double gravity_m_s2, int most_steps = 4000);
+SteppedBody step_until_still(const LoadedBody& body, const StiffnessSetting& setting, double gravity_m_s2,
+                             int most_steps = 4000);
 
 inline constexpr double still_gravity_m_s2 = 9.81;  // under which the solver itself is stepped
 
@@ -85,11 +87,11 @@ template <>
 inline constexpr NameTable<Varied, 3> option_names<Varied>{
     {{Varied::iterations, "iterations"}, {Varied::time_step, "time_step"}, {Varied::resolution, "resolution"}}};
 
-// The ratio of stiffnesses for one doubling, (K2 / K1)^(log 2 / log(x2 / x1)), from the first to the last of the settings next to the
-// paper's (12 to 48 iterations, 20 to 5 ms; all resolutions). low and high are the least and the largest ratio of every single doubling
-// there, over file order, random orders and the second series of meshes. Runs that did not converge, or whose flesh rises against gravity,
-// are left out. The claim is about a character's jiggling zone as the paper's solver runs it; a bar, or a zone whose surroundings are held,
-// is "flesh held".
+// The ratio of stiffnesses for one doubling, (K2 / K1)^(log 2 / log(x2 / x1)), from the first to the last of the
+// settings next to the paper's (12 to 48 iterations, 20 to 5 ms; all resolutions). low and high are the least and the
+// largest ratio of every single doubling there, over file order, random orders and the second series of meshes. Runs
+// that did not converge, or whose flesh rises against gravity, are left out. The claim is about a character's jiggling
+// zone as the paper's solver runs it; a bar, or a zone whose surroundings are held, is "flesh held".
 std::vector<analysis::Measurement> stiffness_ratios(const std::vector<StiffnessRow>& rows, Varied varied);
 
 // K = c x^exponent over all settings, in file order, by least squares: a row of exponents.csv.

@@ -1,7 +1,7 @@
-// C11: what the stiffness k in [0, 1] amounts to, as force over displacement of flesh that hangs under gravity, against iterations, time
-// step and resolution. PBS, PBS with Mueller's exponent and XPBD run. XPBD has the stiffness of a material, and is the control. On the limb
-// XPBD also runs with its multipliers reset in every iteration: a control that has to fail, and no part of the claim. README.md describes
-// the runs and records.
+// C11: what the stiffness k in [0, 1] amounts to, as force over displacement of flesh that hangs under gravity, against
+// iterations, time step and resolution. PBS, PBS with Mueller's exponent and XPBD run. XPBD has the stiffness of a
+// material, and is the control. On the limb XPBD also runs with its multipliers reset in every iteration: a control
+// that has to fail, and no part of the claim. README.md describes the runs and records.
 #include "analysis/records/tables.hpp"
 #include "analysis/statistics/fits.hpp"
 #include "analysis/verdicts/measurement.hpp"
@@ -19,10 +19,10 @@ namespace experiments {
 const analysis::Columns<StiffnessExponent>& exponent_columns()
 {
     using Row = StiffnessExponent;
-    static const analysis::Columns<Row> columns = analysis::Columns<Row>{{"varied", &Row::varied}} +
-                                                  within(&Row::of, analysis::case_key_columns()) +
-                                                  MEMBER_COLUMNS(Row, first, last, points, left_out, exponent) +
-                                                  analysis::Columns<Row>{{"exponent_low", &Row::low}, {"exponent_high", &Row::high}};
+    static const analysis::Columns<Row> columns =
+        analysis::Columns<Row>{{"varied", &Row::varied}} + within(&Row::of, analysis::case_key_columns()) +
+        MEMBER_COLUMNS(Row, first, last, points, left_out, exponent) +
+        analysis::Columns<Row>{{"exponent_low", &Row::low}, {"exponent_high", &Row::high}};
     return columns;
 }
 
@@ -46,7 +46,8 @@ struct Point {
 };
 
 struct Case {
-    std::map<std::pair<int, bool>, std::vector<Point>> series;  // by order and "tenth finer"; the first is file order on the wanted meshes
+    // by order and "tenth finer"; the first is file order on the wanted meshes
+    std::map<std::pair<int, bool>, std::vector<Point>> series;
     int left_out = 0;
 };
 
@@ -58,7 +59,8 @@ double x_of(const StiffnessRow& row, Varied varied)
 
 const char* deformer_of(Method method)
 {
-    static constexpr const char* names[] = {"pbs", "pbs_exponent", "xpbd", "xpbd_small_steps", "xpbd_forgetting_multipliers"};
+    static constexpr const char* names[] = {"pbs", "pbs_exponent", "xpbd", "xpbd_small_steps",
+                                            "xpbd_forgetting_multipliers"};
     return names[static_cast<int>(method)];
 }
 
@@ -85,7 +87,9 @@ std::map<analysis::CaseKey, Case> cases_of(const std::vector<StiffnessRow>& rows
         Case& own = cases[key_of(row, varied)];
         const bool usable = row.converged && std::isfinite(row.stiffness_n_m) && row.stiffness_n_m > 0.0;
         own.left_out += !usable;
-        if (usable) own.series[{row.setting.order_seed, row.mesh != "wanted"}].push_back({x_of(row, varied), row.stiffness_n_m});
+        if (usable)
+            own.series[{row.setting.order_seed, row.mesh != "wanted"}].push_back(
+                {x_of(row, varied), row.stiffness_n_m});
     }
     for (auto& [key, own] : cases)
         for (auto& [order_and_mesh, points] : own.series) std::ranges::sort(points, {}, &Point::x);
@@ -122,7 +126,9 @@ std::optional<analysis::Measurement> ratio_of(const analysis::CaseKey& key, cons
         if (points.size() < 2) continue;
         const double overall = for_one_doubling(points.front(), points.back());
         if (!result)
-            result = {"C11", text.quantity, over_range(key, varied, points.front().x, points.back().x), overall, overall, overall, "1"};
+            result = {"C11",   text.quantity, over_range(key, varied, points.front().x, points.back().x),
+                      overall, overall,       overall,
+                      "1"};
         for (std::size_t i = 1; i < points.size(); ++i) {
             const double single = for_one_doubling(points[i - 1], points[i]);
             result->low = std::min(result->low, single);
@@ -135,7 +141,8 @@ std::optional<analysis::Measurement> ratio_of(const analysis::CaseKey& key, cons
 StudyPlan plan(bool full)
 {
     return plan_of_cases("stiffness", full, [](const StudyCase& study_case, StudyPlan& plan) {
-        const StiffnessSweep sweep{option_of<Varied>(study_case.value<std::string>("varied")), study_case.value<std::string>("body"),
+        const StiffnessSweep sweep{option_of<Varied>(study_case.value<std::string>("varied")),
+                                   study_case.value<std::string>("body"),
                                    study_case.value<std::vector<int>>("vertices", {0})};
         plan.runs.push_back(work_run(study_case.name, sweep, study_case.cost_s, record_stiffness));
     });
@@ -143,8 +150,9 @@ StudyPlan plan(bool full)
 
 std::vector<StiffnessRow> rows_of_sweep(FinishedRuns finished, Varied varied)
 {
-    std::erase_if(finished.folders,
-                  [&](const std::string& run) { return !std::filesystem::path(run).filename().string().starts_with(name_of(varied)); });
+    std::erase_if(finished.folders, [&](const std::string& run) {
+        return !std::filesystem::path(run).filename().string().starts_with(name_of(varied));
+    });
     return finished.rows(stiffness_columns, "stiffness.csv");
 }
 
@@ -179,10 +187,11 @@ std::vector<StiffnessExponent> stiffness_exponents(const std::vector<StiffnessRo
     for (const auto& [key, measured] : cases_of(rows, varied)) {
         if (measured.series.empty() || measured.series.begin()->second.size() < 2) continue;
         std::vector<double> x, stiffness;
-        for (const Point& point : measured.series.begin()->second) x.push_back(point.x), stiffness.push_back(point.stiffness);
+        for (const Point& point : measured.series.begin()->second)
+            x.push_back(point.x), stiffness.push_back(point.stiffness);
         const analysis::Interval slope = analysis::observed_order(x, stiffness);
-        exponents.push_back(
-            {varied, key, shown(x.front()), shown(x.back()), slope.n, measured.left_out, slope.estimate, slope.low, slope.high});
+        exponents.push_back({varied, key, shown(x.front()), shown(x.back()), slope.n, measured.left_out, slope.estimate,
+                             slope.low, slope.high});
     }
     return exponents;
 }

@@ -27,9 +27,9 @@ namespace experiments {
 const analysis::Columns<TemporalFrame> temporal_frame_columns =
     MEMBER_COLUMNS(TemporalFrame, deformer, start, frame, ms, jitter_mm, largest_jitter_mm, error_joint_pct);
 const analysis::Columns<TemporalRow> temporal_columns =
-    analysis::within(&TemporalRow::of, pose_columns()) + MEMBER_COLUMNS(TemporalRow, deformer, start, frames, ms_median, ms_p95, jitter_mm,
-                                                                        jitter_p95_mm, largest_jitter_mm, largest_in_frame, pose_mm,
-                                                                        compared, error_joint_pct, worse_than_cold_frames);
+    analysis::within(&TemporalRow::of, pose_columns()) +
+    MEMBER_COLUMNS(TemporalRow, deformer, start, frames, ms_median, ms_p95, jitter_mm, jitter_p95_mm, largest_jitter_mm,
+                   largest_in_frame, pose_mm, compared, error_joint_pct, worse_than_cold_frames);
 
 RECORD_SETTINGS(TemporalCase, of, scene, cold, warm, flesh, compared_every)
 
@@ -39,7 +39,8 @@ constexpr int settling_frames = 24;  // in which a deformer with memory leaves t
 
 double root_mean_square(const std::vector<double>& values)
 {
-    return Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size())).norm() / std::sqrt(double(values.size()));
+    return Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size())).norm() /
+           std::sqrt(double(values.size()));
 }
 
 // x_{t+1} - 2 x_t + x_{t-1} [m], #V x 3.
@@ -71,7 +72,10 @@ public:
     }
 
 private:
-    const pbs::Pose& pose(int frame) const { return motion_.steps[static_cast<std::size_t>(frame) * motion_.steps_per_frame]; }
+    const pbs::Pose& pose(int frame) const
+    {
+        return motion_.steps[static_cast<std::size_t>(frame) * motion_.steps_per_frame];
+    }
 
     void solve_flesh()
     {
@@ -94,7 +98,8 @@ private:
             if (start == FrameStart::frame_before && frame > 0)
                 deformer->start_from(carried_by_lbs(shapes.back(), character_, pose(frame - 1), pose(frame)));
             deformer->advance(pose(frame), motion_.time_step_s);
-            TemporalFrame& row = records_.frames.emplace_back(TemporalFrame{spec.label, start, frame, 1e3 * (process_cpu_s() - start_s)});
+            TemporalFrame& row = records_.frames.emplace_back(
+                TemporalFrame{spec.label, start, frame, 1e3 * (process_cpu_s() - start_s)});
             shapes.push_back(deformer->positions());
             if (const auto flesh = flesh_.find(frame); flesh != flesh_.end())
                 row.error_joint_pct = errors_.measure(shapes.back(), flesh->second).joint_pct;
@@ -102,7 +107,8 @@ private:
         if (!std::ranges::all_of(shapes, [](const pbs::Positions& shape) { return shape.allFinite(); }))
             records_.breakdown += spec.label + " is not finite. ";
         for (int frame = settling_frames; frame + 1 < motion_.frames(); ++frame) {
-            const analysis::SkinError apart = skin_.measure(second_difference(shapes, frame), second_difference(lbs_, frame), nothing_);
+            const analysis::SkinError apart =
+                skin_.measure(second_difference(shapes, frame), second_difference(lbs_, frame), nothing_);
             TemporalFrame& row = records_.frames[first + frame];
             row.jitter_mm = apart.rms_mm;
             row.largest_jitter_mm = apart.largest_mm;
@@ -110,7 +116,8 @@ private:
         records_.summary.push_back(summed_up(first));
     }
 
-    // The frames from the first one on. Where they start at the frame before, the same frames with the own start precede them.
+    // The frames from the first one on. Where they start at the frame before, the same frames with the own start
+    // precede them.
     TemporalRow summed_up(std::size_t first) const
     {
         const TemporalFrame& head = records_.frames[first];
@@ -126,7 +133,8 @@ private:
             if (!frame.error_joint_pct) continue;
             errors_pct.push_back(*frame.error_joint_pct);
             if (row.worse_than_cold_frames)
-                *row.worse_than_cold_frames += *frame.error_joint_pct > *records_.frames[i - motion_.frames()].error_joint_pct;
+                *row.worse_than_cold_frames +=
+                    *frame.error_joint_pct > *records_.frames[i - motion_.frames()].error_joint_pct;
         }
         const pbs::Positions still = pbs::Positions::Zero(character_.mesh.rest.rows(), 3);
         for (int frame = settling_frames; frame + 1 < motion_.frames(); ++frame)
@@ -163,12 +171,14 @@ std::string measure_and_record(const TemporalCase& temporal_case, const std::str
 StudyPlan plan(bool full)
 {
     return plan_of_cases("temporal", full, [](const StudyCase& in_file, StudyPlan& plan) {
-        TemporalCase temporal_case{.of = in_file.key(), .scene = in_file.scene(), .compared_every = in_file.value<int>("compared_every")};
+        TemporalCase temporal_case{
+            .of = in_file.key(), .scene = in_file.scene(), .compared_every = in_file.value<int>("compared_every")};
         const auto warm = in_file.value<std::vector<std::string>>("warm");
         for (const DeformerSpec& spec : temporal_case.scene.deformers)
             if (!options_if<FemOptions>(spec))
                 (std::ranges::count(warm, spec.name) ? temporal_case.warm : temporal_case.cold).push_back(spec);
-        if (std::filesystem::exists(file_of_correctives(temporal_case.of.body)))  // not where the references are made anew
+        // not where the references are made anew
+        if (std::filesystem::exists(file_of_correctives(temporal_case.of.body)))
             temporal_case.cold.push_back(kept_correctives(temporal_case.of.body));
         temporal_case.flesh = reference_flesh(temporal_case.scene);
         options_of<FemOptions>(temporal_case.flesh).element_order = 1;

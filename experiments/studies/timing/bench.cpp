@@ -1,4 +1,5 @@
-// The bench as a whole: the machine's bandwidth, every body in turn, and the growth of the cost; its record and its table for reading.
+// The bench as a whole: the machine's bandwidth, every body in turn, and the growth of the cost; its record and its
+// table for reading.
 #include "analysis/records/provenance.hpp"
 #include "analysis/statistics/fits.hpp"
 #include "experiments/process/machine.hpp"
@@ -33,8 +34,8 @@ constexpr int usual_bars[] = {2200, 19'500}, quick_bar = 300;  // vertices
 constexpr int smallest_tets = 300, largest_tets = 20'000'000;
 constexpr double quiet_processors = 0.5;  // of other work
 
-// The largest amount of work per second over the turns. work(repeats) does the work and returns its amount; the number of repeats is chosen
-// so that they take about `seconds`.
+// The largest amount of work per second over the turns. work(repeats) does the work and returns its amount; the number
+// of repeats is chosen so that they take about `seconds`.
 template <typename Work>
 double best_rate(double seconds, const Work& work)
 {
@@ -45,7 +46,8 @@ double best_rate(double seconds, const Work& work)
         const double done = work(repeats);
         const double took = thread_cpu_s() - start;
         if (took < 0.7 * seconds && turn == 0) {
-            repeats = std::max(repeats + 1, static_cast<std::size_t>(double(repeats) * std::min(10.0, seconds / std::max(took, 1e-7))));
+            repeats = std::max(repeats + 1, static_cast<std::size_t>(double(repeats) *
+                                                                     std::min(10.0, seconds / std::max(took, 1e-7))));
             continue;
         }
         best = std::max(best, done / std::max(took, 1e-9));
@@ -98,13 +100,15 @@ json time_mesh(const BenchBody& body, const std::vector<MemoryBandwidth>& memory
         pbs::PbsSolver solver(body.mesh(), body.character.binding.distance, {}, {}, body.held);
         solver.advance(body.twisted, body.bind_points, 0.01);
     });
-    json timed = {
-        {"mesh",
-         {{"name", body.character.name}, {"vertices", body.mesh().rest.rows()}, {"edges", body.edges}, {"tets", body.mesh().tets.rows()}}},
-        {"memory", {{"peak_bytes", peak.peak_bytes}, {"growth_bytes", peak.growth_bytes()}}},
-        {"results", json::array()},
-        {"yardsticks", json::array()},
-        {"deformers", json::array()}};
+    json timed = {{"mesh",
+                   {{"name", body.character.name},
+                    {"vertices", body.mesh().rest.rows()},
+                    {"edges", body.edges},
+                    {"tets", body.mesh().tets.rows()}}},
+                  {"memory", {{"peak_bytes", peak.peak_bytes}, {"growth_bytes", peak.growth_bytes()}}},
+                  {"results", json::array()},
+                  {"yardsticks", json::array()},
+                  {"deformers", json::array()}};
     Rounds rounds = options.quick ? Rounds{.seconds = 0.0, .fewest = 2, .most = 2} : Rounds{.seconds = options.seconds};
     std::vector<int> threads = {1};
     if (options.threads > 1) threads.push_back(options.threads);
@@ -140,7 +144,8 @@ json context_of(const BenchOptions& options)
             {"provenance", provenance}};
 }
 
-// One line per entry of bench.json. Each column is a place inside the entry, with a format for a number. Numbers are aligned to the right.
+// One line per entry of bench.json. Each column is a place inside the entry, with a format for a number. Numbers are
+// aligned to the right.
 std::string table(const json& entries, const std::string& places)
 {
     if (entries.empty()) return "";
@@ -159,7 +164,8 @@ std::string table(const json& entries, const std::string& places)
         const std::size_t width = std::ranges::max_element(cells, {}, &std::string::size)->size();
         for (std::size_t row = 0; row < cells.size(); ++row) {
             const std::string gap = lines[row].empty() ? "" : "  ";
-            lines[row] += gap + (end < place.size() ? fmt::format("{:>{}}", cells[row], width) : fmt::format("{:<{}}", cells[row], width));
+            lines[row] += gap + (end < place.size() ? fmt::format("{:>{}}", cells[row], width)
+                                                    : fmt::format("{:<{}}", cells[row], width));
         }
     }
     for (std::string& line : lines) line.erase(line.find_last_not_of(' ') + 1);
@@ -170,14 +176,19 @@ std::string mesh_text(const json& timed)
 {
     json projections = timed.at("results");
     for (const json& baseline : timed.at("yardsticks")) projections.push_back(baseline);
-    return table(json::array({timed}), "mesh/name mesh/vertices:.0f mesh/edges:.0f mesh/tets:.0f memory/growth_bytes:.3g") +
+    return table(json::array({timed}),
+                 "mesh/name mesh/vertices:.0f mesh/edges:.0f mesh/tets:.0f memory/growth_bytes:.3g") +
            table(projections,
-                 "variant precision threads:.0f poses:.0f ns_stretch:.3f ns_volume:.3f ns_bind:.3f ms_step:.4g quartiles/ms_step/0:.4g "
-                 "quartiles/ms_step/1:.4g ratio_to_plain_spread:.2f residual_to_plain_spread:.3f volume_rms_to_plain_spread:.3f "
-                 "ratio_to_plain:.2f residual_to_plain:.3f volume_rms_to_plain:.3f ratio_to_plain_native:.2f ms_floor:.2g "
+                 "variant precision threads:.0f poses:.0f ns_stretch:.3f ns_volume:.3f ns_bind:.3f ms_step:.4g "
+                 "quartiles/ms_step/0:.4g "
+                 "quartiles/ms_step/1:.4g ratio_to_plain_spread:.2f residual_to_plain_spread:.3f "
+                 "volume_rms_to_plain_spread:.3f "
+                 "ratio_to_plain:.2f residual_to_plain:.3f volume_rms_to_plain:.3f ratio_to_plain_native:.2f "
+                 "ms_floor:.2g "
                  "best_speedup_by_threads:.2f") +
            table(timed.at("deformers"),
-                 "deformer model order precision iterations:.0f ms_first:.4g ms_frame:.4g ms_iteration:.4g ns_tet:.2f ns_vertex:.2f "
+                 "deformer model order precision iterations:.0f ms_first:.4g ms_frame:.4g ms_iteration:.4g ns_tet:.2f "
+                 "ns_vertex:.2f "
                  "ratio_to_plain:.2f left_out");
 }
 
@@ -219,7 +230,8 @@ json fit_scaling(const json& meshes)
                 const auto fields = fit.items();
                 if (!std::all_of(fields.begin(), fields.end(), is_same)) continue;
                 const json& mesh = timed.at("mesh");
-                constraints.push_back(mesh.at("vertices").get<double>() + mesh.at("edges").get<double>() + mesh.at("tets").get<double>());
+                constraints.push_back(mesh.at("vertices").get<double>() + mesh.at("edges").get<double>() +
+                                      mesh.at("tets").get<double>());
                 ms_step.push_back(entry.at("ms_step"));
             }
         if (constraints.size() != meshes.size()) continue;
@@ -258,15 +270,17 @@ json run_bench(const BenchOptions& options)
 std::string bench_table(const json& record)
 {
     const json& context = record.at("context");
-    std::string text =
-        table(json::array({context}), "cpu cores:.0f busy_processors/0:.2f busy_processors/1:.2f kernel_instructions compiler");
+    std::string text = table(json::array({context}),
+                             "cpu cores:.0f busy_processors/0:.2f busy_processors/1:.2f kernel_instructions compiler");
     const auto is_busy = [](const json& processors) { return processors.is_number() && processors > quiet_processors; };
     if (std::ranges::any_of(context.at("busy_processors"), is_busy))
         text += "Other work ran before or after: wall times, and so threads, are worth little.\n";
-    text += "\nOne core, bytes read and written:\n" + table(context.at("limits_of_one_core").at("memory"), "bytes:.0f gb_s:.0f");
+    text += "\nOne core, bytes read and written:\n" +
+            table(context.at("limits_of_one_core").at("memory"), "bytes:.0f gb_s:.0f");
     for (const json& mesh : record.at("meshes")) text += mesh_text(mesh);
     return text +
-           table(record.value("scaling", json::array()), "variant precision threads:.0f exponent:.3f interval/0:.3f interval/1:.3f") +
+           table(record.value("scaling", json::array()),
+                 "variant precision threads:.0f exponent:.3f interval/0:.3f interval/1:.3f") +
            "\nRead ratios, not times; `pbskin explain timing` explains the columns.\n";
 }
 

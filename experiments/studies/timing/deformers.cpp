@@ -14,10 +14,13 @@ namespace experiments {
 namespace {
 
 constexpr double time_step_s = 0.01;
-// The largest meshes that are timed: the scalar deformers take more than a tenth of a second per frame beyond 30,000 tets, the first solve
-// of linear elements takes seconds at 150,000, and a frame of nonlinear ones some twenty such solves.
-constexpr Eigen::Index most_blend_tets = 1'000'000, most_deformer_tets = 30'000, most_fem_tets = 150'000, most_newton_tets = 12'000;
-// The keys without a default, because the paper does not state their values. These values are those of the built-in scenes of the limb.
+// The largest meshes that are timed: the scalar deformers take more than a tenth of a second per frame beyond 30,000
+// tets, the first solve of linear elements takes seconds at 150,000, and a frame of nonlinear ones some twenty such
+// solves.
+constexpr Eigen::Index most_blend_tets = 1'000'000, most_deformer_tets = 30'000, most_fem_tets = 150'000,
+                       most_newton_tets = 12'000;
+// The keys without a default, because the paper does not state their values. These values are those of the built-in
+// scenes of the limb.
 const std::vector<std::string> stated_in_every_scene = {"pbs.k_stretch=0.2", "pbs.k_volume=1.0", "pbs.k_bind=1.0",
                                                         "pbs.gravity_m_s2=[0.0, 0.0, 0.0]"};
 
@@ -26,8 +29,8 @@ enum FrameSample { frame_s, iteration_s };
 
 const SceneKey* key_of(const DeformerKind& kind, const std::string& name)
 {
-    const auto found =
-        std::find_if(kind.keys.begin(), kind.keys.end(), [&](const SceneKey& key) { return key.table == kind.name && key.name == name; });
+    const auto found = std::find_if(kind.keys.begin(), kind.keys.end(),
+                                    [&](const SceneKey& key) { return key.table == kind.name && key.name == name; });
     return found == kind.keys.end() ? nullptr : &*found;
 }
 
@@ -38,7 +41,8 @@ std::vector<std::string> choices_of(const DeformerKind& kind, const std::string&
     return key && !key->choices.empty() ? key->choices : std::vector<std::string>{""};
 }
 
-// As a scene would set it, with these KEY=VALUE of the kind's table. A kind without keys for any choice has its defaults.
+// As a scene would set it, with these KEY=VALUE of the kind's table. A kind without keys for any choice has its
+// defaults.
 DeformerSpec spec_with(const DeformerKind& kind, const std::vector<std::string>& keys)
 {
     DeformerSpec spec = default_spec(kind.name);
@@ -72,8 +76,9 @@ double frame_seconds(Deformer& deformer, const BenchBody& body)
     return took / frames;
 }
 
-// All have been reset and posed once. What LBS and the set-up of a frame take is in the frame with twice the iterations too, so that the
-// difference is that of further iterations. Without it, or where a disturbance hides it, an iteration is an equal share of the frame.
+// All have been reset and posed once. What LBS and the set-up of a frame take is in the frame with twice the iterations
+// too, so that the difference is that of further iterations. Without it, or where a disturbance hides it, an iteration
+// is an equal share of the frame.
 struct Timed {
     const DeformerSetting* setting;
     std::unique_ptr<Deformer> once, twice;
@@ -116,11 +121,13 @@ nlohmann::json entry_of(const Timed& timed, const Samples& own, const BenchBody&
     return entry;
 }
 
-void append_settings(nlohmann::json& entries, const std::vector<DeformerSetting>& settings, const BenchBody& body, const Rounds& rounds)
+void append_settings(nlohmann::json& entries, const std::vector<DeformerSetting>& settings, const BenchBody& body,
+                     const Rounds& rounds)
 {
     std::vector<Timed> timed;
     for (const DeformerSetting& setting : settings) {
-        timed.push_back({&setting, make_deformer(setting.spec), nullptr, traits_of(setting.spec).iterations.value_or(0)});
+        timed.push_back(
+            {&setting, make_deformer(setting.spec), nullptr, traits_of(setting.spec).iterations.value_or(0)});
         timed.back().first_s = first_frame_seconds(*timed.back().once, body);
         if (!setting.twice || timed.back().iterations == 0) continue;
         timed.back().twice = make_deformer(*setting.twice);
@@ -131,13 +138,15 @@ void append_settings(nlohmann::json& entries, const std::vector<DeformerSetting>
     const std::vector<Samples> samples = take_turns(turns, rounds);
     for (std::size_t i = 0; i < timed.size(); ++i) {
         entries.push_back(entry_of(timed[i], samples[i], body));
-        put_spread(entries.back(), "ratio_to_plain", spread_of_ratios(samples[settings[i].plain][iteration_s], samples[i][iteration_s]));
+        put_spread(entries.back(), "ratio_to_plain",
+                   spread_of_ratios(samples[settings[i].plain][iteration_s], samples[i][iteration_s]));
     }
 }
 
-// Linear tets, bones held by smooth springs. A frame is solved from the rest pose; an iteration of nonlinear elements is a Newton step. The
-// finite elements have no plain implementation, so there is no ratio.
-void append_finite_elements(nlohmann::json& entries, reference_fem::Model model, const BenchBody& body, const Rounds& rounds)
+// Linear tets, bones held by smooth springs. A frame is solved from the rest pose; an iteration of nonlinear elements
+// is a Newton step. The finite elements have no plain implementation, so there is no ratio.
+void append_finite_elements(nlohmann::json& entries, reference_fem::Model model, const BenchBody& body,
+                            const Rounds& rounds)
 {
     DeformerSetting setting{default_spec("fem"), {}, "", "f64"};
     auto& options = options_of<FemOptions>(setting.spec);
@@ -159,8 +168,8 @@ void append_finite_elements(nlohmann::json& entries, reference_fem::Model model,
     entries.back()["reached"] = last.outcome == pbs::Outcome::finished;
 }
 
-// The order `plain` in the same precision where there is one; else plain code in f64; else code in f64 (a kind with one implementation);
-// else the first.
+// The order `plain` in the same precision where there is one; else plain code in f64; else code in f64 (a kind with one
+// implementation); else the first.
 std::size_t place_of_plain(const std::vector<DeformerSetting>& settings, const std::string& precision)
 {
     const auto place_where = [&](const auto& is_plain) {
@@ -223,9 +232,11 @@ nlohmann::json time_deformers(const BenchBody& body, const Rounds& rounds)
         append(kind.name, kind.name == "lbs" || kind.name == "dqs" ? most_blend_tets : most_deformer_tets,
                [&] { append_settings(entries, deformer_settings(kind), body, rounds); });
     }
-    const Rounds of_solves = {.seconds = 4.0 * rounds.seconds, .fewest = std::min(rounds.fewest, 2), .most = std::min(rounds.most, 11)};
+    const Rounds of_solves = {
+        .seconds = 4.0 * rounds.seconds, .fewest = std::min(rounds.fewest, 2), .most = std::min(rounds.most, 11)};
     using enum reference_fem::Model;
-    for (const auto& [model, most_tets] : {std::pair(linear, most_fem_tets), std::pair(stable_neo_hookean, most_newton_tets)})
+    for (const auto& [model, most_tets] :
+         {std::pair(linear, most_fem_tets), std::pair(stable_neo_hookean, most_newton_tets)})
         append("fem", most_tets, [&, model = model] { append_finite_elements(entries, model, body, of_solves); });
     return entries;
 }

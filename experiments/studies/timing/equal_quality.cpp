@@ -31,22 +31,25 @@ int vertex(const std::array<int, 3>& at)
     return (at[0] * across + at[1]) * across + at[2];
 }
 
-// The vertices of a layer: the square [-1, 1]^2 becomes a disc of radius one by (u sqrt(1 - v^2 / 2), v sqrt(1 - u^2 / 2)).
+// The vertices of a layer: the square [-1, 1]^2 becomes a disc of radius one by (u sqrt(1 - v^2 / 2), v sqrt(1 - u^2 /
+// 2)).
 pbs::Positions grid_points()
 {
     pbs::Positions points(layers * across * across, 3);
     for (int i = 0; i < layers; ++i)
         for (int j = 0; j < across; ++j)
             for (int k = 0; k < across; ++k) {
-                const double along = double(i) / (layers - 1), u = 2.0 * j / (across - 1) - 1.0, v = 2.0 * k / (across - 1) - 1.0;
+                const double along = double(i) / (layers - 1), u = 2.0 * j / (across - 1) - 1.0,
+                             v = 2.0 * k / (across - 1) - 1.0;
                 const double radius = std::lerp(first_radius, last_radius, along);
-                points.row(vertex({i, j, k})) << half_length * (2.0 * along - 1.0), radius * u * std::sqrt(1.0 - v * v / 2.0),
-                    radius * v * std::sqrt(1.0 - u * u / 2.0);
+                points.row(vertex({i, j, k})) << half_length * (2.0 * along - 1.0),
+                    radius * u * std::sqrt(1.0 - v * v / 2.0), radius * v * std::sqrt(1.0 - u * u / 2.0);
             }
     return points;
 }
 
-// Each of the six tets of a cube follows a path along the axes, in one of their orders, from the first corner to the last.
+// Each of the six tets of a cube follows a path along the axes, in one of their orders, from the first corner to the
+// last.
 pbs::Tets grid_tets(const pbs::Positions& points)
 {
     pbs::Tets tets(6 * (layers - 1) * (across - 1) * (across - 1), 4);
@@ -88,8 +91,8 @@ struct Contender {
 };
 
 template <typename Scalar>
-void append(const EqualQualityCase& quality_case, const pbs::Character& character, pbs::PbsOptions options, const StepStart& start,
-            std::vector<Contender>& contenders)
+void append(const EqualQualityCase& quality_case, const pbs::Character& character, pbs::PbsOptions options,
+            const StepStart& start, std::vector<Contender>& contenders)
 {
     const pbs::Tets& tets = character.mesh.tets;
     const IterationMetrics metrics(character, start.bind_points);
@@ -108,7 +111,8 @@ void append(const EqualQualityCase& quality_case, const pbs::Character& characte
         add_order("poses", loops_of_poses(constraints, tets, options, start, 1), of_ordered);  // each pose has its bits
     };
     options.precision = std::is_same_v<Scalar, float> ? pbs::Precision::f32 : pbs::Precision::f64;
-    const auto in_file_order = pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, {}, options);
+    const auto in_file_order =
+        pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, {}, options);
     add(file_sequence, in_file_order);
     add(spread_sequence, in_spread_order(in_file_order));
     for (const int seed : quality_case.random) {
@@ -132,7 +136,8 @@ struct Target {
 std::vector<Target> targets(const std::vector<MeasuredOrder>& measured, const std::string& precision)
 {
     const auto plain = std::ranges::find_if(measured, [&](const MeasuredOrder& measured_order) {
-        return measured_order.order == "plain" && measured_order.sequence == file_sequence && measured_order.precision == precision;
+        return measured_order.order == "plain" && measured_order.sequence == file_sequence &&
+               measured_order.precision == precision;
     });
     if (plain == measured.end()) throw std::logic_error("no plain in file order and " + precision);
     const Look& after_24 = look_at(plain->path, paper_iterations);
@@ -146,8 +151,8 @@ const Columns<CaseKey> order_key_columns = MEMBER_COLUMNS(CaseKey, body, motion,
 
 Columns<OrderRow> look_columns(Look OrderRow::*look, const std::string& name)
 {
-    return within(
-        look, Columns<Look>{{"residual_" + name, &Look::combined}, {"volume_abs_change_" + name + "_pct", &Look::volume_abs_change_pct}});
+    return within(look, Columns<Look>{{"residual_" + name, &Look::combined},
+                                      {"volume_abs_change_" + name + "_pct", &Look::volume_abs_change_pct}});
 }
 
 }  // namespace
@@ -188,19 +193,22 @@ std::vector<MeasuredOrder> measure_orders(const EqualQualityCase& quality_case)
     return measured;
 }
 
-const Columns<OrderRow> order_columns = within(&OrderRow::of, order_key_columns) + Columns<OrderRow>{{"sequence", &OrderRow::sequence}} +
-                                        within(&OrderRow::ms_iteration, spread_columns("iteration_ms")) +
-                                        look_columns(&OrderRow::after_24, "24") + look_columns(&OrderRow::limit, "limit") +
-                                        look_columns(&OrderRow::half, "half") +
-                                        within(&OrderRow::limit, Columns<Look>{{"iterations", &Look::iteration}});
+const Columns<OrderRow> order_columns =
+    within(&OrderRow::of, order_key_columns) + Columns<OrderRow>{{"sequence", &OrderRow::sequence}} +
+    within(&OrderRow::ms_iteration, spread_columns("iteration_ms")) + look_columns(&OrderRow::after_24, "24") +
+    look_columns(&OrderRow::limit, "limit") + look_columns(&OrderRow::half, "half") +
+    within(&OrderRow::limit, Columns<Look>{{"iterations", &Look::iteration}});
 
 const Columns<TargetRow> target_columns =
-    within(&TargetRow::of, order_key_columns) + MEMBER_COLUMNS(TargetRow, sequence, target, bound, reached, iterations, ms, limit);
+    within(&TargetRow::of, order_key_columns) +
+    MEMBER_COLUMNS(TargetRow, sequence, target, bound, reached, iterations, ms, limit);
 
 const Columns<EqualAnswer> answer_columns = [] {
     Columns<TargetRow> in_file_order = target_columns;
-    std::erase_if(in_file_order, [](const auto& column) { return column.name == "sequence" || column.name == "reached"; });
-    return within(&EqualAnswer::row, in_file_order) + MEMBER_COLUMNS(EqualAnswer, speedup_to_plain, speedup_to_plain_spread);
+    std::erase_if(in_file_order,
+                  [](const auto& column) { return column.name == "sequence" || column.name == "reached"; });
+    return within(&EqualAnswer::row, in_file_order) +
+           MEMBER_COLUMNS(EqualAnswer, speedup_to_plain, speedup_to_plain_spread);
 }();
 
 std::optional<int> first_within(const IterationPath& path, double Look::*value, double bound)
@@ -214,7 +222,8 @@ std::vector<OrderRow> order_rows(const CaseKey& key, const std::vector<MeasuredO
     std::vector<OrderRow> rows;
     for (const MeasuredOrder& measured_order : measured) {
         const Look& last = measured_order.path.looks.back();
-        rows.push_back({key, measured_order.sequence, measured_order.ms_iteration, look_at(measured_order.path, paper_iterations), last,
+        rows.push_back({key, measured_order.sequence, measured_order.ms_iteration,
+                        look_at(measured_order.path, paper_iterations), last,
                         look_at(measured_order.path, last.iteration / 2)});
         rows.back().of.order = measured_order.order;
         rows.back().of.precision = measured_order.precision;
@@ -251,7 +260,8 @@ std::vector<EqualAnswer> equal_answers(const std::vector<TargetRow>& rows)
     };
     std::vector<EqualAnswer> equal_answers;
     for (const TargetRow& row : rows)
-        if (row.sequence == file_sequence) equal_answers.push_back({row, speedup(row, file_sequence), speedup(row, spread_sequence)});
+        if (row.sequence == file_sequence)
+            equal_answers.push_back({row, speedup(row, file_sequence), speedup(row, spread_sequence)});
     return equal_answers;
 }
 

@@ -28,7 +28,8 @@ std::vector<Feature> features_of(const StudyCase& study_case)
         if (table.contains("only") && table.at("only") != study_case.value<std::string>("body")) continue;
         Feature& feature = features.emplace_back(Feature{.name = table.at("name")});
         feature.without.overrides = table.value("without", std::vector<std::string>{});
-        feature.with = {table.value("with", std::vector<std::string>{}), table.value("threads", 1), table.value("progress", false)};
+        feature.with = {table.value("with", std::vector<std::string>{}), table.value("threads", 1),
+                        table.value("progress", false)};
         feature.changes_result = table.value("changes_result", false);
     }
     return features;
@@ -52,16 +53,17 @@ using analysis::within;
 
 // The costs that are compared, in the order of costs_of_run.
 constexpr std::pair<Compared FeatureRow::*, const char*> compared_costs[] = {
-    {&FeatureRow::frame_ms, "frame_ms"},       {&FeatureRow::frame_cpu_ms, "frame_cpu_ms"}, {&FeatureRow::step_ms, "step_ms"},
-    {&FeatureRow::step_cpu_ms, "step_cpu_ms"}, {&FeatureRow::start_s, "start_s"},           {&FeatureRow::peak_mb, "peak_mb"}};
+    {&FeatureRow::frame_ms, "frame_ms"}, {&FeatureRow::frame_cpu_ms, "frame_cpu_ms"},
+    {&FeatureRow::step_ms, "step_ms"},   {&FeatureRow::step_cpu_ms, "step_cpu_ms"},
+    {&FeatureRow::start_s, "start_s"},   {&FeatureRow::peak_mb, "peak_mb"}};
 
 Columns<FeatureRow> cost_columns()
 {
     const QuartileEndings endings = {"_lower", "_upper"};
     Columns<FeatureRow> all;
     for (const auto& [part, name] : compared_costs)
-        for (const auto& [of, ending] :
-             {std::pair(&Compared::without, "_without"), std::pair(&Compared::with, "_with"), std::pair(&Compared::ratio, "_ratio")})
+        for (const auto& [of, ending] : {std::pair(&Compared::without, "_without"), std::pair(&Compared::with, "_with"),
+                                         std::pair(&Compared::ratio, "_ratio")})
             all = all + within(part, within(of, spread_columns(std::string(name) + ending, endings)));
     return all;
 }
@@ -85,7 +87,8 @@ double start_of(const nlohmann::json& seconds)
 void draw_progress_unseen()
 {
     const int master = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
-    if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0) throw std::runtime_error("no terminal to draw a bar on");
+    if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0)
+        throw std::runtime_error("no terminal to draw a bar on");
     const int slave = open(ptsname(master), O_RDWR | O_NOCTTY | O_NONBLOCK);
     if (slave < 0 || dup2(slave, STDERR_FILENO) < 0) throw std::runtime_error("no terminal to draw a bar on");
     show_progress();
@@ -133,12 +136,17 @@ std::vector<double> costs_of_run(const nlohmann::json& run, const Scene& scene)
     };
     const auto [frame_ms, step_ms] = frame_and_step(cost.at("seconds"));
     const auto [frame_cpu_ms, step_cpu_ms] = frame_and_step(cost.at("cpu_seconds"));
-    return {
-        frame_ms, frame_cpu_ms, step_ms, step_cpu_ms, start_of(cost.at("seconds")), cost.at("peak_memory_mb"), cost.at("shared_objects")};
+    return {frame_ms,
+            frame_cpu_ms,
+            step_ms,
+            step_cpu_ms,
+            start_of(cost.at("seconds")),
+            cost.at("peak_memory_mb"),
+            cost.at("shared_objects")};
 }
 
-FeatureRow feature_row(const std::string& scene, const std::string& feature, const Samples& without, const Samples& with,
-                       const std::optional<ResultChange>& change)
+FeatureRow feature_row(const std::string& scene, const std::string& feature, const Samples& without,
+                       const Samples& with, const std::optional<ResultChange>& change)
 {
     FeatureRow row;
     row.scene = scene;
@@ -165,8 +173,8 @@ ResultChange change_between(const Scene& without, const Scene& with)
         before->advance(pose, motion.time_step_s);
         after->advance(pose, motion.time_step_s);
         const double distance = (before->positions() - after->positions()).rowwise().norm().maxCoeff();
-        const double volume =
-            mesh_metrics.measure(before->positions()).volume_change_pct - mesh_metrics.measure(after->positions()).volume_change_pct;
+        const double volume = mesh_metrics.measure(before->positions()).volume_change_pct -
+                              mesh_metrics.measure(after->positions()).volume_change_pct;
         change.distance_m = std::max(change.distance_m, distance);
         change.volume_difference_pct = std::max(change.volume_difference_pct, std::abs(volume));
     }
@@ -186,18 +194,21 @@ std::string measure_features(const FeaturesCase& features_case, const std::strin
     for (const Variant& variant : variants)
         turns.push_back([&] {
             const Scene scene = scene_of(features_case.scene, features_case.cut, variant);
-            const nlohmann::json run = run_scene_alone(scene, scratch, variant.progress ? draw_progress_unseen : nullptr);
+            const nlohmann::json run =
+                run_scene_alone(scene, scratch, variant.progress ? draw_progress_unseen : nullptr);
             if (breakdown.empty()) breakdown = run.at("outcome").at("breakdown");
             return costs_of_run(run, scene);
         });
     const std::vector<Samples> costs = take_turns(turns, features_case.rounds);
     std::filesystem::remove_all(scratch);
 
-    const auto costs_with = [&](const Variant& variant) { return costs[std::ranges::find(variants, variant) - variants.begin()]; };
+    const auto costs_with = [&](const Variant& variant) {
+        return costs[std::ranges::find(variants, variant) - variants.begin()];
+    };
     std::vector<FeatureRow> rows;
     for (const Feature& feature : features_case.features)
-        rows.push_back(feature_row(features_case.name, feature.name, costs_with(feature.without), costs_with(feature.with),
-                                   change_by(feature, features_case)));
+        rows.push_back(feature_row(features_case.name, feature.name, costs_with(feature.without),
+                                   costs_with(feature.with), change_by(feature, features_case)));
     table_of(feature_columns, rows).write(analysis::path_in(folder, "features.csv"));
     return breakdown;
 }

@@ -22,10 +22,22 @@ namespace experiments {
 namespace {
 
 // The parts of a frame, the samples of a turn [s].
-enum FramePart { lbs_s, bind_s, stretch_s, volume_s, rest_s, total_s, total_wall_s, surface_s, drawn_wall_s, frame_parts };
+enum FramePart {
+    lbs_s,
+    bind_s,
+    stretch_s,
+    volume_s,
+    rest_s,
+    total_s,
+    total_wall_s,
+    surface_s,
+    drawn_wall_s,
+    frame_parts
+};
 
-constexpr std::pair<pbs::Order, pbs::Precision> variants[] = {
-    {pbs::Order::plain, pbs::Precision::f64}, {pbs::Order::plain, pbs::Precision::f32}, {pbs::Order::ordered, pbs::Precision::f32}};
+constexpr std::pair<pbs::Order, pbs::Precision> variants[] = {{pbs::Order::plain, pbs::Precision::f64},
+                                                              {pbs::Order::plain, pbs::Precision::f32},
+                                                              {pbs::Order::ordered, pbs::Precision::f32}};
 
 pbs::PbsOptions without_iterations(pbs::PbsOptions options)
 {
@@ -34,10 +46,11 @@ pbs::PbsOptions without_iterations(pbs::PbsOptions options)
 }
 
 template <typename Scalar>
-StepLoops loops_of(const pbs::Character& character, const std::vector<bool>& zone, const pbs::PbsOptions& options, const StepStart& start)
+StepLoops loops_of(const pbs::Character& character, const std::vector<bool>& zone, const pbs::PbsOptions& options,
+                   const StepStart& start)
 {
-    return step_loops(pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, zone, options), character.mesh.tets,
-                      options, start);
+    return step_loops(pbs::make_constraint_set<Scalar>(character.mesh, character.binding.distance, zone, options),
+                      character.mesh.tets, options, start);
 }
 
 // One variant on its way through the motion.
@@ -49,8 +62,9 @@ public:
           skinning_(character.mesh.rest, character.weights),
           solver_(character.mesh, character.binding.distance, zone_, options),
           idle_solver_(character.mesh, character.binding.distance, zone_, without_iterations(options)),
-          loops_((options.precision == pbs::Precision::f32 ? loops_of<float> : loops_of<double>)(character, zone_, options,
-                                                                                                 {lbs_, bind_points_, false}))
+          loops_((options.precision == pbs::Precision::f32
+                      ? loops_of<float>
+                      : loops_of<double>)(character, zone_, options, {lbs_, bind_points_, false}))
     {
     }
     VariantFrames(const VariantFrames&) = delete;  // the loops read its members
@@ -66,8 +80,9 @@ public:
         seconds[total_s] += lbs + cpu_seconds([&] { solver_.advance(lbs_, bind_points(), time_step_s); });
         seconds[total_wall_s] += wall.seconds();
         if (character_.surface) {
-            seconds[surface_s] +=
-                cpu_seconds([&] { surface_ = pbs::embedded_positions(*character_.surface, solver_.positions(), character_.mesh.tets); });
+            seconds[surface_s] += cpu_seconds([&] {
+                surface_ = pbs::embedded_positions(*character_.surface, solver_.positions(), character_.mesh.tets);
+            });
             seconds[drawn_wall_s] += wall.seconds();
         }
         seconds[rest_s] += cpu_seconds([&] { idle_solver_.advance(lbs_, bind_points(), time_step_s); });
@@ -75,8 +90,8 @@ public:
         // Each class by itself, which is for timing alone, from the frame's LBS.
         bind_points_ = bind_points();
         loops_.load();
-        for (const auto& [sample, project] :
-             {std::pair(volume_s, &loops_.volume), std::pair(stretch_s, &loops_.stretch), std::pair(bind_s, &loops_.bind)})
+        for (const auto& [sample, project] : {std::pair(volume_s, &loops_.volume),
+                                              std::pair(stretch_s, &loops_.stretch), std::pair(bind_s, &loops_.bind)})
             seconds[sample] += cpu_seconds([project = project] {
                 for (int iteration = 0; iteration < paper_iterations; ++iteration) (*project)();
             });
@@ -115,8 +130,8 @@ constexpr int most_rounds = 61;
 
 Columns<FrameTiming> frame_columns()
 {
-    Columns<FrameTiming> columns =
-        MEMBER_COLUMNS(FrameTiming, variant, precision) + within(&FrameTiming::total_ms, Columns<Spread>{{"rounds", &Spread::rounds}});
+    Columns<FrameTiming> columns = MEMBER_COLUMNS(FrameTiming, variant, precision) +
+                                   within(&FrameTiming::total_ms, Columns<Spread>{{"rounds", &Spread::rounds}});
     for (const RecordedPart& part : recorded_parts) columns = columns + within(part.ms, spread_columns(part.name));
     return columns + within(&FrameTiming::surface_ms, spread_columns("surface_ms")) +
            within(&FrameTiming::drawn_wall_ms, spread_columns("drawn_wall_ms"));
@@ -143,8 +158,8 @@ analysis::Measurement frame_rate(const TimingRow& row, const std::string& quanti
 
 }  // namespace
 
-std::vector<FrameTiming> time_frames(const pbs::Character& character, const pbs::Motion& motion, double k_jiggle, const Rounds& rounds,
-                                     int frames_per_turn)
+std::vector<FrameTiming> time_frames(const pbs::Character& character, const pbs::Motion& motion, double k_jiggle,
+                                     const Rounds& rounds, int frames_per_turn)
 {
     std::vector<TimedVariant> turns;
     for (const auto& [order, precision] : variants) {
@@ -154,14 +169,14 @@ std::vector<FrameTiming> time_frames(const pbs::Character& character, const pbs:
         options.precision = precision;
         options.gravity_m_s2 = {0.0, -9.81, 0.0};
         options.jiggle = pbs::Jiggle{k_jiggle};
-        turns.push_back(
-            [frames = std::make_shared<VariantFrames>(character, options), &motion, frames_per_turn, next = std::size_t(0)]() mutable {
-                std::vector<double> seconds(frame_parts, 0.0);
-                for (int frame = 0; frame < frames_per_turn; ++frame)
-                    frames->add_frame(motion.steps[next++ % motion.steps.size()], seconds);
-                for (double& sum : seconds) sum /= frames_per_turn;
-                return seconds;
-            });
+        turns.push_back([frames = std::make_shared<VariantFrames>(character, options), &motion, frames_per_turn,
+                         next = std::size_t(0)]() mutable {
+            std::vector<double> seconds(frame_parts, 0.0);
+            for (int frame = 0; frame < frames_per_turn; ++frame)
+                frames->add_frame(motion.steps[next++ % motion.steps.size()], seconds);
+            for (double& sum : seconds) sum /= frames_per_turn;
+            return seconds;
+        });
     }
     std::vector<FrameTiming> timings;
     for (const Samples& seconds : take_turns(turns, rounds)) {
@@ -182,8 +197,8 @@ const TableOneRow* table_1_row(const std::string& model)
 
 using TimingRows = Columns<TimingRow>;
 const TimingRows timing_columns =
-    MEMBER_COLUMNS(TimingRow, mesh, body, model, stands_in, vertices, edges, tets, surface_vertices, vertices_over_table_1,
-                   edges_over_table_1, tets_over_table_1) +
+    MEMBER_COLUMNS(TimingRow, mesh, body, model, stands_in, vertices, edges, tets, surface_vertices,
+                   vertices_over_table_1, edges_over_table_1, tets_over_table_1) +
     within(&TimingRow::timing, frame_columns()) +
     MEMBER_COLUMNS(TimingRow, frames_per_s, drawn_frames_per_s, paper_frames_per_s, paper_ms, paper_ct_ms, cpu_model);
 
@@ -239,15 +254,16 @@ std::vector<analysis::Measurement> timing_conclusions(const std::vector<analysis
     return ratios;
 }
 
-analysis::Measurement author_frame_rate(const TimingRow& mesh, const pbs::Character& character, const pbs::Motion& motion,
-                                        const Rounds& rounds)
+analysis::Measurement author_frame_rate(const TimingRow& mesh, const pbs::Character& character,
+                                        const pbs::Motion& motion, const Rounds& rounds)
 {
     const pbs::AuthorOptions options;
     pbs::AuthorSolver solver(character.mesh, character.skeleton, character.binding, options);
     std::size_t next = 0;
     const TimedVariant turn = [&] {
         const pbs::Stopwatch wall;
-        for (int frame = 0; frame < usual_frames_per_turn; ++frame) solver.advance(motion.steps[next++ % motion.steps.size()]);
+        for (int frame = 0; frame < usual_frames_per_turn; ++frame)
+            solver.advance(motion.steps[next++ % motion.steps.size()]);
         return std::vector<double>{1e3 * wall.seconds() / usual_frames_per_turn};
     };
     analysis::Measurement rate = frame_rate(mesh, "frames_per_s", spread_of(take_turns({turn}, rounds)[0][0]));
@@ -258,12 +274,14 @@ analysis::Measurement author_frame_rate(const TimingRow& mesh, const pbs::Charac
     return rate;
 }
 
-const Columns<RealTimeEnd> real_time_columns = MEMBER_COLUMNS(RealTimeEnd, variant, precision, vertices, is_beyond, exponent);
+const Columns<RealTimeEnd> real_time_columns =
+    MEMBER_COLUMNS(RealTimeEnd, variant, precision, vertices, is_beyond, exponent);
 
 std::vector<RealTimeEnd> real_time_ends(const std::vector<TimingRow>& rows)
 {
     std::vector<RealTimeEnd> ends;
-    for (const auto& [order, precision] : {std::pair("plain", "f64"), std::pair("plain", "f32"), std::pair("ordered", "f32")}) {
+    for (const auto& [order, precision] :
+         {std::pair("plain", "f64"), std::pair("plain", "f32"), std::pair("ordered", "f32")}) {
         std::vector<double> vertices, total_ms;
         for (const TimingRow& row : rows)
             if (row.model.empty() && row.timing.variant == order && row.timing.precision == precision) {
@@ -281,18 +299,20 @@ std::string measure_frames(const TimedCase& timed_case, const std::string& folde
 {
     const pbs::Character character = pbs::make_character(timed_case.scene.character);
     const pbs::Motion motion = make_motion(timed_case.scene.motion, character.skeleton, timed_case.scene.file);
-    TimingRow mesh{
-        .mesh = timed_case.name, .body = timed_case.scene.character.body, .model = timed_case.model, .stands_in = timed_case.stands_in};
+    TimingRow mesh{.mesh = timed_case.name,
+                   .body = timed_case.scene.character.body,
+                   .model = timed_case.model,
+                   .stands_in = timed_case.stands_in};
     mesh.is_refined = timed_case.scene.character.refinements > 0;
     mesh.vertices = static_cast<int>(character.mesh.rest.rows());
     mesh.edges = static_cast<int>(pbs::edges_of(character.mesh.tets).rows());
     mesh.tets = static_cast<int>(character.mesh.tets.rows());
     mesh.cpu_model = analysis::collect_provenance(1).cpu_model;
     mesh.surface_vertices = character.surface ? static_cast<int>(character.surface->tet.size()) : 0;
-    // So many rounds that they take about these seconds of one core, whatever else the machine does. A round is two frames of three
-    // variants, each timed twice.
-    const int count =
-        std::clamp(static_cast<int>(timed_case.seconds / (round_s_per_vertex * mesh.vertices)), timed_case.fewest_rounds, most_rounds);
+    // So many rounds that they take about these seconds of one core, whatever else the machine does. A round is two
+    // frames of three variants, each timed twice.
+    const int count = std::clamp(static_cast<int>(timed_case.seconds / (round_s_per_vertex * mesh.vertices)),
+                                 timed_case.fewest_rounds, most_rounds);
     const Rounds rounds = {.seconds = 0.0, .fewest = count, .most = count};
     const auto rows = timing_rows(mesh, time_frames(character, motion, timed_case.k_jiggle, rounds));
     table_of(timing_columns, rows).write(analysis::path_in(folder, "timing.csv"));
@@ -303,7 +323,8 @@ std::string measure_frames(const TimedCase& timed_case, const std::string& folde
 }
 
 RECORD_SETTINGS_AND(TimedCase,
-                    .derived("refinements", [](const TimedCase& timed_case) { return timed_case.scene.character.refinements; })
+                    .derived("refinements",
+                             [](const TimedCase& timed_case) { return timed_case.scene.character.refinements; })
                         .constant("iterations", paper_iterations)
                         .constant("frames_a_turn", usual_frames_per_turn)
                         .constant("round_s_a_vertex", round_s_per_vertex)

@@ -6,7 +6,8 @@ namespace {
 template <typename Scalar>
 experiments::PlainLoops<Scalar> loops_of_this_build()
 {
-    return {&pbs::project_bind_constraints<Scalar>, &pbs::project_stretch_constraints<Scalar>, &pbs::project_volume_constraints<Scalar>};
+    return {&pbs::project_bind_constraints<Scalar>, &pbs::project_stretch_constraints<Scalar>,
+            &pbs::project_volume_constraints<Scalar>};
 }
 
 }  // namespace

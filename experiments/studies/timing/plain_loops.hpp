@@ -1,6 +1,7 @@
-// The loops of order `plain` in two builds of the same source. The library's own build gives the same bits on every machine (no
-// -march=native, no fused multiply-add). The module pbskin_native_plain is compiled for this machine (PBS_NATIVE), as by a user who
-// compiles the paper's loops with all that the compiler offers. It is a module because inline functions of the two builds must not mix.
+// The loops of order `plain` in two builds of the same source. The library's own build gives the same bits on every
+// machine (no -march=native, no fused multiply-add). The module pbskin_native_plain is compiled for this machine
+// (PBS_NATIVE), as by a user who compiles the paper's loops with all that the compiler offers. It is a module because
+// inline functions of the two builds must not mix.
 #pragma once
 
 #include "pbs/solver/constraint_set.hpp"

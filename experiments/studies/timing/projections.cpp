@@ -46,8 +46,8 @@ Axis longest_axis(const pbs::Positions& rest)
     return axis;
 }
 
-// The bar's meshes have 6.0 V - 21.5 V^(2/3) tets, to within 5 % from 600 to 100,000: there are fewer at the skin, whose share falls with
-// the size.
+// The bar's meshes have 6.0 V - 21.5 V^(2/3) tets, to within 5 % from 600 to 100,000: there are fewer at the skin,
+// whose share falls with the size.
 int vertices_for_tets(int tets)
 {
     double vertices = tets / 6.0;
@@ -76,7 +76,8 @@ std::vector<pbs::Vector3<Scalar>> points_of(const pbs::Positions& positions)
 
 // Its particles keep their layout, so that there is nothing to store.
 template <typename Scalar>
-StepLoops native_loops(const std::string& precision, const pbs::ConstraintSet<Scalar>& constraints, const StepStart& start)
+StepLoops native_loops(const std::string& precision, const pbs::ConstraintSet<Scalar>& constraints,
+                       const StepStart& start)
 {
     struct State {
         pbs::ConstraintSet<Scalar> constraints;
@@ -87,7 +88,8 @@ StepLoops native_loops(const std::string& precision, const pbs::ConstraintSet<Sc
     const std::string name = "pbskin_native_plain_" + precision;
     pbs::load_module("pbskin_native_plain").function<void(PlainLoops<Scalar>*)>(name.c_str())(&loops);
     const auto points = points_of<Scalar>(start.guess);
-    const auto state = std::make_shared<State>(State{constraints, points, points_of<Scalar>(start.bind_points), points, {}});
+    const auto state =
+        std::make_shared<State>(State{constraints, points, points_of<Scalar>(start.bind_points), points, {}});
     return {[state] { state->p = state->initial; },
             [state, loops] { loops.bind(state->constraints, state->q, state->p); },
             [state, loops] { loops.stretch(state->constraints, state->p); },
@@ -96,7 +98,8 @@ StepLoops native_loops(const std::string& precision, const pbs::ConstraintSet<Sc
             [state] { return pbs::residuals_of(state->constraints, state->p, state->q); }};
 }
 
-// A block has sixteen poses, and each thread has one block. Threads beyond the machine's have none, since blocks cost memory.
+// A block has sixteen poses, and each thread has one block. Threads beyond the machine's have none, since blocks cost
+// memory.
 int pose_blocks(int threads)
 {
     return std::min(threads, std::max(2, static_cast<int>(std::thread::hardware_concurrency())));
@@ -109,7 +112,8 @@ void append(const BenchBody& body, const std::vector<int>& threads, std::vector<
     const StepStart start{body.twisted, body.bind_points, false};
     const pbs::Tets& tets = body.mesh().tets;
     pbs::PbsOptions options;  // the stiffnesses are the scenes' defaults
-    const auto constraints = pbs::make_constraint_set<Scalar>(body.mesh(), body.character.binding.distance, {}, options, body.held);
+    const auto constraints =
+        pbs::make_constraint_set<Scalar>(body.mesh(), body.character.binding.distance, {}, options, body.held);
     const auto append_order = [&](pbs::Order order, int count) {
         options.order = order;
         options.threads = count;
@@ -135,8 +139,9 @@ double wall_s()
     return since_start.seconds();
 }
 
-// Adds the laps of a step to the sum of their class. Short steps are lapped by wall time, which takes some 25 ns to read. Long steps, in
-// which other work is sure to get its turns, are lapped by processor time, which takes some ten times longer to read.
+// Adds the laps of a step to the sum of their class. Short steps are lapped by wall time, which takes some 25 ns to
+// read. Long steps, in which other work is sure to get its turns, are lapped by processor time, which takes some ten
+// times longer to read.
 void project_step(const StepLoops& loops, double (*lap_clock)(), std::vector<double>& seconds)
 {
     double before = lap_clock();
@@ -182,31 +187,37 @@ nlohmann::json entry_of(const ProjectionVariant& variant, const Samples& own, co
     const pbs::ProjectionLayout layout{variant.scalar_bytes(), variant.poses};
     const double working_set_bytes = pbs::working_set_bytes(layout, size);
     const pbs::Residuals residuals = variant.loops.residuals();
-    nlohmann::json entry = {
-        {"variant", variant.variant},
-        {"precision", variant.precision},
-        {"threads", variant.threads},
-        {"poses", variant.poses},
-        {"clock", variant.threads == 1 ? "thread_cpu" : "wall"},
-        {"working_set_bytes", working_set_bytes},
-        {"ms_transfer", scaled(spread_of(own[transfer_s]), 1e3 / variant.poses).median},
-        {"residuals",
-         {{"stretch_rms", residuals.stretch_rms}, {"volume_rms", residuals.volume_rms}, {"bind_rms_m", residuals.bind_rms_m}}}};
+    nlohmann::json entry = {{"variant", variant.variant},
+                            {"precision", variant.precision},
+                            {"threads", variant.threads},
+                            {"poses", variant.poses},
+                            {"clock", variant.threads == 1 ? "thread_cpu" : "wall"},
+                            {"working_set_bytes", working_set_bytes},
+                            {"ms_transfer", scaled(spread_of(own[transfer_s]), 1e3 / variant.poses).median},
+                            {"residuals",
+                             {{"stretch_rms", residuals.stretch_rms},
+                              {"volume_rms", residuals.volume_rms},
+                              {"bind_rms_m", residuals.bind_rms_m}}}};
     using enum pbs::ConstraintClass;
-    for (const auto& [name, of, sample] : {std::tuple("ns_stretch", stretch, stretch_laps_s),
-                                           std::tuple("ns_volume", volume, volume_laps_s), std::tuple("ns_bind", bind, bind_laps_s)})
-        put_spread(entry, name, scaled(spread_of(own[sample]), 1e9 / (paper_iterations * variant.poses * size.constraints(of))));
+    for (const auto& [name, of, sample] :
+         {std::tuple("ns_stretch", stretch, stretch_laps_s), std::tuple("ns_volume", volume, volume_laps_s),
+          std::tuple("ns_bind", bind, bind_laps_s)})
+        put_spread(entry, name,
+                   scaled(spread_of(own[sample]), 1e9 / (paper_iterations * variant.poses * size.constraints(of))));
     put_spread(entry, "ms_step", scaled(spread_of(own[step_s]), 1e3 / variant.poses));
     const double step_bytes = paper_iterations * pbs::bytes_per_iteration(layout, size) / variant.poses;
     if (variant.threads == 1) entry["ms_floor"] = 1e-6 * step_bytes / bandwidth_at(memory, working_set_bytes);
-    if (variant.loops.stretch_fill) entry["fill"] = {{"stretch", *variant.loops.stretch_fill}, {"volume", *variant.loops.volume_fill}};
+    if (variant.loops.stretch_fill)
+        entry["fill"] = {{"stretch", *variant.loops.stretch_fill}, {"volume", *variant.loops.volume_fill}};
     return entry;
 }
 
 double combined(const pbs::Residuals& residuals, double mean_distance_m)
 {
     const double bind = residuals.bind_rms_m / mean_distance_m;
-    return std::sqrt((residuals.stretch_rms * residuals.stretch_rms + residuals.volume_rms * residuals.volume_rms + bind * bind) / 3.0);
+    return std::sqrt(
+        (residuals.stretch_rms * residuals.stretch_rms + residuals.volume_rms * residuals.volume_rms + bind * bind) /
+        3.0);
 }
 
 }  // namespace
@@ -227,12 +238,15 @@ BenchBody make_bench_body(const std::string& name, pbs::TetMesh mesh)
 {
     const Axis axis = longest_axis(mesh.rest);
     const pbs::Vec3 middle = (axis.begin + axis.end) / 2.0;
-    BenchBody body{skinned_along(name, std::move(mesh), {{{"upper", -1, axis.begin, middle}, {"forearm", 0, middle, axis.end}}})};
+    BenchBody body{
+        skinned_along(name, std::move(mesh), {{{"upper", -1, axis.begin, middle}, {"forearm", 0, middle, axis.end}}})};
     const pbs::Positions& rest = body.mesh().rest;
     body.twisted = twisted(rest, axis);
     body.bind_points = body.character.binding.rest_point;
-    for (Eigen::Index i = 0; i < rest.rows(); ++i) body.held.push_back(axis.share(rest.row(i).transpose()) < held_bar_share);
-    body.pose = pbs::joint_sweep(body.character.skeleton, 1, (axis.end - axis.begin).normalized(), angle_deg, 2, 0.01).steps[1];
+    for (Eigen::Index i = 0; i < rest.rows(); ++i)
+        body.held.push_back(axis.share(rest.row(i).transpose()) < held_bar_share);
+    body.pose =
+        pbs::joint_sweep(body.character.skeleton, 1, (axis.end - axis.begin).normalized(), angle_deg, 2, 0.01).steps[1];
     body.edges = static_cast<int>(pbs::edges_of(body.mesh().tets).rows());
     return body;
 }
@@ -250,8 +264,8 @@ BenchBody bench_bar_of_tets(int tets)
 }
 
 template <typename Scalar>
-StepLoops loops_of_poses(const pbs::ConstraintSet<Scalar>& constraints, const pbs::Tets& tets, const pbs::PbsOptions& options,
-                         const StepStart& start, int threads)
+StepLoops loops_of_poses(const pbs::ConstraintSet<Scalar>& constraints, const pbs::Tets& tets,
+                         const pbs::PbsOptions& options, const StepStart& start, int threads)
 {
     using Block = pbs::PoseBlock<Scalar>;
     struct State {
@@ -264,10 +278,12 @@ StepLoops loops_of_poses(const pbs::ConstraintSet<Scalar>& constraints, const pb
     };
     const auto state = std::make_shared<State>(
         State{constraints, pbs::make_pose_program(constraints, tets, {}, pbs::Order::ordered), pbs::Parallel(threads)});
-    state->blocks.assign(pose_blocks(threads), Block(state->program, std::vector<pbs::PbsOptions>(pbs::poses_a_block, options)));
+    state->blocks.assign(pose_blocks(threads),
+                         Block(state->program, std::vector<pbs::PbsOptions>(pbs::poses_a_block, options)));
     const auto on_all = [state](const auto& work) {
         return [state, work] {
-            state->parallel.for_each(static_cast<int>(state->blocks.size()), [&](int block) { work(state->blocks[block]); });
+            state->parallel.for_each(static_cast<int>(state->blocks.size()),
+                                     [&](int block) { work(state->blocks[block]); });
         };
     };
     const auto store = [state, start]() -> const pbs::Positions& {
@@ -277,7 +293,8 @@ StepLoops loops_of_poses(const pbs::ConstraintSet<Scalar>& constraints, const pb
         return state->posed;
     };
     const auto load_block = on_all([state, start](Block& block) {
-        for (int lane = 0; lane < pbs::poses_a_block; ++lane) block.load(lane, start.guess, start.bind_points, state->origin);
+        for (int lane = 0; lane < pbs::poses_a_block; ++lane)
+            block.load(lane, start.guess, start.bind_points, state->origin);
     });
     return {[state, start, load_block] {
                 if (start.has_local_origin) state->origin = pbs::local_origin<Scalar>(start.guess);
@@ -288,12 +305,15 @@ StepLoops loops_of_poses(const pbs::ConstraintSet<Scalar>& constraints, const pb
             on_all([](Block& block) { block.project_volume_constraints(); }),
             store,
             [state, store, start] {
-                return pbs::residuals_of(state->constraints, points_of<Scalar>(store()), points_of<Scalar>(start.bind_points));
+                return pbs::residuals_of(state->constraints, points_of<Scalar>(store()),
+                                         points_of<Scalar>(start.bind_points));
             }};
 }
 
-template StepLoops loops_of_poses(const pbs::ConstraintSet<float>&, const pbs::Tets&, const pbs::PbsOptions&, const StepStart&, int);
-template StepLoops loops_of_poses(const pbs::ConstraintSet<double>&, const pbs::Tets&, const pbs::PbsOptions&, const StepStart&, int);
+template StepLoops loops_of_poses(const pbs::ConstraintSet<float>&, const pbs::Tets&, const pbs::PbsOptions&,
+                                  const StepStart&, int);
+template StepLoops loops_of_poses(const pbs::ConstraintSet<double>&, const pbs::Tets&, const pbs::PbsOptions&,
+                                  const StepStart&, int);
 
 std::vector<ProjectionVariant> projection_variants(const BenchBody& body, const std::vector<int>& threads)
 {
@@ -308,8 +328,8 @@ AnswerRatio answer_ratio(const pbs::Residuals& own, const pbs::Residuals& plain,
     return {combined(own, mean_distance_m) / combined(plain, mean_distance_m), own.volume_rms / plain.volume_rms};
 }
 
-nlohmann::json time_projections(const BenchBody& body, const std::vector<int>& threads, const std::vector<MemoryBandwidth>& memory,
-                                const Rounds& rounds)
+nlohmann::json time_projections(const BenchBody& body, const std::vector<int>& threads,
+                                const std::vector<MemoryBandwidth>& memory, const Rounds& rounds)
 {
     const std::vector<ProjectionVariant> variants = projection_variants(body, threads);
     std::vector<TimedVariant> turns;
@@ -332,10 +352,12 @@ nlohmann::json time_projections(const BenchBody& body, const std::vector<int>& t
         const Sample clock = variant.threads == 1 ? step_s : step_wall_s;
         for (const std::string baseline : {"plain_spread", "plain", "plain_native"}) {
             const std::size_t place = place_of(baseline, variant.precision);
-            put_spread(entry, "ratio_to_" + baseline,
-                       spread_of_ratios(samples_of_variants.at(place)[clock], samples_of_variants[i][clock], variant.poses));
+            put_spread(
+                entry, "ratio_to_" + baseline,
+                spread_of_ratios(samples_of_variants.at(place)[clock], samples_of_variants[i][clock], variant.poses));
             if (baseline == "plain_native") continue;  // the same answer as plain
-            const AnswerRatio answer = answer_ratio(variant.loops.residuals(), variants[place].loops.residuals(), mean_distance_m);
+            const AnswerRatio answer =
+                answer_ratio(variant.loops.residuals(), variants[place].loops.residuals(), mean_distance_m);
             entry["residual_to_" + baseline] = answer.residual;
             entry["volume_rms_to_" + baseline] = answer.volume_rms;
         }
@@ -346,7 +368,8 @@ nlohmann::json time_projections(const BenchBody& body, const std::vector<int>& t
             const double times_the_poses = double(variant.poses) / variants[alone].poses;
             put_spread(entry, "speedup_by_threads", spread_of_ratios(alone_s, together_s, times_the_poses));
             // Of the fastest rounds, which were disturbed least.
-            entry["best_speedup_by_threads"] = times_the_poses * std::ranges::min(alone_s) / std::ranges::min(together_s);
+            entry["best_speedup_by_threads"] =
+                times_the_poses * std::ranges::min(alone_s) / std::ranges::min(together_s);
         }
         entries.push_back(std::move(entry));
     }

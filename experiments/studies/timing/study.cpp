@@ -1,13 +1,15 @@
 // The time of the method and of its parts. Of each case one run is timed at once.
 //
-//   BODY_VERTICES    C10: milliseconds per frame on one core for LBS, bind, stretch, volume and the whole frame (timing.hpp). man, frankie
+//   BODY_VERTICES    C10: milliseconds per frame on one core for LBS, bind, stretch, volume and the whole frame
+//   (timing.hpp). man, frankie
 //                    and lady at the sizes of Table 1, the human at the same sizes and on a ladder of sizes.
-//   bench            a step in each order, precision and number of threads, and all deformers, relative to plain loops (bench.hpp)
-//   features_SCENE   what each switch of a scene costs, and how far it moves the result; features_sizes: what a larger mesh costs
-//   equal_quality_CASE  the time to an equal answer of every order, precision and sequence of the constraints (timing.hpp)
+//   bench            a step in each order, precision and number of threads, and all deformers, relative to plain loops
+//   (bench.hpp) features_SCENE   what each switch of a scene costs, and how far it moves the result; features_sizes:
+//   what a larger mesh costs equal_quality_CASE  the time to an equal answer of every order, precision and sequence of
+//   the constraints (timing.hpp)
 //
-// Writes DIR/timing/RUN/timing.csv and measurements.csv, bench.json and bench.txt, features.csv, or orders.csv and targets.csv; and in
-// DIR/timing timing.csv, real_time.csv, features.csv, answers.csv and bench.txt over all runs.
+// Writes DIR/timing/RUN/timing.csv and measurements.csv, bench.json and bench.txt, features.csv, or orders.csv and
+// targets.csv; and in DIR/timing timing.csv, real_time.csv, features.csv, answers.csv and bench.txt over all runs.
 #include "analysis/records/record_files.hpp"
 #include "experiments/studies/shared/bodies.hpp"
 #include "experiments/studies/study.hpp"
@@ -34,8 +36,8 @@ StudyRun run_of_frames(const StudyCase& study_case)
     const auto body = study_case.value<std::string>("body");
     pbs::require_body(body);
     const int vertices = row ? row->vertices : study_case.value<int>("vertices");
-    timed.scene =
-        read_scene("human_01_01", {"character.body=" + body, fmt::format("character.vertices={}", vertices), "motion.duration_s=4.0"});
+    timed.scene = read_scene("human_01_01", {"character.body=" + body, fmt::format("character.vertices={}", vertices),
+                                             "motion.duration_s=4.0"});
     timed.scene.character.refinements = study_case.value("refinements", 0);
     timed.stands_in = study_case.value("stands_in", false);
     timed.seconds = study_case.value("seconds", 4.0);
@@ -53,8 +55,10 @@ std::string measure_bench(const BenchOptions& options, const std::string& folder
 
 StudyRun run_of_bench(const StudyCase& study_case)
 {
-    BenchOptions bench{
-        .mesh = "", .bars = true, .sizes = study_case.value<std::vector<int>>("sizes")};  // the bars have 9,400 and 101,000 tets
+    BenchOptions bench{// the bars have 9,400 and 101,000 tets
+                       .mesh = "",
+                       .bars = true,
+                       .sizes = study_case.value<std::vector<int>>("sizes")};
     bench.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     return work_run(study_case.name, bench, study_case.cost_s, measure_bench);
 }
@@ -83,8 +87,10 @@ StudyRun run_of_equal_quality(const StudyCase& study_case)
 
 StudyPlan plan(bool full)
 {
-    static const std::map<std::string, StudyRun (*)(const StudyCase&)> runs = {
-        {"frames", run_of_frames}, {"bench", run_of_bench}, {"features", run_of_features}, {"equal_quality", run_of_equal_quality}};
+    static const std::map<std::string, StudyRun (*)(const StudyCase&)> runs = {{"frames", run_of_frames},
+                                                                               {"bench", run_of_bench},
+                                                                               {"features", run_of_features},
+                                                                               {"equal_quality", run_of_equal_quality}};
     return plan_of_cases("timing", full, [](const StudyCase& study_case, StudyPlan& plan) {
         plan.runs.push_back(runs.at(study_case.value<std::string>("times"))(study_case));
     });
@@ -92,7 +98,8 @@ StudyPlan plan(bool full)
 
 // Writes the rows of all runs, if there are any.
 template <typename Row>
-void sum_up(const FinishedRuns& finished, const std::string& file, const analysis::Columns<Row>& columns, const std::vector<Row>& rows)
+void sum_up(const FinishedRuns& finished, const std::string& file, const analysis::Columns<Row>& columns,
+            const std::vector<Row>& rows)
 {
     if (!rows.empty()) finished.write(file, columns, rows);
 }

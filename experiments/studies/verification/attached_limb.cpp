@@ -1,6 +1,6 @@
 // The reference as a deformer, on a coarse limb whose forearm turns: properties that do not depend on the flesh.
-//   Young's modulus cancels where displacements alone drive the body. A pose that turns the whole limb does not change its shape, however
-//   the bones hold it. A further frame of the linear reference costs one re-solve.
+//   Young's modulus cancels where displacements alone drive the body. A pose that turns the whole limb does not change
+//   its shape, however the bones hold it. A further frame of the linear reference costs one re-solve.
 
 #include "experiments/deformers/fem/fem_deformers.hpp"
 #include "experiments/studies/verification/problem.hpp"
@@ -51,13 +51,13 @@ double distance(const pbs::Character& limb, const pbs::Positions& positions, con
     return (positions - to).norm() / (to - limb.mesh.rest).norm();
 }
 
-VerificationRow row_of(const pbs::Character& limb, const RowQuantity& quantity, double value, double reference, double tolerance,
-                       const std::string& from)
+VerificationRow row_of(const pbs::Character& limb, const RowQuantity& quantity, double value, double reference,
+                       double tolerance, const std::string& from)
 {
-    VerificationRow row =
-        row_about({"attached_limb", elements_of(1), material_of("neo_hookean", 0.45),
-                   "limb, " + std::to_string(limb.mesh.rest.rows()) + " vertices", 0.0, static_cast<int>(3 * limb.mesh.rest.rows())},
-                  quantity, value, reference, "1", "closed form: theory of elasticity");
+    VerificationRow row = row_about({"attached_limb", elements_of(1), material_of("neo_hookean", 0.45),
+                                     "limb, " + std::to_string(limb.mesh.rest.rows()) + " vertices", 0.0,
+                                     static_cast<int>(3 * limb.mesh.rest.rows())},
+                                    quantity, value, reference, "1", "closed form: theory of elasticity");
     bound(row, reference - tolerance, reference + tolerance, from);
     return row;
 }
@@ -69,9 +69,10 @@ VerificationRow young_cancels(const pbs::Character& limb)
     hard.young_pa = 1e7;
     const pbs::Pose pose = twisted(limb, 40.0);
 
-    return row_of(limb, {"shape_change_with_young", "change of the shape with Young's modulus, 1e3 to 1e7 Pa"},
-                  distance(limb, shape(limb, soft, pose), shape(limb, hard, pose)), 0.0, 1e-6,
-                  "every force scales with Young's modulus; Newton stops at 1e-8 of them, 1e-6 leaves a condition of 100");
+    return row_of(
+        limb, {"shape_change_with_young", "change of the shape with Young's modulus, 1e3 to 1e7 Pa"},
+        distance(limb, shape(limb, soft, pose), shape(limb, hard, pose)), 0.0, 1e-6,
+        "every force scales with Young's modulus; Newton stops at 1e-8 of them, 1e-6 leaves a condition of 100");
 }
 
 VerificationRow rigid_motion(const pbs::Character& limb, FemAttachment attachment, const std::string& name)
@@ -81,9 +82,10 @@ VerificationRow rigid_motion(const pbs::Character& limb, FemAttachment attachmen
     const pbs::Pose pose = turned_whole(limb, 120.0);
     pbs::Positions turned = limb.mesh.rest;
     for (auto row : turned.rowwise()) row = (pose.front() * pbs::Vec3(row.transpose())).transpose();
-    return row_of(limb, {"distance_from_rigid_turn", "distance from a rigid turn of 120 degrees, bones hold by " + name, name},
-                  distance(limb, shape(limb, options, pose), turned), 0.0, 1e-9,
-                  "rounding of positions, eps, times at most some 1e6 of condition");
+    return row_of(
+        limb, {"distance_from_rigid_turn", "distance from a rigid turn of 120 degrees, bones hold by " + name, name},
+        distance(limb, shape(limb, options, pose), turned), 0.0, 1e-9,
+        "rounding of positions, eps, times at most some 1e6 of condition");
 }
 
 VerificationRow kept_factor(const pbs::Character& limb)
@@ -96,8 +98,9 @@ VerificationRow kept_factor(const pbs::Character& limb)
     std::vector<double> later_s;
     for (int frame = 2; frame <= 8; ++frame) later_s.push_back(deformer.advance(twisted(limb, frame), 0.01).seconds);
     std::nth_element(later_s.begin(), later_s.begin() + 3, later_s.end());
-    VerificationRow row = row_of(limb, {"time_of_further_frame", "time of a further frame over that of the first, set-up included"},
-                                 later_s[3] / first_s, 0.0, 0.0, "");
+    VerificationRow row =
+        row_of(limb, {"time_of_further_frame", "time of a further frame over that of the first, set-up included"},
+               later_s[3] / first_s, 0.0, 0.0, "");
     unbound(row);
     row.elements = elements_of(2);
     row.material = linear_material(0.45);
@@ -108,7 +111,8 @@ VerificationRow kept_factor(const pbs::Character& limb)
 constexpr double spring_factor = 100.0, amplitude = 0.1;
 const pbs::BoneCapsule capsule{{0.1, 0.5, 0.5}, {0.9, 0.5, 0.5}, 0.35, ""};
 const Vec3 phase(0.3, 1.1, -0.4);
-const Eigen::Matrix3d wave_vectors = (Eigen::Matrix3d() << 1.7, 0.9, -0.6, -0.8, 1.4, 1.1, 0.5, -1.2, 1.6).finished();  // row i: a_i
+// row i: a_i
+const Eigen::Matrix3d wave_vectors = (Eigen::Matrix3d() << 1.7, 0.9, -0.6, -0.8, 1.4, 1.1, 0.5, -1.2, 1.6).finished();
 
 Vec3 exact(const Vec3& x)
 {
@@ -135,14 +139,16 @@ Lame lame(const ElasticMaterial& material)
 Vec3 body_force(const Vec3& x, const Vec3& offset)
 {
     static const auto law = constitutive_law(Model::stable_neo_hookean, lame(manufactured_material));
-    const Tangent slope = tangent(law->evaluate(Eigen::Matrix3d::Identity() + exact_gradient(x), Derivatives::second), law->lambda_pa());
+    const Tangent slope =
+        tangent(law->evaluate(Eigen::Matrix3d::Identity() + exact_gradient(x), Derivatives::second), law->lambda_pa());
     const Vec3 minus_sine = -exact(x);
     Vec3 divergence = Vec3::Zero();
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
             for (int k = 0; k < 3; ++k)
                 for (int l = 0; l < 3; ++l)
-                    divergence(i) += slope(3 * j + i, 3 * l + k) * minus_sine(k) * wave_vectors(k, l) * wave_vectors(k, j);
+                    divergence(i) +=
+                        slope(3 * j + i, 3 * l + k) * minus_sine(k) * wave_vectors(k, l) * wave_vectors(k, j);
     return -divergence - density(x) * offset;
 }
 
@@ -160,8 +166,8 @@ Springs springs_of_bone(const ManufacturedSprings& manufactured_springs)
     for (Eigen::Index s = 0; s < springs.points.rows(); ++s) {
         const Vec3 point = springs.points.row(s);
         springs.targets.row(s) = (point + exact(point) + manufactured_springs.offset_m).transpose();
-        springs.stiffness(s) =
-            manufactured_springs.weight * density(point) * capsule.volume_m3() / static_cast<double>(springs.points.rows());
+        springs.stiffness(s) = manufactured_springs.weight * density(point) * capsule.volume_m3() /
+                               static_cast<double>(springs.points.rows());
     }
     return springs;
 }
@@ -177,8 +183,8 @@ VerificationRows attached_limb_rows(const Effort& effort)
             kept_factor(effort.limb(0))};
 }
 
-AttachedSolution solve_manufactured(const pbs::TetMesh& mesh, int element_order, const ManufacturedSprings& manufactured_springs,
-                                    const ElasticMaterial& material)
+AttachedSolution solve_manufactured(const pbs::TetMesh& mesh, int element_order,
+                                    const ManufacturedSprings& manufactured_springs, const ElasticMaterial& material)
 {
     const Springs springs = springs_of_bone(manufactured_springs);
     const SimplexSpace space(mesh, element_order);
@@ -186,7 +192,8 @@ AttachedSolution solve_manufactured(const pbs::TetMesh& mesh, int element_order,
     const AttachedPoints points(mesh, space, springs.points, springs.stiffness);
     SpringPotential held(points);
     held.move_to(springs.targets);
-    const DeadLoad load(load_vector(space, [&](const Vec3& x) { return body_force(x, manufactured_springs.offset_m); }));
+    const DeadLoad load(
+        load_vector(space, [&](const Vec3& x) { return body_force(x, manufactured_springs.offset_m); }));
 
     const PrescribedData prescribed = prescribed_data(space, {.displacement = exact});
     Eigen::VectorXd displacement = Eigen::VectorXd::Zero(space.dofs());
@@ -195,7 +202,8 @@ AttachedSolution solve_manufactured(const pbs::TetMesh& mesh, int element_order,
 
     const double error = error_norms(space, displacement, exact, exact_gradient).l2;
     const double whole = error_norms(space, Eigen::VectorXd::Zero(space.dofs()), exact, exact_gradient).l2;
-    return {mesh.rest + Eigen::Map<const Positions>(displacement.data(), mesh.rest.rows(), 3), error / whole, space.dofs(), converged};
+    return {mesh.rest + Eigen::Map<const Positions>(displacement.data(), mesh.rest.rows(), 3), error / whole,
+            space.dofs(), converged};
 }
 
 Positions exact_positions(const Positions& rest)

@@ -1,11 +1,13 @@
-// Another program's solution of the same problems, node by node. CalculiX's elements C3D4 and C3D10 are P1 and P2, so both programs solve
-// one and the same system, and what differs is rounding or an error of one of them. CalculiX solved a cantilever under its weight and an
-// end load, and the limb, whose bones (####) hold whole tets or, by the smooth attachment, springs, with the forearm bent or twisted:
+// Another program's solution of the same problems, node by node. CalculiX's elements C3D4 and C3D10 are P1 and P2, so
+// both programs solve one and the same system, and what differs is rounding or an error of one of them. CalculiX solved
+// a cantilever under its weight and an end load, and the limb, whose bones (####) hold whole tets or, by the smooth
+// attachment, springs, with the forearm bent or twisted:
 //
 //   #|=====================| |     (---####---.---####---)
 //   #|=====================| v
 //
-// Its displacements are kept. experiments/references/keep_calculix.py sets the problems up a second time, solves and keeps them.
+// Its displacements are kept. experiments/references/keep_calculix.py sets the problems up a second time, solves and
+// keeps them.
 
 #include "analysis/records/record_files.hpp"
 #include "experiments/studies/verification/problem.hpp"
@@ -28,13 +30,15 @@ using namespace reference_fem;
 
 namespace {
 
-// The condition number of the cantilever on the finest mesh, from its first bending mode (12.4 E I / L^3 over a third of its 16,393 nodes)
-// against the stiffness of one edge (5 E h), is 2e7; sqrt(n) eps cond(K) = 5e-7. CalculiX stops Newton at 1e-9 of the mean force.
+// The condition number of the cantilever on the finest mesh, from its first bending mode (12.4 E I / L^3 over a third
+// of its 16,393 nodes) against the stiffness of one edge (5 E h), is 2e7; sqrt(n) eps cond(K) = 5e-7. CalculiX stops
+// Newton at 1e-9 of the mean force.
 constexpr double largest_difference = 1e-6;
 const std::string largest_difference_from =
     "rounding of a direct solve: sqrt(n) eps cond(K), cond(K) = 2e7 from the slowest mode of the longest cantilever";
 
-// At which residual, relative to the mean force, CalculiX stopped Newton's method where springs hold the flesh; and the reference's.
+// At which residual, relative to the mean force, CalculiX stopped Newton's method where springs hold the flesh; and the
+// reference's.
 constexpr double calculix_residual = 1e-12;
 const NewtonOptions calculix_newton{.relative_tolerance = 1e-11};
 
@@ -81,7 +85,8 @@ CalculixAnswer calculix_answer(const std::string& problem, const SimplexSpace& s
     std::memcpy(kept.data(), bytes.data(), bytes.size());
     CalculixAnswer answer{kept, answers.text_at(row, "program")};
     const std::vector<int> order = kept_order(space);
-    for (std::size_t n = 0; n < order.size(); ++n) answer.displacements.row(order[n]) = kept.row(static_cast<Eigen::Index>(n));
+    for (std::size_t n = 0; n < order.size(); ++n)
+        answer.displacements.row(order[n]) = kept.row(static_cast<Eigen::Index>(n));
     return answer;
 }
 
@@ -92,15 +97,16 @@ double relative_difference(const pbs::Positions& ours, const pbs::Positions& the
     return (theirs - ours).rowwise().norm().maxCoeff() / ours.rowwise().norm().maxCoeff();
 }
 
-VerificationRow calculix_row(const std::string& problem, const std::string& pose, const std::string& law, const SimplexSpace& space,
-                             const pbs::Positions& displacements)
+VerificationRow calculix_row(const std::string& problem, const std::string& pose, const std::string& law,
+                             const SimplexSpace& space, const pbs::Positions& displacements)
 {
     const CalculixAnswer answer = calculix_answer(problem, space);
-    VerificationRow row =
-        row_about({"calculix", elements_of(space.element_order()), material_of(law, calculix_flesh.poisson), "", 0.0, space.dofs()},
-                  {"largest_node_difference", "largest node difference over largest displacement, " + pose, identifier_of(pose)},
-                  relative_difference(displacements, answer.displacements), 0.0, "1",
-                  answer.program + (space.element_order() == 1 ? ", C3D4" : ", C3D10"));
+    VerificationRow row = row_about(
+        {"calculix", elements_of(space.element_order()), material_of(law, calculix_flesh.poisson), "", 0.0,
+         space.dofs()},
+        {"largest_node_difference", "largest node difference over largest displacement, " + pose, identifier_of(pose)},
+        relative_difference(displacements, answer.displacements), 0.0, "1",
+        answer.program + (space.element_order() == 1 ? ", C3D4" : ", C3D10"));
     bound(row, {}, largest_difference, largest_difference_from);
     return row;
 }
@@ -124,7 +130,8 @@ VerificationRow cantilever_row(const Effort& effort, int element_order)
     const EliminatedSystem system(stiffness_matrix(space, lame_parameters(material.young_pa, material.poisson)), held,
                                   LinearSolver::cholmod);
     const Eigen::VectorXd displacement = system.solve(load, Eigen::VectorXd::Zero(space.dofs())).displacement;
-    VerificationRow row = calculix_row(fmt::format("cantilever_p{}", element_order), "cantilever", "linear", space, at_nodes(displacement));
+    VerificationRow row = calculix_row(fmt::format("cantilever_p{}", element_order), "cantilever", "linear", space,
+                                       at_nodes(displacement));
     row.mesh = text_of(divisions);
     row.h_m = 1.0 / divisions[1];
     return row;
@@ -132,7 +139,8 @@ VerificationRow cantilever_row(const Effort& effort, int element_order)
 
 Eigen::VectorXd by_linear_elasticity(const pbs::TetMesh& mesh, const HeldBody& body)
 {
-    const LinearOptions options{.element_order = body.element_order, .young_pa = body.material.young_pa, .poisson = body.material.poisson};
+    const LinearOptions options{
+        .element_order = body.element_order, .young_pa = body.material.young_pa, .poisson = body.material.poisson};
     LinearElasticity elasticity(mesh, options, body.attachment);
     const Targets targets = body.targets_at(1.0);
     elasticity.solve(targets.springs, targets.vertices);
@@ -173,7 +181,8 @@ std::vector<bool> held_dofs(const SimplexSpace& space, const HeldBody& body)
 Eigen::VectorXd by_four_points(const pbs::TetMesh& mesh, const HeldBody& body)
 {
     const SimplexSpace space(mesh, body.element_order);
-    const ElasticPotential flesh(space, Model::st_venant_kirchhoff, lame_parameters(body.material.young_pa, body.material.poisson),
+    const ElasticPotential flesh(space, Model::st_venant_kirchhoff,
+                                 lame_parameters(body.material.young_pa, body.material.poisson),
                                  Formulation::displacement, element_tables(space, four_points()));
     const AttachedPoints points(mesh, space, body.attachment.spring_points, body.attachment.spring_stiffness);
     SpringPotential springs(points);
@@ -183,8 +192,8 @@ Eigen::VectorXd by_four_points(const pbs::TetMesh& mesh, const HeldBody& body)
         const Targets targets = body.targets_at(fraction);
         springs.move_to(targets.springs);
         const pbs::Positions held_at = space.from_vertices(targets.vertices - mesh.rest);
-        return newton.minimise({&flesh, &springs}, Eigen::Map<const Eigen::VectorXd>(held_at.data(), held_at.size()), displacement,
-                               calculix_newton);
+        return newton.minimise({&flesh, &springs}, Eigen::Map<const Eigen::VectorXd>(held_at.data(), held_at.size()),
+                               displacement, calculix_newton);
     };
     const bool converged = follow_load_path(attempt, displacement, {}).converged();
     return converged ? displacement : Eigen::VectorXd::Constant(space.dofs(), not_reached);
@@ -198,12 +207,14 @@ pbs::Positions displacements_of(const pbs::TetMesh& mesh, const HeldBody& body)
     return at_nodes(solve_by(mesh, body));
 }
 
-// How far the two programs' answers may differ at a node, relative to the largest displacement: an error of forces relative to |K| |u|,
-// times cond(K), which turns it into one of displacements, times |u| over the largest displacement. Norms are 2-norms, and a node's
-// difference is at most that of all. K is the stiffness at rest with the springs (problems.hpp). The errors of forces are
+// How far the two programs' answers may differ at a node, relative to the largest displacement: an error of forces
+// relative to |K| |u|, times cond(K), which turns it into one of displacements, times |u| over the largest
+// displacement. Norms are 2-norms, and a node's difference is at most that of all. K is the stiffness at rest with the
+// springs (problems.hpp). The errors of forces are
 //   rounding: sqrt(n) eps, n unknowns;
 //   at large strain the reference's last residual, 1e-11 of the gradients of flesh and springs, each at most |K| |u|;
-//   and CalculiX's: in each unknown at most its bound times the mean force of elements on their nodes, which is at most |K| |u|.
+//   and CalculiX's: in each unknown at most its bound times the mean force of elements on their nodes, which is at most
+//   |K| |u|.
 double difference_bound(const pbs::TetMesh& mesh, const HeldBody& body, const pbs::Positions& displacements)
 {
     const SimplexSpace space(mesh, body.element_order);
@@ -212,7 +223,8 @@ double difference_bound(const pbs::TetMesh& mesh, const HeldBody& body, const pb
     const Spectrum at_rest = spectrum(stiffness, held_dofs(space, body));
     double bound = rounding_bound(at_rest);
     if (body.model != BodyModel::linear)
-        bound += (2.0 * calculix_newton.relative_tolerance + std::sqrt(at_rest.unknowns) * calculix_residual) * at_rest.condition();
+        bound += (2.0 * calculix_newton.relative_tolerance + std::sqrt(at_rest.unknowns) * calculix_residual) *
+                 at_rest.condition();
     return bound * displacements.norm() / displacements.rowwise().norm().maxCoeff();
 }
 
@@ -220,14 +232,17 @@ std::string difference_bound_text(BodyModel model)
 {
     const std::string of_both = "by eigenvalues of this very matrix, times |u| over the largest displacement";
     if (model == BodyModel::linear) return "rounding of a direct solve: sqrt(n) eps cond(K), cond(K) " + of_both;
-    return "rounding and both Newton methods' last residuals: (sqrt(n) (eps + 1e-12) + 2e-11) cond(K), cond(K) at rest " + of_both;
+    return "rounding and both Newton methods' last residuals: (sqrt(n) (eps + 1e-12) + 2e-11) cond(K), cond(K) at "
+           "rest " +
+           of_both;
 }
 
 }  // namespace
 
 std::string CalculixLimb::problem() const
 {
-    return fmt::format("limb_{}_{}_{}_by_{}_p{}", vertices, is_smooth() ? "smooth" : "held", way, angle_deg, element_order);
+    return fmt::format("limb_{}_{}_{}_by_{}_p{}", vertices, is_smooth() ? "smooth" : "held", way, angle_deg,
+                       element_order);
 }
 
 HeldBody held_body(const pbs::Character& character, const CalculixLimb& limb, const ElasticMaterial& material)
@@ -238,7 +253,8 @@ HeldBody held_body(const pbs::Character& character, const CalculixLimb& limb, co
     const BoneAttachment bones = bone_attachment(character, options);
     const pbs::Vec3 axis = limb.way == "bent" ? pbs::Vec3::UnitZ() : pbs::Vec3::UnitX();
     const auto targets_at = [=, rest = character.mesh.rest, skeleton = character.skeleton](double fraction) {
-        return targets(bones, rest, pbs::joint_sweep(skeleton, 1, axis, fraction * limb.angle_deg, 2, 0.01).steps.back());
+        return targets(bones, rest,
+                       pbs::joint_sweep(skeleton, 1, axis, fraction * limb.angle_deg, 2, 0.01).steps.back());
     };
     return {material, limb.model, limb.element_order, bones.attachment, targets_at};
 }
@@ -249,10 +265,12 @@ VerificationRow calculix_row(const pbs::Character& character, const CalculixLimb
     const pbs::Positions displacements = displacements_of(character.mesh, body);
     const bool is_linear = limb.model == BodyModel::linear;
     VerificationRow row = calculix_row(
-        limb.problem(), fmt::format("limb, {}{} by {} deg", limb.is_smooth() ? "smooth attachment, " : "", limb.way, limb.angle_deg),
+        limb.problem(),
+        fmt::format("limb, {}{} by {} deg", limb.is_smooth() ? "smooth attachment, " : "", limb.way, limb.angle_deg),
         is_linear ? "linear" : "st_venant_kirchhoff", space, displacements);
     row.mesh = std::to_string(character.mesh.rest.rows()) + " vertices";
-    if (limb.is_smooth()) bound(row, {}, difference_bound(character.mesh, body, displacements), difference_bound_text(limb.model));
+    if (limb.is_smooth())
+        bound(row, {}, difference_bound(character.mesh, body, displacements), difference_bound_text(limb.model));
     if (limb.model == BodyModel::st_venant_kirchhoff_at_four_points) row.note = "P2 integrated by C3D10's four points";
     if (limb.model == BodyModel::st_venant_kirchhoff && limb.element_order == 2) {
         row.quantity.setting += "_six_points";
@@ -292,7 +310,8 @@ VerificationRows calculix_rows(const Effort& effort)
     if (!effort.limb) return rows;
     for (const CalculixLimb& limb : calculix_limbs(effort.full)) {
         const pbs::Character character = effort.limb(limb.vertices);
-        rows.push_back(calculix_row(character, limb, held_body(character, limb, solver_material(effort, calculix_flesh))));
+        rows.push_back(
+            calculix_row(character, limb, held_body(character, limb, solver_material(effort, calculix_flesh))));
     }
     return rows;
 }

@@ -1,4 +1,5 @@
-// The problems that verify the reference. A new problem is a function that returns its rows, and one line in problem_list.cpp.
+// The problems that verify the reference. A new problem is a function that returns its rows, and one line in
+// problem_list.cpp.
 #pragma once
 
 #include "experiments/deformers/fem/bone_attachment.hpp"
@@ -18,8 +19,8 @@ using reference_fem::VerificationRow;
 using reference_fem::VerificationRows;
 
 struct Effort : reference_fem::Effort {
-    // The built-in limb with about this number of vertices (0: its default). The caller meshes it, since only the caller links CGAL.
-    // Problems that need the limb have no rows where the function is empty.
+    // The built-in limb with about this number of vertices (0: its default). The caller meshes it, since only the
+    // caller links CGAL. Problems that need the limb have no rows where the function is empty.
     std::function<pbs::Character(int vertices)> limb = {};
 };
 
@@ -68,17 +69,19 @@ struct HeldBody {
     reference_fem::Attachment attachment;  // no vertex is bound
     reference_fem::TargetsAt targets_at;   // of the pose at 1, and of rest, where a large rotation begins, at 0
 };
-HeldBody held_body(const pbs::Character& character, const CalculixLimb& limb, const reference_fem::ElasticMaterial& material);
+HeldBody held_body(const pbs::Character& character, const CalculixLimb& limb,
+                   const reference_fem::ElasticMaterial& material);
 VerificationRow calculix_row(const pbs::Character& character, const CalculixLimb& limb, const HeldBody& body);
 
-// A manufactured solution u_i = A sin(a_i . x + phi_i) of stable neo-Hookean flesh in the unit cube that is held by springs with the
-// density k of a smooth attachment. The springs' targets lie a given offset c from the exact positions, so that the body force is f = -div
-// P - k(x) c.
+// A manufactured solution u_i = A sin(a_i . x + phi_i) of stable neo-Hookean flesh in the unit cube that is held by
+// springs with the density k of a smooth attachment. The springs' targets lie a given offset c from the exact
+// positions, so that the body force is f = -div P - k(x) c.
 //   const AttachedSolution solution = solve_manufactured(mesh, 2, {});
 //   solution.positions - exact_positions(mesh.rest)
-// Elements of order p converge with h^(p+1) (Brenner and Scott, ch. 5) down to the error of the sample points, which grows with c: a small
-// c serves the orders, and a large one shows whether the springs have the weight that the body force assumes.
-inline const reference_fem::ElasticMaterial manufactured_material = {1.0, 0.3};  // Young's modulus [Pa], Poisson's ratio
+// Elements of order p converge with h^(p+1) (Brenner and Scott, ch. 5) down to the error of the sample points, which
+// grows with c: a small c serves the orders, and a large one shows whether the springs have the weight that the body
+// force assumes. Young's modulus [Pa], Poisson's ratio
+inline const reference_fem::ElasticMaterial manufactured_material = {1.0, 0.3};
 
 struct ManufacturedSprings {
     pbs::Vec3 offset_m = {2e-6, -1e-6, 3e-6};  // c

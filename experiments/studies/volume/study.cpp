@@ -5,8 +5,8 @@
 //   BODY_CLIP                                       CMU's clips on the installed bodies
 //   BODY_range_MOVEMENT                             joints through their range of motion, for the held-out cases
 //
-// README.md describes the runs, deformers and records. Besides the scene's own order of projection PBS has each other order and precision,
-// so that the report can say whether the verdict depends on it.
+// README.md describes the runs, deformers and records. Besides the scene's own order of projection PBS has each other
+// order and precision, so that the report can say whether the verdict depends on it.
 #include "experiments/run/region_record.hpp"
 #include "experiments/scene/movements.hpp"
 #include "experiments/studies/study.hpp"
@@ -33,12 +33,14 @@ std::vector<DeformerSpec> added_to(const StudyCase& study_case)
     static const nlohmann::json tables = cases_document("volume").at("added");
     std::vector<DeformerSpec> added;
     const auto add = [&](const std::string& name, const Overrides& further = {}) {
-        const auto named = std::ranges::find_if(tables, [&](const nlohmann::json& table) { return table.at("name") == name; });
+        const auto named =
+            std::ranges::find_if(tables, [&](const nlohmann::json& table) { return table.at("name") == name; });
         if (named == tables.end()) throw std::logic_error("volume/cases.toml: no table `added` of the name " + name);
         for (const nlohmann::json& pbs : named->at("pbs")) added.push_back(study_case.further_pbs(pbs, further));
     };
     for (const std::string& name : study_case.value<std::vector<std::string>>("add", {})) add(name);
-    if (study_case.has("k_in_zone")) add("jiggle", {fmt::format("pbs.jiggle.k_stretch={}", study_case.value<double>("k_in_zone"))});
+    if (study_case.has("k_in_zone"))
+        add("jiggle", {fmt::format("pbs.jiggle.k_stretch={}", study_case.value<double>("k_in_zone"))});
     return added;
 }
 
@@ -60,12 +62,13 @@ StudyPlan plan(bool full)
 
 bool conclude(const FinishedRuns& finished)
 {
-    static const analysis::Columns<RegionOfRun> columns =
-        analysis::Columns<RegionOfRun>{{"run", &RegionOfRun::run}} + analysis::within(&RegionOfRun::region, region_columns);
+    static const analysis::Columns<RegionOfRun> columns = analysis::Columns<RegionOfRun>{{"run", &RegionOfRun::run}} +
+                                                          analysis::within(&RegionOfRun::region, region_columns);
     std::vector<RegionOfRun> regions;
     for (const std::string& file : finished.files("regions.csv")) {
         const std::string run = std::filesystem::path(file).parent_path().filename().string();
-        for (const RegionChange& region : rows_of(region_columns, analysis::read_csv(file))) regions.push_back({run, region});
+        for (const RegionChange& region : rows_of(region_columns, analysis::read_csv(file)))
+            regions.push_back({run, region});
     }
     finished.write("regions.csv", columns, regions);
     return true;

@@ -14,23 +14,27 @@ namespace experiments {
 using analysis::Columns;
 using analysis::not_known;
 
-const Columns<OwnErrorRow> own_error_columns = MEMBER_COLUMNS(OwnErrorRow, pose, body, stratum, member, outcome, own_error_pct);
+const Columns<OwnErrorRow> own_error_columns =
+    MEMBER_COLUMNS(OwnErrorRow, pose, body, stratum, member, outcome, own_error_pct);
 const Columns<ComparedRow> compared_columns =
     MEMBER_COLUMNS(ComparedRow, table, budget_ms) +
     analysis::within(&ComparedRow::point, MEMBER_COLUMNS(PointRow, method, pose, body, stratum, ms, skin_mm) +
                                               analysis::within(&PointRow::errors, member_error_columns()));
 const Columns<MethodRow> method_columns =
-    MEMBER_COLUMNS(MethodRow, table, budget_ms, method, takes, setting, ms, times_pbs, within, poses, fewest_poses, share, share_low,
-                   share_high, fold_share, fold_low, fold_high, skin_mm, inverted_poses, letters);
+    MEMBER_COLUMNS(MethodRow, table, budget_ms, method, takes, setting, ms, times_pbs, within, poses, fewest_poses,
+                   share, share_low, share_high, fold_share, fold_low, fold_high, skin_mm, inverted_poses, letters);
 const Columns<MethodPairRow> method_pair_columns =
-    MEMBER_COLUMNS(MethodPairRow, table, budget_ms, first, second, member, wins, ties, losses, p, p_holm, ratio, ratio_low, ratio_high);
-const Columns<DecisionRow> decision_columns = MEMBER_COLUMNS(DecisionRow, table, budget_ms, without_body, first, second, decision);
+    MEMBER_COLUMNS(MethodPairRow, table, budget_ms, first, second, member, wins, ties, losses, p, p_holm, ratio,
+                   ratio_low, ratio_high);
+const Columns<DecisionRow> decision_columns =
+    MEMBER_COLUMNS(DecisionRow, table, budget_ms, without_body, first, second, decision);
 const Columns<MethodCurveRow> method_curve_columns =
     MEMBER_COLUMNS(MethodCurveRow, table, method, budget_ms, setting, ms, share, share_low, share_high);
 const Columns<SolvedRow> solved_columns = MEMBER_COLUMNS(SolvedRow, table, target_pct, method, budget_ms, solved_pct);
-const Columns<OtherStartRow> other_start_columns = MEMBER_COLUMNS(OtherStartRow, budget_ms, method, of, poses, share, share_of_setting);
-const Columns<MotionRow> motion_columns =
-    MEMBER_COLUMNS(MotionRow, clip, budget_ms, method, setting, member, frames, ms, cold_share, played_share, cold_skin_mm, played_skin_mm);
+const Columns<OtherStartRow> other_start_columns =
+    MEMBER_COLUMNS(OtherStartRow, budget_ms, method, of, poses, share, share_of_setting);
+const Columns<MotionRow> motion_columns = MEMBER_COLUMNS(MotionRow, clip, budget_ms, method, setting, member, frames,
+                                                         ms, cold_share, played_share, cold_skin_mm, played_skin_mm);
 
 namespace {
 
@@ -71,7 +75,8 @@ public:
     }
 
     // The rows of the method in a table, by pose; empty: there is none.
-    std::vector<const PointRow*> rows(const std::string& method, const std::string& setting, ComparisonTable table) const
+    std::vector<const PointRow*> rows(const std::string& method, const std::string& setting,
+                                      ComparisonTable table) const
     {
         const GivenFlesh flesh = table == ComparisonTable::known ? GivenFlesh::own : GivenFlesh::standard;
         std::vector<const PointRow*> rows(place_.size(), nullptr);
@@ -109,12 +114,14 @@ private:
 Spread share_of(const analysis::MethodErrors& method, const analysis::MethodErrors& lbs, const std::vector<bool>& kept)
 {
     std::vector<double> shares;
-    for (std::size_t m = 0; m < method.error.size(); ++m) shares.push_back(analysis::share(method.error[m], lbs.error[m], kept));
+    for (std::size_t m = 0; m < method.error.size(); ++m)
+        shares.push_back(analysis::share(method.error[m], lbs.error[m], kept));
     return spread_over(shares);
 }
 
 // The number of poses in which both methods have an error against each member.
-std::vector<int> compared_poses(const analysis::MethodErrors& first, const analysis::MethodErrors& second, const std::vector<bool>& kept)
+std::vector<int> compared_poses(const analysis::MethodErrors& first, const analysis::MethodErrors& second,
+                                const std::vector<bool>& kept)
 {
     std::vector<int> poses;
     for (std::size_t m = 0; m < first.error.size(); ++m) {
@@ -148,13 +155,14 @@ std::vector<std::string> external_names(const std::vector<PointRow>& points)
     std::vector<std::string> names;
     for (const PointRow& point : points)
         if (point.setting.empty() && point.flesh == GivenFlesh::none &&
-            std::ranges::count(methods(), point.method, &ComparedMethod::name) == 0 && std::ranges::count(names, point.method) == 0)
+            std::ranges::count(methods(), point.method, &ComparedMethod::name) == 0 &&
+            std::ranges::count(names, point.method) == 0)
             names.push_back(point.method);
     return names;
 }
 
-std::vector<Entry> entries_of(const PosesOfTable& poses, const std::vector<PointRow>& points, const std::vector<ChosenSetting>& settings,
-                              ComparisonTable table, double budget_ms)
+std::vector<Entry> entries_of(const PosesOfTable& poses, const std::vector<PointRow>& points,
+                              const std::vector<ChosenSetting>& settings, ComparisonTable table, double budget_ms)
 {
     std::vector<Entry> entries;
     const auto add = [&](const ComparedMethod* method, const std::string& name, const std::string& setting) {
@@ -167,7 +175,8 @@ std::vector<Entry> entries_of(const PosesOfTable& poses, const std::vector<Point
     for (const ComparedMethod& method : methods()) {
         if (!method.is_in(name_of(table))) continue;
         for (const ChosenSetting& chosen : settings)
-            if (chosen.method == method.name && chosen.budget_ms == chosen_for_ms) add(&method, method.name, chosen.setting);
+            if (chosen.method == method.name && chosen.budget_ms == chosen_for_ms)
+                add(&method, method.name, chosen.setting);
     }
     for (const std::string& name : external_names(points)) {
         const auto ms = median_of(poses.rows(name, "", table), [](const PointRow& row) { return row.ms; });
@@ -182,13 +191,15 @@ std::vector<double> times_of(const PosesOfTable& poses, const std::vector<PointR
     std::vector<double> times_ms = comparison_times().budgets_ms;
     const double longest_ms = times_ms.back();
     const bool is_slow = std::ranges::any_of(external_names(points), [&](const std::string& name) {
-        return median_of(poses.rows(name, "", table), [](const PointRow& row) { return row.ms; }).value_or(0.0) > longest_ms;
+        return median_of(poses.rows(name, "", table), [](const PointRow& row) { return row.ms; }).value_or(0.0) >
+               longest_ms;
     });
     if (is_slow) times_ms.push_back(any_time_ms);
     return times_ms;
 }
 
-MethodRow method_row(const Entry& entry, const Entry& lbs, const PosesOfTable& poses, ComparisonTable table, double budget_ms)
+MethodRow method_row(const Entry& entry, const Entry& lbs, const PosesOfTable& poses, ComparisonTable table,
+                     double budget_ms)
 {
     MethodRow row{.table = table, .budget_ms = budget_ms, .method = entry.errors.method};
     if (entry.method) row.takes = entry.method->takes;
@@ -210,12 +221,14 @@ MethodRow method_row(const Entry& entry, const Entry& lbs, const PosesOfTable& p
         row.fold_high = fold.high;
     }
     row.skin_mm = median_of(entry.rows, [](const PointRow& point) { return point.skin_mm; });
-    for (const PointRow* point : entry.rows) row.inverted_poses += point && point->stratum == Stratum::movement && point->inverted > 0;
+    for (const PointRow* point : entry.rows)
+        row.inverted_poses += point && point->stratum == Stratum::movement && point->inverted > 0;
     return row;
 }
 
 // The pairs of a table at one time, and what each body changes.
-void add_pairs(const std::vector<Entry>& entries, const PosesOfTable& poses, std::vector<MethodRow>& rows, Comparison& comparison)
+void add_pairs(const std::vector<Entry>& entries, const PosesOfTable& poses, std::vector<MethodRow>& rows,
+               Comparison& comparison)
 {
     analysis::ComparedPoses with_methods = poses.compared();
     for (const Entry& entry : entries) with_methods.methods.push_back(entry.errors);
@@ -223,7 +236,8 @@ void add_pairs(const std::vector<Entry>& entries, const PosesOfTable& poses, std
     const std::vector<analysis::MethodPair> pairs = analysis::compare_methods(movement);
     const ComparisonTable table = rows.front().table;
     const double budget_ms = rows.front().budget_ms;
-    const auto add_decisions = [&](const std::vector<analysis::MethodPair>& method_pairs, const std::string& without_body) {
+    const auto add_decisions = [&](const std::vector<analysis::MethodPair>& method_pairs,
+                                   const std::string& without_body) {
         for (const analysis::MethodPair& pair : method_pairs)
             comparison.decisions.push_back({table, budget_ms, without_body, pair.first, pair.second, pair.decision});
     };
@@ -231,8 +245,9 @@ void add_pairs(const std::vector<Entry>& entries, const PosesOfTable& poses, std
         for (std::size_t m = 0; m < pair.members.size(); ++m) {
             const analysis::MemberComparison& on = pair.members[m];
             if (on.poses() == 0) continue;
-            comparison.pairs.push_back({table, budget_ms, pair.first, pair.second, movement.members[m], on.wins, on.ties, on.losses, on.p,
-                                        on.p_holm, on.ratio.estimate, on.ratio.low, on.ratio.high});
+            comparison.pairs.push_back({table, budget_ms, pair.first, pair.second, movement.members[m], on.wins,
+                                        on.ties, on.losses, on.p, on.p_holm, on.ratio.estimate, on.ratio.low,
+                                        on.ratio.high});
         }
     add_decisions(pairs, "");
     for (const std::string& body : std::set<std::string>(movement.bodies.begin(), movement.bodies.end()))
@@ -295,7 +310,8 @@ std::vector<OtherStartRow> start_rows(const std::vector<PointRow>& points, const
             if (!setting) continue;
             const auto changed = errors_of(start.name, *setting, GivenFlesh::start);
             if (changed.empty()) continue;
-            rows.push_back({budget_ms, start.name, start.of, static_cast<int>(changed.size()), share(changed, lbs, changed),
+            rows.push_back({budget_ms, start.name, start.of, static_cast<int>(changed.size()),
+                            share(changed, lbs, changed),
                             share(errors_of(start.of, *setting, GivenFlesh::own), lbs, changed)});
         }
     }
@@ -313,10 +329,11 @@ std::vector<ChosenSetting> chosen_settings(const std::vector<PointRow>& training
     };
     std::vector<Tried> tried;
     for (const PointRow& point : training) {
-        auto found =
-            std::ranges::find_if(tried, [&](const Tried& entry) { return entry.method == point.method && entry.setting == point.setting; });
+        auto found = std::ranges::find_if(
+            tried, [&](const Tried& entry) { return entry.method == point.method && entry.setting == point.setting; });
         if (found == tried.end())
-            found = tried.insert(found, Tried{.method = point.method, .setting = point.setting, .ms = {}, .log_error = {}});
+            found =
+                tried.insert(found, Tried{.method = point.method, .setting = point.setting, .ms = {}, .log_error = {}});
         found->poses += point.outcome == "finished";
         if (point.ms) found->ms.push_back(*point.ms);
         for (const std::optional<double>& error : point.errors)
@@ -329,18 +346,20 @@ std::vector<ChosenSetting> chosen_settings(const std::vector<PointRow>& training
         for (const double budget_ms : comparison_times().budgets_ms) {
             const Tried* best = nullptr;
             for (const Tried& entry : tried) {
-                if (entry.method != method.name || entry.poses < poses || entry.log_error.empty() || analysis::mean(entry.ms) > budget_ms)
+                if (entry.method != method.name || entry.poses < poses || entry.log_error.empty() ||
+                    analysis::mean(entry.ms) > budget_ms)
                     continue;
                 if (!best || analysis::mean(entry.log_error) < analysis::mean(best->log_error)) best = &entry;
             }
             if (best)
-                chosen.push_back(
-                    {budget_ms, method.name, best->setting, analysis::mean(best->ms), std::exp(analysis::mean(best->log_error))});
+                chosen.push_back({budget_ms, method.name, best->setting, analysis::mean(best->ms),
+                                  std::exp(analysis::mean(best->log_error))});
         }
     return chosen;
 }
 
-Comparison concluded(const std::vector<PointRow>& points, const std::vector<OwnErrorRow>& own, const std::vector<ChosenSetting>& settings)
+Comparison concluded(const std::vector<PointRow>& points, const std::vector<OwnErrorRow>& own,
+                     const std::vector<ChosenSetting>& settings)
 {
     Comparison comparison;
     const PosesOfTable poses(points, own);
@@ -348,17 +367,19 @@ Comparison concluded(const std::vector<PointRow>& points, const std::vector<OwnE
         for (const double budget_ms : times_of(poses, points, table)) {
             const bool is_any_time = budget_ms == any_time_ms;
             const std::vector<Entry> entries = entries_of(poses, points, settings, table, budget_ms);
-            const auto lbs = std::ranges::find(entries, baseline, [](const Entry& entry) { return entry.errors.method; });
+            const auto lbs =
+                std::ranges::find(entries, baseline, [](const Entry& entry) { return entry.errors.method; });
             if (lbs == entries.end()) continue;
             std::vector<MethodRow> rows;
             for (const Entry& entry : entries) {
                 rows.push_back(method_row(entry, *lbs, poses, table, budget_ms));
                 const MethodRow& row = rows.back();
-                comparison.curves.push_back(
-                    {table, row.method, budget_ms, row.setting, row.ms.value_or(not_known), row.share, row.share_low, row.share_high});
+                comparison.curves.push_back({table, row.method, budget_ms, row.setting, row.ms.value_or(not_known),
+                                             row.share, row.share_low, row.share_high});
                 if (is_any_time) continue;  // a profile is a function of the time
                 for (const double target_pct : targets_pct)
-                    comparison.profiles.push_back({table, target_pct, row.method, budget_ms, solved_pct(entry, *lbs, poses, target_pct)});
+                    comparison.profiles.push_back(
+                        {table, target_pct, row.method, budget_ms, solved_pct(entry, *lbs, poses, target_pct)});
             }
             if (!is_any_time && std::ranges::count(comparison_times().tables_ms, budget_ms) == 0) continue;
             for (const Entry& entry : entries)

@@ -12,7 +12,8 @@
 
 namespace experiments {
 
-// known: methods that take flesh have that of each reference. guessed: they have that of the first member, whatever the reference is.
+// known: methods that take flesh have that of each reference. guessed: they have that of the first member, whatever the
+// reference is.
 enum class ComparisonTable { known, guessed };
 NAMED_OPTIONS(ComparisonTable, known, guessed)
 
@@ -33,9 +34,10 @@ struct ComparedRow {
 };
 extern const analysis::Columns<ComparedRow> compared_columns;
 
-// methods.csv. A share is the geometric mean over poses of the error over that of LBS with the weights that training has chosen: the median
-// over the members, and the range over them. A budget of inf is any time: it is there if a deformer of the user's own needs more than the
-// longest time, and the other methods then have the settings of the longest time.
+// methods.csv. A share is the geometric mean over poses of the error over that of LBS with the weights that training
+// has chosen: the median over the members, and the range over them. A budget of inf is any time: it is there if a
+// deformer of the user's own needs more than the longest time, and the other methods then have the settings of the
+// longest time.
 struct MethodRow {
     ComparisonTable table = ComparisonTable::known;
     double budget_ms = 0.0;
@@ -43,8 +45,11 @@ struct MethodRow {
     std::vector<std::string> takes = {};
     std::string setting = {};
     std::optional<double> ms = {}, times_pbs = {};  // medians over the poses by movement
-    std::string within = {};                        // doubled: within the budget with twice its time; once: only just; no: on this machine
-    int poses = 0, fewest_poses = 0;  // by movement, in which the member with the most and with the fewest solutions compares the method
+    // doubled: within the budget with twice its time; once: only just; no: on this machine
+    std::string within = {};
+    int poses = 0,
+        fewest_poses =
+            0;  // by movement, in which the member with the most and with the fewest solutions compares the method
     double share = 0.0, share_low = 0.0, share_high = 0.0;  // movement
     std::optional<double> fold_share = {}, fold_low = {}, fold_high = {};
     std::optional<double> skin_mm = {};  // median over the poses by movement
@@ -83,8 +88,8 @@ struct MethodCurveRow {
 };
 extern const analysis::Columns<MethodCurveRow> method_curve_columns;
 
-// profiles.csv: the share of the poses that a method solves to a share of LBS's error within a time (J. More, S. Wild, SIAM J. Optim. 20,
-// 2009): in the mean over the members.
+// profiles.csv: the share of the poses that a method solves to a share of LBS's error within a time (J. More, S. Wild,
+// SIAM J. Optim. 20, 2009): in the mean over the members.
 struct SolvedRow {
     ComparisonTable table = ComparisonTable::known;
     double target_pct = 0.0;  // of LBS's error
@@ -112,7 +117,8 @@ struct MotionRow {
 };
 extern const analysis::Columns<MotionRow> motion_columns;
 
-// The least geometric mean error over training poses and members among the settings whose mean time lies within each budget.
+// The least geometric mean error over training poses and members among the settings whose mean time lies within each
+// budget.
 std::vector<ChosenSetting> chosen_settings(const std::vector<PointRow>& training);
 
 struct Comparison {
@@ -124,8 +130,10 @@ struct Comparison {
     std::vector<SolvedRow> profiles;
     std::vector<OtherStartRow> starts;
 };
-// points: of evaluation runs. own: rows of their poses. Deformers of the user's own are in every budget that is at least their time.
-Comparison concluded(const std::vector<PointRow>& points, const std::vector<OwnErrorRow>& own, const std::vector<ChosenSetting>& settings);
+// points: of evaluation runs. own: rows of their poses. Deformers of the user's own are in every budget that is at
+// least their time.
+Comparison concluded(const std::vector<PointRow>& points, const std::vector<OwnErrorRow>& own,
+                     const std::vector<ChosenSetting>& settings);
 std::vector<MotionRow> concluded(const std::vector<PlayedRow>& played, const std::vector<ChosenSetting>& settings);
 
 }  // namespace experiments

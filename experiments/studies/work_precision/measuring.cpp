@@ -40,9 +40,9 @@ Columns<MemberErrors> member_error_columns()
     return columns;
 }
 
-const Columns<PointRow> point_columns =
-    MEMBER_COLUMNS(PointRow, pose, body, stratum, method, flesh, setting, outcome, ms, times_pbs, clock, skin_mm, inverted) +
-    analysis::within(&PointRow::errors, member_error_columns());
+const Columns<PointRow> point_columns = MEMBER_COLUMNS(PointRow, pose, body, stratum, method, flesh, setting, outcome,
+                                                       ms, times_pbs, clock, skin_mm, inverted) +
+                                        analysis::within(&PointRow::errors, member_error_columns());
 const Columns<PlayedRow> played_columns =
     MEMBER_COLUMNS(PlayedRow, pose, clip, method, setting, start, member, ms, error_joint_pct, skin_mm);
 
@@ -55,7 +55,8 @@ constexpr std::size_t first_poses = 4;  // of the quick answer on deformers of t
 
 struct ComparedPose {
     const ReferencePose* pose;
-    pbs::Pose bones, neighbour;  // neighbour: of the frame before, or the one after; timed frames take turns between the two
+    pbs::Pose bones,
+        neighbour;  // neighbour: of the frame before, or the one after; timed frames take turns between the two
     std::vector<pbs::Pose> way;  // the frames before, for a deformer with memory
     KeptReferences kept;
 };
@@ -83,18 +84,23 @@ public:
     {
         for (const ReferencePose& pose : comparison.poses) {
             const pbs::Motion motion = make_motion(pose.scene.motion, character_.skeleton, pose.scene.file);
-            const auto frame = [&](int f) { return motion.steps.at(static_cast<std::size_t>(f) * motion.steps_per_frame); };
+            const auto frame = [&](int f) {
+                return motion.steps.at(static_cast<std::size_t>(f) * motion.steps_per_frame);
+            };
             const pbs::Pose bones = frame(pose.frame);
-            ComparedPose& compared = poses_.emplace_back(ComparedPose{.pose = &pose,
-                                                                      .bones = bones,
-                                                                      .neighbour = frame(pose.frame > 0 ? pose.frame - 1 : 1),
-                                                                      .way = {},
-                                                                      .kept = read_references(pose.name, character_, bones)});
-            for (int f = std::max(0, pose.frame - frames_of_memory); f < pose.frame; ++f) compared.way.push_back(frame(f));
+            ComparedPose& compared =
+                poses_.emplace_back(ComparedPose{.pose = &pose,
+                                                 .bones = bones,
+                                                 .neighbour = frame(pose.frame > 0 ? pose.frame - 1 : 1),
+                                                 .way = {},
+                                                 .kept = read_references(pose.name, character_, bones)});
+            for (int f = std::max(0, pose.frame - frames_of_memory); f < pose.frame; ++f)
+                compared.way.push_back(frame(f));
         }
-        const ComparedMethod pbs{.name = "pbs",
-                                 .kind = "pbs",
-                                 .overrides = {fmt::format("pbs.iterations={}", paper_iterations), "pbs.order=plain", "pbs.precision=f64"}};
+        const ComparedMethod pbs{
+            .name = "pbs",
+            .kind = "pbs",
+            .overrides = {fmt::format("pbs.iterations={}", paper_iterations), "pbs.order=plain", "pbs.precision=f64"}};
         baseline_ = make_deformer(spec_of({&pbs}, scene_, character_, family().front()));
         baseline_->reset(character_);
     }
@@ -102,7 +108,10 @@ public:
     const Scene& scene() const { return scene_; }
     const pbs::Character& character() const { return character_; }
     const std::vector<ComparedPose>& poses() const { return poses_; }
-    DeformerSpec spec(const Setting& setting, const EnsembleMember& member) const { return spec_of(setting, scene_, character_, member); }
+    DeformerSpec spec(const Setting& setting, const EnsembleMember& member) const
+    {
+        return spec_of(setting, scene_, character_, member);
+    }
 
     // only: the poses by name; empty: all.
     PosedShapes posed(const DeformerSpec& spec, bool timed, const std::set<std::string>& only = {}) const
@@ -123,16 +132,19 @@ public:
             deformer->advance(pose.bones, scene_.motion.time_step_s);
             posed.shapes.push_back(deformer->positions());
             std::vector<double> samples_ms;
-            for (int round = 0; round < rounds; ++round) samples_ms.push_back(frame_ms(*deformer, turn(pose, round), has_own_clock));
+            for (int round = 0; round < rounds; ++round)
+                samples_ms.push_back(frame_ms(*deformer, turn(pose, round), has_own_clock));
             if (timed) posed.ms.push_back(analysis::median(samples_ms));
         }
         if (timed) posed.baseline_ms = baseline_ms();
-        if (has_own_clock) posed.clock = deformer->record().value("own_times", false) ? FrameClock::own : FrameClock::wall;
+        if (has_own_clock)
+            posed.clock = deformer->record().value("own_times", false) ? FrameClock::own : FrameClock::wall;
         return posed;
     }
 
     // A row without errors. pose: its place among the poses.
-    PointRow row(std::size_t pose, const std::string& method, GivenFlesh flesh, const std::string& setting, const PosedShapes& posed) const
+    PointRow row(std::size_t pose, const std::string& method, GivenFlesh flesh, const std::string& setting,
+                 const PosedShapes& posed) const
     {
         const ReferencePose& reference_pose = *poses_[pose].pose;
         PointRow row{.pose = reference_pose.name,
@@ -180,7 +192,10 @@ public:
     }
 
 private:
-    static const pbs::Pose& turn(const ComparedPose& pose, int round) { return round % 2 == 0 ? pose.neighbour : pose.bones; }
+    static const pbs::Pose& turn(const ComparedPose& pose, int round)
+    {
+        return round % 2 == 0 ? pose.neighbour : pose.bones;
+    }
 
     double frame_ms(Deformer& deformer, const pbs::Pose& bones, bool has_own_clock) const
     {
@@ -192,7 +207,8 @@ private:
     double baseline_ms() const
     {
         std::vector<double> samples_ms;
-        for (int round = 0; round < of_.rounds; ++round) samples_ms.push_back(frame_ms(*baseline_, turn(poses_.front(), round), false));
+        for (int round = 0; round < of_.rounds; ++round)
+            samples_ms.push_back(frame_ms(*baseline_, turn(poses_.front(), round), false));
         return analysis::median(samples_ms);
     }
 
@@ -218,7 +234,8 @@ private:
     std::unique_ptr<Deformer> baseline_;
 };
 
-// Every setting with the flesh of the training members. A ladder of iterations ends where it takes longer than the largest budget.
+// Every setting with the flesh of the training members. A ladder of iterations ends where it takes longer than the
+// largest budget.
 void train(const ComparedBody& body, Measurements& measurements)
 {
     const double longest_ms = comparison_times().budgets_ms.back();
@@ -230,11 +247,13 @@ void train(const ComparedBody& body, Measurements& measurements)
                 for (const EnsembleMember& member : fleshes)
                     if (method.takes_flesh() || with_flesh.empty())
                         with_flesh.emplace(member.name, body.posed(body.spec(setting, member), with_flesh.empty()));
-                const PosedShapes& timed =
-                    with_flesh.contains(fleshes.front().name) ? with_flesh.at(fleshes.front().name) : with_flesh.begin()->second;
+                const PosedShapes& timed = with_flesh.contains(fleshes.front().name)
+                                               ? with_flesh.at(fleshes.front().name)
+                                               : with_flesh.begin()->second;
                 for (std::size_t pose = 0; pose < body.poses().size(); ++pose) {
                     PointRow row =
-                        body.row(pose, method.name, method.takes_flesh() ? GivenFlesh::own : GivenFlesh::none, setting.text(), timed);
+                        body.row(pose, method.name, method.takes_flesh() ? GivenFlesh::own : GivenFlesh::none,
+                                 setting.text(), timed);
                     body.add_errors(row, pose, [&](std::size_t m) -> const pbs::Positions* {
                         if (std::ranges::count(fleshes, members[m].name, &EnsembleMember::name) == 0) return nullptr;
                         const auto own = with_flesh.find(members[m].name);
@@ -252,16 +271,19 @@ std::vector<Setting> settings_of(const ComparisonCase& comparison, const Compare
     std::vector<Setting> settings;
     std::set<std::string> seen;
     for (const ChosenSetting& chosen : comparison.settings)
-        if (chosen.method == method.name && seen.insert(chosen.setting).second) settings.push_back({&method, keys_in(chosen.setting)});
+        if (chosen.method == method.name && seen.insert(chosen.setting).second)
+            settings.push_back({&method, keys_in(chosen.setting)});
     return settings;
 }
 
 // PBS, LBS and deformers of the user's own must be finite; another method that is not has no error there.
 void note_breakdown(const DeformerSpec& spec, const PosedShapes& posed, Measurements& measurements)
 {
-    const bool must_be_finite = options_if<ExternalOptions>(spec) || options_if<pbs::PbsOptions>(spec) || traits_of(spec).blends_linearly;
+    const bool must_be_finite =
+        options_if<ExternalOptions>(spec) || options_if<pbs::PbsOptions>(spec) || traits_of(spec).blends_linearly;
     const auto is_finite = [](const pbs::Positions& shape) { return shape.allFinite(); };
-    if (must_be_finite && !std::ranges::all_of(posed.shapes, is_finite)) measurements.breakdown += spec.label + " is not finite. ";
+    if (must_be_finite && !std::ranges::all_of(posed.shapes, is_finite))
+        measurements.breakdown += spec.label + " is not finite. ";
 }
 
 void evaluate(const ComparedBody& body, const Setting& setting, Measurements& measurements)
@@ -269,7 +291,8 @@ void evaluate(const ComparedBody& body, const Setting& setting, Measurements& me
     const ComparedMethod& method = *setting.method;
     std::vector<PosedShapes> with_flesh;  // of each member, or one
     for (const EnsembleMember& member : family())
-        if (method.takes_flesh() || with_flesh.empty()) with_flesh.push_back(body.posed(body.spec(setting, member), with_flesh.empty()));
+        if (method.takes_flesh() || with_flesh.empty())
+            with_flesh.push_back(body.posed(body.spec(setting, member), with_flesh.empty()));
     note_breakdown(body.spec(setting, family().front()), with_flesh.front(), measurements);
     for (std::size_t pose = 0; pose < body.poses().size(); ++pose) {
         const auto add = [&](GivenFlesh flesh, const auto& place) {
@@ -309,9 +332,9 @@ void evaluate_starts(const ComparisonCase& comparison, const ComparedBody& body,
 // Two seconds of a clip that end in a compared pose, at 60 frames per second.
 pbs::Motion played_motion(const ComparisonCase& comparison, const pbs::Skeleton& skeleton)
 {
-    const Scene scene =
-        read_scene("human_01_01", {"motion.clip=" + comparison.clip + ".bvh", fmt::format("motion.rate_hz={}", played_rate_hz),
-                                   fmt::format("pbs.time_step_s={:.17g}", 1.0 / played_rate_hz)});
+    const Scene scene = read_scene(
+        "human_01_01", {"motion.clip=" + comparison.clip + ".bvh", fmt::format("motion.rate_hz={}", played_rate_hz),
+                        fmt::format("pbs.time_step_s={:.17g}", 1.0 / played_rate_hz)});
     return make_motion(scene.motion, skeleton, scene.file);
 }
 
@@ -326,10 +349,11 @@ void play(const ComparisonCase& comparison, const ComparedBody& body, const Sett
         deformer->reset(body.character());
         for (std::size_t pose = 0; pose < body.poses().size(); ++pose) {
             const ReferencePose& reference = *body.poses()[pose].pose;
-            const int last = static_cast<int>(std::lround(reference.frame * played_rate_hz / reference.scene.motion.rate_hz));
+            const int last =
+                static_cast<int>(std::lround(reference.frame * played_rate_hz / reference.scene.motion.rate_hz));
             const auto add = [&](FrameGuess start, const std::vector<double>& samples_ms) {
-                measurements.played.push_back({reference.name, comparison.clip, setting.method->name, setting.text(), start,
-                                               members[m].name, analysis::median(samples_ms),
+                measurements.played.push_back({reference.name, comparison.clip, setting.method->name, setting.text(),
+                                               start, members[m].name, analysis::median(samples_ms),
                                                body.error_joint_pct(pose, m, deformer->positions()),
                                                body.skin_mm(pose, m, deformer->positions())});
             };
@@ -337,8 +361,8 @@ void play(const ComparisonCase& comparison, const ComparedBody& body, const Sett
             for (int frame = std::max(0, last - played_frames); frame <= last; ++frame) {
                 const double start_s = process_cpu_s();
                 if (!samples_ms.empty())
-                    deformer->start_from(
-                        carried_by_lbs(deformer->positions(), body.character(), motion.steps[frame - 1], motion.steps[frame]));
+                    deformer->start_from(carried_by_lbs(deformer->positions(), body.character(),
+                                                        motion.steps[frame - 1], motion.steps[frame]));
                 deformer->advance(motion.steps[frame], motion.time_step_s);
                 samples_ms.push_back(1e3 * (process_cpu_s() - start_s));
             }
@@ -349,8 +373,8 @@ void play(const ComparisonCase& comparison, const ComparedBody& body, const Sett
     }
 }
 
-// A quick answer before the whole: what the deformers of the user's own leave of LBS's error in the first poses by movement, against the
-// first reference variant, with the quick methods of the longest time for comparison.
+// A quick answer before the whole: what the deformers of the user's own leave of LBS's error in the first poses by
+// movement, against the first reference variant, with the quick methods of the longest time for comparison.
 void print_first_answers(const ComparisonCase& comparison, const ComparedBody& body)
 {
     std::vector<std::size_t> places;
@@ -368,7 +392,8 @@ void print_first_answers(const ComparisonCase& comparison, const ComparedBody& b
     };
     std::map<std::string, std::vector<double>> familiar;
     for (const char* name : {"lbs", "dqs", "delta_mush"})
-        for (const Setting& setting : settings_of(comparison, *std::ranges::find(methods(), name, &ComparedMethod::name)))
+        for (const Setting& setting :
+             settings_of(comparison, *std::ranges::find(methods(), name, &ComparedMethod::name)))
             familiar[name] = errors_pct(body.posed(body.spec(setting, family().front()), false, only));
     const std::vector<double>& lbs = familiar["lbs"];
     if (lbs.empty()) return;
@@ -376,10 +401,11 @@ void print_first_answers(const ComparisonCase& comparison, const ComparedBody& b
         const PosedShapes posed = body.posed(body.spec({&method}, family().front()), true, only);
         std::string others;
         for (const auto& [name, title] : {std::pair("dqs", "DQS"), std::pair("delta_mush", "delta mush")})
-            if (!familiar[name].empty()) others += fmt::format("; {} {:.0f} %", title, 100.0 * analysis::share(familiar[name], lbs));
+            if (!familiar[name].empty())
+                others += fmt::format("; {} {:.0f} %", title, 100.0 * analysis::share(familiar[name], lbs));
         const double share = analysis::share(errors_pct(posed), lbs);
-        spdlog::info("first answer, {} poses of {}: {}: {:.3g} ms per frame, {}{}", places.size(), comparison.body, method.name,
-                     analysis::median(posed.ms),
+        spdlog::info("first answer, {} poses of {}: {}: {:.3g} ms per frame, {}{}", places.size(), comparison.body,
+                     method.name, analysis::median(posed.ms),
                      std::isfinite(share) ? fmt::format("{:.0f} % of LBS's error", 100.0 * share)
                                           : "no error: its positions are not finite in at least one pose",
                      others);
@@ -396,7 +422,8 @@ nlohmann::json to_json(const ComparisonCase& comparison)
                            {"clip", comparison.clip},
                            {"rounds", comparison.rounds}};
     for (const ReferencePose& pose : comparison.poses) json["poses"].push_back(to_json(pose));
-    for (const ChosenSetting& chosen : comparison.settings) json["settings"].push_back({chosen.budget_ms, chosen.method, chosen.setting});
+    for (const ChosenSetting& chosen : comparison.settings)
+        json["settings"].push_back({chosen.budget_ms, chosen.method, chosen.setting});
     for (const ComparedMethod& method : comparison.external) json["external"].push_back(to_json(method.external));
     json["methods"] = cases_document("work_precision");
     for (const ComparedMethod& method : methods())

@@ -1,4 +1,5 @@
-// The measurements of the study: the error of each setting against every kept reference of a body, its time, and the same along a clip.
+// The measurements of the study: the error of each setting against every kept reference of a body, its time, and the
+// same along a clip.
 //   const Measurements measurements = measure(of);
 #pragma once
 
@@ -14,13 +15,14 @@
 
 namespace experiments {
 
-// The flesh that a method is given. none: it takes none. own: that of the reference with which it is compared. standard: that of the first
-// member, whatever the reference is. start: that of the first member, with another start or a wrong material (OtherStart).
+// The flesh that a method is given. none: it takes none. own: that of the reference with which it is compared.
+// standard: that of the first member, whatever the reference is. start: that of the first member, with another start or
+// a wrong material (OtherStart).
 enum class GivenFlesh { none, own, standard, start };
 NAMED_OPTIONS(GivenFlesh, none, own, standard, start)
 
-// The clock of a method's times. processor: processor time of this process. own: the times that a deformer in another process states
-// itself. wall: the wall time of that process, divided by the number of its poses.
+// The clock of a method's times. processor: processor time of this process. own: the times that a deformer in another
+// process states itself. wall: the wall time of that process, divided by the number of its poses.
 enum class FrameClock { processor, own, wall };
 NAMED_OPTIONS(FrameClock, processor, own, wall)
 
@@ -35,9 +37,10 @@ struct PointRow {
     std::string method = {};
     GivenFlesh flesh = GivenFlesh::none;
     std::string setting = {};
-    std::string outcome = {};              // finished, not_finite
-    std::optional<double> ms = {};         // median of several frames
-    std::optional<double> times_pbs = {};  // over the time of PBS with 24 iterations in plain code, measured right after
+    std::string outcome = {};       // finished, not_finite
+    std::optional<double> ms = {};  // median of several frames
+    // over the time of PBS with 24 iterations in plain code, measured right after
+    std::optional<double> times_pbs = {};
     FrameClock clock = FrameClock::processor;
     std::optional<double> skin_mm = {};  // root mean square over the skin, on a body of 1.7 m: median over the members
     int inverted = 0;                    // tets
@@ -57,8 +60,8 @@ struct PlayedRow {
 };
 extern const analysis::Columns<PlayedRow> played_columns;
 
-// What a run measures. training: all settings in the training poses, with the flesh of training_members(). evaluation: the chosen settings
-// in all other poses, with the flesh of every member. played: the chosen settings along a clip.
+// What a run measures. training: all settings in the training poses, with the flesh of training_members(). evaluation:
+// the chosen settings in all other poses, with the flesh of every member. played: the chosen settings along a clip.
 enum class Measured { training, evaluation, played };
 NAMED_OPTIONS(Measured, training, evaluation, played)
 

@@ -50,7 +50,8 @@ bool exist(const KeyValues& keys)
 {
     static const SceneSchema schema = scene_schema();
     return std::ranges::all_of(keys, [&](const std::string& key) {
-        if (key.starts_with(other_kind)) return find_deformer_kind(key.substr(std::string(other_kind).size())) != nullptr;
+        if (key.starts_with(other_kind))
+            return find_deformer_kind(key.substr(std::string(other_kind).size())) != nullptr;
         return !is_of_scene(key) || schema.find(key.substr(0, key.find('='))) != nullptr;
     });
 }
@@ -97,7 +98,8 @@ std::string assigned(const std::string& key, double value)
 }
 
 // What a method takes of a member's flesh, as keys of its table.
-KeyValues flesh_keys(const ComparedMethod& method, const std::string& table, const DeformerSpec& flesh, double young_times)
+KeyValues flesh_keys(const ComparedMethod& method, const std::string& table, const DeformerSpec& flesh,
+                     double young_times)
 {
     const auto& fem = options_of<FemOptions>(flesh);
     const auto takes = [&](const char* what) { return std::ranges::count(method.takes, what) > 0; };
@@ -143,7 +145,8 @@ void check_external(const SceneValues& values, const std::string& table, const D
         values.refuse(table + ".name", "expected a name that no method or row of the comparison has");
     const auto& options = options_of<ExternalOptions>(spec);
     const bool is_command = options.library.empty();
-    const std::string why_not = is_command ? why_not_startable(options.command.front()) : why_not_loadable(options.library);
+    const std::string why_not =
+        is_command ? why_not_startable(options.command.front()) : why_not_loadable(options.library);
     if (why_not.empty()) return;
     values.refuse(table + (is_command ? ".command" : ".library"), (is_command ? "cannot be started: " : "") + why_not);
 }
@@ -160,7 +163,8 @@ const std::vector<ComparedMethod>& methods()
     static const std::vector<ComparedMethod> available = [] {
         std::vector<ComparedMethod> compared_methods;
         for (const nlohmann::json& table : document().at("method"))
-            if (ComparedMethod method = method_in(table); is_available(method)) compared_methods.push_back(std::move(method));
+            if (ComparedMethod method = method_in(table); is_available(method))
+                compared_methods.push_back(std::move(method));
         return compared_methods;
     }();
     return available;
@@ -215,13 +219,15 @@ std::vector<Setting> tried_settings(const ComparedMethod& method, const KeyValue
     if (method.iterations.empty()) return {{&method, of_grid}};
     std::vector<Setting> settings;
     for (const int iterations : method.iterations) {
-        Setting& setting = settings.emplace_back(Setting{&method, {fmt::format("{}={}", method.iterations_key, iterations)}});
+        Setting& setting =
+            settings.emplace_back(Setting{&method, {fmt::format("{}={}", method.iterations_key, iterations)}});
         setting.keys.insert(setting.keys.end(), of_grid.begin(), of_grid.end());
     }
     return settings;
 }
 
-DeformerSpec spec_of(const Setting& setting, const Scene& scene, const pbs::Character& character, const EnsembleMember& member)
+DeformerSpec spec_of(const Setting& setting, const Scene& scene, const pbs::Character& character,
+                     const EnsembleMember& member)
 {
     const ComparedMethod& method = *setting.method;
     if (method.kind.empty()) return method.external;
@@ -240,7 +246,8 @@ DeformerSpec spec_of(const Setting& setting, const Scene& scene, const pbs::Char
     if (method.takes_flesh())
         for (std::string& key : flesh_keys(method, method.kind, flesh_of(reference_flesh(scene), member), young_times))
             keys.push_back(std::move(key));
-    std::ranges::copy_if(setting.keys, std::back_inserter(keys), is_of_scene);  // a later value of a key is the one that counts
+    // a later value of a key is the one that counts
+    std::ranges::copy_if(setting.keys, std::back_inserter(keys), is_of_scene);
     const DeformerKind& registered = *find_deformer_kind(kind);
     std::string text = text_of(scene), table = kind;
     if (registered.has_list) text += fmt::format("\n[[{}]]\nname = \"{}\"\n", kind, method.name);
@@ -253,7 +260,8 @@ DeformerSpec spec_of(const Setting& setting, const Scene& scene, const pbs::Char
     if (values.given("skinning.weights")) spec.weights = pbs::weights_named(values.text("skinning.weights"));
     if (auto* pbs = std::any_cast<pbs::PbsOptions>(&spec.options)) {
         pbs->jiggle.reset();
-        if (method.k_by_edge_length) pbs->k_stretch_length_m = neutral_length(pbs->k_stretch, edge_lengths_m(character.mesh));
+        if (method.k_by_edge_length)
+            pbs->k_stretch_length_m = neutral_length(pbs->k_stretch, edge_lengths_m(character.mesh));
     }
     return spec;
 }
@@ -269,7 +277,8 @@ std::vector<ComparedMethod> external_methods(const std::string& file)
 {
     std::error_code code;
     if (!std::filesystem::is_regular_file(file, code))
-        throw pbs::InputError(file, 0, "", "", "cannot be read: expected a file with schema = 1 and [[external]] tables");
+        throw pbs::InputError(file, 0, "", "",
+                              "cannot be read: expected a file with schema = 1 and [[external]] tables");
     const std::string own = external_kind().name;
     const SceneValues values(pbs::read_text_file(file), file, {}, scene_schema());
     for (const SceneKey& key : scene_schema().keys) {
@@ -277,7 +286,8 @@ std::vector<ComparedMethod> external_methods(const std::string& file)
         if (key.table != own && values.has_table(table)) values.refuse(table, "expected only [[" + own + "]] tables");
     }
     const std::vector<DeformerSpec> entries = listed_deformers(values);
-    if (entries.empty()) throw pbs::InputError(file, 0, own, "", "missing: expected at least one [[" + own + "]] table");
+    if (entries.empty())
+        throw pbs::InputError(file, 0, own, "", "missing: expected at least one [[" + own + "]] table");
     std::vector<ComparedMethod> compared_methods;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         check_external(values, own + "." + std::to_string(i), entries[i]);

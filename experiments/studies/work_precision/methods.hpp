@@ -1,4 +1,5 @@
-// The methods that are compared, as a table of names with KEY=VALUE overrides of a scene (cases.toml), and their settings.
+// The methods that are compared, as a table of names with KEY=VALUE overrides of a scene (cases.toml), and their
+// settings.
 //   for (const ComparedMethod& method : methods())
 //       for (const Setting& setting : tried_settings(method, method.grid.front()))
 //           spec_of(setting, scene, character, family().front());
@@ -58,13 +59,16 @@ struct Setting {
 
     std::string text() const;
 };
-std::vector<Setting> tried_settings(const ComparedMethod& method, const KeyValues& of_grid);  // by increasing iterations
+// by increasing iterations
+std::vector<Setting> tried_settings(const ComparedMethod& method, const KeyValues& of_grid);
 
-// The deformer of a setting, on a scene that is built in, with the flesh of a member of the family. Members are those whose flesh a method
-// takes; another method does not depend on them. InputError for a key that does not exist.
-DeformerSpec spec_of(const Setting& setting, const Scene& scene, const pbs::Character& character, const EnsembleMember& member);
+// The deformer of a setting, on a scene that is built in, with the flesh of a member of the family. Members are those
+// whose flesh a method takes; another method does not depend on them. InputError for a key that does not exist.
+DeformerSpec spec_of(const Setting& setting, const Scene& scene, const pbs::Character& character,
+                     const EnsembleMember& member);
 
-// The setting of each method for each time, which the training poses have chosen (settings.csv, compiled into the program).
+// The setting of each method for each time, which the training poses have chosen (settings.csv, compiled into the
+// program).
 struct ChosenSetting {
     double budget_ms = 0.0;
     std::string method, setting;
@@ -74,14 +78,15 @@ extern const analysis::Columns<ChosenSetting> chosen_columns;  // settings.csv
 const std::vector<ChosenSetting>& kept_settings();
 KeyValues keys_in(const std::string& setting);
 
-// Deformers of the user's own: the [[external]] tables of a file, which is written like a scene. Each is a method that takes nothing, with
-// one setting. Throws an InputError for a file that cannot be read, has no such table or other tables, a name that a method or another
-// start of the comparison has, a program that cannot be started, and a library that cannot be loaded. Paths are relative to the file.
+// Deformers of the user's own: the [[external]] tables of a file, which is written like a scene. Each is a method that
+// takes nothing, with one setting. Throws an InputError for a file that cannot be read, has no such table or other
+// tables, a name that a method or another start of the comparison has, a program that cannot be started, and a library
+// that cannot be loaded. Paths are relative to the file.
 std::vector<ComparedMethod> external_methods(const std::string& file);
 
-// The length at which an edge has the stiffness k, so that the mean over all edges is k too: then the scaling softens long edges and
-// stiffens short ones, and the mesh as a whole is neither softer nor stiffer. Bisection finds it to 1e-12 of the longest edge. It needs
-// 0 < k < 1 and at least one edge.
+// The length at which an edge has the stiffness k, so that the mean over all edges is k too: then the scaling softens
+// long edges and stiffens short ones, and the mesh as a whole is neither softer nor stiffer. Bisection finds it to
+// 1e-12 of the longest edge. It needs 0 < k < 1 and at least one edge.
 double neutral_length(double k, const std::vector<double>& edge_lengths_m);
 
 }  // namespace experiments

@@ -1,5 +1,5 @@
-// Error against run time: which method is nearest to the references for the time that a frame may take. README.md describes the poses, the
-// comparison and the records.
+// Error against run time: which method is nearest to the references for the time that a frame may take. README.md
+// describes the poses, the comparison and the records.
 //
 //   pbskin reproduce work_precision                          two bodies, three minutes
 //   pbskin reproduce work_precision --full                   five bodies, the choice of settings, two clips: 15 minutes
@@ -21,7 +21,8 @@ std::vector<OwnErrorRow> own_errors(const ComparisonCase& comparison)
     const pbs::Character character = pbs::make_character(comparison.poses.front().scene.character);
     std::vector<OwnErrorRow> rows;
     for (const ReferencePose& pose : comparison.poses)
-        for (const KeptReference& reference : read_references(pose.name, character, bones_in(pose, character.skeleton)).members) {
+        for (const KeptReference& reference :
+             read_references(pose.name, character, bones_in(pose, character.skeleton)).members) {
             const double own_pct = reference.own_error_pct();
             rows.push_back({pose.name, pose.of.body, pose.stratum, reference.member.name, reference.outcome,
                             std::isfinite(own_pct) ? std::optional(own_pct) : std::nullopt});
@@ -36,8 +37,10 @@ std::string measure_and_record(const ComparisonCase& comparison, const std::stri
     if (comparison.what == Measured::played)
         table_of(played_columns, measurements.played).write(path("played.csv"));
     else
-        table_of(point_columns, measurements.points).write(path(comparison.what == Measured::training ? "training.csv" : "points.csv"));
-    if (comparison.what == Measured::evaluation) table_of(own_error_columns, own_errors(comparison)).write(path("references.csv"));
+        table_of(point_columns, measurements.points)
+            .write(path(comparison.what == Measured::training ? "training.csv" : "points.csv"));
+    if (comparison.what == Measured::evaluation)
+        table_of(own_error_columns, own_errors(comparison)).write(path("references.csv"));
     return measurements.breakdown;
 }
 

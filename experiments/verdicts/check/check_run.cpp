@@ -44,7 +44,8 @@ void add_to_summary(const std::string& text)
     const std::string summary(environment("GITHUB_STEP_SUMMARY"));
     if (summary.empty()) return;
     std::ofstream file(summary, std::ios::app);
-    if (!(file << text << std::flush)) throw pbs::InputError(summary, 0, "GITHUB_STEP_SUMMARY", "", "cannot be written");
+    if (!(file << text << std::flush))
+        throw pbs::InputError(summary, 0, "GITHUB_STEP_SUMMARY", "", "cannot be written");
 }
 
 namespace fs = std::filesystem;
@@ -60,7 +61,8 @@ CheckRules rules_of(const CheckArguments& arguments)
     std::vector<std::string> metrics;
     for (const MetricText& metric : metric_texts())
         if (metric.name != "outcome" && !metric.is_of_measure_alone) metrics.push_back(metric.name);
-    const CheckRules own = analysis::parse_check_rules(::claims::claims_toml, "experiments/verdicts/claims.toml", metrics);
+    const CheckRules own =
+        analysis::parse_check_rules(::claims::claims_toml, "experiments/verdicts/claims.toml", metrics);
     if (arguments.bounds.empty()) return own;
     CheckRules rules = analysis::parse_check_rules(analysis::read_text(arguments.bounds), arguments.bounds, metrics);
     if (rules.tolerances.empty()) rules.tolerances = own.tolerances;
@@ -105,7 +107,8 @@ CheckSuite suite_left_out(const CheckScene& check, const CheckRules& rules)
     CheckSuite suite{check.name, 0.0, {}, {}};
     suite.cases.push_back(
         {check.name, "runs", CheckState::left_out,
-         fmt::format("left out with its bounds: {} is not installed; `pbskin run {}` states what it needs", check.needs, check.scene),
+         fmt::format("left out with its bounds: {} is not installed; `pbskin run {}` states what it needs", check.needs,
+                     check.scene),
          std::nullopt, std::nullopt, rules.file, check.line});
     return suite;
 }
@@ -119,8 +122,8 @@ CheckSuite suite_of(const CheckScene& check, const CheckRules& rules, const Chec
     CheckSuite suite{check.name, result.seconds, {}, {}};
     const std::string& failure = result.failure();
     suite.cases.push_back({check.name, "runs", failure.empty() ? CheckState::held : CheckState::broke_down,
-                           failure.empty() ? fmt::format("{} frames", result.frames) : failure, std::nullopt, std::nullopt, rules.file,
-                           check.line, result.seconds});
+                           failure.empty() ? fmt::format("{} frames", result.frames) : failure, std::nullopt,
+                           std::nullopt, rules.file, check.line, result.seconds});
     if (!failure.empty()) breakdowns.push_back(check.name + ": " + failure);
     const CsvTable metrics = analysis::read_csv((fs::path(folder) / "metrics.csv").string());
     for (const analysis::CheckBound& bound : rules.bounds)
@@ -129,14 +132,16 @@ CheckSuite suite_of(const CheckScene& check, const CheckRules& rules, const Chec
             suite.cases.push_back(judge_bound(bound, metric ? metric->unit : "", metrics, rules.file));
         }
 
-    const auto [vertices, tets] = analysis::from_record((fs::path(folder) / "run.json").string(), [](const nlohmann::json& run) {
-        return std::pair(run.at("character").at("vertices").get<int>(), run.at("character").at("tets").get<int>());
-    });
+    const auto [vertices, tets] =
+        analysis::from_record((fs::path(folder) / "run.json").string(), [](const nlohmann::json& run) {
+            return std::pair(run.at("character").at("vertices").get<int>(), run.at("character").at("tets").get<int>());
+        });
     CsvTable now = analysis::baseline_columns(rules);
     analysis::add_baseline_rows(now, suite.name, metrics, vertices, tets);
     measured.append(now);
     if (baseline)
-        for (CheckCase& of_baseline : analysis::compare_with_baseline(rules, suite.name, now, baseline->table, baseline->file))
+        for (CheckCase& of_baseline :
+             analysis::compare_with_baseline(rules, suite.name, now, baseline->table, baseline->file))
             suite.cases.push_back(std::move(of_baseline));
     suite.properties = analysis::step_times(suite.name, now, baseline ? &baseline->table : nullptr);
     return suite;
@@ -184,7 +189,8 @@ void report_failures(const std::vector<analysis::CheckSuite>& suites)
 {
     for (const analysis::CheckSuite& suite : suites)
         for (const analysis::CheckCase& check : suite.cases) {
-            const std::string line = fmt::format("pbskin: {}{}: {}: {}", place_of(check), suite.name, check.name, check.message);
+            const std::string line =
+                fmt::format("pbskin: {}{}: {}: {}", place_of(check), suite.name, check.name, check.message);
             if (check.state == analysis::CheckState::left_out)
                 spdlog::warn("{}", line);
             else if (check.state != analysis::CheckState::held)
@@ -216,8 +222,9 @@ CheckResult run_check(const CheckArguments& arguments)
     CsvTable measured = analysis::baseline_columns(rules);
     CheckResult result;
     for (const CheckScene& check : rules.scenes)
-        result.suites.push_back(is_left_out(check) ? suite_left_out(check, rules)
-                                                   : suite_of(check, rules, arguments, baseline, measured, result.breakdowns));
+        result.suites.push_back(is_left_out(check)
+                                    ? suite_left_out(check, rules)
+                                    : suite_of(check, rules, arguments, baseline, measured, result.breakdowns));
     if (baseline)
         for (const CheckCase& gone : scenes_gone(rules, baseline->table, baseline->file))
             result.suites.push_back({gone.suite, 0.0, {}, {gone}});

@@ -11,8 +11,9 @@ namespace pbs {
 namespace {
 
 constexpr int groups_a_cluster = 8192;
-constexpr GroupKind kinds_in_order[] = {GroupKind::edge_tet,  GroupKind::edge_triangle, GroupKind::edge_wedge, GroupKind::edge,
-                                        GroupKind::tet_fan_3, GroupKind::tet_fan_2,     GroupKind::tet};
+constexpr GroupKind kinds_in_order[] = {GroupKind::edge_tet, GroupKind::edge_triangle, GroupKind::edge_wedge,
+                                        GroupKind::edge,     GroupKind::tet_fan_3,     GroupKind::tet_fan_2,
+                                        GroupKind::tet};
 
 }  // namespace
 
@@ -30,7 +31,8 @@ BatchProgram<Scalar>::BatchProgram(const std::vector<ConstraintGroup>& groups, c
                 for (const int g : cluster)
                     if (groups[g].kind == kind) of_cluster.push_back(groups[g]);
                 with_kind(kind, [&](auto of_kind) {
-                    append<of_kind()>(of_cluster, scheduler.schedule(of_cluster), values, order, slab, dummy_begin + slab * dummies_a_slab);
+                    append<of_kind()>(of_cluster, scheduler.schedule(of_cluster), values, order, slab,
+                                      dummy_begin + slab * dummies_a_slab);
                 });
             }
     lines_.shrink_to_fit();
@@ -38,8 +40,9 @@ BatchProgram<Scalar>::BatchProgram(const std::vector<ConstraintGroup>& groups, c
 
 template <typename Scalar>
 template <GroupKind kind>
-void BatchProgram<Scalar>::append(const std::vector<ConstraintGroup>& groups, const std::vector<std::vector<int>>& batches,
-                                  const ConstraintValues<Scalar>& values, const VertexOrder& order, int slab, int dummy)
+void BatchProgram<Scalar>::append(const std::vector<ConstraintGroup>& groups,
+                                  const std::vector<std::vector<int>>& batches, const ConstraintValues<Scalar>& values,
+                                  const VertexOrder& order, int slab, int dummy)
 {
     using Shape = GroupShape<kind>;
     if (batches.empty()) return;
@@ -53,7 +56,8 @@ void BatchProgram<Scalar>::append(const std::vector<ConstraintGroup>& groups, co
         for (int lane = 0; lane < batch_size; ++lane) {
             const ConstraintGroup* group = lane < static_cast<int>(members.size()) ? &groups[members[lane]] : nullptr;
             for (int v = 0; v < Shape::vertices; ++v)
-                batch.offset[v][lane] = 4u * (group ? order.new_of_old[group->vertex[v]] : dummy + lane * largest_group + v);
+                batch.offset[v][lane] =
+                    4u * (group ? order.new_of_old[group->vertex[v]] : dummy + lane * largest_group + v);
             for (int c = 0; group && c < Shape::constraints; ++c) {
                 if (group->constraint[c] < 0) continue;
                 batch.rest[c][lane] = values.rest[group->constraint[c]];
@@ -72,8 +76,9 @@ std::vector<BatchRun> BatchProgram<Scalar>::runs_awake(int slab, const std::vect
         with_kind(run.kind, [&](auto of_kind) {
             const auto* all = static_cast<const Batch<Scalar, of_kind()>*>(batches(run));
             for (int b = 0, next = -1; b < run.count; ++b) {
-                const bool is_awake = std::any_of(all[b].offset[0], all[b].offset[0] + sizeof(all[b].offset) / sizeof(std::uint32_t),
-                                                  [&](std::uint32_t offset) { return awake[offset / 4]; });
+                const bool is_awake =
+                    std::any_of(all[b].offset[0], all[b].offset[0] + sizeof(all[b].offset) / sizeof(std::uint32_t),
+                                [&](std::uint32_t offset) { return awake[offset / 4]; });
                 if (!is_awake) continue;
                 if (b != next) result.push_back({run.kind, 0, run.first_line + b * sizeof(all[b]) / sizeof(CacheLine)});
                 ++result.back().count;
@@ -95,7 +100,8 @@ void BatchProgram<Scalar>::mark_unsatisfied(const Scalar* vertices, double toler
                 largest_errors(run.kind, all, run.count, vertices, errors.data());
                 for (std::size_t lane = 0; lane < errors.size(); ++lane) {
                     if (errors[lane] <= Scalar(tolerance)) continue;
-                    for (const auto& offsets : all[lane / batch_size].offset) marked[offsets[lane % batch_size] / 4] = true;
+                    for (const auto& offsets : all[lane / batch_size].offset)
+                        marked[offsets[lane % batch_size] / 4] = true;
                 }
             });
 }
@@ -111,20 +117,24 @@ template class BatchProgram<double>;
 
 template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const ConstraintClassData<Scalar, 2>& stretch,
-                                                    const ConstraintClassData<Scalar, 4>& volume, int vertices, const Tets& tets,
-                                                    Order order)
+                                                    const ConstraintClassData<Scalar, 4>& volume, int vertices,
+                                                    const Tets& tets, Order order)
 {
-    BatchedConstraints<Scalar> batched{
-        order_vertices(tets, vertices, vertices_a_slab(vertices)), (vertices + batch_size - 1) / batch_size * batch_size, {}, {}};
+    BatchedConstraints<Scalar> batched{order_vertices(tets, vertices, vertices_a_slab(vertices)),
+                                       (vertices + batch_size - 1) / batch_size * batch_size,
+                                       {},
+                                       {}};
     const bool grouped = order == Order::grouped;
-    batched.stretch = {grouped ? grouped_edges(stretch.vertex, tets) : single_edges(stretch.vertex), stretch, batched.order,
-                       batched.dummy_begin};
-    batched.volume = {grouped ? grouped_tets(volume.vertex) : single_tets(volume.vertex), volume, batched.order, batched.dummy_begin};
+    batched.stretch = {grouped ? grouped_edges(stretch.vertex, tets) : single_edges(stretch.vertex), stretch,
+                       batched.order, batched.dummy_begin};
+    batched.volume = {grouped ? grouped_tets(volume.vertex) : single_tets(volume.vertex), volume, batched.order,
+                      batched.dummy_begin};
     return batched;
 }
 
 template <typename Scalar>
-BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets, Order order)
+BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets,
+                                                    Order order)
 {
     ConstraintClassData<Scalar, 2> stretch;
     for (const StretchConstraint<Scalar>& edge : constraints.stretch) {
@@ -132,14 +142,17 @@ BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>&
         stretch.add(edge.vertex, edge.rest_length, w > Scalar(0) ? edge.stiffness / w : Scalar(0));
     }
     ConstraintClassData<Scalar, 4> volume;
-    for (const VolumeConstraint<Scalar>& tet : constraints.volume) volume.add(tet.vertex, Scalar(6) * tet.rest_volume, tet.stiffness);
+    for (const VolumeConstraint<Scalar>& tet : constraints.volume)
+        volume.add(tet.vertex, Scalar(6) * tet.rest_volume, tet.stiffness);
     return make_batched_constraints(stretch, volume, static_cast<int>(constraints.inverse_mass.size()), tets, order);
 }
 
-template BatchedConstraints<float> make_batched_constraints(const ConstraintClassData<float, 2>&, const ConstraintClassData<float, 4>&, int,
-                                                            const Tets&, Order);
-template BatchedConstraints<double> make_batched_constraints(const ConstraintClassData<double, 2>&, const ConstraintClassData<double, 4>&,
-                                                             int, const Tets&, Order);
+template BatchedConstraints<float> make_batched_constraints(const ConstraintClassData<float, 2>&,
+                                                            const ConstraintClassData<float, 4>&, int, const Tets&,
+                                                            Order);
+template BatchedConstraints<double> make_batched_constraints(const ConstraintClassData<double, 2>&,
+                                                             const ConstraintClassData<double, 4>&, int, const Tets&,
+                                                             Order);
 template BatchedConstraints<float> make_batched_constraints(const ConstraintSet<float>&, const Tets&, Order);
 template BatchedConstraints<double> make_batched_constraints(const ConstraintSet<double>&, const Tets&, Order);
 

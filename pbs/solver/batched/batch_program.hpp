@@ -1,5 +1,5 @@
-// The constraints of one class as batches in memory, in the order the kernels work them off: slab by slab, within a slab cluster by
-// cluster, within a cluster kind by kind. A cluster is what stays in the nearest cache.
+// The constraints of one class as batches in memory, in the order the kernels work them off: slab by slab, within a
+// slab cluster by cluster, within a cluster kind by kind. A cluster is what stays in the nearest cache.
 #pragma once
 
 #include "pbs/packed/groups.hpp"
@@ -28,26 +28,29 @@ template <typename Scalar>
 class BatchProgram {
 public:
     BatchProgram() = default;
-    // Vertices of groups are those of the mesh. dummy_begin: first of the dummy vertices that lanes without a group work on,
-    // dummies_a_slab for each slab.
-    BatchProgram(const std::vector<ConstraintGroup>& groups, const ConstraintValues<Scalar>& values, const VertexOrder& order,
-                 int dummy_begin);
+    // Vertices of groups are those of the mesh. dummy_begin: first of the dummy vertices that lanes without a group
+    // work on, dummies_a_slab for each slab.
+    BatchProgram(const std::vector<ConstraintGroup>& groups, const ConstraintValues<Scalar>& values,
+                 const VertexOrder& order, int dummy_begin);
 
     static constexpr int dummies_a_slab = batch_size * largest_group;  // so that a whole batch of them shares none
 
-    const std::vector<BatchRun>& runs(int slab) const { return runs_[slab]; }                  // all of a slab
-    const void* batches(const BatchRun& run) const { return lines_.data() + run.first_line; }  // Batch<Scalar, run.kind>, run.count of them
-    int slabs() const { return static_cast<int>(runs_.size()); }                               // of the mesh
-    int batches() const { return static_cast<int>(lanes_ / batch_size); }                      // of all slabs
+    const std::vector<BatchRun>& runs(int slab) const { return runs_[slab]; }  // all of a slab
+    // Batch<Scalar, run.kind>, run.count of them
+    const void* batches(const BatchRun& run) const { return lines_.data() + run.first_line; }
+    int slabs() const { return static_cast<int>(runs_.size()); }           // of the mesh
+    int batches() const { return static_cast<int>(lanes_ / batch_size); }  // of all slabs
 
-    // f(vertices in the new order, rest, stiffness) of every constraint in the order of projection: even slabs, then odd ones; of each
-    // batch the first constraint of every lane, then the second. Sixteen in a row share no vertex.
+    // f(vertices in the new order, rest, stiffness) of every constraint in the order of projection: even slabs, then
+    // odd ones; of each batch the first constraint of every lane, then the second. Sixteen in a row share no vertex.
     template <typename F>
     void for_each_constraint(F&& f) const;
 
-    // The part of a slab whose groups have an awake vertex; awake: one entry per vertex in the new order, including dummies.
+    // The part of a slab whose groups have an awake vertex; awake: one entry per vertex in the new order, including
+    // dummies.
     std::vector<BatchRun> runs_awake(int slab, const std::vector<char>& awake) const;
-    // Sets the flag of every vertex of a group whose residual at these positions exceeds the tolerance or is not a number.
+    // Sets the flag of every vertex of a group whose residual at these positions exceeds the tolerance or is not a
+    // number.
     void mark_unsatisfied(const Scalar* vertices, double tolerance, std::vector<char>& marked) const;
 
     double fill() const;  // share of lanes that have a group
@@ -85,8 +88,8 @@ void BatchProgram<Scalar>::for_each_constraint(F&& f) const
             for (const BatchRun& run : runs_[slab]) with_kind(run.kind, [&](auto kind) { of_run(kind, run); });
 }
 
-// A constraint set in the orders `ordered` and `grouped`: where vertices lie, and stretch and volume constraints as batches. Scalar: float
-// or double.
+// A constraint set in the orders `ordered` and `grouped`: where vertices lie, and stretch and volume constraints as
+// batches. Scalar: float or double.
 template <typename Scalar>
 struct BatchedConstraints {
     VertexOrder order;    // where the mesh's vertices lie
@@ -112,13 +115,15 @@ struct ConstraintClassData : ConstraintValues<Scalar> {
 // vertices: #V of the mesh. tets: those whose edges may be grouped, constrained or not. order: ordered or grouped.
 template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const ConstraintClassData<Scalar, 2>& stretch,
-                                                    const ConstraintClassData<Scalar, 4>& volume, int vertices, const Tets& tets,
-                                                    Order order);
+                                                    const ConstraintClassData<Scalar, 4>& volume, int vertices,
+                                                    const Tets& tets, Order order);
 // Batches the stretch and volume constraints of Algorithm 1.
 template <typename Scalar>
-BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets, Order order);
+BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets,
+                                                    Order order);
 
-// Batches those of XPBD, whose stiffness is 1 / alpha here: of an edge [N/m], and of six times the volume of a tet [N/m^5].
+// Batches those of XPBD, whose stiffness is 1 / alpha here: of an edge [N/m], and of six times the volume of a tet
+// [N/m^5].
 struct XpbdConstraints;
 template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const XpbdConstraints& constraints, const Tets& tets, Order order);

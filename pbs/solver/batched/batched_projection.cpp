@@ -12,7 +12,8 @@
 namespace pbs {
 
 template <typename Scalar>
-BatchedParticles<Scalar>::BatchedParticles(const BatchedConstraints<Scalar>& batched, const std::vector<Scalar>& inverse_mass,
+BatchedParticles<Scalar>::BatchedParticles(const BatchedConstraints<Scalar>& batched,
+                                           const std::vector<Scalar>& inverse_mass,
                                            const std::vector<BindConstraint<Scalar>>& bind)
     : new_of_old_(batched.order.new_of_old),
       rows_(batched.dummy_begin + batched.order.slabs() * BatchProgram<Scalar>::dummies_a_slab),
@@ -23,7 +24,8 @@ BatchedParticles<Scalar>::BatchedParticles(const BatchedConstraints<Scalar>& bat
         const int i = new_of_old_[constraint.vertex];
         BindBatch<Scalar>& batch = bind_[i / batch_size];
         batch.rest_distance[i % batch_size] = constraint.rest_distance;
-        batch.stiffness[i % batch_size] = inverse_mass[constraint.vertex] > Scalar(0) ? constraint.stiffness : Scalar(0);
+        batch.stiffness[i % batch_size] =
+            inverse_mass[constraint.vertex] > Scalar(0) ? constraint.stiffness : Scalar(0);
     }
 }
 
@@ -84,7 +86,8 @@ double data_bytes(const ProjectionLayout& layout, const BodySize& size)
 }  // namespace
 
 template <typename Scalar>
-BatchedProjection<Scalar>::BatchedProjection(const ConstraintSet<Scalar>& constraints, const Tets& tets, const PbsOptions& options)
+BatchedProjection<Scalar>::BatchedProjection(const ConstraintSet<Scalar>& constraints, const Tets& tets,
+                                             const PbsOptions& options)
     : batched_(make_batched_constraints(constraints, tets, options.order)),
       parallel_(batched_.order.slabs() >= slabs_worth_threads ? options.threads : 1),
       edges_(constraints.stretch.size()),
@@ -100,7 +103,8 @@ BatchedProjection<Scalar>::BatchedProjection(const ConstraintSet<Scalar>& constr
         volume_runs_.push_back(batched_.volume.runs(slab));
     }
     if (!options.sleep) return;
-    neighbours_ = adjacency_of(Tets(tets.unaryExpr([&](int old) { return batched_.order.new_of_old[old]; })), batched_.vertices());
+    neighbours_ = adjacency_of(Tets(tets.unaryExpr([&](int old) { return batched_.order.new_of_old[old]; })),
+                               batched_.vertices());
 }
 
 template <typename Scalar>
@@ -117,7 +121,8 @@ void BatchedProjection<Scalar>::project_volume_constraints()
 }
 
 template <typename Scalar>
-void BatchedProjection<Scalar>::project(const BatchProgram<Scalar>& program, const std::vector<std::vector<BatchRun>>& runs)
+void BatchedProjection<Scalar>::project(const BatchProgram<Scalar>& program,
+                                        const std::vector<std::vector<BatchRun>>& runs)
 {
     parallel_.for_each_slab(batched_.order.slabs(), [&](int slab) {
         for (const BatchRun& run : runs[slab]) project_batches(run.kind, program.batches(run), run.count, vertices());
@@ -136,9 +141,12 @@ Residuals BatchedProjection<Scalar>::residuals() const
         return std::accumulate(of_slab.begin(), of_slab.end(), 0.0);
     };
     const auto rms = [](double sum, std::size_t count) { return count == 0 ? 0.0 : std::sqrt(sum / double(count)); };
-    const double bind = sum_squared_bind_errors(particles_.bind().data(), static_cast<int>(particles_.bind().size()), vertices());
-    const double of_regions = rms_of_regions(regions_, [this](int i) { return Eigen::Map<const Vector3<Scalar>>(vertices() + 4 * i); });
-    return {rms(sum(batched_.stretch), edges_), joint_rms(rms(sum(batched_.volume), tets_), tets_, of_regions, regions_.size()),
+    const double bind =
+        sum_squared_bind_errors(particles_.bind().data(), static_cast<int>(particles_.bind().size()), vertices());
+    const double of_regions =
+        rms_of_regions(regions_, [this](int i) { return Eigen::Map<const Vector3<Scalar>>(vertices() + 4 * i); });
+    return {rms(sum(batched_.stretch), edges_),
+            joint_rms(rms(sum(batched_.volume), tets_), tets_, of_regions, regions_.size()),
             rms(bind, particles_.bind().empty() ? 0 : batched_.order.old_of_new.size())};
 }
 
@@ -228,12 +236,14 @@ template class BatchedProjection<double>;
 double bytes_per_iteration(const ProjectionLayout& layout, const BodySize& size)
 {
     constexpr double classes = 3.0;
-    return data_bytes(layout, size) + layout.poses * size.vertices * (3.0 * layout.scalar_bytes + classes * 2.0 * position_bytes(layout));
+    return data_bytes(layout, size) +
+           layout.poses * size.vertices * (3.0 * layout.scalar_bytes + classes * 2.0 * position_bytes(layout));
 }
 
 double working_set_bytes(const ProjectionLayout& layout, const BodySize& size)
 {
-    return data_bytes(layout, size) + layout.poses * size.vertices * (position_bytes(layout) + 3.0 * layout.scalar_bytes);
+    return data_bytes(layout, size) +
+           layout.poses * size.vertices * (position_bytes(layout) + 3.0 * layout.scalar_bytes);
 }
 
 }  // namespace pbs

@@ -1,7 +1,8 @@
-// Orders `ordered` and `grouped` as a Projection: constraints in batches of sixteen that share no vertex (../../packed/batch.hpp), vertices
-// reordered for locality, slabs of the mesh in parallel (../../packed/vertex_order.hpp). The order of projection belongs to the mesh: any
-// machine and any number of threads project alike, and threads give the same bits. It is another order than `plain`; stretch, volume and
-// bind contradict each other, so the two settle on different limits (the study `timing`).
+// Orders `ordered` and `grouped` as a Projection: constraints in batches of sixteen that share no vertex
+// (../../packed/batch.hpp), vertices reordered for locality, slabs of the mesh in parallel
+// (../../packed/vertex_order.hpp). The order of projection belongs to the mesh: any machine and any number of threads
+// project alike, and threads give the same bits. It is another order than `plain`; stretch, volume and bind contradict
+// each other, so the two settle on different limits (the study `timing`).
 #pragma once
 
 #include "pbs/constraints/bind.hpp"
@@ -15,8 +16,8 @@
 
 namespace pbs {
 
-// Particles in the order of memory of the batches (../../packed/vertex_order.hpp), with the dummies of each slab behind them, and their
-// bind constraints, each of which moves its own vertex alone. Scalar: float or double.
+// Particles in the order of memory of the batches (../../packed/vertex_order.hpp), with the dummies of each slab behind
+// them, and their bind constraints, each of which moves its own vertex alone. Scalar: float or double.
 template <typename Scalar>
 class BatchedParticles {
 public:
@@ -32,8 +33,10 @@ public:
     Scalar* xyzw() { return rows_.data(); }
     const Scalar* xyzw() const { return rows_.data(); }
     int vertices() const { return static_cast<int>(new_of_old_.size()); }  // #V of the mesh, dummies not counted
-    const Rows<Scalar>& rows() const { return rows_; }                     // x, y, z [m], w of the vertices, then of the dummies
-    const std::vector<BindBatch<Scalar>>& bind() const { return bind_; }   // of all vertices; empty: no bind constraints
+    // x, y, z [m], w of the vertices, then of the dummies
+    const Rows<Scalar>& rows() const { return rows_; }
+    // of all vertices; empty: no bind constraints
+    const std::vector<BindBatch<Scalar>>& bind() const { return bind_; }
 
 private:
     std::vector<int> new_of_old_;
@@ -74,25 +77,29 @@ private:
     BatchedConstraints<Scalar> batched_;
     Parallel parallel_;
     std::size_t edges_, tets_;  // constraints of each class
-    // In the new order. Regions are projected one after the other by the scalar code of the order plain, after all batches of the tets.
+    // In the new order. Regions are projected one after the other by the scalar code of the order plain, after all
+    // batches of the tets.
     std::vector<RegionVolumeConstraint<Scalar>> regions_;
     std::vector<Scalar> inverse_mass_;  // #V
     BatchedParticles<Scalar> particles_;
 
     std::vector<std::vector<BatchRun>> stretch_runs_, volume_runs_;  // what is projected, of each slab
     std::vector<char> awake_;                                        // vertices, dummies included; empty: all are
-    std::vector<char> moved_;                                        // in the last step, by more than the tolerance; they start awake
-    Rows<Scalar> loaded_;                                            // particles_ before the step, with sleep
-    Adjacency neighbours_;                                           // in the new order; empty without sleep
+    // in the last step, by more than the tolerance; they start awake
+    std::vector<char> moved_;
+    Rows<Scalar> loaded_;   // particles_ before the step, with sleep
+    Adjacency neighbours_;  // in the new order; empty without sleep
 };
 
-// What has to pass between the core and the level of memory that holds the working set: each constraint's own data once per class, and the
-// positions once in and once out. No step is faster than these bytes over the bandwidth. Loads that a nearer cache answers do not count.
+// What has to pass between the core and the level of memory that holds the working set: each constraint's own data once
+// per class, and the positions once in and once out. No step is faster than these bytes over the bandwidth. Loads that
+// a nearer cache answers do not count.
 enum class ConstraintClass { stretch, volume, bind };
 
-// How constraints and positions lie in memory. One pose: a constraint has a vertex index of 4 bytes for each vertex, its rest value and its
-// stiffness, a bind constraint d and k; a vertex is x, y, z, w. Many poses side by side share the constraints, which then carry inverse
-// masses and a class of stiffness; a vertex is x, y, z for each pose. Bind points, x, y, z, belong to each pose.
+// How constraints and positions lie in memory. One pose: a constraint has a vertex index of 4 bytes for each vertex,
+// its rest value and its stiffness, a bind constraint d and k; a vertex is x, y, z, w. Many poses side by side share
+// the constraints, which then carry inverse masses and a class of stiffness; a vertex is x, y, z for each pose. Bind
+// points, x, y, z, belong to each pose.
 struct ProjectionLayout {
     double scalar_bytes = 4.0;
     int poses = 1;
@@ -103,11 +110,15 @@ struct BodySize {
 
     double constraints(ConstraintClass constraint_class) const
     {
-        return constraint_class == ConstraintClass::stretch ? edges : constraint_class == ConstraintClass::volume ? tets : vertices;
+        return constraint_class == ConstraintClass::stretch  ? edges
+               : constraint_class == ConstraintClass::volume ? tets
+                                                             : vertices;
     }
 };
 
-double bytes_per_iteration(const ProjectionLayout& layout, const BodySize& size);  // over all three classes, all poses together
-double working_set_bytes(const ProjectionLayout& layout, const BodySize& size);    // the memory that such an iteration touches
+// over all three classes, all poses together
+double bytes_per_iteration(const ProjectionLayout& layout, const BodySize& size);
+// the memory that such an iteration touches
+double working_set_bytes(const ProjectionLayout& layout, const BodySize& size);
 
 }  // namespace pbs

@@ -1,5 +1,5 @@
-// The projections of pbs/constraints in every lane at once, line by line as in bind.hpp, stretch.hpp and volume.hpp, and the loops over
-// batches and poses that call them. A lane whose constraint has no gradient stays, as there.
+// The projections of pbs/constraints in every lane at once, line by line as in bind.hpp, stretch.hpp and volume.hpp,
+// and the loops over batches and poses that call them. A lane whose constraint has no gradient stays, as there.
 #include "pbs/solver/batched/pbs_kernels.hpp"
 
 #include "pbs/packed/lanes.hpp"
@@ -11,8 +11,8 @@ namespace {
 
 // q: posed bind points; k: stiffness, zero where the vertex is pinned.
 template <typename Scalar>
-[[gnu::always_inline]] inline void project_bind(const Lanes<Scalar>& rest_distance, const Lanes<Scalar>& k, const Vertices<Scalar>& q,
-                                                Vertices<Scalar>& p)
+[[gnu::always_inline]] inline void project_bind(const Lanes<Scalar>& rest_distance, const Lanes<Scalar>& k,
+                                                const Vertices<Scalar>& q, Vertices<Scalar>& p)
 {
     const LaneVector<Scalar> from_q = p - q;
     const Lanes<Scalar> distance = length(from_q);
@@ -22,8 +22,8 @@ template <typename Scalar>
 
 // k_w: stiffness over w1 + w2, zero where both are pinned.
 template <typename Scalar>
-[[gnu::always_inline]] inline void project_stretch(const Lanes<Scalar>& rest_length, const Lanes<Scalar>& k_w, Vertices<Scalar>& p1,
-                                                   Vertices<Scalar>& p2)
+[[gnu::always_inline]] inline void project_stretch(const Lanes<Scalar>& rest_length, const Lanes<Scalar>& k_w,
+                                                   Vertices<Scalar>& p1, Vertices<Scalar>& p2)
 {
     const LaneVector<Scalar> p12 = p1 - p2;
     const Lanes<Scalar> l = length(p12);
@@ -35,8 +35,9 @@ template <typename Scalar>
 
 // With n = 6 g and 6 C the sixths of Eq. 11-14 cancel. six_rest_volume: 6 V0 [m^3].
 template <typename Scalar>
-[[gnu::always_inline]] inline void project_volume(const Lanes<Scalar>& six_rest_volume, const Lanes<Scalar>& k, Vertices<Scalar>& p1,
-                                                  Vertices<Scalar>& p2, Vertices<Scalar>& p3, Vertices<Scalar>& p4)
+[[gnu::always_inline]] inline void project_volume(const Lanes<Scalar>& six_rest_volume, const Lanes<Scalar>& k,
+                                                  Vertices<Scalar>& p1, Vertices<Scalar>& p2, Vertices<Scalar>& p3,
+                                                  Vertices<Scalar>& p4)
 {
     const LaneVector<Scalar> p21 = p2 - p1, p31 = p3 - p1, p41 = p4 - p1;
     const LaneVector<Scalar> n4 = cross(p21, p31);
@@ -44,27 +45,33 @@ template <typename Scalar>
     const LaneVector<Scalar> n2 = cross(p31, p41);
     const LaneVector<Scalar> n3 = cross(p41, p21);
     const LaneVector<Scalar> minus_n1 = n2 + n3 + n4;  // Eq. 15
-    const Lanes<Scalar> denominator = p1.w * dot(minus_n1, minus_n1) + p2.w * dot(n2, n2) + p3.w * dot(n3, n3) + p4.w * dot(n4, n4);
+    const Lanes<Scalar> denominator =
+        p1.w * dot(minus_n1, minus_n1) + p2.w * dot(n2, n2) + p3.w * dot(n3, n3) + p4.w * dot(n4, n4);
     const Lanes<Scalar> longest2 = max(dot(p21, p21), max(dot(p31, p31), dot(p41, p41)));
-    const Lanes<Scalar> rounding = Scalar(4) * std::numeric_limits<Scalar>::epsilon() * longest2;  // of n; see volume.hpp
+    // of n; see volume.hpp
+    const Lanes<Scalar> rounding = Scalar(4) * std::numeric_limits<Scalar>::epsilon() * longest2;
     const Lanes<Scalar> k_s =
-        quotient(k * six_C, denominator, Lanes<Scalar>(rounding * rounding * (p1.w + p2.w + p3.w + p4.w)));  // s of Eq. 21
-    add(k_s * p1.w, minus_n1, p1);                                                                           // Eq. 8
+        // s of Eq. 21
+        quotient(k * six_C, denominator, Lanes<Scalar>(rounding * rounding * (p1.w + p2.w + p3.w + p4.w)));
+    add(k_s * p1.w, minus_n1, p1);  // Eq. 8
     add(-k_s * p2.w, n2, p2);
     add(-k_s * p3.w, n3, p3);
     add(-k_s * p4.w, n4, p4);
 }
 
-// Eq. 18 of Macklin 2016 times k = dt^2 / alpha:  d lambda = (-k C - lambda) / (k sum w |g|^2 + 1).  k: zero where there is no constraint.
-// An edge without length has no gradient and stays. With p12 = l g1, both are divided by l at once.
+// Eq. 18 of Macklin 2016 times k = dt^2 / alpha:  d lambda = (-k C - lambda) / (k sum w |g|^2 + 1).  k: zero where
+// there is no constraint. An edge without length has no gradient and stays. With p12 = l g1, both are divided by l at
+// once.
 template <typename Scalar>
 [[gnu::always_inline]] inline void project_compliant_stretch(const Lanes<Scalar>& rest_length, const Lanes<Scalar>& k,
-                                                             Lanes<Scalar>& lambda, Vertices<Scalar>& p1, Vertices<Scalar>& p2)
+                                                             Lanes<Scalar>& lambda, Vertices<Scalar>& p1,
+                                                             Vertices<Scalar>& p2)
 {
     const LaneVector<Scalar> p12 = p1 - p2;
     const Lanes<Scalar> l = length(p12);
     const Lanes<Scalar> C = l - rest_length;
-    const Lanes<Scalar> step_l = quotient(Lanes<Scalar>(-k * C - lambda), Lanes<Scalar>((k * (p1.w + p2.w) + Scalar(1)) * l));
+    const Lanes<Scalar> step_l =
+        quotient(Lanes<Scalar>(-k * C - lambda), Lanes<Scalar>((k * (p1.w + p2.w) + Scalar(1)) * l));
     lambda += step_l * l;
     add(Lanes<Scalar>(p1.w * step_l), p12, p1);
     add(Lanes<Scalar>(-p2.w * step_l), p12, p2);
@@ -72,8 +79,9 @@ template <typename Scalar>
 
 // The same with n = 6 g and 6 C. A tet without a gradient stays, and its multiplier too.
 template <typename Scalar>
-[[gnu::always_inline]] inline void project_compliant_volume(const Lanes<Scalar>& six_rest_volume, const Lanes<Scalar>& k,
-                                                            Lanes<Scalar>& lambda, Vertices<Scalar>& p1, Vertices<Scalar>& p2,
+[[gnu::always_inline]] inline void project_compliant_volume(const Lanes<Scalar>& six_rest_volume,
+                                                            const Lanes<Scalar>& k, Lanes<Scalar>& lambda,
+                                                            Vertices<Scalar>& p1, Vertices<Scalar>& p2,
                                                             Vertices<Scalar>& p3, Vertices<Scalar>& p4)
 {
     const LaneVector<Scalar> p21 = p2 - p1, p31 = p3 - p1, p41 = p4 - p1;
@@ -82,7 +90,8 @@ template <typename Scalar>
     const LaneVector<Scalar> n2 = cross(p31, p41);
     const LaneVector<Scalar> n3 = cross(p41, p21);
     const LaneVector<Scalar> minus_n1 = n2 + n3 + n4;
-    const Lanes<Scalar> w_n2 = p1.w * dot(minus_n1, minus_n1) + p2.w * dot(n2, n2) + p3.w * dot(n3, n3) + p4.w * dot(n4, n4);
+    const Lanes<Scalar> w_n2 =
+        p1.w * dot(minus_n1, minus_n1) + p2.w * dot(n2, n2) + p3.w * dot(n3, n3) + p4.w * dot(n4, n4);
     Lanes<Scalar> step = (-k * six_C - lambda) / (k * w_n2 + Scalar(1));
     where(!(w_n2 > Scalar(0)), step) = Scalar(0);
     lambda += step;
@@ -126,7 +135,8 @@ struct Part {
     }
 
     // The same for XPBD. lambda: of the batch.
-    [[gnu::always_inline]] void project_compliant(const Lanes<Scalar>& dt2, Scalar* lambda, Vertices<Scalar> (&p)[Shape::vertices]) const
+    [[gnu::always_inline]] void project_compliant(const Lanes<Scalar>& dt2, Scalar* lambda,
+                                                  Vertices<Scalar> (&p)[Shape::vertices]) const
     {
 #pragma GCC unroll 8
         for (int c = 0; c < Shape::constraints; ++c) {
@@ -152,14 +162,16 @@ Part<Scalar, kind> part(const Batch<Scalar, kind>* batches, int i)
 
 // C over its value at rest, of constraint c of every group; zero where there is none.
 template <typename Scalar, GroupKind kind>
-[[gnu::always_inline]] inline Lanes<Scalar> relative_error(const Part<Scalar, kind>& part, const Vertices<Scalar>* p, int c)
+[[gnu::always_inline]] inline Lanes<Scalar> relative_error(const Part<Scalar, kind>& part, const Vertices<Scalar>* p,
+                                                           int c)
 {
     const Lanes<Scalar> rest = load(part.batch->rest[c] + part.first);
     const auto& join = GroupShape<kind>::joins[c];
     if constexpr (of_edges<kind>)
         return quotient(length(p[join[0]] - p[join[1]]) - rest, rest);
     else
-        return quotient(dot(cross(p[join[1]] - p[join[0]], p[join[2]] - p[join[0]]), p[join[3]] - p[join[0]]) - rest, rest);
+        return quotient(dot(cross(p[join[1]] - p[join[0]], p[join[2]] - p[join[0]]), p[join[3]] - p[join[0]]) - rest,
+                        rest);
 }
 
 // A part does not wait for the stores of the one before: they share no vertex (../../packed/groups.hpp).
@@ -175,14 +187,16 @@ template <typename Scalar, GroupKind kind>
 }
 
 template <typename Scalar, GroupKind kind>
-[[gnu::noinline]] void project_all(const Batch<Scalar, kind>* batches, int count, Scalar dt2, Scalar* multipliers, Scalar* vertices)
+[[gnu::noinline]] void project_all(const Batch<Scalar, kind>* batches, int count, Scalar dt2, Scalar* multipliers,
+                                   Scalar* vertices)
 {
     using Shape = GroupShape<kind>;
     for (int i = 0; i < count * Part<Scalar, kind>::a_batch; ++i) {
         Vertices<Scalar> p[Shape::vertices];
         const auto constraint = part(batches, i);
         constraint.gather_from(vertices, p);
-        constraint.project_compliant(Lanes<Scalar>(dt2), multipliers + i / constraint.a_batch * Shape::constraints * batch_size, p);
+        constraint.project_compliant(Lanes<Scalar>(dt2),
+                                     multipliers + i / constraint.a_batch * Shape::constraints * batch_size, p);
         constraint.scatter_to(vertices, p);
     }
 }
@@ -205,14 +219,15 @@ template <typename Scalar>
 
 // project(constraint, k, p) for each constraint in all poses; p: its vertices.
 template <typename Scalar, typename Constraint, typename Project>
-[[gnu::always_inline]] inline void project_in_poses(const Constraint* constraints, std::size_t count, const Scalar* stiffness,
-                                                    Scalar* poses, const Project& project)
+[[gnu::always_inline]] inline void project_in_poses(const Constraint* constraints, std::size_t count,
+                                                    const Scalar* stiffness, Scalar* poses, const Project& project)
 {
     constexpr int n = sizeof(Constraint::vertex) / sizeof(std::uint32_t);
     for (const Constraint* constraint = constraints; constraint < constraints + count; ++constraint)
         for (int first = 0; first < poses_a_block; first += lanes<Scalar>) {
             Vertices<Scalar> p[n];
-            for (int i = 0; i < n; ++i) p[i] = vertex(static_cast<const Scalar*>(poses), constraint->vertex[i], first, constraint->w[i]);
+            for (int i = 0; i < n; ++i)
+                p[i] = vertex(static_cast<const Scalar*>(poses), constraint->vertex[i], first, constraint->w[i]);
             project(*constraint, load(stiffness + poses_a_block * static_cast<int>(constraint->stiffness) + first), p);
             for (int i = 0; i < n; ++i) store(p[i], poses, constraint->vertex[i], first);
         }
@@ -336,10 +351,12 @@ template void project_bind_batches(const BindBatch<float>*, int, float*);
 template void project_bind_batches(const BindBatch<double>*, int, double*);
 
 template <typename Scalar>
-void project_compliant_batches(GroupKind kind, const void* batches, int count, Scalar dt2, Scalar* multipliers, Scalar* vertices)
+void project_compliant_batches(GroupKind kind, const void* batches, int count, Scalar dt2, Scalar* multipliers,
+                               Scalar* vertices)
 {
     with_kind(kind, [&](auto of_kind) {
-        project_all<Scalar, of_kind()>(static_cast<const Batch<Scalar, of_kind()>*>(batches), count, dt2, multipliers, vertices);
+        project_all<Scalar, of_kind()>(static_cast<const Batch<Scalar, of_kind()>*>(batches), count, dt2, multipliers,
+                                       vertices);
     });
 }
 
@@ -363,12 +380,14 @@ void project_pose_tets(const PoseTet<Scalar>* tets, std::size_t count, const Sca
 }
 
 template <typename Scalar>
-void project_pose_binds(const PoseBind<Scalar>* binds, std::size_t count, const Scalar* k_bind, const Scalar* bind_points, Scalar* poses)
+void project_pose_binds(const PoseBind<Scalar>* binds, std::size_t count, const Scalar* k_bind,
+                        const Scalar* bind_points, Scalar* poses)
 {
     for (std::size_t i = 0; i < count; ++i)
         for (int first = 0; first < poses_a_block; first += lanes<Scalar>) {
             Vertices<Scalar> p = vertex(poses, i, first, binds[i].free);
-            project_bind<Scalar>(binds[i].rest_distance, load(k_bind + first) * binds[i].free, vertex(bind_points, i, first, Scalar(0)), p);
+            project_bind<Scalar>(binds[i].rest_distance, load(k_bind + first) * binds[i].free,
+                                 vertex(bind_points, i, first, Scalar(0)), p);
             store(p, poses, i, first);
         }
 }

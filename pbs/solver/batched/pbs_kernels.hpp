@@ -30,15 +30,16 @@ double sum_squared_bind_errors(const BindBatch<Scalar>* batches, int count, cons
 int kernel_lanes(int bytes_of_scalar);  // numbers that these kernels work on at once
 const char* kernel_instructions();      // AVX-512, AVX2, AVX, SSE2, baseline
 
-// The inner loops of XPBD in the orders `ordered` and `grouped`, compiled for the machine (PBS_NATIVE): raw pointers only. They are twins
-// of project_batches: the same batches and vertices, with a compliance and a multiplier for each constraint. A batch's
-// stiffness is 1 / alpha here: of an edge [N/m], and of six times the volume of a tet [N/m^5]; zero: there is no constraint. vertices: x,
-// y, z [m] and w [1/kg] of each, 16 bytes aligned in float, 32 in double.
+// The inner loops of XPBD in the orders `ordered` and `grouped`, compiled for the machine (PBS_NATIVE): raw pointers
+// only. They are twins of project_batches: the same batches and vertices, with a compliance and a multiplier for each
+// constraint. A batch's stiffness is 1 / alpha here: of an edge [N/m], and of six times the volume of a tet [N/m^5];
+// zero: there is no constraint. vertices: x, y, z [m] and w [1/kg] of each, 16 bytes aligned in float, 32 in double.
 
-// Projects `count` batches, Batch<Scalar, kind>, one after the other. dt2: the square of the substep [s^2]. multipliers: lambda of each
-// constraint of each batch in each lane, by batches, then constraints, 64 bytes aligned.
+// Projects `count` batches, Batch<Scalar, kind>, one after the other. dt2: the square of the substep [s^2].
+// multipliers: lambda of each constraint of each batch in each lane, by batches, then constraints, 64 bytes aligned.
 template <typename Scalar>
-void project_compliant_batches(GroupKind kind, const void* batches, int count, Scalar dt2, Scalar* multipliers, Scalar* vertices);
+void project_compliant_batches(GroupKind kind, const void* batches, int count, Scalar dt2, Scalar* multipliers,
+                               Scalar* vertices);
 
 // Constraints as many poses of a mesh are projected with side by side. Plain data, for builders and kernels alike.
 
@@ -71,8 +72,9 @@ struct PoseBind {
     Scalar free;           // 1, or 0 where the vertex is pinned
 };
 
-// The inner loops of many poses side by side, compiled for the machine: raw pointers only. One constraint works on sixteen poses at once,
-// so nothing is gathered. poses: of each vertex x, y, z [m] of poses_a_block poses; stiffness: of each class, k of every pose.
+// The inner loops of many poses side by side, compiled for the machine: raw pointers only. One constraint works on
+// sixteen poses at once, so nothing is gathered. poses: of each vertex x, y, z [m] of poses_a_block poses; stiffness:
+// of each class, k of every pose.
 
 // Eq. 10, edge by edge.
 template <typename Scalar>
@@ -82,6 +84,7 @@ template <typename Scalar>
 void project_pose_tets(const PoseTet<Scalar>* tets, std::size_t count, const Scalar* stiffness, Scalar* poses);
 // bind_points: q_i like poses; k_bind: of every pose. Vertex i has constraint i.
 template <typename Scalar>
-void project_pose_binds(const PoseBind<Scalar>* binds, std::size_t count, const Scalar* k_bind, const Scalar* bind_points, Scalar* poses);
+void project_pose_binds(const PoseBind<Scalar>* binds, std::size_t count, const Scalar* k_bind,
+                        const Scalar* bind_points, Scalar* poses);
 
 }  // namespace pbs

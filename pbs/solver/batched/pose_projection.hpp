@@ -1,4 +1,5 @@
-// Lines 11-13 of Algorithm 1 for many poses of a mesh side by side: the counterpart of Projection. Poses come in blocks of sixteen.
+// Lines 11-13 of Algorithm 1 for many poses of a mesh side by side: the counterpart of Projection. Poses come in blocks
+// of sixteen.
 #pragma once
 
 #include "pbs/solver/batched/batch_program.hpp"
@@ -19,8 +20,8 @@ struct PoseProgram {
 
 // constraints: with stiffness one wherever any pose has one. jiggle_zone: #V, or empty.
 template <typename Scalar>
-PoseProgram<Scalar> make_pose_program(const ConstraintSet<Scalar>& constraints, const Tets& tets, const std::vector<bool>& jiggle_zone,
-                                      Order order);
+PoseProgram<Scalar> make_pose_program(const ConstraintSet<Scalar>& constraints, const Tets& tets,
+                                      const std::vector<bool>& jiggle_zone, Order order);
 
 // A block of poses while it is projected. Lanes without a pose stay at zero.
 template <typename Scalar>

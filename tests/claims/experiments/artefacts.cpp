@@ -1,5 +1,5 @@
-// C04, C05 and C06 are judged from the values that the study of artefacts writes: if the sections and strains behind them are altered, the
-// verdicts change. Reference: the project's own claims.toml.
+// C04, C05 and C06 are judged from the values that the study of artefacts writes: if the sections and strains behind
+// them are altered, the verdicts change. Reference: the project's own claims.toml.
 
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "tests/support/artefact_samples.hpp"
@@ -16,7 +16,8 @@ using namespace test_support;
 using analysis::Measurement;
 using analysis::VerdictKind;
 
-// Five poses, the fewest cases of a verdict. PBS has the given sections; in each pose LBS is too thin, DQS too wide, and flesh as at rest.
+// Five poses, the fewest cases of a verdict. PBS has the given sections; in each pose LBS is too thin, DQS too wide,
+// and flesh as at rest.
 class ArtefactsVerdict : public testing::Test {
 protected:
     std::vector<ArtefactSample> samples_of(const std::vector<double>& pbs) const
@@ -29,8 +30,14 @@ protected:
         for (std::size_t pose = 0; pose < pbs.size(); ++pose) samples.push_back(sample("pbs", pose, pbs[pose]));
         return samples;
     }
-    std::vector<Measurement> thin(const std::vector<ArtefactSample>& samples) const { return section_values(twisted, body, samples); }
-    std::vector<Measurement> wide(const std::vector<ArtefactSample>& samples) const { return section_values(bent, body, samples); }
+    std::vector<Measurement> thin(const std::vector<ArtefactSample>& samples) const
+    {
+        return section_values(twisted, body, samples);
+    }
+    std::vector<Measurement> wide(const std::vector<ArtefactSample>& samples) const
+    {
+        return section_values(bent, body, samples);
+    }
 
     ArtefactCase twisted = small_limb(ArtefactCase::Claim::candy_wrapper, 20, {1, 2, 3, 4, 5});
     ArtefactCase bent = small_limb(ArtefactCase::Claim::bulge, 20, {1, 2, 3, 4, 5});
@@ -69,9 +76,12 @@ TEST_F(ArtefactsVerdict, WideSectionsAreABulge)
     std::vector<ArtefactSample> samples = samples_of({1.02, 1.02, 1.02, 1.02, 1.02});
     expect_values_of("C05", wide(samples));
     EXPECT_EQ(verdict_on("C05", wide(samples)), VerdictKind::holds);
-    for (const double wide_over_rest : {1.2, 2.9, 3.1, 8.0}) {  // beyond 3, only PBS itself assigns the limb to another part
-        EXPECT_EQ(verdict_on("C05", wide(samples_of({1.02, 1.02, 1.02, 1.02, wide_over_rest}))), VerdictKind::mixed) << wide_over_rest;
-        EXPECT_EQ(verdict_on("C05", wide(samples_of(std::vector(5, wide_over_rest)))), VerdictKind::fails) << wide_over_rest;
+    // beyond 3, only PBS itself assigns the limb to another part
+    for (const double wide_over_rest : {1.2, 2.9, 3.1, 8.0}) {
+        EXPECT_EQ(verdict_on("C05", wide(samples_of({1.02, 1.02, 1.02, 1.02, wide_over_rest}))), VerdictKind::mixed)
+            << wide_over_rest;
+        EXPECT_EQ(verdict_on("C05", wide(samples_of(std::vector(5, wide_over_rest)))), VerdictKind::fails)
+            << wide_over_rest;
     }
     std::erase_if(samples, [](const ArtefactSample& one) { return one.group == "reference"; });
     EXPECT_EQ(verdict_on("C05", wide(samples)), VerdictKind::inconclusive) << "there is no reference";
@@ -123,11 +133,13 @@ TEST_F(ArtefactsVerdict, RatiosAboveOneAreNotSmoother)
 
 // C04 from a twisted limb, with the correct solver and with broken ones. Reference:
 // - nothing projected: LBS remains, with radii down to cos 85 deg = 0.09 of the radius and less: a candy wrapper.
-// - bind dropped: only bind constraints contain the distance from the bone, so at 170 degrees sections are narrower than with them.
+// - bind dropped: only bind constraints contain the distance from the bone, so at 170 degrees sections are narrower
+// than with them.
 // - volume sign: the volume projections undo the effect of the bind constraints, so sections are narrower.
-// - volume or stretch dropped: the bind constraints still put every vertex at its distance, so the verdict stays at 60 degrees. There is no
-//   theory for the effect of the remaining class on the skin between the vertices. At 170 degrees, where the verdict was also expected to
-//   stay, sections fall below the bound, although they are far above those of LBS.
+// - volume or stretch dropped: the bind constraints still put every vertex at its distance, so the verdict stays at 60
+// degrees. There is no
+//   theory for the effect of the remaining class on the skin between the vertices. At 170 degrees, where the verdict
+//   was also expected to stay, sections fall below the bound, although they are far above those of LBS.
 
 constexpr int vertices = 1200;  // on a coarser mesh, sections between the vertices narrow by themselves
 
@@ -173,7 +185,8 @@ TEST(BrokenArtefacts, NothingProjectedIsLbs)
     const auto value = [&](const pbs::Positions& positions) {
         return extremes_of(body.sections.at(0).measure(positions, body.posed.pose(0))).smallest_radius;
     };
-    EXPECT_NEAR(smallest(measured), smallest(measured, "lbs"), value_rounding(lbs, coordinate_rounding_m(lbs, 2 * 24), value));
+    EXPECT_NEAR(smallest(measured), smallest(measured, "lbs"),
+                value_rounding(lbs, coordinate_rounding_m(lbs, 2 * 24), value));
 }
 
 TEST(BrokenArtefacts, WithoutBindOrWithTheSignTurnedRoundSectionsAreNarrower)

@@ -1,7 +1,8 @@
-// The verdicts on the kept records under wrong data: labels exchanged between methods, ratios inverted, values permuted among methods
-// within each case, sizes shuffled. A verdict that holds or is mixed must be lost, except where attacks.toml states why the sentence stays
-// true; one that is lost must not turn into one that holds. Reference: that table, which was written before the attacks were run. The test
-// prints one line per claim and attack, with the broken solvers that other tests put in the place of PBS:
+// The verdicts on the kept records under wrong data: labels exchanged between methods, ratios inverted, values permuted
+// among methods within each case, sizes shuffled. A verdict that holds or is mixed must be lost, except where
+// attacks.toml states why the sentence stays true; one that is lost must not turn into one that holds. Reference: that
+// table, which was written before the attacks were run. The test prints one line per claim and attack, with the broken
+// solvers that other tests put in the place of PBS:
 //   build/release/tests/test_claims_experiments --gtest_filter='Attacks.*'
 #include "analysis/records/record_files.hpp"
 #include "analysis/statistics/fits.hpp"
@@ -33,7 +34,8 @@ const Records& kept(const std::string& study)
     static std::map<std::string, Records> all;
     if (const auto found = all.find(study); found != all.end()) return found->second;
     const experiments::OpenedRecords opened(PBS_KEPT_RECORDS, {{study}});
-    Records records = experiments::read_study_records((std::filesystem::path(opened.folder()) / study).string(), opened.folder());
+    Records records =
+        experiments::read_study_records((std::filesystem::path(opened.folder()) / study).string(), opened.folder());
     for (const CaseRecord& record : records.cases)
         for (Measurement& one : frame_measurements(record)) records.measurements.push_back(std::move(one));
     records.cases.clear();
@@ -126,8 +128,9 @@ bool is_of_ratios(const Claim& claim)
     return std::ranges::all_of(claim.own.quantities, is_ratio);
 }
 
-// The labels whose values can change places: the claim's own, its controls and comparisons by the same measure, and what they are divided
-// by. A ratio to a control without effect has that control as a label too, of which the value is 1.
+// The labels whose values can change places: the claim's own, its controls and comparisons by the same measure, and
+// what they are divided by. A ratio to a control without effect has that control as a label too, of which the value
+// is 1.
 std::vector<CaseKey> labels_of(const Claim& claim)
 {
     std::vector<CaseKey> labels = {claim.own.of};
@@ -149,7 +152,8 @@ std::vector<CasePlaces> cases_of(const Claim& claim, const Rows& rows)
             if (!is_of(claim.own, labels[label], rows[row])) continue;
             std::string one_case = rows[row].quantity;
             for (const std::string& name : claim.case_fields)
-                if (const CaseKeyField* field = case_key_field(name)) one_case += "|" + value_text(*field, rows[row].of);
+                if (const CaseKeyField* field = case_key_field(name))
+                    one_case += "|" + value_text(*field, rows[row].of);
             cases[one_case][label].push_back(row);
             break;
         }
@@ -168,7 +172,8 @@ void shuffle(std::vector<double>& values, std::mt19937& random)
 }
 
 // Gives the rows the values of `from`, permuted within each case. The other rows stay.
-void permute(Rows& rows, const Rows& from, const Claim& claim, const std::vector<CasePlaces>& cases, std::mt19937& random)
+void permute(Rows& rows, const Rows& from, const Claim& claim, const std::vector<CasePlaces>& cases,
+             std::mt19937& random)
 {
     const bool has_unity = claim.no_effect > 0.0 && is_of_ratios(claim);
     for (const CasePlaces& labels : cases) {
@@ -201,7 +206,8 @@ std::map<std::string, std::string> allowed(const std::string& claim)
     return reasons;
 }
 
-void print(const std::string& claim, const std::string& attack, const std::string& before, const std::string& after, const std::string& why)
+void print(const std::string& claim, const std::string& attack, const std::string& before, const std::string& after,
+           const std::string& why)
 {
     fmt::print("{:5} {:55} {:22} {:25} {}\n", claim, attack, before, after, why);
 }
@@ -241,7 +247,8 @@ protected:
         int lost = 0, held = 0;
         for (int i = 0; i < permutations; ++i) {
             const VerdictKind kind = draw(random);
-            // One number whose range contains the threshold is mixed: nothing is shown, and a verdict that holds is lost.
+            // One number whose range contains the threshold is mixed: nothing is shown, and a verdict that holds is
+            // lost.
             lost += is_lost(kind) || (claim_.rule == ClaimRule::single && kind == mixed);
             held += kind == holds;
         }
@@ -267,7 +274,8 @@ TEST_P(Attacks, LoseTheVerdictOrHaveAReason)
         expect("exchange: " + other.name, judged_on(claim_, exchanged(rows_, claim_.own, claim_.own.of, other.of)));
         for (const Selection& one : alike) {
             const VerdictKind after = judged_on(claim_, exchanged(rows_, claim_.own, one.of, other.of));
-            print(claim_.id, "exchange: " + one.name + " with " + other.name, name_of(before_), name_of(after), "PBS keeps its values");
+            print(claim_.id, "exchange: " + one.name + " with " + other.name, name_of(before_), name_of(after),
+                  "PBS keeps its values");
             EXPECT_FALSE(is_lost(before_) && after == holds) << one.name << " with " << other.name;
         }
         alike.push_back(other);
@@ -294,7 +302,8 @@ std::vector<std::string> judged_by_cases()
     return ids;
 }
 
-INSTANTIATE_TEST_SUITE_P(OfTheKeptRecords, Attacks, testing::ValuesIn(judged_by_cases()), [](const auto& claim) { return claim.param; });
+INSTANTIATE_TEST_SUITE_P(OfTheKeptRecords, Attacks, testing::ValuesIn(judged_by_cases()),
+                         [](const auto& claim) { return claim.param; });
 
 // C12b: the iterations of the ladder's meshes, each at the size of another one, fitted anew.
 class ShuffledSizes : public Attacks {};
@@ -313,12 +322,14 @@ TEST_P(ShuffledSizes, LoseTheVerdict)
         shuffle(vertices, random);
         Rows rows = rows_;
         const Interval slope = observed_order(vertices, iterations, 0.99);
-        for (Measurement& one : rows) std::tie(one.value, one.low, one.high) = std::tie(slope.estimate, slope.low, slope.high);
+        for (Measurement& one : rows)
+            std::tie(one.value, one.low, one.high) = std::tie(slope.estimate, slope.low, slope.high);
         return judged_on(claim_, rows);
     });
 }
 
-INSTANTIATE_TEST_SUITE_P(OfTheKeptRecords, ShuffledSizes, testing::Values("C12b"), [](const auto& claim) { return claim.param; });
+INSTANTIATE_TEST_SUITE_P(OfTheKeptRecords, ShuffledSizes, testing::Values("C12b"),
+                         [](const auto& claim) { return claim.param; });
 
 // The rest of the table: claims without an attack, and broken solvers.
 TEST(AttackTable, NamesEveryClaim)

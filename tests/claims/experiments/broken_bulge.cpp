@@ -1,13 +1,16 @@
-// C05 from a limb bent by 30 and 60 degrees, compared with neo-Hookean elements, with the correct solver in the order of the file and
-// double precision, with broken ones and with a blend in its place. Reference:
+// C05 from a limb bent by 30 and 60 degrees, compared with neo-Hookean elements, with the correct solver in the order
+// of the file and double precision, with broken ones and with a blend in its place. Reference:
 // - nothing projected: LBS remains, whose crease bulges to the sides: wider than the reference.
 // - DQS in its place: the bulge of the claim, a ridge across the joint.
-// - bind or stretch dropped: the crease of LBS changes tets, and the volume constraints reverse it with the class that is left. Without
-//   volume constraints nothing is expected: edges alone do not determine a section, and its radius depends on the sequence of projections.
+// - bind or stretch dropped: the crease of LBS changes tets, and the volume constraints reverse it with the class that
+// is left. Without
+//   volume constraints nothing is expected: edges alone do not determine a section, and its radius depends on the
+//   sequence of projections.
 // - volume sign: every projection doubles the error that it should remove, so nothing keeps its size.
-// - flesh too thick: the solver's own rest state is 1.2 times as thick around the joint, and its tets are 1.44 times as large there, as all
-//   constraints require. By geometry, sections are 1.2 times as wide and 1.44 times as large at rest, and bending changes a section of the
-//   correct solver by far less.
+// - flesh too thick: the solver's own rest state is 1.2 times as thick around the joint, and its tets are 1.44 times as
+// large there, as all
+//   constraints require. By geometry, sections are 1.2 times as wide and 1.44 times as large at rest, and bending
+//   changes a section of the correct solver by far less.
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "pbs/solver/options.hpp"
@@ -33,8 +36,9 @@ using experiments::Shapes;
 experiments::ArtefactCase small_bend()
 {
     experiments::ArtefactCase of;
-    of.scene = experiments::read_scene("limb_bend", {"character.vertices=1200", "motion.angle_deg=60", "motion.frames=3", "pbs.order=plain",
-                                                     "pbs.precision=f64", R"(deformers.use=["lbs", "dqs", "pbs", "nh_p1"])"});
+    of.scene = experiments::read_scene(
+        "limb_bend", {"character.vertices=1200", "motion.angle_deg=60", "motion.frames=3", "pbs.order=plain",
+                      "pbs.precision=f64", R"(deformers.use=["lbs", "dqs", "pbs", "nh_p1"])"});
     of.claim = experiments::ArtefactCase::Claim::bulge;
     of.poses = {{1, "bend_30_deg", {.angle_deg = 30.0}}, {2, "bend_60_deg", {.angle_deg = 60.0}}};
     return of;
@@ -63,7 +67,8 @@ Shapes solved(Broken how, pbs::Order order = pbs::Order::plain)
     return limb().body.posed.shapes(spec);
 }
 
-void add_samples(const std::string& group, const Shapes& shapes, int element_order, std::vector<ArtefactSample>& samples)
+void add_samples(const std::string& group, const Shapes& shapes, int element_order,
+                 std::vector<ArtefactSample>& samples)
 {
     for (std::size_t pose = 0; pose < shapes.size(); ++pose) {
         ASSERT_TRUE(shapes[pose].finished) << group;
@@ -130,12 +135,12 @@ TEST(BrokenBulge, AsItIsThereIsNone)
     for (std::size_t pose = 0; pose < own.size(); ++pose) EXPECT_EQ(again.at(pose).positions, own[pose].positions);
 }
 
-// The widest section of a bent limb near its joint, computed differently from JointSections: the points at which a plane crosses the edges
-// of the skin are ordered by their angle about the bone. This is valid for limbs that are cut once, in an outline that is star-shaped about
-// the bone.
+// The widest section of a bent limb near its joint, computed differently from JointSections: the points at which a
+// plane crosses the edges of the skin are ordered by their angle about the bone. This is valid for limbs that are cut
+// once, in an outline that is star-shaped about the bone.
 
-std::vector<Eigen::Vector2d> crossings(const pbs::Positions& positions, const pbs::Triangles& skin, const pbs::Vec3& point,
-                                       const pbs::Vec3& normal)
+std::vector<Eigen::Vector2d> crossings(const pbs::Positions& positions, const pbs::Triangles& skin,
+                                       const pbs::Vec3& point, const pbs::Vec3& normal)
 {
     const pbs::Vec3 u = normal.unitOrthogonal(), v = normal.normalized().cross(u);
     std::vector<Eigen::Vector2d> found;
@@ -143,11 +148,13 @@ std::vector<Eigen::Vector2d> crossings(const pbs::Positions& positions, const pb
         for (int corner = 0; corner < 3; ++corner) {
             const pbs::Vec3 a = positions.row(triangle(corner)), b = positions.row(triangle((corner + 1) % 3));
             const double below = (a - point).dot(normal), above = (b - point).dot(normal);
-            if (!(below < 0.0 && above >= 0.0)) continue;  // each edge only once; in its other triangle it runs from b to a
+            // each edge only once; in its other triangle it runs from b to a
+            if (!(below < 0.0 && above >= 0.0)) continue;
             const pbs::Vec3 at = (above * a - below * b) / (above - below) - point;
             found.push_back({at.dot(u), at.dot(v)});
         }
-    std::sort(found.begin(), found.end(), [](const auto& p, const auto& q) { return std::atan2(p.y(), p.x()) < std::atan2(q.y(), q.x()); });
+    std::sort(found.begin(), found.end(),
+              [](const auto& p, const auto& q) { return std::atan2(p.y(), p.x()) < std::atan2(q.y(), q.x()); });
     return found;
 }
 
@@ -164,16 +171,18 @@ double largest_radius_m(const std::vector<Eigen::Vector2d>& outline)
     return largest;
 }
 
-// The plane passes through the bone, `offset_m` from the joint; within 3 radii on each side it turns from one bone's direction to the
-// other's.
-double hand_cut(const experiments::ArtefactBody& body, const pbs::Positions& positions, const pbs::Pose& pose, double offset_m)
+// The plane passes through the bone, `offset_m` from the joint; within 3 radii on each side it turns from one bone's
+// direction to the other's.
+double hand_cut(const experiments::ArtefactBody& body, const pbs::Positions& positions, const pbs::Pose& pose,
+                double offset_m)
 {
     const experiments::LimbJoint& joint = body.joints.at(0);
     const auto& bones = body.posed.character().skeleton.bones;
     const auto along = [&](int bone) { return pbs::Vec3((bones[bone].tail - bones[bone].head).normalized()); };
     const int carrier = offset_m < 0.0 ? joint.parent : joint.child;
     const double turned = 0.5 + offset_m / (6.0 * joint.radius_m);
-    const pbs::Vec3 before = pose[joint.parent].linear() * along(joint.parent), after = pose[joint.child].linear() * along(joint.child);
+    const pbs::Vec3 before = pose[joint.parent].linear() * along(joint.parent),
+                    after = pose[joint.child].linear() * along(joint.child);
     const pbs::Vec3 point = pose[carrier] * pbs::Vec3(joint.point + offset_m * along(carrier));
     return largest_radius_m(crossings(positions, body.posed.boundary(), point, before + turned * (after - before)));
 }
@@ -185,11 +194,13 @@ double hand_cut_widest(const experiments::ArtefactBody& body, const pbs::Positio
     const pbs::Pose still(pose.size(), Eigen::Isometry3d::Identity());
     double widest = 0.0;
     for (const experiments::JointSection& section : body.sections.at(0).measure(rest, still))
-        widest = std::max(widest, hand_cut(body, positions, pose, section.offset_m) / hand_cut(body, rest, still, section.offset_m));
+        widest = std::max(
+            widest, hand_cut(body, positions, pose, section.offset_m) / hand_cut(body, rest, still, section.offset_m));
     return widest;
 }
 
-// A point at which a plane cuts an edge goes through six roundings, and the heights of the edge's ends through eight, on both sides.
+// A point at which a plane cuts an edge goes through six roundings, and the heights of the edge's ends through eight,
+// on both sides.
 template <typename Value>
 double of_cuts(const pbs::Positions& positions, Value value)
 {
@@ -239,7 +250,8 @@ TEST(BrokenBulge, FleshTakenTooThickRoundTheJointIsABulge)
     EXPECT_EQ(without_bulge(measure(solved_with(thickened(limb().body.posed.character(), thicker), bent_poses()))), 0);
 }
 
-// This shape satisfies every constraint, so the solver leaves it unchanged. Sections farther away than a radius have thin neighbours.
+// This shape satisfies every constraint, so the solver leaves it unchanged. Sections farther away than a radius have
+// thin neighbours.
 TEST(BrokenBulge, AtRestItIsAsThickAsItWasTaken)
 {
     const pbs::Pose still(2, Eigen::Isometry3d::Identity());
@@ -256,7 +268,8 @@ TEST(BrokenBulge, AtRestItIsAsThickAsItWasTaken)
     int sections = 0;
     for (const auto& section : limb().body.sections.at(0).measure(rest.at(0).positions, still)) {
         if (std::abs(section.offset_m) > limb().body.joints.at(0).radius_m) continue;
-        EXPECT_NEAR(section.largest_radius, thicker, of_float(section.offset_m, &experiments::JointSection::largest_radius));
+        EXPECT_NEAR(section.largest_radius, thicker,
+                    of_float(section.offset_m, &experiments::JointSection::largest_radius));
         EXPECT_NEAR(section.area, thicker * thicker, of_float(section.offset_m, &experiments::JointSection::area));
         ++sections;
     }

@@ -1,9 +1,12 @@
-// C06 from a limb twisted by 90 degrees, with the weights of Eq. 2, with broken weights and with a broken solver, in the order of the file
-// and double precision. (In a bend the correct weights already fail it.) Reference:
-// - Eq. 2: both bones carry the vertices within a sixth of their length from the joint with equal weights, so two layers of tets take half
+// C06 from a limb twisted by 90 degrees, with the weights of Eq. 2, with broken weights and with a broken solver, in
+// the order of the file and double precision. (In a bend the correct weights already fail it.) Reference:
+// - Eq. 2: both bones carry the vertices within a sixth of their length from the joint with equal weights, so two
+// layers of tets take half
 //   of the twist each; with rigid weights one layer takes all of it.
-// - rigid: weights that are in fact the rigid ones are exactly as smooth, to the bit: the ratio is 1, which is not smoother.
-// - bones in turn: those vertices are carried by one bone or the other, so LBS tears each from its neighbours. Weights only determine the
+// - rigid: weights that are in fact the rigid ones are exactly as smooth, to the bit: the ratio is 1, which is not
+// smoother.
+// - bones in turn: those vertices are carried by one bone or the other, so LBS tears each from its neighbours. Weights
+// only determine the
 //   initial guess of the solver, which undoes the tears, so its own value does not change.
 // - nothing projected: LBS remains, whose value no solver changes, and the tears remain.
 #include "pbs/geometry/tet_mesh.hpp"
@@ -59,7 +62,8 @@ bool is_blended(int vertex)
     return limb().binding.bone[vertex] == 0 ? t > 5.0 / 6.0 : t < 1.0 / 6.0;
 }
 
-// Makes a weights file: each blended vertex has the forearm's weight by its number, and every other vertex belongs to the nearest bone.
+// Makes a weights file: each blended vertex has the forearm's weight by its number, and every other vertex belongs to
+// the nearest bone.
 template <typename ForearmWeight>
 WeightsComparison twisted_with(ForearmWeight forearm_weight, Broken how = Broken::nothing)
 {
@@ -115,8 +119,9 @@ double in_turn(int vertex)
     return is_blended(vertex) ? vertex % 2 : rigidly(vertex);
 }
 
-// The jump of strain between neighbouring tets, computed differently from SmoothnessMetrics: Green's strain of a tet follows from the
-// change of its six edge lengths, l^2 - L^2 = 2 e^T E e, without a deformation gradient; areas by Heron's formula.
+// The jump of strain between neighbouring tets, computed differently from SmoothnessMetrics: Green's strain of a tet
+// follows from the change of its six edge lengths, l^2 - L^2 = 2 e^T E e, without a deformation gradient; areas by
+// Heron's formula.
 
 Eigen::Matrix3d strain_by_lengths(const pbs::Positions& rest, const pbs::Positions& now, const std::array<int, 4>& tet)
 {
@@ -126,7 +131,8 @@ Eigen::Matrix3d strain_by_lengths(const pbs::Positions& rest, const pbs::Positio
     for (int a = 0; a < 4; ++a)
         for (int b = a + 1; b < 4; ++b, ++row) {
             const pbs::Vec3 e = rest.row(tet[b]) - rest.row(tet[a]), moved = now.row(tet[b]) - now.row(tet[a]);
-            of_components.row(row) << e.x() * e.x(), e.y() * e.y(), e.z() * e.z(), 2 * e.x() * e.y(), 2 * e.x() * e.z(), 2 * e.y() * e.z();
+            of_components.row(row) << e.x() * e.x(), e.y() * e.y(), e.z() * e.z(), 2 * e.x() * e.y(), 2 * e.x() * e.z(),
+                2 * e.y() * e.z();
             changes(row) = 0.5 * (moved.squaredNorm() - e.squaredNorm());
         }
     const Eigen::Matrix<double, 6, 1> c = of_components.fullPivLu().solve(changes);
@@ -145,7 +151,8 @@ double heron(const pbs::Positions& points, const std::set<int>& corners)
 
 double hand_strain_jump(const pbs::TetMesh& mesh, const std::vector<bool>& near, const pbs::Positions& now)
 {
-    std::map<std::set<int>, std::vector<Eigen::Matrix3d>> sides;  // the strains of the tets on both sides of each face of the region
+    // the strains of the tets on both sides of each face of the region
+    std::map<std::set<int>, std::vector<Eigen::Matrix3d>> sides;
     for (const auto row : mesh.tets.rowwise()) {
         const std::array<int, 4> tet = {row(0), row(1), row(2), row(3)};
         const Eigen::Matrix3d strain = strain_by_lengths(mesh.rest, now, tet);
@@ -173,12 +180,14 @@ double jump(const pbs::Positions& positions)
     return hand_strain_jump(limb().mesh, near, positions);
 }
 
-// The rounding of the ratio of these positions' jump to that of rigid ones. Positions go through 24 roundings of two motions, on both
-// sides, and edges and their squares through two. The strains here solve for six components, in a dozen roundings of squared lengths.
+// The rounding of the ratio of these positions' jump to that of rigid ones. Positions go through 24 roundings of two
+// motions, on both sides, and edges and their squares through two. The strains here solve for six components, in a
+// dozen roundings of squared lengths.
 double ratio_rounding(const pbs::Positions& positions)
 {
     const pbs::Positions rigid = turned(rigidly);
-    const double rounding_m = coordinate_rounding_m(positions, 2 * (24 + 2) + 12), of_rigid = value_rounding(rigid, rounding_m, jump);
+    const double rounding_m = coordinate_rounding_m(positions, 2 * (24 + 2) + 12),
+                 of_rigid = value_rounding(rigid, rounding_m, jump);
     return (value_rounding(positions, rounding_m, jump) + jump(positions) / jump(rigid) * of_rigid) / jump(rigid);
 }
 
@@ -200,7 +209,8 @@ TEST(BrokenWeights, TheFigureOfLbsIsTheRatioOfStrainsByHand)
 TEST(BrokenWeights, Equation2FromAFileIsEquation2)
 {
     const WeightsComparison from_file = twisted_with([](int) { return 0.5; });
-    for (const analysis::CaseKey& of : {of_pbs, of_lbs}) EXPECT_EQ(measurement(from_file, of).value, measurement(sound(), of).value);
+    for (const analysis::CaseKey& of : {of_pbs, of_lbs})
+        EXPECT_EQ(measurement(from_file, of).value, measurement(sound(), of).value);
 }
 
 TEST(BrokenWeights, RigidOnesInTheirPlaceAreNotSmoother)

@@ -1,5 +1,6 @@
-// C09a and C09b are judged from the values that the study of jiggle writes: if the responses behind them are altered, the verdicts change.
-// Reference: the project's own claims.toml; invented flesh that comes to rest and whose amplitude falls with k_stretch.
+// C09a and C09b are judged from the values that the study of jiggle writes: if the responses behind them are altered,
+// the verdicts change. Reference: the project's own claims.toml; invented flesh that comes to rest and whose amplitude
+// falls with k_stretch.
 
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
@@ -27,7 +28,8 @@ using Change = std::function<void(ResponseRow&)>;
 // One change at a time, as in the study.
 std::vector<ResponseRow> settings_of_a_body()
 {
-    std::vector<ResponseRow> settings = {{}, {.time_step_ms = 5.0}, {.iterations = 96}, {.k_bind = 0.0}, {.masses = "lumped"}};
+    std::vector<ResponseRow> settings = {
+        {}, {.time_step_ms = 5.0}, {.iterations = 96}, {.k_bind = 0.0}, {.masses = "lumped"}};
     for (const double k_stretch : {0.05, 0.2, 0.35, 0.5, 0.7, 0.9, 1.0}) settings.push_back({.k_stretch = k_stretch});
     return settings;
 }
@@ -83,7 +85,8 @@ TEST(JiggleVerdict, HoldsForFleshThatComesToRestAndFallsWithKStretch)
         const Verdict judged = verdict(id, as_it_is);
         EXPECT_EQ(judged.kind, VerdictKind::holds) << id;
         EXPECT_EQ(judged.own.n, 5) << id;
-        for (const Judged& control : judged.others) EXPECT_TRUE(control.behaves) << id << ", " << control.selection.name;
+        for (const Judged& control : judged.others)
+            EXPECT_TRUE(control.behaves) << id << ", " << control.selection.name;
     }
 }
 
@@ -99,10 +102,13 @@ TEST(JiggleVerdict, TurnsWithTheRestAndTheAmplitudesOfTheBodies)
         {"C09a", "nothing swings", [](ResponseRow& one) { one = creeping(one); }},
         {"C09a", "one setting breaks down", [](ResponseRow& one) { one.response.finished = one.iterations != 96; }},
         {"C09b", "k_stretch does not move it", ignore_k_stretch},
-        {"C09b", "k_stretch hardly moves it", [](ResponseRow& one) { one.response.overshoot_over_jolt = 0.4 - 0.05 * one.k_stretch; }},
-        {"C09b", "k_stretch raises it", [](ResponseRow& one) { one.response.overshoot_over_jolt = 0.2 + 0.2 * one.k_stretch; }},
-        {"C09b", "it rises first",
-         [](ResponseRow& one) { one.response.overshoot_over_jolt = one.k_stretch < 0.4 ? one.k_stretch : 0.4 - 0.2 * one.k_stretch; }}};
+        {"C09b", "k_stretch hardly moves it",
+         [](ResponseRow& one) { one.response.overshoot_over_jolt = 0.4 - 0.05 * one.k_stretch; }},
+        {"C09b", "k_stretch raises it",
+         [](ResponseRow& one) { one.response.overshoot_over_jolt = 0.2 + 0.2 * one.k_stretch; }},
+        {"C09b", "it rises first", [](ResponseRow& one) {
+             one.response.overshoot_over_jolt = one.k_stretch < 0.4 ? one.k_stretch : 0.4 - 0.2 * one.k_stretch;
+         }}};
     for (const auto& [id, why, change] : wrong) {
         EXPECT_EQ(verdict(id, change).kind, VerdictKind::fails) << why;
         EXPECT_EQ(verdict(id, change, 3).kind, VerdictKind::fails) << why;
@@ -120,17 +126,21 @@ TEST(JiggleVerdict, OtherReadingsDoNotTurnIt)
     for (const char* id : {"C09a", "C09b"}) EXPECT_EQ(verdict(id, otherwise).kind, VerdictKind::holds) << id;
 }
 
-// C09 from a small limb jolted along its bones by 2 mm, with the correct solver and with broken ones, all in the order plain. Reference:
-// - nothing projected: nothing pulls the flesh after the skeleton, so it lags behind by the whole jolt for ever and swings at no setting.
+// C09 from a small limb jolted along its bones by 2 mm, with the correct solver and with broken ones, all in the order
+// plain. Reference:
+// - nothing projected: nothing pulls the flesh after the skeleton, so it lags behind by the whole jolt for ever and
+// swings at no setting.
 // - stretch dropped: k_stretch has nothing to act on, so every value of it gives the same series, to the bit.
-// - volume sign: the projections add energy, so at no setting does the flesh come to rest as well as with the correct solver.
-// - one class dropped: fewer constraints hold the flesh, so every frequency falls (Rayleigh), and it still swings. A jolt along the spheres
+// - volume sign: the projections add energy, so at no setting does the flesh come to rest as well as with the correct
+// solver.
+// - one class dropped: fewer constraints hold the flesh, so every frequency falls (Rayleigh), and it still swings. A
+// jolt along the spheres
 //   of the bind constraints was expected not to involve them, but they hold the parts to which the flesh is attached.
 // - any: half the time step still gives twice the frequency, since Algorithm 1 contains steps but no time.
 
 const JoltCase small_limb{.scene = "limb_twist",
-                          .overrides = {"character.vertices=300", "pbs.k_stretch=1", "pbs.jiggle.k_stretch=0.1", "pbs.jiggle.k_bind=1",
-                                        "pbs.order=plain", "pbs.precision=f64"},
+                          .overrides = {"character.vertices=300", "pbs.k_stretch=1", "pbs.jiggle.k_stretch=0.1",
+                                        "pbs.jiggle.k_bind=1", "pbs.order=plain", "pbs.precision=f64"},
                           .settings = {{},
                                        {"pbs.jiggle.k_stretch=0.05"},
                                        {"pbs.jiggle.k_stretch=0.2"},
@@ -179,7 +189,8 @@ TEST(BrokenJiggle, AsItIsItComesToRestAndKStretchSetsTheFrequency)
     EXPECT_TRUE(holds("C09a", Broken::nothing));
     EXPECT_EQ(value(Broken::nothing, share), 1.0);
     EXPECT_GT(value(Broken::nothing, amplitudes), 1.0);
-    EXPECT_GT(values_of(jiggle_values("limb", jolted(Broken::nothing)), "frequency_ratio_over_k_stretch").at(0).low, 1.0);
+    EXPECT_GT(values_of(jiggle_values("limb", jolted(Broken::nothing)), "frequency_ratio_over_k_stretch").at(0).low,
+              1.0);
     EXPECT_GT(value(Broken::nothing, "rank_correlation_of_frequency_and_k_stretch"), 0.9);
 }
 
@@ -220,7 +231,8 @@ TEST(BrokenJiggle, TheSignTurnedRoundDoesNotComeToRest)
 TEST(BrokenJiggle, WithOneClassLessItSwingsMoreSlowlyAndAStepIsAStep)
 {
     const auto frequency = [](Broken how) {
-        return values_of(jiggle_values("limb", jolted(how)), "frequency_hz", {.k_stretch = 0.1, .iterations = 24.0, .time_step_s = 0.01})
+        return values_of(jiggle_values("limb", jolted(how)), "frequency_hz",
+                         {.k_stretch = 0.1, .iterations = 24.0, .time_step_s = 0.01})
             .at(0);
     };
     for (const Broken how : {Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped}) {
@@ -231,8 +243,8 @@ TEST(BrokenJiggle, WithOneClassLessItSwingsMoreSlowlyAndAStepIsAStep)
         EXPECT_EQ(value(how, "frequency_ratio_at_half_time_step"), 2.0) << name_of(how);  // halves are exact
 }
 
-// The study's own controls on a small limb: LBS has no amplitude, undamped elements do not come to rest, damped ones do, and swing less far
-// the stiffer they are.
+// The study's own controls on a small limb: LBS has no amplitude, undamped elements do not come to rest, damped ones
+// do, and swing less far the stiffer they are.
 TEST(JiggleControls, OfTheStudyBehave)
 {
     const test_support::ScratchFolder folder;

@@ -1,5 +1,5 @@
-// C07 is judged from the momentum study's own values: if they are altered, the verdict changes. Reference: Newton's third law; projections
-// with the masses of the momentum conserve it, and Eq. 8-9 for m = 1 on unequal masses do not.
+// C07 is judged from the momentum study's own values: if they are altered, the verdict changes. Reference: Newton's
+// third law; projections with the masses of the momentum conserve it, and Eq. 8-9 for m = 1 on unequal masses do not.
 
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "tests/support/broken_solver.hpp"
@@ -35,7 +35,8 @@ TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndTurnsWithItsValues)
         for (auto& measured : records.measurements) change(measured);
         return judge(claim("C07"), records).kind;
     };
-    for (const auto& [drift, kind] : {std::pair(1e-13, VerdictKind::holds), {1e-9, VerdictKind::fails}, {0.1, VerdictKind::fails}})
+    for (const auto& [drift, kind] :
+         {std::pair(1e-13, VerdictKind::holds), {1e-9, VerdictKind::fails}, {0.1, VerdictKind::fails}})
         EXPECT_EQ(kind_with([drift = drift](analysis::Measurement& one) {
                       if (one.of.masses == "equal") one.value = one.low = one.high = drift;
                   }),
@@ -51,7 +52,8 @@ TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndTurnsWithItsValues)
 
 // C07 from correct and broken projections. Reference:
 // - volume sign: corrections are reversed and still add up to zero, so the verdict must stay (Eq. 3-4 require no more).
-// - printed labels: gradients at the wrong particles still add up to zero (Eq. 15), but their moments do not: angular momentum is lost,
+// - printed labels: gradients at the wrong particles still add up to zero (Eq. 15), but their moments do not: angular
+// momentum is lost,
 //   linear momentum is not.
 // - a class dropped: a class that is not projected has no drift, so it is not counted as conserved.
 // A case is a class and linear or angular momentum.
@@ -87,8 +89,10 @@ std::vector<Measurement> drifts(const pbs::PbsOptions& options)
         const analysis::CaseKey key = {.body = "limb", .precision = "f64", .masses = "equal", .constraint = of};
         measured.push_back({"C07", std::string(direction) + "_drift" + quantity, key, drift, drift, drift, "1"});
     };
-    for (const auto& [projected, name] : {std::pair{ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}})
-        for (const auto& [measure, quantity] : {std::pair{&drift_of_projections, ""}, {&drift_of_a_pass, "_of_a_pass"}}) {
+    for (const auto& [projected, name] :
+         {std::pair{ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}})
+        for (const auto& [measure, quantity] :
+             {std::pair{&drift_of_projections, ""}, {&drift_of_a_pass, "_of_a_pass"}}) {
             const MomentumDrift drift = measure(character, limb().pose, options, projected, Masses::unit);
             add("linear", quantity, name, drift.linear);
             add("angular", quantity, name, drift.angular);
@@ -96,7 +100,8 @@ std::vector<Measurement> drifts(const pbs::PbsOptions& options)
     return measured;
 }
 
-// The cases that hold, by class and quantity, from single projections: a pass conserves angular momentum only to first order.
+// The cases that hold, by class and quantity, from single projections: a pass conserves angular momentum only to first
+// order.
 std::vector<std::string> conserved(const std::vector<Measurement>& measured)
 {
     std::vector<std::string> held;
@@ -134,7 +139,8 @@ TEST(BrokenMomentum, GradientsUnderTheWrongParticlesLoseAngularMomentum)
     options.volume_form = pbs::VolumeForm::labels_relative;
     const auto wrong = drifts(options);
     // Three labels of four are wrong, and so are the corrections; they are not smaller than the right ones.
-    for (const auto& [projected, name] : {std::pair{ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}}) {
+    for (const auto& [projected, name] :
+         {std::pair{ProjectedClass::stretch, "stretch"}, {ProjectedClass::volume, "volume"}}) {
         EXPECT_LT(drift(wrong, "linear_drift", name), rounding_of(projected).linear);
         EXPECT_LT(drift(wrong, "linear_drift_of_a_pass", name), rounding_of(projected).of_a_pass);
     }

@@ -19,7 +19,8 @@ using analysis::VerdictKind;
 using test_support::claim;
 
 // A trial in the paper's order and f64, of which one step is left: at rest unless it has diverged.
-MeasuredCell cell_of(const std::string& factor, StabilityOutcome outcome, const std::string& body = "limb", double time_step_s = 0.1)
+MeasuredCell cell_of(const std::string& factor, StabilityOutcome outcome, const std::string& body = "limb",
+                     double time_step_s = 0.1)
 {
     MeasuredCell measured;
     measured.cell.body = body;
@@ -62,7 +63,8 @@ MeasuredCell moving(MeasuredCell measured)
 
 const StabilityOutcome ran_away_outcomes[] = {StabilityOutcome::diverged, StabilityOutcome::not_finite};
 
-// 20 cases of C08a on 5 bodies, which are the cases of C08b, and the controls. `unsettled` of the bodies do not come to rest.
+// 20 cases of C08a on 5 bodies, which are the cases of C08b, and the controls. `unsettled` of the bodies do not come to
+// rest.
 std::vector<MeasuredCell> trials(int unsettled, bool sign_diverges = true, bool undisturbed_rests = true)
 {
     std::vector<MeasuredCell> cells;
@@ -73,7 +75,8 @@ std::vector<MeasuredCell> trials(int unsettled, bool sign_diverges = true, bool 
         }
         --unsettled;
     }
-    cells.push_back(other_cell("pbs_printed_sign", sign_diverges ? StabilityOutcome::diverged : StabilityOutcome::converged));
+    cells.push_back(
+        other_cell("pbs_printed_sign", sign_diverges ? StabilityOutcome::diverged : StabilityOutcome::converged));
     const MeasuredCell undisturbed = other_cell("pbs_undisturbed", StabilityOutcome::converged);
     cells.push_back(undisturbed_rests ? undisturbed : moving(undisturbed));
     return cells;
@@ -84,8 +87,8 @@ VerdictKind verdict_on_trials(const std::string& id, const std::vector<MeasuredC
     return test_support::verdict_on(id, values_from(cells));
 }
 
-// Theory: the control fails in its one case, so that chance has q = 1/3. It reaches 16 of 20 cases with a probability of 2e-5, 5 of 5
-// bodies with 0.004 and 4 of 5 with 0.045.
+// Theory: the control fails in its one case, so that chance has q = 1/3. It reaches 16 of 20 cases with a probability
+// of 2e-5, 5 of 5 bodies with 0.004 and 4 of 5 with 0.045.
 TEST(StabilityVerdict, TurnsWithTheBodiesThatDoNotComeToRestAndWithTheControls)
 {
     using enum VerdictKind;
@@ -94,7 +97,8 @@ TEST(StabilityVerdict, TurnsWithTheBodiesThatDoNotComeToRestAndWithTheControls)
         VerdictKind of_small_steps, of_large_steps;
     };
     for (const auto& [unsettled, of_small_steps, of_large_steps] :
-         {Expected{0, holds, holds}, Expected{1, mixed, not_shown}, Expected{3, fails, fails}, Expected{5, fails, fails}}) {
+         {Expected{0, holds, holds}, Expected{1, mixed, not_shown}, Expected{3, fails, fails},
+          Expected{5, fails, fails}}) {
         EXPECT_EQ(verdict_on_trials("C08a", trials(unsettled)), of_small_steps) << unsettled;
         EXPECT_EQ(verdict_on_trials("C08b", trials(unsettled)), of_large_steps) << unsettled;
     }
@@ -102,16 +106,17 @@ TEST(StabilityVerdict, TurnsWithTheBodiesThatDoNotComeToRestAndWithTheControls)
         EXPECT_EQ(verdict_on_trials(id, trials(0, false)), inconclusive) << id << ": the printed sign is stable";
         EXPECT_EQ(verdict_on_trials(id, trials(0, true, false)), inconclusive) << id << ": what nothing disturbs moves";
     }
-    EXPECT_EQ(verdict_on_trials("C08a", {cell_of("time_step", StabilityOutcome::converged)}), inconclusive) << "without controls";
+    EXPECT_EQ(verdict_on_trials("C08a", {cell_of("time_step", StabilityOutcome::converged)}), inconclusive)
+        << "without controls";
 }
 
 TEST(StabilityVerdict, OneTrialThatIsNotAtRestIsEnoughForItsUnit)
 {
     const auto unit_holds = [](const MeasuredCell& second) {
         const auto c08a = claim("C08a");
-        const analysis::Judged own =
-            judged(c08a, c08a.own,
-                   values_from({cell_of("twist", StabilityOutcome::converged), cell_of("twist", StabilityOutcome::inverted), second}));
+        const analysis::Judged own = judged(c08a, c08a.own,
+                                            values_from({cell_of("twist", StabilityOutcome::converged),
+                                                         cell_of("twist", StabilityOutcome::inverted), second}));
         EXPECT_EQ(own.n, 1);
         return own.held == 1;
     };
@@ -149,8 +154,9 @@ std::string blind_spots_of(const std::vector<MeasuredCell>& cells)
 TEST(StabilityVerdict, AMapThatCannotTellIsRefused)
 {
     std::vector<MeasuredCell> cells;
-    for (const StabilityOutcome outcome : {StabilityOutcome::converged, StabilityOutcome::bounded, StabilityOutcome::inverted,
-                                           StabilityOutcome::diverged, StabilityOutcome::not_finite})
+    for (const StabilityOutcome outcome :
+         {StabilityOutcome::converged, StabilityOutcome::bounded, StabilityOutcome::inverted,
+          StabilityOutcome::diverged, StabilityOutcome::not_finite})
         cells.push_back(cell_of("time_step", outcome));
     cells.push_back(other_cell("pbs", StabilityOutcome::diverged));
     cells.back().cell.named = "sign";
@@ -162,7 +168,8 @@ TEST(StabilityVerdict, AMapThatCannotTellIsRefused)
     EXPECT_EQ(blind_spots_of(cells), "no cell is bounded\n");
 }
 
-analysis::Measurement value_of(const std::vector<MeasuredCell>& cells, const std::string& quantity, const std::string& factor = "time_step")
+analysis::Measurement value_of(const std::vector<MeasuredCell>& cells, const std::string& quantity,
+                               const std::string& factor = "time_step")
 {
     const auto values = test_support::values_of(values_from(cells), "share_of_cells_" + quantity, {.factor = factor});
     EXPECT_EQ(values.size(), 1u) << quantity;
@@ -187,8 +194,8 @@ TEST(StabilityVerdict, SharesAreOfTheCellsOfTheirSweep)
     EXPECT_EQ(value_of(cells, "diverged", "k_stretch").value, 0.0);
 }
 
-// Theory: none of n is at most 1 - 0.025^(1 / n), all of n at least that. The probability 1 - p = 0.025 comes from logarithms of magnitude
-// 9 at most, of ten roundings (tests/unit/analysis/statistics/statistics.cpp).
+// Theory: none of n is at most 1 - 0.025^(1 / n), all of n at least that. The probability 1 - p = 0.025 comes from
+// logarithms of magnitude 9 at most, of ten roundings (tests/unit/analysis/statistics/statistics.cpp).
 TEST(StabilityVerdict, ReportedSharesHaveAnIntervalAndTheJudgedOnesHaveNone)
 {
     const std::vector<MeasuredCell> cells = {cell_of("time_step", StabilityOutcome::converged)};
@@ -227,14 +234,19 @@ TEST(StabilityVerdict, TimeStepsThatDoNotEnterAreNotCounted)
         controls += cell.model == "pbs_no_memory";
     }
     EXPECT_GT(controls, 0);
-    for (const StabilityCell& cell : stability_cells("pbs_jiggle")) EXPECT_TRUE(cell.factor != "time_step" || cell.as_published);
+    for (const StabilityCell& cell : stability_cells("pbs_jiggle"))
+        EXPECT_TRUE(cell.factor != "time_step" || cell.as_published);
 }
 
-// C08 from cells of a jiggling limb with a distorted initial state, with the correct solver and with broken ones. Reference:
+// C08 from cells of a jiggling limb with a distorted initial state, with the correct solver and with broken ones.
+// Reference:
 // - volume sign: each projection doubles the error that it should remove, so the limb diverges and is not at rest.
-// - nothing projected: flesh falls freely, g t^2 / 2 = 4.9 m in a second, and diverges; without jiggle nothing moves at all.
-// - one class dropped: a projection removes at most its own error, and the other classes still hold the body, so it stays bounded.
-// - multipliers forgotten: XPBD is not part of the claim; each of its projections still takes a share below one, so it is as stable as with
+// - nothing projected: flesh falls freely, g t^2 / 2 = 4.9 m in a second, and diverges; without jiggle nothing moves at
+// all.
+// - one class dropped: a projection removes at most its own error, and the other classes still hold the body, so it
+// stays bounded.
+// - multipliers forgotten: XPBD is not part of the claim; each of its projections still takes a share below one, so it
+// is as stable as with
 //   them.
 
 using test_support::broken;
@@ -255,7 +267,8 @@ std::vector<StabilityCell> chosen(const std::vector<StabilityCell>& cells, const
     return found;
 }
 
-// Whether the case of the broken starts holds: for the claim's own values in f32, which is quicker, and for the comparison `bounded`.
+// Whether the case of the broken starts holds: for the claim's own values in f32, which is quicker, and for the
+// comparison `bounded`.
 struct Held {
     bool at_rest, bounded;
 };
@@ -282,8 +295,8 @@ Held held(bool jiggle, Broken how)
 
 TEST(BrokenStability, TheSignTurnedRoundAndNothingProjectedRunAwayAndOneClassLessTakesNoBoundAway)
 {
-    for (const Broken how :
-         {Broken::nothing, Broken::nothing_in_plain_order, Broken::bind_dropped, Broken::stretch_dropped, Broken::volume_dropped})
+    for (const Broken how : {Broken::nothing, Broken::nothing_in_plain_order, Broken::bind_dropped,
+                             Broken::stretch_dropped, Broken::volume_dropped})
         EXPECT_TRUE(held(true, how).bounded) << name_of(how);
     for (const Broken how : {Broken::volume_sign, Broken::nothing_projected}) {
         const Held jiggling = held(true, how);

@@ -1,5 +1,5 @@
-// C01 and C02 are judged from metrics.csv, frame by frame: if the frames of some clips or controls are altered, the verdicts change.
-// Reference: the project's own claims.toml; the frames are invented.
+// C01 and C02 are judged from metrics.csv, frame by frame: if the frames of some clips or controls are altered, the
+// verdicts change. Reference: the project's own claims.toml; the frames are invented.
 
 #include "experiments/deformers/deformer_options.hpp"
 #include "tests/support/broken_solver.hpp"
@@ -16,7 +16,8 @@ using namespace test_support;
 using analysis::VerdictKind;
 
 // 200 frames of the clip 01_01 around a mean change.
-analysis::CaseRecord clip(const std::string& body, const std::string& deformer, double change_pct, const std::string& variant = "default")
+analysis::CaseRecord clip(const std::string& body, const std::string& deformer, double change_pct,
+                          const std::string& variant = "default")
 {
     analysis::CaseRecord record;
     record.scene = body + "_01_01";
@@ -64,13 +65,14 @@ VerdictKind verdict(const SixBodies& of, int wrong)
     return judge(claim(of.claim), records).kind;
 }
 
-// Theory: a control that fails in 6 of 6 cases gives q = 1/8, by which chance reaches 4 of 6 with a probability of 0.003.
+// Theory: a control that fails in 6 of 6 cases gives q = 1/8, by which chance reaches 4 of 6 with a probability of
+// 0.003.
 TEST(VolumeVerdict, TurnsWithTheBodiesAndTheControls)
 {
     using enum VerdictKind;
-    for (const SixBodies& of :
-         {SixBodies{"C01", "lbs", "default", -14.0, -8.0, -0.5, -14.0}, SixBodies{"C02a", "pbs_orders", "default", -0.3, -2.0, -8.0, 0.1},
-          SixBodies{"C02b", "pbs_orders", "jiggle", 0.3, -2.0, -8.0, 0.1}}) {
+    for (const SixBodies& of : {SixBodies{"C01", "lbs", "default", -14.0, -8.0, -0.5, -14.0},
+                                SixBodies{"C02a", "pbs_orders", "default", -0.3, -2.0, -8.0, 0.1},
+                                SixBodies{"C02b", "pbs_orders", "jiggle", 0.3, -2.0, -8.0, 0.1}}) {
         for (const auto& [wrong, kind] : {std::pair(0, holds), {2, mixed}, {3, fails}, {6, fails}})
             EXPECT_EQ(verdict(of, wrong), kind) << of.claim << ", " << wrong;
         SixBodies all_lose = of, none_holds = of;
@@ -89,7 +91,8 @@ TEST(VolumeVerdict, EachClipHasTheDeformersOfItsClaims)
             return std::ranges::any_of(run.scene.deformers, [&](const experiments::DeformerSpec& spec) {
                 const auto* pbs = experiments::options_if<pbs::PbsOptions>(spec);
                 return spec.name == name && spec.variant == variant &&
-                       (name != "pbs_orders" || (pbs->order == pbs::Order::plain && pbs->precision == pbs::Precision::f64));
+                       (name != "pbs_orders" ||
+                        (pbs->order == pbs::Order::plain && pbs->precision == pbs::Precision::f64));
             });
         };
         for (const char* name : {"lbs", "dqs", "pbs", "pbs_orders", "pbs_author"})
@@ -98,15 +101,15 @@ TEST(VolumeVerdict, EachClipHasTheDeformersOfItsClaims)
     }
 }
 
-// C01 is about blending: no defect of the solver may change the values of LBS, to the bit, while those of the solver change. A broken blend
-// must change them. Reference: LBS does not depend on Algorithm 1; weights that bind every vertex to one bone
-// distort only the tets across the joint, so a twist loses less.
+// C01 is about blending: no defect of the solver may change the values of LBS, to the bit, while those of the solver
+// change. A broken blend must change them. Reference: LBS does not depend on Algorithm 1; weights that bind every
+// vertex to one bone distort only the tets across the joint, so a twist loses less.
 
 analysis::Records limb_twist(Broken how, const std::string& weights = "paper")
 {
-    const experiments::Scene scene =
-        experiments::read_scene("limb_twist", {"character.vertices=400", "motion.frames=7", "output.frames_every=0", R"(reference.name="")",
-                                               R"(deformers.use=["lbs", "pbs"])", "skinning.weights=\"" + weights + "\""});
+    const experiments::Scene scene = experiments::read_scene(
+        "limb_twist", {"character.vertices=400", "motion.frames=7", "output.frames_every=0", R"(reference.name="")",
+                       R"(deformers.use=["lbs", "pbs"])", "skinning.weights=\"" + weights + "\""});
     experiments::StudyPlan plan;
     plan.runs.push_back({.name = "limb_twist", .scene = broken(scene, how), .motion = "twist", .cost_s = 1.0});
     return records_of(plan);
@@ -114,7 +117,8 @@ analysis::Records limb_twist(Broken how, const std::string& weights = "paper")
 
 const std::vector<double>& volume_change_pct(const analysis::Records& records, const std::string& deformer)
 {
-    return std::find_if(records.cases.begin(), records.cases.end(), [&](const auto& one) { return one.deformer == deformer; })
+    return std::find_if(records.cases.begin(), records.cases.end(),
+                        [&](const auto& one) { return one.deformer == deformer; })
         ->volume_change_pct;
 }
 
@@ -128,7 +132,8 @@ TEST(BrokenVolume, WhatIsSaidOfBlendingStaysAndABlendByOneBoneLosesLess)
 {
     const analysis::Records sound = limb_twist(Broken::nothing), plain = limb_twist(Broken::nothing_in_plain_order);
     const analysis::Claim c01 = claim("C01");
-    const auto control = std::ranges::find(c01.others, "LBS on the limb twisted by 150 deg", &analysis::Selection::name);
+    const auto control =
+        std::ranges::find(c01.others, "LBS on the limb twisted by 150 deg", &analysis::Selection::name);
     const auto loss_at_150_deg = [&](const analysis::Records& records) {
         std::vector<analysis::Measurement> measured;
         for (const analysis::CaseRecord& record : records.cases)
@@ -141,7 +146,8 @@ TEST(BrokenVolume, WhatIsSaidOfBlendingStaysAndABlendByOneBoneLosesLess)
         const analysis::Records records = limb_twist(how);
         EXPECT_EQ(loss_at_150_deg(records), loss_at_150_deg(sound)) << name_of(how);
         EXPECT_EQ(volume_change_pct(records, "lbs"), volume_change_pct(sound, "lbs")) << name_of(how);
-        EXPECT_NE(volume_change_pct(records, "pbs"), volume_change_pct(in_plain_order ? plain : sound, "pbs")) << name_of(how);
+        EXPECT_NE(volume_change_pct(records, "pbs"), volume_change_pct(in_plain_order ? plain : sound, "pbs"))
+            << name_of(how);
     }
     const double rigid_pct = mean_loss_pct(limb_twist(Broken::nothing, "rigid"));
     EXPECT_GT(rigid_pct, 0.0);

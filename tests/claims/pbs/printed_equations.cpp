@@ -1,6 +1,6 @@
-// Tests whether Eq. 12-21 are the gradients and corrections of Eq. 11. Reference: the volumes themselves. Each form, derived and as
-// printed, runs on a limb bent by 90 degrees (k_stretch 0.5, 24 iterations) and is measured by the sum of |V - V0| over the rest volume, in
-// per cent.
+// Tests whether Eq. 12-21 are the gradients and corrections of Eq. 11. Reference: the volumes themselves. Each form,
+// derived and as printed, runs on a limb bent by 90 degrees (k_stretch 0.5, 24 iterations) and is measured by the sum
+// of |V - V0| over the rest volume, in per cent.
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/two_bone_limb.hpp"
@@ -70,10 +70,12 @@ TEST(PrintedEquations, AbsolutePositionsDependOnTheOrigin)
     EXPECT_NEAR(run(a_metre_away, VolumeForm::labels_absolute, pbs::Precision::f32).change_pct / there, 1.0, 0.2);
 }
 
-// Equal up to rounding, which the tets inverted by LBS propagate; a twentieth of a per cent is far below the difference between the forms.
+// Equal up to rounding, which the tets inverted by LBS propagate; a twentieth of a per cent is far below the difference
+// between the forms.
 TEST(PrintedEquations, DerivedFormDoesNotDependOnTheOrigin)
 {
-    EXPECT_NEAR(run(a_metre_away, VolumeForm::derived).change_pct, run(at_the_joint, VolumeForm::derived).change_pct, 0.05);
+    EXPECT_NEAR(run(a_metre_away, VolumeForm::derived).change_pct, run(at_the_joint, VolumeForm::derived).change_pct,
+                0.05);
 }
 
 TEST(PrintedEquations, SignBlowsUp)

@@ -1,5 +1,5 @@
-// Makes a limb, writes it, reads it back, holds it at one end and moves it by linear flesh: one call of each component. The flesh follows
-// as a whole and keeps its volume. Prints: tets N, bones N, moved to within X m, volume change X %
+// Makes a limb, writes it, reads it back, holds it at one end and moves it by linear flesh: one call of each component.
+// The flesh follows as a whole and keeps its volume. Prints: tets N, bones N, moved to within X m, volume change X %
 #include "analysis/metrics/frame_metrics.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/geometry/mesh_io.hpp"

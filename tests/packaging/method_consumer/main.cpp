@@ -1,5 +1,5 @@
-// A bar with two bones, bent by 90 degrees: the volume that linear blend skinning loses, and how much of it position based skinning
-// recovers in 24 iterations. It uses nothing but the installed method.
+// A bar with two bones, bent by 90 degrees: the volume that linear blend skinning loses, and how much of it position
+// based skinning recovers in 24 iterations. It uses nothing but the installed method.
 //
 //   ______________________              ___________
 //  |    .     |     .     |   -->      |     .     |     prints: tets 1920, lbs -x.xxx %, pbs -x.xxx %
@@ -53,9 +53,14 @@ int main()
     pbs::Positions lbs;
     for (const pbs::Pose& pose : motion.steps) {
         pbs::linear_blend_skinning(mesh.rest, weights, pose, lbs);
-        if (solver.advance(lbs, pbs::posed_bind_points(binding, pose), motion.time_step_s).outcome != pbs::Outcome::finished) return 3;
+        if (solver.advance(lbs, pbs::posed_bind_points(binding, pose), motion.time_step_s).outcome !=
+            pbs::Outcome::finished)
+            return 3;
     }
     const double rest = pbs::tet_volumes(mesh.rest, mesh.tets).sum();
-    const auto change_pct = [&](const pbs::Positions& posed) { return 100.0 * (pbs::tet_volumes(posed, mesh.tets).sum() / rest - 1.0); };
-    std::printf("tets %d, lbs %.3f %%, pbs %.3f %%\n", int(mesh.tets.rows()), change_pct(lbs), change_pct(solver.positions()));
+    const auto change_pct = [&](const pbs::Positions& posed) {
+        return 100.0 * (pbs::tet_volumes(posed, mesh.tets).sum() / rest - 1.0);
+    };
+    std::printf("tets %d, lbs %.3f %%, pbs %.3f %%\n", int(mesh.tets.rows()), change_pct(lbs),
+                change_pct(solver.positions()));
 }

@@ -1,5 +1,5 @@
-// Invariances of the metrics: rigid motion, order of tets and vertices, unit of length. Reference: none of them changes a ratio of volumes
-// or lengths. Tolerance: the rounding of the moved positions, of volumes and of lengths.
+// Invariances of the metrics: rigid motion, order of tets and vertices, unit of length. Reference: none of them changes
+// a ratio of volumes or lengths. Tolerance: the rounding of the moved positions, of volumes and of lengths.
 #include "analysis/metrics/frame_metrics.hpp"
 
 #include "tests/support/rounding_error.hpp"
@@ -35,16 +35,19 @@ FrameMetrics measure(const Sample& sample)
     return MeshMetrics(sample.mesh.rest, sample.mesh.tets).measure(sample.frame);
 }
 
-// Positions are in error by e, at most the rounding of a motion within 2.2 m; a new unit of length rounds them, and those at rest, once.
-// All tets have the volume 0.1^3 / 6 at rest. An edge, of at most 0.1 sqrt 3 and another 0.1 sqrt 3 by the wobble, changes by 2 e, and a
-// volume, a sixth of a product of three edges, by at most e times the square of the longest. It goes through ten roundings of products
-// whose magnitudes add up to a fifth of the cube, and a length through five; both sides contain two of them.
+// Positions are in error by e, at most the rounding of a motion within 2.2 m; a new unit of length rounds them, and
+// those at rest, once. All tets have the volume 0.1^3 / 6 at rest. An edge, of at most 0.1 sqrt 3 and another 0.1 sqrt
+// 3 by the wobble, changes by 2 e, and a volume, a sixth of a product of three edges, by at most e times the square of
+// the longest. It goes through ten roundings of products whose magnitudes add up to a fifth of the cube, and a length
+// through five; both sides contain two of them.
 void expect_same(const FrameMetrics& a, const FrameMetrics& b)
 {
     using test_support::rounding_error;
-    const double rest_edge = 0.1, longest = 2.0 * rest_edge * std::sqrt(3.0), rest_volume = std::pow(rest_edge, 3) / 6.0;
+    const double rest_edge = 0.1, longest = 2.0 * rest_edge * std::sqrt(3.0),
+                 rest_volume = std::pow(rest_edge, 3) / 6.0;
     const double of_position = test_support::motion_error(1, 2.2);
-    const double of_j = (of_position * longest * longest + 4.0 * rounding_error(10, std::pow(longest, 3) / 5.0)) / rest_volume;
+    const double of_j =
+        (of_position * longest * longest + 4.0 * rounding_error(10, std::pow(longest, 3) / 5.0)) / rest_volume;
     EXPECT_NEAR(a.volume_change_pct, b.volume_change_pct, 100.0 * of_j);
     EXPECT_NEAR(a.volume_abs_change_pct, b.volume_abs_change_pct, 100.0 * of_j);
     EXPECT_EQ(a.inverted_tets, b.inverted_tets);

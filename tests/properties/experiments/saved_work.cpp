@@ -1,5 +1,5 @@
-// Ways of saving work. Reference: the same frames without them. A deformer that computes several frames at once on several threads changes
-// no bit, and sleep on the human through a jump changes the pose by less than its tolerance.
+// Ways of saving work. Reference: the same frames without them. A deformer that computes several frames at once on
+// several threads changes no bit, and sleep on the human through a jump changes the pose by less than its tolerance.
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/timing/timing.hpp"
@@ -54,7 +54,8 @@ TEST(FramesAhead, AreThoseOfOneByOneToTheBit)
         }
 }
 
-// Deformers that depend on the previous frame, or are called frame by frame, do not work ahead; for them nothing changes either.
+// Deformers that depend on the previous frame, or are called frame by frame, do not work ahead; for them nothing
+// changes either.
 TEST(FramesAhead, LeaveOthersAlone)
 {
     pbs::PbsOptions plain, sleeping, stopping, bound, of_regions, by_length;
@@ -83,8 +84,8 @@ std::optional<Scene> human(const Variant& variant)
     }
 }
 
-// A sleeping constraint is violated by at most the tolerance at the end of the frame. In each of the 24 iterations it would have moved a
-// vertex by no more than that, in the worst case always in one direction.
+// A sleeping constraint is violated by at most the tolerance at the end of the frame. In each of the 24 iterations it
+// would have moved a vertex by no more than that, in the worst case always in one direction.
 TEST(SleepOnTheHuman, ChangesThePoseByLessThanItsTolerance)
 {
     const auto awake = human({}), asleep = human({.overrides = {"pbs.sleep=true"}});

@@ -1,4 +1,5 @@
-// The kept records, read as rows and written again, have the same columns and cells. Reference: the files, which earlier versions wrote.
+// The kept records, read as rows and written again, have the same columns and cells. Reference: the files, which
+// earlier versions wrote.
 #include "analysis/records/record_files.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/run/region_record.hpp"
@@ -30,7 +31,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The columns of a file, in its order; some kept records lack columns. std::out_of_range for a column that is not declared.
+// The columns of a file, in its order; some kept records lack columns. std::out_of_range for a column that is not
+// declared.
 template <typename Row>
 analysis::Columns<Row> columns_in(const analysis::CsvTable& table, const analysis::Columns<Row>& all)
 {
@@ -50,7 +52,8 @@ bool is_same_cell(const std::string& one, const std::string& other)
 
 void expect_same_cells(const analysis::CsvTable& written, const analysis::CsvTable& kept, const std::string& file)
 {
-    ASSERT_TRUE(std::ranges::is_permutation(written.columns(), kept.columns())) << file;  // a table of several runs unites theirs
+    // a table of several runs unites theirs
+    ASSERT_TRUE(std::ranges::is_permutation(written.columns(), kept.columns())) << file;
     ASSERT_EQ(written.rows(), kept.rows()) << file;
     for (int row = 0; row < kept.rows(); ++row)
         for (const std::string& column : kept.columns())
@@ -58,13 +61,15 @@ void expect_same_cells(const analysis::CsvTable& written, const analysis::CsvTab
                 << file << ", row " << row << ", " << column;
 }
 
-// The rows of all runs, without the first column, which names the run. A row without further cells states that a run has none.
+// The rows of all runs, without the first column, which names the run. A row without further cells states that a run
+// has none.
 std::string without_runs(const fs::path& merged)
 {
     std::istringstream lines(experiments::kept_text(merged.string()));
     std::string text, line;
     while (std::getline(lines, line))
-        if (line.find_first_not_of(',', line.find(',')) != std::string::npos) text += line.substr(line.find(',') + 1) + '\n';
+        if (line.find_first_not_of(',', line.find(',')) != std::string::npos)
+            text += line.substr(line.find(',') + 1) + '\n';
     return text;
 }
 
@@ -88,7 +93,8 @@ analysis::CsvTable kept_table(const std::string& name)
     const analysis::CsvTable table = whole_table(file);
     EXPECT_GT(table.rows(), 0) << file;
     return file.parent_path().filename() == "runs"
-               ? analysis::parse_csv(without_runs(fs::exists(file) ? file : fs::path(file.string() + ".gz")), file.string())
+               ? analysis::parse_csv(without_runs(fs::exists(file) ? file : fs::path(file.string() + ".gz")),
+                                     file.string())
                : table;
 }
 
@@ -104,7 +110,8 @@ void expect_same(const analysis::Columns<Row>& all, const std::string& file, boo
 
 TEST(KeptTables, ReadAsRowsAndWrittenAgainAreTheSame)
 {
-    expect_same(experiments::metric_columns_of(experiments::read_scene("limb_twist", {})), "volume/runs/metrics.csv", some);
+    expect_same(experiments::metric_columns_of(experiments::read_scene("limb_twist", {})), "volume/runs/metrics.csv",
+                some);
     expect_same(experiments::section_columns, "artefacts/runs/sections.csv");
     expect_same(experiments::intersection_columns, "artefacts/runs/intersections.csv");
     expect_same(experiments::response_columns, "jiggle/runs/responses.csv");
@@ -149,24 +156,28 @@ TEST(KeptTables, OfTheVerificationIdentifyEachRow)
     std::set<std::vector<std::string>> keys;
     for (int row = 0; row < table.rows(); ++row) {
         std::vector<std::string> key;
-        for (const char* column : {"problem", "quantity", "setting", "element_order", "formulation", "material", "poisson", "h_m", "dofs"})
+        for (const char* column :
+             {"problem", "quantity", "setting", "element_order", "formulation", "material", "poisson", "h_m", "dofs"})
             key.push_back(table.text_at(row, column));
         EXPECT_TRUE(keys.insert(key).second) << "row " << row << ": " << testing::PrintToString(key);
     }
     EXPECT_GT(keys.size(), 200u);
 }
 
-// The columns for readers: sentences, sources, units and names of hardware. Everything else identifies a row or is a number.
+// The columns for readers: sentences, sources, units and names of hardware. Everything else identifies a row or is a
+// number.
 bool has_words(const std::string& file, const std::string& column)
 {
-    static const std::set<std::string> of_any_file = {"bound",  "bound_from", "cpu_model", "description", "note",
-                                                      "reason", "remark",     "source",    "unit",        "verdict_changed"};
-    static const std::set<std::string> of_one_file = {"points.csv beside", "trials.csv failure", "trials.csv further_keys",
-                                                      "verification.csv mesh"};
+    static const std::set<std::string> of_any_file = {"bound", "bound_from",     "cpu_model", "description",
+                                                      "note",  "reason",         "remark",    "source",
+                                                      "unit",  "verdict_changed"};
+    static const std::set<std::string> of_one_file = {"points.csv beside", "trials.csv failure",
+                                                      "trials.csv further_keys", "verification.csv mesh"};
     return of_any_file.contains(column) || of_one_file.contains(file + " " + column);
 }
 
-// A joint is named by its two bones: upper|forearm. either_of and takes are lists, and a setting is a list of KEY=VALUE.
+// A joint is named by its two bones: upper|forearm. either_of and takes are lists, and a setting is a list of
+// KEY=VALUE.
 TEST(KeptTables, HaveIdentifiersInTheirKeys)
 {
     const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.+-";
@@ -197,15 +208,19 @@ TEST(KeptTables, OfMeasuredAndPrintedValues)
     int measured = 0, printed = 0;
     for (const auto& entry : fs::recursive_directory_iterator(PBS_KEPT_RECORDS)) {
         const std::string file = entry.path().string(), name = name_of_table(entry.path());
-        if (name == "measurements.csv" || name == "printed.csv") analysis::write_text_atomically(table, without_runs(file));
+        if (name == "measurements.csv" || name == "printed.csv")
+            analysis::write_text_atomically(table, without_runs(file));
         if (name == "measurements.csv") {
-            expect_same_cells(analysis::measurement_table(analysis::measurements(table)), analysis::read_csv(table), file);
+            expect_same_cells(analysis::measurement_table(analysis::measurements(table)), analysis::read_csv(table),
+                              file);
             ++measured;
         }
         if (name == "setup.csv")
-            expect_same_cells(analysis::measurement_table(analysis::measurements(file)), analysis::read_csv(file), file);
+            expect_same_cells(analysis::measurement_table(analysis::measurements(file)), analysis::read_csv(file),
+                              file);
         if (name == "printed.csv") {
-            expect_same_cells(analysis::printed_table(analysis::printed_values(table)), analysis::read_csv(table), file);
+            expect_same_cells(analysis::printed_table(analysis::printed_values(table)), analysis::read_csv(table),
+                              file);
             ++printed;
         }
     }
@@ -213,15 +228,17 @@ TEST(KeptTables, OfMeasuredAndPrintedValues)
     EXPECT_EQ(printed, 1);
 }
 
-// Every value on record that a study concludes from others follows from these, to the last digit. Reference: what earlier versions
-// concluded while they measured. They are compared as written, since a control without amplitude concludes that a ratio is no number.
+// Every value on record that a study concludes from others follows from these, to the last digit. Reference: what
+// earlier versions concluded while they measured. They are compared as written, since a control without amplitude
+// concludes that a ratio is no number.
 TEST(KeptTables, OfConclusionsFollowFromTheMeasuredValues)
 {
     const experiments::OpenedRecords opened(PBS_KEPT_RECORDS);
     std::map<std::string, int> concluded;  // by study
     for (const experiments::Study& study : experiments::studies()) {
         if (!study.conclusions) continue;
-        for (const std::string& run : experiments::finished_runs((fs::path(opened.folder()) / study.name).string()).folders) {
+        for (const std::string& run :
+             experiments::finished_runs((fs::path(opened.folder()) / study.name).string()).folders) {
             const fs::path file = fs::path(run) / "measurements.csv";
             if (!fs::exists(file)) continue;
             const auto recorded = analysis::measurements(file.string());
@@ -234,7 +251,8 @@ TEST(KeptTables, OfConclusionsFollowFromTheMeasuredValues)
             }
         }
     }
-    for (const auto& [study, at_least] : {std::pair("convergence", 5), std::pair("jiggle", 50), std::pair("timing", 25)})
+    for (const auto& [study, at_least] :
+         {std::pair("convergence", 5), std::pair("jiggle", 50), std::pair("timing", 25)})
         EXPECT_GE(concluded[study], at_least) << study;
 }
 

@@ -1,6 +1,7 @@
-// Reference: the P1 stiffness of one tet in closed form, derived by hand; rigid motions store no energy; the load adds up to the weight;
-// the energy is half of u K u. Tolerances: the roundings of an entry and of the sums that follow, times the magnitudes of the terms. The
-// magnitudes of all shape functions at a point add up to at most 2, at the centroid of a quadratic tet.
+// Reference: the P1 stiffness of one tet in closed form, derived by hand; rigid motions store no energy; the load adds
+// up to the weight; the energy is half of u K u. Tolerances: the roundings of an entry and of the sums that follow,
+// times the magnitudes of the terms. The magnitudes of all shape functions at a point add up to at most 2, at the
+// centroid of a quadratic tet.
 
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
@@ -35,7 +36,8 @@ double sum_of_weights(const SimplexSpace& space, int points_1d)
 
 TEST(Assembly, StiffnessOfOneLinearTetIsTheClosedForm)
 {
-    const pbs::TetMesh tet{pbs::Positions{{0.1, 0, 0}, {1.2, 0.1, 0}, {0.2, 0.9, 0.1}, {0, 0.3, 1.1}}, pbs::Tets{{0, 1, 2, 3}}};
+    const pbs::TetMesh tet{pbs::Positions{{0.1, 0, 0}, {1.2, 0.1, 0}, {0.2, 0.9, 0.1}, {0, 0.3, 1.1}},
+                           pbs::Tets{{0, 1, 2, 3}}};
     Eigen::Matrix3d edges = (tet.rest.bottomRows(3).rowwise() - tet.rest.row(0)).transpose();
     Eigen::Matrix<double, 3, 4> gradient;  // gradients of the four shape functions
     gradient.rightCols(3) = edges.inverse().transpose();
@@ -43,13 +45,15 @@ TEST(Assembly, StiffnessOfOneLinearTetIsTheClosedForm)
     Eigen::MatrixXd expected(12, 12);
     for (int a = 0; a < 4; ++a)
         for (int b = 0; b < 4; ++b)
-            expected.block<3, 3>(3 * a, 3 * b) = edges.determinant() / 6.0 *
-                                                 (material.lambda_pa * gradient.col(a) * gradient.col(b).transpose() +
-                                                  material.mu_pa * gradient.col(b) * gradient.col(a).transpose() +
-                                                  material.mu_pa * gradient.col(a).dot(gradient.col(b)) * Eigen::Matrix3d::Identity());
+            expected.block<3, 3>(3 * a, 3 * b) =
+                edges.determinant() / 6.0 *
+                (material.lambda_pa * gradient.col(a) * gradient.col(b).transpose() +
+                 material.mu_pa * gradient.col(b) * gradient.col(a).transpose() +
+                 material.mu_pa * gradient.col(a).dot(gradient.col(b)) * Eigen::Matrix3d::Identity());
     const SimplexSpace space(tet, 1);
     const SparseMatrix stiffness = stiffness_matrix(space, material);
-    EXPECT_LT((stiffness - expected).norm(), 2.0 * rounding_error(entry_roundings(space, 1, 2), magnitudes(stiffness).norm()));
+    EXPECT_LT((stiffness - expected).norm(),
+              2.0 * rounding_error(entry_roundings(space, 1, 2), magnitudes(stiffness).norm()));
 }
 
 TEST(Assembly, StiffnessIsSymmetricAndKnowsNoRigidMotion)
@@ -67,7 +71,8 @@ TEST(Assembly, StiffnessIsSymmetricAndKnowsNoRigidMotion)
         EXPECT_LT(rounding_error(roundings, terms.norm()), 1e-11 * stiffness.norm()) << proves_nothing;
         for (int axis = 0; axis < 3; ++axis) {
             const Eigen::VectorXd translation = at_nodes(space, [&](const Vec3&) -> Vec3 { return Vec3::Unit(axis); });
-            const Eigen::VectorXd rotation = at_nodes(space, [&](const Vec3& x) -> Vec3 { return Vec3::Unit(axis).cross(x); });
+            const Eigen::VectorXd rotation =
+                at_nodes(space, [&](const Vec3& x) -> Vec3 { return Vec3::Unit(axis).cross(x); });
             for (const Eigen::VectorXd& rigid : {translation, rotation})
                 EXPECT_LT((stiffness * rigid).norm(),
                           rounding_error(roundings + most_entries(stiffness), (terms * rigid.cwiseAbs()).norm()));
@@ -86,7 +91,8 @@ TEST(Assembly, LoadAddsUpToTheTotalForceAndItsMoment)
             total += load.segment<3>(3 * n);
             moment += Vec3(space.node_positions().row(n)).cross(load.segment<3>(3 * n));
         }
-        const double volume = 2.0, terms = 2.0 * sum_of_weights(space, order + 1) * force.norm(), farthest = std::sqrt(6.0);
+        const double volume = 2.0, terms = 2.0 * sum_of_weights(space, order + 1) * force.norm(),
+                     farthest = std::sqrt(6.0);
         const double roundings = entry_roundings(space, order + 1, 1) + space.nodes();
         EXPECT_LT((total - volume * force).norm(), rounding_error(roundings, terms));
         EXPECT_LT((moment - volume * Vec3(1.0, 0.5, 0.5).cross(force)).norm(),  // of the weight at the bar's centre
@@ -97,8 +103,8 @@ TEST(Assembly, LoadAddsUpToTheTotalForceAndItsMoment)
 
 TEST(Assembly, LoadOfACubicForceIsExactOnQuadraticTets)
 {
-    // The virtual work of f = x^3 e_x with v = x^2 e_x over [0, 2] x [0, 1]^2 is 2^6 / 6. Its degree is 5, the highest that three points
-    // per direction integrate.
+    // The virtual work of f = x^3 e_x with v = x^2 e_x over [0, 2] x [0, 1]^2 is 2^6 / 6. Its degree is 5, the highest
+    // that three points per direction integrate.
     const SimplexSpace space(bar, 2);
     const Eigen::VectorXd load = load_vector(space, [](const Vec3& x) -> Vec3 { return {x(0) * x(0) * x(0), 0, 0}; });
     const Eigen::VectorXd square = at_nodes(space, [](const Vec3& x) -> Vec3 { return {x(0) * x(0), 0, 0}; });
@@ -116,13 +122,13 @@ TEST(Assembly, EnergyIsHalfTheWorkOfTheStiffness)
         for (double& u : displacement) u = random() / 4294967296.0 - 0.5;
         const SparseMatrix stiffness = stiffness_matrix(space, material);
         const double work = displacement.dot(stiffness * displacement) / 2.0;
-        // The work goes through the entries, their rows and the degrees of freedom, the energy through the gradients of a tet and the
-        // points.
+        // The work goes through the entries, their rows and the degrees of freedom, the energy through the gradients of
+        // a tet and the points.
         const ElementTables tables = element_tables(space, order);
         const double roundings = 2.0 * entry_roundings(space, order, 2) + most_entries(stiffness) + space.dofs() +
                                  2 * tables.nodes_per_tet + static_cast<double>(tables.weights.size());
-        const double rounding =
-            rounding_error(roundings, displacement.cwiseAbs().dot(magnitudes(stiffness) * displacement.cwiseAbs()) / 2.0);
+        const double rounding = rounding_error(
+            roundings, displacement.cwiseAbs().dot(magnitudes(stiffness) * displacement.cwiseAbs()) / 2.0);
         EXPECT_NEAR(strain_energy(space, material, displacement), work, rounding);
         EXPECT_LT(rounding, 1e-10 * work) << proves_nothing;
     }
@@ -135,15 +141,17 @@ TEST(Assembly, ErrorNormsOfZeroAreTheNormsOfTheField)
     const auto field = [](const Vec3& x) -> Vec3 { return {x(0), 0, 0}; };
     const auto gradient = [](const Vec3&) -> Eigen::Matrix3d { return Vec3(1, 0, 0).asDiagonal(); };
     const ErrorNorms norms = error_norms(space, Eigen::VectorXd::Zero(space.dofs()), field, gradient);
-    // Squares go through the roundings of the volume and of a coordinate, twice, and the sum over all points of all tets. The root of s has
-    // the error of s over 2 sqrt s.
+    // Squares go through the roundings of the volume and of a coordinate, twice, and the sum over all points of all
+    // tets. The root of s has the error of s over 2 sqrt s.
     const ElementTables tables = element_tables(space, 4);
     const double roundings = jacobian_roundings(space) + 2 * 8 + 4 + static_cast<double>(tables.weights.size()),
                  volume = tables.weights.cwiseAbs().sum();
     EXPECT_NEAR(norms.l2, std::sqrt(8.0 / 3.0), rounding_error(roundings, 4.0 * volume) / (2.0 * std::sqrt(8.0 / 3.0)));
     EXPECT_NEAR(norms.h1_seminorm, std::sqrt(2.0), rounding_error(roundings, volume) / (2.0 * std::sqrt(2.0)));
-    // A coordinate of at most 2 is compared with its interpolation, a sum of four products with shape functions, over a volume of 2.
-    EXPECT_LT(error_norms(space, at_nodes(space, field), field, gradient).l2, rounding_error(8 + 8 + 4, 2.0) * std::sqrt(2.0));
+    // A coordinate of at most 2 is compared with its interpolation, a sum of four products with shape functions, over a
+    // volume of 2.
+    EXPECT_LT(error_norms(space, at_nodes(space, field), field, gradient).l2,
+              rounding_error(8 + 8 + 4, 2.0) * std::sqrt(2.0));
 }
 
 // Reference: the same sums in a dense matrix.
@@ -160,7 +168,8 @@ TEST(NodalMatrix, AddsWhatADenseMatrixAdds)
             matrix.add_tet(t, values);
             for (Eigen::Index a = 0; a < nodes; ++a)
                 for (Eigen::Index b = 0; b < nodes; ++b)
-                    dense.block<3, 3>(3 * space.tet_nodes()(t, a), 3 * space.tet_nodes()(t, b)) += values.block<3, 3>(3 * a, 3 * b);
+                    dense.block<3, 3>(3 * space.tet_nodes()(t, a), 3 * space.tet_nodes()(t, b)) +=
+                        values.block<3, 3>(3 * a, 3 * b);
         }
         matrix.add_block(0, 1, Eigen::Matrix3d::Constant(2.0));
         dense.block<3, 3>(0, 3).array() += 2.0;
@@ -170,8 +179,8 @@ TEST(NodalMatrix, AddsWhatADenseMatrixAdds)
     }
 }
 
-// Reference: the definition of nodal elements. Vertex v is node v, shape functions are 1 at their own node and 0 at the others. At nodes
-// they are polynomials of 0, 1/2 and 1, which are not rounded.
+// Reference: the definition of nodal elements. Vertex v is node v, shape functions are 1 at their own node and 0 at the
+// others. At nodes they are polynomials of 0, 1/2 and 1, which are not rounded.
 
 TEST(SimplexSpace, KeepsVerticesAndTetsInTheirOrderAndAddsANodePerEdgeToQuadraticTets)
 {
@@ -208,7 +217,8 @@ TEST(SimplexSpace, ShapeFunctionsAreOneAtTheirOwnNodeAndZeroAtTheOthers)
             const Eigen::VectorXd expected = Eigen::VectorXd::Unit(space.tet_nodes().cols(), node);
             EXPECT_EQ(space.shape_values(point), expected) << "order " << order << ", node " << node;
         }
-        // A function goes through eight roundings and the sum of ten. The terms of L_i (2 L_i - 1) and 4 L_i L_j add up to 3 in magnitude.
+        // A function goes through eight roundings and the sum of ten. The terms of L_i (2 L_i - 1) and 4 L_i L_j add up
+        // to 3 in magnitude.
         EXPECT_NEAR(space.shape_values({0.1, 0.2, 0.3}).sum(), 1.0, rounding_error(8 + 10, 3.0));
     }
 }
@@ -220,7 +230,8 @@ TEST(SimplexSpace, AffineValuesAtVerticesAreAffineOnAllNodes)
     const pbs::Positions expected = space.node_positions() * gradient.transpose();
     // There are three products and sums on both sides, and the mean of two.
     const pbs::Positions terms = space.node_positions().cwiseAbs() * gradient.cwiseAbs().transpose();
-    EXPECT_LT((space.from_vertices(bar.rest * gradient.transpose()) - expected).norm(), rounding_error(3 + 3 + 1, terms.norm()));
+    EXPECT_LT((space.from_vertices(bar.rest * gradient.transpose()) - expected).norm(),
+              rounding_error(3 + 3 + 1, terms.norm()));
 }
 
 TEST(SimplexSpace, RefusesDegenerateMeshesAndOrdersThatItDoesNotHave)
@@ -237,10 +248,12 @@ TEST(SimplexSpace, RefusesDegenerateMeshesAndOrdersThatItDoesNotHave)
         EXPECT_THROW(SimplexSpace(mesh, 1), pbs::InputError);
 }
 
-// Reference: relations between elastic constants, by hand: E = mu (3 lambda + 2 mu) / (lambda + mu), nu = lambda / (2 (lambda + mu)).
+// Reference: relations between elastic constants, by hand: E = mu (3 lambda + 2 mu) / (lambda + mu), nu = lambda / (2
+// (lambda + mu)).
 
-// Each relation goes through some fifteen roundings. 1 - 2 nu cancels in lambda, but E and nu depend on lambda by a factor below 1 - 2 nu
-// where nu is close to 1/2. At nu = -0.4 the sums lambda + mu and 3 lambda + 2 mu cancel, by factors of 2.6 and 5.
+// Each relation goes through some fifteen roundings. 1 - 2 nu cancels in lambda, but E and nu depend on lambda by a
+// factor below 1 - 2 nu where nu is close to 1/2. At nu = -0.4 the sums lambda + mu and 3 lambda + 2 mu cancel, by
+// factors of 2.6 and 5.
 TEST(Material, LameParametersReturnYoungsModulusAndPoissonsRatioOfAStableMaterial)
 {
     for (const double poisson : {-0.4, 0.0, 0.3, 0.45, 0.4999}) {
@@ -248,8 +261,10 @@ TEST(Material, LameParametersReturnYoungsModulusAndPoissonsRatioOfAStableMateria
         EXPECT_NEAR(mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu), 7e4, rounding_error(15, 5.0 * 7e4));
         EXPECT_NEAR(lambda / (2.0 * (lambda + mu)), poisson, rounding_error(15, 2.6 * 0.5));
     }
-    for (const double young : {0.0, -1.0, double(INFINITY), std::nan("")}) EXPECT_THROW(lame_parameters(young, 0.3), pbs::InputError);
-    for (const double poisson : {-1.0, 0.5, 0.6, std::nan("")}) EXPECT_THROW(lame_parameters(1.0, poisson), pbs::InputError);
+    for (const double young : {0.0, -1.0, double(INFINITY), std::nan("")})
+        EXPECT_THROW(lame_parameters(young, 0.3), pbs::InputError);
+    for (const double poisson : {-1.0, 0.5, 0.6, std::nan("")})
+        EXPECT_THROW(lame_parameters(1.0, poisson), pbs::InputError);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The input that the reference refuses, and what it reports about its set-up. The verification tests show that it solves correctly.
+// The input that the reference refuses, and what it reports about its set-up. The verification tests show that it
+// solves correctly.
 
 #include "reference_fem/boundary_value_problem.hpp"
 #include "reference_fem/linear_elasticity.hpp"
@@ -90,7 +91,8 @@ TEST(LinearElasticity, SpringsOutsideEveryTetAreLeftOutAndReported)
 
 TEST(LinearElasticity, SetupSaysWhatWasDone)
 {
-    const LinearElasticity fem(bar, {.element_order = 1}, springs_at(three_points)), held(bar, {}, {.prescribed_tets = {3}});
+    const LinearElasticity fem(bar, {.element_order = 1}, springs_at(three_points)),
+        held(bar, {}, {.prescribed_tets = {3}});
     EXPECT_EQ(fem.setup().dofs, 3 * bar.rest.rows());
     EXPECT_TRUE(fem.setup().factored);
     EXPECT_NE(fem.setup().solver.find("CHOLMOD"), std::string::npos);
@@ -101,15 +103,16 @@ TEST(LinearElasticity, SetupSaysWhatWasDone)
     for (const int vertex : bar.tets.row(3)) EXPECT_TRUE(prescribed[vertex]);
 }
 
-// Reference: theory. The normal integrates to zero over a closed surface, and x . n to three times the volume. Tolerances: rounding of sums
-// over nodes of entries, into which the normal brings the Jacobian once more. The magnitudes of all shape functions at a point add up to at
-// most 2.
+// Reference: theory. The normal integrates to zero over a closed surface, and x . n to three times the volume.
+// Tolerances: rounding of sums over nodes of entries, into which the normal brings the Jacobian once more. The
+// magnitudes of all shape functions at a point add up to at most 2.
 
 using pbs::Vec3;
 
 double sum_error(const SimplexSpace& space, double area)
 {
-    const double of_entry = test_support::entry_roundings(space, space.element_order() + 1, 1) + test_support::jacobian_roundings(space);
+    const double of_entry =
+        test_support::entry_roundings(space, space.element_order() + 1, 1) + test_support::jacobian_roundings(space);
     return test_support::rounding_error(of_entry + space.nodes(), 2.0 * area);
 }
 
@@ -125,14 +128,17 @@ TEST(TractionLoad, OfAUniformPressureAddsUpToNothingAndOnlyTheFacesThatAreAskedF
             forces_of({[](const Vec3&) { return true; }, [](const Vec3&, const Vec3& normal) { return normal; }});
         const double rounding = sum_error(space, 6.0), farthest = std::sqrt(3.0);
         EXPECT_LT(pressed.colwise().sum().norm(), rounding);
-        EXPECT_NEAR((pressed.array() * space.node_positions().array()).sum(), 3.0, farthest * rounding);  // the work of the volume
+        // the work of the volume
+        EXPECT_NEAR((pressed.array() * space.node_positions().array()).sum(), 3.0, farthest * rounding);
         EXPECT_LT(rounding, 1e-11) << "a bound that would let a wrong face pass proves nothing";
 
         const auto on_top = [](const Vec3& centre) { return centre.z() > 1.0 - 1e-9; };
-        const pbs::Positions forces = forces_of({on_top, [](const Vec3& x, const Vec3&) -> Vec3 { return {0, 0, x.x()}; }});
+        const pbs::Positions forces = forces_of({on_top, [](const Vec3& x, const Vec3&) -> Vec3 {
+                                                     return {0, 0, x.x()};
+                                                 }});
         EXPECT_LT((forces.colwise().sum() - Eigen::RowVector3d(0, 0, 0.5)).norm(), sum_error(space, 1.0));
-        // Away from a face a shape function is zero to the rounding of its terms, of at most 3. The faces of six tets about a node have a
-        // third of the area.
+        // Away from a face a shape function is zero to the rounding of its terms, of at most 3. The faces of six tets
+        // about a node have a third of the area.
         for (int node = 0; node < space.nodes(); ++node)
             if (space.node_positions()(node, 2) < 1.0 - 1e-9) {
                 EXPECT_LT(forces.row(node).norm(), test_support::rounding_error(8, 3.0 / 3.0));

@@ -1,4 +1,5 @@
-// Reference: a dense solve of the same small system by Eigen. Tolerances: two solves, each in error by rounding, sqrt(n) eps cond(K).
+// Reference: a dense solve of the same small system by Eigen. Tolerances: two solves, each in error by rounding,
+// sqrt(n) eps cond(K).
 
 #include "reference_fem/assembly.hpp"
 #include "reference_fem/linear_flesh.hpp"
@@ -42,8 +43,8 @@ Spectrum spectrum_of(const SparseMatrix& matrix)
 
 constexpr auto every_solver = {LinearSolver::cholmod, LinearSolver::umfpack, LinearSolver::cg_ml};
 
-// How far one solution may be off, relative to its size. Conjugate gradients: |e| <= |A^-1| |r|, and |x| >= |b| / |A|, so that it is the
-// condition number times the required residual, 1e-10.
+// How far one solution may be off, relative to its size. Conjugate gradients: |e| <= |A^-1| |r|, and |x| >= |b| / |A|,
+// so that it is the condition number times the required residual, 1e-10.
 double solve_error(LinearSolver kind, const SparseMatrix& matrix)
 {
     return kind == LinearSolver::cg_ml ? 1e-10 * spectrum_of(matrix).condition() : rounding_bound(spectrum_of(matrix));
@@ -61,7 +62,8 @@ TEST(PreparedSolver, AgreesWithADenseSolveForManyRightHandSides)
         for (int i = 0; i < 30; i += 5) {
             const Eigen::VectorXd right_hand_side = Eigen::VectorXd::Unit(30, i);
             const Eigen::VectorXd dense = Eigen::MatrixXd(matrix).lu().solve(right_hand_side);
-            EXPECT_LT((solver->solve(right_hand_side) - dense).norm() / dense.norm(), (direct ? 2.0 : 1.0) * solve_error(kind, matrix));
+            EXPECT_LT((solver->solve(right_hand_side) - dense).norm() / dense.norm(),
+                      (direct ? 2.0 : 1.0) * solve_error(kind, matrix));
             EXPECT_TRUE(direct || solver->iterations() > 0);
         }
     }
@@ -75,7 +77,8 @@ TEST(PreparedSolver, AnotherMatrixOfTheSamePatternIsSolvedAfterRefactor)
         const Eigen::VectorXd once = solver->solve(Eigen::VectorXd::Ones(30));
         matrix.coeffs() *= 4.0;
         solver->refactor();
-        EXPECT_LT((4.0 * solver->solve(Eigen::VectorXd::Ones(30)) - once).norm() / once.norm(), 2.0 * solve_error(kind, matrix))
+        EXPECT_LT((4.0 * solver->solve(Eigen::VectorXd::Ones(30)) - once).norm() / once.norm(),
+                  2.0 * solve_error(kind, matrix))
             << solver->name();
     }
 }
@@ -110,8 +113,8 @@ TEST(StartOfMpi, LeavesTheEnvironmentAsItWas)
     EXPECT_EQ(std::getenv("PMIX_RANK"), nullptr);
 }
 
-// Stiffness of a bar on springs of a thousandth of its own stiffness. Its cross-section has 363 unknowns: OpenBLAS shares dense blocks of
-// that size among its threads.
+// Stiffness of a bar on springs of a thousandth of its own stiffness. Its cross-section has 363 unknowns: OpenBLAS
+// shares dense blocks of that size among its threads.
 SparseMatrix bar_on_springs()
 {
     const SimplexSpace space(test_support::structured_bar({0, 0, 0}, {0.5, 0.3, 0.3}, {6, 5, 5}), 2);
@@ -121,7 +124,8 @@ SparseMatrix bar_on_springs()
     return stiffness;
 }
 
-// METIS has its own handler of SIGTERM while it orders a matrix. What it puts back afterwards would handle only one signal.
+// METIS has its own handler of SIGTERM while it orders a matrix. What it puts back afterwards would handle only one
+// signal.
 TEST(PreparedSolver, LeavesTheHandlerOfSigtermAsItWas)
 {
     struct sigaction own = {}, before = {}, after = {};
@@ -138,11 +142,13 @@ TEST(PreparedSolver, LeavesTheHandlerOfSigtermAsItWas)
     }
 }
 
-// Reference: one thread. The contract says 1e-10 of the displacements; rounding, by the condition of some 1e4, explains no more than that.
-// Prepared on one thread, a solver repeats to the bit for any number of threads that a user sets for OpenBLAS in the environment.
+// Reference: one thread. The contract says 1e-10 of the displacements; rounding, by the condition of some 1e4, explains
+// no more than that. Prepared on one thread, a solver repeats to the bit for any number of threads that a user sets for
+// OpenBLAS in the environment.
 TEST(PreparedSolver, ThreadsOfTheBlasChangeTheSolutionByLessThanTheContractSays)
 {
-    for (const char* part : {"blas", ".so"}) EXPECT_NE(resolved_blas().find(part), std::string::npos) << resolved_blas();
+    for (const char* part : {"blas", ".so"})
+        EXPECT_NE(resolved_blas().find(part), std::string::npos) << resolved_blas();
     EXPECT_EQ(resolved_blas().find('/'), std::string::npos) << resolved_blas();
     auto* set_threads = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
     auto* threads = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
@@ -154,7 +160,9 @@ TEST(PreparedSolver, ThreadsOfTheBlasChangeTheSolutionByLessThanTheContractSays)
     if (!set_threads || !threads) GTEST_SKIP() << "not on " << resolved_blas();
     const double rounding = rounding_bound(spectrum_of(matrix));
     for (const bool is_cholmod : {true, false}) {
-        const auto solved = [&] { return (is_cholmod ? prepare_cholmod(matrix, 3) : prepare_umfpack(matrix))->solve(load); };
+        const auto solved = [&] {
+            return (is_cholmod ? prepare_cholmod(matrix, 3) : prepare_umfpack(matrix))->solve(load);
+        };
         set_threads(1);
         const Eigen::VectorXd alone = solved(), again = solved();
         EXPECT_EQ(alone, again);
@@ -186,8 +194,8 @@ TEST(PreparedSolver, HasTheSameSolutionWhetherNodesOrRowsAreOrdered)
     EXPECT_LT((by_nodes->solve(load) - expected).norm() / expected.norm(), 2.0 * rounding_bound(spectrum_of(matrix)));
 }
 
-// Reference: the rows of the eliminated system. Tolerance: the residual of a backward stable solve, |r| <= sqrt(n) eps |K| |u|, see
-// reference_fem/verification/problems.hpp, with n = 4 free unknowns and |K| <= 2.5 + 2 by Gershgorin.
+// Reference: the rows of the eliminated system. Tolerance: the residual of a backward stable solve, |r| <= sqrt(n) eps
+// |K| |u|, see reference_fem/verification/problems.hpp, with n = 4 free unknowns and |K| <= 2.5 + 2 by Gershgorin.
 
 SparseMatrix tridiagonal(double diagonal)
 {
@@ -203,7 +211,8 @@ TEST(EliminatedSystem, PrescribedValuesStayAndFreeRowsHold)
     const SparseMatrix stiffness = tridiagonal(2.5);
     const EliminatedSystem system(stiffness, first_and_fifth, LinearSolver::cholmod);
     const Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(6, 1.0, 2.0);
-    Eigen::VectorXd prescribed = Eigen::VectorXd::Constant(6, std::nan(""));  // read only at prescribed degrees of freedom
+    // read only at prescribed degrees of freedom
+    Eigen::VectorXd prescribed = Eigen::VectorXd::Constant(6, std::nan(""));
     for (const double first : {0.5, -3.0}) {
         prescribed(0) = first;
         prescribed(4) = 7.0;
@@ -213,7 +222,8 @@ TEST(EliminatedSystem, PrescribedValuesStayAndFreeRowsHold)
         const Eigen::VectorXd defect = stiffness * solution.displacement - load;
         const double rounding = 2.0 * std::numeric_limits<double>::epsilon() * 4.5 * solution.displacement.norm();
         for (const int row : {1, 2, 3, 5}) EXPECT_NEAR(defect(row), 0.0, rounding);
-        const double load_norm = Eigen::Vector4d(load(1) + first, load(2), load(3) + 7.0, load(5) + 7.0).norm();  // of the free rows
+        // of the free rows
+        const double load_norm = Eigen::Vector4d(load(1) + first, load(2), load(3) + 7.0, load(5) + 7.0).norm();
         EXPECT_LT(solution.residual, rounding / load_norm);
     }
 }
@@ -221,7 +231,8 @@ TEST(EliminatedSystem, PrescribedValuesStayAndFreeRowsHold)
 TEST(EliminatedSystem, NothingToDoEverythingPrescribedAndABrokenFactorisation)
 {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(6), values = Eigen::VectorXd::LinSpaced(6, 1.0, 2.0);
-    const EliminatedSolution nothing = EliminatedSystem(tridiagonal(2.5), first_and_fifth, LinearSolver::cholmod).solve(zero, zero);
+    const EliminatedSolution nothing =
+        EliminatedSystem(tridiagonal(2.5), first_and_fifth, LinearSolver::cholmod).solve(zero, zero);
     EXPECT_EQ(nothing.displacement, zero);
     EXPECT_EQ(nothing.residual, 0.0);
     const EliminatedSystem prescribed(tridiagonal(2.5), std::vector<bool>(6, true), LinearSolver::cholmod);

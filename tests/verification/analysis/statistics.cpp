@@ -1,8 +1,9 @@
 // Reference: theory of the first-order autoregressive series x_t = phi x_{t-1} + e_t.
 //   variance of the mean of m samples: s^2/m (1 + 2 sum_{k<m} (1 - k/m) phi^k);   tau = (1 + phi) / (1 - phi).
-// The moving-block bootstrap with blocks of length b reports on average the variance (b/n) (var_b - var_n), estimated with about 3/2 n/b
-// degrees of freedom (overlapping blocks: Kunsch 1989). So its 95 % interval contains the true mean with probability P(|t_nu| < 1.96 r),
-// r^2 = reported over true variance, nu = 3/2 n/b. Tolerance: four binomial standard errors of the trials.
+// The moving-block bootstrap with blocks of length b reports on average the variance (b/n) (var_b - var_n), estimated
+// with about 3/2 n/b degrees of freedom (overlapping blocks: Kunsch 1989). So its 95 % interval contains the true mean
+// with probability P(|t_nu| < 1.96 r), r^2 = reported over true variance, nu = 3/2 n/b. Tolerance: four binomial
+// standard errors of the trials.
 
 #include "analysis/statistics/fits.hpp"
 #include "analysis/statistics/statistics.hpp"
@@ -47,7 +48,8 @@ double expected_coverage(int block)
 }
 
 struct Coverage {
-    double inside = 0.0, too_high = 0.0, too_low = 0.0;  // shares of the trials; too_high: the whole interval lies above the true mean
+    double inside = 0.0, too_high = 0.0,
+           too_low = 0.0;  // shares of the trials; too_high: the whole interval lies above the true mean
 };
 
 Coverage observed_coverage(int block)
@@ -55,9 +57,12 @@ Coverage observed_coverage(int block)
     std::mt19937_64 random(42);
     Coverage coverage;
     for (int trial = 0; trial < trials; ++trial) {
-        const auto interval = analysis::bootstrap_mean(autoregressive_series(samples, random),
-                                                       {.resamples = 400, .seed = static_cast<unsigned long>(trial + 1), .block = block});
-        (interval.low > 0.0 ? coverage.too_high : interval.high < 0.0 ? coverage.too_low : coverage.inside) += 1.0 / trials;
+        const auto interval =
+            analysis::bootstrap_mean(autoregressive_series(samples, random),
+                                     {.resamples = 400, .seed = static_cast<unsigned long>(trial + 1), .block = block});
+        (interval.low > 0.0    ? coverage.too_high
+         : interval.high < 0.0 ? coverage.too_low
+                               : coverage.inside) += 1.0 / trials;
     }
     return coverage;
 }
@@ -70,7 +75,8 @@ double four_standard_errors(double coverage)
 TEST(BlockBootstrap, CoversTheMeanOfAnAutoregressiveSeriesAsTheorySays)
 {
     for (const int block : {1, 4, 16}) {
-        const double expected = expected_coverage(block), either_side = 0.5 * (1.0 - expected);  // the noise is symmetric
+        // the noise is symmetric
+        const double expected = expected_coverage(block), either_side = 0.5 * (1.0 - expected);
         const Coverage observed = observed_coverage(block);
         EXPECT_NEAR(observed.inside, expected, four_standard_errors(expected));
         EXPECT_NEAR(observed.too_high, either_side, four_standard_errors(either_side));
@@ -88,24 +94,27 @@ TEST(BlockBootstrap, ChoosesABlockThatCovers)
     EXPECT_GT(least, expected_coverage(1) + four_standard_errors(least));
 }
 
-// Relative standard error of the estimate: sqrt(2 (2 W + 1) / n) with the window W = 5 tau (Madras and Sokal 1988), 2 % here.
+// Relative standard error of the estimate: sqrt(2 (2 W + 1) / n) with the window W = 5 tau (Madras and Sokal 1988), 2 %
+// here.
 TEST(AutocorrelationTime, OfAnAutoregressiveSeriesIsKnown)
 {
     const int n = 200000;
     std::mt19937_64 random(5);
     const double tau = (1.0 + phi) / (1.0 - phi), relative_error = std::sqrt(2.0 * (10.0 * tau + 1.0) / n);
-    EXPECT_NEAR(analysis::integrated_autocorrelation_time(autoregressive_series(n, random)), tau, 4.0 * relative_error * tau);
+    EXPECT_NEAR(analysis::integrated_autocorrelation_time(autoregressive_series(n, random)), tau,
+                4.0 * relative_error * tau);
 }
 
-// Reference: NIST Statistical Reference Dataset "Norris" (36 points, certified to 15 digits), and power laws. Tolerances: half a unit of
-// the last certified digit, and the rounding of a fit.
+// Reference: NIST Statistical Reference Dataset "Norris" (36 points, certified to 15 digits), and power laws.
+// Tolerances: half a unit of the last certified digit, and the rounding of a fit.
 
 using analysis::fit_line;
 using analysis::observed_order;
 using test_support::rounding_error;
 
-// The rounding of a fit to n points: running means in three roundings of each point; slope, the quotient of two sums of products of
-// deviations, each in eight roundings with those of the means; intercept, from the means and the slope; a residual, from four terms.
+// The rounding of a fit to n points: running means in three roundings of each point; slope, the quotient of two sums of
+// products of deviations, each in eight roundings with those of the means; intercept, from the means and the slope; a
+// residual, from four terms.
 struct FitRounding {
     double slope, residual;
 
@@ -116,7 +125,8 @@ struct FitRounding {
         };
         const double n = static_cast<double>(x.size());
         slope = rounding_error(2.0 * (n + 8), std::abs(fitted_slope));
-        const double intercept = rounding_error(3.0 * n, largest(y) + std::abs(fitted_slope) * largest(x)) + slope * largest(x);
+        const double intercept =
+            rounding_error(3.0 * n, largest(y) + std::abs(fitted_slope) * largest(x)) + slope * largest(x);
         residual = rounding_error(4, largest(y) + std::abs(fitted_slope) * largest(x)) + intercept + slope * largest(x);
     }
 };
@@ -145,11 +155,13 @@ TEST(ObservedOrder, OfAPowerLawIsItsExponent)
     std::vector<double> error;
     for (double size : h) error.push_back(3.0 * std::pow(size, 1.75));
     const auto slope = observed_order(h, error);
-    // Errors go through four roundings and their logarithms through one more; errors of the logarithms turn the line by at most their size
-    // over the deviations' mean magnitude, since slope = sum of deviation times y over the sum of squared deviations.
+    // Errors go through four roundings and their logarithms through one more; errors of the logarithms turn the line by
+    // at most their size over the deviations' mean magnitude, since slope = sum of deviation times y over the sum of
+    // squared deviations.
     const std::vector<double> x = {std::log(h[0]), std::log(h[1]), std::log(h[2]), std::log(h[3])};
     const FitRounding rounding(x, {std::log(error[0]), std::log(error[3])}, 1.75);
-    const double of_logarithms = rounding_error(4, 1.0) + rounding_error(1, -std::log(error[3])) + 1.75 * rounding_error(1, -x[3]);
+    const double of_logarithms =
+        rounding_error(4, 1.0) + rounding_error(1, -std::log(error[3])) + 1.75 * rounding_error(1, -x[3]);
     const double of_slope = rounding.slope + of_logarithms / (std::log(2.0) * (1.5 * 1.5 + 0.5 * 0.5) / (1.5 + 0.5));
     EXPECT_NEAR(slope.estimate, 1.75, of_slope);
 }
@@ -166,8 +178,8 @@ TEST(LineFit, AnExactLineHasNoWidthTwoPointsHaveNoIntervalAndOneHasNoLine)
     const std::vector<double> x = {0.0, 1.0, 3.0, 4.0}, y = {1.0, 3.0, 7.0, 9.0};
     const auto slope = fit_line(x, y);
     const FitRounding rounding(x, y, 2.0);
-    // Residuals are rounding errors: the standard error is at most their root mean square over two degrees of freedom, times the root of
-    // 1 / Sxx = 1 / 10.
+    // Residuals are rounding errors: the standard error is at most their root mean square over two degrees of freedom,
+    // times the root of 1 / Sxx = 1 / 10.
     const double wide = gsl_cdf_tdist_Pinv(0.975, 2) * std::sqrt(4.0 / 2.0) * rounding.residual;
     EXPECT_NEAR(slope.estimate, 2.0, rounding.slope);
     EXPECT_NEAR(slope.low, 2.0, rounding.slope + wide * std::sqrt(1.0 / 10.0));
@@ -192,8 +204,8 @@ std::vector<double> oscillation(double frequency_hz, double damping_ratio, doubl
     return series;
 }
 
-// Three seconds at 100 Hz. The fit ends at a step of 1e-10 of each parameter, and without noise the error that remains is far smaller than
-// the last step. The damping ratio is a quotient of two parameters.
+// Three seconds at 100 Hz. The fit ends at a step of 1e-10 of each parameter, and without noise the error that remains
+// is far smaller than the last step. The damping ratio is a quotient of two parameters.
 TEST(DampedOscillation, FrequencyAndDampingComeBack)
 {
     for (const double frequency_hz : {1.0, 4.0, 11.0})
@@ -205,8 +217,8 @@ TEST(DampedOscillation, FrequencyAndDampingComeBack)
         }
 }
 
-// With white noise the 95 % interval contains the true value in 95 of 100 series; fewer than 85 would occur once in 30,000 times
-// (binomial).
+// With white noise the 95 % interval contains the true value in 95 of 100 series; fewer than 85 would occur once in
+// 30,000 times (binomial).
 TEST(DampedOscillation, IntervalHoldsTheTruthAsOftenAsItSays)
 {
     int frequency_held = 0, damping_held = 0;
@@ -237,7 +249,8 @@ TEST(DampedOscillation, WhatHasNoPeriodIsNamed)
         {"still", std::vector<double>(50, 3.0), OscillationOutcome::none},
         {"not a number", {1.0, std::nan(""), 2.0}, OscillationOutcome::none},
         {"noise", noise, OscillationOutcome::unclear}};
-    for (const auto& [name, series, outcome] : all) EXPECT_EQ(fit_damped_oscillation(series, 0.01).outcome, outcome) << name;
+    for (const auto& [name, series, outcome] : all)
+        EXPECT_EQ(fit_damped_oscillation(series, 0.01).outcome, outcome) << name;
 }
 
 }  // namespace

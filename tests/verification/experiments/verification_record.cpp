@@ -1,7 +1,7 @@
-// The quick verification record of the finite elements. Reference: what each row cites (closed forms, published benchmarks, other codes);
-// the row states its tolerance and where that comes from. The record can fail: with an error of 5 % in the solver's lambda, which the
-// compared values do not have, named rows do not hold. Problems without a character, PBS or another program:
-// tests/verification/reference_fem/problems.cpp.
+// The quick verification record of the finite elements. Reference: what each row cites (closed forms, published
+// benchmarks, other codes); the row states its tolerance and where that comes from. The record can fail: with an error
+// of 5 % in the solver's lambda, which the compared values do not have, named rows do not hold. Problems without a
+// character, PBS or another program: tests/verification/reference_fem/problems.cpp.
 #include "experiments/studies/verification/problem.hpp"
 
 #include <gtest/gtest.h>
@@ -28,24 +28,30 @@ TEST_P(VerificationRecord, EveryJudgedRowHoldsAndSaysWhy)
     int judged = 0;
     const VerificationRows rows = problem(GetParam()).rows({});
     for (const VerificationRow& row : rows) {
-        const std::string place = row.quantity.description + ", " + row.elements.text() + ", " + row.material.law + ", " + row.mesh;
+        const std::string place =
+            row.quantity.description + ", " + row.elements.text() + ", " + row.material.law + ", " + row.mesh;
         EXPECT_NO_THROW(problem(row.problem)) << place;
-        EXPECT_FALSE(row.quantity.key.empty() || row.quantity.description.empty() || row.mesh.empty() || row.unit.empty()) << place;
+        EXPECT_FALSE(row.quantity.key.empty() || row.quantity.description.empty() || row.mesh.empty() ||
+                     row.unit.empty())
+            << place;
         EXPECT_FALSE(row.source.empty()) << place;
         if (!holds(row)) continue;
         ++judged;
         EXPECT_FALSE(row.bound_from.empty()) << place;
-        EXPECT_TRUE(*holds(row)) << place << ": " << row.value << " in " << row.low.value_or(0.0) << " to " << row.high.value_or(0.0);
+        EXPECT_TRUE(*holds(row)) << place << ": " << row.value << " in " << row.low.value_or(0.0) << " to "
+                                 << row.high.value_or(0.0);
     }
     EXPECT_TRUE(judged > 0 || rows.empty());  // no rows: the body or the program that the problem needs is missing
 }
 
-INSTANTIATE_TEST_SUITE_P(Problem, VerificationRecord, testing::Values("pbs_locking", "nested_convergence", "distributed", "calculix"),
+INSTANTIATE_TEST_SUITE_P(Problem, VerificationRecord,
+                         testing::Values("pbs_locking", "nested_convergence", "distributed", "calculix"),
                          [](const auto& info) { return info.param; });
 
 TEST(VerificationRecordWithAWrongLameParameter, DoesNotPass)
 {
-    for (const auto& [name, quantity] : {std::pair("nested_convergence", "bound"), {"distributed", "node_difference"}}) {
+    for (const auto& [name, quantity] :
+         {std::pair("nested_convergence", "bound"), {"distributed", "node_difference"}}) {
         bool failed = false;
         for (const VerificationRow& row : problem(name).rows({{.lambda_error = 0.05}}))
             failed |= row.quantity.key == quantity && !holds(row).value_or(true);

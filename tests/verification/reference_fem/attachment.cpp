@@ -1,7 +1,8 @@
-// The skeleton's attachment. Reference: exact Dirichlet data, which springs approach with an error of order 1/q; rigid translations, which
-// the finite element space contains and the springs therefore reproduce without strain, and the linear parts of rotations; equilibrium of
-// forces; another path to the same minimum; the free flesh alone. Tolerances: rounding of direct solves. At nu = 0.4999 cond(K) is 7e7 with
-// mean dilatation, since lambda / mu = 5e3 multiplies that of the compressible material, and 3e4 with Taylor-Hood.
+// The skeleton's attachment. Reference: exact Dirichlet data, which springs approach with an error of order 1/q; rigid
+// translations, which the finite element space contains and the springs therefore reproduce without strain, and the
+// linear parts of rotations; equilibrium of forces; another path to the same minimum; the free flesh alone. Tolerances:
+// rounding of direct solves. At nu = 0.4999 cond(K) is 7e7 with mean dilatation, since lambda / mu = 5e3 multiplies
+// that of the compressible material, and 3e4 with Taylor-Hood.
 #include "reference_fem/boundary_value_problem.hpp"
 #include "reference_fem/elastic_body.hpp"
 #include "reference_fem/linear_elasticity.hpp"
@@ -32,9 +33,9 @@ constexpr const char* proves_nothing = "a bound that would let an error of a per
 pbs::TetMesh jittered_bar(int cells_across)
 {
     const double cell_m = 0.5 / cells_across;
-    return test_support::jittered(
-        test_support::structured_bar({0, -0.25, -0.25}, {2, 0.25, 0.25}, {4 * cells_across, cells_across, cells_across}),
-        Vec3::Constant(cell_m), 0.25);
+    return test_support::jittered(test_support::structured_bar({0, -0.25, -0.25}, {2, 0.25, 0.25},
+                                                               {4 * cells_across, cells_across, cells_across}),
+                                  Vec3::Constant(cell_m), 0.25);
 }
 
 constexpr double cell_m = 0.125, coarse_cell_m = 0.25;
@@ -47,13 +48,15 @@ std::vector<int> tets_where(const pbs::TetMesh& mesh, const Condition& condition
     std::vector<int> tets;
     for (int t = 0; t < mesh.tets.rows(); ++t) {
         const auto corners = mesh.tets.row(t);
-        if (std::all_of(corners.begin(), corners.end(), [&](int v) { return condition(Vec3(mesh.rest.row(v))); })) tets.push_back(t);
+        if (std::all_of(corners.begin(), corners.end(), [&](int v) { return condition(Vec3(mesh.rest.row(v))); }))
+            tets.push_back(t);
     }
     return tets;
 }
 
 // Whole tets within about one cell of the ends, as the skeleton prescribes them.
-const std::vector<int> end_tets = tets_where(bar, [](const Vec3& x) { return x(0) < cell_m + 1e-3 || x(0) > 2.0 - cell_m - 1e-3; });
+const std::vector<int> end_tets =
+    tets_where(bar, [](const Vec3& x) { return x(0) < cell_m + 1e-3 || x(0) > 2.0 - cell_m - 1e-3; });
 
 // Those of the coarse bar at one end.
 const std::vector<int> held_tets = tets_where(coarse, [](const Vec3& x) { return x(0) < 1.3 * coarse_cell_m; });
@@ -100,13 +103,15 @@ TEST_P(SpringAttachment, ApproachesExactDirichletDataWithOneOverQ)
     const Positions nodes = nodes_of(bar, end_tets, order);
     std::vector<double> errors;
     for (const double q : {1e2, 1e3, 1e4}) {
-        LinearElasticity by_springs(bar, {.element_order = order, .young_pa = young_pa}, tied(nodes, q * young_pa * cell_m));
+        LinearElasticity by_springs(bar, {.element_order = order, .young_pa = young_pa},
+                                    tied(nodes, q * young_pa * cell_m));
         ASSERT_TRUE(by_springs.solve(posed(nodes), bar.rest).finite);
         errors.push_back((by_springs.positions() - exact.positions()).norm() / size);
-        RecordProperty("relative_error_at_q_" + std::to_string(static_cast<int>(q)), std::to_string(errors.back() * 1e6) + "e-6");
+        RecordProperty("relative_error_at_q_" + std::to_string(static_cast<int>(q)),
+                       std::to_string(errors.back() * 1e6) + "e-6");
     }
-    // error = c / q (1 - d / q + ...), where d, of order 10, is the stiffness of the flesh at a tied node over E h. The ratio of two errors
-    // whose q differ by a factor of ten is 10 to within d / q of the softer.
+    // error = c / q (1 - d / q + ...), where d, of order 10, is the stiffness of the flesh at a tied node over E h. The
+    // ratio of two errors whose q differ by a factor of ten is 10 to within d / q of the softer.
     EXPECT_NEAR(errors[0] / errors[1], 10.0, 1.0);
     EXPECT_NEAR(errors[1] / errors[2], 10.0, 0.1);
     EXPECT_LT(errors[2], 1e-4);
@@ -135,8 +140,8 @@ LinearOptions options_of(Formulation formulation)
 
 class Attached : public testing::TestWithParam<LinearOptions> {};
 
-// Reference: theory. The linear part of a rotation, x + w x x, has no strain and no stress: if it is prescribed at one end, the whole bar
-// follows.
+// Reference: theory. The linear part of a rotation, x + w x x, has no strain and no stress: if it is prescribed at one
+// end, the whole bar follows.
 TEST_P(Attached, AnInfinitesimalRotationIsFollowedWithoutStrain)
 {
     const Attachment attachment = holding(held_tets);
@@ -172,8 +177,9 @@ TEST_P(Attached, SpringsCarryTheWeight)
 }
 
 INSTANTIATE_TEST_SUITE_P(Elements, Attached,
-                         testing::Values(LinearOptions{.element_order = 1, .young_pa = young_pa}, LinearOptions{.young_pa = young_pa},
-                                         options_of(Formulation::mean_dilatation), options_of(Formulation::taylor_hood)));
+                         testing::Values(LinearOptions{.element_order = 1, .young_pa = young_pa},
+                                         LinearOptions{.young_pa = young_pa}, options_of(Formulation::mean_dilatation),
+                                         options_of(Formulation::taylor_hood)));
 
 // Reference: another path to the same minimum, Newton's method on the potential of the same energy.
 TEST(NearIncompressibleAttachment, MeanDilatationIsThatOfTheElasticBody)
@@ -199,14 +205,16 @@ TEST(NearIncompressibleAttachment, MeanDilatationIsThatOfTheElasticBody)
     EXPECT_NEAR(kept.strain_energy_j(), newton.strain_energy_j(), 2.0 * rounding.energy_j(newton.strain_energy_j()));
 }
 
-// Reference: the boundary value problem of the free flesh alone, with the nodes at the held tets prescribed. The prescribed state of the
-// tets, here an expansion by 3 s, shares no pressure with the adjacent flesh. It contributes to the energy, V (lambda / 2 (3 s)^2 + 3 mu
-// s^2).
+// Reference: the boundary value problem of the free flesh alone, with the nodes at the held tets prescribed. The
+// prescribed state of the tets, here an expansion by 3 s, shares no pressure with the adjacent flesh. It contributes to
+// the energy, V (lambda / 2 (3 s)^2 + 3 mu s^2).
 TEST(NearIncompressibleAttachment, HeldTetsActByTheirNodesAlone)
 {
     pbs::TetMesh free = box_mesh({coarse_cell_m, -0.25, -0.25}, {2, 0.25, 0.25}, {7, 2, 2});
-    const pbs::TetMesh whole = test_support::jittered(joined({free, box_mesh({0, -0.25, -0.25}, {coarse_cell_m, 0.25, 0.25}, {1, 2, 2})}),
-                                                      Vec3::Constant(coarse_cell_m), 0.25);  // in which the free flesh comes first
+    const pbs::TetMesh whole =
+        test_support::jittered(joined({free, box_mesh({0, -0.25, -0.25}, {coarse_cell_m, 0.25, 0.25}, {1, 2, 2})}),
+                               // in which the free flesh comes first
+                               Vec3::Constant(coarse_cell_m), 0.25);
     free.rest = whole.rest.topRows(free.rest.rows());
     Attachment held = holding(std::vector<int>(whole.tets.rows() - free.tets.rows()));
     std::iota(held.prescribed_tets.begin(), held.prescribed_tets.end(), static_cast<int>(free.tets.rows()));
@@ -219,7 +227,9 @@ TEST(NearIncompressibleAttachment, HeldTetsActByTheirNodesAlone)
 
     const double held_volume = pbs::tet_volumes(whole.rest, whole.tets)(held.prescribed_tets).sum();
     const Positions held_nodes = nodes_of(whole, held.prescribed_tets, 2);
-    const auto is_held_node = [&](const Vec3& x) { return (held_nodes.rowwise() - x.transpose()).rowwise().norm().minCoeff() < 1e-9; };
+    const auto is_held_node = [&](const Vec3& x) {
+        return (held_nodes.rowwise() - x.transpose()).rowwise().norm().minCoeff() < 1e-9;
+    };
     const ElasticMaterial material{young_pa, incompressible};
     const BoundaryValueSolution alone =
         solve(free, material, {.displacement = swollen, .held = is_held_node, .formulation = Formulation::taylor_hood});
@@ -241,15 +251,16 @@ TEST(NearIncompressibleAttachment, HeldTetsActByTheirNodesAlone)
     EXPECT_NEAR(fem.strain_energy_j(), energy, of_bar.energy_j(energy) + of_part.energy_j(energy));
 }
 
-// Reference: theory. Linear strain interprets the rotation x -> R x by theta as the strain (R + R^T) / 2 - I, which is cos(theta) - 1
-// across the axis: a fictitious stress. This is why the linear reference is only a negative control beyond some 10 degrees, and how large
-// its error is.
+// Reference: theory. Linear strain interprets the rotation x -> R x by theta as the strain (R + R^T) / 2 - I, which is
+// cos(theta) - 1 across the axis: a fictitious stress. This is why the linear reference is only a negative control
+// beyond some 10 degrees, and how large its error is.
 
 const LinearOptions linear_tets{.element_order = 1, .young_pa = young_pa, .poisson = 0.3};
 
 pbs::TetMesh long_bar(int cells_across)
 {
-    return test_support::structured_bar({-2, -0.25, -0.25}, {2, 0.25, 0.25}, {8 * cells_across, cells_across, cells_across});
+    return test_support::structured_bar({-2, -0.25, -0.25}, {2, 0.25, 0.25},
+                                        {8 * cells_across, cells_across, cells_across});
 }
 
 Positions rotated(const Positions& points, double angle)
@@ -259,33 +270,37 @@ Positions rotated(const Positions& points, double angle)
 
 class RigidRotation : public testing::TestWithParam<double> {};
 
-// All tets are prescribed: the map is x -> R x, its volume is correct, its stress is fictitious: V (2 lambda + 2 mu) (1 - cos theta)^2.
+// All tets are prescribed: the map is x -> R x, its volume is correct, its stress is fictitious: V (2 lambda + 2 mu) (1
+// - cos theta)^2.
 TEST_P(RigidRotation, StoresFictitiousEnergy)
 {
     const double angle = GetParam() * std::acos(-1.0) / 180.0;
     const pbs::TetMesh mesh = long_bar(2);
     const std::vector<int> all = tets_where(mesh, [](const Vec3&) { return true; });
     for (const int order : {1, 2}) {
-        LinearElasticity fem(mesh, {.element_order = order, .young_pa = young_pa, .poisson = linear_tets.poisson}, holding(all));
+        LinearElasticity fem(mesh, {.element_order = order, .young_pa = young_pa, .poisson = linear_tets.poisson},
+                             holding(all));
         ASSERT_TRUE(fem.solve(Positions(0, 3), rotated(mesh.rest, angle)).finite);
         // Positions are the sum of the rest and a difference from it: two roundings each.
         constexpr double eps = std::numeric_limits<double>::epsilon();
         EXPECT_LT((fem.positions() - rotated(mesh.rest, angle)).norm(), 2.0 * eps * mesh.rest.norm());
-        const double lambda_plus_mu = linear_tets.young_pa / (2.0 * (1.0 + linear_tets.poisson) * (1.0 - 2.0 * linear_tets.poisson));
+        const double lambda_plus_mu =
+            linear_tets.young_pa / (2.0 * (1.0 + linear_tets.poisson) * (1.0 - 2.0 * linear_tets.poisson));
         const double strain = 1.0 - std::cos(angle), volume = pbs::tet_volumes(mesh.rest, mesh.tets).sum();
         const double energy = volume * 2.0 * lambda_plus_mu * strain * strain;
         EXPECT_GT(energy, 0.0);
-        // Each component of the gradient sums ten nodes' displacements, in error by eps times their 2 m, over at least a quarter of a cell
-        // of 0.25 m. The energy is quadratic in the strain, which that error is relative to.
+        // Each component of the gradient sums ten nodes' displacements, in error by eps times their 2 m, over at least
+        // a quarter of a cell of 0.25 m. The energy is quadratic in the strain, which that error is relative to.
         const double of_gradient = std::sqrt(10.0) * eps * 2.0 / (0.25 / 4.0);
         EXPECT_NEAR(fem.strain_energy_j(), energy, 2.0 * of_gradient / strain * energy);
     }
 }
 
-// Both ends are turned equally, and the rest is free. Far from the ends the flesh loses the fictitious strain and keeps only the skew part
-// of R, so F = I + sin(theta) J and the volume ratio is 1 + sin^2(theta) instead of 1. The effect of the compressed ends on the middle:
-// they are compressed by 1 - cos(theta) over about a width w and tend to lengthen by at most that strain, which the length L shares between
-// two fixed ends: below (1 - cos(theta)) w / L. (The rest of their influence decays like exp(-4 s / w) with the distance s.)
+// Both ends are turned equally, and the rest is free. Far from the ends the flesh loses the fictitious strain and keeps
+// only the skew part of R, so F = I + sin(theta) J and the volume ratio is 1 + sin^2(theta) instead of 1. The effect of
+// the compressed ends on the middle: they are compressed by 1 - cos(theta) over about a width w and tend to lengthen by
+// at most that strain, which the length L shares between two fixed ends: below (1 - cos(theta)) w / L. (The rest of
+// their influence decays like exp(-4 s / w) with the distance s.)
 TEST_P(RigidRotation, SwellsFreeFleshBySineSquared)
 {
     const double angle = GetParam() * std::acos(-1.0) / 180.0;
@@ -294,7 +309,8 @@ TEST_P(RigidRotation, SwellsFreeFleshBySineSquared)
     const std::vector<int> middle = tets_where(mesh, [](const Vec3& x) { return std::abs(x(0)) < 0.15; });
     LinearElasticity fem(mesh, linear_tets, ends);
     ASSERT_TRUE(fem.solve(Positions(0, 3), rotated(mesh.rest, angle)).finite);
-    const Eigen::VectorXd ratio = pbs::tet_volumes(fem.positions(), mesh.tets).cwiseQuotient(pbs::tet_volumes(mesh.rest, mesh.tets));
+    const Eigen::VectorXd ratio =
+        pbs::tet_volumes(fem.positions(), mesh.tets).cwiseQuotient(pbs::tet_volumes(mesh.rest, mesh.tets));
     const double sine = std::sin(angle), strain = 1.0 - std::cos(angle);
     ASSERT_FALSE(middle.empty());
     for (const int t : middle) EXPECT_NEAR(ratio(t), 1.0 + sine * sine, strain * 0.5 / 4.0) << "tet " << t;

@@ -1,7 +1,7 @@
-// Reference: theory that every hyperelastic law obeys. Stress is the derivative of the energy and the tangent that of the stress (central
-// differences with an error of O(eps^2)). The tangent is symmetric. A rotation of the body after the deformation changes nothing, nor, for
-// an isotropic law, one before it. For small strain all laws agree with linear elasticity to second order of the energy, so they differ by
-// third order.
+// Reference: theory that every hyperelastic law obeys. Stress is the derivative of the energy and the tangent that of
+// the stress (central differences with an error of O(eps^2)). The tangent is symmetric. A rotation of the body after
+// the deformation changes nothing, nor, for an isotropic law, one before it. For small strain all laws agree with
+// linear elasticity to second order of the energy, so they differ by third order.
 #include "tests/support/eps_sweep.hpp"
 #include "tests/support/law_points.hpp"
 #include "tests/support/rounding_error.hpp"
@@ -30,7 +30,8 @@ Eigen::Matrix3d matrix_of(const Eigen::VectorXd& x)
 // A hundred roundings of the largest term of a law, which is of degree six in F.
 double rounding(const Eigen::Matrix3d& f)
 {
-    return 100.0 * std::numeric_limits<double>::epsilon() * (lame.lambda_pa + lame.mu_pa) * std::pow(1.0 + f.squaredNorm(), 3);
+    return 100.0 * std::numeric_limits<double>::epsilon() * (lame.lambda_pa + lame.mu_pa) *
+           std::pow(1.0 + f.squaredNorm(), 3);
 }
 
 // Large rotations and stretches, and inversions if the law is defined for them.
@@ -46,24 +47,28 @@ std::vector<Eigen::Matrix3d> states(const NamedModel& model)
 class EveryLaw : public testing::TestWithParam<NamedModel> {};
 class NonlinearLaw : public testing::TestWithParam<NamedModel> {};
 
-// With lambda = 0 the sweep tests only the shape. Together with lambda it tests the dilatation, of which elements may take the mean.
+// With lambda = 0 the sweep tests only the shape. Together with lambda it tests the dilatation, of which elements may
+// take the mean.
 TEST_P(NonlinearLaw, StressIsTheDerivativeOfTheEnergyAndTangentThatOfTheStress)
 {
     const auto law = constitutive_law(GetParam().model, lame);
     RandomPoints random(8);
     for (const double lambda_pa : {0.0, law->lambda_pa()})
         for (const Eigen::Matrix3d& f : states(GetParam())) {
-            const reference_fem::Vector9 direction = vec(random_matrix(random, 1.0)), component = vec(random_matrix(random, 1.0));
+            const reference_fem::Vector9 direction = vec(random_matrix(random, 1.0)),
+                                         component = vec(random_matrix(random, 1.0));
             const auto energy = [&](const Eigen::VectorXd& x) {
                 return energy_density(law->evaluate(matrix_of(x), Derivatives::none), lambda_pa);
             };
             const auto stress = [&](const Eigen::VectorXd& x) {
-                return component.dot(vec(first_piola_kirchhoff(law->evaluate(matrix_of(x), Derivatives::first), lambda_pa)));
+                return component.dot(
+                    vec(first_piola_kirchhoff(law->evaluate(matrix_of(x), Derivatives::first), lambda_pa)));
             };
             const auto response = law->evaluate(f, Derivatives::second);
-            expect_slope_by_eps_sweep(energy, vec(f), direction, vec(first_piola_kirchhoff(response, lambda_pa)).dot(direction), 0.1);
-            expect_slope_by_eps_sweep(stress, vec(f), direction, component.dot(reference_fem::tangent(response, lambda_pa) * direction),
-                                      0.1);
+            expect_slope_by_eps_sweep(energy, vec(f), direction,
+                                      vec(first_piola_kirchhoff(response, lambda_pa)).dot(direction), 0.1);
+            expect_slope_by_eps_sweep(stress, vec(f), direction,
+                                      component.dot(reference_fem::tangent(response, lambda_pa) * direction), 0.1);
         }
 }
 
@@ -75,15 +80,18 @@ TEST(LinearLaw, DifferencesAreExactAtAnyStep)
     for (const double step : {1e-3, 1.0, 1e3}) {
         const Eigen::Matrix3d f = random_stretch(random), d = step * random_matrix(random, 1.0);
         const double tolerance = rounding(identity) * step * (1.0 + step);
-        EXPECT_NEAR(linear.energy(f + d) - linear.energy(f - d), 2.0 * linear.stress(f).cwiseProduct(d).sum(), tolerance);
-        EXPECT_LE((vec(linear.stress(f + d) - linear.stress(f)) - linear.tangent(f) * vec(d)).norm(), rounding(identity) * (1.0 + step));
+        EXPECT_NEAR(linear.energy(f + d) - linear.energy(f - d), 2.0 * linear.stress(f).cwiseProduct(d).sum(),
+                    tolerance);
+        EXPECT_LE((vec(linear.stress(f + d) - linear.stress(f)) - linear.tangent(f) * vec(d)).norm(),
+                  rounding(identity) * (1.0 + step));
     }
 }
 
 TEST_P(EveryLaw, TangentIsSymmetricAndAtRestLinearElasticitys)
 {
     const LawPoint point(GetParam().model, lame);
-    for (const Eigen::Matrix3d& f : states(GetParam())) EXPECT_LE((point.tangent(f) - point.tangent(f).transpose()).norm(), rounding(f));
+    for (const Eigen::Matrix3d& f : states(GetParam()))
+        EXPECT_LE((point.tangent(f) - point.tangent(f).transpose()).norm(), rounding(f));
     EXPECT_LE((point.tangent(identity) - LawPoint(Model::linear, lame).tangent(identity)).norm(), rounding(identity));
 }
 
@@ -103,8 +111,8 @@ TEST_P(NonlinearLaw, IsIndifferentToTheFrameAndIsotropic)
     }
 }
 
-// The negative control. Linear elasticity is isotropic only under a rotation of body and frame together. It interprets a rotation by a as
-// the strain diag(cos a - 1, cos a - 1, 0), with the energy 2 (lambda + mu) (1 - cos a)^2.
+// The negative control. Linear elasticity is isotropic only under a rotation of body and frame together. It interprets
+// a rotation by a as the strain diag(cos a - 1, cos a - 1, 0), with the energy 2 (lambda + mu) (1 - cos a)^2.
 TEST(LinearLaw, IsIsotropicButNotIndifferentToTheFrame)
 {
     const LawPoint linear(Model::linear, lame);
@@ -119,8 +127,9 @@ TEST(LinearLaw, IsIsotropicButNotIndifferentToTheFrame)
     }
 }
 
-// psi(I + eps G) - psi_linear(I + eps G) = O(eps^3). At eps = 1e-5 the energy is 1e-10 of the moduli and the difference 1e-15. It is still
-// visible, since the laws sum small terms, whose error is the rounding relative to themselves plus the rounding of 1 + eps, 1e-16 eps.
+// psi(I + eps G) - psi_linear(I + eps G) = O(eps^3). At eps = 1e-5 the energy is 1e-10 of the moduli and the difference
+// 1e-15. It is still visible, since the laws sum small terms, whose error is the rounding relative to themselves plus
+// the rounding of 1 + eps, 1e-16 eps.
 TEST_P(NonlinearLaw, LeavesLinearElasticityAtThirdOrder)
 {
     const LawPoint point(GetParam().model, lame), linear(Model::linear, lame);
@@ -131,28 +140,30 @@ TEST_P(NonlinearLaw, LeavesLinearElasticityAtThirdOrder)
             const Eigen::Matrix3d f = identity + eps * g;
             return std::abs(point.energy(f) - linear.energy(f));
         };
-        for (const double eps : {1e-2, 1e-3, 1e-4}) EXPECT_NEAR(std::log10(difference(eps) / difference(eps / 10.0)), 3.0, 0.1) << eps;
+        for (const double eps : {1e-2, 1e-3, 1e-4})
+            EXPECT_NEAR(std::log10(difference(eps) / difference(eps / 10.0)), 3.0, 0.1) << eps;
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, NonlinearLaw, testing::ValuesIn(nonlinear_models), name_of_model);
 INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, testing::ValuesIn(all_models), name_of_model);
 
-// Reference: textbook stresses of each law, derived by hand from its energy in principal stretches or in shear, by formulas that no source
-// file contains. J. Bonet, R. Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, chapter 6; R. Ogden, Non-Linear Elastic
-// Deformations.
-// A stress and its closed form go through at most a hundred roundings by eps / 2 (the invariants and cofactors of F, the sweeps of a Jacobi
-// SVD) of terms no larger than (lambda + 2 mu) s^5, s the largest stretch or 1: the term J dJ/dF of a stress is of degree five in F. The
-// Frobenius norm of nine such errors is three times as large.
+// Reference: textbook stresses of each law, derived by hand from its energy in principal stretches or in shear, by
+// formulas that no source file contains. J. Bonet, R. Wood, Nonlinear Continuum Mechanics for Finite Element Analysis,
+// chapter 6; R. Ogden, Non-Linear Elastic Deformations. A stress and its closed form go through at most a hundred
+// roundings by eps / 2 (the invariants and cofactors of F, the sweeps of a Jacobi SVD) of terms no larger than (lambda
+// + 2 mu) s^5, s the largest stretch or 1: the term J dJ/dF of a stress is of degree five in F. The Frobenius norm of
+// nine such errors is three times as large.
 double tolerance(double largest_stretch)
 {
     const double largest_term = (lambda + 2.0 * mu) * std::pow(std::max(largest_stretch, 1.0), 5);
     return 3.0 * 100.0 * std::numeric_limits<double>::epsilon() / 2.0 * largest_term;
 }
 
-// F = s I: P = p I. At s = 1e6 and 1e-5 the terms of p differ by up to 30 digits. There each of the three entries goes through at most a
-// hundred roundings, of which 2/3 ln J, below 30, are those that J^(-2/3) amplifies. For lambda = 2 mu the magnitudes of the terms add up
-// to at most 2.5 p, where the parts of the isochoric law cancel: (kappa / 2 + 2 mu) / s = 3.3 / s for p = 1.3 / s.
+// F = s I: P = p I. At s = 1e6 and 1e-5 the terms of p differ by up to 30 digits. There each of the three entries goes
+// through at most a hundred roundings, of which 2/3 ln J, below 30, are those that J^(-2/3) amplifies. For lambda = 2
+// mu the magnitudes of the terms add up to at most 2.5 p, where the parts of the isochoric law cancel: (kappa / 2 + 2
+// mu) / s = 3.3 / s for p = 1.3 / s.
 TEST_P(EveryLaw, UniformDilation)
 {
     const Lame twice{.lambda_pa = 2.0, .mu_pa = 1.0};
@@ -161,11 +172,15 @@ TEST_P(EveryLaw, UniformDilation)
         {Model::linear, hooke},
         {Model::corotational, hooke},
         {Model::stable_neo_hookean,
-         [](double s, const Lame& l) { return l.mu_pa * (s - s * s) + (l.lambda_pa + l.mu_pa) * (s * s * s - 1.0) * s * s; }},
-        {Model::neo_hookean, [](double s, const Lame& l) { return l.mu_pa * (s - 1.0 / s) + 3.0 * l.lambda_pa * std::log(s) / s; }},
+         [](double s, const Lame& l) {
+             return l.mu_pa * (s - s * s) + (l.lambda_pa + l.mu_pa) * (s * s * s - 1.0) * s * s;
+         }},
+        {Model::neo_hookean,
+         [](double s, const Lame& l) { return l.mu_pa * (s - 1.0 / s) + 3.0 * l.lambda_pa * std::log(s) / s; }},
         {Model::st_venant_kirchhoff, [hooke](double s, const Lame& l) { return hooke(s, l) * s * (s + 1.0) / 2.0; }},
-        {Model::isochoric_neo_hookean,
-         [](double s, const Lame& l) { return 0.5 * (l.lambda_pa + 2.0 / 3.0 * l.mu_pa) * (std::pow(s, 5) - 1.0 / s); }}};
+        {Model::isochoric_neo_hookean, [](double s, const Lame& l) {
+             return 0.5 * (l.lambda_pa + 2.0 / 3.0 * l.mu_pa) * (std::pow(s, 5) - 1.0 / s);
+         }}};
     for (const double s : {1e-5, 0.6, 1.0, 1.5, 1e6}) {
         const bool extreme = s < 0.5 || s > 2.0;
         const LawPoint point(GetParam().model, extreme ? twice : lame);
@@ -187,9 +202,13 @@ TEST_P(EveryLaw, UniaxialStrain)
         {Model::linear, hooke},
         {Model::corotational, hooke},
         {Model::stable_neo_hookean,  // along: the same straight line as Hooke's law
-         [](double s) { return Pair((lambda + 2.0 * mu) * (s - 1.0), mu * (s - 1.0) * (s - 1.0) + lambda * s * (s - 1.0)); }},
-        {Model::neo_hookean, [](double s) { return Pair(mu * (s - 1.0 / s) + lambda * std::log(s) / s, lambda * std::log(s)); }},
-        {Model::st_venant_kirchhoff, [](double s) { return Pair((0.5 * lambda + mu) * s * (s * s - 1.0), 0.5 * lambda * (s * s - 1.0)); }},
+         [](double s) {
+             return Pair((lambda + 2.0 * mu) * (s - 1.0), mu * (s - 1.0) * (s - 1.0) + lambda * s * (s - 1.0));
+         }},
+        {Model::neo_hookean,
+         [](double s) { return Pair(mu * (s - 1.0 / s) + lambda * std::log(s) / s, lambda * std::log(s)); }},
+        {Model::st_venant_kirchhoff,
+         [](double s) { return Pair((0.5 * lambda + mu) * s * (s * s - 1.0), 0.5 * lambda * (s * s - 1.0)); }},
         {Model::isochoric_neo_hookean, [](double s) {
              const double deviator = mu * std::pow(s, -2.0 / 3.0) * (s * s - 1.0) / 3.0;
              return Pair(0.5 * kappa * (s - 1.0 / s) + 2.0 * deviator / s, 0.5 * kappa * (s * s - 1.0) - deviator);
@@ -216,7 +235,8 @@ Eigen::Matrix3d shear_stress(Model model, double g)
         p.diagonal().setConstant(-mu * g * g / 3.0);
         p(1, 0) += mu * g * g * g / 3.0;
     } else if (model == Model::corotational) {  // R rotates by atan(g / 2), tr S = 1 + sqrt(4 + g^2)
-        const double root = std::sqrt(4.0 + g * g), cosine = 2.0 / root, sine = g / root, pressure = lambda * (root - 2.0);
+        const double root = std::sqrt(4.0 + g * g), cosine = 2.0 / root, sine = g / root,
+                     pressure = lambda * (root - 2.0);
         p << 2.0 * mu * (1.0 - cosine) + pressure * cosine, 2.0 * mu * (g - sine) + pressure * sine, 0.0,  //
             (2.0 * mu - pressure) * sine, 2.0 * mu * (1.0 - cosine) + pressure * cosine, 0.0,              //
             0.0, 0.0, pressure;
@@ -231,8 +251,9 @@ TEST_P(EveryLaw, SimpleShear)
         f(0, 1) = g;
         const Eigen::Matrix3d stress = LawPoint(GetParam().model, lame).stress(f);
         const double stretch = std::abs(g) / 2.0 + std::sqrt(1.0 + g * g / 4.0);
-        EXPECT_LE((stress - shear_stress(GetParam().model, g)).norm(), tolerance(stretch)) << stress << "\n\n"
-                                                                                           << shear_stress(GetParam().model, g);
+        EXPECT_LE((stress - shear_stress(GetParam().model, g)).norm(), tolerance(stretch))
+            << stress << "\n\n"
+            << shear_stress(GetParam().model, g);
     }
 }
 
@@ -247,11 +268,12 @@ double free_stretch_across(const LawPoint& point, double s)
     return 0.5 * (low + high);
 }
 
-// L. Treloar, The Physics of Rubber Elasticity: an incompressible neo-Hookean bar stretched to s carries mu (s - 1 / s^2) per unit of its
-// initial cross-section. The pressure, of order mu, changes the volume of a compressible bar by order mu / lambda, and its force likewise:
-// the difference from Treloar's falls a hundredfold if lambda grows a hundredfold. It is a series c x + d x^2 + ... in x = mu / lambda with
-// coefficients of order one to ten (the pressure at s = 2 is 4 mu): below 1e-2 at x = 1e-3, and the ratio is 100 to within 100 d / c x = 1.
-// Rounding of the stress, a hundred eps lambda, is 1e-4 of the smaller difference.
+// L. Treloar, The Physics of Rubber Elasticity: an incompressible neo-Hookean bar stretched to s carries mu (s - 1 /
+// s^2) per unit of its initial cross-section. The pressure, of order mu, changes the volume of a compressible bar by
+// order mu / lambda, and its force likewise: the difference from Treloar's falls a hundredfold if lambda grows a
+// hundredfold. It is a series c x + d x^2 + ... in x = mu / lambda with coefficients of order one to ten (the pressure
+// at s = 2 is 4 mu): below 1e-2 at x = 1e-3, and the ratio is 100 to within 100 d / c x = 1. Rounding of the stress, a
+// hundred eps lambda, is 1e-4 of the smaller difference.
 TEST(NeoHookeanLaws, TendToTreloarsBarAsVolumeIsKept)
 {
     for (const NamedModel& model : {nonlinear_models[1], nonlinear_models[2], nonlinear_models[4]})
@@ -266,8 +288,8 @@ TEST(NeoHookeanLaws, TendToTreloarsBarAsVolumeIsKept)
         }
 }
 
-// A known defect: St Venant-Kirchhoff, compressed with its sides held, carries (lambda / 2 + mu) (s^3 - s), with its maximum at s = 1 /
-// sqrt 3 for any moduli. Under further compression it softens, and at s = 0 it has no resistance.
+// A known defect: St Venant-Kirchhoff, compressed with its sides held, carries (lambda / 2 + mu) (s^3 - s), with its
+// maximum at s = 1 / sqrt 3 for any moduli. Under further compression it softens, and at s = 0 it has no resistance.
 TEST(StVenantKirchhoff, HasALimitPointUnderUniaxialStrain)
 {
     const double limit = 1.0 / std::sqrt(3.0);
@@ -283,9 +305,9 @@ TEST(StVenantKirchhoff, HasALimitPointUnderUniaxialStrain)
     }
 }
 
-// With its sides free, E_22 = -nu E_11, it carries Young's modulus times (s^3 - s) / 2, with the same limit point. Tolerance: the rounding
-// of the stress along the bar, and that of the stress across, which the bisection makes zero; its share in the force is below one. No other
-// law softens under uniaxial strain.
+// With its sides free, E_22 = -nu E_11, it carries Young's modulus times (s^3 - s) / 2, with the same limit point.
+// Tolerance: the rounding of the stress along the bar, and that of the stress across, which the bisection makes zero;
+// its share in the force is below one. No other law softens under uniaxial strain.
 TEST(StVenantKirchhoff, HasTheSameLimitPointUnderUniaxialStressAndIsAloneInGivingWay)
 {
     const LawPoint point(Model::st_venant_kirchhoff, lame);
@@ -294,21 +316,25 @@ TEST(StVenantKirchhoff, HasTheSameLimitPointUnderUniaxialStressAndIsAloneInGivin
         const double across = free_stretch_across(point, s);
         return point.stress(diagonal(s, across, across))(0, 0);
     };
-    for (const double s : {0.4, 1.0 / std::sqrt(3.0), 0.8}) EXPECT_NEAR(force(s), young * (s * s * s - s) / 2.0, 2.0 * tolerance(1.0));
+    for (const double s : {0.4, 1.0 / std::sqrt(3.0), 0.8})
+        EXPECT_NEAR(force(s), young * (s * s * s - s) / 2.0, 2.0 * tolerance(1.0));
     EXPECT_LT(force(1.0 / std::sqrt(3.0)), std::min(force(0.4), force(0.8)));
     for (const NamedModel& model : all_models)
         for (double s = 0.95; s > 0.04 && model.model != Model::st_venant_kirchhoff; s -= 0.05)
-            EXPECT_GT(LawPoint(model.model, lame).tangent(diagonal(s, 1.0, 1.0))(0, 0), 0.5 * (lambda + 2.0 * mu)) << model.name << s;
+            EXPECT_GT(LawPoint(model.model, lame).tangent(diagonal(s, 1.0, 1.0))(0, 0), 0.5 * (lambda + 2.0 * mu))
+                << model.name << s;
 }
 
-// M. Macklin, M. Mueller, A Constraint-based Formulation of Stable Neo-Hookean Materials, MIG 2021: mu / 2 (|F|^2 - 3) + lambda' / 2
-// (J - alpha)^2 with alpha = 1 + mu / lambda', which has the small-strain limit of mu and lambda for lambda' = lambda + mu. The square
-// completed, it is the energy of the code up to a constant; both go through fewer roundings than the stress, and terms of degree six.
+// M. Macklin, M. Mueller, A Constraint-based Formulation of Stable Neo-Hookean Materials, MIG 2021: mu / 2 (|F|^2 - 3)
+// + lambda' / 2 (J - alpha)^2 with alpha = 1 + mu / lambda', which has the small-strain limit of mu and lambda for
+// lambda' = lambda + mu. The square completed, it is the energy of the code up to a constant; both go through fewer
+// roundings than the stress, and terms of degree six.
 TEST(StableNeoHookean, IsTheFormOfMacklinAndMueller)
 {
     const double lambda_form = lambda + mu, alpha = 1.0 + mu / lambda_form;
     const auto form = [&](const Eigen::Matrix3d& f) {
-        return mu / 2.0 * (f.squaredNorm() - 3.0) + lambda_form / 2.0 * (std::pow(f.determinant() - alpha, 2) - std::pow(1.0 - alpha, 2));
+        return mu / 2.0 * (f.squaredNorm() - 3.0) +
+               lambda_form / 2.0 * (std::pow(f.determinant() - alpha, 2) - std::pow(1.0 - alpha, 2));
     };
     const LawPoint law(Model::stable_neo_hookean, lame);
     test_support::RandomPoints random(11);

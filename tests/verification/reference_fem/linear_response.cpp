@@ -1,5 +1,6 @@
-// Reference: properties of linear elasticity (superposition, reciprocity, independence of Young's modulus and of the numbering) and of the
-// program (a kept factor gives what a fresh one gives; two solvers agree). Tolerances: rounding of direct solves, by cond(K).
+// Reference: properties of linear elasticity (superposition, reciprocity, independence of Young's modulus and of the
+// numbering) and of the program (a kept factor gives what a fresh one gives; two solvers agree). Tolerances: rounding
+// of direct solves, by cond(K).
 #include "reference_fem/linear_elasticity.hpp"
 
 #include "tests/support/fem_rounding.hpp"
@@ -12,8 +13,8 @@ using namespace reference_fem;
 using pbs::Positions;
 using pbs::Vec3;
 
-const pbs::TetMesh bar =
-    test_support::jittered(test_support::structured_bar({0, -0.25, -0.25}, {1, 0.25, 0.25}, {8, 4, 4}), Vec3::Constant(0.125), 0.25);
+const pbs::TetMesh bar = test_support::jittered(
+    test_support::structured_bar({0, -0.25, -0.25}, {1, 0.25, 0.25}, {8, 4, 4}), Vec3::Constant(0.125), 0.25);
 
 // Points on two short lines inside the two ends, and one beyond the bar.
 const Positions tied_points{{0.1, 0, 0},    {0.2, 0.03, 0},  {0.15, 0, 0.05},    {0.12, -0.1, 0.02}, {0.9, 0, 0},
@@ -47,7 +48,8 @@ TEST_P(LinearResponse, CholmodAndUmfpackAgree)
     LinearOptions second = options;
     second.solver = LinearSolver::umfpack;
     LinearElasticity cholmod(bar, options, springs()), umfpack(bar, second, springs());
-    const SolveSummary first = cholmod.solve(moved_points(0.1, 0.1), bar.rest), other = umfpack.solve(moved_points(0.1, 0.1), bar.rest);
+    const SolveSummary first = cholmod.solve(moved_points(0.1, 0.1), bar.rest),
+                       other = umfpack.solve(moved_points(0.1, 0.1), bar.rest);
     const test_support::SolveRounding rounding = rounding_of(cholmod);
     EXPECT_LT((cholmod.positions() - umfpack.positions()).norm(), 2.0 * rounding.error_m());
     EXPECT_LT(rounding.relative(), 1e-6) << "a bound that would let an error of a percent pass proves nothing";
@@ -56,8 +58,8 @@ TEST_P(LinearResponse, CholmodAndUmfpackAgree)
     EXPECT_LT(other.residual, rounding.relative());
 }
 
-// |e| / |u| <= cond(K) |r| / |f|, and conjugate gradients are asked for |r| / |f| = 1e-10. The residual they report is formed anew from the
-// solution; theirs is updated from step to step, and the two part by rounding.
+// |e| / |u| <= cond(K) |r| / |f|, and conjugate gradients are asked for |r| / |f| = 1e-10. The residual they report is
+// formed anew from the solution; theirs is updated from step to step, and the two part by rounding.
 TEST_P(LinearResponse, ConjugateGradientsAgreeWithCholmod)
 {
     LinearOptions second = options;
@@ -82,13 +84,14 @@ TEST_P(LinearResponse, DisplacementsSuperpose)
     };
     const Eigen::VectorXd pull = displacement(moved_points(0.1, 0.0), Vec3::Zero());
     const Eigen::VectorXd weight = displacement(tied_points, Vec3(0, -9.81, 0));
-    const Eigen::VectorXd both = displacement(tied_points + 2.0 * (moved_points(0.1, 0.0) - tied_points), Vec3(0, -9.81, 0));
+    const Eigen::VectorXd both =
+        displacement(tied_points + 2.0 * (moved_points(0.1, 0.0) - tied_points), Vec3(0, -9.81, 0));
     const double sizes_m = 2.0 * pull.norm() + weight.norm() + both.norm();
     EXPECT_LT((2.0 * pull + weight - both).norm(), rounding_of(fem).relative() * sizes_m);
 }
 
-// If gravity is given at the solve instead of in the options, nothing else changes; nor does the element order change which points are
-// tied.
+// If gravity is given at the solve instead of in the options, nothing else changes; nor does the element order change
+// which points are tied.
 TEST_P(LinearResponse, GravityMayTurnBetweenFramesAndEveryElementOrderGripsTheSamePoints)
 {
     LinearElasticity fixed(bar, options, springs()), given(bar, {.element_order = GetParam()}, springs());

@@ -1,6 +1,6 @@
-// Reference: calculus and theory. Each potential's gradient is the derivative of its value and its Hessian that of its gradient (eps sweeps
-// on a distorted mesh, away from rest); the Hessian of the linear law is the stiffness that deal.II assembles separately; rotations store
-// no energy.
+// Reference: calculus and theory. Each potential's gradient is the derivative of its value and its Hessian that of its
+// gradient (eps sweeps on a distorted mesh, away from rest); the Hessian of the linear law is the stiffness that
+// deal.II assembles separately; rotations store no energy.
 #include "pbs/geometry/input_error.hpp"
 #include "reference_fem/assembly.hpp"
 #include "reference_fem/dynamics/time_stepper.hpp"
@@ -21,12 +21,14 @@ using namespace reference_fem;
 using pbs::Vec3;
 using test_support::at_nodes;
 
-const pbs::TetMesh cube = test_support::jittered(test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {2, 1, 1}), {0.5, 1.0, 1.0}, 0.2);
+const pbs::TetMesh cube =
+    test_support::jittered(test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {2, 1, 1}), {0.5, 1.0, 1.0}, 0.2);
 const Lame lame = lame_parameters(1e3, 0.4);
 
-// Rounding of a sum relative to the sum of its terms' magnitudes: every term goes through at most `roundings` of eps / 2. Of these, a law
-// has a hundred (tests/verification/reference_fem/laws.cpp); an entry of a matrix is a sum of nine products over up to 6 points of up to 24
-// tets about an edge or vertex, the magnitudes of which are those of the entry, since the terms on the diagonal have one sign.
+// Rounding of a sum relative to the sum of its terms' magnitudes: every term goes through at most `roundings` of eps
+// / 2. Of these, a law has a hundred (tests/verification/reference_fem/laws.cpp); an entry of a matrix is a sum of nine
+// products over up to 6 points of up to 24 tets about an edge or vertex, the magnitudes of which are those of the
+// entry, since the terms on the diagonal have one sign.
 double rounding(int roundings)
 {
     return test_support::rounding_error(roundings, 1.0);
@@ -52,21 +54,25 @@ void expect_consistent(const Potential& potential, const SimplexSpace& space, do
     const auto value = [&](const Eigen::VectorXd& u) { return potential.value(u); };
     NodalMatrix hessian(space);
     potential.add_hessian(at, Definiteness::as_it_is, hessian);
-    EXPECT_LE((hessian.matrix() - SparseMatrix(hessian.matrix().transpose())).norm(), rounding(2 * of_entry) * hessian.matrix().norm());
-    if (potential.is_quadratic()) {  // central differences of a quadratic are exact, so no decrease of the error is visible
-        const Eigen::VectorXd ahead = at + along, behind = at - along, slopes_ahead = gradient(ahead), slopes_behind = gradient(behind);
+    EXPECT_LE((hessian.matrix() - SparseMatrix(hessian.matrix().transpose())).norm(),
+              rounding(2 * of_entry) * hessian.matrix().norm());
+    // central differences of a quadratic are exact, so no decrease of the error is visible
+    if (potential.is_quadratic()) {
+        const Eigen::VectorXd ahead = at + along, behind = at - along, slopes_ahead = gradient(ahead),
+                              slopes_behind = gradient(behind);
         const double slope = (value(ahead) - value(behind)) / 2.0;
-        const double work = slopes_ahead.norm() * ahead.norm() + slopes_behind.norm() * behind.norm();  // of terms without their signs
+        // of terms without their signs
+        const double work = slopes_ahead.norm() * ahead.norm() + slopes_behind.norm() * behind.norm();
         EXPECT_NEAR(slope, gradient(at).dot(along), rounding(of_energy + space.dofs()) * work);
         const Eigen::VectorXd turn = (slopes_ahead - slopes_behind) / 2.0;
-        EXPECT_LT(
-            (turn - hessian.matrix() * along).norm(),
-            rounding(of_entry + space.dofs()) * (slopes_ahead.norm() + slopes_behind.norm() + hessian.matrix().norm() * along.norm()));
+        EXPECT_LT((turn - hessian.matrix() * along).norm(),
+                  rounding(of_entry + space.dofs()) *
+                      (slopes_ahead.norm() + slopes_behind.norm() + hessian.matrix().norm() * along.norm()));
         return;
     }
     test_support::expect_slope_by_eps_sweep(value, at, along, gradient(at).dot(along), 0.1 * size);
-    test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& u) { return gradient(u).dot(across); }, at, along,
-                                            across.dot(hessian.matrix() * along), 0.1 * size);
+    test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& u) { return gradient(u).dot(across); }, at,
+                                            along, across.dot(hessian.matrix() * along), 0.1 * size);
 }
 
 struct Case {
@@ -93,9 +99,10 @@ TEST_P(Flesh, ARotationStoresNothingUnlessTheLawIsLinear)
     if (GetParam().model == Model::linear)
         EXPECT_GT(energy, lame.mu_pa);  // |u| is of order one, and so is the fictitious strain
     else
-        // The terms of a law, which a rotation R makes cancel, are of the size of the moduli times |R - I|^2; the volume is 1 m^3.
-        EXPECT_LT(std::abs(energy),
-                  rounding(of_energy) * (lame.lambda_pa + lame.mu_pa) * (turn - Eigen::Matrix3d::Identity()).squaredNorm());
+        // The terms of a law, which a rotation R makes cancel, are of the size of the moduli times |R - I|^2; the
+        // volume is 1 m^3.
+        EXPECT_LT(std::abs(energy), rounding(of_energy) * (lame.lambda_pa + lame.mu_pa) *
+                                        (turn - Eigen::Matrix3d::Identity()).squaredNorm());
 }
 
 TEST_P(Flesh, ProjectedHessianHasNoNegativeEigenvalues)
@@ -108,14 +115,15 @@ TEST_P(Flesh, ProjectedHessianHasNoNegativeEigenvalues)
     flesh.add_hessian(squeezed, Definiteness::projected, hessian);
     const Eigen::MatrixXd dense = hessian.matrix();
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues()(0),
-              -(rounding(of_entry) + dense.rows() * rounding(2)) * dense.norm());  // of the sums, and n eps of the eigenvalue solver
+              // of the sums, and n eps of the eigenvalue solver
+              -(rounding(of_entry) + dense.rows() * rounding(2)) * dense.norm());
 }
 
 std::vector<Case> all_cases()
 {
     std::vector<Case> cases;
-    for (const Model model :
-         {Model::linear, Model::corotational, Model::stable_neo_hookean, Model::neo_hookean, Model::st_venant_kirchhoff})
+    for (const Model model : {Model::linear, Model::corotational, Model::stable_neo_hookean, Model::neo_hookean,
+                              Model::st_venant_kirchhoff})
         for (const int order : {1, 2})
             for (const Formulation formulation : {Formulation::displacement, Formulation::mean_dilatation})
                 cases.push_back({model, order, formulation});
@@ -128,9 +136,11 @@ TEST(ElasticPotential, TheLinearLawIsTheStiffnessThatDealIiAssembles)
 {
     for (const int order : {1, 2}) {
         const SimplexSpace space(cube, order);
-        const NodalMatrix hessian = rest_stiffness(space, ElasticPotential(space, Model::linear, lame, Formulation::displacement));
+        const NodalMatrix hessian =
+            rest_stiffness(space, ElasticPotential(space, Model::linear, lame, Formulation::displacement));
         const SparseMatrix stiffness = stiffness_matrix(space, lame);
-        EXPECT_LT((hessian.matrix() - stiffness).norm(), rounding(2 * (of_entry - of_law)) * stiffness.norm()) << "P" << order;
+        EXPECT_LT((hessian.matrix() - stiffness).norm(), rounding(2 * (of_entry - of_law)) * stiffness.norm())
+            << "P" << order;
     }
 }
 
@@ -138,9 +148,12 @@ TEST(ElasticPotential, EveryLawHasTheLinearStiffnessAtRest)
 {
     const SimplexSpace space(cube, 2);
     for (const Formulation formulation : {Formulation::displacement, Formulation::mean_dilatation}) {
-        const SparseMatrix linear = rest_stiffness(space, ElasticPotential(space, Model::linear, lame, formulation)).matrix();
-        for (const Model model : {Model::corotational, Model::stable_neo_hookean, Model::neo_hookean, Model::st_venant_kirchhoff}) {
-            const SparseMatrix at_rest = rest_stiffness(space, ElasticPotential(space, model, lame, formulation)).matrix();
+        const SparseMatrix linear =
+            rest_stiffness(space, ElasticPotential(space, Model::linear, lame, formulation)).matrix();
+        for (const Model model :
+             {Model::corotational, Model::stable_neo_hookean, Model::neo_hookean, Model::st_venant_kirchhoff}) {
+            const SparseMatrix at_rest =
+                rest_stiffness(space, ElasticPotential(space, model, lame, formulation)).matrix();
             EXPECT_LT((at_rest - linear).norm(), rounding(of_entry) * linear.norm());
         }
     }
@@ -161,23 +174,27 @@ TEST(ElasticPotential, JacobiansOfAnAffineMotion)
 {
     const SimplexSpace space(cube, 2);
     const ElasticPotential flesh(space, Model::stable_neo_hookean, lame, Formulation::displacement);
-    const Eigen::VectorXd mirrored = at_nodes(space, [](const Vec3& x) -> Vec3 { return {-3.0 * x.x(), 0, 0}; });  // F = diag(-2, 1, 1)
+    // F = diag(-2, 1, 1)
+    const Eigen::VectorXd mirrored = at_nodes(space, [](const Vec3& x) -> Vec3 { return {-3.0 * x.x(), 0, 0}; });
     const Jacobians jacobians = flesh.jacobians(mirrored);
     // An entry of F sums ten products of |u| <= 3 m and |grad N| <= 10 / m; the volume sums 72 points more.
     EXPECT_NEAR(jacobians.lowest, -2.0, rounding(20) * 300.0);
     EXPECT_EQ(jacobians.inverted, 6 * cube.tets.rows());  // every quadrature point
     EXPECT_NEAR(jacobians.volume, -2.0, rounding(20 + 80) * 300.0);
     EXPECT_TRUE(std::isfinite(flesh.value(mirrored)));
-    EXPECT_TRUE(std::isinf(ElasticPotential(space, Model::neo_hookean, lame, Formulation::displacement).value(mirrored)));
+    EXPECT_TRUE(
+        std::isinf(ElasticPotential(space, Model::neo_hookean, lame, Formulation::displacement).value(mirrored)));
     EXPECT_THROW(ElasticPotential(space, Model::linear, lame, Formulation::taylor_hood), pbs::InputError);
-    EXPECT_THROW(ElasticPotential(space, Model::isochoric_neo_hookean, lame, Formulation::mean_dilatation), pbs::InputError);
+    EXPECT_THROW(ElasticPotential(space, Model::isochoric_neo_hookean, lame, Formulation::mean_dilatation),
+                 pbs::InputError);
 }
 
 TEST(SpringPotential, IsConsistent)
 {
     for (const int order : {1, 2}) {
         const SimplexSpace space(cube, order);
-        const pbs::Positions points{{0.2, 0.3, 0.4}, {0.7, 0.6, 0.2}, {9.0, 9.0, 9.0}};  // the last point lies outside and has no effect
+        // the last point lies outside and has no effect
+        const pbs::Positions points{{0.2, 0.3, 0.4}, {0.7, 0.6, 0.2}, {9.0, 9.0, 9.0}};
         const AttachedPoints springs(cube, space, points, Eigen::Vector3d(3.0, 5.0, 7.0));
         SpringPotential potential(springs);
         potential.move_to(pbs::Positions(points.array() + 0.25));
@@ -190,7 +207,8 @@ TEST(SpringPotential, IsConsistent)
 TEST(BindPotential, IsConsistent)
 {
     const SimplexSpace space(cube, 2);
-    const Eigen::VectorXd distance = cube.rest.rowwise().norm(), stiffness = Eigen::VectorXd::LinSpaced(cube.rest.rows(), 0.0, 5.0);
+    const Eigen::VectorXd distance = cube.rest.rowwise().norm(),
+                          stiffness = Eigen::VectorXd::LinSpaced(cube.rest.rows(), 0.0, 5.0);
     BindPotential potential(cube.rest, distance, stiffness);
     potential.move_to(pbs::Positions::Zero(cube.rest.rows(), 3));
     EXPECT_EQ(potential.value(Eigen::VectorXd::Zero(space.dofs())), 0.0);
@@ -205,18 +223,21 @@ TEST(BindPotential, AVertexOnItsBonePointHasAFiniteHessianAndADeadLoadIsConsiste
     const BindPotential potential(cube.rest, Eigen::VectorXd::Zero(vertices), Eigen::VectorXd::Constant(vertices, 2.0));
     NodalMatrix hessian(space);
     potential.add_hessian(Eigen::VectorXd::Zero(space.dofs()), Definiteness::as_it_is, hessian);
-    EXPECT_EQ((Eigen::MatrixXd(hessian.matrix()) - 2.0 * Eigen::MatrixXd::Identity(3 * vertices, 3 * vertices)).norm(), 0.0);
+    EXPECT_EQ((Eigen::MatrixXd(hessian.matrix()) - 2.0 * Eigen::MatrixXd::Identity(3 * vertices, 3 * vertices)).norm(),
+              0.0);
     expect_consistent(DeadLoad(random_dofs(space.dofs(), 1.0, 6)), space, 1.0);
 }
 
-// c / 2 (u - u0)^T A (u - u0), separately and together. A value goes through the product and sum of a row, of the dofs' products and the
-// factor c. The gradient is added to ones, and these are taken away again: two more roundings of at most the gradient and one.
+// c / 2 (u - u0)^T A (u - u0), separately and together. A value goes through the product and sum of a row, of the dofs'
+// products and the factor c. The gradient is added to ones, and these are taken away again: two more roundings of at
+// most the gradient and one.
 TEST(QuadraticForm, OfAStiffnessAndOfTheMass)
 {
     for (const int order : {1, 2}) {
         const SimplexSpace space(cube, order);
         const Eigen::VectorXd u = random_dofs(space.dofs(), 1.0, 7), u0 = random_dofs(space.dofs(), 1.0, 8);
-        const auto expect_form = [&](const Potential& potential, const SparseMatrix& A, double c, const Eigen::VectorXd& offset) {
+        const auto expect_form = [&](const Potential& potential, const SparseMatrix& A, double c,
+                                     const Eigen::VectorXd& offset) {
             const Eigen::VectorXd gradient = c * (A * offset), ones = Eigen::VectorXd::Ones(u.size());
             const Eigen::VectorXd magnitudes = c * (SparseMatrix(A.cwiseAbs()) * offset.cwiseAbs());
             const int row = test_support::most_entries(A), dofs = space.dofs();
@@ -226,7 +247,8 @@ TEST(QuadraticForm, OfAStiffnessAndOfTheMass)
             potential.add_gradient(u, alone);
             EXPECT_NEAR(potential.value_and_add_gradient(u, together), value, value_error);
             EXPECT_NEAR(potential.value(u), value, value_error);
-            EXPECT_LT((alone - ones - gradient).norm(), rounding(2 * (row + 3)) * magnitudes.norm() + rounding(2) * std::sqrt(u.size()));
+            EXPECT_LT((alone - ones - gradient).norm(),
+                      rounding(2 * (row + 3)) * magnitudes.norm() + rounding(2) * std::sqrt(u.size()));
             EXPECT_LT(value_error, 1e-10 * value) << "a bound that would let a wrong entry pass proves nothing";
             EXPECT_EQ(alone, together);
             NodalMatrix hessian(space);
@@ -234,7 +256,8 @@ TEST(QuadraticForm, OfAStiffnessAndOfTheMass)
             EXPECT_EQ((hessian.matrix() - c * A).norm(), 0.0);  // the same products, each rounded once
             EXPECT_TRUE(potential.is_quadratic());
         };
-        const NodalMatrix stiffness = rest_stiffness(space, ElasticPotential(space, Model::linear, lame, Formulation::displacement));
+        const NodalMatrix stiffness =
+            rest_stiffness(space, ElasticPotential(space, Model::linear, lame, Formulation::displacement));
         StiffnessPotential spring(stiffness);
         expect_form(spring, stiffness.matrix(), 1.0, u);  // as it is, the linear law
         spring.set(2.5, u0);
@@ -246,8 +269,9 @@ TEST(QuadraticForm, OfAStiffnessAndOfTheMass)
     }
 }
 
-// A square of 1 m in plane strain, compressed along x between smooth walls on a smooth floor, with a free surface above: the state is
-// homogeneous. Returns whether it is a minimum of the energy among all displacements of the quadratic elements.
+// A square of 1 m in plane strain, compressed along x between smooth walls on a smooth floor, with a free surface
+// above: the state is homogeneous. Returns whether it is a minimum of the energy among all displacements of the
+// quadratic elements.
 bool surface_is_stable(double strain, int cells)
 {
     const Lame soft = lame_parameters(1.0, 0.499);
@@ -272,19 +296,21 @@ bool surface_is_stable(double strain, int cells)
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(space.dofs());
     flesh.add_gradient(u, gradient);
     for (int dof = 0; dof < space.dofs(); ++dof)
-        EXPECT_NEAR(row[dof] >= 0 ? gradient(dof) : 0.0, 0.0, 1e-12 * soft.lambda_pa) << "no equilibrium";  // of cells of 1 m at most
+        // of cells of 1 m at most
+        EXPECT_NEAR(row[dof] >= 0 ? gradient(dof) : 0.0, 0.0, 1e-12 * soft.lambda_pa) << "no equilibrium";
     std::vector<Eigen::Triplet<double>> entries;
     for (int column = 0; column < space.dofs(); ++column)
         for (SparseMatrix::InnerIterator entry(hessian.matrix(), column); entry; ++entry)
-            if (row[entry.row()] >= 0 && row[column] >= 0) entries.emplace_back(row[entry.row()], row[column], entry.value());
+            if (row[entry.row()] >= 0 && row[column] >= 0)
+                entries.emplace_back(row[entry.row()], row[column], entry.value());
     Eigen::SparseMatrix<double> free(rows, rows);
     free.setFromTriplets(entries.begin(), entries.end());
     return Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>(free).info() == Eigen::Success;
 }
 
-// The surface of incompressible neo-Hookean flesh wrinkles where r = stretch^2 fulfils r^3 + r^2 + 3 r = 1 (M. Biot, Mechanics of
-// Incremental Deformations, 1965), whatever the wavelength: at a strain of 0.456. Conforming elements and a floor can only delay it, the
-// less, the smaller the cells are.
+// The surface of incompressible neo-Hookean flesh wrinkles where r = stretch^2 fulfils r^3 + r^2 + 3 r = 1 (M. Biot,
+// Mechanics of Incremental Deformations, 1965), whatever the wavelength: at a strain of 0.456. Conforming elements and
+// a floor can only delay it, the less, the smaller the cells are.
 TEST(NeoHookeanSurface, WrinklesAtBiotsStrain)
 {
     double r = 0.0;

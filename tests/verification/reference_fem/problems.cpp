@@ -1,8 +1,8 @@
-// The verification problems that need neither a character nor another program run in their quick form. thick_sphere and half_turn take
-// long: only ./check --long runs them, half_turn with every law. half_turn is a regression test, since it compares with an earlier
-// implementation of ours; laws.cpp verifies each law by itself. Reference: what each row cites (closed forms, published benchmarks); the
-// row states its bounds and where they come from. The record can fail: with an error of 5 % in the solver's lambda, which the compared
-// values do not have, named rows do not hold.
+// The verification problems that need neither a character nor another program run in their quick form. thick_sphere and
+// half_turn take long: only ./check --long runs them, half_turn with every law. half_turn is a regression test, since
+// it compares with an earlier implementation of ours; laws.cpp verifies each law by itself. Reference: what each row
+// cites (closed forms, published benchmarks); the row states its bounds and where they come from. The record can fail:
+// with an error of 5 % in the solver's lambda, which the compared values do not have, named rows do not hold.
 #include "reference_fem/verification/problems.hpp"
 #include "tests/support/long_form.hpp"
 
@@ -44,14 +44,18 @@ TEST_P(VerificationProblem, EveryRowWithBoundsHoldsAndStatesWhy)
 {
     int judged = 0;
     for (const VerificationRow& row : problems.at(GetParam())({})) {
-        const std::string place = row.quantity.description + ", " + row.elements.text() + ", " + row.material.law + ", " + row.mesh;
+        const std::string place =
+            row.quantity.description + ", " + row.elements.text() + ", " + row.material.law + ", " + row.mesh;
         EXPECT_EQ(row.problem, GetParam()) << place;
-        EXPECT_FALSE(row.quantity.key.empty() || row.quantity.description.empty() || row.mesh.empty() || row.unit.empty()) << place;
+        EXPECT_FALSE(row.quantity.key.empty() || row.quantity.description.empty() || row.mesh.empty() ||
+                     row.unit.empty())
+            << place;
         EXPECT_FALSE(row.source.empty()) << place;
         if (!holds(row)) continue;
         ++judged;
         EXPECT_FALSE(row.bound_from.empty()) << place;
-        EXPECT_TRUE(*holds(row)) << place << ": " << row.value << " in " << row.low.value_or(0.0) << " to " << row.high.value_or(0.0);
+        EXPECT_TRUE(*holds(row)) << place << ": " << row.value << " in " << row.low.value_or(0.0) << " to "
+                                 << row.high.value_or(0.0);
         if (row.bound_from == rounding_bound_text) {
             EXPECT_LT(*row.high, 1e-9) << place << ": a bound that would let an error of a percent pass proves nothing";
         }
@@ -66,7 +70,8 @@ std::vector<std::string> names_to_run()
         if (test_support::is_long_form() || !long_problems.contains(name)) names.push_back(name);
     return names;
 }
-INSTANTIATE_TEST_SUITE_P(Quick, VerificationProblem, testing::ValuesIn(names_to_run()), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Quick, VerificationProblem, testing::ValuesIn(names_to_run()),
+                         [](const auto& info) { return info.param; });
 
 // A wrong Lame parameter moves these quantities out of their bounds.
 TEST(WrongLameParameter, DoesNotPass)

@@ -1,4 +1,5 @@
-// Reference: the same run without contact, or on one thread, and the search for skin in flesh of another part (SelfContact).
+// Reference: the same run without contact, or on one thread, and the search for skin in flesh of another part
+// (SelfContact).
 #include "pbs/contact/self_contact.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
@@ -18,7 +19,8 @@ using pbs::Positions;
 using pbs::Precision;
 using pbs::Vec3;
 
-const TwoBoneLimb bent = two_bone_limb({48, 8, 8}, Vec3::UnitZ(), 110.0), folded = two_bone_limb({24, 4, 4}, Vec3::UnitZ(), 150.0);
+const TwoBoneLimb bent = two_bone_limb({48, 8, 8}, Vec3::UnitZ(), 110.0),
+                  folded = two_bone_limb({24, 4, 4}, Vec3::UnitZ(), 150.0);
 
 class ContactIn : public testing::TestWithParam<std::tuple<Order, Precision>> {
 protected:
@@ -58,16 +60,20 @@ TEST_P(ContactIn, SeparatesBlocksAndKeepsTheirMomentum)
     const Positions x = advanced(blocks.mesh, distance, blocks.pushed, blocks.pushed, with);
     const double before_m = overlap_m(blocks.mesh, blocks.pushed);
     EXPECT_GT(before_m, 1.0);
-    EXPECT_NEAR(overlap_m(blocks.mesh, advanced(blocks.mesh, distance, blocks.pushed, blocks.pushed, without)), before_m, 1e-3);
+    EXPECT_NEAR(overlap_m(blocks.mesh, advanced(blocks.mesh, distance, blocks.pushed, blocks.pushed, without)),
+                before_m, 1e-3);
     EXPECT_LE(overlap_m(blocks.mesh, x), 0.05 * before_m);
     const Eigen::RowVector3d drift = (x - blocks.pushed).colwise().sum();
-    EXPECT_LE(drift.norm(), 1e-3 * (x - blocks.pushed).rowwise().norm().sum());  // in float relative to the mean position
+    // in float relative to the mean position
+    EXPECT_LE(drift.norm(), 1e-3 * (x - blocks.pushed).rowwise().norm().sum());
 }
 
 TEST_P(ContactIn, TakesTheOverlapOutOfABentLimb)
 {
-    const double without_m = overlap_m(bent.mesh, advanced(bent.mesh, bent.binding.distance, bent.lbs, bent.bind_points, options(false)));
-    const double with_m = overlap_m(bent.mesh, advanced(bent.mesh, bent.binding.distance, bent.lbs, bent.bind_points, options(true)));
+    const double without_m =
+        overlap_m(bent.mesh, advanced(bent.mesh, bent.binding.distance, bent.lbs, bent.bind_points, options(false)));
+    const double with_m =
+        overlap_m(bent.mesh, advanced(bent.mesh, bent.binding.distance, bent.lbs, bent.bind_points, options(true)));
     EXPECT_GT(without_m, 1.0);
     EXPECT_LE(with_m, 0.2 * without_m);
 }
@@ -76,7 +82,8 @@ TEST_P(ContactIn, ChangesNoBitWhereNothingOverlaps)
 {
     TwoBoneLimb limb = two_bone_limb({24, 4, 4}, Vec3::UnitZ(), 30.0);
     EXPECT_EQ(overlap_m(limb.mesh, limb.lbs), 0.0);
-    pbs::PbsSolver with(limb.mesh, limb.binding.distance, {}, options(true)), without(limb.mesh, limb.binding.distance, {}, options(false));
+    pbs::PbsSolver with(limb.mesh, limb.binding.distance, {}, options(true)),
+        without(limb.mesh, limb.binding.distance, {}, options(false));
     with.advance(folded.lbs, folded.bind_points, 0.01);  // what a frame has found does not last
     for (pbs::PbsSolver* solver : {&with, &without}) solver->advance(limb.lbs, limb.bind_points, 0.01);
     EXPECT_EQ(with.positions(), without.positions());
@@ -107,7 +114,8 @@ TEST_P(ContactIn, StaysBoundedFromTeleportedCollapsedAndMirroredStatesWithTimeSt
 std::string name_of_case(const testing::TestParamInfo<std::tuple<Order, Precision>>& info)
 {
     const char* const orders[] = {"plain", "ordered", "grouped"};
-    return std::string(orders[int(std::get<0>(info.param))]) + (std::get<1>(info.param) == Precision::f32 ? "_f32" : "_f64");
+    return std::string(orders[int(std::get<0>(info.param))]) +
+           (std::get<1>(info.param) == Precision::f32 ? "_f32" : "_f64");
 }
 
 INSTANTIATE_TEST_SUITE_P(Orders, ContactIn,

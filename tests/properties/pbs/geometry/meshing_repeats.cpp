@@ -30,9 +30,9 @@ TEST(Meshing, OfASurfaceRepeatsToTheBit)
     expect_same(pbs::mesh_surface(sphere, options), first);
 }
 
-// Lengths are relative to the body, so that only rounding remains: of a chain of at most all points, each placed by some hundred operations
-// on those before it. The bound separates that from an absolute length in the code: the smallest that a mesher here has, 1e-9 m, would be
-// 1e-6 m on the scale of the body that is 1024 times smaller.
+// Lengths are relative to the body, so that only rounding remains: of a chain of at most all points, each placed by
+// some hundred operations on those before it. The bound separates that from an absolute length in the code: the
+// smallest that a mesher here has, 1e-9 m, would be 1e-6 m on the scale of the body that is 1024 times smaller.
 TEST(Meshing, OfASurfaceHasNoUnit)
 {
     const pbs::SurfaceMesh sphere = test_support::icosphere(1.0, 2);

@@ -1,5 +1,6 @@
-// Refinement depends neither on the orientation of a body nor on its numbering, and children are never much worse than their parents.
-// Reference: the body is the same; with the shortest diagonal, a child's mean ratio is at least 3/4 of its parent's (tet_mesh.hpp).
+// Refinement depends neither on the orientation of a body nor on its numbering, and children are never much worse than
+// their parents. Reference: the body is the same; with the shortest diagonal, a child's mean ratio is at least 3/4 of
+// its parent's (tet_mesh.hpp).
 #include "pbs/geometry/tet_mesh.hpp"
 
 #include "pbs/geometry/topology.hpp"
@@ -34,19 +35,22 @@ double mean_ratio(const TetMesh& mesh, Eigen::Index t)
 {
     double squares = 0.0;
     for (int a = 0; a < 4; ++a)
-        for (int b = 0; b < a; ++b) squares += (mesh.rest.row(mesh.tets(t, a)) - mesh.rest.row(mesh.tets(t, b))).squaredNorm();
-    const double volume = pbs::tet_volume(mesh.rest.row(mesh.tets(t, 0)), mesh.rest.row(mesh.tets(t, 1)), mesh.rest.row(mesh.tets(t, 2)),
-                                          mesh.rest.row(mesh.tets(t, 3)));
+        for (int b = 0; b < a; ++b)
+            squares += (mesh.rest.row(mesh.tets(t, a)) - mesh.rest.row(mesh.tets(t, b))).squaredNorm();
+    const double volume = pbs::tet_volume(mesh.rest.row(mesh.tets(t, 0)), mesh.rest.row(mesh.tets(t, 1)),
+                                          mesh.rest.row(mesh.tets(t, 2)), mesh.rest.row(mesh.tets(t, 3)));
     return 12.0 * std::cbrt(9.0 * volume * volume) / squares;
 }
 
-// The relative rounding error of the mean ratio of the flattest tet: that of its volume, of ten roundings and twelve of midpoints with
-// coordinates up to twice as long as edges, to the power 2/3, and some twenty of the other operations.
+// The relative rounding error of the mean ratio of the flattest tet: that of its volume, of ten roundings and twelve of
+// midpoints with coordinates up to twice as long as edges, to the power 2/3, and some twenty of the other operations.
 double mean_ratio_error(const TetMesh& mesh)
 {
-    const double edge_m = pbs::quality_of(mesh).longest_edge_m, magnitude_m3 = 2.0 / std::sqrt(3.0) * std::pow(edge_m, 3) / 6.0;
+    const double edge_m = pbs::quality_of(mesh).longest_edge_m,
+                 magnitude_m3 = 2.0 / std::sqrt(3.0) * std::pow(edge_m, 3) / 6.0;
     const double smallest_m3 = pbs::tet_volumes(mesh.rest, mesh.tets).cwiseAbs().minCoeff();
-    return 2.0 / 3.0 * test_support::rounding_error(10 + 12, magnitude_m3 / smallest_m3) + test_support::rounding_error(20, 1.0);
+    return 2.0 / 3.0 * test_support::rounding_error(10 + 12, magnitude_m3 / smallest_m3) +
+           test_support::rounding_error(20, 1.0);
 }
 
 double worst_mean_ratio(const TetMesh& mesh)
@@ -60,11 +64,13 @@ TEST(RefinementInvariance, RigidMotion)
 {
     const TetMesh bar = jittered_bar();
     const Eigen::Isometry3d motion = test_support::RandomPoints(3).rigid_motion(10.0);
-    const TetMesh fine = pbs::refine(bar).mesh, moved = pbs::refine({test_support::transformed(bar.rest, motion), bar.tets}).mesh;
+    const TetMesh fine = pbs::refine(bar).mesh,
+                  moved = pbs::refine({test_support::transformed(bar.rest, motion), bar.tets}).mesh;
     EXPECT_EQ(moved.tets, fine.tets);
-    // Both sides round a product with a row of the rotation and a midpoint, in five roundings of coordinates up to 10 m and the bar's 1.1
-    // m.
-    EXPECT_LT((moved.rest - test_support::transformed(fine.rest, motion)).cwiseAbs().maxCoeff(), test_support::rounding_error(2 * 5, 11.1));
+    // Both sides round a product with a row of the rotation and a midpoint, in five roundings of coordinates up to 10 m
+    // and the bar's 1.1 m.
+    EXPECT_LT((moved.rest - test_support::transformed(fine.rest, motion)).cwiseAbs().maxCoeff(),
+              test_support::rounding_error(2 * 5, 11.1));
 }
 
 TEST(RefinementInvariance, OrderOfVerticesTetsAndCorners)
@@ -107,7 +113,8 @@ TEST(RefinementQuality, OfAJitteredBarIsBoundedOverThreeRefinements)
                 test_support::volume_error(mesh.rest, mesh.tets) + test_support::volume_error(bar.rest, bar.tets));
     EXPECT_TRUE(fine.topology.boundary_manifold);
     EXPECT_EQ(fine.topology.boundary_euler, 2);
-    EXPECT_NEAR(fine.longest_edge_m, coarse.longest_edge_m / 8.0, 0.25 * coarse.longest_edge_m / 8.0);  // an edge or a diagonal
+    // an edge or a diagonal
+    EXPECT_NEAR(fine.longest_edge_m, coarse.longest_edge_m / 8.0, 0.25 * coarse.longest_edge_m / 8.0);
 }
 
 // Flat tets, needles and slivers: the worst child arises in the first or second refinement, and none falls below 3/4.
@@ -136,7 +143,8 @@ TEST(RefinementQuality, OfAKuhnSplitBarIsBounded)
     for (int level = 1; level <= 3; ++level) {
         mesh = pbs::refine(mesh).mesh;
         EXPECT_GE(worst_mean_ratio(mesh), 0.75 * whole);
-        EXPECT_GE(pbs::quality_of(mesh).min_dihedral_deg, 35.26);  // acos(sqrt(2/3)), for the children around the other diagonal
+        // acos(sqrt(2/3)), for the children around the other diagonal
+        EXPECT_GE(pbs::quality_of(mesh).min_dihedral_deg, 35.26);
     }
 }
 

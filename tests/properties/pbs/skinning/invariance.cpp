@@ -1,5 +1,5 @@
-// Reference: binding and weights are geometry, so they commute with rigid motions, renumbering, mirrors and changes of unit. The same of
-// the skinners: tests/unit/pbs/skinning/contract.cpp.
+// Reference: binding and weights are geometry, so they commute with rigid motions, renumbering, mirrors and changes of
+// unit. The same of the skinners: tests/unit/pbs/skinning/contract.cpp.
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/two_bone_limb.hpp"
@@ -17,7 +17,8 @@ using namespace test_support;
 using pbs::Positions;
 using pbs::Vec3;
 
-constexpr double farthest = 1.1, translation = 1.8;  // of the limb, and of a random motion, whose three coordinates are up to 1 m
+constexpr double farthest = 1.1,
+                 translation = 1.8;  // of the limb, and of a random motion, whose three coordinates are up to 1 m
 
 const TwoBoneLimb limb = two_bone_limb({12, 3, 3}, Vec3(0.3, 0.2, 1.0), 80.0);
 
@@ -83,8 +84,8 @@ TEST(SkinningInvariance, WeightsUnderAMirror)
     EXPECT_EQ(weights.weight, limb.weights.weight);
 }
 
-// Reference: the plain blends, which follow the paper line by line; in any number of vertices and bones, far from the origin and in any
-// unit.
+// Reference: the plain blends, which follow the paper line by line; in any number of vertices and bones, far from the
+// origin and in any unit.
 
 using pbs::BlendSkinning;
 using pbs::Pose;
@@ -98,8 +99,8 @@ TYPED_TEST_SUITE(PackedBlends, Scalars);
 
 constexpr int bones = 12;
 
-// Numbers of order one go through some 40 roundings (8 bones, 4 columns, two cross products). DQS divides by |r|^2 of the blend. The
-// largest weight of n bones gives |r| >= 1 / n, which amplifies them.
+// Numbers of order one go through some 40 roundings (8 bones, 4 columns, two cross products). DQS divides by |r|^2 of
+// the blend. The largest weight of n bones gives |r| >= 1 / n, which amplifies them.
 template <class Scalar>
 double tolerance(int bones_a_vertex)
 {
@@ -163,10 +164,12 @@ void expect_as_plain(const RandomBody& body, double tolerance)
 
 TYPED_TEST(PackedBlends, AreThePlainOnesForAnyNumberOfVerticesAndBones)
 {
-    for (int most = 1; most <= 8; ++most) expect_as_plain<TypeParam>(random_body(70 + most, 500, most), tolerance<TypeParam>(most));
+    for (int most = 1; most <= 8; ++most)
+        expect_as_plain<TypeParam>(random_body(70 + most, 500, most), tolerance<TypeParam>(most));
     for (int vertices = 1; vertices < 40; ++vertices)
         expect_as_plain<TypeParam>(random_body(80 + vertices, vertices, 3), tolerance<TypeParam>(3));
-    const RowPattern all_own = {1, 0, 2}, all_shared = {2, 1, 2}, one_matrix = {50, 49}, changing = {200, 80, 2};  // long stretches
+    // long stretches
+    const RowPattern all_own = {1, 0, 2}, all_shared = {2, 1, 2}, one_matrix = {50, 49}, changing = {200, 80, 2};
     for (const RowPattern& pattern : {all_own, all_shared, one_matrix, changing})
         expect_as_plain<TypeParam>(random_body(69, 600, 4, pattern), tolerance<TypeParam>(4));
 }
@@ -182,9 +185,9 @@ TYPED_TEST(PackedBlends, DoNotRememberTheLastPose)
     EXPECT_EQ(once, again);
 }
 
-// Antipodal: rotations by 110 and -110 degrees are 140 degrees apart; their quaternions with a positive scalar part lie in opposite
-// hemispheres. At a distance of 10 km the spacing of floats is 1 mm. Blending about the body's middle leaves only the roundings that occur
-// near the origin. The plain blends in double round coordinates of that size.
+// Antipodal: rotations by 110 and -110 degrees are 140 degrees apart; their quaternions with a positive scalar part lie
+// in opposite hemispheres. At a distance of 10 km the spacing of floats is 1 mm. Blending about the body's middle
+// leaves only the roundings that occur near the origin. The plain blends in double round coordinates of that size.
 TYPED_TEST(PackedBlends, AreThePlainOnesInAntipodalAndFarPosesAndInAnyUnit)
 {
     const RandomBody body = random_body(65, 300, 6);

@@ -1,7 +1,7 @@
-// Reference: a step depends only on lengths and volumes, so it commutes with rigid motions, mirrors, changes of unit, and every renumbering
-// that keeps the order of projection (another order is another Gauss-Seidel sweep). Tolerance: the rounding of two steps
-// (step_rounding.hpp), which is that of 24 iterations of constraints that contradict each other; a gentle bend, in which no tet inverts,
-// limits its growth.
+// Reference: a step depends only on lengths and volumes, so it commutes with rigid motions, mirrors, changes of unit,
+// and every renumbering that keeps the order of projection (another order is another Gauss-Seidel sweep). Tolerance:
+// the rounding of two steps (step_rounding.hpp), which is that of 24 iterations of constraints that contradict each
+// other; a gentle bend, in which no tet inverts, limits its growth.
 #include "pbs/solver/pbs_solver.hpp"
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -25,8 +25,8 @@ using pbs::Vec3;
 
 const TwoBoneLimb limb = two_bone_limb({12, 3, 3}, Vec3::UnitZ(), 40.0);
 
-Positions stepped(const pbs::TetMesh& mesh, const Eigen::VectorXd& distance, const Positions& lbs, const Positions& bind_points,
-                  const PbsOptions& options)
+Positions stepped(const pbs::TetMesh& mesh, const Eigen::VectorXd& distance, const Positions& lbs,
+                  const Positions& bind_points, const PbsOptions& options)
 {
     pbs::PbsSolver solver(mesh, distance, {}, options);
     solver.advance(lbs, bind_points, 0.01);
@@ -61,7 +61,8 @@ TEST(StepInvariance, RigidMotion)
             const Positions moved = stepped(limb.mesh, limb.binding.distance, transformed(limb.lbs, motion),
                                             transformed(limb.bind_points, motion), with(precision));
             const double farther = 1.0 + motion.translation().norm();  // the limb is 1 m long on either side
-            EXPECT_LT((moved - transformed(stepped(with(precision)), motion)).cwiseAbs().maxCoeff(), farther * tolerance);
+            EXPECT_LT((moved - transformed(stepped(with(precision)), motion)).cwiseAbs().maxCoeff(),
+                      farther * tolerance);
         }
 }
 
@@ -73,7 +74,8 @@ TEST(StepInvariance, Mirror)
     mesh.rest = limb.mesh.rest * mirror;
     mesh.tets.col(1).swap(mesh.tets.col(2));
     for (const auto& [precision, tolerance] : settings) {
-        const Positions mirrored = stepped(mesh, limb.binding.distance, limb.lbs * mirror, limb.bind_points * mirror, with(precision));
+        const Positions mirrored =
+            stepped(mesh, limb.binding.distance, limb.lbs * mirror, limb.bind_points * mirror, with(precision));
         EXPECT_LT((mirrored - stepped(with(precision)) * mirror).cwiseAbs().maxCoeff(), tolerance);
     }
 }
@@ -86,7 +88,8 @@ TEST(StepInvariance, ScaleFromAMicrometreToAThousandKilometres)
                 PbsOptions options = with(precision);
                 options.masses = masses;
                 const pbs::TetMesh mesh{size * limb.mesh.rest, limb.mesh.tets};
-                const Positions scaled = stepped(mesh, size * limb.binding.distance, size * limb.lbs, size * limb.bind_points, options);
+                const Positions scaled =
+                    stepped(mesh, size * limb.binding.distance, size * limb.lbs, size * limb.bind_points, options);
                 EXPECT_LT((scaled / size - stepped(options)).cwiseAbs().maxCoeff(), tolerance) << size;
             }
 }
@@ -96,12 +99,13 @@ TEST(StepInvariance, PowersOfTwoChangeNoBit)
     const double size = std::ldexp(1.0, 12);
     const pbs::TetMesh mesh{size * limb.mesh.rest, limb.mesh.tets};
     for (const Precision precision : {Precision::f32, Precision::f64})
-        EXPECT_EQ(stepped(mesh, size * limb.binding.distance, size * limb.lbs, size * limb.bind_points, with(precision)),
-                  Positions(size * stepped(with(precision))));
+        EXPECT_EQ(
+            stepped(mesh, size * limb.binding.distance, size * limb.lbs, size * limb.bind_points, with(precision)),
+            Positions(size * stepped(with(precision))));
 }
 
-// Reversing the numbers of the vertices keeps the order of the tets, but not that of the edges. Without stretch, no bit changes in file
-// order.
+// Reversing the numbers of the vertices keeps the order of the tets, but not that of the edges. Without stretch, no bit
+// changes in file order.
 TEST(StepInvariance, PermutationWithoutStretchChangesNoBit)
 {
     pbs::TetMesh mesh{limb.mesh.rest.colwise().reverse(), limb.mesh.tets};
@@ -109,8 +113,8 @@ TEST(StepInvariance, PermutationWithoutStretchChangesNoBit)
     PbsOptions options = with(Precision::f64);
     options.order = pbs::Order::plain;
     options.k_stretch = 0.0;
-    const Positions reversed =
-        stepped(mesh, limb.binding.distance.reverse(), limb.lbs.colwise().reverse(), limb.bind_points.colwise().reverse(), options);
+    const Positions reversed = stepped(mesh, limb.binding.distance.reverse(), limb.lbs.colwise().reverse(),
+                                       limb.bind_points.colwise().reverse(), options);
     EXPECT_EQ(Positions(reversed.colwise().reverse()), stepped(options));
 }
 
@@ -126,13 +130,13 @@ TEST(StepInvariance, UnusedVerticesChangeNoBit)
     };
     pbs::TetMesh mesh{with_leading(limb.mesh.rest), limb.mesh.tets};
     mesh.tets.array() += 1;
-    const Positions longer =
-        stepped(mesh, with_leading(limb.binding.distance), with_leading(limb.lbs), with_leading(limb.bind_points), with(Precision::f64));
+    const Positions longer = stepped(mesh, with_leading(limb.binding.distance), with_leading(limb.lbs),
+                                     with_leading(limb.bind_points), with(Precision::f64));
     EXPECT_EQ(Positions(longer.bottomRows(limb.mesh.rest.rows())), stepped(with(Precision::f64)));
 }
 
-// Eq. 3 for whole iterations of stretch and volume. Bind is left out, since its bone takes the reaction. (Eq. 4 holds for each projection
-// about its initial positions, which the previous projections have moved.)
+// Eq. 3 for whole iterations of stretch and volume. Bind is left out, since its bone takes the reaction. (Eq. 4 holds
+// for each projection about its initial positions, which the previous projections have moved.)
 TEST(StepInvariance, LinearMomentumOfStretchAndVolumeIsConserved)
 {
     for (const auto& [precision, tolerance] : settings)

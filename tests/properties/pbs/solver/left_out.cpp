@@ -1,5 +1,5 @@
-// Nothing is built that a scene does not need, and nothing is projected that sleeps. Reference: this requirement, checked in the solver's
-// own parts for every combination of classes with and without stiffness.
+// Nothing is built that a scene does not need, and nothing is projected that sleeps. Reference: this requirement,
+// checked in the solver's own parts for every combination of classes with and without stiffness.
 #include "pbs/solver/batched/batch_program.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/pbs_solver.hpp"
@@ -51,13 +51,17 @@ TEST_P(LeftOut, WithoutAnyClassTheStepIsLbs)
     const Positions moved = bar.rest.rowwise() + Eigen::RowVector3d(0.25, 0.5, -1.0);  // exact in float
     solver.advance(moved, moved, 0.01);
     // One rounding to float relative to the mean position, 1.5 m away at most, and three in double.
-    const double rounding_m = test_support::rounding_error_in<float>(1, 1.5) + test_support::rounding_error_in<double>(3, 3.25 + 1.5);
+    const double rounding_m =
+        test_support::rounding_error_in<float>(1, 1.5) + test_support::rounding_error_in<double>(3, 3.25 + 1.5);
     EXPECT_LT((solver.positions() - moved).cwiseAbs().maxCoeff(), rounding_m);
 }
 
-INSTANTIATE_TEST_SUITE_P(Orders, LeftOut, testing::Values(Order::plain, Order::ordered, Order::grouped), [](const auto& order) {
-    return order.param == Order::plain ? "plain" : order.param == Order::ordered ? "ordered" : "grouped";
-});
+INSTANTIATE_TEST_SUITE_P(Orders, LeftOut, testing::Values(Order::plain, Order::ordered, Order::grouped),
+                         [](const auto& order) {
+                             return order.param == Order::plain     ? "plain"
+                                    : order.param == Order::ordered ? "ordered"
+                                                                    : "grouped";
+                         });
 
 class WithoutJiggle : public testing::TestWithParam<bool> {};
 
@@ -89,8 +93,8 @@ TEST(WithJiggle, OnlyTheZoneHasVelocities)
     EXPECT_EQ(particles.velocities().rows(), 2);
 }
 
-// Sleep: constraints that LBS satisfies, and whose neighbours it satisfies too, are left out of the frame. Reference: the same solver
-// without sleep.
+// Sleep: constraints that LBS satisfies, and whose neighbours it satisfies too, are left out of the frame. Reference:
+// the same solver without sleep.
 
 const double bar_edge = 0.1;
 const TetMesh long_bar = test_support::structured_bar({0, 0, 0}, {4.0, 0.3, 0.3}, {40, 3, 3});
@@ -144,16 +148,19 @@ TEST_P(Sleep, EverythingSleepsWhereEverythingIsSatisfied)
     EXPECT_EQ(step.positions, moved);
 }
 
-// Within 24 iterations, the displacement reaches farther than the three rings that are kept awake around the disturbance.
+// Within 24 iterations, the displacement reaches farther than the three rings that are kept awake around the
+// disturbance.
 TEST_P(Sleep, AFrameIsRedoneWhereASleepingRegionIsDisturbed)
 {
     const Positions lbs = pulled(0.1);
-    const Step asleep = step_from(lbs, options_of(GetParam(), true)), awake = step_from(lbs, options_of(GetParam(), false));
+    const Step asleep = step_from(lbs, options_of(GetParam(), true)),
+               awake = step_from(lbs, options_of(GetParam(), false));
     EXPECT_GE(asleep.summary.wakings, 1);
     EXPECT_GT(asleep.summary.sleeping_share, 0.1);  // and the far end still sleeps
     EXPECT_EQ(awake.summary.wakings, 0);
     EXPECT_EQ(awake.summary.sleeping_share, 0.0);
-    // A constraint that was left out would have corrected at most its error, below the tolerance times its edge, in each iteration.
+    // A constraint that was left out would have corrected at most its error, below the tolerance times its edge, in
+    // each iteration.
     const double tolerance = PbsOptions{}.sleep_tolerance;
     EXPECT_LT(largest_distance(asleep.positions, awake.positions), 24 * tolerance * bar_edge);
 }
@@ -164,7 +171,8 @@ TEST_P(Sleep, WithoutToleranceNothingThatIsOffSleeps)
     options.sleep_tolerance = 0.0;
     const Positions lbs = 1.01 * long_bar.rest;
     const Step asleep = step_from(lbs, options), awake = step_from(lbs, options_of(GetParam(), false));
-    EXPECT_LT(asleep.summary.sleeping_share, 0.02);  // only empty batches: pauses at the end of a class, some five of four hundred
+    // only empty batches: pauses at the end of a class, some five of four hundred
+    EXPECT_LT(asleep.summary.sleeping_share, 0.02);
     EXPECT_EQ(asleep.positions, awake.positions);
 }
 

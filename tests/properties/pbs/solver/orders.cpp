@@ -1,9 +1,10 @@
-// Reference: order `plain`. Stretch, volume and bind contradict each other, so every order of projection converges to a limit of its own.
-// The test measures how far those lie from plain's on a limb twisted by 90 and bent by 60 degrees, after the paper's 24 iterations.
-// `ordered` must not be worse than plain by more than random orders of the plain loops differ among themselves, some 1 % in stretch; in
-// volume, its colours leave less than plain (groups.hpp), and it must not be worse at all. The bounds of `grouped`, 9 % and
-// 19 %, are regression values, not theory: its bias as once measured on a bar of 20,000 vertices. Meshes are irregular: on a regular grid
-// the file order itself is special, 20 to 30 % below random orders of the same loops.
+// Reference: order `plain`. Stretch, volume and bind contradict each other, so every order of projection converges to a
+// limit of its own. The test measures how far those lie from plain's on a limb twisted by 90 and bent by 60 degrees,
+// after the paper's 24 iterations. `ordered` must not be worse than plain by more than random orders of the plain loops
+// differ among themselves, some 1 % in stretch; in volume, its colours leave less than plain (groups.hpp), and it must
+// not be worse at all. The bounds of `grouped`, 9 % and 19 %, are regression values, not theory: its bias as once
+// measured on a bar of 20,000 vertices. Meshes are irregular: on a regular grid the file order itself is special, 20 to
+// 30 % below random orders of the same loops.
 #include "pbs/solver/pbs_solver.hpp"
 
 #include "pbs/geometry/meshing.hpp"
@@ -30,7 +31,8 @@ TwoBoneLimb twisted_and_bent(const pbs::TetMesh& mesh)
     TwoBoneLimb limb = two_bones_in(mesh);
     const double degree = EIGEN_PI / 180.0;
     const Eigen::AngleAxisd bent(60.0 * degree, Vec3::UnitZ()), twisted(90.0 * degree, Vec3::UnitX());
-    pose_limb(limb, pbs::pose_from_joints(limb.skeleton, {Eigen::Quaterniond::Identity(), bent * twisted}, Vec3::Zero()));
+    pose_limb(limb,
+              pbs::pose_from_joints(limb.skeleton, {Eigen::Quaterniond::Identity(), bent * twisted}, Vec3::Zero()));
     return limb;
 }
 
@@ -50,14 +52,15 @@ struct Bias {
 // Also printed and recorded as properties of the test.
 Bias bias_of(const TwoBoneLimb& body, Order order, Precision precision)
 {
-    const pbs::Residuals plain = residuals_after_24(body, Order::plain, precision), other = residuals_after_24(body, order, precision);
+    const pbs::Residuals plain = residuals_after_24(body, Order::plain, precision),
+                         other = residuals_after_24(body, order, precision);
     const Bias bias{other.stretch_rms / plain.stretch_rms - 1.0, other.volume_rms / plain.volume_rms - 1.0};
     const std::string name = std::string(order == Order::ordered ? "ordered" : "grouped") +
                              (precision == Precision::f32 ? "_f32" : "_f64") + "_" + std::to_string(body.lbs.rows());
     testing::Test::RecordProperty(name + "_stretch_bias_pct", std::to_string(100 * bias.stretch));
     testing::Test::RecordProperty(name + "_volume_bias_pct", std::to_string(100 * bias.volume));
-    std::printf("%s vertices: stretch residual %+.2f %%, volume residual %+.2f %% of plain's\n", name.c_str(), 100 * bias.stretch,
-                100 * bias.volume);
+    std::printf("%s vertices: stretch residual %+.2f %%, volume residual %+.2f %% of plain's\n", name.c_str(),
+                100 * bias.stretch, 100 * bias.volume);
     return bias;
 }
 
@@ -86,7 +89,8 @@ TEST(Orders, OrderedIsNoWorseThanPlain)
         for (const Precision precision : {Precision::f32, Precision::f64}) expect_no_worse_than_plain(*body, precision);
 }
 
-// Bodies of some 20,000 vertices with several slabs, each projected by itself. They are refined, which takes 1 s, while meshing takes 19 s.
+// Bodies of some 20,000 vertices with several slabs, each projected by itself. They are refined, which takes 1 s, while
+// meshing takes 19 s.
 TEST(Orders, OrderedIsNoWorseThanPlainOnFineBodies)
 {
     for (const pbs::TetMesh& coarse : {pbs::mesh_limb(2900), pbs::mesh_bar(2900)})
@@ -126,8 +130,8 @@ TEST(Orders, GroupedHasABiasOfItsOwn)
         }
 }
 
-// Precision is not an order: in each order, residuals in float and double differ by rounding alone. The limb is coarse, since the bound of
-// the rounding needs many steps.
+// Precision is not an order: in each order, residuals in float and double differ by rounding alone. The limb is coarse,
+// since the bound of the rounding needs many steps.
 TEST(Orders, PrecisionsAgreeInEachOrder)
 {
     const TwoBoneLimb body = twisted_and_bent(pbs::mesh_limb(600));
@@ -135,7 +139,8 @@ TEST(Orders, PrecisionsAgreeInEachOrder)
         PbsOptions options;
         options.order = order;
         const ResidualRounding rounding = residual_rounding(body, options);
-        const pbs::Residuals f32 = residuals_after_24(body, order, Precision::f32), f64 = residuals_after_24(body, order, Precision::f64);
+        const pbs::Residuals f32 = residuals_after_24(body, order, Precision::f32),
+                             f64 = residuals_after_24(body, order, Precision::f64);
         EXPECT_NEAR(f32.stretch_rms, f64.stretch_rms, rounding.stretch_rms);
         EXPECT_NEAR(f32.volume_rms, f64.volume_rms, rounding.volume_rms);
     }

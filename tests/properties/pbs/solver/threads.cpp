@@ -1,5 +1,5 @@
-// Reference: the same run on one thread. Threads share a mesh by slabs, which are defined by the mesh, so no number of threads and no order
-// of the slabs of one parity changes a bit; nor does a second run.
+// Reference: the same run on one thread. Threads share a mesh by slabs, which are defined by the mesh, so no number of
+// threads and no order of the slabs of one parity changes a bit; nor does a second run.
 #include "pbs/solver/batched/batch_program.hpp"
 #include "pbs/solver/batched/pbs_kernels.hpp"
 #include "pbs/solver/pbs_solver.hpp"
@@ -95,7 +95,8 @@ TYPED_TEST(ThreadsOf, OneTwoAndFourGiveTheSameBitsAndOthersInEachCode)
     for (const Order order : batched_orders)
         for (const Precision precision : {Precision::f32, Precision::f64}) {
             const std::string alone = hash_of_run<TypeParam>(order, precision, 1);
-            for (const int threads : {2, 4}) EXPECT_EQ(hash_of_run<TypeParam>(order, precision, threads), alone) << threads << " threads";
+            for (const int threads : {2, 4})
+                EXPECT_EQ(hash_of_run<TypeParam>(order, precision, threads), alone) << threads << " threads";
             hashes.insert(alone);
         }
     const std::string plain = hash_of_run<TypeParam>(Order::plain, Precision::f32, 1);
@@ -118,8 +119,11 @@ TEST(Threads, ChangesToTheMethodGiveTheSameBits)
 {
     using enum pbs::VolumeOf;
     std::set<std::string> hashes;
-    for (const auto change : {change_the_method<tets>, change_the_method<regions>, change_the_method<tets_and_regions>}) {
-        const auto hash = [&](int threads) { return hash_of_run<pbs::PbsSolver>(Order::ordered, Precision::f32, threads, change); };
+    for (const auto change :
+         {change_the_method<tets>, change_the_method<regions>, change_the_method<tets_and_regions>}) {
+        const auto hash = [&](int threads) {
+            return hash_of_run<pbs::PbsSolver>(Order::ordered, Precision::f32, threads, change);
+        };
         const std::string alone = hash(1);
         for (const int threads : {2, 4}) EXPECT_EQ(hash(threads), alone) << threads << " threads";
         hashes.insert(alone);
@@ -154,8 +158,8 @@ std::vector<double> projected(const pbs::BatchedConstraints<double>& batched, bo
     return {vertices, vertices + 4 * blocks.size() * pbs::batch_size};
 }
 
-// The condition that makes threads safe, tested without threads: if two slabs of one parity touched a vertex, the first would move it
-// before the other.
+// The condition that makes threads safe, tested without threads: if two slabs of one parity touched a vertex, the first
+// would move it before the other.
 TEST(Threads, SlabsOfOneParityMayComeInAnyOrder)
 {
     for (const Order order : batched_orders) {

@@ -1,5 +1,5 @@
-// A small package in MakeHuman's formats, complete and damaged: errors are refused with file and field. Reference: the formats (three.js
-// JSON 3.1, the rig's vertex lists, int16 targets), laid out by hand.
+// A small package in MakeHuman's formats, complete and damaged: errors are refused with file and field. Reference: the
+// formats (three.js JSON 3.1, the rig's vertex lists, int16 targets), laid out by hand.
 #include "pbs/character/named_bodies.hpp"
 
 #include "tests/support/scratch_folder.hpp"
@@ -16,11 +16,13 @@ using MakehumanFigure = test_support::FolderTest;
 using namespace pbs;
 using nlohmann::json;
 
-// Every joint that the fold needs lies at a vertex of its own: vertices 4, 5, ...; the body is the tetrahedron 0 to 3, in decimetres.
-const std::vector<std::string> joints = {"root____head",         "spine04____head",      "spine02____head",    "neck01____head",
-                                         "head____head",         "head____tail",         "clavicle.*____head", "upperarm01.*____head",
-                                         "lowerarm01.*____head", "lowerarm02.*____head", "wrist.*____head",    "finger3-3.*____tail",
-                                         "upperleg01.*____head", "lowerleg01.*____head", "foot.*____head",     "toe2-1.*____head"};
+// Every joint that the fold needs lies at a vertex of its own: vertices 4, 5, ...; the body is the tetrahedron 0 to 3,
+// in decimetres.
+const std::vector<std::string> joints = {
+    "root____head",         "spine04____head",      "spine02____head",    "neck01____head",
+    "head____head",         "head____tail",         "clavicle.*____head", "upperarm01.*____head",
+    "lowerarm01.*____head", "lowerarm02.*____head", "wrist.*____head",    "finger3-3.*____tail",
+    "upperleg01.*____head", "lowerleg01.*____head", "foot.*____head",     "toe2-1.*____head"};
 
 struct Package {
     json model, rig, list;
@@ -41,7 +43,8 @@ struct Package {
         model = {{"vertices", vertices},
                  {"materials", {{{"DbgName", "helper"}}, {{"DbgName", "body"}}}},
                  {"faces", {2, 0, 2, 1, 1, 2, 4, 5, 6, 0, 10, 0, 1, 3, 1, 0, 0, 0, 2, 0, 3, 2, 1, 2, 1, 2, 3, 1}}};
-        list["targets"] = {{"data/a/asian-young.target", json::array()}, {"data/a/caucasian-young.target", json::array()}};
+        list["targets"] = {{"data/a/asian-young.target", json::array()},
+                           {"data/a/caucasian-young.target", json::array()}};
         targets.assign(2 * 2 * vertices.size(), '\0');
         targets[2 * vertices.size()] = static_cast<char>(0xe8);  // row 1, x of vertex 0: 1000 steps of 1e-3 dm
         targets[2 * vertices.size() + 1] = 3;
@@ -61,9 +64,10 @@ TEST_F(MakehumanFigure, ReadsTheBodyAloneInMetres)
     EXPECT_EQ(figure.skin.triangles.rows(), 4);
     EXPECT_DOUBLE_EQ(figure.skin.points(1, 0), 1.0);
     EXPECT_EQ(figure.skeleton.bones.size(), 23u);
-    // A coordinate of at most 0.12 m goes through a product here, a mean, and a product by the metres per unit; both factors and the number
-    // expected are rounded as well.
-    EXPECT_LE((figure.skeleton.bones[0].head - Vec3(0.04, 0.12, -0.1)).norm(), std::sqrt(3.0) * test_support::rounding_error(6, 0.12));
+    // A coordinate of at most 0.12 m goes through a product here, a mean, and a product by the metres per unit; both
+    // factors and the number expected are rounded as well.
+    EXPECT_LE((figure.skeleton.bones[0].head - Vec3(0.04, 0.12, -0.1)).norm(),
+              std::sqrt(3.0) * test_support::rounding_error(6, 0.12));
     EXPECT_EQ(figure.inputs.size(), 3u);
 }
 
@@ -124,8 +128,8 @@ TEST_F(MakehumanFigure, EveryTruncationOfTheModelIsRefusedWithItsPlace)
     Package().read(folder, {});
     const std::string whole = Package().model.dump();
     for (std::size_t bytes = 0; bytes < whole.size(); bytes += 37) {
-        const MakehumanFiles files{folder.file("cut.json", whole.substr(0, bytes)), folder / "rig.json", folder / "list.json",
-                                   folder / "targets.bin"};
+        const MakehumanFiles files{folder.file("cut.json", whole.substr(0, bytes)), folder / "rig.json",
+                                   folder / "list.json", folder / "targets.bin"};
         expect_input_error([&] { read_makehuman(files, {}); }, folder / "cut.json:1", "cut short");
     }
 }

@@ -1,5 +1,5 @@
-// Reference: the interface. The file of a surface may refer to files in and below its folder; no other file is opened, and the error names
-// it if it is needed.
+// Reference: the interface. The file of a surface may refer to files in and below its folder; no other file is opened,
+// and the error names it if it is needed.
 
 #include "pbs/rig/surface_reader.hpp"
 #include "tests/support/refusal.hpp"
@@ -42,7 +42,8 @@ std::string outcome(const std::string& path)
     const auto begin = std::chrono::steady_clock::now();
     Eigen::Index triangles = 0;
     const std::string refusal = test_support::refusal_of([&] { triangles = pbs::read_surface(path).triangles.rows(); });
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10)) << path;  // a reader that blocks has a limit of 20 s
+    // a reader that blocks has a limit of 20 s
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10)) << path;
     return refusal == "accepted" ? std::to_string(triangles) + " triangles" : refusal;
 }
 
@@ -65,14 +66,16 @@ protected:
 
 TEST_F(ReferredFile, BesideAndBelowIsRead)
 {
-    for (const char* buffer : {"beside.bin", "deeper/below.bin", "deeper/../beside.bin"}) EXPECT_EQ(said_of(buffer), "4 triangles");
+    for (const char* buffer : {"beside.bin", "deeper/below.bin", "deeper/../beside.bin"})
+        EXPECT_EQ(said_of(buffer), "4 triangles");
 }
 
 TEST_F(ReferredFile, BesideWhatALinkStandsForIsRead)
 {
     scratch.file("own/a.gltf", gltf("beside.bin"));
     std::filesystem::create_directory(scratch.path() / "links");
-    for (const char* name : {"a.gltf", "beside.bin"}) std::filesystem::create_symlink(own(name), scratch.path() / "links" / name);
+    for (const char* name : {"a.gltf", "beside.bin"})
+        std::filesystem::create_symlink(own(name), scratch.path() / "links" / name);
     EXPECT_EQ(outcome(scratch / "links/a.gltf"), "4 triangles");
 }
 
@@ -89,10 +92,11 @@ TEST_F(ReferredFile, MaterialsAreNotNeeded)
 {
     ASSERT_EQ(mkfifo(own("pipe.mtl").c_str(), 0600), 0);
     for (const char* library : {"pipe.mtl", "../../../../etc/passwd", "none.mtl"})
-        EXPECT_EQ(
-            outcome(scratch.file("own/a.obj", std::string("mtllib ") + library +
-                                                  "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl a\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")),
-            "4 triangles")
+        EXPECT_EQ(outcome(scratch.file(
+                      "own/a.obj",
+                      std::string("mtllib ") + library +
+                          "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl a\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")),
+                  "4 triangles")
             << library;
 }
 

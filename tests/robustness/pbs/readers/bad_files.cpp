@@ -1,5 +1,6 @@
-// Reference: the contract of InputError: file, line, field, value and rule. Each bad file is a sound one with one change. Files of every
-// format that the program refuses are in tests/support/bad_*.toml; here are those whose defects only the readers know.
+// Reference: the contract of InputError: file, line, field, value and rule. Each bad file is a sound one with one
+// change. Files of every format that the program refuses are in tests/support/bad_*.toml; here are those whose defects
+// only the readers know.
 #include "tests/support/file_readers.hpp"
 
 #include "pbs/rig/rig_formats.hpp"
@@ -17,7 +18,8 @@ namespace {
 using nlohmann::json;
 using test_support::ScratchFolder;
 
-// `at`: what is replaced in the text; a path in the document of a glTF file, with a JSON value (none: it is removed); none: all of it.
+// `at`: what is replaced in the text; a path in the document of a glTF file, with a JSON value (none: it is removed);
+// none: all of it.
 struct BadFile {
     std::string name, reader, at, by, begins, holds;  // begins: behind the file
     std::string file = {};                            // its name, if it is not the usual one
@@ -49,7 +51,8 @@ TEST_P(RefusedFile, NamesFileLineFieldValueAndRule)
     const Reader& reader = reader_named(GetParam().reader);
     const ScratchFolder folder;
     if (!reader.beside.empty()) folder.file(reader.beside, sound(reader.text_beside));
-    const std::string path = folder.file(GetParam().file.empty() ? reader.file : GetParam().file, content_of(GetParam()));
+    const std::string path =
+        folder.file(GetParam().file.empty() ? reader.file : GetParam().file, content_of(GetParam()));
     const std::string answer = answer_of(reader, path);
     EXPECT_TRUE(answer.starts_with(path + GetParam().begins)) << answer;
     EXPECT_NE(answer.find(GetParam().holds), std::string::npos) << answer;
@@ -61,11 +64,14 @@ const BadFile bad_meshes[] = {
     {"gmsh_pyramid", "gmsh", "1 4 2 0 1 1 2 3 4", "1 7 2 0 1 1 2 3 4 1", "", "pyramid"},
     {"vtk_surface_alone", "vtk", "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10", "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5", "",
      "expected at least one tetrahedron"},
-    {"vtk_pyramid", "vtk", "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10", "CELLS 1 6\n5 0 1 2 3 0\nCELL_TYPES 1\n14", "", "vtkPyramid"},
+    {"vtk_pyramid", "vtk", "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10", "CELLS 1 6\n5 0 1 2 3 0\nCELL_TYPES 1\n14", "",
+     "vtkPyramid"},
     {"unknown_extension", "vtk", "", "0 0 0\n", ": extension = .xyz: ", "expected a tet mesh", "a.xyz"},
     {"no_extension", "vtk", "", "0 0 0\n", "", "expected a tet mesh", "xyz"},
-    {"gmsh_by_another_name", "gmsh", "", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n", ": ", "$EndNodes is missing", "a.vtk"},
-    {"tetgen_corner", "tetgen_tets", "0 0 1 2 3", "0 0 1 2 4", ":2: tet vertex = 4: ", "expected a whole number from 0 to 3"},
+    {"gmsh_by_another_name", "gmsh", "", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n", ": ", "$EndNodes is missing",
+     "a.vtk"},
+    {"tetgen_corner", "tetgen_tets", "0 0 1 2 3", "0 0 1 2 4",
+     ":2: tet vertex = 4: ", "expected a whole number from 0 to 3"},
     {"tetgen_no_tets", "tetgen_tets", "0 0 1 2 3\n", "", ":1: tet: ", "truncated"},
     {"tetgen_quadratic", "tetgen_tets", "1 4 0\n0 0 1 2 3", "1 10 0\n0 0 1 2 3 4 5 6 7 8 9", ":1: nodes per tet", ""},
     {"tetgen_huge_count", "tetgen_tets", "1 4 0", "9999999999 4 0", ":1: #tets", ""},
@@ -76,27 +82,33 @@ const BadFile bad_meshes[] = {
     {"tobj_two_coordinates", "tobj", "v 0 0 0", "v 0 0", ":1: v = v 0 0: ", "expected 3 numbers"},
     {"tobj_four_coordinates", "tobj", "v 0 0 0", "v 0 0 0 0", ":1: v = ", "expected 3 numbers"},
     {"tobj_comma", "tobj", "v 0 0 0", "v 0 0 1,5", ":1: v = 1,5: ", "expected a number"},
-    {"tobj_corner_not_whole", "tobj", "t 0 1 2 3", "t 0 1 2 2.5", ":5: t = 2.5: ", "expected the number of a vertex, from 0"},
+    {"tobj_corner_not_whole", "tobj", "t 0 1 2 3", "t 0 1 2 2.5",
+     ":5: t = 2.5: ", "expected the number of a vertex, from 0"},
     {"tobj_corner_nan", "tobj", "t 0 1 2 3", "t 0 1 2 nan", ":5: t = nan: ", "expected the number of a vertex, from 0"},
-    {"tobj_corner_huge", "tobj", "t 0 1 2 3", "t 0 1 2 1e300", ":5: t = 1e+300: ", "expected the number of a vertex, from 0"},
+    {"tobj_corner_huge", "tobj", "t 0 1 2 3", "t 0 1 2 1e300",
+     ":5: t = 1e+300: ", "expected the number of a vertex, from 0"},
     {"tobj_no_vertices", "tobj", "", "t 0 1 2 3\n", ": points = 0: ", "at least one point"},
     {"no_surface", "obj", "", "$MeshFormat\n2.2 0 8\n", ": format of the content = .msh: ", "expected a surface"},
-    {"words_by_another_name", "obj", "", "4 vertices and 4 triangles\n", ": extension = .txt: ", "expected a surface", "b.txt"},
+    {"words_by_another_name", "obj", "", "4 vertices and 4 triangles\n", ": extension = .txt: ", "expected a surface",
+     "b.txt"},
     {"points_and_lines", "obj", "", "v 0 0 0\nv 1 0 0\nl 1 2\n", ": ", ""},
     {"triangles_without_area", "obj", "", "v 0 0 0\nv 1 0 0\nv 1 0 0\nf 1 2 3\nf 1 1 1\n",
      ": triangles = 2: ", "expected one whose three corners differ"},
 #ifdef PBS_WITH_CGAL
-    {"polygon_without_area", "off", "4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n", "6 5 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n2 0 0\n3 0 0\n4 0 1 4 5\n",
-     ": face 0: ", "expected an area"},
+    {"polygon_without_area", "off", "4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n",
+     "6 5 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n2 0 0\n3 0 0\n4 0 1 4 5\n", ": face 0: ", "expected an area"},
 #endif
 };
-INSTANTIATE_TEST_SUITE_P(Meshes, RefusedFile, testing::ValuesIn(bad_meshes), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Meshes, RefusedFile, testing::ValuesIn(bad_meshes),
+                         [](const auto& info) { return info.param.name; });
 
 const BadFile bad_characters[] = {
-    {"noise_by_another_name", "bvh", "", "noise", ": no clip: expected BVH, glTF (.glb, .gltf), FBX (.fbx) or COLLADA", "", "a.clip"},
+    {"noise_by_another_name", "bvh", "", "noise", ": no clip: expected BVH, glTF (.glb, .gltf), FBX (.fbx) or COLLADA",
+     "", "a.clip"},
     {"zero_frames_by_another_name", "bvh", "Frames: 2", "Frames: 0", ":17: Frames = 0", "1 or more", "a.clip"},
     {"nan_position", "bvh", "0 0 0 0 0 0 10", "0 nan 0 0 0 0 10", ":19: frame 0 = nan: ", "expected a finite number"},
-    {"surface_without_motion", "bvh", "", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ": ", "no clip: expected BVH", "a.obj"},
+    {"surface_without_motion", "bvh", "", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ": ", "no clip: expected BVH",
+     "a.obj"},
     {"joint_is_no_array", "skeleton", "", "[joint]\nname = \"a\"\n", ":1: joint: ", "[[joint]]"},
     {"missing_tail", "skeleton", "tail_m = [1, 0, 0]\n", "", ":6: tail_m: ", "missing"},
     {"name_is_a_number", "skeleton", "\"root\"", "7", ":2: name = 7: ", "expected a string"},
@@ -117,14 +129,17 @@ const BadFile bad_characters[] = {
     {"fbx_weight", "fbx", "a: 0.5,1,0.75", "a: 0.5,1,-0.75", "", "0 or more"},
     {"fbx_version", "fbx", "FBXVersion: 7400", "FBXVersion: 400", ": FBXVersion = 400: ", "expected 7000 or more"},
     {"fbx_connections", "fbx", "Connections:  {", "Connections:  ", "", "expected the name of a record and a colon"},
-    {"fbx_cycle", "fbx", "C: \"OO\",4,3", "C: \"OO\",4,4\nC: \"OO\",4,3", ": Model elbow, parent = elbow: ", "expected one parent"},
+    {"fbx_cycle", "fbx", "C: \"OO\",4,3", "C: \"OO\",4,4\nC: \"OO\",4,3",
+     ": Model elbow, parent = elbow: ", "expected one parent"},
     {"fbx_cluster", "fbx", "a: 1,2,3", "a: 1,1003,3", ": Deformer 7, Indexes = 1003: ", "expected a point from 0 to 3"},
     {"fbx_array", "fbx", "Vertices: *12", "Vertices: *11", "", "states 11 numbers and has 12"},
-    {"fbx_corner", "fbx", "a: 0,1,-4,1,2,-4", "a: 0,1,-5,1,2,-4", ": Geometry arm, PolygonVertexIndex = -5: ", "of the 4 in Vertices"},
+    {"fbx_corner", "fbx", "a: 0,1,-4,1,2,-4", "a: 0,1,-5,1,2,-4",
+     ": Geometry arm, PolygonVertexIndex = -5: ", "of the 4 in Vertices"},
     // on this file assimp 5.2.5 reads beyond its memory; its own process contains that
     {"collada_stride", "collada", "stride='3'", "stride='2147483647'", "", ""},
 };
-INSTANTIATE_TEST_SUITE_P(Characters, RefusedFile, testing::ValuesIn(bad_characters), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Characters, RefusedFile, testing::ValuesIn(bad_characters),
+                         [](const auto& info) { return info.param.name; });
 
 const std::string primitive = "/meshes/0/primitives/0/", attributes = ": meshes/0/primitives/0/attributes/",
                   of_points = attributes + "POSITION = ";
@@ -149,13 +164,18 @@ const BadFile bad_gltf[] = {
     {"no_points", "gltf", primitive + "attributes/POSITION", "", attributes + "POSITION: ", "missing"},
     {"no_weights", "gltf", primitive + "attributes/WEIGHTS_0", "", attributes + "WEIGHTS_0: ", "missing"},
     {"points_as_scalars", "gltf", primitive + "attributes/POSITION", "1", of_points + "1: ", "3 numbers per element"},
-    {"accessor_out_of_range", "gltf", primitive + "attributes/WEIGHTS_0", "70", attributes + "WEIGHTS_0 = 70: ", "an accessor of the file"},
+    {"accessor_out_of_range", "gltf", primitive + "attributes/WEIGHTS_0", "70",
+     attributes + "WEIGHTS_0 = 70: ", "an accessor of the file"},
     {"indices_out_of_range", "gltf", primitive + "indices", "70", ": no glTF that tinygltf can read: ", "indices"},
-    {"fewer_weights_than_points", "gltf", "/accessors/3/count", "1", attributes + "WEIGHTS_0 = 1: ", "as many as there are points, 4"},
-    {"fewer_joints_than_points", "gltf", "/accessors/2/count", "1", attributes + "JOINTS_0 = 1: ", "as many as there are points, 4"},
+    {"fewer_weights_than_points", "gltf", "/accessors/3/count", "1",
+     attributes + "WEIGHTS_0 = 1: ", "as many as there are points, 4"},
+    {"fewer_joints_than_points", "gltf", "/accessors/2/count", "1",
+     attributes + "JOINTS_0 = 1: ", "as many as there are points, 4"},
     {"skin_out_of_range", "gltf", "/nodes/2/skin", "1", ": skin = 1: ", "does not exist"},
-    {"fewer_matrices_than_joints", "gltf", "/accessors/4/count", "1", ": skins/0/inverseBindMatrices = 1: ", "one per joint"},
-    {"matrices_as_vectors", "gltf", "/skins/0/inverseBindMatrices", "3", ": skins/0/inverseBindMatrices = 3: ", "16 numbers per element"},
+    {"fewer_matrices_than_joints", "gltf", "/accessors/4/count", "1",
+     ": skins/0/inverseBindMatrices = 1: ", "one per joint"},
+    {"matrices_as_vectors", "gltf", "/skins/0/inverseBindMatrices", "3",
+     ": skins/0/inverseBindMatrices = 3: ", "16 numbers per element"},
     {"one_point_more", "gltf", "/accessors/0/count", "5", of_points + "5: ", beyond},
     {"points_from_the_second_number_on", "gltf", "/accessors/0/byteOffset", "4", of_points + "4: ", beyond},
     {"stride_beyond_the_view", "gltf", "/bufferViews/0/byteStride", "16", of_points + "4: ", beyond},
@@ -167,31 +187,36 @@ const BadFile bad_gltf[] = {
     {"buffer_out_of_range", "gltf", "/bufferViews/0/buffer", "1", of_points + "1: ", "a buffer of the file"},
     {"unknown_component_type", "gltf", "/accessors/0/componentType", "5124", "", ""},
     {"sparse_index_out_of_range", "gltf", "/accessors/0/sparse",
-     sparse("1", R"({"bufferView": 3, "byteOffset": 2, "componentType": 5121})"), of_points + "128", "an index of the accessor's elements"},
+     sparse("1", R"({"bufferView": 3, "byteOffset": 2, "componentType": 5121})"), of_points + "128",
+     "an index of the accessor's elements"},
     {"sparse_values_beyond", "gltf", "/accessors/0/sparse", sparse("5"), of_points + "5: ", beyond},
     {"sparse_count_negative", "gltf", "/accessors/0/sparse", sparse("-1"), of_points + "-1: ", "0 or more"},
     {"shorter_buffer", "gltf", "/buffers/0/byteLength", "1000", ": no glTF that tinygltf can read: ", ""},
     {"missing_buffer", "gltf", "/buffers/0/uri", R"("none.bin")", ": no glTF that tinygltf can read: ", "none.bin"},
     {"animated_node", "gltf", "/animations/0/channels/0/target/node", "3",
      ": animations/0/channels/0/target/node = 3: ", "node of the file"},
-    {"no_sampler", "gltf", "/animations/0/channels/0/sampler", "1", ": animations/0/channels/0/sampler = 1: ", "sampler of the animation"},
+    {"no_sampler", "gltf", "/animations/0/channels/0/sampler", "1",
+     ": animations/0/channels/0/sampler = 1: ", "sampler of the animation"},
     {"animated_colour", "gltf", "/animations/0/channels/0/target/path", R"("colour")",
      ": animations/0/channels/0/target/path = colour: ", "expected translation, rotation, scale or weights"},
     {"interpolation", "gltf", sampler + "interpolation", R"("BEZIER")",
      ": animations/0/samplers/0/interpolation = BEZIER: ", "expected LINEAR, STEP or CUBICSPLINE"},
     {"spline_without_tangents", "gltf", sampler + "interpolation", R"("CUBICSPLINE")",
      ": animations/0/samplers/0/output = 2: ", "expected 6 for 2 keys"},
-    {"rotations_as_vectors", "gltf", sampler + "output", "0", ": animations/0/samplers/0/output = 0: ", "4 numbers per element"},
+    {"rotations_as_vectors", "gltf", sampler + "output", "0",
+     ": animations/0/samplers/0/output = 0: ", "4 numbers per element"},
     {"no_keys", "gltf", "/accessors/5/count", "0", ": animations/0/samplers/0/input: ", "at least one key"},
 };
-INSTANTIATE_TEST_SUITE_P(Gltf, RefusedFile, testing::ValuesIn(bad_gltf), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Gltf, RefusedFile, testing::ValuesIn(bad_gltf),
+                         [](const auto& info) { return info.param.name; });
 
 TEST(RefusedMesh, AScriptNamedAsAMeshIsNotRun)
 {
     const ScratchFolder folder;
     const std::string trace = folder / "trace", script = "SystemCall \"touch " + trace + "\";\n";
     EXPECT_NE(answer_of(reader_named("gmsh"), folder.file("a.msh", script)).find("$MeshFormat"), std::string::npos);
-    EXPECT_NE(answer_of(reader_named("medit"), folder.file("a.mesh", script)).find("MeshVersionFormatted"), std::string::npos);
+    EXPECT_NE(answer_of(reader_named("medit"), folder.file("a.mesh", script)).find("MeshVersionFormatted"),
+              std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(trace));
 }
 

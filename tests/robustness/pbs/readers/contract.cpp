@@ -1,5 +1,5 @@
-// Reference: the interface. Whatever the error in a file, the answer of each reader is an InputError that names the file, in seconds; it
-// prints nothing and leaves nothing behind.
+// Reference: the interface. Whatever the error in a file, the answer of each reader is an InputError that names the
+// file, in seconds; it prints nothing and leaves nothing behind.
 #include "tests/support/file_readers.hpp"
 
 #include "pbs/character/clip.hpp"
@@ -46,7 +46,8 @@ std::string sum_of(const Numbers& numbers)
 template <typename Cells>
 std::string content_of(const pbs::Positions& points, const Cells& cells)
 {
-    return std::to_string(points.rows()) + " points, " + std::to_string(cells.rows()) + " cells" + sum_of(points) + sum_of(cells);
+    return std::to_string(points.rows()) + " points, " + std::to_string(cells.rows()) + " cells" + sum_of(points) +
+           sum_of(cells);
 }
 
 std::string read_tets(const std::string& path)
@@ -70,16 +71,19 @@ std::string read_surface(const std::string& path)
 std::string read_rig(const std::string& path)
 {
     const pbs::Rig rig = pbs::read_rig(path);
-    const auto& [points, triangles, skin] = std::tie(rig.meshes.at(0).points, rig.meshes.at(0).triangles, rig.meshes.at(0).skin);
+    const auto& [points, triangles, skin] =
+        std::tie(rig.meshes.at(0).points, rig.meshes.at(0).triangles, rig.meshes.at(0).skin);
     const std::vector<Eigen::Affine3d> nodes = pbs::node_transforms(rig, pbs::find_animation(rig, ""), 0.5);
-    return content_of(points, triangles) + sum_of(Eigen::Map<const Eigen::VectorXd>(skin.weight.data(), Eigen::Index(skin.weight.size()))) +
+    return content_of(points, triangles) +
+           sum_of(Eigen::Map<const Eigen::VectorXd>(skin.weight.data(), Eigen::Index(skin.weight.size()))) +
            sum_of(pbs::skinned_points(rig.meshes.at(0), nodes));
 }
 
 std::string read_clip(const std::string& path)
 {
     const pbs::Clip clip = pbs::read_clip(path);
-    std::string content = std::to_string(clip.frames()) + " frames of " + pbs::number_text(clip.frame_time_s, 12) + " s";
+    std::string content =
+        std::to_string(clip.frames()) + " frames of " + pbs::number_text(clip.frame_time_s, 12) + " s";
     for (const auto& frame : clip.local)
         for (const Eigen::Quaterniond& turn : frame) content += sum_of(turn.coeffs());
     for (const pbs::Positions& places : clip.places) content += sum_of(places);
@@ -116,33 +120,41 @@ const std::string msh =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{count=4}\n1 0 0 0\n2 {x=1} 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
     "$Elements\n1\n1 4 2 0 1 1 2 3 {corner=4}\n$EndElements\n";
 const std::string medit =
-    "MeshVersionFormatted 2\nDimension 3\nVertices\n{count=4}\n0 0 0 1\n{x=1} 0 0 1\n0 1 0 1\n0 0 1 1\nTetrahedra\n1\n1 2 3 {corner=4} "
+    "MeshVersionFormatted 2\nDimension 3\nVertices\n{count=4}\n0 0 0 1\n{x=1} 0 0 1\n0 1 0 1\n0 0 1 "
+    "1\nTetrahedra\n1\n1 2 3 {corner=4} "
     "1\nEnd\n";
-const std::string vtk = "# vtk DataFile Version 3.0\ntet\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {count=4} double\n" + points +
-                        "CELLS 1 5\n4 0 1 2 {corner=3}\nCELL_TYPES 1\n10\n";
-const std::string node = "{count=4} 3 0 0\n0 0 0 0\n1 {x=1} 0 0\n2 0 1 0\n3 0 0 1\n", ele = "1 4 0\n0 0 1 2 {corner=3}\n";
+const std::string vtk = "# vtk DataFile Version 3.0\ntet\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {count=4} double\n" +
+                        points + "CELLS 1 5\n4 0 1 2 {corner=3}\nCELL_TYPES 1\n10\n";
+const std::string node = "{count=4} 3 0 0\n0 0 0 0\n1 {x=1} 0 0\n2 0 1 0\n3 0 0 1\n",
+                  ele = "1 4 0\n0 0 1 2 {corner=3}\n";
 // Two tets, so that a count which is too small would leave out one of them.
 const std::string msh_of_two =
-    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{count=5}\n1 0 0 0\n2 {x=1} 0 0\n3 0 1 0\n4 0 0 1\n5 0.5 -0.25 -1\n$EndNodes\n"
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{count=5}\n1 0 0 0\n2 {x=1} 0 0\n3 0 1 0\n4 0 0 1\n5 0.5 -0.25 "
+    "-1\n$EndNodes\n"
     "$Elements\n{cells=2}\n1 4 2 0 1 1 2 3 4\n2 4 2 0 1 1 3 2 {corner=5}\n$EndElements\n";
 const std::string medit_of_two =
-    "MeshVersionFormatted 2\nDimension 3\nVertices\n{count=5}\n0 0 0 1\n{x=1} 0 0 1\n0 1 0 1\n0 0 1 1\n0.5 -0.25 -1 1\nTetrahedra\n"
+    "MeshVersionFormatted 2\nDimension 3\nVertices\n{count=5}\n0 0 0 1\n{x=1} 0 0 1\n0 1 0 1\n0 0 1 1\n0.5 -0.25 -1 "
+    "1\nTetrahedra\n"
     "{cells=2}\n1 2 3 4 1\n1 3 2 {corner=5} 1\nEnd\n";
-const std::string vtk_of_two = "# vtk DataFile Version 3.0\ntets\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {count=5} double\n" + points +
-                               fifth + "CELLS {cells=2} 10\n4 0 1 2 3\n4 0 2 1 {corner=4}\nCELL_TYPES 2\n10\n10\n";
+const std::string vtk_of_two =
+    "# vtk DataFile Version 3.0\ntets\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {count=5} double\n" + points + fifth +
+    "CELLS {cells=2} 10\n4 0 1 2 3\n4 0 2 1 {corner=4}\nCELL_TYPES 2\n10\n10\n";
 const std::string nodes_of_two = "{count=5} 3 0 0\n0 0 0 0\n1 {x=1} 0 0\n2 0 1 0\n3 0 0 1\n4 0.5 -0.25 -1\n",
                   tets_of_two = "{cells=2} 4 0\n0 0 1 2 3\n1 0 2 1 {corner=4}\n";
 const std::string tobj = "v 0 0 0\nv {x=1} 0 0\nv 0 1 0\nv 0 0 1\nt 0 1 2 {corner=3}\n";
 const std::string obj = "v 0 0 0\nv {x=1} 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 const std::string ply =
-    "ply\nformat ascii 1.0\nelement vertex {count=4}\nproperty float x\nproperty float y\nproperty float z\nelement face {cells=4}\n"
+    "ply\nformat ascii 1.0\nelement vertex {count=4}\nproperty float x\nproperty float y\nproperty float z\nelement "
+    "face {cells=4}\n"
     "property list uchar int vertex_indices\nend_header\n" +
     points + faces;
 const std::string off = "OFF\n{count=4} {cells=4} 0\n" + points + faces;
 const std::string stl =
-    "solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex {x=1} 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
+    "solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex {x=1} 0 0\nvertex 0 1 "
+    "0\nendloop\nendfacet\nendsolid a\n";
 const std::string bvh =
-    "HIERARCHY\nROOT upper\n{\n OFFSET 0 0 0\n CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation\n JOINT forearm\n"
+    "HIERARCHY\nROOT upper\n{\n OFFSET 0 0 0\n CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation "
+    "Xrotation\n JOINT forearm\n"
     " {\n  OFFSET 2 0 0\n  CHANNELS 3 Zrotation Yrotation Xrotation\n  End Site\n  {\n   OFFSET 1 0 0\n  }\n }\n}\n"
     "MOTION\nFrames: 2\nFrame Time: 0.01\n0 0 0 0 0 0 10 20 30\n0 0 0 0 0 0 10 20 30\n";
 const std::string skeleton =
@@ -200,7 +212,12 @@ const std::vector<Reader>& all_readers()
         {"bvh", "a.bvh", bvh, read_clip},
         {"gltf_clip", "a.gltf", test_support::two_joint_document().text(), read_clip},
         {"fbx_clip", "a.fbx", test_support::fbx_arm(), read_clip},
-        {.name = "skeleton", .file = "a.toml", .text = skeleton, .read = read_skeleton, .has_an_end = false, .refused_dialects = 0},
+        {.name = "skeleton",
+         .file = "a.toml",
+         .text = skeleton,
+         .read = read_skeleton,
+         .has_an_end = false,
+         .refused_dialects = 0},
         {.name = "weights",
          .file = "a.csv",
          .text = "vertex,joint,weight\n0,upper,1\n1,upper,0.25\n1,forearm,0.75\n",
@@ -259,7 +276,10 @@ protected:
     {
         if (!GetParam().beside.empty()) folder.file(GetParam().beside, sound(GetParam().text_beside));
     }
-    std::string answer_to(const std::string& content) const { return answer_of(GetParam(), folder.file(GetParam().file, content)); }
+    std::string answer_to(const std::string& content) const
+    {
+        return answer_of(GetParam(), folder.file(GetParam().file, content));
+    }
     void expect_refused(const std::string& content, const std::string& change = "") const
     {
         const std::string answer = answer_to(content);
@@ -294,15 +314,19 @@ std::string name_in_suite(const testing::TestParamInfo<Reader>& info)
 }
 
 INSTANTIATE_TEST_SUITE_P(Readers, ReaderContract, testing::ValuesIn(all_readers()), name_in_suite);
-INSTANTIATE_TEST_SUITE_P(Readers, ReaderOfWholeFiles, testing::ValuesIn(readers_that(std::mem_fn(&Reader::has_an_end))), name_in_suite);
-INSTANTIATE_TEST_SUITE_P(Readers, ReaderOfText,
-                         testing::ValuesIn(readers_that([](const Reader& of) { return of.text.find('\0') == std::string::npos; })),
+INSTANTIATE_TEST_SUITE_P(Readers, ReaderOfWholeFiles, testing::ValuesIn(readers_that(std::mem_fn(&Reader::has_an_end))),
                          name_in_suite);
-INSTANTIATE_TEST_SUITE_P(Readers, ReaderOfWholeWords,
-                         testing::ValuesIn(readers_that([](const Reader& of) { return of.text.find("{x=") != std::string::npos; })),
+INSTANTIATE_TEST_SUITE_P(Readers, ReaderOfText, testing::ValuesIn(readers_that([](const Reader& of) {
+                             return of.text.find('\0') == std::string::npos;
+                         })),
                          name_in_suite);
-INSTANTIATE_TEST_SUITE_P(Readers, ReaderOfNumbers,
-                         testing::ValuesIn(readers_that([](const Reader& of) { return of.text.find("{x=") != std::string::npos; })),
+INSTANTIATE_TEST_SUITE_P(Readers, ReaderOfWholeWords, testing::ValuesIn(readers_that([](const Reader& of) {
+                             return of.text.find("{x=") != std::string::npos;
+                         })),
+                         name_in_suite);
+INSTANTIATE_TEST_SUITE_P(Readers, ReaderOfNumbers, testing::ValuesIn(readers_that([](const Reader& of) {
+                             return of.text.find("{x=") != std::string::npos;
+                         })),
                          name_in_suite);
 
 TEST_P(ReaderContract, ReadsTheSoundFile)  // shows that each refusal below is due to its defect
@@ -318,12 +342,14 @@ TEST_P(ReaderContract, RefusesWhatIsNoFile)
     EXPECT_NE(answer_of(GetParam(), path).find("expected a file"), std::string::npos) << "a folder";
     std::filesystem::remove(path);
     ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
-    EXPECT_NE(answer_of(GetParam(), path).find("expected a file"), std::string::npos) << "a pipe, which would be waited for without end";
+    EXPECT_NE(answer_of(GetParam(), path).find("expected a file"), std::string::npos)
+        << "a pipe, which would be waited for without end";
 }
 
 TEST_P(ReaderContract, RefusesNothingNoiseAndWords)
 {
-    for (const std::string& content : {std::string(), noise(500), noise(4096), std::string("these are words and no numbers\n")})
+    for (const std::string& content :
+         {std::string(), noise(500), noise(4096), std::string("these are words and no numbers\n")})
         expect_refused(content);
 }
 
@@ -355,13 +381,17 @@ struct Dialect {
 
 const Dialect dialects[] = {
     {"a byte-order mark", [](const std::string& text) { return "\xef\xbb\xbf" + text; }},
-    {"lines that end in CR LF", [](const std::string& text) { return std::regex_replace(text, std::regex("\n"), "\r\n"); }},
-    {"tabs between numbers", [](const std::string& text) { return std::regex_replace(text, std::regex("(\\d) (?=[-\\d])"), "$1\t"); }},
+    {"lines that end in CR LF",
+     [](const std::string& text) { return std::regex_replace(text, std::regex("\n"), "\r\n"); }},
+    {"tabs between numbers",
+     [](const std::string& text) { return std::regex_replace(text, std::regex("(\\d) (?=[-\\d])"), "$1\t"); }},
     {"two spaces between numbers",
      [](const std::string& text) { return std::regex_replace(text, std::regex("(\\d) (?=[-\\d])"), "$1  "); }},
-    {"spaces at the ends of lines", [](const std::string& text) { return std::regex_replace(text, std::regex("\n"), " \n"); }},
+    {"spaces at the ends of lines",
+     [](const std::string& text) { return std::regex_replace(text, std::regex("\n"), " \n"); }},
     {"empty lines at the end", [](const std::string& text) { return text + "\n\n"; }},
-    {"no end of the last line", [](const std::string& text) { return text.ends_with('\n') ? text.substr(0, text.size() - 1) : text; }},
+    {"no end of the last line",
+     [](const std::string& text) { return text.ends_with('\n') ? text.substr(0, text.size() - 1) : text; }},
 };
 
 TEST_P(ReaderOfText, ReadsTheSameContentInEveryDialectThatItAccepts)
@@ -378,10 +408,11 @@ TEST_P(ReaderOfText, ReadsTheSameContentInEveryDialectThatItAccepts)
 
 TEST_P(ReaderOfNumbers, RefusesNumbersThatCannotBe)
 {
-    for (const auto& [place, numbers] : {std::pair<std::string, std::vector<std::string>>{"x", {"nan", "inf", "1e999", "abc", "--1"}},
-                                         {"corner", {"9", "-1", "99999999999", "x"}},
-                                         {"count", {"-4", "4000000000", "nan"}},
-                                         {"cells", {"-4", "4000000000"}}})
+    for (const auto& [place, numbers] :
+         {std::pair<std::string, std::vector<std::string>>{"x", {"nan", "inf", "1e999", "abc", "--1"}},
+          {"corner", {"9", "-1", "99999999999", "x"}},
+          {"count", {"-4", "4000000000", "nan"}},
+          {"cells", {"-4", "4000000000"}}})
         for (const std::string& number : numbers)
             if (has(place)) expect_refused(with_number(GetParam().text, place, number), place + " = " + number);
 }
@@ -389,7 +420,8 @@ TEST_P(ReaderOfNumbers, RefusesNumbersThatCannotBe)
 TEST_P(ReaderOfWholeWords, RefusesWordsThatOnlyBeginAsNumbers)
 {
     for (const auto& [place, words] :
-         {std::pair<std::string, std::vector<std::string>>{"x", {"1.#QNAN", "1.#INF", "1.5.2", "1,5", "1e"}}, {"corner", {"1.5", "nan"}}})
+         {std::pair<std::string, std::vector<std::string>>{"x", {"1.#QNAN", "1.#INF", "1.5.2", "1,5", "1e"}},
+          {"corner", {"1.5", "nan"}}})
         for (const std::string& word : words)
             if (has(place)) expect_refused(with_number(GetParam().text, place, word), place + " = " + word);
 }
@@ -401,7 +433,8 @@ TEST_P(ReaderOfWholeWords, RefusesCountsThatAreWrongByOne)
         if (!std::regex_search(GetParam().text, found, std::regex("\\{" + place + "=(\\d)\\}"))) continue;
         const int count = std::stoi(found[1]);
         for (const int other : {count - 1, count + 1})
-            expect_refused(with_number(GetParam().text, place, std::to_string(other)), place + " = " + std::to_string(other));
+            expect_refused(with_number(GetParam().text, place, std::to_string(other)),
+                           place + " = " + std::to_string(other));
     }
 }
 
@@ -415,8 +448,8 @@ TEST_P(ReaderOfWholeWords, ReadsFortransExponentsOrRefusesThem)
     }
 }
 
-// Reading and writing files does not depend on the locale of the program that uses the library. Reference: the bytes that are written
-// with the classic locale.
+// Reading and writing files does not depend on the locale of the program that uses the library. Reference: the bytes
+// that are written with the classic locale.
 
 // 1.234,5 as in German
 struct Commas : std::numpunct<char> {
@@ -451,7 +484,8 @@ TEST_F(DecimalComma, WritesTheSameBytesAndReadsTheSamePoints)
         pbs::write_tet_mesh(folder / ("classic" + ending), mesh);
         std::locale::global(std::locale(std::locale::classic(), new Commas));
         pbs::write_tet_mesh(folder / ("commas" + ending), mesh);
-        EXPECT_EQ(pbs::read_text_file(folder / ("commas" + ending)), pbs::read_text_file(folder / ("classic" + ending))) << ending;
+        EXPECT_EQ(pbs::read_text_file(folder / ("commas" + ending)), pbs::read_text_file(folder / ("classic" + ending)))
+            << ending;
         EXPECT_EQ(pbs::read_tet_frame(folder / ("classic" + ending)).rest, mesh.rest) << ending;
     }
     pbs::write_pvd(folder / "commas.pvd", {{1234.5, "a.vtu"}});

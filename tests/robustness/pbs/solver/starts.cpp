@@ -1,5 +1,5 @@
-// Reference: order `plain`, and that bind keeps a body within reach of its bones. The initial states are ones that no pose produces and in
-// which other solvers diverge: flattened, mirrored, random, collapsed.
+// Reference: order `plain`, and that bind keeps a body within reach of its bones. The initial states are ones that no
+// pose produces and in which other solvers diverge: flattened, mirrored, random, collapsed.
 #include "pbs/solver/pbs_solver.hpp"
 
 #include "tests/support/random_points.hpp"
@@ -98,11 +98,13 @@ TEST(Starts, ComeBackWithinReachOfTheBones)
     });
 }
 
-// Without bind a body may stay collapsed or, if every tet is flat up to rounding, fly apart. The order plain does so too.
+// Without bind a body may stay collapsed or, if every tet is flat up to rounding, fly apart. The order plain does so
+// too.
 TEST(Starts, WithoutBindAreFiniteWherePlainIs)
 {
     for_each_start_and_order([](const Positions& start, Order order, Precision precision) {
-        const Stepped result = stepped(start, order, precision, 0.0), plain = stepped(start, Order::plain, precision, 0.0);
+        const Stepped result = stepped(start, order, precision, 0.0),
+                      plain = stepped(start, Order::plain, precision, 0.0);
         EXPECT_EQ(result.summary.outcome, plain.summary.outcome);
         EXPECT_EQ(result.summary.outcome, Outcome::finished);
         EXPECT_TRUE(result.positions.allFinite());
@@ -113,7 +115,9 @@ TEST(Starts, WithoutBindAreFiniteWherePlainIs)
 TEST(Starts, APointWithoutBindStays)
 {
     for_each_start_and_order(
-        [](const Positions& point, Order order, Precision precision) { EXPECT_EQ(stepped(point, order, precision, 0.0).positions, point); },
+        [](const Positions& point, Order order, Precision precision) {
+            EXPECT_EQ(stepped(point, order, precision, 0.0).positions, point);
+        },
         {{"a point", scaled(0, 0, 0)}});
 }
 

@@ -9,12 +9,13 @@ using namespace analysis;
 
 CsvTable metrics(const std::string& second, const std::string& last = "0.1")
 {
-    return parse_csv("scene,deformer,frame,iterations,loss,step_ms\ns,pbs,0,24,0,1\ns,pbs,1,24," + second + ",1\ns,pbs,2,24," + last +
-                         ",1\ns,lbs,0,,-9,1\n",
+    return parse_csv("scene,deformer,frame,iterations,loss,step_ms\ns,pbs,0,24,0,1\ns,pbs,1,24," + second +
+                         ",1\ns,pbs,2,24," + last + ",1\ns,lbs,0,,-9,1\n",
                      "metrics.csv");
 }
 
-CheckCase judged(double low, double high, const std::string& second, const std::vector<int>& frames = {}, const std::string& of = "pbs")
+CheckCase judged(double low, double high, const std::string& second, const std::vector<int>& frames = {},
+                 const std::string& of = "pbs")
 {
     return judge_bound({"b", "s", of, "loss", low, high, frames, "", 3}, "%", metrics(second), "check.toml");
 }
@@ -69,7 +70,8 @@ TEST(CheckBaseline, HoldsWithinTheToleranceAndForEqualCounts)
     const CheckCase check = compared("0.2", baseline_of(metrics("0.25")));
     EXPECT_EQ(check.state, CheckState::failed);
     EXPECT_EQ(check.message, "frame 1: loss was 0.25, is 0.2, tolerance 0.01 (1 of 3 frames differ)");
-    EXPECT_EQ(compared("0.2", baseline_of(metrics("0.2"), 21)).message, "frame 0: tets was 21, is 20, tolerance 0 (3 of 3 frames differ)");
+    EXPECT_EQ(compared("0.2", baseline_of(metrics("0.2"), 21)).message,
+              "frame 0: tets was 21, is 20, tolerance 0 (3 of 3 frames differ)");
 }
 
 TEST(CheckBaseline, ASceneThatTheRulesNoLongerHaveFails)
@@ -88,7 +90,8 @@ TEST(CheckBaseline, AFrameTwiceIsRefusedWithItsLine)
     const CsvTable table = baseline_of(metrics("0.2"));
     require_baseline(rules(), table, "baseline.csv");
     const std::string text = table.text(), last = text.substr(text.rfind('\n', text.size() - 2) + 1);
-    EXPECT_EQ(test_support::refusal_of([&] { require_baseline(rules(), parse_csv(text + last, "baseline.csv"), "baseline.csv"); }),
+    EXPECT_EQ(test_support::refusal_of(
+                  [&] { require_baseline(rules(), parse_csv(text + last, "baseline.csv"), "baseline.csv"); }),
               "baseline.csv:6: frame = 0: expected each frame of a scene's deformer once: it is in line 5 too");
 }
 

@@ -28,15 +28,18 @@ struct Surface {
     }
 };
 
-// A cube of an edge, with its lowest corner at `low`; corner 4 x + 2 y + z. Twelve triangles that face outward, or inward.
+// A cube of an edge, with its lowest corner at `low`; corner 4 x + 2 y + z. Twelve triangles that face outward, or
+// inward.
 Surface cube(const pbs::Vec3& low, double edge, bool inward = false)
 {
     Surface surface;
     surface.points.resize(8, 3);
     for (int corner = 0; corner < 8; ++corner)
-        surface.points.row(corner) = low.transpose() + edge * Eigen::RowVector3d(corner / 4, corner / 2 % 2, corner % 2);
+        surface.points.row(corner) =
+            low.transpose() + edge * Eigen::RowVector3d(corner / 4, corner / 2 % 2, corner % 2);
     surface.triangles.resize(12, 3);
-    surface.triangles << 0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1, 2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3;
+    surface.triangles << 0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1, 2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5,
+        7, 1, 7, 3;
     if (inward) surface.triangles.col(1).swap(surface.triangles.col(2));
     return surface;
 }
@@ -64,7 +67,8 @@ void expect_volumes(const Surface& surface, const std::vector<double>& expected_
     for (std::size_t s = 0; s < expected_m3.size(); ++s) {
         const double tolerance_m3 = rounding_error(12, std::abs(expected_m3[s]));
         EXPECT_NEAR(volumes_m3(s), expected_m3[s], tolerance_m3);
-        EXPECT_NEAR(shells.all()[static_cast<std::size_t>(shells.counted()[s])].volume_m3, expected_m3[s], tolerance_m3);
+        EXPECT_NEAR(shells.all()[static_cast<std::size_t>(shells.counted()[s])].volume_m3, expected_m3[s],
+                    tolerance_m3);
     }
 }
 
@@ -111,8 +115,10 @@ TEST(ClosedShells, AHoleIsCapped)
     EXPECT_NEAR(shells.volumes(moved)(0), 8.0, 1e-13);
     EXPECT_NEAR(shells.cap_bound_m3(moved), 0.0, 1e-13) << "a rigid rim";
     pbs::Positions wider = surface.points;
-    wider.bottomRows(4).rightCols(2) = (1.5 * (wider.bottomRows(4).rightCols(2).array() - 1.0) + 1.0).matrix();  // the rim about its middle
-    EXPECT_NEAR(shells.cap_bound_m3(wider), 9.0 * 0.5 * std::sqrt(2.0), 1e-12) << "a cap of 9 m^2 whose corners have moved by 0.5 (1, 1) m";
+    // the rim about its middle
+    wider.bottomRows(4).rightCols(2) = (1.5 * (wider.bottomRows(4).rightCols(2).array() - 1.0) + 1.0).matrix();
+    EXPECT_NEAR(shells.cap_bound_m3(wider), 9.0 * 0.5 * std::sqrt(2.0), 1e-12)
+        << "a cap of 9 m^2 whose corners have moved by 0.5 (1, 1) m";
     surface.triangles = surface.triangles.topRows(2).eval();
     EXPECT_TRUE(ClosedShells(surface.points, surface.triangles, analysis::Holes::cap).counted().empty()) << "a sheet";
 }

@@ -1,5 +1,5 @@
-// Reference: closed forms for translations, single vertices and linear maps. Tolerances: moved positions are rounded relative to their
-// distance from the origin, and means and roots to their own size.
+// Reference: closed forms for translations, single vertices and linear maps. Tolerances: moved positions are rounded
+// relative to their distance from the origin, and means and roots to their own size.
 
 #include "analysis/metrics/error_norms.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -35,14 +35,15 @@ TEST(ErrorNorms, TranslationByKnownDistance)
     domain.blended = {0, 5, 7};
     const Eigen::RowVector3d d(0.03, -0.04, 0.12);  // length 0.13
     const ErrorNorms error = ErrorMetrics(domain).measure(domain.rest.rowwise() + d, domain.rest);
-    const double rounding_m = rounding_error(2, 1.2) + rounding_error(12, 0.13);  // two of a position, a dozen of the mean of squares
+    // two of a position, a dozen of the mean of squares
+    const double rounding_m = rounding_error(2, 1.2) + rounding_error(12, 0.13);
     EXPECT_NEAR(error.linf_m, 0.13, rounding_m);
     EXPECT_NEAR(error.l2_pct, 100.0 * 0.13 / bar_diagonal, 100.0 * rounding_m / bar_diagonal);
     EXPECT_NEAR(error.joint_pct, 130.0, 100.0 * rounding_m / 0.1);
 }
 
-// Two tets of volumes 1/6 and 3/6 on one face: the apex of the large one carries 3/4 of a quarter of the whole. Tolerances: some twenty
-// roundings of products and of sums of positive terms.
+// Two tets of volumes 1/6 and 3/6 on one face: the apex of the large one carries 3/4 of a quarter of the whole.
+// Tolerances: some twenty roundings of products and of sums of positive terms.
 TEST(ErrorNorms, VerticesWeighByTheirLumpedRestVolume)
 {
     const pbs::TetMesh mesh = test_support::two_tets(3.0);
@@ -51,15 +52,16 @@ TEST(ErrorNorms, VerticesWeighByTheirLumpedRestVolume)
     moved(4, 0) += 1.0;
     const ErrorMetrics metrics(domain);
     const ErrorNorms error = metrics.measure(moved, domain.rest);
-    const double l2_pct = 100.0 * std::sqrt(0.75 / 4.0) / std::sqrt(18.0), joint_pct = 100.0 * std::sqrt(0.75) / (0.25 * 1.0 + 0.75 * 3.0);
+    const double l2_pct = 100.0 * std::sqrt(0.75 / 4.0) / std::sqrt(18.0),
+                 joint_pct = 100.0 * std::sqrt(0.75) / (0.25 * 1.0 + 0.75 * 3.0);
     EXPECT_NEAR(error.l2_pct, l2_pct, rounding_error(20, l2_pct));
     EXPECT_NEAR(error.joint_pct, joint_pct, rounding_error(20, joint_pct));
     EXPECT_NEAR(metrics.share_pct({false, false, false, false, true}), 75.0 / 4.0, rounding_error(20, 75.0 / 4.0));
     EXPECT_NEAR(metrics.share_pct({true, true, true, true, true}), 100.0, rounding_error(20, 100.0));
 }
 
-// Two vertices are blended, and the far one is left out: the near one, at 1 m from its bone, has moved by 0.2 m. An inverted mask would
-// measure the other, at 3 m, which has not moved.
+// Two vertices are blended, and the far one is left out: the near one, at 1 m from its bone, has moved by 0.2 m. An
+// inverted mask would measure the other, at 3 m, which has not moved.
 TEST(ErrorNorms, WhatIsLeftOutOfAFrameCountsInNoNorm)
 {
     ErrorDomain domain = bar_domain();
@@ -100,8 +102,8 @@ TEST(ErrorNorms, NothingToMeasureAndABrokenFrameAreNaN)
     prescribed.prescribed.assign(domain.rest.rows(), true);
     Positions broken = domain.rest;
     broken(3, 1) = std::nan("");
-    for (const ErrorNorms& error :
-         {ErrorMetrics(prescribed).measure(domain.rest, domain.rest), ErrorMetrics(domain).measure(broken, domain.rest)}) {
+    for (const ErrorNorms& error : {ErrorMetrics(prescribed).measure(domain.rest, domain.rest),
+                                    ErrorMetrics(domain).measure(broken, domain.rest)}) {
         EXPECT_TRUE(std::isnan(error.l2_pct));
         EXPECT_TRUE(std::isnan(error.linf_m));
     }
@@ -115,7 +117,8 @@ TEST(ErrorNorms, RefusesArraysThatDoNotFit)
     out_of_range.blended = {static_cast<int>(good.rest.rows())};
     without_distances.blended = {0};
     without_distances.bone_distance_m.resize(0);
-    for (const ErrorDomain& bad : {of_three, out_of_range, without_distances}) EXPECT_THROW(ErrorMetrics{bad}, pbs::InputError);
+    for (const ErrorDomain& bad : {of_three, out_of_range, without_distances})
+        EXPECT_THROW(ErrorMetrics{bad}, pbs::InputError);
     EXPECT_THROW(ErrorMetrics(good).measure(good.rest.topRows(2), good.rest), pbs::InputError);
     EXPECT_THROW(ErrorMetrics(good).measure(good.rest, good.rest.topRows(2)), pbs::InputError);
 }
@@ -133,9 +136,10 @@ SmoothnessMetrics metrics_of(const pbs::TetMesh& mesh)
     return {mesh.rest, mesh.tets, std::vector<bool>(mesh.rest.rows(), true)};
 }
 
-// The rounding of a jump of strain between Kuhn tets, and more than that of an angle [rad]: six roundings of a position, twice in an edge.
-// F is the edges times the inverse of the rest edges, of norm sqrt 5 / cell, which goes through a dozen roundings of its own times the
-// condition number sqrt 6 sqrt 5. E has the error |F| dF, and a jump has it twice. A normal turns by less.
+// The rounding of a jump of strain between Kuhn tets, and more than that of an angle [rad]: six roundings of a
+// position, twice in an edge. F is the edges times the inverse of the rest edges, of norm sqrt 5 / cell, which goes
+// through a dozen roundings of its own times the condition number sqrt 6 sqrt 5. E has the error |F| dF, and a jump has
+// it twice. A normal turns by less.
 double jump_error(double farthest_m, double stretch, double cell_m)
 {
     const double of_edges = 2.0 * std::sqrt(3.0) * rounding_error(6, farthest_m);
@@ -156,8 +160,8 @@ TEST(Smoothness, RestRigidMotionAndUniformStretchAreSmooth)
     }
 }
 
-// The right half is stretched along x by s: E_xx = (s^2 - 1) / 2 there, and 0 on the left. Only the faces in the plane x = 0 have a jump,
-// so the rms is smaller than it; and the rms is linear in E.
+// The right half is stretched along x by s: E_xx = (s^2 - 1) / 2 there, and 0 on the left. Only the faces in the plane
+// x = 0 have a jump, so the rms is smaller than it; and the rms is linear in E.
 TEST(Smoothness, JumpOfStrainAcrossAPlane)
 {
     const pbs::TetMesh mesh = bar();
@@ -174,8 +178,8 @@ TEST(Smoothness, JumpOfStrainAcrossAPlane)
     EXPECT_NEAR(metrics_of(mesh).measure(twice).strain_jump_rms, 2.0 * jump, 3.0 * jump_error(2.2, 2.1, 1.0));
 }
 
-// Two tets share a triangle of area 1/2. The apex of the second one is raised: its E_zz is known, and that of the other is 0. All numbers
-// are multiples of powers of two, which are not rounded.
+// Two tets share a triangle of area 1/2. The apex of the second one is raised: its E_zz is known, and that of the other
+// is 0. All numbers are multiples of powers of two, which are not rounded.
 TEST(Smoothness, JumpBetweenTwoTets)
 {
     const pbs::TetMesh mesh = test_support::two_tets();
@@ -200,10 +204,14 @@ TEST(Smoothness, OnlyTheRegionIsMeasured)
     const auto of_left = SmoothnessMetrics(mesh.rest, mesh.tets, left).measure(positions);
     EXPECT_NEAR(of_left.strain_jump_rms, 0.0, jump_error(1.3, 1.0, 0.5));
     EXPECT_EQ(of_left.bending_rms_rad, 0.0);  // equal angles
-    EXPECT_EQ(SmoothnessMetrics(mesh.rest, mesh.tets, std::vector<bool>(mesh.rest.rows(), false)).measure(positions).strain_jump_rms, 0.0);
+    EXPECT_EQ(SmoothnessMetrics(mesh.rest, mesh.tets, std::vector<bool>(mesh.rest.rows(), false))
+                  .measure(positions)
+                  .strain_jump_rms,
+              0.0);
 }
 
-// One tet whose apex is rotated by 0.3 about an edge of its base: the change of both dihedral angles is known, and no other angle changes.
+// One tet whose apex is rotated by 0.3 about an edge of its base: the change of both dihedral angles is known, and no
+// other angle changes.
 TEST(Smoothness, BendingOfASkinThatIsTurnedAboutOneEdge)
 {
     const pbs::TetMesh mesh{Positions{{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 0, 1}}, pbs::Tets{{0, 1, 2, 3}}};

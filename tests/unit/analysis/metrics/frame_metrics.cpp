@@ -1,5 +1,6 @@
-// Reference: closed forms on maps with known results. Tolerances: the roundings of volumes, lengths and sums. Where coordinates are small
-// multiples of powers of two, a volume is rounded once, by its division by 6, and so are its multiples.
+// Reference: closed forms on maps with known results. Tolerances: the roundings of volumes, lengths and sums. Where
+// coordinates are small multiples of powers of two, a volume is rounded once, by its division by 6, and so are its
+// multiples.
 
 #include "analysis/metrics/frame_metrics.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -26,16 +27,18 @@ FrameMetrics measured(const pbs::TetMesh& mesh, const Eigen::Matrix3d& map)
     return MeshMetrics(mesh.rest, mesh.tets).measure(Positions(mesh.rest * map.transpose()));
 }
 
-// A coordinate of at most s is rounded once by the map, over a cell of at least 0.15 s: 2 / 0.15 = 14 roundings of an edge and 40 of a
-// volume. A volume goes through ten of products of three edges, of at most five times its own size; a ratio contains two volumes. At rest
-// and mirrored nothing is rounded but the changes in percent, by a product and a quotient.
+// A coordinate of at most s is rounded once by the map, over a cell of at least 0.15 s: 2 / 0.15 = 14 roundings of an
+// edge and 40 of a volume. A volume goes through ten of products of three edges, of at most five times its own size; a
+// ratio contains two volumes. At rest and mirrored nothing is rounded but the changes in percent, by a product and a
+// quotient.
 TEST(FrameMetrics, OfAScaledOrMirroredBar)
 {
     for (const double s : {1.0, 0.5, 0.9, 1.01, 3.0, -1.0}) {
         SCOPED_TRACE(s);
         const bool exact = std::abs(s) == 1.0;
-        const FrameMetrics metrics = measured(flat_bar, exact ? Eigen::Matrix3d(Eigen::Vector3d(s, 1.0, 1.0).asDiagonal())
-                                                              : Eigen::Matrix3d(s * Eigen::Matrix3d::Identity()));
+        const FrameMetrics metrics =
+            measured(flat_bar, exact ? Eigen::Matrix3d(Eigen::Vector3d(s, 1.0, 1.0).asDiagonal())
+                                     : Eigen::Matrix3d(s * Eigen::Matrix3d::Identity()));
         const double j = s * s * s, of_ratio = exact ? 0.0 : rounding_error(40 + 2 * 5 * 10, j);
         const double of_change = of_ratio + rounding_error(exact ? 2 : 4, exact ? std::abs(j - 1.0) : 1.0 + j);
         EXPECT_NEAR(metrics.volume_change_pct, 100.0 * (j - 1.0), 100.0 * of_change);
@@ -48,8 +51,8 @@ TEST(FrameMetrics, OfAScaledOrMirroredBar)
     }
 }
 
-// x += g y on the corner tet: only the edges that touch (0,1,0) change, (0,1,0)-(0,0,0) to sqrt(1+g^2), (0,1,0)-(1,0,0) to
-// sqrt((1-g)^2+1), (0,1,0)-(0,0,1) to sqrt(g^2+2).
+// x += g y on the corner tet: only the edges that touch (0,1,0) change, (0,1,0)-(0,0,0) to sqrt(1+g^2), (0,1,0)-(1,0,0)
+// to sqrt((1-g)^2+1), (0,1,0)-(0,0,1) to sqrt(g^2+2).
 TEST(FrameMetrics, ShearKeepsVolumeAndStretchesByTheClosedForm)
 {
     const double g = 0.7;
@@ -134,8 +137,9 @@ TEST(EdgeStrain, IsOfTheEdgeStretchedOrPressedMostAndTheMedianIsTheUnitsFactor)
     EXPECT_EQ(analysis::median_edge_ratio(corner(1.0), pbs::Edges(0, 2), corner(2.0)), 1.0);
 }
 
-// Reference: volumes of stretched unit cubes by hand; regions that cover all tets add up to the whole volume. Tolerances: a volume is
-// rounded once, by its division by 6, and then there are the differences and sums over the tets of a region.
+// Reference: volumes of stretched unit cubes by hand; regions that cover all tets add up to the whole volume.
+// Tolerances: a volume is rounded once, by its division by 6, and then there are the differences and sums over the tets
+// of a region.
 
 const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
 
@@ -176,15 +180,17 @@ TEST(RegionVolume, RegionsAddUpToTheWholeAndNoneIsLeftOut)
     for (Eigen::Index i = 0; i < bent.rows(); ++i) bent(i, 2) += 0.3 * bar.rest(i, 0) * bar.rest(i, 1);
     const auto changes = analysis::RegionMetrics(bar.rest, bar.tets, halves).measure(bent);
     const double whole = pbs::tet_volumes(bent, bar.tets).sum() - pbs::tet_volumes(bar.rest, bar.tets).sum();
-    EXPECT_NEAR(changes[0].change_m3 + changes[1].change_m3, whole, 2.0 * rounding_error(2 + 12, 2.0 + 2.0));  // the same volumes twice
+    // the same volumes twice
+    EXPECT_NEAR(changes[0].change_m3 + changes[1].change_m3, whole, 2.0 * rounding_error(2 + 12, 2.0 + 2.0));
     const std::vector<int> none(bar.tets.rows(), -1);
     EXPECT_TRUE(analysis::RegionMetrics(bar.rest, bar.tets, none).measure(bent).empty());
     EXPECT_THROW(analysis::RegionMetrics(bar.rest, bar.tets, {0, 1}), pbs::InputError) << "regions of another mesh";
     EXPECT_NEAR(analysis::RegionMetrics(bar.rest, bar.tets, none).rest_volume_m3(), 2.0, rounding_error(1 + 12, 2.0));
 }
 
-// Reference: 4/3 for the octahedron, the tets inside a boundary, and s^3. Tolerances: the roundings of volumes. Each volume between an
-// octahedron's triangle and one of its vertices is rounded once, by its division by 6; the sum is compensated.
+// Reference: 4/3 for the octahedron, the tets inside a boundary, and s^3. Tolerances: the roundings of volumes. Each
+// volume between an octahedron's triangle and one of its vertices is rounded once, by its division by 6; the sum is
+// compensated.
 
 using analysis::enclosed_volume;
 using pbs::Triangles;
@@ -201,7 +207,8 @@ TEST(SurfaceVolume, OfAnOctahedronEvenFarFromTheOriginAndOfOneInsideOut)
     EXPECT_NEAR(enclosed_volume(points, inward), -4.0 / 3.0, rounding_error(3, 4.0 / 3.0));
     EXPECT_THROW(analysis::surface_volume_change_pct(points, points, inward), pbs::InputError);
     // 1.1 is rounded, three times as a factor; its products, the volumes and their ratio go through ten more roundings.
-    EXPECT_NEAR(analysis::surface_volume_change_pct(points, 1.1 * points, triangles), 33.1, rounding_error(3 + 10, 133.1));
+    EXPECT_NEAR(analysis::surface_volume_change_pct(points, 1.1 * points, triangles), 33.1,
+                rounding_error(3 + 10, 133.1));
 }
 
 TEST(SurfaceVolume, OfABoundaryIsThatOfTheTetsInside)

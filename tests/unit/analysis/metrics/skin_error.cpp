@@ -1,5 +1,5 @@
-// Reference: closed forms for translations, rotations and single vertices of a bar. Tolerances: a dozen roundings of a position or of a
-// mean.
+// Reference: closed forms for translations, rotations and single vertices of a bar. Tolerances: a dozen roundings of a
+// position or of a mean.
 #include "analysis/metrics/skin_error.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -46,18 +46,20 @@ TEST(SkinError, OfATranslationIsItsLengthEverywhereAndTurnsNoNormal)
     EXPECT_NEAR(error_of(skinned_bar.rest).normals_mean_deg, 0.0, rounding_error(20, 180.0));
 }
 
-// A quarter of a turn about x turns the normals of the four sides by 90 degrees, and leaves those of the two ends, whose area is 2 (0.3
-// m)^2 of 2 (0.3 m)^2 + 4 (0.3 m) (2 m): 7 %.
+// A quarter of a turn about x turns the normals of the four sides by 90 degrees, and leaves those of the two ends,
+// whose area is 2 (0.3 m)^2 of 2 (0.3 m)^2 + 4 (0.3 m) (2 m): 7 %.
 TEST(SkinError, OfARotationTurnsTheNormalsAcrossItsAxis)
 {
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(std::numbers::pi / 2.0, pbs::Vec3::UnitX()).toRotationMatrix();
     const SkinError error = error_of(skinned_bar.rest * turn.transpose());
     const double ends = 0.18, sides = 2.4;
-    EXPECT_NEAR(error.normals_mean_deg, 90.0 * sides / (sides + ends), rounding_error(100, 90.0) + 180.0 * rounding_error(20, 1.2));
+    EXPECT_NEAR(error.normals_mean_deg, 90.0 * sides / (sides + ends),
+                rounding_error(100, 90.0) + 180.0 * rounding_error(20, 1.2));
     EXPECT_NEAR(error.normals_p95_deg, 90.0, rounding_error(20, 90.0));
 }
 
-// The skin of two tets has six triangles, three of which meet at an apex. The mean of |x - xref|^2 is that apex's share of the area.
+// The skin of two tets has six triangles, three of which meet at an apex. The mean of |x - xref|^2 is that apex's share
+// of the area.
 TEST(SkinError, WeighsVerticesByTheAreaOfTheirTrianglesAndLeavesOutWhatIsMarked)
 {
     const pbs::TetMesh two = test_support::two_tets(2.0);
@@ -74,7 +76,8 @@ TEST(SkinError, WeighsVerticesByTheAreaOfTheirTrianglesAndLeavesOutWhatIsMarked)
     moved(4, 2) -= 0.5;
     const SkinErrorMetrics metrics(two.rest, two.tets);
     const double rms_m = 0.5 * std::sqrt(at_apex_m2 / whole_m2);
-    EXPECT_NEAR(metrics.measure(moved, two.rest, std::vector<bool>(5, false)).rms_mm, 1e3 * 1.7 / 3.0 * rms_m, rounding_error(40, 1e3));
+    EXPECT_NEAR(metrics.measure(moved, two.rest, std::vector<bool>(5, false)).rms_mm, 1e3 * 1.7 / 3.0 * rms_m,
+                rounding_error(40, 1e3));
     const SkinError without_apex = metrics.measure(moved, two.rest, {false, false, false, false, true});
     EXPECT_EQ(without_apex.largest_mm, 0.0);
     EXPECT_NEAR(without_apex.normals_mean_deg, 0.0, rounding_error(20, 180.0));
@@ -92,8 +95,8 @@ TEST(SkinError, ATriangleWithoutAreaIsTurnedAndAPositionThatIsNotFiniteIsNotMeas
         Positions moved = skinned_bar.rest;
         moved(0, 0) = broken;
         const SkinError error = error_of(moved);
-        for (const double value :
-             {error.rms_mm, error.p95_mm, error.largest_mm, error.rms_pct, error.normals_mean_deg, error.normals_p95_deg})
+        for (const double value : {error.rms_mm, error.p95_mm, error.largest_mm, error.rms_pct, error.normals_mean_deg,
+                                   error.normals_p95_deg})
             EXPECT_TRUE(std::isnan(value)) << broken;
     }
 }

@@ -1,4 +1,5 @@
-// Reference: the definitions themselves, on invented trajectories for which each outcome and each side of its bound is known.
+// Reference: the definitions themselves, on invented trajectories for which each outcome and each side of its bound is
+// known.
 #include "analysis/metrics/stability_outcome.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +29,8 @@ Steps growing(double factor, double from, double disturbance = 0.1)
 {
     Steps steps = calm(disturbance);
     const std::size_t begin = steps.size() - still / 3;
-    for (std::size_t i = begin; i < steps.size(); ++i) steps[i].motion = from * std::pow(factor, double((i - begin) / (still / 9)));
+    for (std::size_t i = begin; i < steps.size(); ++i)
+        steps[i].motion = from * std::pow(factor, double((i - begin) / (still / 9)));
     return steps;
 }
 
@@ -65,30 +67,36 @@ TEST(StabilityOutcome, FollowsFromTheSteps)
     const auto reaches = &StabilityStep::reach;
     const std::vector<std::tuple<const char*, Steps, StabilityOutcome>> all = {
         {"no step", {}, not_finite},
-        {"one step that is not finite, whatever follows", with_one(still + disturbed - 3, &StabilityStep::finite, false), not_finite},
+        {"one step that is not finite, whatever follows",
+         with_one(still + disturbed - 3, &StabilityStep::finite, false), not_finite},
         {"far away in the last third", with_one(still / 3, reaches, 1.01 * bounds.farthest), diverged},
         {"not so far away in the last third", with_one(still / 3, reaches, 0.99 * bounds.farthest), converged},
         {"far away before the last third", with_one(still / 3 + 1, reaches, 1e9 * bounds.farthest), converged},
         {"a reach beyond all numbers", with_one(1, reaches, infinity), diverged},
         {"a reach that is not a number", with_one(1, reaches, nan), diverged},
         // The bones have moved away and the step was undone: the body is held up and has not diverged.
-        {"left behind by steps that were not reached", with_all(&StabilityStep::solved, false, with_all(reaches, 2.0 * bounds.farthest)),
-         bounded},
+        {"left behind by steps that were not reached",
+         with_all(&StabilityStep::solved, false, with_all(reaches, 2.0 * bounds.farthest)), bounded},
         {"motion that grows beyond the disturbance", growing(1.01 * bounds.growth, 0.1), diverged},
         {"motion that grows less", growing(0.99 * bounds.growth, 0.1), bounded},
         {"motion that grows to less than was put in", growing(2.0, 0.099 / 4), bounded},
         {"motion that grows to more than was put in", growing(2.0, 0.101 / 4), diverged},
         {"motion that grows below rest is rounding", growing(2.0, 0.2 * bounds.rest_motion, 0.0), converged},
         {"a tet inverted in the last step", with_one(1, &StabilityStep::inverted_tets, 1), inverted},
-        {"inverted before the end, and not at rest for long enough", with_one(2, &StabilityStep::inverted_tets, 1), bounded},
+        {"inverted before the end, and not at rest for long enough", with_one(2, &StabilityStep::inverted_tets, 1),
+         bounded},
         {"still moving", with_all(&StabilityStep::motion, 1.01 * bounds.rest_motion), bounded},
         {"at rest", with_all(&StabilityStep::motion, 0.99 * bounds.rest_motion), converged},
-        {"at rest elsewhere than undisturbed", with_all(&StabilityStep::from_undisturbed, 1.01 * bounds.near_undisturbed), bounded},
-        {"at rest near the undisturbed", with_all(&StabilityStep::from_undisturbed, 0.99 * bounds.near_undisturbed), converged},
+        {"at rest elsewhere than undisturbed",
+         with_all(&StabilityStep::from_undisturbed, 1.01 * bounds.near_undisturbed), bounded},
+        {"at rest near the undisturbed", with_all(&StabilityStep::from_undisturbed, 0.99 * bounds.near_undisturbed),
+         converged},
         {"a step that was not reached", with_one(bounds.still_steps, &StabilityStep::solved, false), bounded},
-        {"a step that was not reached earlier", with_one(bounds.still_steps + 1, &StabilityStep::solved, false), converged},
+        {"a step that was not reached earlier", with_one(bounds.still_steps + 1, &StabilityStep::solved, false),
+         converged},
     };
-    for (const auto& [name, steps, expected] : all) EXPECT_EQ(name_of(outcome_of(steps, disturbed).outcome), name_of(expected)) << name;
+    for (const auto& [name, steps, expected] : all)
+        EXPECT_EQ(name_of(outcome_of(steps, disturbed).outcome), name_of(expected)) << name;
     EXPECT_FALSE(outcome_of(with_all(&StabilityStep::motion, 1.01 * bounds.rest_motion), disturbed).recovery_steps);
 }
 
@@ -114,9 +122,10 @@ TEST(StabilityStep, MeasuresInDiagonals)
 
 TEST(StabilityOutcome, TheWrittenCriteriaCarryTheBoundsThatAreApplied)
 {
-    const std::string written =
-        criteria_text({.farthest = 7.25, .growth = 1.75, .rest_motion = 3e-4, .near_undisturbed = 2e-2, .still_steps = 17});
-    for (const char* bound : {"7.25", "1.75", "0.0003", "0.02", "17 steps"}) EXPECT_NE(written.find(bound), std::string::npos) << bound;
+    const std::string written = criteria_text(
+        {.farthest = 7.25, .growth = 1.75, .rest_motion = 3e-4, .near_undisturbed = 2e-2, .still_steps = 17});
+    for (const char* bound : {"7.25", "1.75", "0.0003", "0.02", "17 steps"})
+        EXPECT_NE(written.find(bound), std::string::npos) << bound;
     for (const auto outcome : {StabilityOutcome::converged, StabilityOutcome::bounded, StabilityOutcome::inverted,
                                StabilityOutcome::diverged, StabilityOutcome::not_finite})
         EXPECT_NE(written.find("| " + name_of(outcome) + " |"), std::string::npos);

@@ -15,7 +15,8 @@ TEST(Provenance, NamesBuildAndMachine)
 {
     const auto provenance = analysis::collect_provenance(3);
     EXPECT_TRUE(std::regex_match(provenance.version, std::regex("[0-9]+\\.[0-9]+\\.[0-9]+")));
-    EXPECT_TRUE(std::regex_match(provenance.git_revision, std::regex("unknown|[0-9a-f]{40}"))) << provenance.git_revision;
+    EXPECT_TRUE(std::regex_match(provenance.git_revision, std::regex("unknown|[0-9a-f]{40}")))
+        << provenance.git_revision;
     EXPECT_FALSE(provenance.compiler.empty());
     EXPECT_FALSE(provenance.cpu_model.empty());
     EXPECT_EQ(provenance.threads, 3);
@@ -39,7 +40,8 @@ TEST(Provenance, JsonCarriesAddedEntriesAndNoPlace)
     EXPECT_FALSE(std::regex_search(text, std::regex("/(home|work|root|tmp|usr|build)\\b"))) << text;
 }
 
-// Reference: the test vector of XXH3 128 for empty input with seed 0 (xxHash's own sanity test), and the command `xxhsum -H2` for a file.
+// Reference: the test vector of XXH3 128 for empty input with seed 0 (xxHash's own sanity test), and the command
+// `xxhsum -H2` for a file.
 
 using analysis::StateHash;
 

@@ -1,5 +1,5 @@
-// Reference: the contents of the file system after each way in which writing can fail. Whole files or none, never a remaining temporary
-// file.
+// Reference: the contents of the file system after each way in which writing can fail. Whole files or none, never a
+// remaining temporary file.
 
 #include "analysis/records/record_files.hpp"
 #include "tests/support/refusal.hpp"
@@ -34,7 +34,8 @@ protected:
 // Whole files, names and permissions: tests/unit/pbs/geometry/files.cpp.
 TEST_F(AtomicFile, ReadOnlyFolderIsRefused)
 {
-    fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
+    fs::permissions(folder,
+                    fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
     const bool is_root = geteuid() == 0;  // permissions do not apply to root
     if (is_root) {
         ASSERT_EQ(seteuid(65534), 0);
@@ -95,15 +96,17 @@ TEST_F(AtomicFile, WhatKilledWritersLeftIsRemovedAndNothingElse)
     fs::create_directory(folder / "frames");
     const fs::path deeper = folder / "frames" / (".pbs_000001.vtu." + gone + ".aB3xYz");
     write_text_atomically(deeper, "half");
-    for (const std::string& name : {".run.json." + gone + ".aB3xYz", ".limb.msh." + gone + ".a1b2c3", ".run.json." + here + ".aB3xYz",
-                                    ".notes." + gone + ".txt", "run.json." + gone + ".aB3xYz"})
+    for (const std::string& name :
+         {".run.json." + gone + ".aB3xYz", ".limb.msh." + gone + ".a1b2c3", ".run.json." + here + ".aB3xYz",
+          ".notes." + gone + ".txt", "run.json." + gone + ".aB3xYz"})
         write_text_atomically(folder / name, "half");
     analysis::remove_abandoned_files(folder, false);
     EXPECT_EQ(files(), 4);
     EXPECT_TRUE(fs::exists(deeper));
     analysis::remove_abandoned_files(folder);
     EXPECT_FALSE(fs::exists(deeper));
-    for (const std::string& name : {".run.json." + here + ".aB3xYz", ".notes." + gone + ".txt", "run.json." + gone + ".aB3xYz"})
+    for (const std::string& name :
+         {".run.json." + here + ".aB3xYz", ".notes." + gone + ".txt", "run.json." + gone + ".aB3xYz"})
         EXPECT_TRUE(fs::exists(folder / name)) << name;
     analysis::remove_abandoned_files(folder / "missing");
 }
@@ -133,11 +136,12 @@ TEST_F(AtomicFile, AKilledWriterLeavesTheOldFileAndWhatIsRemoved)
 TEST_F(AtomicFile, ReadingWhatIsNotThereIsRefused)
 {
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
-    for (const fs::path& path : {folder / "missing", folder, folder / "pipe"}) EXPECT_THROW(read_text(path), pbs::InputError) << path;
+    for (const fs::path& path : {folder / "missing", folder, folder / "pipe"})
+        EXPECT_THROW(read_text(path), pbs::InputError) << path;
 }
 
-// Reference: the files created by the test. Since root may do everything that modes forbid, a folder takes the place of a file to be
-// removed, and the reverse.
+// Reference: the files created by the test. Since root may do everything that modes forbid, a folder takes the place of
+// a file to be removed, and the reverse.
 
 using test_support::ScratchFolder;
 
@@ -172,7 +176,8 @@ TEST(TemporaryFolder, RemovesThoseOfProcessesThatAreGoneAndNothingElse)
 {
     const ScratchFolder parent;
     const fs::path abandoned = parent.path() / ("pbskin_" + std::to_string(ended_process()) + "_abcdef");
-    const fs::path own = parent.path() / ("pbskin_" + std::to_string(getpid()) + "_abcdef"), other = parent.path() / "pbskin_notes";
+    const fs::path own = parent.path() / ("pbskin_" + std::to_string(getpid()) + "_abcdef"),
+                   other = parent.path() / "pbskin_notes";
     for (const fs::path& folder : {abandoned / "deep", own, other}) fs::create_directories(folder);
     setenv("TMPDIR", parent.path().c_str(), 1);
     const analysis::ScratchFolder folder;

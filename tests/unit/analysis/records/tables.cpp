@@ -37,14 +37,16 @@ TEST(CsvTable, NumbersRoundTripToTheBit)
 {
     using limits = std::numeric_limits<double>;
     std::vector<double> values = {1.0 / 3.0, limits::denorm_min() * 12345, 1e22, 123456789.0};
-    for (const double value : {0.0, 0.1, limits::min(), limits::denorm_min(), limits::max(), limits::epsilon(), limits::infinity()})
+    for (const double value :
+         {0.0, 0.1, limits::min(), limits::denorm_min(), limits::max(), limits::epsilon(), limits::infinity()})
         values.insert(values.end(), {value, -value});
     std::mt19937_64 random(3);
     while (values.size() < 2000) {
         const double value = std::bit_cast<double>(random());
         if (!std::isnan(value)) values.push_back(value);
     }
-    for (double value : values) EXPECT_EQ(std::bit_cast<std::uint64_t>(round_trip(value)), std::bit_cast<std::uint64_t>(value)) << value;
+    for (double value : values)
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(round_trip(value)), std::bit_cast<std::uint64_t>(value)) << value;
     EXPECT_TRUE(std::isnan(round_trip(limits::quiet_NaN())));
     EXPECT_TRUE(std::isnan(round_trip(-limits::quiet_NaN())));
 }
@@ -52,7 +54,8 @@ TEST(CsvTable, NumbersRoundTripToTheBit)
 TEST(CsvTable, NumbersAreTheShortestText)
 {
     const double nan = std::nan("");
-    for (const auto& [number, text] : {std::pair(0.1, "0.1"), {-0.25, "-0.25"}, {nan, "nan"}, {-nan, "nan"}, {-INFINITY, "-inf"}})
+    for (const auto& [number, text] :
+         {std::pair(0.1, "0.1"), {-0.25, "-0.25"}, {nan, "nan"}, {-nan, "nan"}, {-INFINITY, "-inf"}})
         EXPECT_EQ(analysis::number_text(number), text);
 }
 
@@ -122,7 +125,8 @@ TEST(CsvTable, AppendsTheRowsOfOthersUnderOneHeadAndGoesThroughAFile)
     all.append(parse_csv("a,b\n1,\"x,y\"\n", "first.csv"));
     all.append(parse_csv("a,b\n", "none.csv"));
     all.append(parse_csv("a,b\n2,\n3,z\n", "second.csv"));
-    for (const char* other : {"b,a\n1,2\n", "a\n1\n"}) EXPECT_THROW(all.append(parse_csv(other, "other.csv")), pbs::InputError) << other;
+    for (const char* other : {"b,a\n1,2\n", "a\n1\n"})
+        EXPECT_THROW(all.append(parse_csv(other, "other.csv")), pbs::InputError) << other;
     EXPECT_EQ(all.text(), "a,b\n1,\"x,y\"\n2,\n3,z\n");
     EXPECT_FALSE(all.number_or_nothing(1, "b"));
     EXPECT_THROW(all.number(2, "b"), pbs::InputError);  // the error names its line as well
@@ -156,12 +160,15 @@ struct Row {
 const Columns<Place> place_columns = {{"body", &Place::body, "", "name of the body"},
                                       {"height_m", &Place::height_m, "m", "height above the ground"}};
 const Columns<Row> row_columns =
-    Columns<Row>{{"frame", &Row::frame, "", "number of the frame, from 0"}} + analysis::within(&Row::place, place_columns) +
-    Columns<Row>{{"is_masked", &Row::is_masked, "", "the reference meets itself"}, {"ending", &Row::ending, "", "how it ended"}} +
+    Columns<Row>{{"frame", &Row::frame, "", "number of the frame, from 0"}} +
+    analysis::within(&Row::place, place_columns) +
+    Columns<Row>{{"is_masked", &Row::is_masked, "", "the reference meets itself"},
+                 {"ending", &Row::ending, "", "how it ended"}} +
     Columns<Row>{{"error_pct", &Row::error_pct, "%", "error against the reference"}}.in_group("reference");
 
-const std::vector<Row> rows = {{0, {"man, sitting", 0.1}, true, Ending::not_finite, 0.25},
-                               {1, {"limb", std::numeric_limits<double>::infinity()}, false, Ending::finished, std::nullopt}};
+const std::vector<Row> rows = {
+    {0, {"man, sitting", 0.1}, true, Ending::not_finite, 0.25},
+    {1, {"limb", std::numeric_limits<double>::infinity()}, false, Ending::finished, std::nullopt}};
 
 std::string message_of_rows(const std::string& text)
 {
@@ -171,16 +178,19 @@ std::string message_of_rows(const std::string& text)
 TEST(TypedTable, RowsAreWrittenUnderTheirColumnsNamesAndReadBackAsTheyWere)
 {
     const std::string text =
-        "frame,body,height_m,is_masked,ending,error_pct\n0,\"man, sitting\",0.1,1,not_finite,0.25\n1,limb,inf,0,finished,\n";
+        "frame,body,height_m,is_masked,ending,error_pct\n0,\"man, "
+        "sitting\",0.1,1,not_finite,0.25\n1,limb,inf,0,finished,\n";
     EXPECT_EQ(table_of(row_columns, rows).text(), text);
     EXPECT_EQ(rows_of(row_columns, parse_csv(text, "m.csv")), rows);
-    EXPECT_EQ(rows_of(place_columns, parse_csv("more,height_m,body\n7,0.5,limb\n", "m.csv")), (std::vector<Place>{{"limb", 0.5}}))
+    EXPECT_EQ(rows_of(place_columns, parse_csv("more,height_m,body\n7,0.5,limb\n", "m.csv")),
+              (std::vector<Place>{{"limb", 0.5}}))
         << "by name in any order";
     EXPECT_EQ(row_columns[3].name, "is_masked");
     EXPECT_EQ(row_columns[3].unit, "0/1");
     const Columns<Place> of_members = MEMBER_COLUMNS(Place, height_m, body);
     EXPECT_EQ(of_members.names(), (std::vector<std::string>{"height_m", "body"}));
-    EXPECT_EQ(rows_of(of_members, parse_csv("height_m,body\n0.5,limb\n", "m.csv")), (std::vector<Place>{{"limb", 0.5}}));
+    EXPECT_EQ(rows_of(of_members, parse_csv("height_m,body\n0.5,limb\n", "m.csv")),
+              (std::vector<Place>{{"limb", 0.5}}));
 }
 
 TEST(TypedTable, AListOfNamesIsOneCell)
@@ -189,7 +199,8 @@ TEST(TypedTable, AListOfNamesIsOneCell)
     const Columns<Names> columns = {{"names", std::identity{}, "", "names without spaces"}};
     const std::vector<Names> lists = {{"pbs", "delta_mush"}, {}, {"xpbd"}};
     EXPECT_EQ(table_of(columns, lists).text(), "names\npbs delta_mush\n\"\"\nxpbd\n");
-    const std::vector<Names> with_columns = rows_of(columns, parse_csv("other,names\n1,pbs delta_mush\n2,\n3,xpbd\n", "m.csv"));
+    const std::vector<Names> with_columns =
+        rows_of(columns, parse_csv("other,names\n1,pbs delta_mush\n2,\n3,xpbd\n", "m.csv"));
     EXPECT_EQ(with_columns, lists);
 }
 
@@ -210,8 +221,8 @@ struct Pose {
     int frame = 0;
     std::optional<Place> place;
 };
-const Columns<Pose> pose_columns =
-    Columns<Pose>{{"frame", &Pose::frame, "", "number of the frame, from 0"}} + analysis::within(&Pose::place, place_columns);
+const Columns<Pose> pose_columns = Columns<Pose>{{"frame", &Pose::frame, "", "number of the frame, from 0"}} +
+                                   analysis::within(&Pose::place, place_columns);
 
 TEST(TypedTable, APartThatARowLacksHasEmptyCells)
 {
@@ -229,8 +240,10 @@ TEST(TypedTable, WrongCellsAreNamedWithFileLineColumnValueAndRule)
     EXPECT_EQ(message_of_rows(head + "3000000000,limb,1,0,finished,\n"),
               "m.csv:2:1: frame = 3000000000: expected a whole number of at most 31 bits");
     EXPECT_EQ(message_of_rows(head + "0,limb,high,0,finished,\n"), "m.csv:2:3: height_m = high: expected a number");
-    EXPECT_EQ(message_of_rows(head + "0,limb,1,0,finished,\n1,limb,1,true,finished,\n"), "m.csv:3:4: is_masked = true: expected 0 or 1");
-    EXPECT_EQ(message_of_rows(head + "0,limb,1,0,ended,\n"), "m.csv:2:5: ending = ended: expected one of finished, not_finite");
+    EXPECT_EQ(message_of_rows(head + "0,limb,1,0,finished,\n1,limb,1,true,finished,\n"),
+              "m.csv:3:4: is_masked = true: expected 0 or 1");
+    EXPECT_EQ(message_of_rows(head + "0,limb,1,0,ended,\n"),
+              "m.csv:2:5: ending = ended: expected one of finished, not_finite");
     EXPECT_EQ(message_of_rows(head + "0,limb,1,0,finished,none\n"), "m.csv:2:6: error_pct = none: expected a number");
     EXPECT_EQ(message_of_rows("frame\n0\n"), "m.csv:1: columns = frame: expected a column body");
 }
@@ -238,8 +251,9 @@ TEST(TypedTable, WrongCellsAreNamedWithFileLineColumnValueAndRule)
 TEST(TypedTable, AColumnsNameEndsWithItsUnit)
 {
     using Names = std::vector<std::pair<std::string, std::string>>;
-    const Names right = {{"time_s", "s"},         {"volume_change_pct", "%"}, {"speed_m_s", "m/s"},  {"stiffness_n_m", "N/m"},
-                         {"frames_per_s", "1/s"}, {"step_ms_median", "ms"},   {"step_ms_ratio", ""}, {"frame", ""}};
+    const Names right = {
+        {"time_s", "s"},         {"volume_change_pct", "%"}, {"speed_m_s", "m/s"},  {"stiffness_n_m", "N/m"},
+        {"frames_per_s", "1/s"}, {"step_ms_median", "ms"},   {"step_ms_ratio", ""}, {"frame", ""}};
     const Names wrong = {{"time_s", "ms"},       {"time_s", ""},          {"time", "s"},      {"speed_m_s", "s"},
                          {"stiffness_n_m", "m"}, {"step_ms_median", "s"}, {"frame", "frames"}};
     for (const auto& [name, unit] : right) EXPECT_NO_THROW(analysis::require_unit(name, unit)) << name;

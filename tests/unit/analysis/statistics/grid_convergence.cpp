@@ -25,8 +25,8 @@ TEST(NestedConvergence, TakesTheOrderOfTheLinearSolutions)
     }
 }
 
-// By hand: order 1 halves the error, which is then the difference; order 2 quarters it. Richardson's estimate takes the safety factor 1.25,
-// and 3 where the order is not credible.
+// By hand: order 1 halves the error, which is then the difference; order 2 quarters it. Richardson's estimate takes the
+// safety factor 1.25, and 3 where the order is not credible.
 TEST(NestedConvergence, BoundsByRichardsonsEstimateTimesTheSafetyFactor)
 {
     const double lowest = std::sqrt(2.0) - 1.0;  // of an order of 1/2
@@ -44,9 +44,24 @@ TEST(NestedConvergence, BoundsByRichardsonsEstimateTimesTheSafetyFactor)
         {"an order that is too high", {32.0, 1.0, 0.3}, 2.0, 5.0, 2.0, false, 0.3, 3.0 * 0.1},
         {"one that is too low", {1.1, 1.0, 0.3}, 2.0, std::log2(1.1), 0.5, false, 0.3, 3.0 * 0.3 / lowest},
         {"away from the limit", {1.0, 2.0, 0.3}, 2.0, -1.0, 0.5, false, 0.3, 3.0 * 0.3 / lowest},
-        // With stiff springs, quadratic elements can be farther from their own refined solution than refined linear ones are.
-        {"quadratic elements are no better than refined linear ones", {4.0, 1.0, 2.0}, 2.0, 2.0, 2.0, false, 2.0, 3.0 * 2.0 / 3.0},
-        {"quadratic elements are closer, but not twice as close", {4.0, 1.0, 0.6}, 2.0, 2.0, 2.0, false, 0.6, 3.0 * 0.6 / 3.0},
+        // With stiff springs, quadratic elements can be farther from their own refined solution than refined linear
+        // ones are.
+        {"quadratic elements are no better than refined linear ones",
+         {4.0, 1.0, 2.0},
+         2.0,
+         2.0,
+         2.0,
+         false,
+         2.0,
+         3.0 * 2.0 / 3.0},
+        {"quadratic elements are closer, but not twice as close",
+         {4.0, 1.0, 0.6},
+         2.0,
+         2.0,
+         2.0,
+         false,
+         0.6,
+         3.0 * 0.6 / 3.0},
         {"no higher order than the formal one", {4.0, 1.0, 0.3}, 1.0, 2.0, 1.0, false, 0.3, 3.0 * 0.3},
         {"the formal one itself", {8.0, 4.0, 0.3}, 1.0, 1.0, 1.0, true, 0.3, 1.25 * 0.3}};
     for (const Case& of : all) {
@@ -69,8 +84,8 @@ using namespace analysis;
 
 constexpr double limit_ms = 1e3 / 30.0;
 
-// total = c V^1.2 is 1000 / 30 ms at 50,000 vertices. A time goes through six roundings: two quotients and a product, the power, and that
-// of V over 50,000 by the power.
+// total = c V^1.2 is 1000 / 30 ms at 50,000 vertices. A time goes through six roundings: two quotients and a product,
+// the power, and that of V over 50,000 by the power.
 constexpr double roundings_of_time = 6.0;
 
 double total_ms(double vertices)
@@ -78,19 +93,22 @@ double total_ms(double vertices)
     return limit_ms * std::pow(vertices / 50e3, 1.2);
 }
 
-// V (real time / time)^(1 / slope) from V at least 1e3 on, between two sizes of ratio 10. The ratio of two times is in error by 13
-// roundings, and so is its logarithm, which is above 2, as is that of the sizes; the logarithms and their quotients go through six of their
-// own. The power goes through two, a product through one, and the ratio to real time through another and those of the time.
+// V (real time / time)^(1 / slope) from V at least 1e3 on, between two sizes of ratio 10. The ratio of two times is in
+// error by 13 roundings, and so is its logarithm, which is above 2, as is that of the sizes; the logarithms and their
+// quotients go through six of their own. The power goes through two, a product through one, and the ratio to real time
+// through another and those of the time.
 double end_error()
 {
     const double of_slope = test_support::rounding_error((2.0 * roundings_of_time + 1.0) / 2.0 + 1.0 / 2.0 + 6.0, 1.0);
-    return 50e3 * (std::log(50e3 / 1e3) * of_slope + test_support::rounding_error(roundings_of_time + 1.0 + 2.0 + 1.0, 1.0));
+    return 50e3 *
+           (std::log(50e3 / 1e3) * of_slope + test_support::rounding_error(roundings_of_time + 1.0 + 2.0 + 1.0, 1.0));
 }
 
 TEST(PowerLawEnd, IsWhereTheCostIsAtTheLimitAndMarkedBeyondTheMeasuredSizes)
 {
     using Sizes = std::vector<double>;
-    for (const auto& [sizes, beyond] : {std::pair(Sizes{1e3, 1e4, 1e5}, false), {{1e5, 1e3, 1e4}, false}, {{1e3, 1e4}, true}}) {
+    for (const auto& [sizes, beyond] :
+         {std::pair(Sizes{1e3, 1e4, 1e5}, false), {{1e5, 1e3, 1e4}, false}, {{1e3, 1e4}, true}}) {
         std::vector<double> ms;
         for (const double vertices : sizes) ms.push_back(total_ms(vertices));
         const PowerLawEnd end = power_law_end(sizes, ms, limit_ms);
@@ -108,17 +126,17 @@ TEST(PowerLawEnd, WhatDeterminesNoLineIsRefused)
         return test_support::refusal_of([&] { power_law_end(sizes, costs, limit_ms); });
     };
     EXPECT_EQ(message({1e3, 1e4}, {1.0, 2.0}), "accepted");
-    for (const auto& [sizes, costs, part] :
-         std::vector<std::tuple<Values, Values, std::string>>{{{}, {}, "sizes = 0: expected two or more"},
-                                                              {{1e3}, {1.0}, "sizes = 1: expected two or more"},
-                                                              {{1e3, 1e4}, {1.0}, "costs = 1: expected as many as sizes"},
-                                                              {{1e3, 1e4}, {1.0, 2.0, 3.0}, "costs = 3: expected as many as sizes"},
-                                                              {{1e3, 1e4, 1e3}, {1.0, 2.0, 3.0}, "sizes = 1000: expected different sizes"},
-                                                              {{0.0, 1e4}, {1.0, 2.0}, "sizes = 0: expected sizes above 0"},
-                                                              {{1e3, 1e4}, {-1.0, 2.0}, "costs = -1: expected costs above 0"},
-                                                              {{1e3, 1e4}, {1.0, std::nan("")}, "costs = nan: expected costs above 0"},
-                                                              {{1e3, 1e4}, {2.0, 2.0}, "costs = 2: expected different costs"},
-                                                              {{1e3, 1e4, 1e5}, {1.0, 2.0, 2.0}, "costs = 2: expected different costs"}})
+    for (const auto& [sizes, costs, part] : std::vector<std::tuple<Values, Values, std::string>>{
+             {{}, {}, "sizes = 0: expected two or more"},
+             {{1e3}, {1.0}, "sizes = 1: expected two or more"},
+             {{1e3, 1e4}, {1.0}, "costs = 1: expected as many as sizes"},
+             {{1e3, 1e4}, {1.0, 2.0, 3.0}, "costs = 3: expected as many as sizes"},
+             {{1e3, 1e4, 1e3}, {1.0, 2.0, 3.0}, "sizes = 1000: expected different sizes"},
+             {{0.0, 1e4}, {1.0, 2.0}, "sizes = 0: expected sizes above 0"},
+             {{1e3, 1e4}, {-1.0, 2.0}, "costs = -1: expected costs above 0"},
+             {{1e3, 1e4}, {1.0, std::nan("")}, "costs = nan: expected costs above 0"},
+             {{1e3, 1e4}, {2.0, 2.0}, "costs = 2: expected different costs"},
+             {{1e3, 1e4, 1e5}, {1.0, 2.0, 2.0}, "costs = 2: expected different costs"}})
         EXPECT_NE(message(sizes, costs).find(part), std::string::npos) << message(sizes, costs);
 }
 

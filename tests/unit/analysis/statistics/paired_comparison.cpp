@@ -1,5 +1,5 @@
-// Reference: the definitions, evaluated by hand, and the theory of the sign test and of the bootstrap. The attacks at the end exchange the
-// labels of the methods, for which the true answer is known.
+// Reference: the definitions, evaluated by hand, and the theory of the sign test and of the bootstrap. The attacks at
+// the end exchange the labels of the methods, for which the true answer is known.
 
 #include "analysis/statistics/paired_comparison.hpp"
 #include "tests/support/refusal.hpp"
@@ -42,8 +42,8 @@ void expect_same_bits(const MemberComparison& a, const MemberComparison& b)
     EXPECT_EQ(values(a), values(b));
 }
 
-// Methods A, B, ... whose errors scatter by half of their size around the given factors, on members of different scales, in poses of four
-// bodies.
+// Methods A, B, ... whose errors scatter by half of their size around the given factors, on members of different
+// scales, in poses of four bodies.
 ComparedPoses random_poses(const Errors& factors, int members, int count, unsigned seed)
 {
     std::mt19937 random(seed);
@@ -54,7 +54,8 @@ ComparedPoses random_poses(const Errors& factors, int members, int count, unsign
         poses.methods.push_back({std::string(1, static_cast<char>('A' + poses.methods.size()))});
         for (int m = 0; m < members; ++m) {
             poses.methods.back().error.emplace_back();
-            for (int i = 0; i < count; ++i) poses.methods.back().error.back().push_back(factor * (m + 1) * std::exp(0.5 * normal(random)));
+            for (int i = 0; i < count; ++i)
+                poses.methods.back().error.back().push_back(factor * (m + 1) * std::exp(0.5 * normal(random)));
         }
     }
     for (int m = 0; m < members; ++m) {
@@ -103,7 +104,8 @@ TEST(Holm, MultipliesTheSmallestMostAndNeverReversesTheOrder)
 
 TEST(MemberComparison, CountsTiesWithinTheErrorOfTheReference)
 {
-    const MemberComparison comparison = only_comparison(two_methods({1, 2, 3, 4, 5}, {3, 3, 3, 3, 2}, {1, 1, 0, 0.5, 2.5}));
+    const MemberComparison comparison =
+        only_comparison(two_methods({1, 2, 3, 4, 5}, {3, 3, 3, 3, 2}, {1, 1, 0, 0.5, 2.5}));
     EXPECT_EQ(comparison.wins, 1);    // 1 against 3
     EXPECT_EQ(comparison.ties, 2);    // 2 against 3, as far apart as U; 3 against 3
     EXPECT_EQ(comparison.losses, 2);  // 4 against 3, 5 against 2
@@ -114,18 +116,20 @@ TEST(MemberComparison, CountsTiesWithinTheErrorOfTheReference)
 
 TEST(MemberComparison, SkipsAPoseThatLacksANumber)
 {
-    const MemberComparison all =
-        only_comparison(two_methods({1, unknown, 2, 5, 1, 3}, {2, 2, unknown, 2, 1.5, 4}, {0.1, 0.1, 0.1, unknown, 0.1, 0.1}));
+    const MemberComparison all = only_comparison(
+        two_methods({1, unknown, 2, 5, 1, 3}, {2, 2, unknown, 2, 1.5, 4}, {0.1, 0.1, 0.1, unknown, 0.1, 0.1}));
     EXPECT_EQ(std::tuple(all.wins, all.ties, all.losses), std::tuple(3, 0, 0));
     expect_same_bits(all, only_comparison(two_methods({1, 1, 3}, {2, 1.5, 4}, {0.1, 0.1, 0.1})));
 }
 
-// Four of the ten pairs of the table have p = 1/512. Holm multiplies the first of them by ten, and no later one is below it.
+// Four of the ten pairs of the table have p = 1/512. Holm multiplies the first of them by ten, and no later one is
+// below it.
 TEST(MemberComparison, IsAdjustedForAllPairsOfTheTableOnItsOwnMember)
 {
     ComparedPoses poses = two_methods(Errors(10, 1.0), Errors(10, 2.0), Errors(10, 0.5));
     EXPECT_DOUBLE_EQ(only_comparison(poses).p_holm, 1.0 / 512.0);
-    for (const char* name : {"C", "D", "E"}) poses.methods.push_back({name, {Errors(10, 1.4)}});  // ties with A, wins over B
+    // ties with A, wins over B
+    for (const char* name : {"C", "D", "E"}) poses.methods.push_back({name, {Errors(10, 1.4)}});
     const std::vector<MethodPair> pairs = compare_methods(poses);
     ASSERT_EQ(pairs.size(), 10u);
     for (const MethodPair& pair : pairs) {
@@ -134,8 +138,8 @@ TEST(MemberComparison, IsAdjustedForAllPairsOfTheTableOnItsOwnMember)
     }
 }
 
-// Two bodies with the constant ratios 2 and 1/2: two drawn bodies have the mean 1/2, 1 or 2 with probabilities 1/4, 1/2 and 1/4. Drawn
-// without their bodies, 80 poses would lie within 2^(+-1.96 / sqrt(80)) = 0.86 to 1.16.
+// Two bodies with the constant ratios 2 and 1/2: two drawn bodies have the mean 1/2, 1 or 2 with probabilities 1/4, 1/2
+// and 1/4. Drawn without their bodies, 80 poses would lie within 2^(+-1.96 / sqrt(80)) = 0.86 to 1.16.
 TEST(RangeOfTheRatio, DrawsBodiesBeforePoses)
 {
     ComparedPoses poses = two_methods(Errors(80, 1.0), Errors(80, 2.0), Errors(80, 0.0));
@@ -150,9 +154,9 @@ TEST(RangeOfTheRatio, DrawsBodiesBeforePoses)
     EXPECT_EQ(ratio.n, 80);
 }
 
-// For one body the mean of n drawn log ratios has the standard deviation s / sqrt(n), s with n in the denominator, and is nearly normal. A
-// quantile at 0.025 of 20,000 draws has itself the standard deviation sqrt(0.025 0.975 / 20000) / 0.0584 = 0.019 of that, 0.0584 being the
-// normal density there; the tolerance is five of them.
+// For one body the mean of n drawn log ratios has the standard deviation s / sqrt(n), s with n in the denominator, and
+// is nearly normal. A quantile at 0.025 of 20,000 draws has itself the standard deviation sqrt(0.025 0.975 / 20000) /
+// 0.0584 = 0.019 of that, 0.0584 being the normal density there; the tolerance is five of them.
 TEST(RangeOfTheRatio, OfOneBodyIsThatOfItsPoses)
 {
     constexpr int n = 60;
@@ -161,7 +165,8 @@ TEST(RangeOfTheRatio, OfOneBodyIsThatOfItsPoses)
         log_ratio.push_back(0.3 * std::sin(12.9898 * i));
         second.push_back(std::exp(log_ratio.back()));
     }
-    const Interval ratio = compare_methods(two_methods(Errors(n, 1.0), second, Errors(n, 0.0)), {.replicates = 20000})[0].members[0].ratio;
+    const Interval ratio =
+        compare_methods(two_methods(Errors(n, 1.0), second, Errors(n, 0.0)), {.replicates = 20000})[0].members[0].ratio;
     const double centre = mean(log_ratio), deviation = standard_deviation(log_ratio) * std::sqrt((n - 1.0) / n / n);
     EXPECT_NEAR(std::log(ratio.low), centre - 1.96 * deviation, 5 * 0.019 * deviation);
     EXPECT_NEAR(std::log(ratio.high), centre + 1.96 * deviation, 5 * 0.019 * deviation);
@@ -186,7 +191,8 @@ TEST(RangeOfTheRatio, RepeatsToTheBitAndFollowsTheSeed)
 {
     const ComparedPoses poses = random_poses({1.0, 1.2}, 1, 37, 3);
     expect_same_bits(only_comparison(poses), only_comparison(poses));
-    const Interval other = compare_methods(poses, {.seed = 7})[0].members[0].ratio, ratio = only_comparison(poses).ratio;
+    const Interval other = compare_methods(poses, {.seed = 7})[0].members[0].ratio,
+                   ratio = only_comparison(poses).ratio;
     EXPECT_EQ(other.estimate, ratio.estimate);
     EXPECT_NE(other.low, ratio.low);
     EXPECT_NEAR(std::log(other.low / ratio.low), 0.0, 0.15 * std::log(ratio.high / ratio.low));
@@ -198,12 +204,14 @@ MemberComparison member(int wins, int ties, int losses, double p_holm, double lo
 }
 
 // On each member: a clear difference, none, near ratios, and ties.
-const MemberComparison first_nearer = member(30, 5, 5, 0.001, 1.3, 1.9), second_nearer = member(5, 5, 30, 0.001, 0.5, 0.8),
-                       not_shown = member(15, 15, 10, 0.6, 0.7, 1.4), close = member(30, 5, 5, 0.001, 1.01, 1.09),
-                       close_below = member(5, 5, 30, 0.001, 0.92, 0.99), tied = member(8, 32, 0, 0.01, 0.9, 1.5),
-                       not_quite_tied = member(9, 31, 0, 0.06, 0.9, 1.5), unusable = MemberComparison{};
+const MemberComparison first_nearer = member(30, 5, 5, 0.001, 1.3, 1.9),
+                       second_nearer = member(5, 5, 30, 0.001, 0.5, 0.8), not_shown = member(15, 15, 10, 0.6, 0.7, 1.4),
+                       close = member(30, 5, 5, 0.001, 1.01, 1.09), close_below = member(5, 5, 30, 0.001, 0.92, 0.99),
+                       tied = member(8, 32, 0, 0.01, 0.9, 1.5), not_quite_tied = member(9, 31, 0, 0.06, 0.9, 1.5),
+                       unusable = MemberComparison{};
 
-// Whether methods are level does not depend on which one is first: the reciprocal of 0.905 is 1.105, which is above 1.1.
+// Whether methods are level does not depend on which one is first: the reciprocal of 0.905 is 1.105, which is
+// above 1.1.
 TEST(Decision, FollowsTheFirstRuleThatApplies)
 {
     using enum MethodDecision;
@@ -247,7 +255,8 @@ TEST(CompareMethods, DecidesByTheErrorsOfAllMembers)
     for (std::vector<double>& of_poses : poses.methods[2].error)
         for (double& error : of_poses) error *= 0.95;
     poses.methods.push_back({"D", {poses.methods[0].error[0], poses.methods[0].error[1]}});
-    for (double& error : poses.methods[3].error[0]) error *= 0.4;  // D is nearer than A on the first member and farther on the second
+    // D is nearer than A on the first member and farther on the second
+    for (double& error : poses.methods[3].error[0]) error *= 0.4;
     for (double& error : poses.methods[3].error[1]) error *= 2.5;
     const std::vector<std::string> expected = {"AB first_is_nearer",  "AC level", "AD depends",
                                                "BC second_is_nearer", "BD open",  "CD depends"};
@@ -316,7 +325,8 @@ TEST(Letters, OfFewMethodsAreKnown)
     using Names = std::vector<std::string>;
     const Names four = {"A", "B", "C", "D"};
     EXPECT_EQ(letters(four, {}), (Names{"a", "a", "a", "a"}));
-    EXPECT_EQ(letters({"A", "B", "C"}, {decided("A", "B"), decided("A", "C"), decided("B", "C")}), (Names{"a", "b", "c"}));
+    EXPECT_EQ(letters({"A", "B", "C"}, {decided("A", "B"), decided("A", "C"), decided("B", "C")}),
+              (Names{"a", "b", "c"}));
     EXPECT_EQ(letters({"A", "B", "C"}, {decided("A", "C")}), (Names{"a", "ab", "b"}));
     // The pairs that are not decided form a square, which no intervals of a ranking have.
     EXPECT_EQ(letters(four, {decided("A", "B"), decided("C", "D")}), (Names{"ab", "cd", "ac", "bd"}));
@@ -330,7 +340,8 @@ TEST(Letters, OfFewMethodsAreKnown)
     EXPECT_TRUE(letters({}, {decided("A", "B")}).empty());
 }
 
-// The definition: two methods share a letter if and only if their pair is not decided, and no letter is another one's part.
+// The definition: two methods share a letter if and only if their pair is not decided, and no letter is another one's
+// part.
 TEST(Letters, AreSharedWhereAPairIsNotDecided)
 {
     std::mt19937 random(5);
@@ -339,7 +350,8 @@ TEST(Letters, AreSharedWhereAPairIsNotDecided)
         std::vector<MethodPair> pairs;
         for (int b = 0; b < 8; ++b) {
             for (const std::string& method : methods)
-                if (random() % 10 < static_cast<unsigned>(repetition % 10)) pairs.push_back(decided(method, std::string(1, 'A' + b)));
+                if (random() % 10 < static_cast<unsigned>(repetition % 10))
+                    pairs.push_back(decided(method, std::string(1, 'A' + b)));
             methods.emplace_back(1, 'A' + b);
         }
         const std::vector<std::string> display = letters(methods, pairs);
@@ -356,7 +368,8 @@ TEST(Letters, AreSharedWhereAPairIsNotDecided)
             }
         for (const auto& [letter, column] : columns)
             for (const auto& [other, larger] : columns)
-                EXPECT_TRUE(letter == other || !std::includes(larger.begin(), larger.end(), column.begin(), column.end()));
+                EXPECT_TRUE(letter == other ||
+                            !std::includes(larger.begin(), larger.end(), column.begin(), column.end()));
     }
 }
 
@@ -398,7 +411,8 @@ TEST(Attack, AMemberWithoutOwnErrorChangesNothing)
 
 void exchange_labels(ComparedPoses& poses, std::size_t pose)
 {
-    for (std::size_t m = 0; m < poses.members.size(); ++m) std::swap(poses.methods[0].error[m][pose], poses.methods[1].error[m][pose]);
+    for (std::size_t m = 0; m < poses.members.size(); ++m)
+        std::swap(poses.methods[0].error[m][pose], poses.methods[1].error[m][pose]);
 }
 
 TEST(Attack, ExchangedLabelsLeaveTheAnswerOpenInHalfOfThePosesAndReverseItInAll)
@@ -412,15 +426,18 @@ TEST(Attack, ExchangedLabelsLeaveTheAnswerOpenInHalfOfThePosesAndReverseItInAll)
     EXPECT_EQ(decision(), MethodDecision::second_is_nearer);
 }
 
-// Which method is first is a matter of the list. Exponentials of opposite numbers are reciprocal within their roundings.
+// Which method is first is a matter of the list. Exponentials of opposite numbers are reciprocal within their
+// roundings.
 TEST(Attack, ListedInReverseTheMethodsHaveTheReverseAnswers)
 {
-    const std::map<MethodDecision, MethodDecision> reverse = {{MethodDecision::first_is_nearer, MethodDecision::second_is_nearer},
-                                                              {MethodDecision::second_is_nearer, MethodDecision::first_is_nearer}};
+    const std::map<MethodDecision, MethodDecision> reverse = {
+        {MethodDecision::first_is_nearer, MethodDecision::second_is_nearer},
+        {MethodDecision::second_is_nearer, MethodDecision::first_is_nearer}};
     std::map<MethodDecision, int> seen;
     for (unsigned seed = 0; seed < 20; ++seed) {
         ComparedPoses poses = random_poses({1.0, 1.05, 1.5}, 2, 40, seed);
-        for (std::size_t i = 0; i < 40; ++i) poses.methods[1].error[0][i] = poses.methods[0].error[0][i] * (1.0 + 0.005 * seed);
+        for (std::size_t i = 0; i < 40; ++i)
+            poses.methods[1].error[0][i] = poses.methods[0].error[0][i] * (1.0 + 0.005 * seed);
         poses.methods[1].error[1] = poses.methods[0].error[1];
         const std::vector<MethodPair> pairs = compare_methods(poses);
         std::reverse(poses.methods.begin(), poses.methods.end());
@@ -432,7 +449,8 @@ TEST(Attack, ListedInReverseTheMethodsHaveTheReverseAnswers)
             ++seen[pair.decision];
             for (std::size_t m = 0; m < 2; ++m) {
                 const MemberComparison &a = pair.members[m], &b = mirrored.members[m];
-                EXPECT_EQ(std::tuple(a.wins, a.ties, a.losses, a.p_holm), std::tuple(b.losses, b.ties, b.wins, b.p_holm));
+                EXPECT_EQ(std::tuple(a.wins, a.ties, a.losses, a.p_holm),
+                          std::tuple(b.losses, b.ties, b.wins, b.p_holm));
                 EXPECT_DOUBLE_EQ(a.ratio.low, 1.0 / b.ratio.high);
                 EXPECT_DOUBLE_EQ(a.ratio.high, 1.0 / b.ratio.low);
             }
@@ -443,9 +461,10 @@ TEST(Attack, ListedInReverseTheMethodsHaveTheReverseAnswers)
     EXPECT_GT(seen[MethodDecision::first_is_nearer], 0);
 }
 
-// If the labels are drawn in each pose, the same for all members, no method is nearer. Holm bounds the probability of any decision in the
-// table by 5 %, so that fewer than 1 in 100 of its ten pairs are decided. Unadjusted, four in 100 would be. The members have the same
-// poses and errors that go with each other, as references of one family do: their number must not be what keeps the rate low.
+// If the labels are drawn in each pose, the same for all members, no method is nearer. Holm bounds the probability of
+// any decision in the table by 5 %, so that fewer than 1 in 100 of its ten pairs are decided. Unadjusted, four in 100
+// would be. The members have the same poses and errors that go with each other, as references of one family do: their
+// number must not be what keeps the rate low.
 TEST(Attack, LabelsDrawnAtRandomDecideFewPairs)
 {
     constexpr int permutations = 2000, methods = 5, count = 40, members = 3;
@@ -464,7 +483,8 @@ TEST(Attack, LabelsDrawnAtRandomDecideFewPairs)
             }
         for (const MethodPair& pair : compare_methods(poses, no_bootstrap)) {
             ++all;
-            decided_pairs += pair.decision == MethodDecision::first_is_nearer || pair.decision == MethodDecision::second_is_nearer;
+            decided_pairs +=
+                pair.decision == MethodDecision::first_is_nearer || pair.decision == MethodDecision::second_is_nearer;
             unadjusted += pair.members[0].p < no_bootstrap.significance;
         }
     }

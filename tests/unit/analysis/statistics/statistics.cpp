@@ -17,10 +17,12 @@ TEST(Statistics, OfOneToFive)
     EXPECT_EQ(quantile(values, 0.0), 1.0);
     EXPECT_EQ(quantile(values, 0.25), 2.0);
     // The place 0.9 of 4 goes through two roundings, the value between 4 and 5 through four.
-    EXPECT_NEAR(quantile(values, 0.9), 4.6, test_support::rounding_error(2, 3.6) + test_support::rounding_error(4, 4.6));
+    EXPECT_NEAR(quantile(values, 0.9), 4.6,
+                test_support::rounding_error(2, 3.6) + test_support::rounding_error(4, 4.6));
     EXPECT_EQ(quantile(values, 1.0), 5.0);
     // The running mean of squares is rounded three times per value, and its root halves a relative error.
-    EXPECT_NEAR(standard_deviation(values), std::sqrt(2.5), test_support::rounding_error(3 * 5 / 2.0 + 2, std::sqrt(2.5)));
+    EXPECT_NEAR(standard_deviation(values), std::sqrt(2.5),
+                test_support::rounding_error(3 * 5 / 2.0 + 2, std::sqrt(2.5)));
 }
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
@@ -71,7 +73,8 @@ TEST(Statistics, RankCorrelationWithoutOneHasTheRangeOfAllSuchSamples)
     EXPECT_EQ(all.n, 4);
 }
 
-// Reference: degenerate cases by definition, and reproducibility by seed. tests/verification/analysis/statistics.cpp tests the coverage.
+// Reference: degenerate cases by definition, and reproducibility by seed. tests/verification/analysis/statistics.cpp
+// tests the coverage.
 
 using test_support::mean_error;
 
@@ -107,12 +110,13 @@ TEST(Bootstrap, RepeatsToTheBitFollowsItsSeedAndKeepsAGivenBlock)
     EXPECT_EQ(std::pair(same.low, same.high), std::pair(3.5, 3.5));
 }
 
-// Clopper and Pearson 1934: none of n independent samples holds with probability (1 - p)^n, which is 2.5 % at p = 1 - 0.025^(1/n). Tables
-// of the exact bound print 0.16843 for 0 of 20: half of the last digit. 200 samples with an autocorrelation time of 10 are equivalent to
-// 20.
+// Clopper and Pearson 1934: none of n independent samples holds with probability (1 - p)^n, which is 2.5 % at p = 1 -
+// 0.025^(1/n). Tables of the exact bound print 0.16843 for 0 of 20: half of the last digit. 200 samples with an
+// autocorrelation time of 10 are equivalent to 20.
 TEST(Bootstrap, AShareOfAllOrNoneHasTheExactBinomialBound)
 {
-    const Interval none = bootstrap_share(std::vector<bool>(20, false)), all = bootstrap_share(std::vector<bool>(20, true));
+    const Interval none = bootstrap_share(std::vector<bool>(20, false)),
+                   all = bootstrap_share(std::vector<bool>(20, true));
     EXPECT_EQ(none.low, 0.0);
     EXPECT_NEAR(none.high, 0.16843, 0.5e-5);
     EXPECT_NEAR(all.low, 1.0 - 0.16843, 0.5e-5);
@@ -147,9 +151,9 @@ double at_most(int counted, int all, double p)
     return sum;
 }
 
-// The rounding error of such a probability, here or in the inverse: the logarithm of a term contains three log-gamma functions and two
-// products with logarithms of shares, of magnitude 9 at most, each of which goes through ten roundings. (GSL's inverse converges cubically
-// and ends after a step below 1e-10: only rounding is left.)
+// The rounding error of such a probability, here or in the inverse: the logarithm of a term contains three log-gamma
+// functions and two products with logarithms of shares, of magnitude 9 at most, each of which goes through ten
+// roundings. (GSL's inverse converges cubically and ends after a step below 1e-10: only rounding is left.)
 double probability_error(int all)
 {
     return test_support::rounding_error(10, 3.0 * std::lgamma(all + 1.0) + 9.0 * all);
@@ -178,7 +182,8 @@ TEST(ShareInterval, OfNoneAndOfAllAndWiderOfFewerAndOfAHigherLevel)
         EXPECT_NEAR(every.low, 1.0 - end, rounding);
         EXPECT_EQ(every.high, 1.0);
     }
-    EXPECT_GT(share_interval(2, 8).high - share_interval(2, 8).low, share_interval(20, 80).high - share_interval(20, 80).low);
+    EXPECT_GT(share_interval(2, 8).high - share_interval(2, 8).low,
+              share_interval(20, 80).high - share_interval(20, 80).low);
     EXPECT_GT(share_interval(2, 8, 0.99).high, share_interval(2, 8, 0.95).high);
 }
 
@@ -209,14 +214,16 @@ TEST(FrameStatistics, OfEachSettingByItself)
 {
     CsvTable table = metrics();
     for (int frame = 0; frame <= 10; ++frame) {  // 0, -1, ... -10; the order of frames does not matter
-        table.add_row({"limb", "pbs", "default", "ordered", "f32", 24, frame, -1.0 * ((7 * frame) % 11), 2.0, std::nullopt});
+        table.add_row(
+            {"limb", "pbs", "default", "ordered", "f32", 24, frame, -1.0 * ((7 * frame) % 11), 2.0, std::nullopt});
         table.add_row({"limb", "pbs", "default", "ordered", "f32", 1, frame, 5.0, 3.0, std::nullopt});
     }
     const CsvTable statistics = frame_statistics(table);
     ASSERT_EQ(statistics.rows(), 2);
     EXPECT_EQ(statistics.text_at(0, "iterations"), "24");
     EXPECT_EQ(statistics.integer(0, "frames"), 11);
-    for (const auto& [name, value] : {std::pair("least", -10.0), {"p10", -9.0}, {"median", -5.0}, {"p90", -1.0}, {"most", 0.0}})
+    for (const auto& [name, value] :
+         {std::pair("least", -10.0), {"p10", -9.0}, {"median", -5.0}, {"p90", -1.0}, {"most", 0.0}})
         EXPECT_DOUBLE_EQ(statistics.number(0, std::string("volume_change_") + name + "_pct"), value) << name;
     EXPECT_EQ(statistics.number(0, "volume_abs_change_median_pct"), 2.0);
     EXPECT_EQ(statistics.number(1, "volume_change_median_pct"), 5.0);
@@ -231,7 +238,8 @@ TEST(FrameStatistics, FramesWithoutAValueAreLeftOut)
     ASSERT_EQ(statistics.rows(), 1);
     EXPECT_EQ(statistics.number(0, "volume_change_median_pct"), 1.0);
     EXPECT_EQ(statistics.number(0, "error_joint_median_pct"), 30.0);
-    EXPECT_FALSE(statistics.number_or_nothing(0, "error_l2_median_pct"));  // a run without a reference has no such column
+    // a run without a reference has no such column
+    EXPECT_FALSE(statistics.number_or_nothing(0, "error_l2_median_pct"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Reference: the definition (a key is recovered from its cells and from JSON, and every member has one field), and the rows of a
-// metrics.csv with the columns of the contract.
+// Reference: the definition (a key is recovered from its cells and from JSON, and every member has one field), and the
+// rows of a metrics.csv with the columns of the contract.
 
 #include "analysis/records/tables.hpp"
 #include "analysis/verdicts/case_record.hpp"
@@ -15,7 +15,12 @@ using namespace analysis;
 
 CaseKey bent_limb()
 {
-    return {.body = "limb", .motion = "bend", .joint = "upper|forearm", .angle_deg = 90.0, .deformer = "pbs", .k_stretch = 0.2};
+    return {.body = "limb",
+            .motion = "bend",
+            .joint = "upper|forearm",
+            .angle_deg = 90.0,
+            .deformer = "pbs",
+            .k_stretch = 0.2};
 }
 
 CaseKey with_every_field()
@@ -78,21 +83,25 @@ TEST(CaseKey, MatchesWhatAsksForNoMoreAndNamesWhatIsSet)
     EXPECT_FALSE(matches(bent_limb(), {.k_stretch = 0.9}));
     EXPECT_FALSE(matches(bent_limb(), {.order = "plain"}));
     EXPECT_EQ(text_of(bent_limb()), "limb, bend, upper|forearm, 90 deg, pbs, k_stretch 0.2");
-    EXPECT_EQ(text_of({.reference = "nh_p2", .masses = "unit", .equation = "12"}), "reference nh_p2, masses unit, equation 12");
-    EXPECT_EQ(text_of({.iterations = 12.0, .iterations_to = 48.0, .time_step_s = 0.01}), "iterations 12 to 48, time_step 0.01 s");
+    EXPECT_EQ(text_of({.reference = "nh_p2", .masses = "unit", .equation = "12"}),
+              "reference nh_p2, masses unit, equation 12");
+    EXPECT_EQ(text_of({.iterations = 12.0, .iterations_to = 48.0, .time_step_s = 0.01}),
+              "iterations 12 to 48, time_step 0.01 s");
     EXPECT_EQ(text_of({.time_step_s = 0.02, .time_step_to_s = 0.005}), "time_step 0.02 to 0.005 s");
     EXPECT_EQ(text_of({}), "");
 }
 
 const std::string record_head =
-    "scene,deformer,variant,order,precision,iterations,threads,frame,time_s,volume_change_pct,volume_abs_change_pct,inverted_tets";
+    "scene,deformer,variant,order,precision,iterations,threads,frame,time_s,volume_change_pct,volume_abs_change_pct,"
+    "inverted_tets";
 
 TEST(CaseRecords, RowsAreGroupedByCase)
 {
-    const auto table = parse_csv(record_head +
-                                     "\nlimb,lbs,,,,,1,0,0,0,0,0\nlimb,pbs,,ordered,f32,24,1,0,0,0,0,0\nlimb,lbs,,,,,1,1,0.01,-3,4,2\n"
-                                     "limb,pbs,,ordered,f32,24,1,1,0.01,-0.1,1,0\nlimb,pbs,,plain,f64,24,1,0,0,0,0,0\n",
-                                 "metrics.csv");
+    const auto table =
+        parse_csv(record_head +
+                      "\nlimb,lbs,,,,,1,0,0,0,0,0\nlimb,pbs,,ordered,f32,24,1,0,0,0,0,0\nlimb,lbs,,,,,1,1,0.01,-3,4,2\n"
+                      "limb,pbs,,ordered,f32,24,1,1,0.01,-0.1,1,0\nlimb,pbs,,plain,f64,24,1,0,0,0,0,0\n",
+                  "metrics.csv");
     const auto records = case_records(table, "volume/limb");
     ASSERT_EQ(records.size(), 3u);
     EXPECT_EQ(records[0].deformer, "lbs");
@@ -118,10 +127,11 @@ TEST(CaseRecords, AnglesMakeASweepAndThoseOfSomeFramesOnlyOrMissingColumnsAreRef
 
 TEST(CaseRecords, AReferencesFramesThatAreNotReachedAreLeftOutAndCounted)
 {
-    const auto table = parse_csv(record_head +
-                                     ",outcome\nlimb,snh,,,,,1,0,0,0,0,0,finished\nlimb,snh,,,,,1,1,0.01,-9,9,9,not_converged\n"
-                                     "limb,pbs,,plain,f32,24,1,1,0.01,-1,1,0,not_converged\n",
-                                 "metrics.csv");
+    const auto table =
+        parse_csv(record_head +
+                      ",outcome\nlimb,snh,,,,,1,0,0,0,0,0,finished\nlimb,snh,,,,,1,1,0.01,-9,9,9,not_converged\n"
+                      "limb,pbs,,plain,f32,24,1,1,0.01,-1,1,0,not_converged\n",
+                  "metrics.csv");
     const auto records = case_records(table, "");
     EXPECT_EQ(records[0].frame, (std::vector<double>{0.0}));
     EXPECT_EQ(records[0].frames_not_converged, 1);

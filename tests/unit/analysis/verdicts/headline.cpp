@@ -11,8 +11,13 @@ using namespace analysis;
 
 JudgedCase judged_case(double value, const std::string& precision, bool holds)
 {
-    return {
-        .of = {.body = "limb", .precision = precision}, .unit = "%", .value = value, .low = value, .high = value, .n = 1, .holds = holds};
+    return {.of = {.body = "limb", .precision = precision},
+            .unit = "%",
+            .value = value,
+            .low = value,
+            .high = value,
+            .n = 1,
+            .holds = holds};
 }
 
 // Two of three cases hold; those of a control do not.
@@ -23,10 +28,12 @@ Verdict verdict_with(const std::string& headline)
     verdict.claim.quantities = {{"loss", "loss", "%"}};
     verdict.claim.others = {{.name = "wrong weights", .role = Role::negative_control}};
     verdict.own = {.selection = verdict.claim.own,
-                   .cases = {judged_case(6.44, "f64", false), judged_case(0.000001943, "f32", true), judged_case(17.2, "f64", true)},
+                   .cases = {judged_case(6.44, "f64", false), judged_case(0.000001943, "f32", true),
+                             judged_case(17.2, "f64", true)},
                    .held = 2,
                    .n = 3};
-    verdict.others = {{.selection = verdict.claim.others[0], .cases = {judged_case(0.5, "f64", false)}, .held = 0, .n = 1}};
+    verdict.others = {
+        {.selection = verdict.claim.others[0], .cases = {judged_case(0.5, "f64", false)}, .held = 0, .n = 1}};
     return verdict;
 }
 
@@ -82,7 +89,8 @@ TEST(Headline, FaultsAreNamed)
     EXPECT_EQ(fault("{cases}"), "{cases}: expected held, n, least, most, least_pct, most_pct, unit");
     EXPECT_EQ(fault("{held of LBS}"), "{held of LBS}: expected the name of a control or comparison of the claim");
     EXPECT_EQ(fault("{most at bone=1}"), "{most at bone=1}: expected a field of a key");
-    EXPECT_EQ(fault("{most at precision}"), "{most at precision}: expected held, n, least, most, least_pct, most_pct, unit");
+    EXPECT_EQ(fault("{most at precision}"),
+              "{most at precision}: expected held, n, least, most, least_pct, most_pct, unit");
     EXPECT_EQ(fault("29 of {n}"), "expected numbers only as {placeholders}");
     EXPECT_EQ(fault("{held of {n}"), "{held of {n}: expected the name of a control or comparison of the claim");
     for (const char* text : {"in {held", "in held}", "{}"})
@@ -94,7 +102,8 @@ TEST(ShortName, HasAtMostEightWordsAndItsWidth)
     const auto fault = [](const std::string& text) { return short_name_fault({.short_name = text}); };
     const std::string rule = "expected 1 to 8 words of at most 32 characters in all";
     EXPECT_EQ(fault("1 2 3 4 5 6 7 8"), "");
-    for (const std::string& text : {std::string(), std::string("  "), std::string("1 2 3 4 5 6 7 8 9"), std::string(33, 'a')})
+    for (const std::string& text :
+         {std::string(), std::string("  "), std::string("1 2 3 4 5 6 7 8 9"), std::string(33, 'a')})
         EXPECT_EQ(fault(text), rule) << text;
 }
 

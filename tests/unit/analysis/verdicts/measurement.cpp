@@ -22,7 +22,8 @@ TEST(Measurement, ComesBackFromItsTable)
 {
     const test_support::ScratchFolder folder;
     const std::string path = folder / "measurements.csv";
-    const CaseKey key = {.body = "limb \"soft\", thin", .motion = "bend", .angle_deg = 1.0 / 3.0, .deformer = "pbs", .iterations = 24.0};
+    const CaseKey key = {
+        .body = "limb \"soft\", thin", .motion = "bend", .angle_deg = 1.0 / 3.0, .deformer = "pbs", .iterations = 24.0};
     const Measurement written{"C07", "linear_drift", key, 1.0 / 3.0, 0.25, 0.5, "m", "", Limit::more_than, 4, 1};
     measurement_table({written, drift("human", 1e-300)}).write(path);
     const auto read = measurements(path);
@@ -48,12 +49,13 @@ TEST(MeasuredSeries, DifferInOneFieldAlone)
     };
     Measurement other = amplitude("limb", 0.3, 9.0);
     other.quantity = "frequency_hz";
-    const auto all = series_over({amplitude("limb", 0.5, 1.0), amplitude("man", 0.1, 4.0), other, amplitude("limb", {}, 5.0),
-                                  amplitude("limb", 0.1, 2.0), amplitude("limb", 0.2, 3.0)},
+    const auto all = series_over({amplitude("limb", 0.5, 1.0), amplitude("man", 0.1, 4.0), other,
+                                  amplitude("limb", {}, 5.0), amplitude("limb", 0.1, 2.0), amplitude("limb", 0.2, 3.0)},
                                  "amplitude", &CaseKey::k_stretch);
     ASSERT_EQ(all.size(), 2u);
     std::vector<std::pair<double, double>> of_limb;
-    for (const auto& [k_stretch, measurement] : all.at({.body = "limb"})) of_limb.emplace_back(k_stretch, measurement.value);
+    for (const auto& [k_stretch, measurement] : all.at({.body = "limb"}))
+        of_limb.emplace_back(k_stretch, measurement.value);
     EXPECT_EQ(of_limb, (std::vector<std::pair<double, double>>{{0.1, 2.0}, {0.2, 3.0}, {0.5, 1.0}}));
     EXPECT_EQ(all.at({.body = "man"}).size(), 1u);
 }

@@ -26,7 +26,8 @@ void add(Records& records, const std::string& body, int joint, double of_pbs, do
 {
     for (const auto& [deformer, value] : {std::pair{"pbs", of_pbs}, {"lbs", of_lbs}}) {
         const CaseKey key = {.body = body, .joint = std::to_string(joint), .deformer = deformer};
-        records.measurements.push_back({.quantity = "radius", .of = key, .value = value, .low = value, .high = value, .unit = "1"});
+        records.measurements.push_back(
+            {.quantity = "radius", .of = key, .value = value, .low = value, .high = value, .unit = "1"});
     }
 }
 
@@ -62,7 +63,8 @@ TEST(Sensitivity, ExcludesABodyFromTheControlsTooUnlessItIsTheirOnlyOne)
     const Sensitivity both = sensitivity(radius_claim(), records);
     EXPECT_EQ(judge(radius_claim(), records).kind, VerdictKind::holds) << "LBS fails in half of its cases";
     EXPECT_EQ(both.without_body[0].kind, VerdictKind::inconclusive) << "without the arm it fails nowhere";
-    std::erase_if(records.measurements, [](const Measurement& one) { return one.of.deformer == "lbs" && one.of.body == "leg"; });
+    std::erase_if(records.measurements,
+                  [](const Measurement& one) { return one.of.deformer == "lbs" && one.of.body == "leg"; });
     EXPECT_EQ(sensitivity(radius_claim(), records).without_body[0].kind, VerdictKind::holds) << "only the arm has LBS";
 }
 

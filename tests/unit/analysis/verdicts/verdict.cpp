@@ -1,4 +1,5 @@
-// Reference: the rule at the head of claims.toml, with counts chosen by hand and probabilities of the binomial distribution.
+// Reference: the rule at the head of claims.toml, with counts chosen by hand and probabilities of the binomial
+// distribution.
 #include "analysis/verdicts/verdict.hpp"
 
 #include "analysis/records/record_files.hpp"
@@ -26,7 +27,9 @@ Claim radius_claim()
     claim.own = {.name = "X01", .quantities = {"radius"}, .of = {.deformer = "pbs"}, .thresholds = {{.low = 0.9}}};
     claim.others = {claim.own, claim.own, claim.own};
     const std::array<std::tuple<const char*, Role, const char*>, 3> others = {
-        {{"LBS", Role::negative_control, "lbs"}, {"flesh", Role::positive_control, "flesh"}, {"DQS", Role::comparison, "dqs"}}};
+        {{"LBS", Role::negative_control, "lbs"},
+         {"flesh", Role::positive_control, "flesh"},
+         {"DQS", Role::comparison, "dqs"}}};
     for (std::size_t i = 0; i < others.size(); ++i) {
         std::tie(claim.others[i].name, claim.others[i].role, claim.others[i].of.deformer) = others[i];
         claim.others[i].of.order = "";
@@ -38,7 +41,14 @@ Measurement radius(const std::string& deformer, int joint, double value)
 {
     const std::string body = joint % 2 ? "odd" : "even";
     const CaseKey key = {.body = body, .joint = std::to_string(joint), .deformer = deformer};
-    return {.claim = "X01", .quantity = "radius", .of = key, .value = value, .low = value, .high = value, .unit = "1", .run = "a/run"};
+    return {.claim = "X01",
+            .quantity = "radius",
+            .of = key,
+            .value = value,
+            .low = value,
+            .high = value,
+            .unit = "1",
+            .run = "a/run"};
 }
 
 // `held` of `cases` joints hold for PBS, none for LBS, all for flesh.
@@ -46,7 +56,8 @@ Records records_of(int held, int cases)
 {
     Records records;
     for (int joint = 0; joint < cases; ++joint)
-        for (const auto& [deformer, value] : {std::pair{"pbs", joint < held ? 0.95 : 0.5}, {"lbs", 0.2}, {"flesh", 1.0}, {"dqs", 0.7}})
+        for (const auto& [deformer, value] :
+             {std::pair{"pbs", joint < held ? 0.95 : 0.5}, {"lbs", 0.2}, {"flesh", 1.0}, {"dqs", 0.7}})
             records.measurements.push_back(radius(deformer, joint, value));
     return records;
 }
@@ -100,7 +111,8 @@ TEST(Verdict, TakesQFromTheNegativeControlByTheRuleOfSuccession)
 {
     Records records = records_of(20, 20);
     EXPECT_DOUBLE_EQ(judge(radius_claim(), records).q, 1.0 / 22.0);
-    for (int i = 0; i < 9; ++i) records.measurements[static_cast<std::size_t>(4 * i + 1)].value = 1.0;  // LBS holds in 9 of 20
+    // LBS holds in 9 of 20
+    for (int i = 0; i < 9; ++i) records.measurements[static_cast<std::size_t>(4 * i + 1)].value = 1.0;
     const Verdict verdict = judge(radius_claim(), records);
     EXPECT_DOUBLE_EQ(verdict.q, 10.0 / 22.0);
     EXPECT_EQ(verdict.kind, holds);
@@ -130,7 +142,8 @@ TEST(Verdict, ExcludesCasesInWhichThereIsNothingToSee)
     claim.selected_by = "LBS";
     Records records = records_of(20, 20);
     for (int i = 0; i < 8; ++i) records.measurements[static_cast<std::size_t>(4 * i + 1)].value = 1.0;
-    std::erase_if(records.measurements, [](const Measurement& one) { return one.of.deformer == "lbs" && one.of.joint == "19"; });
+    std::erase_if(records.measurements,
+                  [](const Measurement& one) { return one.of.deformer == "lbs" && one.of.joint == "19"; });
     const Verdict verdict = judge(claim, records);
     EXPECT_EQ(verdict.own.n, 11);
     EXPECT_EQ(verdict.own.cases[0].excluded, Excluded::nothing_to_see);
@@ -156,8 +169,9 @@ TEST(Verdict, TheControlThatSelectsTheCasesMustFailInFiveOfThem)
     EXPECT_EQ(judge(claim, records).inconclusive, Inconclusive::control_without_record);
     records = records_of(20, 20);
     for (int i = 0; i < 16; ++i)
-        std::erase_if(records.measurements,
-                      [&](const Measurement& one) { return one.of.deformer == "pbs" && one.of.joint == std::to_string(i); });
+        std::erase_if(records.measurements, [&](const Measurement& one) {
+            return one.of.deformer == "pbs" && one.of.joint == std::to_string(i);
+        });
     EXPECT_EQ(judge(claim, records).inconclusive, Inconclusive::too_few_cases) << "it fails in cases that PBS lacks";
 }
 
@@ -166,7 +180,8 @@ TEST(Verdict, AveragesTheDependentValuesOfACaseAndDividesThemByThoseOfAnother)
     Claim claim = radius_claim();
     claim.mean = Mean::geometric;
     claim.own.over = {.deformer = "flesh"};
-    std::vector<Measurement> measured = {radius("pbs", 0, 0.4), radius("pbs", 0, 0.9), radius("flesh", 0, 0.5), radius("pbs", 2, 1.0)};
+    std::vector<Measurement> measured = {radius("pbs", 0, 0.4), radius("pbs", 0, 0.9), radius("flesh", 0, 0.5),
+                                         radius("pbs", 2, 1.0)};
     measured[0].of.order = "plain";
     measured[0].low = 0.1;
     const Judged of = judged(claim, claim.own, measured);
@@ -221,7 +236,8 @@ TEST(Verdict, AFieldThatACaseLacksIsNoPropertyByWhichCasesDiffer)
     Records records = records_of(8, 12);
     for (Measurement& one : records.measurements)
         if (const int joint = std::stoi(one.of.joint); joint >= 6) one.of.pose = joint % 2 ? "crouch" : "landing";
-    EXPECT_FALSE(judge(claim, records).differs) << "with a pose the share is a third for both; without one there is no pose to name";
+    EXPECT_FALSE(judge(claim, records).differs)
+        << "with a pose the share is a third for both; without one there is no pose to name";
 }
 
 TEST(Verdict, ACaseOfSeveralQuantitiesHoldsIfAllDo)
@@ -229,8 +245,8 @@ TEST(Verdict, ACaseOfSeveralQuantitiesHoldsIfAllDo)
     Claim claim = radius_claim();
     claim.own.quantities = {"radius", "area"};
     claim.own.thresholds = {{.low = 0.9, .quantity = "radius"}, {.high = 2.0, .quantity = "area"}};
-    std::vector<Measurement> measured = {radius("pbs", 0, 1.0), radius("pbs", 2, 1.0), radius("pbs", 4, 1.0), radius("pbs", 0, 1.5),
-                                         radius("pbs", 2, 2.5)};
+    std::vector<Measurement> measured = {radius("pbs", 0, 1.0), radius("pbs", 2, 1.0), radius("pbs", 4, 1.0),
+                                         radius("pbs", 0, 1.5), radius("pbs", 2, 2.5)};
     measured[3].quantity = measured[4].quantity = "area";
     const Judged of = judged(claim, claim.own, measured);
     EXPECT_EQ(of.n, 3);
@@ -253,7 +269,8 @@ TEST(Verdict, UsesRunsBesideTheOthersOnlyWhereThereAreNoOthers)
 TEST(Verdict, NamesThePropertyByWhichCasesDiffer)
 {
     Records records = records_of(20, 20);
-    for (int joint = 0; joint < 14; joint += 2) records.measurements[static_cast<std::size_t>(4 * joint)].value = 0.1;  // bodies "even"
+    // bodies "even"
+    for (int joint = 0; joint < 14; joint += 2) records.measurements[static_cast<std::size_t>(4 * joint)].value = 0.1;
     const Verdict verdict = judge(radius_claim(), records);
     EXPECT_EQ(verdict.kind, mixed);
     ASSERT_TRUE(verdict.differs);
@@ -268,7 +285,8 @@ TEST(Verdict, HasTheWiderOfTwoIntervals)
     const Interval binomial = share_interval(18, 20);
     EXPECT_EQ(verdict_on(18, 20).interval.low, binomial.low);
     Records records = records_of(20, 20);
-    for (int joint = 0; joint < 18; joint += 2) records.measurements[static_cast<std::size_t>(4 * joint)].value = 0.1;  // one body of two
+    // one body of two
+    for (int joint = 0; joint < 18; joint += 2) records.measurements[static_cast<std::size_t>(4 * joint)].value = 0.1;
     const Verdict verdict = judge(radius_claim(), records);
     EXPECT_EQ(verdict.interval.low, 0.1) << "both bodies drawn are the one of which one joint of ten holds";
     EXPECT_EQ(verdict.interval.high, 1.0);
@@ -299,7 +317,8 @@ TEST(Verdict, JudgesHeldOutCasesApartWithTheControlsThatTheyLack)
     claim.selected_by = "LBS";
     for (Measurement& one : records.measurements)
         if (one.of.deformer == "lbs" && !one.of.motion.empty()) one.of.deformer = "another";
-    EXPECT_EQ(judge(claim, records).held_out.front().own.n, 0) << "whether LBS fails in a case shows nothing about another one";
+    EXPECT_EQ(judge(claim, records).held_out.front().own.n, 0)
+        << "whether LBS fails in a case shows nothing about another one";
 }
 
 TEST(Verdict, OneNumberIsJudgedByItsRange)
@@ -410,7 +429,8 @@ TEST(ClaimsReport, HoldsTheFactsOfTheVerdict)
 TEST(ClaimsReport, OneRowPerClaim)
 {
     const std::string table = claims_markdown({verdict_on(20, 20)});
-    EXPECT_NE(table.find("| X01 | It \\| holds | holds | in 20 of 20 joints | 95 % | 20 | 20 | 1 | [0.832, 1] | "), std::string::npos)
+    EXPECT_NE(table.find("| X01 | It \\| holds | holds | in 20 of 20 joints | 95 % | 20 | 20 | 1 | [0.832, 1] | "),
+              std::string::npos)
         << table;
     EXPECT_EQ(std::ranges::count(table, '\n'), 3);
     Verdict free = verdict_on(20, 20);
@@ -422,12 +442,14 @@ TEST(ClaimsReport, StatesWhyAVerdictIsInconclusiveOrNotShown)
 {
     Claim claim = radius_claim();
     claim.no_effect = 0.5;
-    EXPECT_NE(claims_markdown({judge(claim, records_of(14, 18))}).find("| chance reaches as many with a probability of 0.015 |"),
+    EXPECT_NE(claims_markdown({judge(claim, records_of(14, 18))})
+                  .find("| chance reaches as many with a probability of 0.015 |"),
               std::string::npos);
     EXPECT_NE(claims_markdown({verdict_on(4, 4)}).find("| too few cases |"), std::string::npos);
     Records records = records_of(20, 20);
     for (int i = 0; i < 11; ++i) records.measurements[static_cast<std::size_t>(4 * i + 1)].value = 1.0;
-    EXPECT_NE(claims_markdown({judge(radius_claim(), records)}).find("| negative control LBS: 11 of 20 hold |"), std::string::npos);
+    EXPECT_NE(claims_markdown({judge(radius_claim(), records)}).find("| negative control LBS: 11 of 20 hold |"),
+              std::string::npos);
 }
 
 TEST(ClaimsReport, TheTerminalsTableHasOneLinePerClaimWithinItsWidthAndCountsTheVerdicts)
@@ -453,20 +475,24 @@ TEST(ClaimsReport, ALongTextInTheTerminalsTableEndsWithAnEllipsis)
 {
     Verdict verdict = verdict_on(20, 20);
     verdict.claim.headline = "thirty letters of some text abc {held}";
-    const std::string table = claims_table({verdict}, 60, false, {.heading = "here", .texts = {{"X01", "94 numbers agree with it"}}});
+    const std::string table =
+        claims_table({verdict}, 60, false, {.heading = "here", .texts = {{"X01", "94 numbers agree with it"}}});
     EXPECT_NE(table.find("94 numbers agr\u2026"), std::string::npos) << table;
     EXPECT_NE(table.find("thirty lette\u2026"), std::string::npos) << table;
     verdict.claim.headline = "of {held of nothing}";
-    EXPECT_NE(claims_table({verdict}, 60, false).find("X01  it holds            HOLDS\n"), std::string::npos) << "nothing was measured";
+    EXPECT_NE(claims_table({verdict}, 60, false).find("X01  it holds            HOLDS\n"), std::string::npos)
+        << "nothing was measured";
 }
 
 TEST(ClaimsReport, TheTerminalsTableNamesWhatIsMissingOnceBelowTheClaims)
 {
     Verdict one = verdict_on(20, 20), other = verdict_on(20, 20);
     one.claim.id = "X00";
-    for (Verdict* verdict : {&one, &other}) verdict->left_out = {{"lady", "lady is not installed"}}, verdict->missing = {"walk"};
+    for (Verdict* verdict : {&one, &other})
+        verdict->left_out = {{"lady", "lady is not installed"}}, verdict->missing = {"walk"};
     const std::string table = claims_table({one, other}, 100, false);
-    EXPECT_NE(table.find("excluded from X00, X01: lady is not installed\nno record for X00, X01: walk\n2 claims"), std::string::npos)
+    EXPECT_NE(table.find("excluded from X00, X01: lady is not installed\nno record for X00, X01: walk\n2 claims"),
+              std::string::npos)
         << table;
     EXPECT_EQ(table.find("walk"), table.rfind("walk"));
 }

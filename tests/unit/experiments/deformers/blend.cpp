@@ -1,4 +1,5 @@
-// What LBS, DQS and both delta mushes promise beyond the contract of all deformers. Reference: the plain formulae, and the keys of scenes.
+// What LBS, DQS and both delta mushes promise beyond the contract of all deformers. Reference: the plain formulae, and
+// the keys of scenes.
 #include "experiments/deformers/registry.hpp"
 
 #include "experiments/deformers/deformer_options.hpp"
@@ -30,8 +31,9 @@ pbs::Positions posed(const DeformerSpec& spec, const pbs::Character& character)
     return deformer->positions();
 }
 
-// The roundings of LBS, ten, are amplified by the rotations of the mushes, whose own bounds are tested with them. A hundred roundings of
-// 1 m, 6e-6 m, are sufficient here; another formula in any part would differ by more, since the mesh of 2 m has edges of 0.1 m.
+// The roundings of LBS, ten, are amplified by the rotations of the mushes, whose own bounds are tested with them. A
+// hundred roundings of 1 m, 6e-6 m, are sufficient here; another formula in any part would differ by more, since the
+// mesh of 2 m has edges of 0.1 m.
 TEST(OwnPrecision, FloatsDifferByRounding)
 {
     for (const char* kind : blends) {
@@ -39,13 +41,15 @@ TEST(OwnPrecision, FloatsDifferByRounding)
         EXPECT_EQ(traits_of(f64).precision, "f64");
         DeformerSpec f32 = f64;
         if (auto* blend = std::any_cast<BlendOptions>(&f32.options)) blend->precision = pbs::Precision::f32;
-        if (auto* mush = std::any_cast<pbs::DeltaMushOptions>(&f32.options)) mush->precision = pbs::Precision::f32, mush->packed = true;
+        if (auto* mush = std::any_cast<pbs::DeltaMushOptions>(&f32.options))
+            mush->precision = pbs::Precision::f32, mush->packed = true;
         if (auto* direct = std::any_cast<pbs::DirectDeltaMushOptions>(&f32.options))
             direct->precision = pbs::Precision::f32, direct->packed = true;
         EXPECT_EQ(traits_of(f32).precision, "f32") << kind;
         const pbs::Positions in_float = posed(f32, thin_bar), in_double = posed(f64, thin_bar);
         EXPECT_NE(in_float, in_double) << kind;
-        EXPECT_LT((in_float - in_double).cwiseAbs().maxCoeff(), test_support::rounding_error_in<float>(100, 1.0)) << kind;
+        EXPECT_LT((in_float - in_double).cwiseAbs().maxCoeff(), test_support::rounding_error_in<float>(100, 1.0))
+            << kind;
     }
 }
 
@@ -59,7 +63,8 @@ TEST(OwnCode, ThePlainBlendDiffersFromThePackedOneByRounding)
         EXPECT_TRUE(traits_of(packed).packed) << kind;
         EXPECT_FALSE(traits_of(plain).packed) << kind;
         const pbs::Positions in_packed = posed(packed, thin_bar), in_plain = posed(plain, thin_bar);
-        EXPECT_LT((in_packed - in_plain).cwiseAbs().maxCoeff(), test_support::rounding_error_in<double>(100, 1.0)) << kind;
+        EXPECT_LT((in_packed - in_plain).cwiseAbs().maxCoeff(), test_support::rounding_error_in<double>(100, 1.0))
+            << kind;
         const auto blended = kind == std::string("lbs") ? pbs::linear_blend_skinning : pbs::dual_quaternion_skinning;
         pbs::Positions expected;
         blended(thin_bar.mesh.rest, thin_bar.weights, elbow, expected);

@@ -1,5 +1,6 @@
-// Every deformer keeps these promises. Reference: the contract of experiments/deformers/deformer.hpp, and of the keys that each kind
-// declares. A kind of the registry joins by itself; finite elements, which need a table in the scene, are in `every_deformer`.
+// Every deformer keeps these promises. Reference: the contract of experiments/deformers/deformer.hpp, and of the keys
+// that each kind declares. A kind of the registry joins by itself; finite elements, which need a table in the scene,
+// are in `every_deformer`.
 
 #include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
@@ -48,7 +49,8 @@ void play(Deformer& deformer, const std::vector<pbs::Pose>& poses)
     }
 }
 
-pbs::Positions after(const DeformerSpec& spec, const std::vector<pbs::Pose>& poses, const pbs::Character& character = limb_of_tets())
+pbs::Positions after(const DeformerSpec& spec, const std::vector<pbs::Pose>& poses,
+                     const pbs::Character& character = limb_of_tets())
 {
     const auto deformer = at_rest(spec, character);
     play(*deformer, poses);
@@ -115,7 +117,8 @@ protected:
     // What an iteration to an equilibrium leaves depends on where it begins.
     const double same_pose_m = is_fem() ? rounding_m : 0.0;
 };
-INSTANTIATE_TEST_SUITE_P(Kind, EveryDeformer, testing::ValuesIn(names_of_deformers()), [](const auto& one) { return one.param; });
+INSTANTIATE_TEST_SUITE_P(Kind, EveryDeformer, testing::ValuesIn(names_of_deformers()),
+                         [](const auto& one) { return one.param; });
 
 TEST_P(EveryDeformer, StaysAtRestInTheRestPoseAndStatesFactsOnlyIfItHasFiniteElements)
 {
@@ -137,8 +140,10 @@ TEST_P(EveryDeformer, FollowsARigidMotion)
     };
     pbs::Pose pose(limb_of_tets().skeleton.bones.size(), motion);
     EXPECT_LT(largest_distance(after(spec, {pose}), moved(rest)), rounding_m);
-    // A bent limb that moves as a whole has the shape of the bent limb. In float, XPBD magnifies roundings of positions by thousands.
-    if (traits_of(spec).precision == "f32") spec = scene_with(spec.kind, spec.kind + ".precision=f64").deformers.front();
+    // A bent limb that moves as a whole has the shape of the bent limb. In float, XPBD magnifies roundings of positions
+    // by thousands.
+    if (traits_of(spec).precision == "f32")
+        spec = scene_with(spec.kind, spec.kind + ".precision=f64").deformers.front();
     for (std::size_t bone = 0; bone < pose.size(); ++bone) pose[bone] = motion * swept().back()[bone];
     EXPECT_LT(largest_distance(after(spec, {pose}), moved(after(spec, {swept().back()}))), rounding_m);
 }
@@ -154,7 +159,8 @@ TEST_P(EveryDeformer, DoesNotDependOnTheDistanceFromTheOrigin)
         bone.tail += far_m.transpose();
     }
     moved.binding = pbs::bind_to_nearest_bone(moved.mesh.rest, moved.skeleton);
-    const pbs::Positions far = after(spec, pbs::joint_sweep(moved.skeleton, 1, pbs::Vec3::UnitZ(), 45.0, 4, 0.01).steps, moved);
+    const pbs::Positions far =
+        after(spec, pbs::joint_sweep(moved.skeleton, 1, pbs::Vec3::UnitZ(), 45.0, 4, 0.01).steps, moved);
     EXPECT_LT(largest_distance(far.rowwise() - far_m, after(spec, swept())), rounding_m + 100 * 0x1p-53 * far_m.norm());
 }
 
@@ -162,8 +168,9 @@ TEST_P(EveryDeformer, DoesNotDependOnTheDistanceFromTheOrigin)
 TEST_P(EveryDeformer, KeepsABodyOfOneTetAtRest)
 {
     for (const double height_m : {0.3, 2.0}) {
-        const pbs::TetMesh tet = {pbs::Positions{{-0.3, -0.2, -0.2}, {-0.3, 0.3, -0.2}, {-0.3, 0.0, 0.3}, {height_m - 0.3, 0.0, 0.0}},
-                                  pbs::Tets{{0, 1, 2, 3}}};
+        const pbs::TetMesh tet = {
+            pbs::Positions{{-0.3, -0.2, -0.2}, {-0.3, 0.3, -0.2}, {-0.3, 0.0, 0.3}, {height_m - 0.3, 0.0, 0.0}},
+            pbs::Tets{{0, 1, 2, 3}}};
         const pbs::Character character = test_support::character_of(test_support::two_bones_in(tet));
         const std::vector<pbs::Pose> still(3, pbs::Pose(2, Eigen::Isometry3d::Identity()));
         EXPECT_LT(largest_distance(after(spec, still, character), tet.rest), rounding_m) << height_m;
@@ -211,7 +218,8 @@ TEST_P(EveryDeformer, ReportsAPoseThatIsNotANumberAndIsSoundAfterAReset)
     EXPECT_EQ(deformer->positions(), after(spec, swept()));
 }
 
-// Zero in a record means that there was none, so every deformer of this program counts; those of the user have empty cells.
+// Zero in a record means that there was none, so every deformer of this program counts; those of the user have empty
+// cells.
 TEST_P(EveryDeformer, CountsItsWork)
 {
     EXPECT_NE(at_rest(spec)->advance(swept().back(), 0.01).work, pbs::WorkCounters{});
@@ -220,7 +228,8 @@ TEST_P(EveryDeformer, CountsItsWork)
 // Reference: the same deformer on a character that has these weights itself.
 TEST_P(EveryDeformer, WithOwnWeightsIsThatOfACharacterWithThem)
 {
-    const pbs::Character thin = test_support::bar_character({12, 3, 3});  // eight cells have the same weights by both rules
+    // eight cells have the same weights by both rules
+    const pbs::Character thin = test_support::bar_character({12, 3, 3});
     const pbs::Positions expected = after(spec, swept(), pbs::with_weights(pbs::WeightKind::smooth, thin));
     EXPECT_TRUE(!has_key("weights") || after(spec, swept(), thin) != expected);
     EXPECT_FALSE(to_json(spec).contains("weights"));
@@ -241,7 +250,8 @@ std::string other_value(const SceneKey& key)
     const double number = now.get<double>(), lowest = std::isfinite(key.range.lowest) ? key.range.lowest : 0.0;
     const double halfway = (number == lowest ? number + 1.0 : 0.5 * (number + lowest));
     const double other = halfway <= key.range.highest ? halfway : 0.5 * (key.range.highest + lowest);
-    return key.type == KeyType::integer ? std::to_string(static_cast<int>(std::floor(other))) : nlohmann::json(other).dump();
+    return key.type == KeyType::integer ? std::to_string(static_cast<int>(std::floor(other)))
+                                        : nlohmann::json(other).dump();
 }
 
 // The values that a scene's text has for it, and values out of range.
@@ -251,7 +261,8 @@ std::vector<std::string> refused_values(const SceneKey& key)
     std::vector<std::string> refused = {"\"a text\"", "[]"};
     if (key.type == KeyType::integer) refused.push_back("1.5");
     const auto& [lowest, highest] = key.range;
-    if (std::isfinite(lowest)) refused.push_back(lowest == above_zero ? "0" : std::to_string(static_cast<int>(lowest) - 1));
+    if (std::isfinite(lowest))
+        refused.push_back(lowest == above_zero ? "0" : std::to_string(static_cast<int>(lowest) - 1));
     if (std::isfinite(highest)) refused.push_back(nlohmann::json(highest * 1.5 + 1.0).dump());
     return refused;
 }
@@ -263,7 +274,8 @@ TEST_P(EveryDeformer, RecordsEachOfItsKeysAndRefusesValuesOutOfRange)
     for (const SceneKey& key : kind.keys) {
         if (key.in_list || key.table != kind.name) continue;  // tables within the table: scenes have them rarely
         for (const std::string& value : refused_values(key))
-            EXPECT_THROW(scene_with(kind.name, key.path() + "=" + value), pbs::InputError) << key.path() << " = " << value;
+            EXPECT_THROW(scene_with(kind.name, key.path() + "=" + value), pbs::InputError)
+                << key.path() << " = " << value;
         nlohmann::json by_default, changed;
         try {
             by_default = to_json(scene_with(kind.name, "deformers.use=[\"" + kind.name + "\"]").deformers.front());
@@ -322,7 +334,8 @@ TEST(WrappingDeformers, PassEachCallOn)
     std::vector<std::unique_ptr<Deformer>> wrapping;
     wrapping.push_back(std::make_unique<WrappingDeformer>(std::make_unique<Noting>(calls)));
     wrapping.push_back(following(std::make_unique<Noting>(calls)));
-    wrapping.push_back(make_deformer({.name = "noting", .kind = "noting", .label = "noting", .weights = pbs::WeightKind::smooth}));
+    wrapping.push_back(
+        make_deformer({.name = "noting", .kind = "noting", .label = "noting", .weights = pbs::WeightKind::smooth}));
     for (const auto& deformer : wrapping) {
         calls.clear();
         deformer->reset(limb_of_tets());
@@ -331,7 +344,8 @@ TEST(WrappingDeformers, PassEachCallOn)
         deformer->start_from(limb_of_tets().mesh.rest);
         deformer->advance(swept().back(), 0.01);
         deformer->continue_from(swept().back(), limb_of_tets().mesh.rest);
-        EXPECT_EQ(calls, (std::vector<std::string>{"reset", "give_up_when", "foresee", "start_from", "advance", "continue_from"}));
+        EXPECT_EQ(calls, (std::vector<std::string>{"reset", "give_up_when", "foresee", "start_from", "advance",
+                                                   "continue_from"}));
         EXPECT_FALSE(deformer->has_state());
         EXPECT_TRUE(deformer->has_memory());
         EXPECT_NE(deformer->facts(), nullptr);

@@ -1,4 +1,5 @@
-// The fitted file of correctives and the deformer that reads it. Reference: pbs::corrected_skinning, and the rules of the file's header.
+// The fitted file of correctives and the deformer that reads it. Reference: pbs::corrected_skinning, and the rules of
+// the file's header.
 #include "experiments/deformers/correctives.hpp"
 
 #include "experiments/deformers/registry.hpp"
@@ -36,7 +37,8 @@ const pbs::Correctives& learned()
         std::vector<pbs::CorrectiveSample> samples;
         for (const double angle_deg : {-80.0, -50.0, -20.0, 20.0, 50.0, 80.0}) {
             samples.push_back({bent_bar_pose(angle_deg), {}});
-            pbs::dual_quaternion_skinning(learned_bar().mesh.rest, learned_bar().weights, samples.back().pose, samples.back().shape);
+            pbs::dual_quaternion_skinning(learned_bar().mesh.rest, learned_bar().weights, samples.back().pose,
+                                          samples.back().shape);
         }
         return pbs::fit_correctives(learned_bar().skeleton, learned_bar().mesh.rest, learned_bar().weights, samples);
     }();
@@ -74,7 +76,8 @@ protected:
     {
         const std::string file = folder.file("fitted.toml", text);
         DeformerSpec spec = default_spec("correctives");
-        options_of<CorrectivesOptions>(spec) = {.file = file, .file_hash = pbs::hash_of_file(file), .precision = precision};
+        options_of<CorrectivesOptions>(spec) = {
+            .file = file, .file_hash = pbs::hash_of_file(file), .precision = precision};
         std::unique_ptr<Deformer> made = make_deformer(spec);
         made->reset(learned_bar());
         return made;
@@ -98,23 +101,25 @@ TEST_F(CorrectivesFile, ReadsWhatItHasWritten)
     EXPECT_EQ(read.vertices, learned().vertices);
 }
 
-// Float: a hundred roundings of a body of 2 m, as in the contract of all deformers. The correctives move it by centimetres. A coefficient
-// is 1 at most, and a mode of a file is in error by half a unit in each coordinate.
+// Float: a hundred roundings of a body of 2 m, as in the contract of all deformers. The correctives move it by
+// centimetres. A coefficient is 1 at most, and a mode of a file is in error by half a unit in each coordinate.
 TEST_F(CorrectivesFile, ItsDeformerMovesAsTheMethodDoes)
 {
     pbs::Positions lbs;
     pbs::linear_blend_skinning(learned_bar().mesh.rest, learned_bar().weights, bent_bar_pose(60.0), lbs);
     EXPECT_GT((expected_bar(60.0) - lbs).cwiseAbs().maxCoeff(), 0.01);
     const double of_modes_m = 0.5 * std::sqrt(3.0) * unit_m() * static_cast<double>(learned().modes());
-    for (const auto& [precision, tolerance_m] : {std::pair(pbs::Precision::f32, test_support::rounding_error_in<float>(100, 2.0)),
-                                                 std::pair(pbs::Precision::f64, test_support::rounding_error(100, 2.0))}) {
+    for (const auto& [precision, tolerance_m] :
+         {std::pair(pbs::Precision::f32, test_support::rounding_error_in<float>(100, 2.0)),
+          std::pair(pbs::Precision::f64, test_support::rounding_error(100, 2.0))}) {
         const auto own = deformer(precision);
         EXPECT_EQ(own->positions(), learned_bar().mesh.rest);
         for (const double angle_deg : {60.0, 0.0, -30.0, 60.0}) {
             const pbs::StepSummary step = own->advance(bent_bar_pose(angle_deg), 0.01);
             EXPECT_EQ(step.outcome, pbs::Outcome::finished);
             EXPECT_EQ(step.work, pbs::WorkCounters{.vertex_visits = learned_bar().mesh.rest.rows()});
-            EXPECT_LT((own->positions() - expected_bar(angle_deg)).cwiseAbs().maxCoeff(), tolerance_m + of_modes_m) << angle_deg;
+            EXPECT_LT((own->positions() - expected_bar(angle_deg)).cwiseAbs().maxCoeff(), tolerance_m + of_modes_m)
+                << angle_deg;
         }
         const pbs::Positions once = own->positions();
         own->reset(learned_bar());
@@ -128,9 +133,10 @@ TEST_F(CorrectivesFile, IsRefusedOnAnotherCharacter)
     pbs::Character finer = test_support::bar_character({10, 2, 2}), rigid = learned_bar(), longer = learned_bar();
     rigid.weights = pbs::rigid_weights(rigid.binding);
     longer.skeleton.bones[1].tail.x() += 1e-9;
-    for (const auto& [other, key] : {std::pair(finer, "tets_hash"), std::pair(rigid, "rig_hash"), std::pair(longer, "rig_hash")})
-        expect_input_error([&] { parse_correctives(text, "fitted.toml", other); }, "fitted.toml:" + std::to_string(key[0] == 't' ? 4 : 5),
-                           std::string(key) + " = ");
+    for (const auto& [other, key] :
+         {std::pair(finer, "tets_hash"), std::pair(rigid, "rig_hash"), std::pair(longer, "rig_hash")})
+        expect_input_error([&] { parse_correctives(text, "fitted.toml", other); },
+                           "fitted.toml:" + std::to_string(key[0] == 't' ? 4 : 5), std::string(key) + " = ");
     expect_input_error([&] { parse_correctives(text, "fitted.toml", finer); }, "fitted.toml:4",
                        "were fitted for bar; the tets of bar have");
 }
@@ -138,10 +144,12 @@ TEST_F(CorrectivesFile, IsRefusedOnAnotherCharacter)
 TEST_F(CorrectivesFile, ErrorsNameTheLineTheFieldAndTheRule)
 {
     const auto refused = [&](const std::string& changed, const std::string& line, const std::string& holds) {
-        expect_input_error([&] { parse_correctives(changed, "fitted.toml", learned_bar()); }, "fitted.toml:" + line, holds);
+        expect_input_error([&] { parse_correctives(changed, "fitted.toml", learned_bar()); }, "fitted.toml:" + line,
+                           holds);
     };
     const auto line_of = [](const std::string& changed, const std::string& place) {
-        return std::to_string(1 + std::count(changed.begin(), changed.begin() + static_cast<long>(changed.find(place)), '\n'));
+        return std::to_string(
+            1 + std::count(changed.begin(), changed.begin() + static_cast<long>(changed.find(place)), '\n'));
     };
     const auto refused_at = [&](const std::string& from, const std::string& to, const std::string& holds) {
         const std::string changed = replaced(text, from, to);
@@ -196,11 +204,13 @@ TEST_F(CorrectivesFile, ASceneNamesItRelativeToItself)
     EXPECT_EQ(options.file, folder / "fitted.toml");
     EXPECT_EQ(options.precision, pbs::Precision::f64);
     const nlohmann::json recorded = to_json(read.deformers.at(1)).at("options");
-    EXPECT_EQ(recorded, (nlohmann::json{{"file", "fitted.toml"}, {"file_hash", pbs::content_hash(text)}, {"precision", "f64"}}));
+    EXPECT_EQ(recorded,
+              (nlohmann::json{{"file", "fitted.toml"}, {"file_hash", pbs::content_hash(text)}, {"precision", "f64"}}));
     expect_input_error([&] { read_scene(folder.file("other.toml", scene + replaced(table, "fitted", "no_such")), {}); },
                        folder / "other.toml:12", "correctives.0.file = no_such.toml: no such file");
-    expect_input_error([&] { read_scene(folder.file("bare.toml", scene + replaced(table, "file = \"fitted.toml\"\n", "")), {}); },
-                       folder / "bare.toml", "correctives.0.file");
+    expect_input_error(
+        [&] { read_scene(folder.file("bare.toml", scene + replaced(table, "file = \"fitted.toml\"\n", "")), {}); },
+        folder / "bare.toml", "correctives.0.file");
 }
 
 }  // namespace

@@ -38,10 +38,12 @@ DeformerSpec with(const char* kind, void (*change)(Options& options))
 
 TEST(CountedWork, IsThatOfTheMethod)
 {
-    const std::int64_t vertices = bar().mesh.rest.rows(), tets = bar().mesh.tets.rows(), edges = pbs::edges_of(bar().mesh.tets).rows();
+    const std::int64_t vertices = bar().mesh.rest.rows(), tets = bar().mesh.tets.rows(),
+                       edges = pbs::edges_of(bar().mesh.tets).rows();
     const WorkCounters each_vertex_once{.vertex_visits = vertices};
     const auto projected = [&](std::int64_t times) {
-        return WorkCounters{.vertex_visits = vertices, .tet_visits = times * tets, .projections = times * (vertices + edges + tets)};
+        return WorkCounters{
+            .vertex_visits = vertices, .tet_visits = times * tets, .projections = times * (vertices + edges + tets)};
     };
     struct Row {
         std::string name;
@@ -55,16 +57,20 @@ TEST(CountedWork, IsThatOfTheMethod)
          with<pbs::DeltaMushOptions>("delta_mush", [](auto& options) { options.iterations = 5; }),
          {.vertex_visits = 7 * vertices}},
         {"direct delta mush has smoothed before the first pose",
-         with<pbs::DirectDeltaMushOptions>("direct_delta_mush", [](auto& options) { options.iterations = 5; }), each_vertex_once},
+         with<pbs::DirectDeltaMushOptions>("direct_delta_mush", [](auto& options) { options.iterations = 5; }),
+         each_vertex_once},
         {"pbs", with<pbs::PbsOptions>("pbs", [](auto& options) { options.iterations = 3; }), projected(3)},
-        {"pbs_author", with<pbs::AuthorOptions>("pbs_author", [](auto& options) { options.iterations = 3; }), projected(3)},
+        {"pbs_author", with<pbs::AuthorOptions>("pbs_author", [](auto& options) { options.iterations = 3; }),
+         projected(3)},
         // Its matrix and factor are kept from the first frame on: no frame visits a tet.
         {"linear fem",
-         with<FemOptions>("fem", [](auto& options) { options = {.model = reference_fem::Model::linear, .element_order = 1}; }),
+         with<FemOptions>("fem",
+                          [](auto& options) { options = {.model = reference_fem::Model::linear, .element_order = 1}; }),
          {.linear_solves = 1}}};
     for (const char* kind : {"xpbd", "xpbd_small_steps"})
         for (const pbs::Order order : {pbs::Order::plain, pbs::Order::ordered, pbs::Order::grouped}) {
-            DeformerSpec spec = with<pbs::XpbdOptions>(kind, [](auto& options) { options.iterations = 3, options.substeps = 2; });
+            DeformerSpec spec =
+                with<pbs::XpbdOptions>(kind, [](auto& options) { options.iterations = 3, options.substeps = 2; });
             options_of<pbs::XpbdOptions>(spec).order = order;
             rows.push_back({kind, spec, projected(6)});
         }
@@ -81,7 +87,8 @@ TEST(CountedWork, PbsAuthorDoesNothingWhenTheCharacterStops)
     EXPECT_EQ(deformer->advance(pose, 0.01).work, WorkCounters{});
 }
 
-// One solve per iteration; a gradient, in which each tet is visited, at the beginning and for each trial of the line search.
+// One solve per iteration; a gradient, in which each tet is visited, at the beginning and for each trial of the line
+// search.
 TEST(CountedWork, QuasiNewtonEvaluatesAndSolves)
 {
     const pbs::StepSummary step = bent(default_spec("quasi_newton"));
@@ -93,7 +100,8 @@ TEST(CountedWork, QuasiNewtonEvaluatesAndSolves)
     EXPECT_EQ(step.work.projections + step.work.factorisations, 0);
 }
 
-// Each state on the way has a gradient; each of Newton's steps has one solve or more, and none has more than two factorisations.
+// Each state on the way has a gradient; each of Newton's steps has one solve or more, and none has more than two
+// factorisations.
 TEST(CountedWork, NewtonsStepsAreCountedWithTheirSolves)
 {
     DeformerSpec spec = default_spec("fem");

@@ -1,5 +1,5 @@
-// The deformers that minimise the energy of elastic flesh. Reference: the definitions in pbs/geometry/cost.hpp, counted by hand on
-// a bar, the contract of experiments/deformers/deformer.hpp, and the plain code.
+// The deformers that minimise the energy of elastic flesh. Reference: the definitions in pbs/geometry/cost.hpp, counted
+// by hand on a bar, the contract of experiments/deformers/deformer.hpp, and the plain code.
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
@@ -44,7 +44,9 @@ pbs::Positions turned(const std::string& kind, const std::vector<std::string>& k
 }
 
 class Flesh : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Method, Flesh, testing::Values("quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean", "projective_dynamics"));
+INSTANTIATE_TEST_SUITE_P(Method, Flesh,
+                         testing::Values("quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean",
+                                         "projective_dynamics"));
 
 TEST_P(Flesh, BeginsAtTheShapeThatItIsGiven)
 {
@@ -62,7 +64,8 @@ TEST(StartShape, OfPbsAndXpbdCanBeThatOfTheMinimisers)
 {
     const pbs::Positions guess = turned("quasi_newton", {"iterations=0", "packed=false"});
     const auto started = [](const std::string& kind, const std::string& start) {
-        std::vector<std::string> lines{"deformers.use=[\"" + kind + "\"]", "reference.name=\"\"", "pbs.iterations=0", "pbs.precision=f64"};
+        std::vector<std::string> lines{"deformers.use=[\"" + kind + "\"]", "reference.name=\"\"", "pbs.iterations=0",
+                                       "pbs.precision=f64"};
         if (!start.empty()) lines.push_back(start);
         const auto deformer = make_deformer(spec_of(read_scene("limb_bend", lines), kind));
         deformer->reset(straight_bar());
@@ -78,13 +81,14 @@ TEST(StartShape, OfPbsAndXpbdCanBeThatOfTheMinimisers)
 TEST_P(Flesh, ReportsPositionsThatAreNotFinite)
 {
     const auto deformer = flesh(GetParam(), {});
-    deformer->start_from(pbs::Positions::Constant(straight_bar().mesh.rest.rows(), 3, std::numeric_limits<double>::quiet_NaN()));
+    deformer->start_from(
+        pbs::Positions::Constant(straight_bar().mesh.rest.rows(), 3, std::numeric_limits<double>::quiet_NaN()));
     EXPECT_EQ(deformer->advance(turned_by(30.0), 0.01).outcome, pbs::Outcome::not_finite);
 }
 
-// In float the minimum is that of energies with coefficients that are rounded to 2^-24, and the condition of the Hessian is below 1e3. In
-// XPBD the rounding of the positions acts as a force on the masses, which a time step of 0.8 and the softest motion of the bar magnify by
-// some thousands.
+// In float the minimum is that of energies with coefficients that are rounded to 2^-24, and the condition of the
+// Hessian is below 1e3. In XPBD the rounding of the positions acts as a force on the masses, which a time step of 0.8
+// and the softest motion of the bar magnify by some thousands.
 struct Minimum {
     const char* kind;
     std::vector<std::string> keys;
@@ -97,12 +101,15 @@ TEST(FleshMinimum, IsTheSameForEveryCodeStartAndAcceleration)
     for (const char* kind : {"vbd", "xpbd_neo_hookean"}) {
         const pbs::Positions expected = turned(kind, {many, "packed=false"});
         const double size = (expected - straight_bar().mesh.rest).norm();
-        const auto share = [&](const std::vector<std::string>& keys) { return (turned(kind, keys) - expected).norm() / size; };
-        for (const Minimum& one : std::vector<Minimum>{{kind, {many, "precision=f64"}, 1e-9},
-                                                       {kind, {many, "precision=f64", "start=\"lbs\""}, 1e-9},
-                                                       {"vbd", {"iterations=400", "precision=f32"}, 1e-4},
-                                                       {"vbd", {"iterations=2000", "acceleration=\"chebyshev\"", "precision=f64"}, 1e-9},
-                                                       {"xpbd_neo_hookean", {"iterations=100", "precision=f32"}, 3e-3}})
+        const auto share = [&](const std::vector<std::string>& keys) {
+            return (turned(kind, keys) - expected).norm() / size;
+        };
+        for (const Minimum& one :
+             std::vector<Minimum>{{kind, {many, "precision=f64"}, 1e-9},
+                                  {kind, {many, "precision=f64", "start=\"lbs\""}, 1e-9},
+                                  {"vbd", {"iterations=400", "precision=f32"}, 1e-4},
+                                  {"vbd", {"iterations=2000", "acceleration=\"chebyshev\"", "precision=f64"}, 1e-9},
+                                  {"xpbd_neo_hookean", {"iterations=100", "precision=f32"}, 3e-3}})
             if (one.kind == std::string(kind)) {
                 EXPECT_LT(share(one.keys), one.share) << kind << " " << one.keys.back();
             }
@@ -113,7 +120,8 @@ TEST(FleshMinimum, IsTheSameForEveryCodeStartAndAcceleration)
 // An iteration rounds positions to 2^-24 of a body of 2 m, and the next ones damp what it adds.
 TEST(ProjectiveDynamics, EveryCodeHasTheSameIterates)
 {
-    const auto distance = [plain = turned("projective_dynamics", {"packed=false"})](const std::vector<std::string>& keys) {
+    const auto distance = [plain =
+                               turned("projective_dynamics", {"packed=false"})](const std::vector<std::string>& keys) {
         return (turned("projective_dynamics", keys) - plain).cwiseAbs().maxCoeff();
     };
     EXPECT_LT(distance({"precision=f64"}), 1e-11);
@@ -130,8 +138,9 @@ TEST(ProjectiveDynamics, ReportsThatItsStepIsStillLarge)
     EXPECT_EQ(outcome("iterations=1000"), pbs::Outcome::finished);
 }
 
-// VBD: a blend visits each vertex once; a sweep each vertex once, and each tet once for each of its vertices. XPBD: each iteration visits
-// each tet once, and projects its two constraints and the three components of each of the bones' constraints.
+// VBD: a blend visits each vertex once; a sweep each vertex once, and each tet once for each of its vertices. XPBD:
+// each iteration visits each tet once, and projects its two constraints and the three components of each of the bones'
+// constraints.
 TEST(FleshWork, IsThatOfThreeIterations)
 {
     const std::int64_t vertices = straight_bar().mesh.rest.rows(), tets = straight_bar().mesh.tets.rows();
@@ -143,24 +152,28 @@ TEST(FleshWork, IsThatOfThreeIterations)
     EXPECT_EQ(work("vbd"), (WorkCounters{.vertex_visits = 4 * vertices, .tet_visits = 12 * tets}));
     EXPECT_EQ(work("projective_dynamics"),
               (WorkCounters{.gradients = 3, .vertex_visits = vertices, .tet_visits = 3 * tets, .linear_solves = 3}));
-    const auto of_bones = flesh("xpbd_neo_hookean", {})->record().at("linear_constraints_of_the_bones").get<std::int64_t>();
+    const auto of_bones =
+        flesh("xpbd_neo_hookean", {})->record().at("linear_constraints_of_the_bones").get<std::int64_t>();
     EXPECT_GT(of_bones, 0);
-    EXPECT_EQ(work("xpbd_neo_hookean"),
-              (WorkCounters{.vertex_visits = vertices, .tet_visits = 3 * tets, .projections = 3 * (2 * tets + of_bones)}));
+    EXPECT_EQ(
+        work("xpbd_neo_hookean"),
+        (WorkCounters{.vertex_visits = vertices, .tet_visits = 3 * tets, .projections = 3 * (2 * tets + of_bones)}));
 }
 
 // The keys of an earlier release are still read, as the ones that replace them.
 TEST(FleshKeys, ThatAreRenamedAreStillRead)
 {
     const auto traits = [](const std::string& key) {
-        return traits_of(spec_of(read_scene("limb_bend", {"deformers.use=[\"vbd\"]", "reference.name=\"\"", key}), "vbd"));
+        return traits_of(
+            spec_of(read_scene("limb_bend", {"deformers.use=[\"vbd\"]", "reference.name=\"\"", key}), "vbd"));
     };
     EXPECT_EQ(traits("vbd.arithmetic=packed_f64").precision, "f64");
     EXPECT_TRUE(traits("vbd.arithmetic=packed_f64").packed);
     EXPECT_FALSE(traits("vbd.arithmetic=\"plain_f64\"").packed);
     EXPECT_EQ(traits("vbd.packed=false").precision, "f64") << "plain code exists in f64 alone";
     EXPECT_THROW(traits("vbd.arithmetic=f16"), pbs::InputError);
-    EXPECT_THROW(read_scene("limb_bend", {"vbd.precision=f32", "vbd.packed=false", "deformers.use=[\"vbd\"]", "reference.name=\"\""}),
+    EXPECT_THROW(read_scene("limb_bend", {"vbd.precision=f32", "vbd.packed=false", "deformers.use=[\"vbd\"]",
+                                          "reference.name=\"\""}),
                  pbs::InputError);
 }
 

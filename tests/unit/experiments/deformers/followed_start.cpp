@@ -1,6 +1,7 @@
-// Deformers that follow a motion whose first pose is far from rest. Theory: a bar whose half turns about its own axis has room for all of
-// its tets, and on the way from rest none needs to be inverted; LBS at 165 degrees draws the joint into a thread and inverts tets.
-// A rig on which PBS stays caught if it begins there is in tests/robustness/experiments/moving_characters.py.
+// Deformers that follow a motion whose first pose is far from rest. Theory: a bar whose half turns about its own axis
+// has room for all of its tets, and on the way from rest none needs to be inverted; LBS at 165 degrees draws the joint
+// into a thread and inverts tets. A rig on which PBS stays caught if it begins there is in
+// tests/robustness/experiments/moving_characters.py.
 #include "experiments/deformers/registry.hpp"
 #include "tests/support/bar_character.hpp"
 
@@ -25,7 +26,8 @@ pbs::Pose twisted(const pbs::Character& bar, double degrees)
 }
 
 // The positions of the last of these frames.
-pbs::Positions played(const std::string& kind, const pbs::Character& bar, const std::vector<double>& frames_deg, bool foreseen)
+pbs::Positions played(const std::string& kind, const pbs::Character& bar, const std::vector<double>& frames_deg,
+                      bool foreseen)
 {
     std::vector<pbs::Pose> poses;
     for (const double degrees : frames_deg) poses.push_back(twisted(bar, degrees));
@@ -43,8 +45,8 @@ Eigen::Index inverted(const pbs::Character& bar, const pbs::Positions& positions
 
 class FollowedStart : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Method, FollowedStart,
-                         testing::Values("pbs", "xpbd", "xpbd_small_steps", "quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean",
-                                         "projective_dynamics"));
+                         testing::Values("pbs", "xpbd", "xpbd_small_steps", "quasi_newton", "vbd", "warped_newton",
+                                         "xpbd_neo_hookean", "projective_dynamics"));
 
 TEST_P(FollowedStart, FarFramesAreReachedWithoutInvertedTets)
 {
@@ -59,7 +61,8 @@ TEST(FollowedStartOfPbs, GoesInStepsWhereTheFirstFrameKeepsTetsInsideOut)
 {
     pbs::Character bar = rigged_bar();
     bar.weights = pbs::rigid_weights(bar.binding);
-    const std::vector<pbs::Pose> bent = {pbs::joint_sweep(bar.skeleton, 1, pbs::Vec3::UnitZ(), 88.0, 2, 0.01).steps.back()};
+    const std::vector<pbs::Pose> bent = {
+        pbs::joint_sweep(bar.skeleton, 1, pbs::Vec3::UnitZ(), 88.0, 2, 0.01).steps.back()};
     for (const bool is_foreseen : {false, true}) {
         const auto deformer = make_deformer(default_spec("pbs"));
         deformer->reset(bar);

@@ -1,5 +1,5 @@
-// A deformer added by another program: its own options and keys, in a scene, a frame and the records, without a change elsewhere.
-// Reference: the specification in experiments/deformers/deformer_kind.hpp.
+// A deformer added by another program: its own options and keys, in a scene, a frame and the records, without a change
+// elsewhere. Reference: the specification in experiments/deformers/deformer_kind.hpp.
 
 #include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/deformers/registry.hpp"
@@ -57,14 +57,16 @@ namespace {
 void register_lift()
 {
     if (find_deformer_kind("lift")) return;
-    DeformerKind kind =
-        kind_of<Lift>("lift", "the rest shape, lifted",
-                      OptionFields<LiftOptions>("lift")
-                          .add("height_m", &LiftOptions::height_m, {.unit = "m", .range = {0, 10}, .meaning = "by how much"})
-                          .add("steps", &LiftOptions::steps, {.range = {1}, .meaning = "how often"})
-                          .add("direction", &LiftOptions::direction, {.meaning = "up or down"})
-                          .record("seen", &LiftOptions::seen));
-    kind.traits = [](const DeformerSpec& spec) { return DeformerTraits{.iterations = options_of<LiftOptions>(spec).steps}; };
+    DeformerKind kind = kind_of<Lift>(
+        "lift", "the rest shape, lifted",
+        OptionFields<LiftOptions>("lift")
+            .add("height_m", &LiftOptions::height_m, {.unit = "m", .range = {0, 10}, .meaning = "by how much"})
+            .add("steps", &LiftOptions::steps, {.range = {1}, .meaning = "how often"})
+            .add("direction", &LiftOptions::direction, {.meaning = "up or down"})
+            .record("seen", &LiftOptions::seen));
+    kind.traits = [](const DeformerSpec& spec) {
+        return DeformerTraits{.iterations = options_of<LiftOptions>(spec).steps};
+    };
     add_deformer_kind(kind);
 }
 

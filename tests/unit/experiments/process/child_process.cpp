@@ -26,7 +26,8 @@ TEST(OwnProcess, TellsItsResultHoweverLongAndLeavesNothingBehind)
 {
     EXPECT_EQ(in_own_process([] { return nlohmann::json{{"frames", 3}}; }).at("frames"), 3);
     const std::string more_than_a_pipe_holds(300'000, 'x');
-    EXPECT_EQ(in_own_process([&] { return nlohmann::json(more_than_a_pipe_holds); }).get<std::string>(), more_than_a_pipe_holds);
+    EXPECT_EQ(in_own_process([&] { return nlohmann::json(more_than_a_pipe_holds); }).get<std::string>(),
+              more_than_a_pipe_holds);
     int mine = 1;
     in_own_process([&] { return nlohmann::json(++mine); });
     EXPECT_EQ(mine, 1);
@@ -45,7 +46,8 @@ std::string words_of(const std::function<nlohmann::json()>& work)
 
 TEST(OwnProcess, AFailureOrADeathIsToldWithItsWordsAndItsKind)
 {
-    EXPECT_EQ(words_of<pbs::InputError>([]() -> nlohmann::json { throw pbs::InputError("a.bvh", 0, "", "", "no such clip"); }),
+    EXPECT_EQ(words_of<pbs::InputError>(
+                  []() -> nlohmann::json { throw pbs::InputError("a.bvh", 0, "", "", "no such clip"); }),
               "a.bvh: no such clip");
     const auto internal = []() -> nlohmann::json { throw std::out_of_range("no such row"); };
     EXPECT_EQ(words_of<std::runtime_error>(internal), "no such row");
@@ -53,13 +55,15 @@ TEST(OwnProcess, AFailureOrADeathIsToldWithItsWordsAndItsKind)
     EXPECT_THROW(in_own_process([]() -> nlohmann::json { throw std::string("not an exception"); }), std::runtime_error);
     // Words that are not UTF-8 arrive.
     EXPECT_EQ(in_own_process([] { return nlohmann::json("li\xffmb"); }), "li\xef\xbf\xbdmb");
-    EXPECT_EQ(words_of<pbs::InputError>([]() -> nlohmann::json { throw pbs::InputError("li\xffmb", 0, "", "", "cannot be read"); }),
+    EXPECT_EQ(words_of<pbs::InputError>(
+                  []() -> nlohmann::json { throw pbs::InputError("li\xffmb", 0, "", "", "cannot be read"); }),
               "li\\xffmb: cannot be read");
     EXPECT_EQ(words_of<pbs::InputError>([] { return nlohmann::json(std::raise(SIGKILL)); }),
               "process = signal 9: expected to end by itself");
 }
 
-// Whether a program can be started is known before it is. Reference: execvp of POSIX, which seeks names without a slash on the PATH.
+// Whether a program can be started is known before it is. Reference: execvp of POSIX, which seeks names without a slash
+// on the PATH.
 
 TEST(ProgramRun, KnowsWhetherAProgramCanBeStarted)
 {
@@ -138,9 +142,10 @@ TEST(WorkerPool, EachEndIsReported)
          "internal error: the mesh is empty; please report it with the command line"},
         {"no exception", []() -> std::string { throw std::string("Unknown mesh format"); }, false, false, "",
          "internal error: an exception without a message; please report it with the command line"},
-        {"refused", []() -> std::string { throw pbs::InputError("metrics.csv", 0, "", "", "no space"); }, false, true, "",
-         "metrics.csv: no space"},
-        {"killed", []() -> std::string { return std::raise(SIGKILL) == 0 ? "" : "not raised"; }, false, false, "", "ended by signal 9"},
+        {"refused", []() -> std::string { throw pbs::InputError("metrics.csv", 0, "", "", "no space"); }, false, true,
+         "", "metrics.csv: no space"},
+        {"killed", []() -> std::string { return std::raise(SIGKILL) == 0 ? "" : "not raised"; }, false, false, "",
+         "ended by signal 9"},
     };
     std::vector<PooledWork> work;
     for (const auto& end : ends) work.push_back({end.name, 1.0, end.action});
@@ -158,13 +163,15 @@ TEST(WorkerPool, EachEndIsReported)
 TEST(WorkerPool, WordsOfAnyLengthArriveAndNoneOfNoWork)
 {
     const std::string words(300'000, 'x');
-    const auto results = run_in_pool({{"one", 1.0, [&] { return words; }}, {"other", 1.0, [&] { return words + "y"; }}}, 2);
+    const auto results =
+        run_in_pool({{"one", 1.0, [&] { return words; }}, {"other", 1.0, [&] { return words + "y"; }}}, 2);
     EXPECT_EQ(results[0].breakdown, words);
     EXPECT_EQ(results[1].breakdown, words + "y");
     EXPECT_TRUE(run_in_pool({}, 4).empty()) << "no work is no result";
 }
 
-// The process that owns the pool is killed. Its worker, which reports its number and would sleep for a minute, ends too.
+// The process that owns the pool is killed. Its worker, which reports its number and would sleep for a minute, ends
+// too.
 TEST(WorkerPool, WorkersEndWithTheirParent)
 {
     int ends[2];
@@ -174,7 +181,8 @@ TEST(WorkerPool, WorkersEndWithTheirParent)
         run_in_pool({{"sleeper", 1.0,
                       [&] {
                           const pid_t self = getpid();
-                          return write(ends[1], &self, sizeof self) == sizeof self && sleep(60) == 0 ? "" : "not asleep";
+                          return write(ends[1], &self, sizeof self) == sizeof self && sleep(60) == 0 ? ""
+                                                                                                     : "not asleep";
                       }}},
                     1);
         _exit(0);
@@ -185,7 +193,8 @@ TEST(WorkerPool, WorkersEndWithTheirParent)
     waitpid(owner, nullptr, 0);
     close(ends[1]);
     pollfd end{ends[0], POLLIN, 0};
-    EXPECT_EQ(poll(&end, 1, 10'000), 1) << "the worker goes on";  // the pipe ends with the last process that could write
+    // the pipe ends with the last process that could write
+    EXPECT_EQ(poll(&end, 1, 10'000), 1) << "the worker goes on";
     if (!end.revents) kill(worker, SIGKILL);
     close(ends[0]);
 }

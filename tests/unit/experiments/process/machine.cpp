@@ -1,5 +1,5 @@
-// Reference: which instructions each processor has, by its data sheet, and which kernels OpenBLAS 0.3.21 selects for its family and model;
-// the library's own report of the kernels it uses.
+// Reference: which instructions each processor has, by its data sheet, and which kernels OpenBLAS 0.3.21 selects for
+// its family and model; the library's own report of the kernels it uses.
 
 #include "experiments/process/machine.hpp"
 
@@ -45,15 +45,16 @@ TEST(BetterCoreType, IsThatOfTheInstructionsThatAreLeftUnused)
           Case{"Sapphire Rapids, family 6, model 143", "Cooperlake", intel_avx512, ""},
           Case{"Skylake, family 6, model 85", "SkylakeX", intel_avx512, ""},
           Case{"Broadwell, family 6, model 79", "Haswell", intel_avx2, ""},
-          Case{"Sandy Bridge, family 6, model 42", "Sandybridge", sse, ""}, Case{"Nehalem, family 6, model 26", "Nehalem", sse, ""},
+          Case{"Sandy Bridge, family 6, model 42", "Sandybridge", sse, ""},
+          Case{"Nehalem, family 6, model 26", "Nehalem", sse, ""},
           Case{"Prescott, family 15, model 3", "Prescott", sse, ""}, Case{"Zen 2, family 17h", "Zen", zen, ""},
           Case{"Zen 4, family 19h: OpenBLAS 0.3.21 selects Zen", "Zen", zen_4, ""},
           Case{"a core type of a later OpenBLAS", "GraniteRapids", intel_avx512, ""}})
         EXPECT_EQ(better_core_type(c.selected, c.has), c.better) << c.processor;
 }
 
-// A process loads OpenBLAS once and selects its kernels once, so each test starts this program anew for itself alone: whatever ran before,
-// BLAS is not loaded there yet.
+// A process loads OpenBLAS once and selects its kernels once, so each test starts this program anew for itself alone:
+// whatever ran before, BLAS is not loaded there yet.
 class SelectBlasKernels : public testing::Test {
 protected:
     // True in the process that runs the test's body; elsewhere false, after that process has run.
@@ -124,12 +125,12 @@ TEST_F(SelectBlasKernels, OnThisProcessorNoInstructionIsLeftUnused)
 }
 
 #ifdef __x86_64__
-// Simulates another processor model for this process. The instruction CPUID is made to fault (Linux, arch_prctl(2), ARCH_SET_CPUID), and a
-// handler answers in its place with the family and model changed and everything else unchanged.
+// Simulates another processor model for this process. The instruction CPUID is made to fault (Linux, arch_prctl(2),
+// ARCH_SET_CPUID), and a handler answers in its place with the family and model changed and everything else unchanged.
 class OtherProcessor {
 public:
-    // family and model as in /proc/cpuinfo, both below 256. There may be one object at a time; it acts on the thread that makes it and on
-    // threads which that thread starts.
+    // family and model as in /proc/cpuinfo, both below 256. There may be one object at a time; it acts on the thread
+    // that makes it and on threads which that thread starts.
     OtherProcessor(unsigned family, unsigned model)
     {
         const unsigned base_family = family < 15 ? family : 15;
@@ -159,7 +160,8 @@ private:
     {
         greg_t* registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
         const auto* instruction = reinterpret_cast<const unsigned char*>(registers[REG_RIP]);
-        if (instruction[0] != 0x0f || instruction[1] != 0xa2) {  // a fault of another kind, which occurs again without this handler
+        // a fault of another kind, which occurs again without this handler
+        if (instruction[0] != 0x0f || instruction[1] != 0xa2) {
             signal(SIGSEGV, SIG_DFL);
             return;
         }
@@ -193,7 +195,8 @@ TEST_F(SelectBlasKernels, OnAModelThatOpenBlasDoesNotKnowTheInstructionsDecide)
     auto blas = loaded_blas();
     if (blas.empty()) GTEST_SKIP() << "libblas.so.3 is not OpenBLAS";
     EXPECT_EQ(better_core_type(blas["core_type"], this_processor()), "");
-    if (blas["core_type_selected_by"] != "OpenBLAS") {  // which goes by the instructions itself since, for instance, 0.3.29
+    // which goes by the instructions itself since, for instance, 0.3.29
+    if (blas["core_type_selected_by"] != "OpenBLAS") {
         EXPECT_EQ(blas["core_type"], expected);
         EXPECT_EQ(blas["core_type_selected_by"], "pbskin");
     }
@@ -215,8 +218,10 @@ TEST_F(SelectBlasKernels, AnOpenBlasThatIsLoadedAlreadyIsLeftAsItIs)
 // Processors kept busy, from texts of /proc/stat. Reference: the columns of proc(5), added by hand.
 
 // user nice system idle iowait irq softirq steal guest guest_nice
-const std::string before_it = "cpu  100 10 20 1000 5 1 2 3 50 0\ncpu0 50 5 10 500 2 0 1 1 25 0\ncpu1 50 5 10 500 3 1 1 2 25 0\nctxt 7\n";
-const std::string after_it = "cpu  130 15 25 1050 11 2 3 7 60 0\ncpu0 65 8 12 525 5 1 2 3 30 0\ncpu1 65 7 13 525 6 1 1 4 30 0\nctxt 9\n";
+const std::string before_it =
+    "cpu  100 10 20 1000 5 1 2 3 50 0\ncpu0 50 5 10 500 2 0 1 1 25 0\ncpu1 50 5 10 500 3 1 1 2 25 0\nctxt 7\n";
+const std::string after_it =
+    "cpu  130 15 25 1050 11 2 3 7 60 0\ncpu0 65 8 12 525 5 1 2 3 30 0\ncpu1 65 7 13 525 6 1 1 4 30 0\nctxt 9\n";
 
 TEST(OtherWork, IsTheBusyShareOfAllProcessorsAndOldKernelsReportFourColumns)
 {

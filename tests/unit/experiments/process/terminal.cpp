@@ -1,5 +1,6 @@
-// Failures, interruption, colours and width. References: the contract of exit statuses (experiments/command_line/README.md), and the
-// conventions of no-color.org and CLICOLOR_FORCE; a test's standard output is not a terminal.
+// Failures, interruption, colours and width. References: the contract of exit statuses
+// (experiments/command_line/README.md), and the conventions of no-color.org and CLICOLOR_FORCE; a test's standard
+// output is not a terminal.
 
 #include "analysis/records/record_files.hpp"
 #include "experiments/process/child_process.hpp"
@@ -41,23 +42,29 @@ Failure failure_of(const Exception& exception)
     }
 }
 
-// Bad input keeps its words, a place on disk is named with the system's reason, and what nobody has foreseen is no bad input.
+// Bad input keeps its words, a place on disk is named with the system's reason, and what nobody has foreseen is no bad
+// input.
 TEST(Failure, HasTheWordsAndTheStatusOfItsKind)
 {
-    const auto report = [](const std::string& words) { return "internal error: " + words + "; please report it with the command line"; };
-    const std::filesystem::filesystem_error disk("cannot remove", "out/run.json", std::make_error_code(std::errc::read_only_file_system));
+    const auto report = [](const std::string& words) {
+        return "internal error: " + words + "; please report it with the command line";
+    };
+    const std::filesystem::filesystem_error disk("cannot remove", "out/run.json",
+                                                 std::make_error_code(std::errc::read_only_file_system));
     const struct {
         Failure failure;
         std::string message;
         ExitStatus status;
-    } rows[] = {{failure_of(pbs::InputError("limb.toml", 12, "pbs.k_volume", "1.4", "expected 0 <= k <= 1")),
-                 "limb.toml:12: pbs.k_volume = 1.4: expected 0 <= k <= 1", exit_input},
-                {failure_of(disk), "out/run.json: Read-only file system", exit_input},
-                {failure_of(std::bad_alloc()), "not enough memory for this task", exit_input},
-                {failure_of(Interrupted{}), "interrupted; what was finished is kept", exit_interrupted},
-                {failure_of(std::out_of_range("basic_string::substr")), report("basic_string::substr"), exit_internal},
-                {failure_of(std::runtime_error("\n----\nAn error\n\n  occurred")), report("---- An error occurred"), exit_internal},
-                {failure_of(std::string("basic_string::substr")), report("an exception without a message"), exit_internal}};
+    } rows[] = {
+        {failure_of(pbs::InputError("limb.toml", 12, "pbs.k_volume", "1.4", "expected 0 <= k <= 1")),
+         "limb.toml:12: pbs.k_volume = 1.4: expected 0 <= k <= 1", exit_input},
+        {failure_of(disk), "out/run.json: Read-only file system", exit_input},
+        {failure_of(std::bad_alloc()), "not enough memory for this task", exit_input},
+        {failure_of(Interrupted{}), "interrupted; what was finished is kept", exit_interrupted},
+        {failure_of(std::out_of_range("basic_string::substr")), report("basic_string::substr"), exit_internal},
+        {failure_of(std::runtime_error("\n----\nAn error\n\n  occurred")), report("---- An error occurred"),
+         exit_internal},
+        {failure_of(std::string("basic_string::substr")), report("an exception without a message"), exit_internal}};
     for (const auto& [failure, message, status] : rows) {
         EXPECT_EQ(failure.message(), message);
         EXPECT_EQ(failure.status, status) << message;
@@ -90,7 +97,8 @@ TEST(Interruption, EndsTheProgramAtOnceAndRemovesItsUnfinishedFiles)
     const test_support::ScratchFolder folder;
     for (const int signal : {SIGINT, SIGTERM}) {
         const auto [status, seconds] = end_of([&] {
-            pbs::AtomicFile first(folder / "first.csv"), second(folder / "second.csv"), finished(folder / "finished.csv");
+            pbs::AtomicFile first(folder / "first.csv"), second(folder / "second.csv"),
+                finished(folder / "finished.csv");
             finished.finish();
             const pbs::Stage outer("a model"), inner("a library that never ends");
             std::raise(signal);
@@ -145,7 +153,8 @@ TEST(Interruption, OfASecondSignalEndsTheProgramAndNoWorkerThatNotesIt)
               exit_bound);
 }
 
-// A worker's temporary files go with it, also where its parent is killed. The pipe ends with the last process that could write.
+// A worker's temporary files go with it, also where its parent is killed. The pipe ends with the last process that
+// could write.
 TEST(Interruption, EndsTheChildrenOfTheProgramWhichRemoveTheirFiles)
 {
     const test_support::ScratchFolder folder;
@@ -173,7 +182,8 @@ TEST(Interruption, EndsTheChildrenOfTheProgramWhichRemoveTheirFiles)
         kill(program, signal);
         int status = 0;
         waitpid(program, &status, 0);
-        EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status), signal == SIGKILL ? SIGKILL : exit_interrupted);
+        EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status),
+                  signal == SIGKILL ? SIGKILL : exit_interrupted);
         const pbs::Stopwatch stopwatch;
         while (!analysis::files_in(folder.path()).empty() && stopwatch.seconds() < 10.0) usleep(1'000);
         EXPECT_TRUE(analysis::files_in(folder.path()).empty()) << "signal " << signal;
@@ -246,7 +256,8 @@ TEST(CollectedWarnings, OfAllProcessesAreInTheFileOnceWithTheirCounts)
     run_in_pool({{"one", 1.0, warn_again}, {"other", 1.0, warn_again}}, 2);
     warnings.add("limb: 3 frames");
     EXPECT_EQ(warnings.summary(), "Warnings: 3, in " + file + "\n");
-    EXPECT_EQ(analysis::read_text(file), "limb: 3 frames\npbskin: warning: a.toml: one (3 times)\npbskin: warning: b.toml: two lines\n");
+    EXPECT_EQ(analysis::read_text(file),
+              "limb: 3 frames\npbskin: warning: a.toml: one (3 times)\npbskin: warning: b.toml: two lines\n");
 }
 
 TEST(CollectedWarnings, HaveNoFileWithoutWarningsAndAreSummedUpWhereTheWorkEndsEarly)

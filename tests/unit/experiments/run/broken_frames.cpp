@@ -26,36 +26,43 @@ TEST(BrokenFrame, NamesTheFirstVertexThatIsNotFiniteOrElseTheWorstTet)
         int step;
         std::string text;
         nlohmann::json record;
-    } rows[] = {{5,
-                 pbs::Outcome::not_finite,
-                 two_not_finite,
-                 {std::nan("")},
-                 -1,
-                 "not finite in frame 5: first at vertex 2, 2 not finite",
-                 {{"frame", 5}, {"what", "not_finite"}, {"first_vertex", 2}, {"vertices_not_finite", 2}}},
-                {7,
-                 pbs::Outcome::finished,
-                 finite,
-                 {1.0, 0.0, -0.25, 0.5},
-                 -1,
-                 "inverted in frame 7: worst tet 2 of volume ratio -0.25, 2 inverted",
-                 {{"frame", 7}, {"what", "inverted"}, {"worst_tet", 2}, {"volume_ratio", -0.25}, {"inverted_tets", 2}}},
-                {0,
-                 pbs::Outcome::not_converged,
-                 finite,
-                 {1.0, 0.9},
-                 -1,
-                 "not converged in frame 0: worst tet 1 of volume ratio 0.9, 0 inverted",
-                 {{"frame", 0}, {"what", "not_converged"}, {"worst_tet", 1}, {"volume_ratio", 0.9}, {"inverted_tets", 0}}},
-                {2,
-                 pbs::Outcome::not_finite,
-                 finite,
-                 {1.0, 0.9},
-                 7,
-                 "not finite in frame 2 (in step 7, before it): worst tet 1 of volume ratio 0.9, 0 inverted",
-                 {{"frame", 2}, {"what", "not_finite"}, {"step", 7}, {"worst_tet", 1}, {"volume_ratio", 0.9}, {"inverted_tets", 0}}}};
+    } rows[] = {
+        {5,
+         pbs::Outcome::not_finite,
+         two_not_finite,
+         {std::nan("")},
+         -1,
+         "not finite in frame 5: first at vertex 2, 2 not finite",
+         {{"frame", 5}, {"what", "not_finite"}, {"first_vertex", 2}, {"vertices_not_finite", 2}}},
+        {7,
+         pbs::Outcome::finished,
+         finite,
+         {1.0, 0.0, -0.25, 0.5},
+         -1,
+         "inverted in frame 7: worst tet 2 of volume ratio -0.25, 2 inverted",
+         {{"frame", 7}, {"what", "inverted"}, {"worst_tet", 2}, {"volume_ratio", -0.25}, {"inverted_tets", 2}}},
+        {0,
+         pbs::Outcome::not_converged,
+         finite,
+         {1.0, 0.9},
+         -1,
+         "not converged in frame 0: worst tet 1 of volume ratio 0.9, 0 inverted",
+         {{"frame", 0}, {"what", "not_converged"}, {"worst_tet", 1}, {"volume_ratio", 0.9}, {"inverted_tets", 0}}},
+        {2,
+         pbs::Outcome::not_finite,
+         finite,
+         {1.0, 0.9},
+         7,
+         "not finite in frame 2 (in step 7, before it): worst tet 1 of volume ratio 0.9, 0 inverted",
+         {{"frame", 2},
+          {"what", "not_finite"},
+          {"step", 7},
+          {"worst_tet", 1},
+          {"volume_ratio", 0.9},
+          {"inverted_tets", 0}}}};
     for (const auto& [frame, outcome, positions, ratios, step, text, record] : rows) {
-        BrokenFrame broken = broken_frame(frame, outcome, positions, Eigen::VectorXd::Map(ratios.data(), std::ssize(ratios)));
+        BrokenFrame broken =
+            broken_frame(frame, outcome, positions, Eigen::VectorXd::Map(ratios.data(), std::ssize(ratios)));
         broken.step = step;
         EXPECT_EQ(text_of(broken), text);
         EXPECT_EQ(nlohmann::json(broken), record);
@@ -78,7 +85,8 @@ TEST(BrokenFrames, NoneOfARunWithoutBreakdowns)
     EXPECT_EQ(none.record(31).at("broken_frames"), nlohmann::json::object());
 }
 
-// A negative control is expected to break down. The counts of a deformer with bad frames are those of all its frames that broke down.
+// A negative control is expected to break down. The counts of a deformer with bad frames are those of all its frames
+// that broke down.
 TEST(BrokenFrames, TheFirstUnexpectedOneIsNamedWithTheCountsOfItsDeformer)
 {
     BrokenFrames frames;

@@ -1,5 +1,5 @@
-// The training of correctives. Reference: the turns that poses are made of, the mirror image of a turn, the rules of the header for
-// poses that are drawn, and the deformer of the same energy.
+// The training of correctives. Reference: the turns that poses are made of, the mirror image of a turn, the rules of
+// the header for poses that are drawn, and the deformer of the same energy.
 #include "experiments/run/corrective_training.hpp"
 
 #include "experiments/deformers/registry.hpp"
@@ -40,10 +40,11 @@ pbs::Skeleton two_arms()
 TEST(KnownRotations, AreThoseOfTheJointsThatTurn)
 {
     const pbs::Skeleton skeleton = two_arms();
-    const std::vector<Quaterniond> turns = {turn(40, {1, 2, 3}), turn(70, {0, 1, 1}), Quaterniond::Identity(), turn(20, {1, 0, 0}),
-                                            turn(-90, {0, 0, 1})};
+    const std::vector<Quaterniond> turns = {turn(40, {1, 2, 3}), turn(70, {0, 1, 1}), Quaterniond::Identity(),
+                                            turn(20, {1, 0, 0}), turn(-90, {0, 0, 1})};
     const pbs::Pose rest(5, Eigen::Isometry3d::Identity());
-    const JointRotations known = rotations_in(skeleton, {rest, pbs::pose_from_joints(skeleton, turns, pbs::Vec3(1, 2, 3))});
+    const JointRotations known =
+        rotations_in(skeleton, {rest, pbs::pose_from_joints(skeleton, turns, pbs::Vec3(1, 2, 3))});
     ASSERT_EQ(known.size(), 5u);
     EXPECT_TRUE(known[0].empty()) << "the root";
     EXPECT_TRUE(known[2].empty()) << "it does not turn";
@@ -98,7 +99,8 @@ TEST(DrawnPosesOfTraining, TurnFewManyAndAllJointsNearTheirKnownRotations)
 TEST(DrawnPosesOfTraining, AreTheSameEachTime)
 {
     const JointRotations known(5);
-    const std::vector<pbs::Pose> once = drawn_poses(two_arms(), known, {.count = 9}), again = drawn_poses(two_arms(), known, {.count = 9});
+    const std::vector<pbs::Pose> once = drawn_poses(two_arms(), known, {.count = 9}),
+                                 again = drawn_poses(two_arms(), known, {.count = 9});
     for (std::size_t p = 0; p < once.size(); ++p)
         for (std::size_t bone = 0; bone < 5; ++bone) EXPECT_EQ(once[p][bone].matrix(), again[p][bone].matrix());
     EXPECT_TRUE(drawn_poses(two_arms(), known, {.count = 0}).empty());
@@ -113,17 +115,18 @@ TEST(LinearElementsOfTraining, AreTheMinimumOfTheEnergy)
     reference.poisson = 0.3;
     const std::vector<pbs::CorrectiveSample> samples = solved_on_linear_elements(bar, reference, poses);
     ASSERT_EQ(samples.size(), poses.size());
-    const auto minimiser =
-        make_deformer(read_scene("limb_bend", {"deformers.use=[\"quasi_newton\"]", "reference.name=", "quasi_newton.poisson=0.3",
-                                               "quasi_newton.iterations=500", "quasi_newton.precision=f64"})
-                          .deformers.front());
+    const auto minimiser = make_deformer(
+        read_scene("limb_bend", {"deformers.use=[\"quasi_newton\"]", "reference.name=", "quasi_newton.poisson=0.3",
+                                 "quasi_newton.iterations=500", "quasi_newton.precision=f64"})
+            .deformers.front());
     minimiser->reset(bar);
     for (std::size_t p = 0; p < poses.size(); ++p) {
         minimiser->advance(poses[p], 0.01);
         pbs::Positions lbs;
         pbs::linear_blend_skinning(bar.mesh.rest, bar.weights, poses[p], lbs);
         const double moved_m = (minimiser->positions() - lbs).norm();
-        EXPECT_LE((samples[p].shape - minimiser->positions()).norm(), 1e-4 * moved_m + 1e-9) << "solved to 1e-5 of the first step";
+        EXPECT_LE((samples[p].shape - minimiser->positions()).norm(), 1e-4 * moved_m + 1e-9)
+            << "solved to 1e-5 of the first step";
     }
 }
 

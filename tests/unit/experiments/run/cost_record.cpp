@@ -22,7 +22,8 @@ void wait_ms(int ms)
 TEST(CostRecord, AddsUpAPartAlsoOfOneThatThrowsAndHandsItsResultOn)
 {
     CostRecord cost;
-    EXPECT_EQ(*cost.time("metrics", [] { return wait_ms(5), std::make_unique<int>(7); }), 7) << "a result that cannot be copied";
+    EXPECT_EQ(*cost.time("metrics", [] { return wait_ms(5), std::make_unique<int>(7); }), 7)
+        << "a result that cannot be copied";
     cost.time("metrics", [] { wait_ms(5); });
     EXPECT_GE(cost.seconds("metrics"), 0.010);
     EXPECT_EQ(cost.seconds("frames"), 0.0);
@@ -38,7 +39,8 @@ TEST(CostRecord, ADeformersPartIsTheRunsToo)
     cost.time("step", "pbs", [] { wait_ms(4); });
     const nlohmann::json seconds = cost.json().at("seconds");
     EXPECT_GE(seconds.at("deformers").at("pbs").at("step").get<double>(), 0.004);
-    EXPECT_GE(seconds.at("step").get<double>(), 0.999 * (seconds.at("deformers").at("lbs").at("step").get<double>() + 0.004));
+    EXPECT_GE(seconds.at("step").get<double>(),
+              0.999 * (seconds.at("deformers").at("lbs").at("step").get<double>() + 0.004));
     EXPECT_GE(seconds.at("total").get<double>(), seconds.at("step").get<double>());
 }
 

@@ -1,6 +1,6 @@
-// The tables for programs that draw the frames of a run. References: rigid motion by hand and the limb's own geometry (bones and
-// binding), affine maps, which preserve barycentric coordinates inside a tet and outside (embedding), and distances of a few points by
-// hand. Tolerances: the rounding of motions and of distances.
+// The tables for programs that draw the frames of a run. References: rigid motion by hand and the limb's own geometry
+// (bones and binding), affine maps, which preserve barycentric coordinates inside a tet and outside (embedding), and
+// distances of a few points by hand. Tolerances: the rounding of motions and of distances.
 #include "analysis/records/record_files.hpp"
 #include "experiments/run/drawn_frames.hpp"
 #include "pbs/character/bodies.hpp"
@@ -23,7 +23,8 @@ using namespace experiments;
 
 pbs::Skeleton arm()
 {
-    return {{{"upper", -1, pbs::Vec3(-1.0, 0.0, 0.0), pbs::Vec3::Zero()}, {"forearm", 0, pbs::Vec3::Zero(), pbs::Vec3(1.0, 0.0, 0.0)}}};
+    return {{{"upper", -1, pbs::Vec3(-1.0, 0.0, 0.0), pbs::Vec3::Zero()},
+             {"forearm", 0, pbs::Vec3::Zero(), pbs::Vec3(1.0, 0.0, 0.0)}}};
 }
 
 TEST(BoneRecord, ABoneStandsWhereItsSkeletonAndThePosePutIt)
@@ -51,7 +52,8 @@ TEST(BoneRecord, AVertexBelongsToItsNearestBone)
     const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 300});
     const std::vector<BoundVertex> vertices = bound_vertices(limb);
     ASSERT_EQ(std::ssize(vertices), limb.mesh.rest.rows());
-    // The foot of a vertex on a bone goes through two roundings of coordinates of at most 1, and its distance through six, on both sides.
+    // The foot of a vertex on a bone goes through two roundings of coordinates of at most 1, and its distance through
+    // six, on both sides.
     const double rounding_m = test_support::rounding_error(2 + 6, 1.0);
     int blended = 0;
     for (const BoundVertex& bound : vertices) {
@@ -82,7 +84,8 @@ TEST(SurfaceRecord, ItsSharesCarryThePointsAlongAndBothFilesStandInTheFolder)
     const pbs::EmbeddedSurface surface = triangle(mesh);
     const analysis::CsvTable table = embedding_table(surface);
     const Eigen::RowVector3d shift(0.5, -2.0, 0.25);
-    const pbs::Positions moved = (2.0 * mesh.rest).rowwise() + shift, carried = pbs::embedded_positions(surface, mesh.rest, mesh.tets);
+    const pbs::Positions moved = (2.0 * mesh.rest).rowwise() + shift,
+                         carried = pbs::embedded_positions(surface, mesh.rest, mesh.tets);
     ASSERT_EQ(table.rows(), 3);
     for (int point = 0; point < 3; ++point) {
         EXPECT_EQ(table.integer(point, "point"), point);
@@ -93,8 +96,8 @@ TEST(SurfaceRecord, ItsSharesCarryThePointsAlongAndBothFilesStandInTheFolder)
             sum += share * moved.row(mesh.tets(table.integer(point, "tet"), corner));
             magnitudes += std::abs(share);
         }
-        // Three roundings make the last share one less the others, four each product and its sums, here for corners within 2.5 m; at rest
-        // four of half as much.
+        // Three roundings make the last share one less the others, four each product and its sums, here for corners
+        // within 2.5 m; at rest four of half as much.
         const double rounding = std::sqrt(3.0) * test_support::rounding_error(3 + 4 + 4 / 2, 2.5 * magnitudes);
         EXPECT_LT((sum - (2.0 * carried.row(point) + shift)).norm(), rounding);
     }
@@ -125,7 +128,8 @@ TEST(DistanceRecord, EachPairOfAFrameOnceAndNoneOfTwoFrames)
     ASSERT_EQ(table.rows(), 3);
     EXPECT_EQ(table.text_at(2, "deformer"), "pbs_jiggle");
     EXPECT_EQ(table.text_at(2, "other"), "pbs");
-    // Two coordinates of at most 4 mm and their difference are rounded; then there are square, mean, root and unit, and two roundings here.
+    // Two coordinates of at most 4 mm and their difference are rounded; then there are square, mean, root and unit, and
+    // two roundings here.
     const double rounding_mm = test_support::rounding_error(3 + 6 + 2, 4.0);
     EXPECT_NEAR(table.number(2, "largest_mm"), 3.0, rounding_mm);
     EXPECT_NEAR(table.number(2, "rms_mm"), 3.0 / std::sqrt(2.0), rounding_mm);

@@ -28,15 +28,20 @@ protected:
         Contents files;
         for (const auto& file : fs::recursive_directory_iterator(scratch.path()))
             if (file.is_regular_file())
-                files[file.path().lexically_relative(scratch.path()).string()] = analysis::read_text(file.path().string());
+                files[file.path().lexically_relative(scratch.path()).string()] =
+                    analysis::read_text(file.path().string());
         return files;
     }
 
     const test_support::ScratchFolder scratch;
     const Contents users_own = {{"frames/mine.txt", "mine"}, {"scene.toml", "a scene"}};
-    const Contents first = {
-        {"run.json", "1"}, {"metrics.csv", "1"}, {"frames/pbs_000001.vtu", "1"}, {"frames/pbs.glb", "1"}, {"skin/artist_000001.vtp", "1"},
-        {"try.json", "1"}, {"report.html", "1"}};
+    const Contents first = {{"run.json", "1"},
+                            {"metrics.csv", "1"},
+                            {"frames/pbs_000001.vtu", "1"},
+                            {"frames/pbs.glb", "1"},
+                            {"skin/artist_000001.vtp", "1"},
+                            {"try.json", "1"},
+                            {"report.html", "1"}};
     const Contents second = {{"metrics.csv", "2"}, {"frames/pbs_000002.vtu", "2"}, {"iterations.csv", "2"}};
 };
 
@@ -106,7 +111,8 @@ TEST_F(EarlierResults, AreThoseOfTheLastRunThatFinished)
     EXPECT_EQ(contents(), together(second, {{"run.json", "2"}}));
 }
 
-// The first one was killed while it moved the results aside, the second one while it put them back: run.json is the last, then the first.
+// The first one was killed while it moved the results aside, the second one while it put them back: run.json is the
+// last, then the first.
 TEST_F(EarlierResults, OutliveAKillWhileTheyAreMoved)
 {
     for (const bool record_is_aside : {false, true}) {

@@ -1,5 +1,5 @@
-// The metrics of one frame, combined. Reference: maps with known results on the built-in limb. The planes that cut it have axes as normals,
-// so that nothing of them is rounded.
+// The metrics of one frame, combined. Reference: maps with known results on the built-in limb. The planes that cut it
+// have axes as normals, so that nothing of them is rounded.
 
 #include "analysis/metrics/cross_section.hpp"
 #include "experiments/run/frame_measurement.hpp"
@@ -46,15 +46,16 @@ TEST_F(LimbMeasurement, TheRestPoseIsAllZero)
     context.reference = &limb.mesh.rest;
     const auto of = measured(limb.mesh.rest);
     EXPECT_EQ(of.metrics.volume_change_pct, 0.0);
-    // The squares and sums of a distance may be ordered differently on both sides: three roundings and half of them of the root.
+    // The squares and sums of a distance may be ordered differently on both sides: three roundings and half of them of
+    // the root.
     EXPECT_LE(of.bind_rms_m, test_support::rounding_error(2 * 3, limb.binding.distance.maxCoeff()));
     EXPECT_EQ(of.errors->l2_pct, 0.0);
     EXPECT_DOUBLE_EQ(*of.min_section_pct, 100.0);
     EXPECT_EQ(of.rotation_deg, 0.0);
 }
 
-// x -> (x, y/2, z/2): sections and volume fall to a quarter. Halves are exact, and so are areas and volumes up to the same powers of two;
-// their sums, differences and ratios go through at most six roundings.
+// x -> (x, y/2, z/2): sections and volume fall to a quarter. Halves are exact, and so are areas and volumes up to the
+// same powers of two; their sums, differences and ratios go through at most six roundings.
 TEST_F(LimbMeasurement, AThinnedLimbHasAQuarterOfItsSection)
 {
     pbs::Positions thinned = limb.mesh.rest;
@@ -65,9 +66,9 @@ TEST_F(LimbMeasurement, AThinnedLimbHasAQuarterOfItsSection)
     EXPECT_FALSE(of.errors);
 }
 
-// Two bars of width 0.3, 3 m apart at rest. The upper one comes down to the lower one, shifted by 0.03 so that no vertex meets a face of a
-// tet. Its vertices in the middle of the face have the overlap as depth; to measure it, skins are moved by half of `touching`, edges in a
-// slanted direction.
+// Two bars of width 0.3, 3 m apart at rest. The upper one comes down to the lower one, shifted by 0.03 so that no
+// vertex meets a face of a tet. Its vertices in the middle of the face have the overlap as depth; to measure it, skins
+// are moved by half of `touching`, edges in a slanted direction.
 TEST(FrameMeasurement, StatesHowDeepSkinLiesInOtherFleshAndWhereItTouches)
 {
     pbs::Character bars = test_support::bar_character({24, 4, 4});
@@ -95,9 +96,9 @@ TEST(FrameMeasurement, StatesHowDeepSkinLiesInOtherFleshAndWhereItTouches)
     EXPECT_EQ(least_and_most(-2.0 * touching_m), std::pair(0, 0));
 }
 
-// The bar has vertices in 25 planes, at x = -1, -11/12 ... 1. The tip lies at x = 1 on the axis, with the radius 0.2. In the two planes
-// at x = 1 and 11/12 it holds the vertex on the axis and the four in the middles of the sides; the corners are 0.21 from the axis. In the
-// plane at x = 10/12 it holds the vertex on the axis alone.
+// The bar has vertices in 25 planes, at x = -1, -11/12 ... 1. The tip lies at x = 1 on the axis, with the radius 0.2.
+// In the two planes at x = 1 and 11/12 it holds the vertex on the axis and the four in the middles of the sides; the
+// corners are 0.21 from the axis. In the plane at x = 10/12 it holds the vertex on the axis alone.
 TEST(FrameMeasurement, LeavesOutTheTipsOfCreasesButForTheErrorOnTheWholeBody)
 {
     const pbs::Character bar = test_support::bar_character({24, 2, 2});
@@ -112,7 +113,8 @@ TEST(FrameMeasurement, LeavesOutTheTipsOfCreasesButForTheErrorOnTheWholeBody)
     EXPECT_GT(share_pct, 0.0);
     EXPECT_LT(share_pct, 100.0 * 2.5 / 24.0) << "less than two and a half sections";
     std::vector<bool> left_out;
-    for (const auto& vertex : reference.rowwise()) left_out.push_back((vertex.transpose() - tip.at_rest).norm() <= tip.radius_m);
+    for (const auto& vertex : reference.rowwise())
+        left_out.push_back((vertex.transpose() - tip.at_rest).norm() <= tip.radius_m);
     FrameContext context;
     context.pose = &pose;
     context.reference = &reference;
@@ -144,8 +146,9 @@ TEST_F(LimbMeasurement, LeavesOutWhatIsNotAsked)
     EXPECT_FALSE(of.min_section_pct);
 }
 
-// A rotation by the angle a differs from the identity by 2 sqrt 2 |sin(a / 2)| in the Frobenius norm, so that its angle is in error by less
-// than its matrix, here of three motions: that of the root, of the bone and of one relative to the other.
+// A rotation by the angle a differs from the identity by 2 sqrt 2 |sin(a / 2)| in the Frobenius norm, so that its angle
+// is in error by less than its matrix, here of three motions: that of the root, of the bone and of one relative to the
+// other.
 TEST_F(LimbMeasurement, RotationIsRelativeToTheRoot)
 {
     const Eigen::Isometry3d turned(Eigen::AngleAxisd(0.5, pbs::Vec3::UnitY()));
@@ -165,7 +168,8 @@ TEST_F(LimbMeasurement, ABrokenFrameIsMeasuredNotRefused)
     EXPECT_FALSE(of.min_section_pct);
 }
 
-// The error at the joints decides; if nothing is blended, the whole body decides, since there is no value for the joints.
+// The error at the joints decides; if nothing is blended, the whole body decides, since there is no value for the
+// joints.
 TEST(FrameMeasurement, AnErrorNotAboveTheReferencesOwnIsMarked)
 {
     FrameMeasurement measured;
@@ -181,8 +185,9 @@ TEST(FrameMeasurement, AnErrorNotAboveTheReferencesOwnIsMarked)
     EXPECT_FALSE(measured.error_below_reference_error());
 }
 
-// The places at which limbs are cut. Reference: the built-in limb's geometry, a capsule of radius 0.15 m around (-1,0,0) -> 0 -> (1,0,0).
-// Tolerances: the rounding of a motion, and of the mean of two directions, which counts as another.
+// The places at which limbs are cut. Reference: the built-in limb's geometry, a capsule of radius 0.15 m around
+// (-1,0,0) -> 0 -> (1,0,0). Tolerances: the rounding of a motion, and of the mean of two directions, which counts as
+// another.
 
 // The polygon inscribed in the circle of radius r has at least half the area of the circle, and at most all of it.
 TEST(LimbStations, StandAlongBothBonesAndAcrossTheJointAndCutTheWholeLimb)
@@ -196,8 +201,10 @@ TEST(LimbStations, StandAlongBothBonesAndAcrossTheJointAndCutTheWholeLimb)
         EXPECT_EQ(station.point.tail<2>().norm(), 0.0);
         EXPECT_EQ(station.normal, pbs::Vec3::UnitX());
         joints += station.carriers.size() == 2;
-        EXPECT_EQ(std::ssize(station.tets), limb.mesh.tets.rows()) << station.name << ": the bones in one line are one limb";
-        const double area = analysis::cross_section_area(limb.mesh.rest, limb.mesh.tets, station.tets, {station.point, station.normal});
+        EXPECT_EQ(std::ssize(station.tets), limb.mesh.tets.rows())
+            << station.name << ": the bones in one line are one limb";
+        const double area =
+            analysis::cross_section_area(limb.mesh.rest, limb.mesh.tets, station.tets, {station.point, station.normal});
         EXPECT_GT(area, 0.8 * circle) << station.name;
         EXPECT_LT(area, 1.01 * circle) << station.name;
     }

@@ -15,7 +15,8 @@ using namespace experiments;
 
 Eigen::Isometry3d turned(double angle_deg)
 {
-    Eigen::Isometry3d turn(Eigen::AngleAxisd(angle_deg * std::numbers::pi / 180.0, pbs::Vec3(1.0, 2.0, -2.0).normalized()));
+    Eigen::Isometry3d turn(
+        Eigen::AngleAxisd(angle_deg * std::numbers::pi / 180.0, pbs::Vec3(1.0, 2.0, -2.0).normalized()));
     turn.translation() = pbs::Vec3(0.3, -2.0, 0.1);
     return turn;
 }
@@ -25,14 +26,16 @@ protected:
     const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 400});
     const PartsOfOneBone parts{limb};
     const pbs::Pose rest = pbs::Pose(limb.skeleton.bones.size(), Eigen::Isometry3d::Identity());
-    // The lag is the difference of two rotations, in radians within some epsilons, and 1 - cos doubles the digits that are lost near zero.
+    // The lag is the difference of two rotations, in radians within some epsilons, and 1 - cos doubles the digits that
+    // are lost near zero.
     static constexpr double rounding_deg = 1e-6;
 };
 
 TEST_F(LagOfTheLimb, IsNoneWhereTheFleshMovesWithItsBones)
 {
     const Eigen::Isometry3d turn = turned(70.0);
-    const pbs::Positions moved = (limb.mesh.rest * turn.linear().transpose()).rowwise() + turn.translation().transpose();
+    const pbs::Positions moved =
+        (limb.mesh.rest * turn.linear().transpose()).rowwise() + turn.translation().transpose();
     const PartLag lag = parts.largest_lag(moved, pbs::Pose(limb.skeleton.bones.size(), turn));
     EXPECT_GE(lag.bone, 0);
     EXPECT_NEAR(lag.turn_deg, 0.0, rounding_deg);
@@ -51,8 +54,8 @@ TEST_F(LagOfTheLimb, IsTheTurnOfTheBoneThatTheFleshDoesNotFollow)
     }
 }
 
-// The tets are thicker than what one bone alone moves, so that only the artist's points show that they stay behind. The second copy of
-// every point, as along a texture seam, belongs to the same part.
+// The tets are thicker than what one bone alone moves, so that only the artist's points show that they stay behind. The
+// second copy of every point, as along a texture seam, belongs to the same part.
 TEST(LagOfAPart, IsMeasuredOnTheArtistsPointsWhereNoTetBelongsToOneBone)
 {
     pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 400});
@@ -60,7 +63,8 @@ TEST(LagOfAPart, IsMeasuredOnTheArtistsPointsWhereNoTetBelongsToOneBone)
     const Eigen::Index points = limb.mesh.rest.rows();
     model->body.surface = limb.mesh.rest.replicate(2, 1);
     model->body.triangles = pbs::boundary_of(limb.mesh.tets);
-    for (Eigen::Index f = 0; f < model->body.triangles.rows(); f += 2) model->body.triangles.row(f).array() += static_cast<int>(points);
+    for (Eigen::Index f = 0; f < model->body.triangles.rows(); f += 2)
+        model->body.triangles.row(f).array() += static_cast<int>(points);
     pbs::Weights& weights = limb.artist.emplace().weights;
     weights.first = model->body.skin.first = {0};
     for (Eigen::Index p = 0; p < 2 * points; ++p) {

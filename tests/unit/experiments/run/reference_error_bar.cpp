@@ -1,6 +1,7 @@
-// The solutions that are compared with the reference, and the use of their differences. Reference: Richardson's estimate by hand;
-// substitutes for the reference with known results: LBS, which is the same at a vertex on every mesh, and PBS, solved on the refined limb
-// by hand. Three times a number is rounded once, on both sides, and the number itself may be rounded differently there.
+// The solutions that are compared with the reference, and the use of their differences. Reference: Richardson's
+// estimate by hand; substitutes for the reference with known results: LBS, which is the same at a vertex on every mesh,
+// and PBS, solved on the refined limb by hand. Three times a number is rounded once, on both sides, and the number
+// itself may be rounded differently there.
 #include "experiments/run/reference_error_bar.hpp"
 
 #include "experiments/deformers/fem/fem_options.hpp"
@@ -22,9 +23,9 @@ DeformerSpec spec_of(const std::string& kind, int element_order = 2)
 {
     static const bool registered = [] {
         for (const char* name : {"lbs", "pbs"})
-            add_deformer_kind({.name = std::string("stand_in_") + name, .meaning = name, .make = [name](const DeformerSpec&) {
-                                   return make_deformer(default_spec(name));
-                               }});
+            add_deformer_kind({.name = std::string("stand_in_") + name,
+                               .meaning = name,
+                               .make = [name](const DeformerSpec&) { return make_deformer(default_spec(name)); }});
         return true;
     }();
     EXPECT_TRUE(registered);
@@ -65,13 +66,15 @@ TEST_F(ErrorBarOfALimb, IsZeroWhereTheMeshMakesNoDifference)
     EXPECT_EQ(bound->linf_m, 0.0);
 }
 
-// PBS does not depend on the element order: on each mesh the solutions of order 1 and 2 are equal. The refined linear one is then equal to
-// the finest solution, the observed order is infinite and not credible, and the bound is that of order 1, in which the difference is the
-// error of the finest solution, times 3. The reference is one difference farther.
+// PBS does not depend on the element order: on each mesh the solutions of order 1 and 2 are equal. The refined linear
+// one is then equal to the finest solution, the observed order is infinite and not credible, and the bound is that of
+// order 1, in which the difference is the error of the finest solution, times 3. The reference is one difference
+// farther.
 TEST_F(ErrorBarOfALimb, OfSolutionsThatShowNoCredibleOrderHasTheLargerFactor)
 {
     const pbs::Positions reference = solved("pbs", limb);
-    const analysis::ErrorNorms difference = measurer.difference(reference, solved("pbs", pbs::refined(limb)).topRows(reference.rows()));
+    const analysis::ErrorNorms difference =
+        measurer.difference(reference, solved("pbs", pbs::refined(limb)).topRows(reference.rows()));
     EXPECT_GT(difference.joint_pct, 0.1);
     ReferenceErrorBar bar(spec_of("pbs"), limb);
     bar.advance(pose, 0.01);
@@ -79,8 +82,8 @@ TEST_F(ErrorBarOfALimb, OfSolutionsThatShowNoCredibleOrderHasTheLargerFactor)
     EXPECT_EQ(bar.method()["frames_of_reliable_order"], 0);
 }
 
-// Moves the rest shape along x by an error that depends on the elements: 16 mm and 4 mm for linear ones on the limb's tets and on the
-// refined ones, 1 mm and 0 for quadratic ones.
+// Moves the rest shape along x by an error that depends on the elements: 16 mm and 4 mm for linear ones on the limb's
+// tets and on the refined ones, 1 mm and 0 for quadratic ones.
 class KnownError : public Deformer {
 public:
     explicit KnownError(int element_order) : element_order_(element_order) {}
@@ -98,8 +101,8 @@ private:
     pbs::Positions positions_;
 };
 
-// By hand: order 2, credible with the smooth attachment. The finest is 1.25 x 1 mm / 3 from the limit, and the reference is 1 mm or 16 mm
-// farther away.
+// By hand: order 2, credible with the smooth attachment. The finest is 1.25 x 1 mm / 3 from the limit, and the
+// reference is 1 mm or 16 mm farther away.
 TEST_F(ErrorBarOfALimb, OfFourSolutionsTakesTheOrderOfTheLinearOnesAndTheDifferenceOfTheQuadraticOnes)
 {
     add_deformer_kind({.name = "known_error", .meaning = "rest and an error", .make = [](const DeformerSpec& spec) {
@@ -112,7 +115,8 @@ TEST_F(ErrorBarOfALimb, OfFourSolutionsTakesTheOrderOfTheLinearOnesAndTheDiffere
         reference.reset(limb);
         ReferenceErrorBar bar(spec, limb);
         bar.advance(pose, 0.01);
-        const double own_m = element_order == 1 ? 16e-3 : 1e-3, bound_m = bar.bound(reference.positions(), measurer)->linf_m;
+        const double own_m = element_order == 1 ? 16e-3 : 1e-3,
+                     bound_m = bar.bound(reference.positions(), measurer)->linf_m;
         EXPECT_NEAR(bound_m, own_m + 1.25 * 1e-3 / 3.0, test_support::rounding_error(8, 1.0));
         EXPECT_EQ(bar.method()["frames_of_reliable_order"], 1);
     }

@@ -1,5 +1,6 @@
-// The volume of regions. Reference: the geometry of a bar with two bones along x, in which tets belong to the nearest bone and blended ones
-// lie around the middle; the shares of a record add up to the body and its changes to those of the metrics.
+// The volume of regions. Reference: the geometry of a bar with two bones along x, in which tets belong to the nearest
+// bone and blended ones lie around the middle; the shares of a record add up to the body and its changes to those of
+// the metrics.
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/records/record_files.hpp"
 #include "experiments/run/region_record.hpp"
@@ -34,7 +35,8 @@ double middle(Eigen::Index tet)
 
 TEST(BodyRegions, ATetLiesWithItsNearestBoneAndAJointHasTheBlendedTetsAlone)
 {
-    const BodyRegions by_bone = regions_by_bone(character_of(bent())), by_joint = regions_by_joint(character_of(bent()));
+    const BodyRegions by_bone = regions_by_bone(character_of(bent())),
+                      by_joint = regions_by_joint(character_of(bent()));
     EXPECT_EQ(by_bone.bones, (std::vector<RegionBones>{{"upper"}, {"forearm"}}));
     ASSERT_EQ(by_joint.bones, (std::vector<RegionBones>{{"upper", "forearm"}}));
     for (Eigen::Index tet = 0; tet < bent().mesh.tets.rows(); ++tet) {
@@ -42,7 +44,8 @@ TEST(BodyRegions, ATetLiesWithItsNearestBoneAndAJointHasTheBlendedTetsAlone)
         if (std::abs(x) > 0.1) {
             EXPECT_EQ(by_bone.of_tet[tet], x > 0.0 ? 1 : 0) << x;
         }
-        if (std::abs(std::abs(x) - 1.0 / 6.0) > longest_cell) {  // Eq. 2 blends within a sixth of the bone's length from the joint
+        // Eq. 2 blends within a sixth of the bone's length from the joint
+        if (std::abs(std::abs(x) - 1.0 / 6.0) > longest_cell) {
             EXPECT_EQ(by_joint.of_tet[tet], std::abs(x) < 1.0 / 6.0 ? 0 : -1) << x;
         }
     }
@@ -56,12 +59,13 @@ double sum_of(const analysis::CsvTable& table, const std::string& kind, const st
     return sum;
 }
 
-// The volume change [m^3] that rounding gives to tets that move rigidly: that of the volumes before and after, and that of the positions e,
-// which changes a volume a x b . c / 6 by at most 6 e L^2 / 6, L the longest edge.
+// The volume change [m^3] that rounding gives to tets that move rigidly: that of the volumes before and after, and that
+// of the positions e, which changes a volume a x b . c / 6 by at most 6 e L^2 / 6, L the longest edge.
 double rigid_change_error_m3()
 {
     const pbs::TetMesh& mesh = bent().mesh;
-    const double cell_edge = std::hypot(2.0 / 24.0, 0.3 / 4.0, 0.3 / 4.0), farthest = mesh.rest.rowwise().norm().maxCoeff();
+    const double cell_edge = std::hypot(2.0 / 24.0, 0.3 / 4.0, 0.3 / 4.0),
+                 farthest = mesh.rest.rowwise().norm().maxCoeff();
     return test_support::volume_error(mesh.rest, mesh.tets) + test_support::volume_error(bent().lbs, mesh.tets) +
            static_cast<double>(mesh.tets.rows()) * test_support::motion_error(2, farthest) * cell_edge * cell_edge;
 }
@@ -72,7 +76,8 @@ TEST(RegionRecord, BonesAddUpToTheMetricsOfTheBody)
     record.add("lbs", bent().lbs);
     const analysis::CsvTable table = record.table();
     const auto metrics = analysis::MeshMetrics(bent().mesh.rest, bent().mesh.tets).measure(bent().lbs);
-    // Sums over the tets of rest volumes and of changes, and six roundings of products, quotients and the sum over the bones.
+    // Sums over the tets of rest volumes and of changes, and six roundings of products, quotients and the sum over the
+    // bones.
     const double roundings = 2.0 * static_cast<double>(bent().mesh.tets.rows()) + 6.0;
     const double of_change_pct = test_support::rounding_error(roundings, metrics.volume_abs_change_pct);
     EXPECT_NEAR(sum_of(table, "bone", "rest_share_pct"), 100.0, test_support::rounding_error(roundings, 100.0));
@@ -80,7 +85,8 @@ TEST(RegionRecord, BonesAddUpToTheMetricsOfTheBody)
     EXPECT_NEAR(sum_of(table, "bone", "abs_change_pct"), metrics.volume_abs_change_pct, of_change_pct);
     // LBS moves everything except the joint rigidly.
     const double rest_m3 = pbs::tet_volumes(bent().mesh.rest, bent().mesh.tets).sum();
-    EXPECT_NEAR(sum_of(table, "joint", "change_pct"), metrics.volume_change_pct, of_change_pct + 100.0 * rigid_change_error_m3() / rest_m3);
+    EXPECT_NEAR(sum_of(table, "joint", "change_pct"), metrics.volume_change_pct,
+                of_change_pct + 100.0 * rigid_change_error_m3() / rest_m3);
     EXPECT_LT(metrics.volume_change_pct, -0.1);
 }
 

@@ -45,14 +45,16 @@ protected:
         model->body.binding.meshes = {{.name = "coat", .points = {}, .triangles = {}, .joints = {}, .skin = {}}};
     }
 
-    // The first point of the surface is at the first vertex of the only tet, the other one between the second and the third.
+    // The first point of the surface is at the first vertex of the only tet, the other one between the second and the
+    // third.
     nlohmann::json record() const
     {
         pbs::Character character;
         character.mesh.tets = (pbs::Tets(1, 4) << 0, 1, 2, 3).finished();
-        character.surface = pbs::EmbeddedSurface{.triangles = {},
-                                                 .tet = Eigen::VectorXi::Zero(2),
-                                                 .barycentric = (Eigen::Matrix<double, 2, 4>() << 1, 0, 0, 0, 0, 0.5, 0.5, 0).finished()};
+        character.surface = pbs::EmbeddedSurface{
+            .triangles = {},
+            .tet = Eigen::VectorXi::Zero(2),
+            .barycentric = (Eigen::Matrix<double, 2, 4>() << 1, 0, 0, 0, 0, 0.5, 0.5, 0).finished()};
         const pbs::Weights in_tets = weights_of({{{0, 0.75}, {1, 0.25}}, {{1, 1.0}}, {{2, 1.0}}, {{0, 1.0}}});
         character.artist = pbs::ArtistSkin{in_tets, model};
         return model_record(character);
@@ -63,17 +65,18 @@ protected:
 
 TEST_F(ModelRecord, HoldsWhatWasTakenAndWhatWasLeftOut)
 {
-    const nlohmann::json expected = {{"file", "hero.glb"},
-                                     {"joints", {"hips", "knee", "toe"}},
-                                     {"joints_dropped", nlohmann::json::array({{{"name", "IK"}, {"reason", "no weight"}}})},
-                                     {"containers", {"Armature"}},
-                                     {"meshes", {"coat"}},
-                                     {"animations", {"Walk", "Run"}},
-                                     {"animation", "Run"},
-                                     {"bind_pose_deg", 12.5},
-                                     {"metres_per_unit", 0.01},
-                                     {"extent_m", 2.0},
-                                     {"weights_transferred_pct", 100.0}};
+    const nlohmann::json expected = {
+        {"file", "hero.glb"},
+        {"joints", {"hips", "knee", "toe"}},
+        {"joints_dropped", nlohmann::json::array({{{"name", "IK"}, {"reason", "no weight"}}})},
+        {"containers", {"Armature"}},
+        {"meshes", {"coat"}},
+        {"animations", {"Walk", "Run"}},
+        {"animation", "Run"},
+        {"bind_pose_deg", 12.5},
+        {"metres_per_unit", 0.01},
+        {"extent_m", 2.0},
+        {"weights_transferred_pct", 100.0}};
     EXPECT_EQ(record(), expected);
 
     model->animation = nullptr;

@@ -17,7 +17,8 @@ using Texts = std::vector<std::string>;
 // The text that was printed since the last call, without the time that comes before each line.
 std::string printed()
 {
-    const std::string text = std::regex_replace(testing::internal::GetCapturedStdout(), std::regex("[^\\n]*pbskin: "), "");
+    const std::string text =
+        std::regex_replace(testing::internal::GetCapturedStdout(), std::regex("[^\\n]*pbskin: "), "");
     testing::internal::CaptureStdout();
     return text;
 }
@@ -41,7 +42,8 @@ TEST(RunRemarks, FewerThanThreeLeaveNotesAsTheyAre)
     EXPECT_EQ(remarks.notes(), Texts{"b: 2"});
 }
 
-// A user who can stop the run hears of it at once; what is only known to be among the gravest at the end comes there, and nothing twice.
+// A user who can stop the run hears of it at once; what is only known to be among the gravest at the end comes there,
+// and nothing twice.
 TEST(RunRemarks, ArePrintedOnceAndTheGravestAtOnce)
 {
     testing::internal::CaptureStdout();

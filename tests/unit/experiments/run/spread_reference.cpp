@@ -1,5 +1,5 @@
-// The reference with a budget of time: which frames it solves, from where, and what an interruption or a full budget leaves. Reference: the
-// same deformer through the same poses in order, and the definition of the stride.
+// The reference with a budget of time: which frames it solves, from where, and what an interruption or a full budget
+// leaves. Reference: the same deformer through the same poses in order, and the definition of the stride.
 #include "experiments/run/spread_reference.hpp"
 
 #include "experiments/deformers/fem/fem_options.hpp"
@@ -20,7 +20,8 @@ using pbs::Outcome;
 
 constexpr double endless_s = 1e6;
 
-// A stand-in for the finite elements: it turns the bar rigidly with its second bone, counts its frames, and does not reach some of them.
+// A stand-in for the finite elements: it turns the bar rigidly with its second bone, counts its frames, and does not
+// reach some of them.
 struct Counts {
     std::vector<double> from;     // the displacement at which each frame began, by its largest component [m]
     std::vector<double> reached;  // and that at which those ended which were reached
@@ -40,12 +41,14 @@ public:
     pbs::StepSummary advance(const pbs::Pose& pose, double) override
     {
         counts.from.push_back((positions_ - rest_).cwiseAbs().maxCoeff());
-        const bool fails = (has_contact_ && is_blocked_by_contact) || calls_in_vain.contains(counts.advanced) || (is_over_ && is_over_());
+        const bool fails = (has_contact_ && is_blocked_by_contact) || calls_in_vain.contains(counts.advanced) ||
+                           (is_over_ && is_over_());
         ++counts.advanced;
         pbs::StepSummary summary;
         summary.outcome = fails ? Outcome::not_converged : Outcome::finished;
         if (fails) return summary;
-        for (Eigen::Index v = 0; v < rest_.rows(); ++v) positions_.row(v) = (pose.back() * pbs::Vec3(rest_.row(v).transpose())).transpose();
+        for (Eigen::Index v = 0; v < rest_.rows(); ++v)
+            positions_.row(v) = (pose.back() * pbs::Vec3(rest_.row(v).transpose())).transpose();
         counts.reached.push_back((positions_ - rest_).cwiseAbs().maxCoeff());
         return summary;
     }
@@ -139,7 +142,8 @@ TEST_F(SpreadReferenceOfABar, SolvesEveryFourthFrameFirst)
     played(reference, poses(20));
     ASSERT_EQ(counts.reached.size(), 20u);
     for (int k = 1; k < 5; ++k) EXPECT_GT(counts.reached[k], counts.reached[k - 1]);
-    EXPECT_EQ(std::ranges::count_if(counts.reached, [&](double other) { return other > counts.reached[4]; }), 3) << "16 of 0 to 19";
+    EXPECT_EQ(std::ranges::count_if(counts.reached, [&](double other) { return other > counts.reached[4]; }), 3)
+        << "16 of 0 to 19";
 }
 
 TEST_F(SpreadReferenceOfABar, SolvesNothingWithoutTime)
@@ -183,7 +187,8 @@ TEST_F(SpreadReferenceOfABar, GivesUpAfterFourFramesInVain)
         EXPECT_EQ(counts.advanced, first + 4);
         const auto remarks = remarks_on(reference.outcome(), "a.toml");
         ASSERT_EQ(remarks.size(), 2u);
-        EXPECT_NE(remarks[1].text.find("after 4 frames that were not reached the others were not tried"), std::string::npos)
+        EXPECT_NE(remarks[1].text.find("after 4 frames that were not reached the others were not tried"),
+                  std::string::npos)
             << remarks[1].text;
     }
 }
@@ -200,7 +205,8 @@ TEST_F(SpreadReferenceOfABar, DoesWithoutContactWhereItHoldsTheFirstFramesUp)
     EXPECT_EQ(counts.advanced, 2 + 5);
 }
 
-// Every question of the clock takes half a second, and a frame that is reached asks four times, so that it takes one and a half.
+// Every question of the clock takes half a second, and a frame that is reached asks four times, so that it takes one
+// and a half.
 TEST_F(SpreadReferenceOfABar, SpreadsTheFramesThatTheTimeAllowsOverTheMotion)
 {
     double now_s = 0.0;
@@ -222,8 +228,9 @@ TEST_F(SpreadReferenceOfABar, DoesNotCountTheTimeWithContactForTheFramesWithoutI
 {
     is_blocked_by_contact = true;
     double now_s = 0.0;  // a frame with contact takes ten seconds
-    SpreadReference reference(stand_in(),
-                              {.seconds = 100.0, .clock_s = [&] { return now_s += counts.made_without_contact > 0 ? 0.5 : 5.0; }});
+    SpreadReference reference(stand_in(), {.seconds = 100.0, .clock_s = [&] {
+                                               return now_s += counts.made_without_contact > 0 ? 0.5 : 5.0;
+                                           }});
     const std::vector<bool> have = played(reference, poses(60));
     EXPECT_EQ(std::count(have.begin(), have.end(), true), 60);
 }
@@ -261,8 +268,8 @@ TEST_F(SpreadReferenceOfABar, SaysWhatIsMissing)
     ASSERT_EQ(few.size(), 1u);
     EXPECT_EQ(few.front().gravity, pbs::Gravity::comparison_wrong);
     EXPECT_EQ(remarks_on({.frames = 60, .solved = 30}, "a.toml").front().gravity, pbs::Gravity::information);
-    const auto missing =
-        remarks_on({.frames = 3, .solved = 2, .not_reached = {{1, 4.0, ""}}, .with_contact = {{0, 5.0, "head"}}}, "a.toml");
+    const auto missing = remarks_on(
+        {.frames = 3, .solved = 2, .not_reached = {{1, 4.0, ""}}, .with_contact = {{0, 5.0, "head"}}}, "a.toml");
     ASSERT_EQ(missing.size(), 2u);
     EXPECT_NE(missing[0].text.find("the flesh of head holds it up"), std::string::npos);
     EXPECT_EQ(missing[1].text.find("holds it up"), std::string::npos);

@@ -16,7 +16,8 @@ using namespace experiments;
 pbs::Skeleton bent_arm()
 {
     const double s = std::sqrt(0.5), bend = std::numbers::pi / 6.0;
-    const pbs::Vec3 down_and_out(s, -s, 0.0), forearm = std::cos(bend) * down_and_out + std::sin(bend) * pbs::Vec3::UnitZ();
+    const pbs::Vec3 down_and_out(s, -s, 0.0),
+        forearm = std::cos(bend) * down_and_out + std::sin(bend) * pbs::Vec3::UnitZ();
     const pbs::Vec3 elbow = 0.3 * down_and_out, middle = elbow + 0.1 * forearm, wrist = middle + 0.1 * forearm;
     return {{{"upper_arm.L", -1, pbs::Vec3::Zero(), elbow},
              {"forearm_upper.L", 0, elbow, middle},
@@ -66,13 +67,15 @@ TEST(Movements, ATwistIsDividedAmongItsJointsAndTurnsNoBone)
         EXPECT_NEAR(turned.axis().dot(direction(motion.steps.front(), 1)), 1.0, 1e-12);
     }
     EXPECT_TRUE(motion.steps[2][1].linear().isApprox(
-        Eigen::AngleAxisd(2.0 / 3.0 * 75.8 / 3.0 * std::numbers::pi / 180.0, direction(motion.steps.front(), 1)).toRotationMatrix()));
+        Eigen::AngleAxisd(2.0 / 3.0 * 75.8 / 3.0 * std::numbers::pi / 180.0, direction(motion.steps.front(), 1))
+            .toRotationMatrix()));
     EXPECT_TRUE(is_twist("pronation") && is_twist("supination_at_the_wrist"));
     EXPECT_FALSE(is_twist("elbow_flexion") || is_twist("elbow_flexion+supination"));
     EXPECT_EQ(joints_of("hip_flexion+knee_flexion"), (std::vector<std::string>{"thigh.L", "shin.L"}));
 }
 
-// The second movement of a joint is carried by the first: a supination turns the forearm about itself, however far the elbow is bent.
+// The second movement of a joint is carried by the first: a supination turns the forearm about itself, however far the
+// elbow is bent.
 TEST(Movements, APairTurnsBothAndEachMovementBeginsAtRest)
 {
     const pbs::Motion motion = through({"elbow_flexion", "elbow_flexion+supination", "elbow_flexion+wrist_flexion"});
@@ -84,7 +87,8 @@ TEST(Movements, APairTurnsBothAndEachMovementBeginsAtRest)
         const Eigen::AngleAxisd turned(bent[bone].linear().transpose() * motion.steps[4][bone].linear());
         EXPECT_NEAR(turned.angle() * 180.0 / std::numbers::pi, 82.1 * bone / 3.0, 1e-9);
     }
-    EXPECT_NEAR(angle_deg(direction(motion.steps[6], 1), direction(motion.steps[6], 3)), 76.4, 1e-9) << "the axis is across the hand";
+    EXPECT_NEAR(angle_deg(direction(motion.steps[6], 1), direction(motion.steps[6], 3)), 76.4, 1e-9)
+        << "the axis is across the hand";
 }
 
 // Signs of the left side: x to the left, y upwards, z forwards.
@@ -111,8 +115,8 @@ TEST(Movements, ABodyHasThoseOfItsJoints)
     EXPECT_EQ(std::count(names.begin(), names.end(), "shoulder_flexion+elbow_flexion"), 1);
     EXPECT_EQ(std::count(names.begin(), names.end(), "knee_flexion"), 0);
     EXPECT_NO_THROW(through(names));
-    expect_input_error([] { through({"elbow_flection"}); },
-                       "scene.toml: motion.movements = elbow_flection: ", "no such movement; the nearest is 'elbow_flexion'");
+    expect_input_error([] { through({"elbow_flection"}); }, "scene.toml: motion.movements = elbow_flection: ",
+                       "no such movement; the nearest is 'elbow_flexion'");
     expect_input_error([] { through({"elbow_flexion+knee_flexion"}); },
                        "scene.toml: motion.movements = knee_flexion: ", "expected a character with the joints shin.L");
 }
@@ -124,7 +128,8 @@ TEST(Movements, AStraightLimbHasNoAxisAcrossIt)
     pbs::Skeleton straight = bent_arm();
     const pbs::Vec3 along = straight.bones[0].tail / 3.0;
     straight.bones[1].tail = straight.bones[1].head + along;
-    expect_input_error([&] { make_motion(spec, straight, "scene.toml"); }, "scene.toml: motion.movements = elbow_flexion: ",
+    expect_input_error([&] { make_motion(spec, straight, "scene.toml"); },
+                       "scene.toml: motion.movements = elbow_flexion: ",
                        "expected a character that is bent at the joint forearm_upper.L at rest");
 }
 

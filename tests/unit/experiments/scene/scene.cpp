@@ -1,5 +1,5 @@
-// Scenes as the combination of a file, --set and the defaults. Reference: the contract of scene files (experiments/scene/manual.md) and the
-// options' own defaults.
+// Scenes as the combination of a file, --set and the defaults. Reference: the contract of scene files
+// (experiments/scene/manual.md) and the options' own defaults.
 
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
@@ -64,18 +64,20 @@ TEST(Scene, ReferencesKeepTheirOwnOptions)
 
 TEST(Scene, OverridesWinOverTheFileAndABareWordIsAText)
 {
-    const Scene scene =
-        read_scene("limb_twist", {"pbs.iterations=96", "pbs.k_stretch=0.05", "deformers.use=[\"pbs\"]", "reference.name=\"\""});
+    const Scene scene = read_scene(
+        "limb_twist", {"pbs.iterations=96", "pbs.k_stretch=0.05", "deformers.use=[\"pbs\"]", "reference.name=\"\""});
     EXPECT_EQ(scene.deformers.size(), 1u);
     EXPECT_EQ(options_of<pbs::PbsOptions>(scene.deformers[0]).iterations, 96);
     EXPECT_DOUBLE_EQ(options_of<pbs::PbsOptions>(scene.deformers[0]).k_stretch, 0.05);
-    EXPECT_EQ(options_of<pbs::PbsOptions>(read_scene("limb_twist", {"pbs.precision=f64"}).deformers[2]).precision, pbs::Precision::f64);
+    EXPECT_EQ(options_of<pbs::PbsOptions>(read_scene("limb_twist", {"pbs.precision=f64"}).deformers[2]).precision,
+              pbs::Precision::f64);
 }
 
 TEST(Scene, JiggleIsOffUnlessItsTableIsThere)
 {
     EXPECT_FALSE(options_of<pbs::PbsOptions>(read_scene("limb_twist", {}).deformers[2]).jiggle);
-    const auto jiggle = options_of<pbs::PbsOptions>(read_scene("limb_twist", {"pbs.jiggle.k_stretch=0.9"}).deformers[2]).jiggle;
+    const auto jiggle =
+        options_of<pbs::PbsOptions>(read_scene("limb_twist", {"pbs.jiggle.k_stretch=0.9"}).deformers[2]).jiggle;
     ASSERT_TRUE(jiggle);
     EXPECT_DOUBLE_EQ(jiggle->k_stretch, 0.9);
 }
@@ -83,7 +85,8 @@ TEST(Scene, JiggleIsOffUnlessItsTableIsThere)
 TEST(Scene, PathsAreRelativeToTheFile)
 {
     const test_support::ScratchFolder folder;
-    const std::string files = "schema = 1\n[character]\nmesh = \"meshes/arm.msh\"\nskeleton = \"/rigs/arm.skeleton.toml\"\n";
+    const std::string files =
+        "schema = 1\n[character]\nmesh = \"meshes/arm.msh\"\nskeleton = \"/rigs/arm.skeleton.toml\"\n";
     const Scene scene = read_scene(folder.file("arm.toml", files + motion + stated), {"skinning.weights=weights.csv"});
     EXPECT_EQ(scene.character.mesh_file, folder / "meshes/arm.msh");
     EXPECT_EQ(scene.character.skeleton_file, "/rigs/arm.skeleton.toml");
@@ -97,15 +100,18 @@ TEST(Scene, NamesThatAreNotUtf8AndKeysWithASpaceAreRefused)
     const auto refusal = [&](const std::string& file, const std::vector<std::string>& overrides) {
         return test_support::refusal_of([&] { read_scene(folder.file(file, smallest + "[[fem]]\n"), overrides); });
     };
-    EXPECT_EQ(refusal("limb.toml", {"character.mesh=li\xffmb.msh"}), "--set: character.mesh = li\\xffmb.msh: expected UTF-8");
-    EXPECT_EQ(refusal("li\xffmb.toml", {}), folder / "li\\xffmb.toml: expected a file's name in UTF-8: it names the scene in all records");
+    EXPECT_EQ(refusal("limb.toml", {"character.mesh=li\xffmb.msh"}),
+              "--set: character.mesh = li\\xffmb.msh: expected UTF-8");
+    EXPECT_EQ(refusal("li\xffmb.toml", {}),
+              folder / "li\\xffmb.toml: expected a file's name in UTF-8: it names the scene in all records");
     EXPECT_TRUE(refusal("limb.toml", {"fem. 0.poisson=0.3"}).starts_with("--set: fem. 0.poisson = 0.3: unknown key"));
 }
 
 TEST(Scene, WithoutATimeStepItDividesAFrameOfTheClip)
 {
     const test_support::ScratchFolder folder;
-    const std::string clip = "schema = 1\n[character]\nbody = \"human\"\n[motion]\nclip = \"01_01.bvh\"\nrate_hz = 30.0\n";
+    const std::string clip =
+        "schema = 1\n[character]\nbody = \"human\"\n[motion]\nclip = \"01_01.bvh\"\nrate_hz = 30.0\n";
     EXPECT_DOUBLE_EQ(read_scene(folder.file("clip.toml", clip + stated), {}).motion.time_step_s, 1.0 / 120.0);
 }
 
@@ -146,8 +152,9 @@ std::string chain(const std::vector<std::string>& names)
     std::string text = "HIERARCHY\n", end, rows;
     for (const std::string& name : names) {
         const bool is_root = name == names.front();
-        text += std::string(is_root ? "ROOT " : "JOINT ") + name + "\n{\nOFFSET " + (is_root ? "-1" : "1") + " 0 0\nCHANNELS " +
-                (is_root ? "6 Xposition Yposition Zposition " : "3 ") + "Zrotation Xrotation Yrotation\n";
+        text += std::string(is_root ? "ROOT " : "JOINT ") + name + "\n{\nOFFSET " + (is_root ? "-1" : "1") +
+                " 0 0\nCHANNELS " + (is_root ? "6 Xposition Yposition Zposition " : "3 ") +
+                "Zrotation Xrotation Yrotation\n";
         end += "}\n";
     }
     for (const int angle_deg : {0, 0, 30, 60}) {
@@ -188,10 +195,12 @@ TEST_F(MotionCase, ASweepTurnsItsJointAndOneInWhichNothingTurnsIsRemarkedOn)
     EXPECT_TRUE(motion.remarks.empty());
     sweep.angle_deg = 0.05;
     sweep.frames = 2;  // about the axis of the bone
-    EXPECT_EQ(made(sweep).remarks,
-              (pbs::RemarkList{{pbs::Gravity::results_wrong,
-                                "scene.toml: no joint moves: the bones turn by at most 0.05 degrees and move by at most 0 % of the body's "
-                                "size"}}));
+    EXPECT_EQ(
+        made(sweep).remarks,
+        (pbs::RemarkList{
+            {pbs::Gravity::results_wrong,
+             "scene.toml: no joint moves: the bones turn by at most 0.05 degrees and move by at most 0 % of the body's "
+             "size"}}));
     sweep.angle_deg = 0.2;
     EXPECT_TRUE(made(sweep).remarks.empty());
     sweep.joint = "tail";
@@ -204,15 +213,18 @@ TEST_F(MotionCase, AClipWhoseJointsAllMatch)
     EXPECT_EQ(motion.clip_joints, 2);
     EXPECT_EQ(motion.matched_joints, 2);
     EXPECT_TRUE(motion.remarks.empty());
-    EXPECT_NEAR(motion.largest_rotation_deg, 120.0, 1e-3);  // the forearm follows both joints; BVH's numbers are single precision
+    // the forearm follows both joints; BVH's numbers are single precision
+    EXPECT_NEAR(motion.largest_rotation_deg, 120.0, 1e-3);
 }
 
 TEST_F(MotionCase, AClipThatMatchesLessThanHalfIsRefusedUnlessItIsAllowed)
 {
     MotionSpec walk = clip({"upper", "forearm", "a", "b", "c", "d", "e", "f", "g", "h"});
     expect_input_error([&] { made(walk); }, walk.clip + ": joints = 2 of 10 moving joints: ",
-                       "expected at least one half to match a bone of the character: rename the joints as the bones or as those of Mixamo "
-                       "(motion.allow_partial = true in the scene, or --allow-partial of `pbskin try`, accepts fewer); without a bone: a, "
+                       "expected at least one half to match a bone of the character: rename the joints as the bones or "
+                       "as those of Mixamo "
+                       "(motion.allow_partial = true in the scene, or --allow-partial of `pbskin try`, accepts fewer); "
+                       "without a bone: a, "
                        "b, c, d, e, f and 2 others");
     walk.allow_partial = true;
     EXPECT_EQ(made(walk).matched_joints, 2);
@@ -223,8 +235,9 @@ TEST_F(MotionCase, AClipThatMatchesLessThanHalfIsRefusedUnlessItIsAllowed)
     EXPECT_EQ(made(clip({"upper", "forearm", "a", "b"})).matched_joints, 2);  // one half is enough
     walk = clip({"upper", "a"});
     EXPECT_EQ(made(walk).remarks,
-              (pbs::RemarkList{{pbs::Gravity::part_left_out, walk.clip + ": 1 of 2 moving joints of the clip match a bone; without a bone: "
-                                                                         "a; bones without a motion of their own: forearm"}}));
+              (pbs::RemarkList{{pbs::Gravity::part_left_out,
+                                walk.clip + ": 1 of 2 moving joints of the clip match a bone; without a bone: "
+                                            "a; bones without a motion of their own: forearm"}}));
 }
 
 // The elbow is 2 m from the root in the file, and moved to another distance within a second.
@@ -269,7 +282,8 @@ TEST_F(MotionCase, AnAnimationOfTheModelAndARefusalOfAModelWithoutOne)
 
     const auto bare = pbs::read_model(test_support::write_rigged_gltf(folder, "bare.gltf", {}), "", 1.0);
     character.artist = pbs::ArtistSkin{{}, bare};
-    expect_input_error([&] { made(spec); }, "scene.toml: motion.animation: ", "the model has no animation: expected a joint or a clip");
+    expect_input_error([&] { made(spec); },
+                       "scene.toml: motion.animation: ", "the model has no animation: expected a joint or a clip");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Every study keeps these promises. Reference: the contract of experiments/studies/study.hpp. A study of the list joins by itself.
+// Every study keeps these promises. Reference: the contract of experiments/studies/study.hpp. A study of the list joins
+// by itself.
 
 #include "experiments/studies/reproduce.hpp"
 #include "experiments/studies/study.hpp"
@@ -27,7 +28,8 @@ protected:
     const Study& study_ = *std::ranges::find(studies(), GetParam(), &Study::name);
     const test_support::ScratchFolder folder_;
 };
-INSTANTIATE_TEST_SUITE_P(Study, EveryStudy, testing::ValuesIn(names_of_studies()), [](const auto& one) { return one.param; });
+INSTANTIATE_TEST_SUITE_P(Study, EveryStudy, testing::ValuesIn(names_of_studies()),
+                         [](const auto& one) { return one.param; });
 
 // What the result of a run depends on.
 nlohmann::json identity_of(const StudyRun& run)

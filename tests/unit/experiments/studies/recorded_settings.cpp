@@ -1,5 +1,6 @@
-// --resume repeats a run when anything changed that its work depends on. A struct of settings that leaves a member out is refused when it
-// is recorded, which the plan of each study does (contract.cpp). Reference: the members of the structs here, each changed in turn.
+// --resume repeats a run when anything changed that its work depends on. A struct of settings that leaves a member out
+// is refused when it is recorded, which the plan of each study does (contract.cpp). Reference: the members of the
+// structs here, each changed in turn.
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/recorded_settings.hpp"
@@ -92,10 +93,16 @@ std::string no_work(const Case&, const std::string&)
 // Its settings are those of a table of three columns, and its methods those of cases.toml and a file of the user's.
 TEST(RecordedSettings, OfAComparison)
 {
-    const ReferencePose pose{
-        "limb_bend_60", {.body = "limb", .motion = "bend", .angle_deg = 60.0}, Stratum::movement, read_scene("limb_bend", {}), 12};
-    const ComparisonCase of{
-        .name = "limb", .body = "limb", .clip = "01_01", .poses = {pose}, .settings = {{1.0, "pbs", "pbs.iterations=4"}}};
+    const ReferencePose pose{"limb_bend_60",
+                             {.body = "limb", .motion = "bend", .angle_deg = 60.0},
+                             Stratum::movement,
+                             read_scene("limb_bend", {}),
+                             12};
+    const ComparisonCase of{.name = "limb",
+                            .body = "limb",
+                            .clip = "01_01",
+                            .poses = {pose},
+                            .settings = {{1.0, "pbs", "pbs.iterations=4"}}};
     static_assert(member_count<ComparisonCase>() == 8);
     const test_support::ScratchFolder scratch;
     const std::string folder = scratch / "run";
@@ -109,15 +116,18 @@ TEST(RecordedSettings, OfAComparison)
     using Change = void (*)(ComparisonCase&);
     for (const Change change : std::vector<Change>{
              [](ComparisonCase& other) { other.name += "_2"; }, [](ComparisonCase& other) { other.body = "human"; },
-             [](ComparisonCase& other) { other.what = Measured::training; }, [](ComparisonCase& other) { other.clip = "01_03"; },
-             [](ComparisonCase& other) { other.poses.push_back(other.poses[0]); }, [](ComparisonCase& other) { other.poses[0].frame = 11; },
-             [](ComparisonCase& other) { other.rounds = 5; }, [](ComparisonCase& other) { other.settings[0].budget_ms = 2.0; },
+             [](ComparisonCase& other) { other.what = Measured::training; },
+             [](ComparisonCase& other) { other.clip = "01_03"; },
+             [](ComparisonCase& other) { other.poses.push_back(other.poses[0]); },
+             [](ComparisonCase& other) { other.poses[0].frame = 11; }, [](ComparisonCase& other) { other.rounds = 5; },
+             [](ComparisonCase& other) { other.settings[0].budget_ms = 2.0; },
              [](ComparisonCase& other) { other.settings[0].method = "xpbd"; },
              [](ComparisonCase& other) { other.settings[0].setting = "pbs.iterations=8"; },
              [](ComparisonCase& other) { other.settings.clear(); },
              [](ComparisonCase& other) { other.external = {ComparedMethod{.external = default_spec("external")}}; }})
         EXPECT_TRUE(is_repeated(change));
-    EXPECT_FALSE(is_repeated([](ComparisonCase& other) { other.settings[0].training_ms = 0.5; })) << "a report of the choice";
+    EXPECT_FALSE(is_repeated([](ComparisonCase& other) { other.settings[0].training_ms = 0.5; }))
+        << "a report of the choice";
 }
 
 // Programs and libraries are recorded by their content.
@@ -126,7 +136,8 @@ TEST(RecordedSettings, OfADeformerOfTheUsersOwn)
     DeformerSpec spec = default_spec("external");
     spec.options = ExternalOptions{.command = {"python3", "mine.py"}, .file_hashes = {"", "1f"}};
     const nlohmann::json recorded = to_json(spec);
-    EXPECT_EQ(to_json(ComparisonCase{.external = {ComparedMethod{.external = spec}}}).at("external"), nlohmann::json::array({recorded}));
+    EXPECT_EQ(to_json(ComparisonCase{.external = {ComparedMethod{.external = spec}}}).at("external"),
+              nlohmann::json::array({recorded}));
     const auto with = [&](void (*change)(ExternalOptions & options)) {
         DeformerSpec other = spec;
         change(options_of<ExternalOptions>(other));

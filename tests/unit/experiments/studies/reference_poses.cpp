@@ -1,5 +1,5 @@
-// The poses of the references. Reference: the design of the comparison, counted here, and the angles that the names of the limb's poses
-// state.
+// The poses of the references. Reference: the design of the comparison, counted here, and the angles that the names of
+// the limb's poses state.
 #include "experiments/studies/reference_poses.hpp"
 
 #include "pbs/character/bodies.hpp"
@@ -45,7 +45,8 @@ TEST(ListedPoses, AreEightMovementsOfEachBodyAndSixForTraining)
         if (stratum == "movement") ++movements_of_body[body];
     }
     EXPECT_EQ(of_stratum, (std::map<std::string, int>{{"training", 6}, {"movement", 40}, {"fold", 6}, {"played", 6}}));
-    EXPECT_EQ(movements_of_body, (std::map<std::string, int>{{"limb", 8}, {"human", 8}, {"man", 8}, {"lady", 8}, {"frankie", 8}}));
+    EXPECT_EQ(movements_of_body,
+              (std::map<std::string, int>{{"limb", 8}, {"human", 8}, {"man", 8}, {"lady", 8}, {"frankie", 8}}));
 }
 
 // Settings are chosen on other poses than methods are compared on.
@@ -53,7 +54,8 @@ TEST(ListedPoses, AreEachOneMotionAndFrame)
 {
     std::set<std::string> poses;
     for (json pose : listed()) {
-        json what = {pose.at("bodies"), pose.value("movement", ""), pose.value("scene", ""), pose.value("overrides", json::array())};
+        json what = {pose.at("bodies"), pose.value("movement", ""), pose.value("scene", ""),
+                     pose.value("overrides", json::array())};
         what.push_back(pose.value("frame", 0));
         EXPECT_TRUE(poses.insert(what.dump()).second) << pose.at("name");
     }
@@ -118,8 +120,9 @@ TEST(MembersOfAPose, AreTheWholeFamilyOrTheTwoThatArePlayed)
     };
     EXPECT_EQ(names(Stratum::played), (std::vector<std::string>{"smooth", "rigid_capsules"}));
     for (const Stratum stratum : {Stratum::training, Stratum::movement, Stratum::fold})
-        EXPECT_EQ(names(stratum), (std::vector<std::string>{"smooth", "stiffer_springs", "thinner_bones", "stiffer_springs_thinner_bones",
-                                                            "nu_0.3", "nu_0.49", "rigid_capsules", "held_parts"}));
+        EXPECT_EQ(names(stratum), (std::vector<std::string>{"smooth", "stiffer_springs", "thinner_bones",
+                                                            "stiffer_springs_thinner_bones", "nu_0.3", "nu_0.49",
+                                                            "rigid_capsules", "held_parts"}));
     EXPECT_EQ(family().size(), 1 + further_members);
 }
 

@@ -1,5 +1,5 @@
-// Reference: the plan and the files on disk. A verdict is based only on runs that ended. tests/support/bad_cases.toml has plans and records
-// that somebody else has changed.
+// Reference: the plan and the files on disk. A verdict is based only on runs that ended. tests/support/bad_cases.toml
+// has plans and records that somebody else has changed.
 
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/measurement.hpp"
@@ -19,7 +19,8 @@ using test_support::ScratchFolder;
 StudyPlan plan_of(const std::vector<std::string>& names)
 {
     StudyPlan plan;
-    for (const std::string& name : names) plan.runs.push_back({.name = name, .work = [](const std::string&) { return std::string(); }});
+    for (const std::string& name : names)
+        plan.runs.push_back({.name = name, .work = [](const std::string&) { return std::string(); }});
     return plan;
 }
 
@@ -32,23 +33,25 @@ void finish(const std::string& study, const std::string& run, double value)
     analysis::write_text_atomically((folder / "run.json").string(), "{\"schema\": 3}\n");
 }
 
-// Half the time step makes the frequency 3 times as large. A conclusion that was never drawn is not added, and one without its values
-// stays.
+// Half the time step makes the frequency 3 times as large. A conclusion that was never drawn is not added, and one
+// without its values stays.
 TEST(StudyRecords, ConclusionsComeFromTheMeasuredValues)
 {
-    const analysis::CaseKey whole = {.body = "limb", .deformer = "pbs", .order = "plain", .precision = "f64", .time_step_s = 0.01},
-                            half = {.body = "limb", .deformer = "pbs", .order = "plain", .precision = "f64", .time_step_s = 0.005};
+    const analysis::CaseKey
+        whole = {.body = "limb", .deformer = "pbs", .order = "plain", .precision = "f64", .time_step_s = 0.01},
+        half = {.body = "limb", .deformer = "pbs", .order = "plain", .precision = "f64", .time_step_s = 0.005};
     const char* const at_half = "frequency_ratio_at_half_time_step";
     const auto concluded_in = [&](const std::string& study) {
         const ScratchFolder root;
         const std::string folder = root / study;
         write_study_plan(folder, plan_of({"limb"}));
         finish(folder, "limb", 0.0);
-        analysis::measurement_table({{"C09", "frequency_hz", whole, 2.0, 1.0, 3.0, "Hz"},
-                                     {"C09", "frequency_hz", half, 6.0, 6.0, 6.0, "Hz"},
-                                     {"C09", "last_share_of_peak", whole, 0.1, 0.1, 0.1, "1"},
-                                     {"C09", at_half, whole, 2.5, 2.5, 2.5, "1"},
-                                     {"C09", "amplitude_ratio_over_k_stretch", {.body = "limb", .deformer = "lbs"}, 7.0, 7.0, 7.0, "1"}})
+        analysis::measurement_table(
+            {{"C09", "frequency_hz", whole, 2.0, 1.0, 3.0, "Hz"},
+             {"C09", "frequency_hz", half, 6.0, 6.0, 6.0, "Hz"},
+             {"C09", "last_share_of_peak", whole, 0.1, 0.1, 0.1, "1"},
+             {"C09", at_half, whole, 2.5, 2.5, 2.5, "1"},
+             {"C09", "amplitude_ratio_over_k_stretch", {.body = "limb", .deformer = "lbs"}, 7.0, 7.0, 7.0, "1"}})
             .write(folder + "/limb/measurements.csv");
         return read_study_records(folder, root.path().string()).measurements;
     };
@@ -110,9 +113,10 @@ TEST(StudyRecords, ARecordIsOfTheBodyAndMotionThatThePlanGives)
     plan.runs.push_back({.name = "walk", .scene = walk()});
     write_study_plan(study, plan);
     std::filesystem::create_directories(run);
-    analysis::write_text_atomically(run + "/metrics.csv",
-                                    "scene,deformer,variant,order,precision,iterations,threads,frame,time_s,volume_change_pct,"
-                                    "volume_abs_change_pct,inverted_tets\nwalk,pbs,default,plain,f64,24,1,0,0,0,0,0\n");
+    analysis::write_text_atomically(
+        run + "/metrics.csv",
+        "scene,deformer,variant,order,precision,iterations,threads,frame,time_s,volume_change_pct,"
+        "volume_abs_change_pct,inverted_tets\nwalk,pbs,default,plain,f64,24,1,0,0,0,0,0\n");
     analysis::write_text_atomically(run + "/run.json", "{\"schema\": 3}\n");
     const analysis::Records records = read_study_records(study, root.path().string());
     ASSERT_EQ(records.cases.size(), 1u);
@@ -129,7 +133,11 @@ TEST(StudyRecords, ASweepHasTheNameOfItsCase)
         StudyPlan plan;
         plan.runs.push_back(run);
         write_study_plan(root / "volume", plan);
-        return nlohmann::json::parse(analysis::read_text(root / "volume/plan.json")).at("runs").at(0).at("of").at("motion");
+        return nlohmann::json::parse(analysis::read_text(root / "volume/plan.json"))
+            .at("runs")
+            .at(0)
+            .at("of")
+            .at("motion");
     };
     EXPECT_EQ(motion_of(sweep), "bend");
     EXPECT_EQ(motion_of({.name = "a walk", .scene = walk()}), "01_03");
@@ -157,9 +165,11 @@ TEST_F(MarkedFrames, AreBrokenOnesOverlapsAndErrorsBelowTheReferences)
                   "pbs": [{"frame": 2, "what": "not_finite", "step": 7, "first_vertex": 17, "vertices_not_finite": 120}],
                   "nh_p1": [{"frame": 18, "what": "inverted", "worst_tet": 812, "volume_ratio": -0.04, "inverted_tets": 3},
                              {"frame": 19, "what": "not_converged", "worst_tet": 5, "volume_ratio": 0.5, "inverted_tets": 0}]}}})"),
-              "     limb_bend: nh_p1 broke down in 2 of 31 frames (1 inverted, 1 not converged), the first inverted in frame 18: worst tet "
+              "     limb_bend: nh_p1 broke down in 2 of 31 frames (1 inverted, 1 not converged), the first inverted in "
+              "frame 18: worst tet "
               "812 of volume ratio -0.04, 3 inverted\n"
-              "     limb_bend: pbs broke down in 1 of 31 frames (1 not finite), the first not finite in frame 2 (in step 7, before it): "
+              "     limb_bend: pbs broke down in 1 of 31 frames (1 not finite), the first not finite in frame 2 (in "
+              "step 7, before it): "
               "first at vertex 17, 120 not finite\n");
     EXPECT_EQ(marks_of(R"({"outcome": {"frames": 31, "frames_with_overlap": 4, "largest_masked_share_pct": 6.25,
                                        "frames_below_reference_error": {"pbs": 2}}})"),
@@ -177,7 +187,8 @@ TEST_F(MarkedFrames, WhatSomebodyElseMadeOfARecordIsRefusedWithItsFile)
         scratch / "limb_bend/run.json" + ": expected a record as this program writes it: it was changed, or cut short";
     for (const char* text :
          {"", "{\"outcome\": ", "[]", R"({"outcome": 3})", R"({"outcome": {"frames_with_overlap": 4}})",
-          R"({"outcome": {"frames_with_overlap": "four", "frames": 31}})", R"({"outcome": {"broken_frames": {"pbs": []}, "frames": 31}})",
+          R"({"outcome": {"frames_with_overlap": "four", "frames": 31}})",
+          R"({"outcome": {"broken_frames": {"pbs": []}, "frames": 31}})",
           R"({"outcome": {"broken_frames": {"pbs": [{"frame": "two"}]}, "frames": 31}})"})
         EXPECT_EQ(test_support::refusal_of([&] { marks_of(text); }), refusal) << text;
 }

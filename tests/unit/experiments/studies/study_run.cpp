@@ -1,4 +1,5 @@
-// Pieces of work in their folders. Reference: the contract of the header: run.json is written last, and only for a run that ended.
+// Pieces of work in their folders. Reference: the contract of the header: run.json is written last, and only for a run
+// that ended.
 
 #include "analysis/records/record_files.hpp"
 #include "experiments/deformers/registry.hpp"
@@ -46,7 +47,8 @@ TEST_F(StudyRunTest, WorkThatEndedIsFinishedUnderItsOwnSettingsAndWorkThatFailsL
     EXPECT_TRUE(fs::exists(fs::path(folder) / "rows.csv"));
     EXPECT_TRUE(is_finished(run, folder));
     EXPECT_FALSE(is_finished(counting_run(4, write_a_record), folder));
-    const StudyRun failing = counting_run(3, [](const std::string&) -> std::string { throw std::runtime_error("no solver"); });
+    const StudyRun failing =
+        counting_run(3, [](const std::string&) -> std::string { throw std::runtime_error("no solver"); });
     EXPECT_THROW(carry_out(failing, folder), std::runtime_error);
     EXPECT_FALSE(is_finished(failing, folder));
 }
@@ -61,7 +63,8 @@ TEST_F(StudyRunTest, AnAlteredRecordIsNotFinished)
         std::ofstream(record) << text;
         return is_finished(run, folder);
     };
-    for (const nlohmann::json& provenance : {nlohmann::json(3), nlohmann::json::array(), nlohmann::json{{"git_revision", 3}}}) {
+    for (const nlohmann::json& provenance :
+         {nlohmann::json(3), nlohmann::json::array(), nlohmann::json{{"git_revision", 3}}}) {
         nlohmann::json altered = whole;
         altered["provenance"] = provenance;
         EXPECT_FALSE(finished_with(altered.dump())) << provenance;
@@ -93,7 +96,8 @@ TEST_F(StudyRunTest, AFrameThatWasNotReachedIsABreakdownWhereTheSceneWasExpected
                                                       "deformers.use=[\"pbs\"]", "reference.name=\"\""})};
     const RunResult result = run_scene(run.scene, scratch / "alone");
     EXPECT_EQ(result.breakdown, "");
-    EXPECT_EQ(result.bad_frame.rfind("pose not reached: pbs is not converged in frame 0: worst tet ", 0), 0u) << result.bad_frame;
+    EXPECT_EQ(result.bad_frame.rfind("pose not reached: pbs is not converged in frame 0: worst tet ", 0), 0u)
+        << result.bad_frame;
     EXPECT_EQ(carry_out(run, folder), result.bad_frame);
     EXPECT_TRUE(is_finished(run, folder));  // recorded nevertheless
     EXPECT_EQ(breakdown_on_record(run, folder), result.bad_frame);
@@ -133,14 +137,16 @@ TEST(StudyCosts, StayOverResumedRunsAlsoWithoutWallTime)
     StudyCosts resumed(folder.path().string());
     resumed.add("human", 30.0, 28.0);  // done again
     resumed.write();
-    EXPECT_EQ(analysis::read_text(folder / "costs.csv"), "run,expected_cpu_s,cpu_s,wall_s\nlimb,10,12,\nhuman,30,28,\n");
+    EXPECT_EQ(analysis::read_text(folder / "costs.csv"),
+              "run,expected_cpu_s,cpu_s,wall_s\nlimb,10,12,\nhuman,30,28,\n");
 
     analysis::write_text_atomically(folder / "costs.csv", "run,expected_cpu_s,cpu_s\nlimb,10,12\n");
     StudyCosts(folder.path().string()).write();
     EXPECT_EQ(analysis::read_text(folder / "costs.csv"), "run,expected_cpu_s,cpu_s,wall_s\nlimb,10,12,\n");
 }
 
-// costs.csv of a study whose runs, each with an expected cost of 2 s, left these records. seen: as measured by the parent.
+// costs.csv of a study whose runs, each with an expected cost of 2 s, left these records. seen: as measured by the
+// parent.
 std::string completed(const std::vector<std::pair<std::string, std::string>>& records, const std::vector<RunCost>& seen)
 {
     const ScratchFolder folder;
@@ -157,9 +163,9 @@ std::string completed(const std::vector<std::pair<std::string, std::string>>& re
     return analysis::read_text(folder / "costs.csv");
 }
 
-// The process was killed before it wrote the table, so the record of each run supplies its cost; "lost" is from an earlier run, and did not
-// end again.
-// Records of another version, or a file that is not a record: their cost is unknown, which is not an error.
+// The process was killed before it wrote the table, so the record of each run supplies its cost; "lost" is from an
+// earlier run, and did not end again. Records of another version, or a file that is not a record: their cost is
+// unknown, which is not an error.
 TEST(StudyCosts, AreCompletedFromTheRunsThatEndedAndTellTheirCostInTheOrderOfThePlan)
 {
     EXPECT_EQ(completed({{"scene", R"({"cost": {"cpu_seconds": {"total": 3.5}}, "outcome": {}})"},
@@ -177,8 +183,8 @@ TEST(StudyCosts, AreCompletedFromTheRunsThatEndedAndTellTheirCostInTheOrderOfThe
               "run,expected_cpu_s,cpu_s,wall_s\nseen,2,8.5,9\ntold,2,3,\n");
 }
 
-// Reference: cases.toml of the study setup, whose ring is built in, and of volume, which has fewer deformers of the limb by
-// default.
+// Reference: cases.toml of the study setup, whose ring is built in, and of volume, which has fewer deformers of the
+// limb by default.
 TEST(StudyCases, HaveTheKeysAndTheCostOfTheirForm)
 {
     for (const bool full : {false, true}) {
@@ -198,7 +204,8 @@ TEST(StudyCases, HaveTheKeysAndTheCostOfTheirForm)
                 EXPECT_EQ(of.cost_s, full ? 72.0 : 9.0);
                 EXPECT_EQ(of.scene().deformers.size(), full ? 9u : 4u);
             }
-            for (const char* key : {"scene", "overrides", "motion", "add", "goes_on", "beside", "k_in_zone", "through_movements"})
+            for (const char* key :
+                 {"scene", "overrides", "motion", "add", "goes_on", "beside", "k_in_zone", "through_movements"})
                 of.has(key);
         });
     }
@@ -213,9 +220,10 @@ TEST(StudyCases, AddTheOverridesOfAFormToThoseOfTheCase)
             const nlohmann::json values = study_case.values();  // which counts all keys as read
             if (study_case.name != "limb_bend") return;
             ++bends;
-            EXPECT_EQ(values.at("overrides"), (nlohmann::json{R"(deformers.use=["lbs","dqs","pbs","nh_p1"])", R"(reference.name="nh_p1")",
-                                                              full ? "motion.angle_deg=150" : "motion.angle_deg=110",
-                                                              full ? "motion.frames=16" : "motion.frames=12"}));
+            EXPECT_EQ(values.at("overrides"),
+                      (nlohmann::json{R"(deformers.use=["lbs","dqs","pbs","nh_p1"])", R"(reference.name="nh_p1")",
+                                      full ? "motion.angle_deg=150" : "motion.angle_deg=110",
+                                      full ? "motion.frames=16" : "motion.frames=12"}));
             const Scene scene = study_case.scene();
             EXPECT_EQ(scene.motion.angle_deg, full ? 150.0 : 110.0);
             EXPECT_EQ(scene.reference, "nh_p1");
@@ -228,11 +236,13 @@ TEST(StudyCases, AddTheOverridesOfAFormToThoseOfTheCase)
 // A deformer that a study adds is that of the case's scene, except for what its table states.
 TEST(StudyCases, AddPbsWithOtherSettings)
 {
-    const StudyCase bend("made_up", {{"name", "bend"}, {"quick_s", 1.0}, {"scene", "limb_bend"}, {"overrides", {"pbs.k_volume=0.5"}}},
-                         false);
+    const StudyCase bend(
+        "made_up", {{"name", "bend"}, {"quick_s", 1.0}, {"scene", "limb_bend"}, {"overrides", {"pbs.k_volume=0.5"}}},
+        false);
     const Scene scene = bend.scene();
     const DeformerSpec own = *find_deformer_with<pbs::PbsOptions>(scene);
-    DeformerSpec spec = bend.further_pbs({{"label", "pbs_other"}, {"overrides", {"pbs.iterations=7"}}}, {"pbs.jiggle.k_stretch=0.3"});
+    DeformerSpec spec =
+        bend.further_pbs({{"label", "pbs_other"}, {"overrides", {"pbs.iterations=7"}}}, {"pbs.jiggle.k_stretch=0.3"});
     EXPECT_EQ(spec.name, "pbs");
     EXPECT_EQ(spec.label, "pbs_other");
     EXPECT_EQ(spec.variant, "jiggle");
@@ -252,8 +262,8 @@ TEST(StudyCases, LeaveOutABodyWithAllOfItsCases)
         ++asked;
         throw pbs::InputError("scene.toml", 1, "motion.clip", "", "missing");
     });
-    EXPECT_EQ(asked, 3 + pbs::body_is_installed("human") + pbs::body_is_installed("man") + pbs::body_is_installed("lady") +
-                         pbs::body_is_installed("frankie"));
+    EXPECT_EQ(asked, 3 + pbs::body_is_installed("human") + pbs::body_is_installed("man") +
+                         pbs::body_is_installed("lady") + pbs::body_is_installed("frankie"));
     EXPECT_EQ(std::ranges::count(plan.left_out, "human", &analysis::LeftOut::scene), 1);
     EXPECT_EQ(std::ranges::count(plan.left_out, "ring", &analysis::LeftOut::scene), 1);
 }

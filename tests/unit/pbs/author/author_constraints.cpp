@@ -11,7 +11,8 @@ using pbs::AuthorStiffness;
 using Points = std::vector<pbs::Vector3<double>>;
 
 const AuthorStiffness all_one = {1.0, 1.0, 1.0, 1.0, pbs::smallest_gradient2};
-const Points tet = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // its volume is 1/6, and its squared gradients add up to 6
+// its volume is 1/6, and its squared gradients add up to 6
+const Points tet = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 double volume_of(const Points& x)
 {
@@ -26,8 +27,8 @@ double projected_volume(const Points& from, double rest_volume, const AuthorStif
     return volume_of(x);
 }
 
-// The error eps / 6 is removed up to the second order, eps^2: the corner p1 moves by the sum of three gradients, so that the tet's corner
-// vectors change by at most eps / 6 each times 2, and a product of them by less than eps^2.
+// The error eps / 6 is removed up to the second order, eps^2: the corner p1 moves by the sum of three gradients, so
+// that the tet's corner vectors change by at most eps / 6 each times 2, and a product of them by less than eps^2.
 TEST(AuthorVolume, RemovesASixthOfTheErrorWithStiffnessOneAndAllOfItWithSix)
 {
     const AuthorStiffness six = {1.0, 1.0, 6.0, 6.0, pbs::smallest_gradient2};
@@ -55,7 +56,8 @@ TEST(AuthorVolume, BelowTheThresholdIsLeftOut)
         const double scale = std::pow(pbs::smallest_gradient2 / threshold_over_sum / 6.0, 0.25);
         Points small = tet;
         for (auto& point : small) point *= scale;
-        EXPECT_EQ(projected_volume(small, 2.0 * volume_of(small), all_one) == volume_of(small), threshold_over_sum > 1.0);
+        EXPECT_EQ(projected_volume(small, 2.0 * volume_of(small), all_one) == volume_of(small),
+                  threshold_over_sum > 1.0);
     }
 }
 
@@ -109,7 +111,8 @@ TEST(AuthorBind, MovesHalfOfTheWayToTheDistanceFromTheSegment)
     };
     for (const auto& [name, from, bone, distance, to] :
          {Case{"beside the bone", {1, 4, 0}, 0, 2.0, {1, 3, 0}}, Case{"too near", {1, 0, 4}, 0, 8.0, {1, 0, 6}},
-          Case{"beyond the tail", {8, 0, 0}, 0, 2.0, {7, 0, 0}}, Case{"beyond the head", {-4, 0, 0}, 0, 2.0, {-3, 0, 0}},
+          Case{"beyond the tail", {8, 0, 0}, 0, 2.0, {7, 0, 0}},
+          Case{"beyond the head", {-4, 0, 0}, 0, 2.0, {-3, 0, 0}},
           Case{"a vertex on its bone stays", {1, 0, 0}, 0, 2.0, {1, 0, 0}},
           Case{"a bone without length is its head", {1, 1, 5}, 1, 2.0, {1, 1, 4}}}) {
         Points x = {from};

@@ -1,4 +1,5 @@
-// Reference: the specified shape of the built-in limb (capsule of radius 0.15 m around (-1,0,0) -> 0 -> (1,0,0)), and refusals by field.
+// Reference: the specified shape of the built-in limb (capsule of radius 0.15 m around (-1,0,0) -> 0 -> (1,0,0)), and
+// refusals by field.
 
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/body_cache.hpp"
@@ -79,17 +80,22 @@ TEST(Bodies, OnOtherTetsKeepTheBonesSizesAndAreCutIntoEightLikeOthers)
 
 TEST(Bodies, RefusesWhatIsNotThere)
 {
-    expect_input_error([] { make_character({.body = "limp"}); }, "character.body = limp: ", "expected limb, bar, ring, human, ");
+    expect_input_error([] { make_character({.body = "limp"}); },
+                       "character.body = limp: ", "expected limb, bar, ring, human, ");
     expect_input_error([] { make_character({}); }, "character.mesh: ", "expected a body");
     expect_input_error([] { make_character({.mesh_file = "arm.msh"}); }, "character.skeleton: ", "needs a skeleton");
-    expect_input_error([] { make_character({.body = "limb", .vertices = -5}); }, "character.vertices = -5: ", "0 or more");
+    expect_input_error([] { make_character({.body = "limb", .vertices = -5}); },
+                       "character.vertices = -5: ", "0 or more");
 }
 
 // Reference: the contents written to the files.
 
 class BodyFiles : public test_support::FolderTest {
 protected:
-    void SetUp() override { write_tet_mesh(mesh, test_support::structured_bar(Vec3(-1, -0.1, -0.1), Vec3(1, 0.1, 0.1), {2, 1, 1})); }
+    void SetUp() override
+    {
+        write_tet_mesh(mesh, test_support::structured_bar(Vec3(-1, -0.1, -0.1), Vec3(1, 0.1, 0.1), {2, 1, 1}));
+    }
     const std::string mesh = folder / "bar.vtu";
 };
 

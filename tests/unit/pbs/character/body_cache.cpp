@@ -1,4 +1,5 @@
-// Reference: the specification of the cache: a hit is the mesh that was made, to the bit, and a damaged file is made again.
+// Reference: the specification of the cache: a hit is the mesh that was made, to the bit, and a damaged file is made
+// again.
 
 #include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/files.hpp"
@@ -29,7 +30,8 @@ namespace fs = std::filesystem;
 
 TetMesh two_tets()
 {
-    return {Positions{{0, 0, 0}, {1.0 / 3.0, 0, 0}, {0, 1e-3, 0}, {0, 0, M_PI}, {0.1, 0.1, -2.0 / 7.0}}, Tets{{0, 1, 2, 3}, {0, 2, 1, 4}}};
+    return {Positions{{0, 0, 0}, {1.0 / 3.0, 0, 0}, {0, 1e-3, 0}, {0, 0, M_PI}, {0.1, 0.1, -2.0 / 7.0}},
+            Tets{{0, 1, 2, 3}, {0, 2, 1, 4}}};
 }
 
 class BodyCache : public testing::Test {
@@ -107,7 +109,8 @@ TEST_F(BodyCache, WhatAKilledMakerLeftIsRemovedAndWhatALivingOneMakesIsNot)
     waitpid(gone, nullptr, 0);
     const fs::path folder = cache_folder();
     fs::create_directories(folder);
-    const std::string dead = "making-other-" + std::to_string(gone), living = "making-other-" + std::to_string(getpid());
+    const std::string dead = "making-other-" + std::to_string(gone),
+                      living = "making-other-" + std::to_string(getpid());
     for (const std::string& name : {dead + ".vtu", "." + dead + "." + std::to_string(gone) + ".vtu", living + ".vtu"})
         std::ofstream(folder / name) << "half";
     get();
@@ -161,7 +164,8 @@ TEST_F(BodyCache, WhereTheFolderCannotBeWrittenTheMeshIsMadeEveryTime)
     EXPECT_EQ(made, 2);
 }
 
-// A folder of references with tets for the key "two", which differ from those that the mesher makes and from those in the cache.
+// A folder of references with tets for the key "two", which differ from those that the mesher makes and from those in
+// the cache.
 class KeptTets : public BodyCache {
 protected:
     void SetUp() override
@@ -219,8 +223,8 @@ TEST(ReferencesFolder, FollowsTheVariableOrLiesNextToTheProgramsFolder)
 {
     ::setenv("PBSKIN_REFERENCES", "/a", 1);
     EXPECT_EQ(references_folder(), "/a");
-    for (const auto& unset :
-         std::vector<std::function<void()>>{[] { ::setenv("PBSKIN_REFERENCES", "", 1); }, [] { ::unsetenv("PBSKIN_REFERENCES"); }}) {
+    for (const auto& unset : std::vector<std::function<void()>>{[] { ::setenv("PBSKIN_REFERENCES", "", 1); },
+                                                                [] { ::unsetenv("PBSKIN_REFERENCES"); }}) {
         unset();
         const fs::path program = fs::read_symlink("/proc/self/exe");
         EXPECT_EQ(fs::path(references_folder()), program.parent_path().parent_path() / "share/pbskin/references");
@@ -272,8 +276,8 @@ TEST_F(InputFile, OneThatIsOverwrittenGoesOrComesIsRefused)
     expect_input_error([&] { file.hashed(); }, path + ": ", changed);
 }
 
-// The content is that of before, but a reader may have read the other content in between. The pause is longer than a tick of the file
-// system's clock, which is a few milliseconds.
+// The content is that of before, but a reader may have read the other content in between. The pause is longer than a
+// tick of the file system's clock, which is a few milliseconds.
 TEST_F(InputFile, OneThatIsOverwrittenAndRestoredIsRefused)
 {
     const std::string path = folder.file("arm.vtu", "one");
@@ -289,7 +293,8 @@ TEST_F(InputFile, TetGensOtherHalfBelongsToIt)
     const std::string points = folder.file("a.node", "points"), tets = folder.file("a.ele", "tets");
     for (const std::string& named : {points, tets}) {
         const pbs::InputFile file(named);
-        EXPECT_EQ(hashes_by_name(file.hashed()), hashes_by_name({{"a.node", hash_of_file(points)}, {"a.ele", hash_of_file(tets)}}));
+        EXPECT_EQ(hashes_by_name(file.hashed()),
+                  hashes_by_name({{"a.node", hash_of_file(points)}, {"a.ele", hash_of_file(tets)}}));
         const std::string other = named == points ? tets : points;
         std::filesystem::resize_file(other, 2);
         expect_input_error([&] { file.hashed(); }, other + ": ", changed);
@@ -300,7 +305,8 @@ TEST_F(InputFile, TetGensOtherHalfBelongsToIt)
 TEST_F(InputFile, TheBuffersOfAGltfBelongToIt)
 {
     const std::string buffer = folder.file("walk.bin", "\1\2\3");
-    const std::string text = R"({"buffers": [{"uri" : "walk.bin"}, {"uri": "data:;base64,AA=="}, {"uri": "none.bin"}], "name": "uri"})";
+    const std::string text =
+        R"({"buffers": [{"uri" : "walk.bin"}, {"uri": "data:;base64,AA=="}, {"uri": "none.bin"}], "name": "uri"})";
     const pbs::InputFile file(folder.file("walk.gltf", text));
     EXPECT_EQ(file.hashed(), (Hashes{{"walk.gltf", content_hash(text)}, {"walk.bin", hash_of_file(buffer)}}));
     folder.file("walk.bin", "\1\2\4");

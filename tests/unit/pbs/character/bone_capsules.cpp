@@ -36,7 +36,8 @@ TEST(BoneCapsules, SpanTheMiddleOfTheBone)
     EXPECT_EQ(capsules[1].end, Vec3(5.0 / 6.0, 0, 0));
 }
 
-// With two cells across, the skin around the axis has 4 vertices at the half width a and 4 at sqrt(2) a: the mean is a (1 + sqrt(2)) / 2.
+// With two cells across, the skin around the axis has 4 vertices at the half width a and 4 at sqrt(2) a: the mean is a
+// (1 + sqrt(2)) / 2.
 TEST(BoneCapsules, RadiusIsAShareOfTheMeanDistanceOfTheSkin)
 {
     for (const BoneCapsule& of_bone : bone_capsules(bar(), 0.35)) {
@@ -76,9 +77,9 @@ TEST(BoneCapsules, ContainsItsAxisAndNothingBeyondItsEndsOrRadius)
     EXPECT_EQ(capsule.volume_m3(), std::numbers::pi * 0.25 * 2.0);
 }
 
-// Equal shares of the volume: means over the samples are those over the capsule, centre (1, 0, 0) and <radius^2> = r^2 / 2. A ring at the
-// radius that halves its area has exactly the mean square of that area. Only the centre point, 1 / n of the disc, is counted with 0 instead
-// of r^2 / (2 n), n = 193 points per disc: 1.3e-5 of r^2.
+// Equal shares of the volume: means over the samples are those over the capsule, centre (1, 0, 0) and <radius^2> = r^2
+// / 2. A ring at the radius that halves its area has exactly the mean square of that area. Only the centre point, 1 / n
+// of the disc, is counted with 0 instead of r^2 / (2 n), n = 193 points per disc: 1.3e-5 of r^2.
 TEST(BoneCapsules, SamplesStandForEqualSharesOfTheVolume)
 {
     const pbs::Positions samples = sample_points(capsule);
@@ -95,7 +96,9 @@ TEST(BoneCapsules, SamplesStandForEqualSharesOfTheVolume)
 // an end, where both steps are 1/2.
 TEST(SmoothDensity, IsThatOfTheKernelsFormulas)
 {
-    const auto at = [&](AttachmentKernel kernel, const Vec3& point) { return smooth_density(capsule, kernel, 1.0, point); };
+    const auto at = [&](AttachmentKernel kernel, const Vec3& point) {
+        return smooth_density(capsule, kernel, 1.0, point);
+    };
     EXPECT_DOUBLE_EQ(at(AttachmentKernel::biweight, {1, 0, 0}), 1.0);
     EXPECT_DOUBLE_EQ(at(AttachmentKernel::wendland, {1, 0, 0}), 1.0);
     EXPECT_DOUBLE_EQ(at(AttachmentKernel::biweight, {1, 0, 0.25}), 9.0 / 16.0);
@@ -103,10 +106,12 @@ TEST(SmoothDensity, IsThatOfTheKernelsFormulas)
     EXPECT_DOUBLE_EQ(at(AttachmentKernel::biweight, {0.25, 0, 0}), 0.5);
     EXPECT_DOUBLE_EQ(at(AttachmentKernel::wendland, {1.75, 0, 0}), 0.5);
     for (const auto kernel : {AttachmentKernel::biweight, AttachmentKernel::wendland})
-        for (const Vec3& outside : {Vec3(-0.1, 0, 0), Vec3(2.1, 0, 0), Vec3(1, 0.5, 0), Vec3(1, 0, 7)}) EXPECT_EQ(at(kernel, outside), 0.0);
+        for (const Vec3& outside : {Vec3(-0.1, 0, 0), Vec3(2.1, 0, 0), Vec3(1, 0.5, 0), Vec3(1, 0, 7)})
+            EXPECT_EQ(at(kernel, outside), 0.0);
 }
 
-// Steps longer than half of the capsule would not meet: each is half of it then, and the density is 1 in the middle alone.
+// Steps longer than half of the capsule would not meet: each is half of it then, and the density is 1 in the middle
+// alone.
 TEST(SmoothDensity, StepsAreAtMostHalfOfTheCapsule)
 {
     EXPECT_DOUBLE_EQ(smooth_density(capsule, AttachmentKernel::biweight, 10.0, {1, 0, 0}), 1.0);
@@ -121,9 +126,10 @@ TEST(BoneCapsules, ADensityOfSamplesMultipliesTheirNumbersInEachDirection)
 
 // The springs.
 
-constexpr double length_m = 2.0 / 3.0;                                         // of the middle of each bone of the bar
-constexpr double limb_radius_m = 0.15 * (1.0 + std::numbers::sqrt2) / 2.0;     // of the bar
-constexpr double part_area_m2 = 0.3 * 0.3, part_square_m2 = 0.3 * 0.3 / 12.0;  // of the bar's section: its area and the mean of y^2
+constexpr double length_m = 2.0 / 3.0;                                      // of the middle of each bone of the bar
+constexpr double limb_radius_m = 0.15 * (1.0 + std::numbers::sqrt2) / 2.0;  // of the bar
+// of the bar's section: its area and the mean of y^2
+constexpr double part_area_m2 = 0.3 * 0.3, part_square_m2 = 0.3 * 0.3 / 12.0;
 
 // Sums over the springs of one bone from the first of them on: of k, k x, k x^2 and k y^2.
 Eigen::Vector4d moments(const BoneSprings& springs, int bone, Eigen::Index first = 0)
@@ -139,22 +145,26 @@ Eigen::Vector4d moments(const BoneSprings& springs, int bone, Eigen::Index first
 // The density q / r^2 over the volume pi r^2 L is q pi L, whatever the radius is.
 TEST(BoneSprings, OfEmbeddedBonesHaveOneDensityInTheWholeCapsule)
 {
-    const CapsuleSprings held = bone_springs(bar(), SpringPlacement::embedded, {.core_radius = 0.35, .spring_factor = 1e4});
+    const CapsuleSprings held =
+        bone_springs(bar(), SpringPlacement::embedded, {.core_radius = 0.35, .spring_factor = 1e4});
     ASSERT_EQ(held.springs.points.rows(), 2 * 40 * 193);
     EXPECT_TRUE(std::ranges::all_of(held.density, [](double density) { return density == 1.0; }));
     const double total = 1e4 * std::numbers::pi * length_m, share = total / (40 * 193);
-    for (const int bone : {0, 1}) EXPECT_NEAR(moments(held.springs, bone)(0), total, test_support::mean_error(40 * 193 + 20, total));
+    for (const int bone : {0, 1})
+        EXPECT_NEAR(moments(held.springs, bone)(0), total, test_support::mean_error(40 * 193 + 20, total));
     for (Eigen::Index s = 0; s < held.springs.points.rows(); ++s) {
         ASSERT_NEAR(held.springs.stiffness(s), share, test_support::rounding_error(20, share)) << s;
         ASSERT_TRUE(held.capsules[held.springs.bone[s]].contains(held.springs.points.row(s).transpose())) << s;
     }
 }
 
-// The biweight (1 - s^2)^2 has a third of the section's area, and a step over one radius at each end takes half of it: q pi (L - R) / 3.
-// The midpoint rule over eight rings of equal area underestimates the first integral by 1 / (12 8^2) of the area, 0.4 % of it.
+// The biweight (1 - s^2)^2 has a third of the section's area, and a step over one radius at each end takes half of it:
+// q pi (L - R) / 3. The midpoint rule over eight rings of equal area underestimates the first integral by 1 / (12 8^2)
+// of the area, 0.4 % of it.
 TEST(BoneSprings, OfSmoothAttachmentsHaveTheIntegralOfTheirDensity)
 {
-    const CapsuleSprings held = bone_springs(bar(), SpringPlacement::smooth, {.core_radius = 0.7, .spring_factor = 10.0});
+    const CapsuleSprings held =
+        bone_springs(bar(), SpringPlacement::smooth, {.core_radius = 0.7, .spring_factor = 10.0});
     const double total = 10.0 * std::numbers::pi * (length_m - 0.7 * limb_radius_m) / 3.0;
     for (const int bone : {0, 1}) EXPECT_NEAR(moments(held.springs, bone)(0), total, 0.005 * total);
     for (Eigen::Index s = 0; s < held.springs.points.rows(); ++s)
@@ -162,8 +172,8 @@ TEST(BoneSprings, OfSmoothAttachmentsHaveTheIntegralOfTheirDensity)
                                                   held.springs.points.row(s).transpose()));
 }
 
-// By hand: each half of the bar follows one bone alone, the plane of the joint follows both, and of the plane x = 1/2 the forearm has no
-// more than the threshold. The cells next to these planes, 1/12 long, are moved by two bones.
+// By hand: each half of the bar follows one bone alone, the plane of the joint follows both, and of the plane x = 1/2
+// the forearm has no more than the threshold. The cells next to these planes, 1/12 long, are moved by two bones.
 pbs::Character bar_of_known_parts()
 {
     pbs::Character character = bar();
@@ -182,7 +192,8 @@ pbs::Character bar_of_known_parts()
 struct Part {
     double from, to;  // along x [m]
 };
-const std::vector<std::vector<Part>> parts_of_bones = {{{-1.0, -1.0 / 12.0}}, {{1.0 / 12.0, 5.0 / 12.0}, {7.0 / 12.0, 1.0}}};
+const std::vector<std::vector<Part>> parts_of_bones = {{{-1.0, -1.0 / 12.0}},
+                                                       {{1.0 / 12.0, 5.0 / 12.0}, {7.0 / 12.0, 1.0}}};
 
 TEST(BonesThatMoveAlone, AreThoseOfWeightsAboveTheThresholdAtAllCorners)
 {
@@ -204,7 +215,8 @@ TEST(BonesThatMoveAlone, CountAsOneWhereTheyMoveAsOne)
 {
     pbs::Character character = bar_of_known_parts();
     character.moves_with = {0, 0};
-    EXPECT_EQ(bones_that_move_alone(character), std::vector<int>(static_cast<std::size_t>(character.mesh.tets.rows()), 0));
+    EXPECT_EQ(bones_that_move_alone(character),
+              std::vector<int>(static_cast<std::size_t>(character.mesh.tets.rows()), 0));
 }
 
 // A second bar of the same tets, away from the bones, is moved by a quarter of the one and three quarters of the other.
@@ -230,7 +242,8 @@ TEST(BoneSprings, OfAPartThatNoBoneHoldsPullItToItsPlaceByLinearBlendSkinning)
     std::map<int, std::array<double, 2>> of_tet;  // the stiffness of the springs of each bone
     for (Eigen::Index s = 0; s < held.springs.points.rows(); ++s)
         if (held.springs.points(s, 1) > 2.5)
-            of_tet[static_cast<int>(location.locate(held.springs.points.row(s)).tet)][held.springs.bone[s]] += held.springs.stiffness(s);
+            of_tet[static_cast<int>(location.locate(held.springs.points.row(s)).tet)][held.springs.bone[s]] +=
+                held.springs.stiffness(s);
     ASSERT_EQ(of_tet.size(), static_cast<std::size_t>(tets));
     for (const auto& [tet, stiffness] : of_tet)
         EXPECT_NEAR(stiffness[1], 3.0 * stiffness[0], test_support::rounding_error(60, stiffness[1])) << tet;
@@ -250,16 +263,19 @@ TEST(BoneSprings, OfHeldPartsFillThemAndCrossNoBones)
     for (const int bone : {0, 1}) {
         Eigen::Vector4d expected = Eigen::Vector4d::Zero();
         for (const auto& [a, b] : parts_of_bones[bone])
-            expected += density * part_area_m2 *
-                        Eigen::Vector4d(b - a, (b * b - a * a) / 2.0, (b * b * b - a * a * a) / 3.0, (b - a) * part_square_m2);
+            expected +=
+                density * part_area_m2 *
+                Eigen::Vector4d(b - a, (b * b - a * a) / 2.0, (b * b * b - a * a * a) / 3.0, (b - a) * part_square_m2);
         const Eigen::Vector4d sums = moments(held, bone, first);
         // A term goes through fewer than 60 roundings, those of the tet's volume and of the limb's radius among them.
         for (int i = 0; i < 4; ++i)
-            EXPECT_NEAR(sums(i), expected(i), test_support::mean_error(static_cast<std::size_t>(held.points.rows()) + 60, expected(0)));
+            EXPECT_NEAR(sums(i), expected(i),
+                        test_support::mean_error(static_cast<std::size_t>(held.points.rows()) + 60, expected(0)));
     }
     const PointLocation location(character.mesh);
     const std::vector<int> alone = bones_that_move_alone(character);
-    for (Eigen::Index s = first; s < held.points.rows(); ++s) ASSERT_EQ(alone[location.locate(held.points.row(s)).tet], held.bone[s]) << s;
+    for (Eigen::Index s = first; s < held.points.rows(); ++s)
+        ASSERT_EQ(alone[location.locate(held.points.row(s)).tet], held.bone[s]) << s;
 }
 
 // Without an artist, the weights are those of Eq. 2, smoothed over the edges. Finer tets have the same springs.
@@ -283,7 +299,8 @@ TEST(BoneSprings, OfHeldPartsOfTheLimbAreThoseOfItsUnrefinedTets)
     EXPECT_EQ(fine.bone, coarse.bone);
 }
 
-// Reference: the built-in limb, whose skin is farther from the bones than the mean vertex, and a zone that consists of two known pieces.
+// Reference: the built-in limb, whose skin is farther from the bones than the mean vertex, and a zone that consists of
+// two known pieces.
 
 TEST(JiggleZoneContents, OfTheLimbIsMostlySkinInOnePieceOnBothBones)
 {
@@ -301,7 +318,8 @@ TEST(JiggleZoneContents, OfTheLimbIsMostlySkinInOnePieceOnBothBones)
 TEST(JiggleZoneContents, TwoEndsAreTwoPiecesAndTogetherTheWholeZone)
 {
     pbs::Character bar = test_support::character_of(test_support::two_bone_limb({10, 2, 2}, {0, 0, 1}, 0.0));
-    for (Eigen::Index v = 0; v < bar.mesh.rest.rows(); ++v) bar.binding.distance(v) = std::abs(bar.mesh.rest(v, 0)) > 0.7 ? 1.0 : 0.0;
+    for (Eigen::Index v = 0; v < bar.mesh.rest.rows(); ++v)
+        bar.binding.distance(v) = std::abs(bar.mesh.rest(v, 0)) > 0.7 ? 1.0 : 0.0;
     const auto zone = pbs::zone_contents(bar);
     ASSERT_EQ(zone.pieces.size(), 2u);
     std::set<int> seen;

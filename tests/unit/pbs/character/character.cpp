@@ -1,4 +1,5 @@
-// Reference: the jiggle zone as the paper defines it: vertices farther from the nearest bone than the mean over all vertices (Sec. 4).
+// Reference: the jiggle zone as the paper defines it: vertices farther from the nearest bone than the mean over all
+// vertices (Sec. 4).
 
 #include "pbs/character/character.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
@@ -44,7 +45,8 @@ TEST(JiggleZoneByBone, IsFartherThanTheMeanOfItsOwnBone)
     EXPECT_TRUE(jiggle_zone_by_bone({}).empty());
 }
 
-// Reference: the rules of binding and weights themselves, applied to the finer mesh; and that refinement moves no vertex.
+// Reference: the rules of binding and weights themselves, applied to the finer mesh; and that refinement moves no
+// vertex.
 
 Character bar(WeightKind kind = WeightKind::paper)
 {
@@ -96,11 +98,12 @@ TEST(RefinedCharacter, TakesTheMeanOfWeightsFromAFile)
     ASSERT_EQ(fine.weights.vertices(), fine.mesh.rest.rows());
     for (int e = 0; e < parents.rows(); ++e) {
         const int vertex = static_cast<int>(coarse.mesh.rest.rows()) + e;
-        EXPECT_DOUBLE_EQ(weight_in(fine.weights, vertex, 0),
-                         0.5 * (weight_in(coarse.weights, parents(e, 0), 0) + weight_in(coarse.weights, parents(e, 1), 0)));
+        EXPECT_DOUBLE_EQ(weight_in(fine.weights, vertex, 0), 0.5 * (weight_in(coarse.weights, parents(e, 0), 0) +
+                                                                    weight_in(coarse.weights, parents(e, 1), 0)));
         const int entries = fine.weights.first[vertex + 1] - fine.weights.first[vertex];
         EXPECT_NEAR(test_support::sum_of_weights(fine.weights, vertex), 1.0,
-                    test_support::mean_error(2 * entries, 1.0));  // of two parents, whose weights are rounded themselves
+                    // of two parents, whose weights are rounded themselves
+                    test_support::mean_error(2 * entries, 1.0));
     }
 }
 
@@ -125,7 +128,8 @@ EdgeCondition edge_condition(const TetMesh& mesh)
     EdgeCondition worst;
     for (const auto& tet : mesh.tets.rowwise()) {
         Eigen::Matrix3d edges;
-        for (int corner = 1; corner < 4; ++corner) edges.row(corner - 1) = mesh.rest.row(tet(corner)) - mesh.rest.row(tet(0));
+        for (int corner = 1; corner < 4; ++corner)
+            edges.row(corner - 1) = mesh.rest.row(tet(corner)) - mesh.rest.row(tet(0));
         worst.inverse_per_m = std::max(worst.inverse_per_m, edges.inverse().norm());
         worst.condition = std::max(worst.condition, edges.norm() * edges.inverse().norm());
     }
@@ -138,19 +142,24 @@ TEST(RefinedCharacter, CarriesTheSameSurface)
     Character coarse = bar();
     test_support::RandomPoints random(4);
     Positions points(300, 3);
-    for (Eigen::Index s = 0; s < points.rows(); ++s) points.row(s) = random.point(1.0).cwiseProduct(Vec3(1.1, 0.17, 0.17)).transpose();
+    for (Eigen::Index s = 0; s < points.rows(); ++s)
+        points.row(s) = random.point(1.0).cwiseProduct(Vec3(1.1, 0.17, 0.17)).transpose();
     coarse.surface = embed(points, Triangles(0, 3), coarse.mesh);
     const Character fine = refined(coarse);
     ASSERT_TRUE(fine.surface);
     const Eigen::Matrix3d map = (Eigen::Matrix3d() << 1, 0.2, 0, -0.4, 1.5, 0.1, 0, 0.3, 0.9).finished();
-    // Barycentric coordinates go through a dozen roundings, times the condition number; a position is a sum of four products with them. The
-    // finer mesh takes over positions of the coarse one. All points are within 1.2 m.
+    // Barycentric coordinates go through a dozen roundings, times the condition number; a position is a sum of four
+    // products with them. The finer mesh takes over positions of the coarse one. All points are within 1.2 m.
     const EdgeCondition of_coarse = edge_condition(coarse.mesh), of_fine = edge_condition(fine.mesh);
-    const double coarse_roundings = 12.0 * of_coarse.condition + 4 + 3, fine_roundings = 12.0 * of_fine.condition + 4 + 3;
-    const double rounding_m = test_support::rounding_error(coarse_roundings + fine_roundings + 4, 2.0 * 1.2 * map.norm());
-    const double of_barycentric =
-        of_fine.inverse_per_m * test_support::rounding_error(coarse_roundings, 1.2) + test_support::rounding_error(fine_roundings, 1.0);
-    EXPECT_LT((embedded_positions(*fine.surface, fine.mesh.rest * map, fine.mesh.tets) - points * map).cwiseAbs().maxCoeff(), rounding_m);
+    const double coarse_roundings = 12.0 * of_coarse.condition + 4 + 3,
+                 fine_roundings = 12.0 * of_fine.condition + 4 + 3;
+    const double rounding_m =
+        test_support::rounding_error(coarse_roundings + fine_roundings + 4, 2.0 * 1.2 * map.norm());
+    const double of_barycentric = of_fine.inverse_per_m * test_support::rounding_error(coarse_roundings, 1.2) +
+                                  test_support::rounding_error(fine_roundings, 1.0);
+    EXPECT_LT(
+        (embedded_positions(*fine.surface, fine.mesh.rest * map, fine.mesh.tets) - points * map).cwiseAbs().maxCoeff(),
+        rounding_m);
     for (Eigen::Index s = 0; s < points.rows(); ++s) {
         EXPECT_EQ(fine.surface->tet(s) / 8, coarse.surface->tet(s));
         if (coarse.surface->barycentric.row(s).minCoeff() >= 0.0) {

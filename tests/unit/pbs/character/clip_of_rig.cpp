@@ -1,4 +1,5 @@
-// Reference: the rig of two joints of gltf_document.hpp, whose elbow turns half round about z within a second, and glTF 2.0, Appendix C.
+// Reference: the rig of two joints of gltf_document.hpp, whose elbow turns half round about z within a second, and
+// glTF 2.0, Appendix C.
 #include "pbs/character/clip.hpp"
 #include "tests/support/fbx_file.hpp"
 #include "tests/support/gltf_document.hpp"
@@ -51,7 +52,8 @@ TEST(ClipOfRig, AnAnimationThatStandsStillIsNotTheMotion)
     const Clip clip = read(gltf);
     EXPECT_NEAR(elbow_deg(clip, 60), 90.0, of_angles_deg);
     ASSERT_EQ(clip.remarks.size(), 1u);
-    EXPECT_NE(clip.remarks[0].find("it has 2 animations; Bend is taken, the first one that turns a joint by more than 5 degrees"),
+    EXPECT_NE(clip.remarks[0].find(
+                  "it has 2 animations; Bend is taken, the first one that turns a joint by more than 5 degrees"),
               std::string::npos)
         << clip.remarks[0];
     const Clip still_one = read(gltf, "T-Pose");
@@ -64,9 +66,10 @@ TEST(ClipOfRig, AnAnimationThatStandsStillIsNotTheMotion)
 TEST(ClipOfRig, ABvhHasNoNames)
 {
     const test_support::ScratchFolder folder;
-    const std::string path = folder.file("a.bvh",
-                                         "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\n"
-                                         "OFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0\n");
+    const std::string path =
+        folder.file("a.bvh",
+                    "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\n"
+                    "OFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0\n");
     EXPECT_EQ(read_clip(path).frames(), 1);
     expect_input_error([&] { read_clip(path, "Walk"); }, path + ": animation = Walk: ", "a BVH file holds one motion");
 }
@@ -97,12 +100,14 @@ TEST(ClipOfRig, StepsAreHeldUntilTheNextKey)
 TEST(ClipOfRig, CubicSplinesAreEvaluatedByTheFormat)
 {
     GltfDocument gltf = test_support::two_joint_document();
-    const int spline = gltf.put<float>("VEC4", {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0});
+    const int spline =
+        gltf.put<float>("VEC4", {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0});
     gltf.json["animations"][0]["samplers"][0] = {{"input", 5}, {"output", spline}, {"interpolation", "CUBICSPLINE"}};
     const Clip clip = read(gltf);
     for (const int frame : {0, 30, 60, 90}) {
         const double t = frame / 120.0, share = 3.0 * t * t - 2.0 * t * t * t;  // without tangents
-        EXPECT_NEAR(elbow_deg(clip, frame), 2.0 * std::atan2(share, 1.0 - share) * 180.0 / M_PI, of_angles_deg) << frame;
+        EXPECT_NEAR(elbow_deg(clip, frame), 2.0 * std::atan2(share, 1.0 - share) * 180.0 / M_PI, of_angles_deg)
+            << frame;
     }
 }
 
@@ -112,7 +117,8 @@ TEST(ClipOfRig, TheCurvesOfFbxNodesAreAMotion)
         test_support::FbxFile file;
         const std::int64_t root = file.node("root", 0, "LimbNode", {});
         const std::int64_t elbow = file.node("elbow", root, "LimbNode", {{"Lcl Translation", {0, 2, 0}}});
-        file.curves(file.layer(file.animation("Bend")), elbow, "Lcl Rotation", {0, 0, 0}, {{2, {{0, 1}, {0, 90}, flags}}});
+        file.curves(file.layer(file.animation("Bend")), elbow, "Lcl Rotation", {0, 0, 0},
+                    {{2, {{0, 1}, {0, 90}, flags}}});
         const test_support::ScratchFolder folder;
         const Clip clip = read_clip(folder.file("walk.fbx", file.text()));
         ASSERT_EQ(clip.frames(), 121);
@@ -127,7 +133,8 @@ TEST(ClipOfRig, AJointOfAnFbxFileThatMovesNoPointRestsBelowItsParent)
     const std::int64_t root = file.node("root", 0, "LimbNode", {});
     const std::int64_t middle = file.node("middle", root, "LimbNode", {{"Lcl Translation", {0, 2, 0}}});
     const std::int64_t hand = file.node("hand", middle, "LimbNode", {{"Lcl Translation", {0, 1, 0}}});
-    const std::int64_t mesh = file.mesh("skin", file.node("body", 0, "Mesh", {}), {1, 0, 0, 0, 3, 0, 0, 4, 1}, {0, 1, -3});
+    const std::int64_t mesh =
+        file.mesh("skin", file.node("body", 0, "Mesh", {}), {1, 0, 0, 0, 3, 0, 0, 4, 1}, {0, 1, -3});
     const std::int64_t skin = file.skin(mesh, "");
     file.cluster(skin, root, {0}, {1}, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
     file.cluster(skin, hand, {1, 2}, {1, 1}, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -3, 0, 1});

@@ -1,5 +1,6 @@
-// Reference: barycentric coordinates reproduce affine maps exactly, inside and outside; distances of points from a unit tet are elementary.
-// Tolerances: barycentric coordinates go through a dozen roundings, times the condition number sqrt 6 sqrt 5 of a Kuhn tet's edges.
+// Reference: barycentric coordinates reproduce affine maps exactly, inside and outside; distances of points from a unit
+// tet are elementary. Tolerances: barycentric coordinates go through a dozen roundings, times the condition number sqrt
+// 6 sqrt 5 of a Kuhn tet's edges.
 
 #include "pbs/character/embedding.hpp"
 #include "tests/support/closed_surfaces.hpp"
@@ -70,7 +71,8 @@ TEST(Embedding, AffineMapsAreExact)
     const auto mapped = [&](const Positions& p) -> Positions { return (p * linear.transpose()).rowwise() + shift; };
 
     const EmbeddedSurface surface = embed(points, Triangles(0, 3), mesh);
-    const double farthest = mapped(points).rowwise().norm().maxCoeff() + linear.norm() * 3.0;  // the sum of terms of both sides
+    // the sum of terms of both sides
+    const double farthest = mapped(points).rowwise().norm().maxCoeff() + linear.norm() * 3.0;
     EXPECT_LT((embedded_positions(surface, mapped(mesh.rest), mesh.tets) - mapped(points)).cwiseAbs().maxCoeff(),
               rounding_error(of_barycentric + 4 + 3 + 4, farthest));
 }
@@ -81,9 +83,10 @@ TEST(Embedding, DistanceOutsideOfAFaceAnEdgeAndACorner)
     EXPECT_NEAR(largest_distance({0.2, 0.3, -0.25}), 0.25, of_distance);                // below the face z = 0
     EXPECT_NEAR(largest_distance({0.5, 0.5, 0.5}), 0.5 / std::sqrt(3.0), of_distance);  // above the slanted face
     EXPECT_NEAR(largest_distance({0.5, -0.3, -0.4}), 0.5, of_distance);                 // outside the edge along x
-    EXPECT_NEAR(largest_distance({-1.0, -2.0, -2.0}), 3.0, 3.0 * of_distance);          // outside the corner at the origin
-    EXPECT_EQ(largest_distance({0.1, 0.1, 0.1}), 0.0);                                  // inside
-    EXPECT_EQ(largest_distance({0.0, 0.0, 0.0}), 0.0);                                  // on a corner
+    // outside the corner at the origin
+    EXPECT_NEAR(largest_distance({-1.0, -2.0, -2.0}), 3.0, 3.0 * of_distance);
+    EXPECT_EQ(largest_distance({0.1, 0.1, 0.1}), 0.0);  // inside
+    EXPECT_EQ(largest_distance({0.0, 0.0, 0.0}), 0.0);  // on a corner
 }
 
 TEST(Embedding, TheNearestTetCarriesAPointOutside)
@@ -101,7 +104,8 @@ TEST(Embedding, PointsAreAsFarFromTheTetsAsFromTheirCube)
         const EmbeddedSurface one = embed(points.row(p), Triangles(0, 3), cube());
         const Vec3 point = points.row(p);
         const double expected = Eigen::AlignedBox3d(Vec3::Zero(), Vec3::Ones()).exteriorDistance(point);
-        EXPECT_NEAR(one.largest_distance_outside_m, expected, rounding_error(of_barycentric + 8, 4.0));  // coordinates within 4 m
+        // coordinates within 4 m
+        EXPECT_NEAR(one.largest_distance_outside_m, expected, rounding_error(of_barycentric + 8, 4.0));
     }
 }
 
@@ -112,7 +116,8 @@ TEST(Embedding, AnEmptySurfaceStaysEmpty)
     EXPECT_EQ(embedded_positions(surface, mesh.rest, mesh.tets).rows(), 0);
 }
 
-// Reference: the regions of one triangle by hand, and all triangles tried one after another on a dense grid of barycentric coordinates.
+// Reference: the regions of one triangle by hand, and all triangles tried one after another on a dense grid of
+// barycentric coordinates.
 
 const double nearest_rounding = test_support::rounding_error(64, 8.0);
 
@@ -130,7 +135,8 @@ void expect_nearest(const Vec3& point, const Vec3& expected)
 {
     const SurfacePoint found = SurfaceTree(corner_points, corner_triangle).nearest(point);
     EXPECT_EQ(found.triangle, 0);
-    EXPECT_LE((place_of(found, corner_points, corner_triangle) - expected).norm(), nearest_rounding) << point.transpose();
+    EXPECT_LE((place_of(found, corner_points, corner_triangle) - expected).norm(), nearest_rounding)
+        << point.transpose();
     EXPECT_NEAR(found.distance_m, (point - expected).norm(), nearest_rounding);
     EXPECT_GE(found.barycentric.minCoeff(), 0.0);
     EXPECT_NEAR(found.barycentric.sum(), 1.0, nearest_rounding);
@@ -167,7 +173,8 @@ double distance_by_sampling(const Vec3& point, const Positions& points, const Tr
         for (int i = 0; i <= steps; ++i)
             for (int j = 0; j <= steps - i; ++j) {
                 const double u = double(i) / steps, v = double(j) / steps;
-                const Vec3 place = (1.0 - u - v) * points.row(triangle(0)) + u * points.row(triangle(1)) + v * points.row(triangle(2));
+                const Vec3 place =
+                    (1.0 - u - v) * points.row(triangle(0)) + u * points.row(triangle(1)) + v * points.row(triangle(2));
                 least = std::min(least, (place - point).norm());
             }
     return least;
@@ -181,7 +188,8 @@ TEST(NearestTriangle, OfManyIsThatOfAllTriedOneByOne)
     for (int trial = 0; trial < 50; ++trial) {
         const Vec3 point = random.point(2.0);
         const SurfacePoint found = tree.nearest(point);
-        EXPECT_NEAR((place_of(found, sphere.points, sphere.triangles) - point).norm(), found.distance_m, nearest_rounding);
+        EXPECT_NEAR((place_of(found, sphere.points, sphere.triangles) - point).norm(), found.distance_m,
+                    nearest_rounding);
         // A sample is at most one step of the longest edge, 0.62 / 30, from the nearest point.
         const double sampled = distance_by_sampling(point, sphere.points, sphere.triangles, 30);
         EXPECT_LE(found.distance_m, sampled + nearest_rounding);
@@ -209,7 +217,8 @@ TEST(NearestTriangle, DoesNotDependOnTheScale)
 {
     for (const double scale : {1e-6, 1e6}) {
         const Positions points = scale * corner_points;
-        EXPECT_NEAR(SurfaceTree(points, corner_triangle).nearest(scale * Vec3(4, 4, 1)).distance_m / scale, 3.0, nearest_rounding);
+        EXPECT_NEAR(SurfaceTree(points, corner_triangle).nearest(scale * Vec3(4, 4, 1)).distance_m / scale, 3.0,
+                    nearest_rounding);
     }
 }
 

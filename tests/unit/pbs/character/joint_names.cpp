@@ -1,5 +1,5 @@
-// Reference: one body of twelve parts whose clip, the same in each scheme, turns one joint per frame. Its names are those that CMU, other
-// recordings, Mixamo, Rigify and Unreal's mannequin give to these parts.
+// Reference: one body of twelve parts whose clip, the same in each scheme, turns one joint per frame. Its names are
+// those that CMU, other recordings, Mixamo, Rigify and Unreal's mannequin give to these parts.
 #include "pbs/character/clip.hpp"
 #include "pbs/character/named_bodies.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -20,44 +20,54 @@ using Names = std::vector<std::string>;
 const Names bones = {"pelvis",      "spine",           "chest",  "neck",    "head",   "clavicle.L",
                      "upper_arm.L", "forearm_upper.L", "hand.L", "thigh.L", "shin.L", "foot.L"};
 const std::vector<Names> schemes = {
-    {"Hips", "LowerBack", "Spine1", "Neck", "Head", "LeftShoulder", "LeftArm", "LeftForeArm", "LeftHand", "LeftUpLeg", "LeftLeg",
-     "LeftFoot"},
-    {"root", "lowerback", "thorax", "lowerneck", "head", "lclavicle", "lhumerus", "lradius", "lwrist", "lfemur", "ltibia", "lfoot"},
-    {"Hips", "Ab", "Chest", "Neck", "Head", "LeftCollar", "LeftShoulder", "LeftElbow", "LeftWrist", "LeftHip", "LeftKnee", "LeftAnkle"},
-    {"mixamorig:Hips", "mixamorig:Spine", "mixamorig:Spine2", "mixamorig:Neck", "mixamorig:Head", "mixamorig:LeftShoulder",
-     "mixamorig:LeftArm", "mixamorig:LeftForeArm", "mixamorig:LeftHand", "mixamorig:LeftUpLeg", "mixamorig:LeftLeg", "mixamorig:LeftFoot"},
-    {"DEF-spine", "DEF-spine.001", "DEF-spine.003", "DEF-spine.004", "DEF-spine.006", "DEF-shoulder.L", "DEF-upper_arm.L", "DEF-forearm.L",
-     "DEF-hand.L", "DEF-thigh.L", "DEF-shin.L", "DEF-foot.L"},
-    {"pelvis", "spine_01", "spine_03", "neck_01", "head", "clavicle_l", "upperarm_l", "lowerarm_l", "hand_l", "thigh_l", "calf_l",
-     "foot_l"},
+    {"Hips", "LowerBack", "Spine1", "Neck", "Head", "LeftShoulder", "LeftArm", "LeftForeArm", "LeftHand", "LeftUpLeg",
+     "LeftLeg", "LeftFoot"},
+    {"root", "lowerback", "thorax", "lowerneck", "head", "lclavicle", "lhumerus", "lradius", "lwrist", "lfemur",
+     "ltibia", "lfoot"},
+    {"Hips", "Ab", "Chest", "Neck", "Head", "LeftCollar", "LeftShoulder", "LeftElbow", "LeftWrist", "LeftHip",
+     "LeftKnee", "LeftAnkle"},
+    {"mixamorig:Hips", "mixamorig:Spine", "mixamorig:Spine2", "mixamorig:Neck", "mixamorig:Head",
+     "mixamorig:LeftShoulder", "mixamorig:LeftArm", "mixamorig:LeftForeArm", "mixamorig:LeftHand",
+     "mixamorig:LeftUpLeg", "mixamorig:LeftLeg", "mixamorig:LeftFoot"},
+    {"DEF-spine", "DEF-spine.001", "DEF-spine.003", "DEF-spine.004", "DEF-spine.006", "DEF-shoulder.L",
+     "DEF-upper_arm.L", "DEF-forearm.L", "DEF-hand.L", "DEF-thigh.L", "DEF-shin.L", "DEF-foot.L"},
+    {"pelvis", "spine_01", "spine_03", "neck_01", "head", "clavicle_l", "upperarm_l", "lowerarm_l", "hand_l", "thigh_l",
+     "calf_l", "foot_l"},
     // One scheme in several spellings of the side.
-    {"HIPS", "lower_back", "spine1", "neck", "head", "L_Shoulder", "Arm.L", "fore_arm_l", "hand_left", "l-UpLeg", "leftleg", "lfoot"},
-    {"J_Bip_C_Hips", "J_Bip_C_Spine", "J_Bip_C_Chest", "J_Bip_C_Neck", "J_Bip_C_Head", "J_Bip_L_Shoulder", "J_Bip_L_UpperArm",
-     "J_Bip_L_LowerArm", "J_Bip_L_Hand", "J_Bip_L_UpperLeg", "J_Bip_L_LowerLeg", "J_Bip_L_Foot"},
-    {"hips", "spine", "chest", "neck", "head", "leftShoulder", "leftUpperArm", "leftLowerArm", "leftHand", "leftUpperLeg", "leftLowerLeg",
-     "leftFoot"},
-    {"Hips", "Spine", "Chest", "Neck", "Head", "Shoulder_L", "UpperArm_L", "LowerArm_L", "Hand_L", "UpperLeg_L", "LowerLeg_L", "Foot_L"},
-    {"Hips", "Spine", "Chest", "Neck", "Head", "LeftShoulder", "LeftArm", "LeftForeArm", "LeftHand", "LeftThigh", "LeftShin", "LeftFoot"},
-    {"hip", "abdomenLower", "chestLower", "neckLower", "head", "lCollar", "lShldrBend", "lForearmBend", "lHand", "lThighBend", "lShin",
-     "lFoot"},
+    {"HIPS", "lower_back", "spine1", "neck", "head", "L_Shoulder", "Arm.L", "fore_arm_l", "hand_left", "l-UpLeg",
+     "leftleg", "lfoot"},
+    {"J_Bip_C_Hips", "J_Bip_C_Spine", "J_Bip_C_Chest", "J_Bip_C_Neck", "J_Bip_C_Head", "J_Bip_L_Shoulder",
+     "J_Bip_L_UpperArm", "J_Bip_L_LowerArm", "J_Bip_L_Hand", "J_Bip_L_UpperLeg", "J_Bip_L_LowerLeg", "J_Bip_L_Foot"},
+    {"hips", "spine", "chest", "neck", "head", "leftShoulder", "leftUpperArm", "leftLowerArm", "leftHand",
+     "leftUpperLeg", "leftLowerLeg", "leftFoot"},
+    {"Hips", "Spine", "Chest", "Neck", "Head", "Shoulder_L", "UpperArm_L", "LowerArm_L", "Hand_L", "UpperLeg_L",
+     "LowerLeg_L", "Foot_L"},
+    {"Hips", "Spine", "Chest", "Neck", "Head", "LeftShoulder", "LeftArm", "LeftForeArm", "LeftHand", "LeftThigh",
+     "LeftShin", "LeftFoot"},
+    {"hip", "abdomenLower", "chestLower", "neckLower", "head", "lCollar", "lShldrBend", "lForearmBend", "lHand",
+     "lThighBend", "lShin", "lFoot"},
     {"hip", "abdomen", "chest", "neck", "head", "lCollar", "lShldr", "lForeArm", "lHand", "lThigh", "lShin", "lFoot"},
-    {"Bip01 Pelvis", "Bip01 Spine", "Bip01 Spine1", "Bip01 Neck", "Bip01 Head", "Bip01 L Clavicle", "Bip01 L UpperArm", "Bip01 L Forearm",
-     "Bip01 L Hand", "Bip01 L Thigh", "Bip01 L Calf", "Bip01 L Foot"},
-    {"CC_Base_Hip", "CC_Base_Waist", "CC_Base_Spine02", "CC_Base_NeckTwist01", "CC_Base_Head", "CC_Base_L_Clavicle", "CC_Base_L_Upperarm",
-     "CC_Base_L_Forearm", "CC_Base_L_Hand", "CC_Base_L_Thigh", "CC_Base_L_Calf", "CC_Base_L_Foot"},
+    {"Bip01 Pelvis", "Bip01 Spine", "Bip01 Spine1", "Bip01 Neck", "Bip01 Head", "Bip01 L Clavicle", "Bip01 L UpperArm",
+     "Bip01 L Forearm", "Bip01 L Hand", "Bip01 L Thigh", "Bip01 L Calf", "Bip01 L Foot"},
+    {"CC_Base_Hip", "CC_Base_Waist", "CC_Base_Spine02", "CC_Base_NeckTwist01", "CC_Base_Head", "CC_Base_L_Clavicle",
+     "CC_Base_L_Upperarm", "CC_Base_L_Forearm", "CC_Base_L_Hand", "CC_Base_L_Thigh", "CC_Base_L_Calf",
+     "CC_Base_L_Foot"},
     {"Hip", "Ab", "Chest", "Neck", "Head", "LShoulder", "LUArm", "LFArm", "LHand", "LThigh", "LShin", "LFoot"},
-    {"Hips", "Chest", "Chest4", "Neck", "Head", "LeftCollar", "LeftShoulder", "LeftElbow", "LeftWrist", "LeftHip", "LeftKnee", "LeftAnkle"},
-    {"Pelvis", "Spine1", "Spine3", "Neck", "Head", "L_Collar", "L_Shoulder", "L_Elbow", "L_Wrist", "L_Hip", "L_Knee", "L_Ankle"},
+    {"Hips", "Chest", "Chest4", "Neck", "Head", "LeftCollar", "LeftShoulder", "LeftElbow", "LeftWrist", "LeftHip",
+     "LeftKnee", "LeftAnkle"},
+    {"Pelvis", "Spine1", "Spine3", "Neck", "Head", "L_Collar", "L_Shoulder", "L_Elbow", "L_Wrist", "L_Hip", "L_Knee",
+     "L_Ankle"},
     // What exporters add to every name.
-    {"Model_Hips", "Model_Spine", "Model_Spine2", "Model_Neck", "Model_Head", "Model_LeftShoulder", "Model_LeftArm", "Model_LeftForeArm",
-     "Model_LeftHand", "Model_LeftUpLeg", "Model_LeftLeg", "Model_LeftFoot"},
-    {"Hips_01", "Spine_02", "Spine2_03", "Neck_04", "Head_05", "LeftShoulder_06", "LeftArm_07", "LeftForeArm_08", "LeftHand_09",
-     "LeftUpLeg_10", "LeftLeg_11", "LeftFoot_12"}};
+    {"Model_Hips", "Model_Spine", "Model_Spine2", "Model_Neck", "Model_Head", "Model_LeftShoulder", "Model_LeftArm",
+     "Model_LeftForeArm", "Model_LeftHand", "Model_LeftUpLeg", "Model_LeftLeg", "Model_LeftFoot"},
+    {"Hips_01", "Spine_02", "Spine2_03", "Neck_04", "Head_05", "LeftShoulder_06", "LeftArm_07", "LeftForeArm_08",
+     "LeftHand_09", "LeftUpLeg_10", "LeftLeg_11", "LeftFoot_12"}};
 constexpr int mixamo = 3, unreal = 5;
 
 std::string other_side(std::string name)
 {
-    if (name.starts_with('L') && std::isupper(static_cast<unsigned char>(name[1]))) return name.replace(0, 1, "R");  // LUArm
+    // LUArm
+    if (name.starts_with('L') && std::isupper(static_cast<unsigned char>(name[1]))) return name.replace(0, 1, "R");
     for (const auto& [left, right] : {std::pair<std::string, std::string>{"Left", "Right"},
                                       {"left", "right"},
                                       {"_L", "_R"},
@@ -66,7 +76,8 @@ std::string other_side(std::string name)
                                       {".L", ".R"},
                                       {"_l", "_r"},
                                       {"l", "r"}})
-        if (const std::size_t at = name.find(left); at != std::string::npos) return name.replace(at, left.size(), right);
+        if (const std::size_t at = name.find(left); at != std::string::npos)
+            return name.replace(at, left.size(), right);
     return name;
 }
 
@@ -92,10 +103,13 @@ constexpr double turn_deg = 40.0;
 std::string joint_text(const Names& names, int joint)
 {
     const int part = part_of_joint[joint];
-    const double offsets[12][2] = {{0, 0}, {0, 1}, {0, 1}, {0, 2}, {0, 1}, {1, 1}, {1, 0}, {2, 0}, {2, 0}, {1, -1}, {0, -4}, {0, -4}};
-    const std::string x = std::to_string((is_right(joint) ? -1 : 1) * offsets[part][0]), y = std::to_string(offsets[part][1]);
-    std::string text = (joint == 0 ? "ROOT " : "JOINT ") + names[joint] + "\n{\nOFFSET " + x + " " + y + " 0\nCHANNELS " +
-                       (joint == 0 ? "6 Xposition Yposition Zposition " : "3 ") + "Zrotation Xrotation Yrotation\n";
+    const double offsets[12][2] = {{0, 0}, {0, 1}, {0, 1}, {0, 2},  {0, 1},  {1, 1},
+                                   {1, 0}, {2, 0}, {2, 0}, {1, -1}, {0, -4}, {0, -4}};
+    const std::string x = std::to_string((is_right(joint) ? -1 : 1) * offsets[part][0]),
+                      y = std::to_string(offsets[part][1]);
+    std::string text = (joint == 0 ? "ROOT " : "JOINT ") + names[joint] + "\n{\nOFFSET " + x + " " + y +
+                       " 0\nCHANNELS " + (joint == 0 ? "6 Xposition Yposition Zposition " : "3 ") +
+                       "Zrotation Xrotation Yrotation\n";
     bool is_end = true;
     for (int child = joint + 1; child < static_cast<int>(parent.size()); ++child)
         if (parent[child] == joint) {
@@ -112,7 +126,8 @@ Clip clip_of(const Names& names)
     std::string text = "HIERARCHY\n" + joint_text(names, 0) + "MOTION\nFrames: 21\nFrame Time: 0.01\n";
     for (int turned = -2; turned < 19; ++turned) {
         text += "0 0 0";
-        for (int joint = 0; joint < 19; ++joint) text += joint == turned ? " " + std::to_string(turn_deg) + " 0 0" : " 0 0 0";
+        for (int joint = 0; joint < 19; ++joint)
+            text += joint == turned ? " " + std::to_string(turn_deg) + " 0 0" : " 0 0 0";
         text += "\n";
     }
     return read_clip(folder.file("walk.bvh", text));
@@ -133,18 +148,21 @@ TEST(JointNames, EachSchemeReachesEveryPartOfTheHuman)
         const Motion motion = retarget(clip, human, {});
         ASSERT_EQ(motion.frames(), 20);
         const auto turned_deg = [&](int frame, int bone) {
-            return Eigen::AngleAxisd(motion.steps[0][bone].linear().transpose() * motion.steps[frame][bone].linear()).angle() * 180.0 /
-                   M_PI;
+            return Eigen::AngleAxisd(motion.steps[0][bone].linear().transpose() * motion.steps[frame][bone].linear())
+                       .angle() *
+                   180.0 / M_PI;
         };
         for (int part = 0; part < 19; ++part) {
             const int bone = find_bone(human, parts[part]), above = human.bones[bone].parent;
-            EXPECT_NEAR(turned_deg(1 + part, bone), turn_deg, 1e-3) << parts[part];  // BVH's numbers are single precision
+            // BVH's numbers are single precision
+            EXPECT_NEAR(turned_deg(1 + part, bone), turn_deg, 1e-3) << parts[part];
             EXPECT_NEAR(above < 0 ? 0.0 : turned_deg(1 + part, above), 0.0, 1e-3) << parts[part];
         }
         if (first.steps.empty()) first = motion;
         for (std::size_t step = 0; step < motion.steps.size(); ++step)
             for (std::size_t bone = 0; bone < human.bones.size(); ++bone)
-                EXPECT_EQ(motion.steps[step][bone].matrix(), first.steps[step][bone].matrix()) << "names change no number";
+                EXPECT_EQ(motion.steps[step][bone].matrix(), first.steps[step][bone].matrix())
+                    << "names change no number";
     }
 }
 
@@ -155,7 +173,8 @@ TEST(JointNames, ABoneOfAModelFollowsTheSamePartOfAnotherScheme)
     const Skeleton model = skeleton_from_clip(clip_of(of_model), 1.0);
     const JointMap map = joint_map(clip, model);
     for (std::size_t part = 0; part < 19; ++part)
-        EXPECT_EQ(clip.joints.at(map.bones.at(find_bone(model, of_model[part])).joint), on_both_sides(schemes[unreal])[part]);
+        EXPECT_EQ(clip.joints.at(map.bones.at(find_bone(model, of_model[part])).joint),
+                  on_both_sides(schemes[unreal])[part]);
 }
 
 // Names that say nothing, beside a table as VRM has it, on either side.
@@ -175,16 +194,19 @@ TEST(JointNames, TheTableOfAFileCountsInPlaceOfItsNames)
     EXPECT_EQ(body_joints(clip).shin, body_joints(clip_of(parts)).shin);
 }
 
-// LeftShoulder is the collar bone of one scheme and the upper arm of another; Spine and Neck are called alike where schemes differ.
+// LeftShoulder is the collar bone of one scheme and the upper arm of another; Spine and Neck are called alike where
+// schemes differ.
 TEST(JointNames, EqualNamesComeFirstUnlessTheyAreOtherParts)
 {
     const Names of_model = on_both_sides(schemes[mixamo - 3]);  // CMU: LowerBack, Spine1
-    Names of_clip = on_both_sides({"Hips", "Chest", "Spine1", "Neck", "Head", "LeftCollar", "LeftShoulder", "LeftElbow", "LeftWrist",
-                                   "LeftHip", "LeftKnee", "LeftAnkle"});
+    Names of_clip = on_both_sides({"Hips", "Chest", "Spine1", "Neck", "Head", "LeftCollar", "LeftShoulder", "LeftElbow",
+                                   "LeftWrist", "LeftHip", "LeftKnee", "LeftAnkle"});
     const Clip clip = clip_of(of_clip);
     const Skeleton model = skeleton_from_clip(clip_of(of_model), 1.0);
     const JointMap map = joint_map(clip, model);
-    const auto joint_of = [&](const std::string& bone) { return clip.joints.at(map.bones.at(find_bone(model, bone)).joint); };
+    const auto joint_of = [&](const std::string& bone) {
+        return clip.joints.at(map.bones.at(find_bone(model, bone)).joint);
+    };
     EXPECT_EQ(joint_of("Spine1"), "Spine1") << "no part of the clip's scheme, but the same name";
     EXPECT_EQ(joint_of("LeftShoulder"), "LeftCollar");
     EXPECT_EQ(joint_of("LeftArm"), "LeftShoulder");
@@ -239,7 +261,8 @@ TEST(JointNames, FingersCountOnlyWhereABoneFollowsThem)
     EXPECT_EQ(match.matched, 19);
     EXPECT_EQ(match.small, 2);
     EXPECT_EQ(match.unmatched.size(), 3u);
-    const Skeleton arm{{{"forearm", -1, Vec3(0, 0, 0), Vec3(1, 0, 0)}, {"Left_Hand_Index_1", 0, Vec3(1, 0, 0), Vec3(2, 0, 0)}}};
+    const Skeleton arm{
+        {{"forearm", -1, Vec3(0, 0, 0), Vec3(1, 0, 0)}, {"Left_Hand_Index_1", 0, Vec3(1, 0, 0), Vec3(2, 0, 0)}}};
     EXPECT_EQ(match_of(clip, arm).matched, 1) << "the same finger in another spelling";
     EXPECT_EQ(match_of(clip, arm).small, 0) << "the arm's names are of no known scheme";
 }

@@ -18,7 +18,8 @@ struct BoxModel {
 
     BoxModel()
     {
-        body.skeleton.bones = {{"a", -1, Vec3(0.1, 0.5, 0.5), Vec3(0.4, 0.5, 0.5)}, {"b", 0, Vec3(0.4, 0.5, 0.5), Vec3(0.9, 0.5, 0.5)}};
+        body.skeleton.bones = {{"a", -1, Vec3(0.1, 0.5, 0.5), Vec3(0.4, 0.5, 0.5)},
+                               {"b", 0, Vec3(0.4, 0.5, 0.5), Vec3(0.9, 0.5, 0.5)}};
         body.surface = mesh.rest;
         body.triangles = boundary_of(mesh.tets);
         artist.first = {0};
@@ -51,13 +52,15 @@ TEST(ModelRemarks, ThoseOfTheReaderComeFirstWithTheFileAndASoundModelHasNone)
     EXPECT_TRUE(box.remarks().empty());
     box.body.remarks = {"mesh hat is moved by no joint; it is left out"};
     box.body.notes = {"two joints are named a; one is called a 2"};
-    EXPECT_EQ(box.all_remarks(), (RemarkList{{Gravity::part_left_out, "a.glb: mesh hat is moved by no joint; it is left out"},
-                                             {Gravity::information, "a.glb: two joints are named a; one is called a 2"}}));
+    EXPECT_EQ(box.all_remarks(),
+              (RemarkList{{Gravity::part_left_out, "a.glb: mesh hat is moved by no joint; it is left out"},
+                          {Gravity::information, "a.glb: two joints are named a; one is called a 2"}}));
 }
 
 TEST(ModelRemarks, AnExtentBelowFiveCentimetresOrAboveTwentyMetresSpeaksForOtherUnits)
 {
-    for (const auto& [extent_m, count] : {std::pair(0.051, 0u), std::pair(0.049, 1u), std::pair(19.9, 0u), std::pair(170.0, 1u)}) {
+    for (const auto& [extent_m, count] :
+         {std::pair(0.051, 0u), std::pair(0.049, 1u), std::pair(19.9, 0u), std::pair(170.0, 1u)}) {
         BoxModel box;
         box.body.surface *= extent_m;
         box.mesh.rest *= extent_m;
@@ -85,7 +88,8 @@ TEST(ModelRemarks, ASkeletonOfAnotherSizeThanItsMeshIsNamedAsTheCause)
         }
         std::string all;
         for (const std::string& remark : box.remarks()) all += remark + "\n";
-        EXPECT_EQ(all.find(" times as large as the mesh in the bind pose") != std::string::npos, is_named) << scale << all;
+        EXPECT_EQ(all.find(" times as large as the mesh in the bind pose") != std::string::npos, is_named)
+            << scale << all;
         EXPECT_EQ(all.find("unlikely units"), std::string::npos) << all;
     }
 }
@@ -97,7 +101,8 @@ TEST(ModelRemarks, BonesOutsideTheBodyAreNamed)
     box.body.skeleton.bones[1].tail = Vec3(3, 2, 2);
     EXPECT_EQ(box.remarks(), std::vector<std::string>{"a.glb: 1 of 2 bones lie outside the body: b"});
     BoxModel partly_inside;
-    partly_inside.body.skeleton.bones[1].tail = Vec3(2.4, 0.5, 0.5);  // its middle, from 0.73 to 2.07, is inside up to 1
+    // its middle, from 0.73 to 2.07, is inside up to 1
+    partly_inside.body.skeleton.bones[1].tail = Vec3(2.4, 0.5, 0.5);
     EXPECT_TRUE(partly_inside.remarks().empty());
 }
 
@@ -106,8 +111,9 @@ TEST(ModelRemarks, AJointThatTheTetsDoNotCarryIsWithoutFlesh)
     BoxModel box;
     box.artist.bone.assign(box.artist.bone.size(), 0);
     EXPECT_EQ(box.remarks(),
-              std::vector<std::string>{"a.glb: 1 of 2 joints are without flesh, for the tets are too coarse for what they move, and the "
-                                       "surface alone follows them: b"});
+              std::vector<std::string>{
+                  "a.glb: 1 of 2 joints are without flesh, for the tets are too coarse for what they move, and the "
+                  "surface alone follows them: b"});
     box.artist = box.body.skin;
     EXPECT_TRUE(box.remarks().empty());
 }
@@ -118,7 +124,8 @@ TEST(ModelRemarks, TetsFarFromTheSurface)
     EXPECT_TRUE(box.remarks(0.017).empty());
     EXPECT_EQ(
         box.remarks(0.018),
-        std::vector<std::string>{"a.glb: the boundary of the tets lies up to 1.04 % of the body's size from the surface of the model"});
+        std::vector<std::string>{
+            "a.glb: the boundary of the tets lies up to 1.04 % of the body's size from the surface of the model"});
 }
 
 TEST(ModelRemarks, ASurfaceWithoutVolumeIsALayer)

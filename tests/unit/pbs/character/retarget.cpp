@@ -1,5 +1,6 @@
-// Reference: invented clips whose poses are known in closed form. Tolerances: the rounding of rotations, six per bone: that of the clip,
-// slerp, its place in the world, the alignment, its place in the parent, and the rotation of the pose.
+// Reference: invented clips whose poses are known in closed form. Tolerances: the rounding of rotations, six per bone:
+// that of the clip, slerp, its place in the world, the alignment, its place in the parent, and the rotation of the
+// pose.
 
 #include "pbs/character/clip.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -29,14 +30,16 @@ void place_joints(Clip& clip, const Positions& path)
             turns.push_back(above < 0 ? clip.local[frame][j] : turns[above] * clip.local[frame][j]);
             if (above < 0) places.row(j) = path.row(frame);
             if (above >= 0)
-                places.row(j) = places.row(above) + (turns[above] * Vec3(clip.zero_pose.row(j) - clip.zero_pose.row(above))).transpose();
+                places.row(j) = places.row(above) +
+                                (turns[above] * Vec3(clip.zero_pose.row(j) - clip.zero_pose.row(above))).transpose();
         }
     }
 }
 
-// A chain of joints, `spacing` apart, whose root stays; those of which `turns` is true turn by `degrees` per frame about z.
-Clip chain_of(const std::vector<std::string>& joints, const std::vector<bool>& turns, double degrees = 10.0, int frames = 3,
-              const Vec3& spacing = Vec3::UnitX())
+// A chain of joints, `spacing` apart, whose root stays; those of which `turns` is true turn by `degrees` per frame
+// about z.
+Clip chain_of(const std::vector<std::string>& joints, const std::vector<bool>& turns, double degrees = 10.0,
+              int frames = 3, const Vec3& spacing = Vec3::UnitX())
 {
     Clip clip;
     clip.name = "chain.bvh";
@@ -50,14 +53,15 @@ Clip chain_of(const std::vector<std::string>& joints, const std::vector<bool>& t
     for (int frame = 0; frame < frames; ++frame) {
         clip.local.emplace_back();
         for (const bool turn : turns)
-            clip.local.back().emplace_back(Eigen::AngleAxisd(turn ? frame * degrees * M_PI / 180.0 : 0.0, Vec3::UnitZ()));
+            clip.local.back().emplace_back(
+                Eigen::AngleAxisd(turn ? frame * degrees * M_PI / 180.0 : 0.0, Vec3::UnitZ()));
     }
     place_joints(clip, Positions::Zero(frames, 3));
     return clip;
 }
 
-// upper -> forearm -> hand along `direction`, bones 2 units long. Frame f turns the forearm by 10 f degrees about z and moves the root by f
-// along y.
+// upper -> forearm -> hand along `direction`, bones 2 units long. Frame f turns the forearm by 10 f degrees about z and
+// moves the root by f along y.
 Clip bending_clip(int frames, const Vec3& direction = Vec3::UnitX())
 {
     Clip clip = chain_of({"upper", "forearm", "hand"}, {false, true, false}, 10.0, frames, 2.0 * direction);
@@ -96,7 +100,8 @@ TEST(Retarget, EqualNamesTakeTheRotations)
 TEST(Retarget, TheRootsPathIsScaledByBoneLengthAndStartsAtRest)
 {
     const Motion motion = retarget(bending_clip(5), limb, whole_clip());
-    // Bones of 1 m follow limbs of 2 units. A place on the path of 2 m goes through eight roundings, and the root rotates about its head.
+    // Bones of 1 m follow limbs of 2 units. A place on the path of 2 m goes through eight roundings, and the root
+    // rotates about its head.
     const double rounding_m = test_support::rounding_error(8, 2.0) + of_rotations;
     for (int frame = 0; frame < 5; ++frame)
         EXPECT_LT((motion.steps[frame][0].translation() - Vec3(0.0, 0.5 * frame, 0.0)).norm(), rounding_m);
@@ -137,7 +142,8 @@ TEST(Retarget, BonesStayJoined)
 {
     const Motion motion = retarget(bending_clip(7, Vec3(1, 2, 3).normalized()), limb, whole_clip());
     const double rounding_m = test_support::motion_error(6 + 6, 4.0 + 1.0);  // of two bones on a path of less than 4 m
-    for (const Pose& pose : motion.steps) EXPECT_LT((pose[0] * limb.bones[0].tail - pose[1] * limb.bones[1].head).norm(), rounding_m);
+    for (const Pose& pose : motion.steps)
+        EXPECT_LT((pose[0] * limb.bones[0].tail - pose[1] * limb.bones[1].head).norm(), rounding_m);
 }
 
 TEST(Retarget, SlerpsBetweenFramesOnTheGridOfTheSteps)
@@ -150,7 +156,8 @@ TEST(Retarget, SlerpsBetweenFramesOnTheGridOfTheSteps)
     ASSERT_EQ(motion.steps.size(), 9u);
     EXPECT_EQ(motion.steps_per_frame, 4);
     EXPECT_EQ(motion.frames(), 3);
-    for (int step = 0; step < 9; ++step) EXPECT_NEAR(angle_about_z_deg(motion.steps[step][1]), 5.0 + 2.5 * step, of_angles_deg);
+    for (int step = 0; step < 9; ++step)
+        EXPECT_NEAR(angle_about_z_deg(motion.steps[step][1]), 5.0 + 2.5 * step, of_angles_deg);
 }
 
 TEST(Retarget, BonesWithoutAJointFollowTheirParent)
@@ -158,7 +165,8 @@ TEST(Retarget, BonesWithoutAJointFollowTheirParent)
     Skeleton longer = limb;
     longer.bones.push_back({"finger", 1, Vec3(1, 0, 0), Vec3(1.2, 0, 0)});
     const Motion motion = retarget(bending_clip(5), longer, whole_clip());
-    const double rounding = test_support::motion_matrix_error(2, 2.0 + 1.0);  // the finger's place in its parent and its rotation
+    // the finger's place in its parent and its rotation
+    const double rounding = test_support::motion_matrix_error(2, 2.0 + 1.0);
     EXPECT_LT((motion.steps[4][2].matrix() - motion.steps[4][1].matrix()).norm(), rounding);
 }
 
@@ -171,12 +179,14 @@ TEST(Retarget, BranchingJointsAreNotAligned)
     clip.zero_pose.row(3) << 1, 0, 0;
     for (auto& local : clip.local) local.push_back(Eigen::Quaterniond::Identity());
     place_joints(clip, Positions::Zero(2, 3));
-    EXPECT_EQ(Eigen::Matrix3d(retarget(clip, limb, whole_clip()).steps[0][0].linear()), Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+    EXPECT_EQ(Eigen::Matrix3d(retarget(clip, limb, whole_clip()).steps[0][0].linear()),
+              Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
 }
 
 TEST(Retarget, ThePathIsThatOfTheJointThatMovesTheRootBone)
 {
-    Clip clip = chain_of({"reference", "upper", "forearm", "hand"}, {false, false, true, false}, 10.0, 3, 2.0 * Vec3::UnitX());
+    Clip clip =
+        chain_of({"reference", "upper", "forearm", "hand"}, {false, false, true, false}, 10.0, 3, 2.0 * Vec3::UnitX());
     for (int frame = 0; frame < 3; ++frame) {
         clip.places[frame].bottomRows(3).rowwise() += Eigen::RowVector3d(0.0, 0.0, frame);
         clip.local[frame][0] = Eigen::AngleAxisd(0.0, Vec3::UnitX());
@@ -195,12 +205,14 @@ TEST(Retarget, JointsWhoseKeysAreStepsHoldTheirTurn)
     sampling.time_step_s = 0.0025;
     const Motion motion = retarget(clip, limb, sampling);
     ASSERT_EQ(motion.steps.size(), 9u);
-    for (int step = 0; step < 9; ++step) EXPECT_NEAR(angle_about_z_deg(motion.steps[step][1]), 10.0 * (step / 4), of_angles_deg) << step;
+    for (int step = 0; step < 9; ++step)
+        EXPECT_NEAR(angle_about_z_deg(motion.steps[step][1]), 10.0 * (step / 4), of_angles_deg) << step;
 }
 
 TEST(Retarget, RefusesWhatItCannotDo)
 {
-    const auto refused = [](const std::function<void(ClipSampling&, Clip&)>& spoil, const std::string& begins, const std::string& holds) {
+    const auto refused = [](const std::function<void(ClipSampling&, Clip&)>& spoil, const std::string& begins,
+                            const std::string& holds) {
         Clip clip = bending_clip(5);
         ClipSampling sampling = whole_clip();
         spoil(sampling, clip);
@@ -214,8 +226,13 @@ TEST(Retarget, RefusesWhatItCannotDo)
     refused([](auto& s, auto&) { s.time_step_s = 0.0; }, "time_step_s = 0", "> 0");
     refused([](auto& s, auto&) { s.time_step_s = 0.015; }, "rate_hz * time_step_s = 1.5", "1 / n");
     refused([](auto& s, auto&) { s.time_step_s = 0.004; }, "rate_hz * time_step_s = 0.4", "1 / n");
-    refused([](auto& s, auto& c) { c = bending_clip(1), s.drops_rest_pose = true; }, "bending.bvh: Frames = 1", "no frame is left");
-    refused([](auto&, auto& c) { c.joints = {"a", "b", "c"}; }, "bending.bvh: joints = a, b, c: ", "(bones: upper, forearm)");
+    refused([](auto& s, auto& c) { c = bending_clip(1), s.drops_rest_pose = true; }, "bending.bvh: Frames = 1",
+            "no frame is left");
+    refused(
+        [](auto&, auto& c) {
+            c.joints = {"a", "b", "c"};
+        },
+        "bending.bvh: joints = a, b, c: ", "(bones: upper, forearm)");
 }
 
 // Reference: clips of three joints, counted by hand.

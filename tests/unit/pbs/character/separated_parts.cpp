@@ -11,14 +11,15 @@ namespace {
 
 using namespace pbs;
 
-// Two boxes side by side along x, 0.1 m wide, with a gap between them. One piece of flesh fills both and the gap. `left` moves the points
-// of the one box and `right` those of the other; both hang from `hip`, which is 1 m above.
+// Two boxes side by side along x, 0.1 m wide, with a gap between them. One piece of flesh fills both and the gap.
+// `left` moves the points of the one box and `right` those of the other; both hang from `hip`, which is 1 m above.
 struct TwoShoes {
     static constexpr double width_m = 0.1;
     RiggedBody body;
     TetMesh flesh;
 
-    explicit TwoShoes(double gap_m = 0.004) : flesh(test_support::structured_bar({0, 0, 0}, {2 * width_m + gap_m, 0.1, 0.2}, {7, 4, 5}))
+    explicit TwoShoes(double gap_m = 0.004)
+        : flesh(test_support::structured_bar({0, 0, 0}, {2 * width_m + gap_m, 0.1, 0.2}, {7, 4, 5}))
     {
         const double second_m = width_m + gap_m;
         body.skeleton.bones = {{"hip", -1, Vec3(second_m, 1.0, 0.0), Vec3(second_m, 1.2, 0.0)},
@@ -59,7 +60,8 @@ TEST(SeparatedParts, TwoShoesAreCutApartAndNothingIsLost)
     EXPECT_EQ(*std::ranges::max_element(part), 1);
     EXPECT_EQ(made.mesh.tets.rows(), shoes.flesh.tets.rows());
     EXPECT_GT(made.mesh.rest.rows(), shoes.flesh.rest.rows());
-    const Eigen::VectorXd before = tet_volumes(shoes.flesh.rest, shoes.flesh.tets), after = tet_volumes(made.mesh.rest, made.mesh.tets);
+    const Eigen::VectorXd before = tet_volumes(shoes.flesh.rest, shoes.flesh.tets),
+                          after = tet_volumes(made.mesh.rest, made.mesh.tets);
     EXPECT_EQ((before - after).cwiseAbs().maxCoeff(), 0.0);
 }
 
@@ -70,12 +72,12 @@ TEST(SeparatedParts, TheSurfaceFollowsItsOwnBone)
     const SkinParts parts(shoes.body, {});
     const SeparatedFlesh made = separate_parts(shoes.flesh, parts, shoes.body.skeleton);
     const auto skin_of = [&](int tet) { return made.skin_of_tet[static_cast<std::size_t>(tet)]; };
-    const EmbeddedSurface surface = embed(shoes.body.surface, shoes.body.triangles, made.mesh, [&](Eigen::Index point, int tet) {
-        return !parts.are_apart(parts.at_vertex(point), skin_of(tet));
-    });
-    const TransferredWeights moved =
-        transfer_weights(made.mesh, shoes.body.surface, shoes.body.triangles, shoes.body.skin, 3,
-                         [&](Eigen::Index v, const SurfacePoint& point) { return !parts.are_apart(skin_of(made.tet_at(v)), point); });
+    const EmbeddedSurface surface =
+        embed(shoes.body.surface, shoes.body.triangles, made.mesh,
+              [&](Eigen::Index point, int tet) { return !parts.are_apart(parts.at_vertex(point), skin_of(tet)); });
+    const TransferredWeights moved = transfer_weights(
+        made.mesh, shoes.body.surface, shoes.body.triangles, shoes.body.skin, 3,
+        [&](Eigen::Index v, const SurfacePoint& point) { return !parts.are_apart(skin_of(made.tet_at(v)), point); });
     const CarriedWeight weight = carried_weight(shoes.body.skin, moved.weights, surface, made.mesh.tets, 3);
     EXPECT_NEAR(weight.share_pct(), 100.0, 1e-4);  // weights below 1e-6 are removed
 }
@@ -84,7 +86,8 @@ TEST(SeparatedParts, WithoutTheCutTheSurfaceDoesNotFollow)
 {
     const TwoShoes shoes;
     const EmbeddedSurface surface = embed(shoes.body.surface, shoes.body.triangles, shoes.flesh);
-    const TransferredWeights moved = transfer_weights(shoes.flesh, shoes.body.surface, shoes.body.triangles, shoes.body.skin, 3);
+    const TransferredWeights moved =
+        transfer_weights(shoes.flesh, shoes.body.surface, shoes.body.triangles, shoes.body.skin, 3);
     EXPECT_LT(carried_weight(shoes.body.skin, moved.weights, surface, shoes.flesh.tets, 3).share_pct(), 99.0);
 }
 
@@ -104,8 +107,8 @@ TEST(SeparatedParts, WhatMovesTogetherStaysInOnePiece)
     EXPECT_EQ(made.mesh.tets, shoes.flesh.tets);
 }
 
-// A thin plate whose two sides follow two bones: only the way round its rim joins them. The ways from a point are kept for the next
-// question.
+// A thin plate whose two sides follow two bones: only the way round its rim joins them. The ways from a point are kept
+// for the next question.
 TEST(SeparatedParts, AnswerTheSameWhateverWasAskedBefore)
 {
     TwoShoes shoes;
@@ -126,7 +129,8 @@ TEST(SeparatedParts, AnswerTheSameWhateverWasAskedBefore)
             const SkinParts fresh(shoes.body, {});
             const bool are_apart = fresh.are_apart(fresh.at_vertex(a), fresh.at_vertex(b));
             (are_apart ? apart : together) += 1;
-            EXPECT_EQ(asked_before.are_apart(asked_before.at_vertex(a), asked_before.at_vertex(b)), are_apart) << a << " " << b;
+            EXPECT_EQ(asked_before.are_apart(asked_before.at_vertex(a), asked_before.at_vertex(b)), are_apart)
+                << a << " " << b;
         }
     EXPECT_GT(apart, 5);
     EXPECT_GT(together, 20);

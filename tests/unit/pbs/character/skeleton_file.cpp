@@ -1,4 +1,5 @@
-// Reference: the format as documented (TOML: [[joint]] with name, parent, head_m, tail_m); each refusal by file, line and field.
+// Reference: the format as documented (TOML: [[joint]] with name, parent, head_m, tail_m); each refusal by file, line
+// and field.
 
 #include "pbs/character/skeleton_file.hpp"
 #include "tests/unit/pbs/character/expect_input_error.hpp"
@@ -9,7 +10,8 @@ using namespace pbs;
 
 std::string joint(const std::string& name, const std::string& parent, const std::string& head, const std::string& tail)
 {
-    return "[[joint]]\nname = \"" + name + "\"\nparent = \"" + parent + "\"\nhead_m = " + head + "\ntail_m = " + tail + "\n";
+    return "[[joint]]\nname = \"" + name + "\"\nparent = \"" + parent + "\"\nhead_m = " + head + "\ntail_m = " + tail +
+           "\n";
 }
 
 const std::string root = joint("root", "", "[0, 0, 0]", "[0.5, 0, 0]");                  // lines 1 to 5
@@ -50,8 +52,8 @@ Vec3 point(const std::string& name)
 
 TEST(FoldedSkeleton, EndsAreMeansAndPairsComeLeftThenRight)
 {
-    const Skeleton skeleton =
-        fold_skeleton({{"thigh.*", "body", {"hip.*"}, {"knee.*"}}, {"body", "", {"hip.L", "hip.R"}, {"top"}}}, "rig", point);
+    const Skeleton skeleton = fold_skeleton(
+        {{"thigh.*", "body", {"hip.*"}, {"knee.*"}}, {"body", "", {"hip.L", "hip.R"}, {"top"}}}, "rig", point);
     ASSERT_EQ(skeleton.bones.size(), 3u);
     EXPECT_EQ(skeleton.bones[0].name, "body");
     EXPECT_EQ(skeleton.bones[0].head, Vec3(0.0, 1.0, 0.0));
@@ -65,7 +67,11 @@ TEST(FoldedSkeleton, EndsAreMeansAndPairsComeLeftThenRight)
 TEST(FoldedSkeleton, RefusesBonesWithoutLengthAndUnknownPoints)
 {
     expect_input_error([] { fold_skeleton({{"body", "", {"top"}, {"top"}}}, "rig", point); }, "rig", "length");
-    expect_input_error([] { fold_skeleton({{"body", "", {"top"}, {"toe"}}}, "rig", point); }, "rig: joints = toe", "missing");
+    expect_input_error(
+        [] {
+            fold_skeleton({{"body", "", {"top"}, {"toe"}}}, "rig", point);
+        },
+        "rig: joints = toe", "missing");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Reference: the definitions. Paper and rigid weights are those of weights.hpp, smooth ones are linear between cross-sections.
+// Reference: the definitions. Paper and rigid weights are those of weights.hpp, smooth ones are linear between
+// cross-sections.
 
 #include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/topology.hpp"
@@ -47,7 +48,8 @@ TEST(SkinningWeights, SmoothOnesAreThoseOfEquation2WhereOneBoneHoldsAVertexAlone
     EXPECT_GT(alone, 0);
 }
 
-// Whole cross-sections of the bar are held on either side of its joint at x = 0: the weights between are linear, and one half at the joint.
+// Whole cross-sections of the bar are held on either side of its joint at x = 0: the weights between are linear, and
+// one half at the joint.
 TEST(SkinningWeights, SmoothOnesAreLinearAcrossTheJoint)
 {
     const Character& bar = bar_of_two_bones;
@@ -83,8 +85,10 @@ TEST(SkinningWeights, ArtistAndFileAreThoseThatTheCharacterBrings)
 
 TEST(SkinningWeights, OnesThatTheCharacterDoesNotBringAreRefusedByName)
 {
-    expect_input_error([] { weights_by(WeightKind::artist, bar_of_two_bones); }, "bar: skinning.weights = artist: ", "brings such weights");
-    expect_input_error([] { weights_by(WeightKind::file, bar_of_two_bones); }, "bar: skinning.weights = file: ", "brings such weights");
+    expect_input_error([] { weights_by(WeightKind::artist, bar_of_two_bones); },
+                       "bar: skinning.weights = artist: ", "brings such weights");
+    expect_input_error([] { weights_by(WeightKind::file, bar_of_two_bones); },
+                       "bar: skinning.weights = file: ", "brings such weights");
 }
 
 TEST(SkinningWeights, HaveNames)
@@ -102,8 +106,8 @@ TEST(SkinningWeights, HaveNames)
     }
 }
 
-// Reference: weights that are a linear function of the place. They are reproduced on the surface, because they are linear in its triangles,
-// and inside, because linear functions are harmonic.
+// Reference: weights that are a linear function of the place. They are reproduced on the surface, because they are
+// linear in its triangles, and inside, because linear functions are harmonic.
 
 const TetMesh flesh = test_support::structured_bar({0, 0, 0}, {1, 0.5, 0.5}, {8, 4, 4});
 
@@ -120,7 +124,8 @@ Weights linear_weights(const Positions& points)
     return skin;
 }
 
-// The term 1e-9 that keeps the system regular changes weights by less than 1e-6 in 8 cells, and 1e-6 is also where small ones are removed.
+// The term 1e-9 that keeps the system regular changes weights by less than 1e-6 in 8 cells, and 1e-6 is also where
+// small ones are removed.
 constexpr double transfer_tolerance = 3e-6;
 
 TEST(TransferredWeights, LinearOnesOnTheTetsOwnSurfaceAreReproducedInTheFlesh)
@@ -157,7 +162,8 @@ TEST(TransferredWeights, ComeFromTheNearestPointOfACoarserSurface)
     const Triangles triangles = (Triangles(2, 3) << 0, 1, 2, 0, 2, 3).finished();
     const TransferredWeights made = transfer_weights(flesh, sheet, triangles, linear_weights(sheet), 2);
     EXPECT_DOUBLE_EQ(made.largest_distance_m, 2.0) << "from the lower side";
-    for (int v = 0; v < flesh.rest.rows(); ++v) EXPECT_NEAR(weight_in(made.weights, v, 1), flesh.rest(v, 0), transfer_tolerance) << v;
+    for (int v = 0; v < flesh.rest.rows(); ++v)
+        EXPECT_NEAR(weight_in(made.weights, v, 1), flesh.rest(v, 0), transfer_tolerance) << v;
 }
 
 TEST(TransferredWeights, OfASurfaceThatFollowsOneBoneAreAllOnThatBone)
@@ -213,7 +219,8 @@ TEST(WeightsFile, ReadsRowsInAnyOrder)
 
 TEST(WeightsFile, LeavesOutZerosAndTakesWindowsLineEnds)
 {
-    const Weights weights = parse_weights("vertex,joint,weight\r\n0,upper,1.0\r\n0,forearm,0\r\n", "w.csv", two_bones, 1);
+    const Weights weights =
+        parse_weights("vertex,joint,weight\r\n0,upper,1.0\r\n0,forearm,0\r\n", "w.csv", two_bones, 1);
     EXPECT_FALSE(weights.blended(0));
     EXPECT_EQ(weights.bone, (std::vector<int>{0}));
 }
@@ -231,8 +238,13 @@ TEST(WeightsFile, OfRepairedTetsHasTheNumbersOfTheFile)
     EXPECT_EQ(weights.first, (std::vector<int>{0, 1, 3, 5}));
     EXPECT_EQ(weights.bone, (std::vector<int>{0, 0, 1, 0, 1}));
     EXPECT_EQ(weights.weight, (std::vector<double>{1.0, 0.25, 0.75, 0.25, 0.75}));
-    expect_input_error([&] { parse_weights(rows, "w.csv", two_bones, 3, {0, 1}); }, "w.csv: vertex = 1: ", "has no weights");
-    expect_input_error([&] { parse_weights(header + "3,upper,1\n", "w.csv", two_bones, 3, {0}); }, "w.csv:2: vertex = 3: ", "0 to 2");
+    expect_input_error(
+        [&] {
+            parse_weights(rows, "w.csv", two_bones, 3, {0, 1});
+        },
+        "w.csv: vertex = 1: ", "has no weights");
+    expect_input_error([&] { parse_weights(header + "3,upper,1\n", "w.csv", two_bones, 3, {0}); },
+                       "w.csv:2: vertex = 3: ", "0 to 2");
 }
 
 }  // namespace

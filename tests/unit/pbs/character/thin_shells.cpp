@@ -1,4 +1,5 @@
-// Reference: bars of known width. A bar of the width w, much longer than wide, has four times its volume over its area near w.
+// Reference: bars of known width. A bar of the width w, much longer than wide, has four times its volume over its area
+// near w.
 #include "pbs/character/thin_shells.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/structured_bar.hpp"
@@ -56,12 +57,14 @@ TEST(UsedPart, NumbersThePointsThatTrianglesUse)
 {
     const SurfaceMesh surface = cube_and_bars({0.1}), bar = cube_and_bars({0.1});
     const Eigen::Index first = cube_and_bars({}).triangles.rows();
-    const SurfaceMesh part = used_part({surface.points, surface.triangles.bottomRows(surface.triangles.rows() - first)});
+    const SurfaceMesh part =
+        used_part({surface.points, surface.triangles.bottomRows(surface.triangles.rows() - first)});
     EXPECT_EQ(part.points, Positions(bar.points.bottomRows(part.points.rows())));
     EXPECT_EQ(part.triangles.minCoeff(), 0);
     EXPECT_EQ(part.triangles.maxCoeff(), part.points.rows() - 1);
     for (Eigen::Index t = 0; t < part.triangles.rows(); ++t)
-        for (int k = 0; k < 3; ++k) EXPECT_EQ(part.points.row(part.triangles(t, k)), surface.points.row(surface.triangles(first + t, k)));
+        for (int k = 0; k < 3; ++k)
+            EXPECT_EQ(part.points.row(part.triangles(t, k)), surface.points.row(surface.triangles(first + t, k)));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
-// Every constraint keeps these promises, whatever it measures. References: Eq. 3-4, 8 and 9 by hand, differences of the values for the
-// gradients, and that a projection depends only on lengths and volumes: it commutes with rigid motions, renumbering, mirrors and changes of
-// unit. Tolerances: the rounding of a projection, and of a moved input, which a projection amplifies (projection_rounding.hpp).
+// Every constraint keeps these promises, whatever it measures. References: Eq. 3-4, 8 and 9 by hand, differences of the
+// values for the gradients, and that a projection depends only on lengths and volumes: it commutes with rigid motions,
+// renumbering, mirrors and changes of unit. Tolerances: the rounding of a projection, and of a moved input, which a
+// projection amplifies (projection_rounding.hpp).
 #include "pbs/constraints/region_volume.hpp"
 
 #include "pbs/geometry/topology.hpp"
@@ -29,9 +30,9 @@ using Masses = std::vector<double>;  // inverse
 template <typename Scalar>
 using PointsOf = std::vector<pbs::Vector3<Scalar>>;
 
-// Each has: sample, well-shaped points; rest, the constraint's own value at rest, in metres to the power `dimension`; order_in_mirror, of
-// points that turn the orientation back; even_orders, in which the constraint is the same; rounding, that of one point in a projection;
-// rounding_of_value, that of C.
+// Each has: sample, well-shaped points; rest, the constraint's own value at rest, in metres to the power `dimension`;
+// order_in_mirror, of points that turn the orientation back; even_orders, in which the constraint is the same;
+// rounding, that of one point in a projection; rounding_of_value, that of C.
 template <typename S>
 struct Stretch {
     using Scalar = S;
@@ -95,12 +96,13 @@ struct Volume {
     double rounding_of_value() const { return rounding_error(10, 2.0); }
 };
 
-// A box of 48 tets. A volume is a sum over the triangles, each with some twenty roundings of products of two edges and a distance, of at
-// most 6 m^3 here.
+// A box of 48 tets. A volume is a sum over the triangles, each with some twenty roundings of products of two edges and
+// a distance, of at most 6 m^3 here.
 struct Region {
     using Scalar = double;
     pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {2, 2, 2});
-    pbs::RegionVolumeConstraint<double> constraint = pbs::make_region_volume_constraint<double>(pbs::boundary_of(bar.tets), bar.rest, 1.0);
+    pbs::RegionVolumeConstraint<double> constraint =
+        pbs::make_region_volume_constraint<double>(pbs::boundary_of(bar.tets), bar.rest, 1.0);
 
     Points sample(RandomPoints& random) const
     {
@@ -116,7 +118,10 @@ struct Region {
         Points g;
         pbs::project(constraint, w, p, g);
     }
-    RoundingBound rounding(const Masses& w, const Points&) const { return {rounding_error(double(w.size()) * 10.0, 2.5)}; }
+    RoundingBound rounding(const Masses& w, const Points&) const
+    {
+        return {rounding_error(double(w.size()) * 10.0, 2.5)};
+    }
     double rounding_of_value() const { return rounding_error(20.0 * double(constraint.triangle.size()), 6.0); }
 };
 
@@ -137,7 +142,10 @@ struct Bind {
     S value(const PointsOf<S>& p) const { return pbs::value(constraint, p[0], q); }
     Points gradient(const Points& p) const { return {pbs::gradient(constraint, p[0], q)}; }
     void project(const std::vector<S>& w, PointsOf<S>& p) const { pbs::project(constraint, w[0], q, p[0]); }
-    RoundingBound rounding(const std::vector<S>&, const PointsOf<S>& p) const { return test_support::rounding_of(constraint, q, p[0]); }
+    RoundingBound rounding(const std::vector<S>&, const PointsOf<S>& p) const
+    {
+        return test_support::rounding_of(constraint, q, p[0]);
+    }
     double rounding_of_value() const { return rounding_error(10, 4.0); }
 };
 
@@ -190,8 +198,9 @@ TYPED_TEST(Contract, GradientByEpsSweep)
         const Points p = this->sample();
         Points direction(p.size());
         for (Vec3& d : direction) d = this->random.point(1.0);
-        test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& x) { return this->constraint.value(unstacked(x)); }, stacked(p),
-                                                stacked(direction), stacked(this->constraint.gradient(p)).dot(stacked(direction)), 1.0);
+        test_support::expect_slope_by_eps_sweep(
+            [&](const Eigen::VectorXd& x) { return this->constraint.value(unstacked(x)); }, stacked(p),
+            stacked(direction), stacked(this->constraint.gradient(p)).dot(stacked(direction)), 1.0);
     }
 }
 
@@ -205,22 +214,27 @@ TYPED_TEST(Contract, ProjectionIsAStepAlongTheGradient)
         for (std::size_t i = 0; i < p.size(); ++i) denominator += w[i] * g[i].squaredNorm();
         const double s = this->constraint.value(p) / denominator;  // Eq. 9
         for (std::size_t i = 0; i < p.size(); ++i)
-            EXPECT_LT((moved[i] - (p[i] - 0.3 * s * w[i] * g[i])).norm(), 2.0 * this->constraint.rounding(w, p).step) << i;  // Eq. 8
+            // Eq. 8
+            EXPECT_LT((moved[i] - (p[i] - 0.3 * s * w[i] * g[i])).norm(), 2.0 * this->constraint.rounding(w, p).step)
+                << i;
     }
 }
 
-// Next to a state at rest, what is left beyond the share 1 - k is of second order in the error. Its factor is below ten: no more than
-// |H| / |g|^2, of volumes of edges up to 2 m over gradients of a sixth of an area.
+// Next to a state at rest, what is left beyond the share 1 - k is of second order in the error. Its factor is below
+// ten: no more than |H| / |g|^2, of volumes of edges up to 2 m over gradients of a sixth of an area.
 TYPED_TEST(Contract, StiffnessIsTheShareOfTheErrorRemoved)
 {
     if (std::is_same_v<TypeParam, BindToPosition>) return;  // no direction at rest
     Points p = this->sample();
     this->rest_at(p);
     for (Vec3& point : p) point += this->random.point(1e-5);
-    const double before = this->constraint.value(p), rounding = 2.0 * this->constraint.rounding_of_value() / std::abs(before);
+    const double before = this->constraint.value(p),
+                 rounding = 2.0 * this->constraint.rounding_of_value() / std::abs(before);
     for (const double k : {0.0, 0.25, 0.5, 1.0}) {
         this->constraint.constraint.stiffness = k;
-        EXPECT_NEAR(this->constraint.value(this->projected(this->masses(), p)) / before, 1.0 - k, 10.0 * 1e-5 + rounding) << k;
+        EXPECT_NEAR(this->constraint.value(this->projected(this->masses(), p)) / before, 1.0 - k,
+                    10.0 * 1e-5 + rounding)
+            << k;
     }
 }
 
@@ -270,9 +284,11 @@ protected:
         return result;
     }
 
-    // Compares a projection in double with the same one after a map of all points, which multiplies lengths by `size`, rounds the moved
-    // points by `rounding` times their largest coordinate, and takes them in another order and the masses in another unit.
-    void expect_commutes(const Eigen::Affine3d& map, double size, double rounding, const std::vector<int>& order, double unit_of_mass = 1.0)
+    // Compares a projection in double with the same one after a map of all points, which multiplies lengths by `size`,
+    // rounds the moved points by `rounding` times their largest coordinate, and takes them in another order and the
+    // masses in another unit.
+    void expect_commutes(const Eigen::Affine3d& map, double size, double rounding, const std::vector<int>& order,
+                         double unit_of_mass = 1.0)
     {
         typename Constraint::InDouble in_double;
         in_double.constraint.stiffness = 0.8;
@@ -296,7 +312,8 @@ protected:
         }
         const RoundingBound bound = mapped.rounding(rounded(w_there), before);
         const double of_map = rounding * largest;
-        EXPECT_LT(difference, std::sqrt(double(order.size())) * (2.0 * bound.step + (bound.growth + 1.0) * of_map)) << size;
+        EXPECT_LT(difference, std::sqrt(double(order.size())) * (2.0 * bound.step + (bound.growth + 1.0) * of_map))
+            << size;
         EXPECT_GT(moved, 1e-5 * size) << "nothing is shown by points that stay";
     }
 
@@ -307,10 +324,13 @@ protected:
         return order;
     }
 
-    static constexpr double to_scalar = sizeof(Scalar) == 4 ? 1.8 * test_support::rounding_error_in<float>(1, 1.0) : 0.0;  // > sqrt 3
+    // > sqrt 3
+    static constexpr double to_scalar =
+        sizeof(Scalar) == 4 ? 1.8 * test_support::rounding_error_in<float>(1, 1.0) : 0.0;
     const Masses w_ = this->masses();
 };
-using InBothPrecisions = testing::Types<Stretch<float>, Volume<float>, Bind<float>, Stretch<double>, Volume<double>, Bind<double>>;
+using InBothPrecisions =
+    testing::Types<Stretch<float>, Volume<float>, Bind<float>, Stretch<double>, Volume<double>, Bind<double>>;
 TYPED_TEST_SUITE(ContractInBothPrecisions, InBothPrecisions);
 
 // The motion rounds the input, and the output of the other side, in double; moved points are rounded to Scalar.
@@ -331,11 +351,12 @@ TYPED_TEST(ContractInBothPrecisions, CommutesWithRenumbering)
 TYPED_TEST(ContractInBothPrecisions, AMirrorTurnsTheOrientationRound)
 {
     for (int trial = 0; trial < 50; ++trial)
-        this->expect_commutes(Eigen::Affine3d(Eigen::Scaling(-1.0, 1.0, 1.0)), 1.0, this->to_scalar, TypeParam::order_in_mirror);
+        this->expect_commutes(Eigen::Affine3d(Eigen::Scaling(-1.0, 1.0, 1.0)), 1.0, this->to_scalar,
+                              TypeParam::order_in_mirror);
 }
 
-// This detects an absolute threshold: one of 1e-6 would silently skip tets with edges of 0.01. A coordinate is multiplied by the size and
-// rounded to Scalar.
+// This detects an absolute threshold: one of 1e-6 would silently skip tets with edges of 0.01. A coordinate is
+// multiplied by the size and rounded to Scalar.
 TYPED_TEST(ContractInBothPrecisions, CommutesWithScalesFromAMicrometreToAThousandKilometres)
 {
     const double rounding = std::sqrt(3.0) * test_support::rounding_error_in<typename TypeParam::Scalar>(2, 1.0);
@@ -346,7 +367,8 @@ TYPED_TEST(ContractInBothPrecisions, CommutesWithScalesFromAMicrometreToAThousan
 TYPED_TEST(ContractInBothPrecisions, TheUnitOfMassDoesNotMatter)
 {
     const double rounding = std::sqrt(3.0) * test_support::rounding_error_in<typename TypeParam::Scalar>(1, 1.0);
-    for (const double unit : {1e-6, 1.0, 1e6}) this->expect_commutes(Eigen::Affine3d::Identity(), 1.0, rounding, this->file_order(), unit);
+    for (const double unit : {1e-6, 1.0, 1e6})
+        this->expect_commutes(Eigen::Affine3d::Identity(), 1.0, rounding, this->file_order(), unit);
 }
 
 template <typename Constraint>
@@ -355,8 +377,8 @@ class Momentum : public ContractInBothPrecisions<Constraint> {
 using InvariantConstraints = testing::Types<Stretch<float>, Volume<float>, Stretch<double>, Volume<double>, Region>;
 TYPED_TEST_SUITE(Momentum, InvariantConstraints);
 
-// Eq. 3-4. A projection moves points along gradients, which are perpendicular to rigid motions, so that corrections w g with masses 1 / w
-// conserve linear and angular momentum, the latter about any centre. Equal and unequal masses.
+// Eq. 3-4. A projection moves points along gradients, which are perpendicular to rigid motions, so that corrections w g
+// with masses 1 / w conserve linear and angular momentum, the latter about any centre. Equal and unequal masses.
 TYPED_TEST(Momentum, IsConserved)
 {
     const Vec3 centre(0.3, -0.7, 0.2);

@@ -27,8 +27,9 @@ TEST(StretchConstraint, ProjectionMeetsHalfWayOrAtThePinnedPoint)
         Vec3 second, to_1, to_2;
         double w1 = 1.0;
     };
-    for (const auto& [second, to_1, to_2, w1] : {Case{{3, 0, 0}, {1, 0, 0}, {2, 0, 0}}, Case{{0, 0.5, 0}, {0, -0.25, 0}, {0, 0.75, 0}},
-                                                 Case{{3, 0, 0}, {0, 0, 0}, {1, 0, 0}, 0.0}}) {
+    for (const auto& [second, to_1, to_2, w1] :
+         {Case{{3, 0, 0}, {1, 0, 0}, {2, 0, 0}}, Case{{0, 0.5, 0}, {0, -0.25, 0}, {0, 0.75, 0}},
+          Case{{3, 0, 0}, {0, 0, 0}, {1, 0, 0}, 0.0}}) {
         Vec3 p1(0, 0, 0), p2 = second;
         project(rod, w1, 1.0, p1, p2);
         EXPECT_EQ(p1, to_1);
@@ -44,18 +45,20 @@ TEST(StretchConstraint, ProjectionMeetsHalfWayOrAtThePinnedPoint)
 const BindConstraint<double> tether{0, 2.0, 1.0};
 const Vec3 q(1, 1, 1);
 
-// A constraint to a position, as BindTo::blended_position has it, is one of distance zero: its gradient feels a turn about any axis that
-// does not go through the position, where that of a distance to a bone is zero.
+// A constraint to a position, as BindTo::blended_position has it, is one of distance zero: its gradient feels a turn
+// about any axis that does not go through the position, where that of a distance to a bone is zero.
 TEST(BindConstraint, ToAPositionResistsTurnsThatADistanceLeavesFree)
 {
     const BindConstraint<double> to_position{0, 0.0, 0.25}, to_bone{0, 2.0, 0.25};
-    const Vec3 at_rest = q + Vec3(0, 2, 0), turned = q + Vec3(0, 0, 2);  // by a right angle about the bone through q along x
+    // by a right angle about the bone through q along x
+    const Vec3 at_rest = q + Vec3(0, 2, 0), turned = q + Vec3(0, 0, 2);
     EXPECT_EQ(value(to_bone, turned, q), 0.0);
     EXPECT_DOUBLE_EQ(value(to_position, turned, at_rest), std::sqrt(8.0));
     Vec3 p = turned;
     const double rounding_m = rounding_of(to_position, at_rest, p).step;
     project(to_position, 1.0, at_rest, p);
-    EXPECT_LT((p - (0.75 * turned + 0.25 * at_rest)).norm(), 2.0 * rounding_m) << "a quarter of the way, and the same sum by hand";
+    EXPECT_LT((p - (0.75 * turned + 0.25 * at_rest)).norm(), 2.0 * rounding_m)
+        << "a quarter of the way, and the same sum by hand";
 }
 
 // Whatever the mass: the bone has an infinite one.
@@ -71,9 +74,10 @@ TEST(BindConstraint, ProjectionRestoresTheDistance)
         }
 }
 
-// Momentum is not conserved: that of the vertex equals what the bone would receive as the heavy end of a rod between them (Eq. 8-9 at both
-// ends), with 1e8 times the vertex's mass. The two differ by that share of the momentum, and by the rounding of the vertex and of the bone,
-// whose step of 1e-8 is rounded with its position. It is along the line from the vertex to q and has no moment about q.
+// Momentum is not conserved: that of the vertex equals what the bone would receive as the heavy end of a rod between
+// them (Eq. 8-9 at both ends), with 1e8 times the vertex's mass. The two differ by that share of the momentum, and by
+// the rounding of the vertex and of the bone, whose step of 1e-8 is rounded with its position. It is along the line
+// from the vertex to q and has no moment about q.
 TEST(BindConstraint, TheBoneTakesTheMomentum)
 {
     test_support::RandomPoints random(32);
@@ -89,7 +93,8 @@ TEST(BindConstraint, TheBoneTakesTheMomentum)
         const double of_bone = std::sqrt(3.0) * test_support::rounding_error(1, at.cwiseAbs().maxCoeff());
         EXPECT_LT((given + taken).norm(), bone / vertex * given.norm() + of_bone / bone + 2.0 * of_vertex / vertex);
         // The cross product of what is parallel goes through five roundings.
-        EXPECT_LT((bound - p).cross(at - p).norm(), (of_vertex + test_support::rounding_error(5, (bound - p).norm())) * (at - p).norm());
+        EXPECT_LT((bound - p).cross(at - p).norm(),
+                  (of_vertex + test_support::rounding_error(5, (bound - p).norm())) * (at - p).norm());
         EXPECT_GT(given.norm(), 1e-3) << trial;
     }
 }

@@ -20,7 +20,8 @@ using Points = std::vector<Vec3>;
 const pbs::TetMesh bar = structured_bar({0, 0, 0}, {2, 1, 1}, {2, 2, 2});
 const auto box = pbs::make_region_volume_constraint<double>(pbs::boundary_of(bar.tets), bar.rest, 1.0);
 const std::vector<double> unit(box.vertex.size(), 1.0);
-// A volume is a sum over the triangles, each with some twenty roundings of products of two edges and a distance, of at most 6 m^3 here.
+// A volume is a sum over the triangles, each with some twenty roundings of products of two edges and a distance, of at
+// most 6 m^3 here.
 const double rounding_m3 = rounding_error(20.0 * double(box.triangle.size()), 6.0);
 
 Points at_rest()
@@ -56,7 +57,8 @@ TEST(RegionVolume, OfOneTetIsItsVolumeConstraint)
     Points p(4), g;
     for (int i = 0; i < 4; ++i) p[i] = Vec3(bar.rest.row(tet.tets(0, i))) + random.point(0.2);
     Points of_region(4);
-    for (int i = 0; i < 4; ++i) of_region[std::ranges::find(region.vertex, tet.tets(0, i)) - region.vertex.begin()] = p[i];
+    for (int i = 0; i < 4; ++i)
+        of_region[std::ranges::find(region.vertex, tet.tets(0, i)) - region.vertex.begin()] = p[i];
     const Points before = of_region;
     EXPECT_NEAR(value(region, of_region), value(alone, p[0], p[1], p[2], p[3]), rounding_m3);
     project(region, {1, 1, 1, 1}, of_region, g);
@@ -64,7 +66,8 @@ TEST(RegionVolume, OfOneTetIsItsVolumeConstraint)
     for (int i = 0; i < 4; ++i) {
         const std::size_t at = std::ranges::find(region.vertex, tet.tets(0, i)) - region.vertex.begin();
         EXPECT_GT((of_region[at] - before[at]).norm(), 1e-4);
-        EXPECT_LT((of_region[at] - p[i]).norm(), rounding_error(100, 1.0));  // some forty roundings each, of a well-shaped tet
+        // some forty roundings each, of a well-shaped tet
+        EXPECT_LT((of_region[at] - p[i]).norm(), rounding_error(100, 1.0));
     }
 }
 

@@ -27,8 +27,8 @@ double longest_edge(const Corners<double>& p)
     return longest;
 }
 
-// The value that is left where projections have converged: the rounding of four corners, times the gradients, and that of ten operations on
-// products of three edges.
+// The value that is left where projections have converged: the rounding of four corners, times the gradients, and that
+// of ten operations on products of three edges.
 double converged_error(const Corners<double>& p)
 {
     double slope = 0.0;
@@ -48,7 +48,8 @@ TEST(VolumeConstraint, OneFreeCornerMeetsItAtOnce)
     Corners<double> p = at_rest;
     p[3].z() = 2.0;
     const CornerMasses<double> one_free = {0.0, 0.0, 0.0, 1.0};
-    EXPECT_LT((projected(corner_tet, one_free, p)[3] - Vec3(0, 0, 1)).norm(), rounding_of(corner_tet, one_free, p).step);
+    EXPECT_LT((projected(corner_tet, one_free, p)[3] - Vec3(0, 0, 1)).norm(),
+              rounding_of(corner_tet, one_free, p).step);
 }
 
 TEST(VolumeConstraint, FlatTetIsInflated)

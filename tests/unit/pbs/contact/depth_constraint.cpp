@@ -1,4 +1,5 @@
-// Reference: the depth of the rest point in a block whose skin is flat, by hand. Tolerances: some thirty roundings of numbers of order one.
+// Reference: the depth of the rest point in a block whose skin is flat, by hand. Tolerances: some thirty roundings of
+// numbers of order one.
 #include "pbs/contact/depth_constraint.hpp"
 
 #include "tests/support/eps_sweep.hpp"
@@ -44,7 +45,8 @@ Points deformed(unsigned seed = 4)
 Constraint constraint_of(const Points& x)
 {
     const Eigen::Matrix3d F = edges(x) * edges(rest).inverse();
-    return {{0, 1, 2, 3, 4}, {1.0, -0.2, -0.3, -0.1, -0.4}, F.transpose().inverse() * Vec3::UnitZ(), -rest_point(x).z()};
+    return {
+        {0, 1, 2, 3, 4}, {1.0, -0.2, -0.3, -0.1, -0.4}, F.transpose().inverse() * Vec3::UnitZ(), -rest_point(x).z()};
 }
 
 TEST(DepthConstraint, IsMinusTheDepthWhereItIsMade)
@@ -75,7 +77,8 @@ TEST(DepthConstraint, ProjectionEndsAtZeroAndConservesMomentum)
 {
     const Points before = deformed();
     const Constraint constraint = constraint_of(before);
-    for (const std::array<double, 5>& w : {std::array{1.0, 1.0, 1.0, 1.0, 1.0}, {0.5, 1.0, 2.0, 4.0, 8.0}, {0.0, 1.0, 1.0, 1.0, 1.0}}) {
+    for (const std::array<double, 5>& w :
+         {std::array{1.0, 1.0, 1.0, 1.0, 1.0}, {0.5, 1.0, 2.0, 4.0, 8.0}, {0.0, 1.0, 1.0, 1.0, 1.0}}) {
         Points x = before;
         project(constraint, w, x);
         EXPECT_NEAR(value(constraint, x), 0.0, rounding);

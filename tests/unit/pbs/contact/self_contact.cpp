@@ -1,5 +1,5 @@
-// Reference: every skin vertex tried in every tet, and every triangle of the rest skin. Tolerances: both sides compute in double, and a
-// point is sought in a tet by some fifty roundings.
+// Reference: every skin vertex tried in every tet, and every triangle of the rest skin. Tolerances: both sides compute
+// in double, and a point is sought in a tet by some fifty roundings.
 #include "pbs/contact/self_contact.hpp"
 
 #include "pbs/geometry/topology.hpp"
@@ -59,7 +59,8 @@ Pairs by_trying_all(const pbs::TetMesh& mesh, const Positions& x)
         }
         if (!(corners.determinant() < 0.0)) continue;  // so that the tet is neither flat nor mirrored
         for (int v = 0; v < x.rows(); ++v) {
-            const Eigen::Vector4d beta = corners.inverse() * (Eigen::Vector4d() << x.row(v).transpose(), 1.0).finished();
+            const Eigen::Vector4d beta =
+                corners.inverse() * (Eigen::Vector4d() << x.row(v).transpose(), 1.0).finished();
             const Vec3 rest = (rest_corners * beta).head<3>();
             if (on_skin[v] && beta.minCoeff() >= 0.0 && (rest - mesh.rest.row(v).transpose()).norm() > half_edge_m)
                 pairs.insert({v, tet(0), tet(1), tet(2), tet(3)});
@@ -91,7 +92,8 @@ TEST(SelfContact, FindsInEachOfManyBodiesWhatItFindsInOne)
     for (int k = 0; k < bodies; ++k) {
         for (Positions* x : {&many.rest, &pushed}) x->middleRows(k * V, V).col(0).array() += 2.0 * k;
         many.tets.middleRows(k * T, T).array() += k * V;
-        for (const auto& [v, a, b, c, d] : in_one) in_each.insert({v + k * V, a + k * V, b + k * V, c + k * V, d + k * V});
+        for (const auto& [v, a, b, c, d] : in_one)
+            in_each.insert({v + k * V, a + k * V, b + k * V, c + k * V, d + k * V});
     }
     EXPECT_EQ(pairs(found(many, pushed)), in_each);
     EXPECT_EQ(pairs(found<float>(many, pushed)), in_each);
@@ -112,7 +114,8 @@ TEST(SelfContact, DepthAndDirectionAreThoseOfTheNearestSkin)
 {
     int of_second = 0;
     for (const auto& constraint : found(blocks.mesh, blocks.pushed)) {
-        if (constraint.vertex[0] < blocks.vertices_of_first) continue;  // the pushed block's own skin is not flat around its corners
+        // the pushed block's own skin is not flat around its corners
+        if (constraint.vertex[0] < blocks.vertices_of_first) continue;
         ++of_second;
         EXPECT_NEAR(constraint.depth, 0.1, rounding_error(50.0, 4.0));
         EXPECT_LE((constraint.m - Vec3::UnitZ()).norm(), rounding_error(50.0, 40.0));
@@ -144,7 +147,8 @@ TEST(RestSkin, FindsTheNearestPointOfABox)
         const double depth = std::min(point.minCoeff(), (size - point).minCoeff());
         const double found = (skin.nearest(point, tet) - point).norm(), rounding = rounding_error(50.0, 4.0);
         EXPECT_GE(found, depth - rounding);
-        EXPECT_LE(found, depth < 0.3 ? depth + rounding : 1.1 * depth) << depth;  // in the middle, two sides are almost as near
+        // in the middle, two sides are almost as near
+        EXPECT_LE(found, depth < 0.3 ? depth + rounding : 1.1 * depth) << depth;
     }
 }
 
@@ -152,7 +156,8 @@ TEST(RestSkin, FindsTheNearestPointOfABox)
 TEST(SelfContact, CollapsedMirroredTornAndNotFiniteStatesGiveFiniteConstraints)
 {
     const Positions& rest = limb.mesh.rest;
-    Positions point = Positions::Constant(rest.rows(), 3, 0.5), plane = rest, mirrored = rest, teleported = limb.lbs, not_finite = bent;
+    Positions point = Positions::Constant(rest.rows(), 3, 0.5), plane = rest, mirrored = rest, teleported = limb.lbs,
+              not_finite = bent;
     plane.col(2).setZero();
     mirrored.col(1) *= -1.0;
     for (Eigen::Index v = 0; v < rest.rows(); v += 7) teleported.row(v).array() += 1e3;
@@ -178,7 +183,8 @@ TEST(SelfContact, CollapsedMirroredTornAndNotFiniteStatesGiveFiniteConstraints)
 TEST(SelfContact, FindsTheSamePairsAtEveryScaleAndInBothPrecisions)
 {
     const Pairs at_one = pairs(found(limb.mesh, bent));
-    for (const double scale : {1e-3, 1e3}) EXPECT_EQ(pairs(found({scale * limb.mesh.rest, limb.mesh.tets}, scale * bent)), at_one) << scale;
+    for (const double scale : {1e-3, 1e3})
+        EXPECT_EQ(pairs(found({scale * limb.mesh.rest, limb.mesh.tets}, scale * bent)), at_one) << scale;
     EXPECT_EQ(pairs(found<float>(blocks.mesh, blocks.pushed)), pairs(found(blocks.mesh, blocks.pushed)));
 }
 

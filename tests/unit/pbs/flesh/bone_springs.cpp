@@ -41,11 +41,14 @@ double summed(const pbs::BoneHold& hold, const Positions& x)
     Positions centres;
     hold.centres(bent.pose, centres);
     double energy = hold.constant(bent.pose, centres);
-    for (Eigen::Index i = 0; i < x.rows(); ++i) energy += hold.stiffness()(i) / 2.0 * (x.row(i) - centres.row(i)).squaredNorm();
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+        energy += hold.stiffness()(i) / 2.0 * (x.row(i) - centres.row(i)).squaredNorm();
     for (Eigen::Index t = 0; t < bent.mesh.tets.rows(); ++t)
         for (int e = 0; e < 6; ++e)
-            energy += hold.edge_stiffness()(t, e) / 2.0 *
-                      (x.row(bent.mesh.tets(t, pbs::edges_of_tet[e][0])) - x.row(bent.mesh.tets(t, pbs::edges_of_tet[e][1]))).squaredNorm();
+            energy +=
+                hold.edge_stiffness()(t, e) / 2.0 *
+                (x.row(bent.mesh.tets(t, pbs::edges_of_tet[e][0])) - x.row(bent.mesh.tets(t, pbs::edges_of_tet[e][1])))
+                    .squaredNorm();
     return energy;
 }
 
@@ -67,7 +70,8 @@ TEST(BoneHold, LeavesSpringsOutsideTheTetsOut)
     springs.points.row(3) << 0.5, 0.5, 0.5;
     const pbs::BoneHold hold(bent.mesh, springs, 2);
     EXPECT_EQ(hold.left_out(), 1);
-    EXPECT_NEAR(hold.stiffness().sum(), springs.stiffness.sum() - springs.stiffness(3), test_support::rounding_error(50, 10.0));
+    EXPECT_NEAR(hold.stiffness().sum(), springs.stiffness.sum() - springs.stiffness(3),
+                test_support::rounding_error(50, 10.0));
 }
 
 TEST(BoneHold, PartsOfTheBonesAddUpToTheStiffnessAndAVertexWithoutSpringsHasNoCentre)
@@ -85,7 +89,8 @@ TEST(BoneHold, PartsOfTheBonesAddUpToTheStiffnessAndAVertexWithoutSpringsHasNoCe
     EXPECT_EQ((hold.stiffness().array() > 0.0).count(), 4);
 }
 
-// The modes. Reference: the same springs summed over vertices and edges (BoneHold), and the definition of an eigenvector.
+// The modes. Reference: the same springs summed over vertices and edges (BoneHold), and the definition of an
+// eigenvector.
 
 constexpr int springs = 200;
 constexpr double stiffness = 10.0;  // times 0.5 to 1.5
@@ -123,8 +128,8 @@ Positions gradient_of_hold(const pbs::BoneHold& hold, const Positions& x)
     return gradient;
 }
 
-// The forces of all springs on a vertex are sums of at most `springs` terms of k |x|, |x| < 3 m; the eigenvectors of 4 x 4 matrices are
-// orthonormal to some 50 roundings.
+// The forces of all springs on a vertex are sums of at most `springs` terms of k |x|, |x| < 3 m; the eigenvectors of 4
+// x 4 matrices are orthonormal to some 50 roundings.
 TEST(HoldModes, HaveTheForcesOfTheSprings)
 {
     const pbs::HoldModes modes(held());
@@ -132,12 +137,14 @@ TEST(HoldModes, HaveTheForcesOfTheSprings)
         const Positions x = test_support::jittered(bent.lbs, size);
         const Positions expected = gradient_of_hold(held(), x);
         const double largest = held().stiffness().maxCoeff() * 3.0;
-        EXPECT_LE((gradient_of_modes(modes, x) - expected).cwiseAbs().maxCoeff(), test_support::rounding_error(springs + 50, largest));
+        EXPECT_LE((gradient_of_modes(modes, x) - expected).cwiseAbs().maxCoeff(),
+                  test_support::rounding_error(springs + 50, largest));
         EXPECT_TRUE(size == 0.0 || expected.cwiseAbs().maxCoeff() > 1e-3 * largest);
     }
 }
 
-// beta_s^T X = X_s for every spring, so that v^T X = d at rest. A small eigenvalue magnifies the rounding of the moments by its reciprocal.
+// beta_s^T X = X_s for every spring, so that v^T X = d at rest. A small eigenvalue magnifies the rounding of the
+// moments by its reciprocal.
 TEST(HoldModes, AreMetAtRest)
 {
     const pbs::HoldModes modes(held());
@@ -175,7 +182,8 @@ TEST(HoldModes, OneSpringIsOneMode)
     beta << 1.0 - where.barycentric.sum(), where.barycentric;
     const pbs::HoldMode& mode = modes.modes().front();
     EXPECT_EQ(mode.tet, where.tet);
-    EXPECT_NEAR(mode.stiffness, spring.stiffness(0) * beta.squaredNorm(), test_support::rounding_error(50, spring.stiffness(0)));
+    EXPECT_NEAR(mode.stiffness, spring.stiffness(0) * beta.squaredNorm(),
+                test_support::rounding_error(50, spring.stiffness(0)));
     EXPECT_NEAR(std::abs(mode.v.dot(beta)), beta.norm(), test_support::rounding_error(50, 1.0));
 }
 

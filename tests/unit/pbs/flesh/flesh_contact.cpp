@@ -1,4 +1,5 @@
-// Reference: differences of the penalty, the column of flesh below a skin vertex by hand, and the same minimum by two methods.
+// Reference: differences of the penalty, the column of flesh below a skin vertex by hand, and the same minimum by two
+// methods.
 #include "pbs/flesh/flesh_contact.hpp"
 
 #include "pbs/flesh/flesh_system.hpp"
@@ -78,7 +79,8 @@ Positions random_moves(double size, unsigned seed)
     return jittered(Positions::Zero(mesh.rest.rows(), 3), size, seed);
 }
 
-// The energy is quadratic as long as no pair opens or closes, so that central differences are exact up to rounding, for every eps.
+// The energy is quadratic as long as no pair opens or closes, so that central differences are exact up to rounding, for
+// every eps.
 TEST(FleshContact, GradientIsThatOfTheValue)
 {
     const Found found;
@@ -141,7 +143,8 @@ Positions by_quasi_newton(bool contact, bool packed, int threads = 1, int iterat
 }
 
 template <typename Scalar>
-Positions by_vertex_blocks(bool contact, bool packed, pbs::Acceleration acceleration = pbs::Acceleration::over_relaxation, int threads = 1,
+Positions by_vertex_blocks(bool contact, bool packed,
+                           pbs::Acceleration acceleration = pbs::Acceleration::over_relaxation, int threads = 1,
                            int iterations = 600)
 {
     pbs::VertexBlockOptions options;

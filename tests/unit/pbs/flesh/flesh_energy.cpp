@@ -41,21 +41,26 @@ TEST_P(FleshEnergyOf, OfAnAffineMapIsItsDensityTimesTheVolume)
     const double beyond = F.determinant() - material.alpha;
     const double density = material.mu / 2.0 * F.squaredNorm() + material.lambda / 2.0 * beyond * beyond;
     const double volume = pbs::tet_volumes(bent.mesh.rest, bent.mesh.tets).sum();
-    EXPECT_NEAR(free.value(x, Positions::Zero(x.rows(), 3)), density * volume, test_support::rounding_error(2000, 10.0 * density * volume));
+    EXPECT_NEAR(free.value(x, Positions::Zero(x.rows(), 3)), density * volume,
+                test_support::rounding_error(2000, 10.0 * density * volume));
 }
 
 TEST_P(FleshEnergyOf, GradientByAnEpsSweep)
 {
-    const Positions at = test_support::jittered(bent.lbs, 0.05), along = test_support::jittered(Positions::Zero(at.rows(), 3), 1.0, 9);
+    const Positions at = test_support::jittered(bent.lbs, 0.05),
+                    along = test_support::jittered(Positions::Zero(at.rows(), 3), 1.0, 9);
     Positions gradient;
     energy.value_and_gradient(at, centres, gradient);
-    const auto value = [&](const Eigen::VectorXd& x) { return energy.value(Positions::Map(x.data(), at.rows(), 3), centres); };
+    const auto value = [&](const Eigen::VectorXd& x) {
+        return energy.value(Positions::Map(x.data(), at.rows(), 3), centres);
+    };
     test_support::expect_slope_by_eps_sweep(value, flat(at), flat(along), flat(gradient).dot(flat(along)), 0.1);
 }
 
 TEST_P(FleshEnergyOf, HessianByAnEpsSweep)
 {
-    const Positions at = test_support::jittered(bent.lbs, 0.05), along = test_support::jittered(Positions::Zero(at.rows(), 3), 1.0, 9),
+    const Positions at = test_support::jittered(bent.lbs, 0.05),
+                    along = test_support::jittered(Positions::Zero(at.rows(), 3), 1.0, 9),
                     also = test_support::jittered(Positions::Zero(at.rows(), 3), 1.0, 10);
     using ByVertex = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
     const auto by_vertex = [](const Positions& x) {
@@ -68,7 +73,8 @@ TEST_P(FleshEnergyOf, HessianByAnEpsSweep)
         energy.value_and_gradient(Positions::Map(x.data(), at.rows(), 3), centres, gradient);
         return flat(gradient).dot(flat(also));
     };
-    test_support::expect_slope_by_eps_sweep(slope, flat(at), flat(along), by_vertex(also).dot(H * by_vertex(along)), 0.1);
+    test_support::expect_slope_by_eps_sweep(slope, flat(at), flat(along), by_vertex(also).dot(H * by_vertex(along)),
+                                            0.1);
 }
 
 // Third differences of a quadratic vanish. Values are of order E; each has some 20 roundings per tet.
@@ -82,10 +88,12 @@ TEST_P(FleshEnergyOf, IsQuadraticAlongOneVertex)
         x.row(20) += step;
     }
     EXPECT_GT(std::abs(values[2] - 2.0 * values[1] + values[0]), 1e-6 * values[0]);
-    EXPECT_NEAR(values[3] - 3.0 * values[2] + 3.0 * values[1] - values[0], 0.0, test_support::rounding_error(8.0 * 20 * 200, values[3]));
+    EXPECT_NEAR(values[3] - 3.0 * values[2] + 3.0 * values[1] - values[0], 0.0,
+                test_support::rounding_error(8.0 * 20 * 200, values[3]));
 }
 
-// With a volume share of zero, H is the Hessian of all terms but those of the volume, which are affine in kappa: H x = g - g(kappa terms).
+// With a volume share of zero, H is the Hessian of all terms but those of the volume, which are affine in kappa: H x =
+// g - g(kappa terms).
 TEST_P(FleshEnergyOf, LaplacianIsTheGradientOfTheOtherTerms)
 {
     const Eigen::SparseMatrix<double> lower = pbs::flesh_laplacian(bent.mesh, material, energy, 0.0);
@@ -106,7 +114,8 @@ TEST_P(FleshEnergyOf, LaplacianIsTheGradientOfTheOtherTerms)
     Positions found = H * x;
     for (Eigen::Index i = 0; i < x.rows(); ++i) found.row(i) -= energy.hold()(i) * centres.row(i);
     const double largest = H.diagonal().maxCoeff() * x.cwiseAbs().maxCoeff() + material.lambda;
-    EXPECT_LE((found - expected).cwiseAbs().maxCoeff(), test_support::rounding_error(2000, largest) + 1e-9 * largest);  // 1e-9: its hold
+    // 1e-9: its hold
+    EXPECT_LE((found - expected).cwiseAbs().maxCoeff(), test_support::rounding_error(2000, largest) + 1e-9 * largest);
 }
 
 INSTANTIATE_TEST_SUITE_P(PoissonsRatios, FleshEnergyOf, testing::Values(0.0, 0.3, 0.45));
@@ -127,15 +136,16 @@ TEST(FleshEnergy, RefusesATetWithoutVolumeButAVertexWithoutTetsHasARowOfItsOwn)
 
 // Reference: the conditions that rest is an equilibrium and that the moduli at small strains are those of Hooke's law.
 
-// The stress mu F + lambda (J - alpha) dJ/dF vanishes at F = I, where dJ/dF = I. Along F = (1 + e) I, psi'' = 3 mu + lambda ((3 J'') (J -
-// alpha) + 9) at e = 0 with J = (1 + e)^3, so J' = 3, J'' = 6; it is 9 K. Along the shear F = I + e (1, 2), J = 1 and |F|^2 = 3 + e^2, so
-// psi'' = mu, the shear modulus E / (2 (1 + nu)).
+// The stress mu F + lambda (J - alpha) dJ/dF vanishes at F = I, where dJ/dF = I. Along F = (1 + e) I, psi'' = 3 mu +
+// lambda ((3 J'') (J - alpha) + 9) at e = 0 with J = (1 + e)^3, so J' = 3, J'' = 6; it is 9 K. Along the shear F = I +
+// e (1, 2), J = 1 and |F|^2 = 3 + e^2, so psi'' = mu, the shear modulus E / (2 (1 + nu)).
 TEST(FleshMaterial, HasNoStressAtRestAndHookesModuli)
 {
     for (const double nu : {0.0, 0.3, 0.45, 0.499}) {
         SCOPED_TRACE(nu);
         const pbs::FleshMaterial material = pbs::flesh_material(nu);
-        EXPECT_NEAR(material.mu + material.lambda * (1.0 - material.alpha), 0.0, test_support::rounding_error(8, material.lambda));
+        EXPECT_NEAR(material.mu + material.lambda * (1.0 - material.alpha), 0.0,
+                    test_support::rounding_error(8, material.lambda));
         const double bulk = 1.0 / (3.0 * (1.0 - 2.0 * nu));
         const double second = 3.0 * material.mu + material.lambda * (9.0 + 6.0 * (1.0 - material.alpha));
         EXPECT_NEAR(second, 9.0 * bulk, test_support::rounding_error(30, 9.0 * material.lambda) / (1.0 - 2.0 * nu));
@@ -162,7 +172,8 @@ Eigen::VectorXd jittered_corners(double size)
 
 Matrix3d gradient_of_map(const Eigen::VectorXd& corners)
 {
-    return pbs::deformation_gradient(tet, corners.segment<3>(0), corners.segment<3>(3), corners.segment<3>(6), corners.segment<3>(9));
+    return pbs::deformation_gradient(tet, corners.segment<3>(0), corners.segment<3>(3), corners.segment<3>(6),
+                                     corners.segment<3>(9));
 }
 
 // value and derivative: functions of F.
@@ -173,8 +184,8 @@ void expect_vertex_gradients(const Value& value, const Derivative& derivative, c
     test_support::RandomPoints random(5);
     Eigen::VectorXd along(12);
     for (double& entry : along) entry = random.number(-1.0, 1.0);
-    test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& x) { return value(gradient_of_map(x)); }, corners, along,
-                                            Eigen::VectorXd::Map(gradients.data(), 12).dot(along), 1.0);
+    test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& x) { return value(gradient_of_map(x)); },
+                                            corners, along, Eigen::VectorXd::Map(gradients.data(), 12).dot(along), 1.0);
     EXPECT_LE(gradients.rowwise().sum().norm(), test_support::rounding_error(30, gradients.norm()));
 }
 
@@ -184,7 +195,8 @@ TEST(NeoHookeanConstraints, GradientsByAnEpsSweep)
     for (int i = 0; i < 4; ++i) mirrored(3 * i) *= -1.0;
     EXPECT_LT(gradient_of_map(mirrored).determinant(), 0.0);
     for (const Eigen::VectorXd& corners : {jittered_corners(0.1), jittered_corners(0.8), mirrored}) {
-        expect_vertex_gradients([](const Matrix3d& F) { return pbs::hydrostatic_value(F, 1.1); }, pbs::hydrostatic_gradient, corners);
+        expect_vertex_gradients([](const Matrix3d& F) { return pbs::hydrostatic_value(F, 1.1); },
+                                pbs::hydrostatic_gradient, corners);
         expect_vertex_gradients(pbs::deviatoric_value, pbs::deviatoric_gradient, corners);
     }
 }

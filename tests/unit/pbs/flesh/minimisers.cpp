@@ -1,6 +1,7 @@
-// The contract of the methods that minimise an energy of elastic flesh: vertex block descent, L-BFGS with either first matrix, XPBD with
-// neo-Hookean constraints and projective dynamics. References: the necessary conditions of a minimum, computed by the plain energy, rigid
-// motions, and the same bar without a sliver, whose volume is 1e-9 of that of a tet, so that the minimum does not depend on it.
+// The contract of the methods that minimise an energy of elastic flesh: vertex block descent, L-BFGS with either first
+// matrix, XPBD with neo-Hookean constraints and projective dynamics. References: the necessary conditions of a minimum,
+// computed by the plain energy, rigid motions, and the same bar without a sliver, whose volume is 1e-9 of that of a
+// tet, so that the minimum does not depend on it.
 #include "pbs/flesh/flesh_system.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"
 #include "pbs/flesh/quasi_newton.hpp"
@@ -30,7 +31,8 @@ const HeldXpbd bent_bar({8, 2, 2}), bar_of_slivers({12, 3, 3});
 const Positions &lbs = bent_bar.bent.lbs, &rest = bent_bar.bent.mesh.rest;
 const pbs::Pose rest_pose(2, Eigen::Isometry3d::Identity());
 
-// How a method is called. setting: one of the method's `settings`, or the first of them; stop: its threshold of convergence, if it has one.
+// How a method is called. setting: one of the method's `settings`, or the first of them; stop: its threshold of
+// convergence, if it has one.
 struct Call {
     int iterations;
     bool packed = true;
@@ -54,8 +56,8 @@ struct OfFlesh {
     static constexpr bool has_own_energy = false, descends = true;
 };
 
-// Each minimises x towards the bones of a pose, and knows how many iterations from LBS leave less than a millionth of the gradient. The
-// first setting is its default.
+// Each minimises x towards the bones of a pose, and knows how many iterations from LBS leave less than a millionth of
+// the gradient. The first setting is its default.
 struct ByVertices : OfFlesh {  // setting: omega
     static constexpr int enough = 600, usual = 64;
     static inline const std::vector<double> settings = {pbs::VertexBlockOptions().omega, 0.1, 1.0, 1.5, 1.99};
@@ -63,7 +65,8 @@ struct ByVertices : OfFlesh {  // setting: omega
     template <typename Scalar>
     static auto minimise(const HeldXpbd& bar, const pbs::Pose& pose, const Call& call, Positions& x)
     {
-        const pbs::VertexBlockOptions options{.iterations = call.iterations, .omega = *call.setting, .packed = call.packed};
+        const pbs::VertexBlockOptions options{
+            .iterations = call.iterations, .omega = *call.setting, .packed = call.packed};
         return pbs::VertexBlockDescent<Scalar>(bar.bent.mesh, bar.energy, options).minimise(centres_of(bar, pose), x);
     }
 };
@@ -76,9 +79,12 @@ struct ByLbfgs : OfFlesh {  // setting: the pairs that are kept
     static auto minimise(const HeldXpbd& bar, const pbs::Pose& pose, const Call& call, Positions& x)
     {
         const pbs::HeldFlesh flesh(bar.bent.mesh, bar.springs, 2, {});
-        const pbs::QuasiNewtonOptions options{
-            .iterations = call.iterations, .history = int(*call.setting), .stop_gradient = call.stop, .packed = call.packed};
-        return pbs::QuasiNewton<Scalar>(bar.bent.mesh, bar.energy, flesh.factor(), options).minimise(centres_of(bar, pose), x);
+        const pbs::QuasiNewtonOptions options{.iterations = call.iterations,
+                                              .history = int(*call.setting),
+                                              .stop_gradient = call.stop,
+                                              .packed = call.packed};
+        return pbs::QuasiNewton<Scalar>(bar.bent.mesh, bar.energy, flesh.factor(), options)
+            .minimise(centres_of(bar, pose), x);
     }
 };
 
@@ -91,9 +97,12 @@ struct ByWarpedStiffness : OfFlesh {  // setting: omega
     {
         const pbs::HeldFlesh flesh(bar.bent.mesh, bar.springs, 2, {});
         std::vector<Eigen::Matrix3d> rotations;
-        pbs::BlendSkinning<double>(bar.bent.mesh.rest, flesh.smooth_weights(bar.bent.weights)).rotations(pose, rotations);
-        const pbs::WarpedNewtonOptions options{.iterations = call.iterations, .omega = *call.setting, .packed = call.packed};
-        return pbs::WarpedNewton<Scalar>(bar.bent.mesh, bar.energy, flesh.factor(), options).minimise(centres_of(bar, pose), rotations, x);
+        pbs::BlendSkinning<double>(bar.bent.mesh.rest, flesh.smooth_weights(bar.bent.weights))
+            .rotations(pose, rotations);
+        const pbs::WarpedNewtonOptions options{
+            .iterations = call.iterations, .omega = *call.setting, .packed = call.packed};
+        return pbs::WarpedNewton<Scalar>(bar.bent.mesh, bar.energy, flesh.factor(), options)
+            .minimise(centres_of(bar, pose), rotations, x);
     }
 };
 
@@ -130,9 +139,11 @@ struct ByProjections : OfFlesh {
     static auto minimise(const HeldXpbd& bar, const pbs::Pose& pose, const Call& call, Positions& x)
     {
         const double poisson = *call.setting;
-        const pbs::HeldFlesh flesh(bar.bent.mesh, bar.springs, 2,
-                                   {.poisson = poisson, .volume_share = pbs::volume_share_of_projective(poisson, true)});
-        const pbs::ProjectiveOptions options{.iterations = call.iterations, .stop_step = call.stop, .packed = call.packed};
+        const pbs::HeldFlesh flesh(
+            bar.bent.mesh, bar.springs, 2,
+            {.poisson = poisson, .volume_share = pbs::volume_share_of_projective(poisson, true)});
+        const pbs::ProjectiveOptions options{
+            .iterations = call.iterations, .stop_step = call.stop, .packed = call.packed};
         return pbs::ProjectiveDynamics<Scalar>(bar.bent.mesh, energy(bar, poisson), flesh.factor(), options)
             .minimise(centres_of(bar, pose), x);
     }
@@ -145,13 +156,15 @@ protected:
     static inline const double usual_setting = Method::settings.front();
 
     template <typename Scalar>
-    static auto minimise(Call call, Positions& x, const pbs::Pose& pose = bent_bar.bent.pose, const HeldXpbd& bar = bent_bar)
+    static auto minimise(Call call, Positions& x, const pbs::Pose& pose = bent_bar.bent.pose,
+                         const HeldXpbd& bar = bent_bar)
     {
         if (!call.setting) call.setting = usual_setting;
         return Method::template minimise<Scalar>(bar, pose, call, x);
     }
     template <typename Scalar>
-    static Positions minimised(int iterations, bool packed = true, Positions x = lbs, const pbs::Pose& pose = bent_bar.bent.pose)
+    static Positions minimised(int iterations, bool packed = true, Positions x = lbs,
+                               const pbs::Pose& pose = bent_bar.bent.pose)
     {
         minimise<Scalar>({iterations, packed}, x, pose);
         return x;
@@ -188,13 +201,14 @@ TYPED_TEST(Minimiser, TheMinimumDoesNotDependOnTheInitialGuess)
     const Positions expected = this->template minimised<double>(2 * this->enough);
     const double size = (lbs - rest).norm();
     for (const Positions& from : {test_support::jittered(lbs, 0.05), rest}) {
-        if (std::is_same_v<TypeParam, ByVertices> && from == rest) continue;  // over-relaxed, it ends elsewhere: see vbd.cpp
+        // over-relaxed, it ends elsewhere: see vbd.cpp
+        if (std::is_same_v<TypeParam, ByVertices> && from == rest) continue;
         EXPECT_LT((this->template minimised<double>(2 * this->enough, true, from) - expected).norm(), 1e-6 * size);
     }
 }
 
-// Some sum up their multipliers over the iterations, each with a rounding of its own. The stiffnesses of projective dynamics are not those
-// of the energy of flesh.
+// Some sum up their multipliers over the iterations, each with a rounding of its own. The stiffnesses of projective
+// dynamics are not those of the energy of flesh.
 TYPED_TEST(Minimiser, EveryArithmeticEndsAtOneMinimum)
 {
     const int iterations = std::is_same_v<TypeParam, ByXpbd> ? 100 : this->enough;
@@ -204,8 +218,9 @@ TYPED_TEST(Minimiser, EveryArithmeticEndsAtOneMinimum)
         EXPECT_LT((this->template minimised<double>(2 * this->enough) - expected).cwiseAbs().maxCoeff(), 1e-9);
         EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-4);
     } else {
-        EXPECT_LT(difference.norm(), test_support::displaced_by_rounding<float>(bent_bar.energy, bent_bar.centres, expected,
-                                                                                std::is_same_v<TypeParam, ByXpbd> ? iterations : 0));
+        EXPECT_LT(difference.norm(),
+                  test_support::displaced_by_rounding<float>(bent_bar.energy, bent_bar.centres, expected,
+                                                             std::is_same_v<TypeParam, ByXpbd> ? iterations : 0));
     }
     EXPECT_GT((lbs - expected).cwiseAbs().maxCoeff(), 0.01);
 }
@@ -215,18 +230,18 @@ TYPED_TEST(Minimiser, NoIterationsLeaveTheInitialGuess)
     EXPECT_EQ(this->template minimised<double>(0, false), lbs);
 }
 
-// Theory. Vertex block descent: along a vertex the energy is exactly quadratic, so that omega times the way to its minimum lowers it by
-// omega (2 - omega) / 2 g . H^-1 g, which is positive for 0 < omega < 2. L-BFGS: the line search requires it, or a step is taken back.
-// Projective dynamics: each step minimises the energy over the shapes and then over the positions. An energy has some 40 roundings per tet
-// of positive terms; in that of projective dynamics, a hundred of the springs' parts, which have either sign: a_i |x_i - c_i|^2 of a body
-// of 2 m.
+// Theory. Vertex block descent: along a vertex the energy is exactly quadratic, so that omega times the way to its
+// minimum lowers it by omega (2 - omega) / 2 g . H^-1 g, which is positive for 0 < omega < 2. L-BFGS: the line search
+// requires it, or a step is taken back. Projective dynamics: each step minimises the energy over the shapes and then
+// over the positions. An energy has some 40 roundings per tet of positive terms; in that of projective dynamics, a
+// hundred of the springs' parts, which have either sign: a_i |x_i - c_i|^2 of a body of 2 m.
 TYPED_TEST(Minimiser, NoIterationIncreasesTheEnergy)
 {
     if (!TypeParam::descends) return;
     const double of_tets = rounding_error(40.0 * double(bent_bar.bent.mesh.tets.rows()), 1.0),
                  of_springs = rounding_error(100.0, 4.0 * bent_bar.hold.stiffness().sum());
-    for (const Positions& from :
-         {lbs, rest, test_support::mirrored(lbs, 1), test_support::mirrored(lbs), test_support::jittered(lbs, 0.2), Positions(0.0 * lbs)})
+    for (const Positions& from : {lbs, rest, test_support::mirrored(lbs, 1), test_support::mirrored(lbs),
+                                  test_support::jittered(lbs, 0.2), Positions(0.0 * lbs)})
         for (const double setting : TypeParam::settings) {
             const double before = this->value(from, setting);
             double last = before;
@@ -234,7 +249,8 @@ TYPED_TEST(Minimiser, NoIterationIncreasesTheEnergy)
                 Positions x = from;
                 this->template minimise<double>({iterations, false, setting}, x);
                 const double now = this->value(x, setting);
-                EXPECT_LE(now, last + (TypeParam::has_own_energy ? of_springs : of_tets * last)) << setting << ", " << iterations;
+                EXPECT_LE(now, last + (TypeParam::has_own_energy ? of_springs : of_tets * last))
+                    << setting << ", " << iterations;
                 last = now;
             }
             EXPECT_LT(last, before);
@@ -246,7 +262,8 @@ TYPED_TEST(Minimiser, RestsWhereItsBonesRest)
 {
     for (const bool packed : {false, true}) {
         Positions x = rest;
-        const auto summary = this->template minimise<double>({.iterations = 5, .packed = packed, .stop = 1e-3}, x, rest_pose);
+        const auto summary =
+            this->template minimise<double>({.iterations = 5, .packed = packed, .stop = 1e-3}, x, rest_pose);
         EXPECT_LT((this->template minimised<double>(5, packed, rest, rest_pose) - rest).cwiseAbs().maxCoeff(), 1e-12);
         if constexpr (requires { summary.converged; }) {
             EXPECT_TRUE(summary.converged);
@@ -258,8 +275,9 @@ TYPED_TEST(Minimiser, RestsWhereItsBonesRest)
 }
 
 // Also by 1e5 sizes of the body: positions go through some hundred roundings of that distance in each iteration.
-// Warped Newton alone is at its minimum within these iterations. There it keeps a step or takes it back by the energy E, whose rounding of
-// 16 epsilon |E| is the energy lambda d^2 / 2 of a displacement d along the softest mode, of stiffness lambda.
+// Warped Newton alone is at its minimum within these iterations. There it keeps a step or takes it back by the energy
+// E, whose rounding of 16 epsilon |E| is the energy lambda d^2 / 2 of a displacement d along the softest mode, of
+// stiffness lambda.
 TYPED_TEST(Minimiser, TurnsWithARigidMotionOfAllBones)
 {
     test_support::RandomPoints random(73);
@@ -268,21 +286,25 @@ TYPED_TEST(Minimiser, TurnsWithARigidMotionOfAllBones)
         pbs::Pose pose = bent_bar.bent.pose;
         for (Eigen::Isometry3d& bone : pose) bone = motion * bone;
         const Positions here = this->template minimised<double>(20, false),
-                        there = this->template minimised<double>(20, false, test_support::transformed(lbs, motion), pose);
+                        there =
+                            this->template minimised<double>(20, false, test_support::transformed(lbs, motion), pose);
         double bound = 1e-10 + (distance > 1.0 ? rounding_error(20 * 100, distance) : 0.0);
         if constexpr (std::is_same_v<TypeParam, ByWarpedStiffness>) {
             const double energy_rounding = 16.0 * std::numeric_limits<double>::epsilon() * std::abs(this->value(here));
-            const auto stiffness = test_support::stiffnesses(bent_bar.energy, centres_of(bent_bar, bent_bar.bent.pose), here);
+            const auto stiffness =
+                test_support::stiffnesses(bent_bar.energy, centres_of(bent_bar, bent_bar.bent.pose), here);
             bound += std::sqrt(2.0 * energy_rounding / stiffness.minCoeff());
         }
         EXPECT_LT((there - test_support::transformed(here, motion)).rowwise().norm().maxCoeff(), bound);
     }
 }
 
-// Inverted tets and tets without volume are finite energies, from which the forces point back. There is more than one minimum.
+// Inverted tets and tets without volume are finite energies, from which the forces point back. There is more than one
+// minimum.
 TYPED_TEST(Minimiser, InvertedAndCollapsedInitialGuessesGoDown)
 {
-    for (const Positions& from : {test_support::mirrored(lbs), test_support::jittered(lbs, 0.15), Positions(0.0 * lbs)}) {
+    for (const Positions& from :
+         {test_support::mirrored(lbs), test_support::jittered(lbs, 0.15), Positions(0.0 * lbs)}) {
         const Positions x = this->template minimised<double>(2 * this->enough, true, from);
         EXPECT_TRUE(x.allFinite());
         EXPECT_LT(this->value(x), this->value(from));
@@ -316,7 +338,8 @@ TYPED_TEST(Minimiser, AnInitialGuessThatIsNotANumberIsNotHidden)
 
 constexpr double regular_flatness = 0.1178511301977579;  // 1 / (6 sqrt 2)
 
-// The bar with a further vertex above a face of its boundary next to the joint: a tet of this volume over its longest edge cubed.
+// The bar with a further vertex above a face of its boundary next to the joint: a tet of this volume over its longest
+// edge cubed.
 HeldXpbd with_sliver(double flatness)
 {
     const pbs::TetMesh& whole = bar_of_slivers.bent.mesh;
@@ -347,7 +370,8 @@ TEST(Slivers, AreAsStiffAsRegularTetsAndOthersKeepTheirStiffness)
         const HeldXpbd bar = with_sliver(flatness);
         const Eigen::Index last = bar.bent.mesh.tets.rows() - 1;
         const double expected = flatness < 1e-5 ? flatness / regular_flatness : 1.0;
-        EXPECT_NEAR(pbs::sliver_factor(bar.bent.mesh, last), expected, 1e-5 * expected);  // the height has five digits next to the places
+        // the height has five digits next to the places
+        EXPECT_NEAR(pbs::sliver_factor(bar.bent.mesh, last), expected, 1e-5 * expected);
         EXPECT_EQ(pbs::sliver_factor(bar.bent.mesh, 0), 1.0);
         EXPECT_EQ(bar.energy.slivers(), flatness < 1e-5);
         for (std::size_t t = 0; t + 1 < bar.energy.tets().size(); ++t) {
@@ -357,8 +381,8 @@ TEST(Slivers, AreAsStiffAsRegularTetsAndOthersKeepTheirStiffness)
     }
 }
 
-// In float the sliver is turned within the usual iterations. The difference is that at the vertices which the two bars share, over the
-// displacement from rest.
+// In float the sliver is turned within the usual iterations. The difference is that at the vertices which the two bars
+// share, over the displacement from rest.
 TYPED_TEST(Minimiser, ASliverDoesNotMoveTheMinimum)
 {
     if (std::is_same_v<TypeParam, ByXpbd>) return;  // its tets have their own stiffness, however flat they are

@@ -1,5 +1,5 @@
-// The contract of the packed systems of elastic flesh: each equals its plain twin, which is the reference, except for rounding; and neither
-// threads nor repetition change a bit. What only one of them promises follows below.
+// The contract of the packed systems of elastic flesh: each equals its plain twin, which is the reference, except for
+// rounding; and neither threads nor repetition change a bit. What only one of them promises follows below.
 #include "pbs/flesh/flesh_system.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"
 #include "pbs/flesh/vbd.hpp"
@@ -58,7 +58,9 @@ std::vector<Positions> listed(const Evaluated& evaluated)
 // Energy, gradient and preconditioned gradient of the quasi-Newton method.
 struct FleshEvaluation {
     explicit FleshEvaluation(const HeldBar& held)
-        : bar(held), laplacian(pbs::flesh_laplacian(bar.bent.mesh, bar.material, bar.energy, 0.6)), factor(pbs::cholesky_factor(laplacian))
+        : bar(held),
+          laplacian(pbs::flesh_laplacian(bar.bent.mesh, bar.material, bar.energy, 0.6)),
+          factor(pbs::cholesky_factor(laplacian))
     {
     }
 
@@ -74,9 +76,10 @@ struct FleshEvaluation {
         return listed(evaluated<Scalar>(true, threads, x));
     }
 
-    // The two substitutions solve a system that differs from A = L L^T by at most 2 n u |L| |L^T|, n the longest row of L and u = epsilon /
-    // 2 (N. Higham, Accuracy and Stability of Numerical Algorithms, SIAM 2002, Theorem 8.5), and the rounding of L adds 2 u |L| |L^T|. The
-    // norm of |L| |L^T| is at most that of Frobenius of L squared, which is the trace of A.
+    // The two substitutions solve a system that differs from A = L L^T by at most 2 n u |L| |L^T|, n the longest row of
+    // L and u = epsilon / 2 (N. Higham, Accuracy and Stability of Numerical Algorithms, SIAM 2002, Theorem 8.5), and
+    // the rounding of L adds 2 u |L| |L^T|. The norm of |L| |L^T| is at most that of Frobenius of L squared, which is
+    // the trace of A.
     template <typename Scalar>
     void expect_equal_to_plain(const Positions& x) const
     {
@@ -89,10 +92,12 @@ struct FleshEvaluation {
         for (const int row : factor.row) ++entries_of_row[row];
         const int longest_row = *std::max_element(entries_of_row.begin(), entries_of_row.end());
         const Eigen::VectorXd spectrum =
-            Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(Eigen::MatrixXd(laplacian), Eigen::EigenvaluesOnly).eigenvalues();
+            Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(Eigen::MatrixXd(laplacian), Eigen::EigenvaluesOnly)
+                .eigenvalues();
         const double lowest = spectrum.minCoeff(), of_solve = (longest_row + 1.0) * unit * spectrum.sum() / lowest;
-        EXPECT_LE((found.preconditioned - expected.preconditioned).norm(),
-                  rounding * std::sqrt(static_cast<double>(x.size())) / lowest + of_solve * expected.preconditioned.norm());
+        EXPECT_LE(
+            (found.preconditioned - expected.preconditioned).norm(),
+            rounding * std::sqrt(static_cast<double>(x.size())) / lowest + of_solve * expected.preconditioned.norm());
         EXPECT_LT(of_solve, 0.1);
     }
 
@@ -105,7 +110,8 @@ struct FleshEvaluation {
 struct ProjectiveEvaluation {
     explicit ProjectiveEvaluation(const HeldBar& held, bool keeps_volume = true)
         : bar(held),
-          flesh(bar.bent.mesh, bar.springs, 2, {.poisson = 0.45, .volume_share = pbs::volume_share_of_projective(0.45, keeps_volume)}),
+          flesh(bar.bent.mesh, bar.springs, 2,
+                {.poisson = 0.45, .volume_share = pbs::volume_share_of_projective(0.45, keeps_volume)}),
           energy(bar.bent.mesh, pbs::projective_weights(0.45, keeps_volume), flesh.hold())
     {
     }
@@ -121,23 +127,26 @@ struct ProjectiveEvaluation {
         return listed(evaluated_by<Scalar>(*system<Scalar>(true, threads), bar.centres, x));
     }
 
-    // A rounding of the entries of F changes the nearest rotation by 1 / (s_2 + s_3) and less, the nearest matrix of determinant one by
-    // (P_23 / (P_23 - kappa)) and less, which the formulae keep below ten. F itself has rounding of x over the edge's length. Each entry of
-    // the gradient sums some 25 tets with some 60 roundings of terms as large as the weights, V0 and the gradients are.
+    // A rounding of the entries of F changes the nearest rotation by 1 / (s_2 + s_3) and less, the nearest matrix of
+    // determinant one by (P_23 / (P_23 - kappa)) and less, which the formulae keep below ten. F itself has rounding of
+    // x over the edge's length. Each entry of the gradient sums some 25 tets with some 60 roundings of terms as large
+    // as the weights, V0 and the gradients are.
     template <typename Scalar>
     double tolerance(const Positions& x) const
     {
         constexpr double amplification = 10.0;
         double part = 0.0;
         for (const pbs::ProjectiveTet& tet : energy.tets()) {
-            const double of_f = (x.rowwise() - x.colwise().mean()).rowwise().norm().maxCoeff() * tet.inverse_edges.norm();
-            part = std::max(part, tet.volume * tet.inverse_edges.norm() * std::max(1.0, of_f));  // the size of the terms of F, R and D
+            const double of_f =
+                (x.rowwise() - x.colwise().mean()).rowwise().norm().maxCoeff() * tet.inverse_edges.norm();
+            // the size of the terms of F, R and D
+            part = std::max(part, tet.volume * tet.inverse_edges.norm() * std::max(1.0, of_f));
         }
         return 25 * 60 * amplification * epsilon<Scalar> * (energy.weights().strain + energy.weights().volume) * part;
     }
 
-    // Returns how many tets were refused by the formulae. The energy changes with x by its gradient, and its terms are rounded as those of
-    // the gradient are, times a displacement.
+    // Returns how many tets were refused by the formulae. The energy changes with x by its gradient, and its terms are
+    // rounded as those of the gradient are, times a displacement.
     template <typename Scalar>
     int expect_equal_to_plain(const Positions& x) const
     {
@@ -146,8 +155,9 @@ struct ProjectiveEvaluation {
         const Evaluated found = evaluated_by<Scalar>(*by_sixteen, bar.centres, x);
         const double bound = tolerance<Scalar>(x);
         EXPECT_LE((found.gradient - expected.gradient).cwiseAbs().maxCoeff(), bound);
-        EXPECT_NEAR(found.energy, expected.energy,
-                    bound * std::max(x.cwiseAbs().maxCoeff(), bar.centres.cwiseAbs().maxCoeff()) * std::sqrt(double(x.size())));
+        EXPECT_NEAR(
+            found.energy, expected.energy,
+            bound * std::max(x.cwiseAbs().maxCoeff(), bar.centres.cwiseAbs().maxCoeff()) * std::sqrt(double(x.size())));
         EXPECT_GT(expected.gradient.cwiseAbs().maxCoeff(), 4.0 * bound);
         return by_sixteen->refused();
     }
@@ -157,9 +167,10 @@ struct ProjectiveEvaluation {
     pbs::ProjectiveEnergy energy;
 };
 
-// By how much roundings may change the new position of any one vertex, the others given [m]. A sum of n terms is in error by n roundings of
-// the sum of their magnitudes, and a term has a dozen itself: this for the gradient, over the least eigenvalue of the block, and for the
-// block, times the step. Positions are rounded relative to the body's own size.
+// By how much roundings may change the new position of any one vertex, the others given [m]. A sum of n terms is in
+// error by n roundings of the sum of their magnitudes, and a term has a dozen itself: this for the gradient, over the
+// least eigenvalue of the block, and for the block, times the step. Positions are rounded relative to the body's own
+// size.
 double step_rounding(const HeldBar& body, const Positions& x, double unit)
 {
     const std::vector<pbs::VertexStar> stars = pbs::vertex_stars(body.energy);
@@ -169,7 +180,8 @@ double step_rounding(const HeldBar& body, const Positions& x, double unit)
         const double terms = 4.0 * static_cast<double>(stars[i].tets.size()) + 12.0;
         double gradient = stars[i].hold * (x.row(i) - body.centres.row(i)).norm(), hessian = stars[i].diagonal;
         for (const pbs::IncidentTet& tet : stars[i].tets) {
-            const Vec3 a = x.row(tet.other[0]) - x.row(i), b = x.row(tet.other[1]) - x.row(i), c = x.row(tet.other[2]) - x.row(i);
+            const Vec3 a = x.row(tet.other[0]) - x.row(i), b = x.row(tet.other[1]) - x.row(i),
+                       c = x.row(tet.other[2]) - x.row(i);
             const double face = (b - a).norm() * (c - a).norm();
             gradient += std::abs(tet.w[0]) * a.norm() + std::abs(tet.w[1]) * b.norm() + std::abs(tet.w[2]) * c.norm();
             gradient += tet.kappa * (face * a.norm() + tet.d) * face;
@@ -178,7 +190,8 @@ double step_rounding(const HeldBar& body, const Positions& x, double unit)
         const double step = pbs::block_step(pbs::vertex_block(stars[i], i, x, body.centres)).norm();
         worst = std::max(worst, 2.0 * unit * terms * (gradient + hessian * step) / stars[i].diagonal);
     }
-    return worst + unit * (body.bent.mesh.rest.colwise().maxCoeff() - body.bent.mesh.rest.colwise().minCoeff()).maxCoeff();
+    return worst +
+           unit * (body.bent.mesh.rest.colwise().maxCoeff() - body.bent.mesh.rest.colwise().minCoeff()).maxCoeff();
 }
 
 template <typename Scalar>
@@ -199,7 +212,8 @@ struct VertexSweeps {
     template <typename Scalar>
     Positions swept(bool packed, int threads, const Positions& x, int sweeps) const
     {
-        return positions_after<Scalar>(*pbs::make_vertex_sweep<Scalar>(bar.bent.mesh, bar.energy, packed, threads), bar, x, sweeps);
+        return positions_after<Scalar>(*pbs::make_vertex_sweep<Scalar>(bar.bent.mesh, bar.energy, packed, threads), bar,
+                                       x, sweeps);
     }
     template <typename Scalar>
     std::vector<Positions> results(int threads, const Positions& x) const
@@ -251,9 +265,9 @@ struct XpbdPasses {
         return {iterated<Scalar>(*system<Scalar>(threads), x, 3, true)};
     }
 
-    // The plain system visits the constraints in the same order. A visit rounds each of its quantities some 100 times, and moves vertices
-    // of at most 2 m by sums of them. Each of the some 25 tets and springs at a vertex passes errors on, enlarged by at most the condition
-    // number of its 2 x 2 system, which is below 10 here.
+    // The plain system visits the constraints in the same order. A visit rounds each of its quantities some 100 times,
+    // and moves vertices of at most 2 m by sums of them. Each of the some 25 tets and springs at a vertex passes errors
+    // on, enlarged by at most the condition number of its 2 x 2 system, which is below 10 here.
     template <typename Scalar>
     void expect_equal_to_plain(const Positions& x) const
     {
@@ -262,7 +276,8 @@ struct XpbdPasses {
             pbs::PlainXpbd plain(bar.flesh, by_sixteen->visits());
             const Positions expected = iterated<double>(plain, x, 2, with_residual);
             const double tolerance = 100 * 25 * 2 * epsilon<Scalar>;
-            EXPECT_LE((iterated<Scalar>(*by_sixteen, x, 2, with_residual) - expected).cwiseAbs().maxCoeff(), tolerance) << with_residual;
+            EXPECT_LE((iterated<Scalar>(*by_sixteen, x, 2, with_residual) - expected).cwiseAbs().maxCoeff(), tolerance)
+                << with_residual;
             EXPECT_GT((expected - x).cwiseAbs().maxCoeff(), 10.0 * tolerance);
         }
     }
@@ -285,7 +300,8 @@ protected:
     {
         const Positions x = test_support::jittered(system.bar.bent.lbs, 0.002);
         const std::vector<Positions> expected = system.template results<Scalar>(1, x);
-        for (const int threads : {1, 2, 4}) EXPECT_EQ(system.template results<Scalar>(threads, x), expected) << threads << " threads";
+        for (const int threads : {1, 2, 4})
+            EXPECT_EQ(system.template results<Scalar>(threads, x), expected) << threads << " threads";
     }
 };
 using Systems = testing::Types<FleshEvaluation, ProjectiveEvaluation, VertexSweeps, XpbdPasses>;
@@ -348,9 +364,9 @@ TEST(PackedProjective, EqualsPlainInAnyState)
     for (const bool keeps_volume : {true, false}) {
         const ProjectiveEvaluation flesh(bent_bar, keeps_volume);
         for (const auto& [name, x, fewest, most] :
-             {Case{"lbs", lbs, 0, 0}, Case{"jittered", test_support::jittered(lbs, 0.01), 0, 0}, Case{"rest", rest, 0, 0},
-              Case{"torn", test_support::jittered(lbs, 0.2), 1, tets}, Case{"flat", flat, 0, tets},
-              Case{"collapsed", Positions::Zero(lbs.rows(), 3), tets, tets}}) {
+             {Case{"lbs", lbs, 0, 0}, Case{"jittered", test_support::jittered(lbs, 0.01), 0, 0},
+              Case{"rest", rest, 0, 0}, Case{"torn", test_support::jittered(lbs, 0.2), 1, tets},
+              Case{"flat", flat, 0, tets}, Case{"collapsed", Positions::Zero(lbs.rows(), 3), tets, tets}}) {
             SCOPED_TRACE(name);
             for (const int refused : {flesh.expect_equal_to_plain<double>(x), flesh.expect_equal_to_plain<float>(x)}) {
                 EXPECT_GE(refused, fewest);
@@ -363,7 +379,8 @@ TEST(PackedProjective, EqualsPlainInAnyState)
 TEST(PackedVertexSweep, EqualsPlainFromLbsAndOnInvertedTets)
 {
     const VertexSweeps sweeps(bent_bar);
-    for (const Positions& x : {bent_bar.bent.lbs, test_support::mirrored(bent_bar.bent.lbs)}) sweeps.expect_equal_to_plain<double>(x);
+    for (const Positions& x : {bent_bar.bent.lbs, test_support::mirrored(bent_bar.bent.lbs)})
+        sweeps.expect_equal_to_plain<double>(x);
 }
 
 // The position of the vertex is exact in float; packed code subtracts its origin and adds it.
@@ -402,7 +419,8 @@ TEST(PackedXpbd, VisitsEveryConstraintOnce)
 {
     const XpbdPasses passes(HeldBar({44, 8, 8}));
     std::set<std::pair<bool, int>> expected, found;
-    for (const pbs::XpbdVisit& visit : pbs::PlainXpbd(passes.bar.flesh).visits()) expected.insert({visit.is_hold, visit.tet});
+    for (const pbs::XpbdVisit& visit : pbs::PlainXpbd(passes.bar.flesh).visits())
+        expected.insert({visit.is_hold, visit.tet});
     const std::vector<pbs::XpbdVisit> visits = passes.system<float>(1)->visits();
     for (const pbs::XpbdVisit& visit : visits) found.insert({visit.is_hold, visit.tet});
     EXPECT_EQ(found, expected);

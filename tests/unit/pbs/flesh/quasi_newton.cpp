@@ -45,7 +45,8 @@ TEST(QuasiNewton, ReportsItsEnergyAndCountsItsWork)
     }
 }
 
-// The first direction has no pairs yet. The search begins with the whole of it and halves it until the energy is low enough.
+// The first direction has no pairs yet. The search begins with the whole of it and halves it until the energy is low
+// enough.
 TEST(QuasiNewton, TheFirstStepIsThePreconditionedGradientHalvedAsOftenAsTheEnergyWasEvaluatedAgain)
 {
     Positions x = bent.lbs;
@@ -56,7 +57,8 @@ TEST(QuasiNewton, TheFirstStepIsThePreconditionedGradientHalvedAsOftenAsTheEnerg
     EXPECT_GT(step.norm(), 1e-3);
 }
 
-// L-BFGS with pairs converges faster than linearly preconditioned descent: a history that is not used, or used in the wrong order, fails.
+// L-BFGS with pairs converges faster than linearly preconditioned descent: a history that is not used, or used in the
+// wrong order, fails.
 TEST(QuasiNewton, HistorySavesIterations)
 {
     const auto iterations = [](int history) {
@@ -105,8 +107,8 @@ std::vector<int> reversed_places()
     return place;
 }
 
-// The residual of a Cholesky solve is at most some 4 n eps |A| |x|, |A| its largest row sum (N. Higham, Accuracy and stability,
-// theorem 10.4).
+// The residual of a Cholesky solve is at most some 4 n eps |A| |x|, |A| its largest row sum (N. Higham, Accuracy and
+// stability, theorem 10.4).
 template <typename Scalar, typename Solve>
 void expect_solved(Solve solve)
 {
@@ -126,8 +128,9 @@ void expect_solved(Solve solve)
 template <typename Scalar>
 void expect_solved_by_supernodes()
 {
-    expect_solved<Scalar>(
-        [](const auto& factor, const auto& place, auto& rows) { pbs::TriangularSolve<Scalar>(factor, place).apply(rows.data()); });
+    expect_solved<Scalar>([](const auto& factor, const auto& place, auto& rows) {
+        pbs::TriangularSolve<Scalar>(factor, place).apply(rows.data());
+    });
 }
 
 TEST(TriangularSolve, SolvesTheSystemPlainlyAndBySupernodes)

@@ -60,8 +60,8 @@ TEST_P(VertexBlockOf, HasTheGradientOfTheEnergy)
     }
 }
 
-// The energy is quadratic along a vertex: its differences are those of the block at every step length, without a remainder. An energy has
-// some 40 roundings per tet of terms that are positive.
+// The energy is quadratic along a vertex: its differences are those of the block at every step length, without a
+// remainder. An energy has some 40 roundings per tet of terms that are positive.
 TEST_P(VertexBlockOf, HasTheDifferencesOfTheEnergyAtEveryEps)
 {
     const Vec3 direction(0.3, -0.7, 0.5);
@@ -77,12 +77,15 @@ TEST_P(VertexBlockOf, HasTheDifferencesOfTheEnergyAtEveryEps)
                 const double behind = energy.value(moved, centres);
                 const double rounding = test_support::rounding_error(4.0 * 40 * tets, std::max({at, ahead, behind}));
                 EXPECT_NEAR(ahead - behind, 2.0 * eps * block.gradient.dot(direction), rounding) << i << ", " << eps;
-                EXPECT_NEAR(ahead - 2.0 * at + behind, eps * eps * direction.dot(block.hessian * direction), rounding) << i << ", " << eps;
-                EXPECT_GT(eps * eps * direction.dot(block.hessian * direction), 20.0 * rounding) << "the comparison would see an error";
+                EXPECT_NEAR(ahead - 2.0 * at + behind, eps * eps * direction.dot(block.hessian * direction), rounding)
+                    << i << ", " << eps;
+                EXPECT_GT(eps * eps * direction.dot(block.hessian * direction), 20.0 * rounding)
+                    << "the comparison would see an error";
             }
 }
 
-// Theory: the Hessian is diagonal * I plus positive semidefinite terms, and diagonal is the sum of mu V0 |grad N|^2 and k beta^2.
+// Theory: the Hessian is diagonal * I plus positive semidefinite terms, and diagonal is the sum of mu V0 |grad N|^2 and
+// k beta^2.
 TEST_P(VertexBlockOf, HasNoEigenvalueBelowItsDiagonal)
 {
     for (const Positions& x : shapes)
@@ -102,7 +105,8 @@ TEST_P(VertexBlockOf, StepSolvesTheBlock)
             const pbs::VertexBlock block = pbs::vertex_block(stars[i], i, x, centres);
             const Vec3 expected = block.hessian.ldlt().solve(block.gradient);
             const double condition = block.hessian.norm() / block.diagonal;
-            EXPECT_LE((pbs::block_step(block) - expected).norm(), test_support::rounding_error(50.0 * condition, expected.norm()));
+            EXPECT_LE((pbs::block_step(block) - expected).norm(),
+                      test_support::rounding_error(50.0 * condition, expected.norm()));
         }
 }
 
@@ -116,7 +120,8 @@ TEST(VertexBlock, AVertexWithoutTetsHasNoStep)
     EXPECT_EQ(pbs::block_step(block), Vec3(Vec3::Zero()));
 }
 
-// Coincident vertices have no normal: the block is the diagonal, and the step goes to the mean that the edges and the spring weigh.
+// Coincident vertices have no normal: the block is the diagonal, and the step goes to the mean that the edges and the
+// spring weigh.
 TEST(VertexBlock, CoincidentVerticesLeaveTheDiagonal)
 {
     const pbs::FleshEnergy energy(bent.mesh, pbs::flesh_material(0.45), hold);
@@ -151,7 +156,8 @@ Positions swept(double omega, Positions x)
 {
     const std::vector<pbs::VertexStar> stars = pbs::vertex_stars(energy);
     for (const std::vector<int>& colour : pbs::vertex_colours(bent.mesh.tets, static_cast<int>(x.rows())))
-        for (const int i : colour) x.row(i) -= omega * pbs::block_step(pbs::vertex_block(stars[i], i, x, centres)).transpose();
+        for (const int i : colour)
+            x.row(i) -= omega * pbs::block_step(pbs::vertex_block(stars[i], i, x, centres)).transpose();
     return x;
 }
 
@@ -170,7 +176,8 @@ TEST(VertexBlockDescent, ASweepLowersTheEnergyAsTheoryStates)
                 x.row(i) -= omega * step.transpose();
             }
         const double before = energy.value(bent.lbs, centres);
-        const double after = energy.value(minimised<double>({.iterations = 1, .omega = omega, .packed = false}, bent.lbs), centres);
+        const double after =
+            energy.value(minimised<double>({.iterations = 1, .omega = omega, .packed = false}, bent.lbs), centres);
         EXPECT_NEAR(before - after, decrease, test_support::rounding_error(4.0 * 40 * tets, before)) << omega;
         EXPECT_GT(decrease, 1e-3 * before);
     }
@@ -181,7 +188,8 @@ TEST(VertexBlockDescent, ASweepLowersTheEnergyAsTheoryStates)
 TEST(VertexBlockDescent, BeyondTwoTheEnergyIncreases)
 {
     const double before = energy.value(bent.lbs, centres);
-    EXPECT_NEAR(energy.value(swept(2.0, bent.lbs), centres), before, test_support::rounding_error(4.0 * 40 * tets, before));
+    EXPECT_NEAR(energy.value(swept(2.0, bent.lbs), centres), before,
+                test_support::rounding_error(4.0 * 40 * tets, before));
     EXPECT_GT(energy.value(swept(2.2, bent.lbs), centres), 1.01 * before);
 }
 
@@ -190,12 +198,14 @@ TEST(VertexBlockDescent, TheMinimumDependsNeitherOnOmegaNorOnTheAcceleration)
     const double size = (bent.lbs - bent.mesh.rest).norm();
     const Positions expected = minimised<double>({.iterations = 800}, bent.lbs);
     const pbs::VertexBlockOptions slow{.iterations = 2000, .omega = 1.5};
-    for (const Positions& start : {bent.lbs, bent.mesh.rest}) EXPECT_LT((minimised<double>(slow, start) - expected).norm(), 1e-6 * size);
+    for (const Positions& start : {bent.lbs, bent.mesh.rest})
+        EXPECT_LT((minimised<double>(slow, start) - expected).norm(), 1e-6 * size);
     const pbs::VertexBlockOptions chebyshev{.iterations = 3000, .acceleration = Acceleration::chebyshev, .rho = 0.95};
     EXPECT_LT((minimised<double>(chebyshev, bent.lbs) - expected).norm(), 1e-6 * size);
 }
 
-// Theory (G. Golub, R. Varga, Numer. Math. 3, 1961): omega_{k+1} = 2 T_k(1 / rho) / (rho T_{k+1}(1 / rho)), T_k(x) = cosh(k acosh x).
+// Theory (G. Golub, R. Varga, Numer. Math. 3, 1961): omega_{k+1} = 2 T_k(1 / rho) / (rho T_{k+1}(1 / rho)), T_k(x) =
+// cosh(k acosh x).
 TEST(ChebyshevWeights, AreRatiosOfChebyshevPolynomials)
 {
     for (const double rho : {0.3, 0.9, 0.95, 0.999}) {
@@ -205,13 +215,14 @@ TEST(ChebyshevWeights, AreRatiosOfChebyshevPolynomials)
         const double angle = std::acosh(1.0 / rho);
         for (int k = 1; k < 40; ++k) {
             const double expected = 2.0 * std::cosh(k * angle) / (rho * std::cosh((k + 1) * angle));
-            EXPECT_NEAR(weights[k], expected, test_support::rounding_error(20.0 * k, expected)) << "rho " << rho << ", k " << k;
+            EXPECT_NEAR(weights[k], expected, test_support::rounding_error(20.0 * k, expected))
+                << "rho " << rho << ", k " << k;
         }
     }
 }
 
-// x_{k+1} = omega_{k+1} (sweep(x_k) - x_{k-1}) + x_{k-1}, the weights from their closed form. The error of a sweep's roundings is magnified
-// by at most 1 + 2 (omega - 1) < 3 per sweep in this norm; positions are below 2 m.
+// x_{k+1} = omega_{k+1} (sweep(x_k) - x_{k-1}) + x_{k-1}, the weights from their closed form. The error of a sweep's
+// roundings is magnified by at most 1 + 2 (omega - 1) < 3 per sweep in this norm; positions are below 2 m.
 TEST(VertexBlockDescent, ChebyshevFollowsItsRecurrence)
 {
     const double rho = 0.9, angle = std::acosh(1.0 / rho);
@@ -221,8 +232,8 @@ TEST(VertexBlockDescent, ChebyshevFollowsItsRecurrence)
         x.push_back(omega * (swept(1.0, x[k]) - x[k - 1]) + x[k - 1]);
     }
     for (const bool packed : {false, true}) {
-        const Positions found =
-            minimised<double>({.iterations = 5, .acceleration = Acceleration::chebyshev, .rho = rho, .packed = packed}, bent.lbs);
+        const Positions found = minimised<double>(
+            {.iterations = 5, .acceleration = Acceleration::chebyshev, .rho = rho, .packed = packed}, bent.lbs);
         EXPECT_LT((found - x[5]).cwiseAbs().maxCoeff(), std::pow(3.0, 5) * test_support::rounding_error(1000.0, 2.0));
     }
     EXPECT_GT((x[5] - x[4]).cwiseAbs().maxCoeff(), 1e-4);

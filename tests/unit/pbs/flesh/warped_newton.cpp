@@ -1,4 +1,5 @@
-// References: the matrix itself, assembled from the second derivative of the energy, and the theory of Newton's method near rest.
+// References: the matrix itself, assembled from the second derivative of the energy, and the theory of Newton's method
+// near rest.
 #include "pbs/flesh/warped_newton.hpp"
 
 #include "pbs/flesh/flesh_system.hpp"
@@ -73,14 +74,15 @@ Positions multiplied(const HeldBar& held, const Positions& x)
     return result;
 }
 
-// The residual of a Cholesky solve is at most some 4 n eps |A| |x|, |A| its largest row sum (N. Higham, Accuracy and Stability of Numerical
-// Algorithms, theorem 10.4), and the regular part is 1e-9 of the diagonal. Panels have the inverses of their triangles, which multiplies
-// the first bound by the condition of a triangle (J. Du Croz, N. Higham, IMA Journal of Numerical Analysis 12, 1992); the second one, which
-// is 10,000 times larger, covers that.
+// The residual of a Cholesky solve is at most some 4 n eps |A| |x|, |A| its largest row sum (N. Higham, Accuracy and
+// Stability of Numerical Algorithms, theorem 10.4), and the regular part is 1e-9 of the diagonal. Panels have the
+// inverses of their triangles, which multiplies the first bound by the condition of a triangle (J. Du Croz, N. Higham,
+// IMA Journal of Numerical Analysis 12, 1992); the second one, which is 10,000 times larger, covers that.
 TEST(WarpedSolve, SolvesTheSystemPlainlyAndByPanels)
 {
     const Positions b = test_support::jittered(Positions::Zero(mesh.rest.rows(), 3), 0.1);
-    const Eigen::SparseMatrix<double> lower = pbs::flesh_hessian(bar.energy, mesh.rest), K = lower.selfadjointView<Eigen::Lower>();
+    const Eigen::SparseMatrix<double> lower = pbs::flesh_hessian(bar.energy, mesh.rest),
+                                      K = lower.selfadjointView<Eigen::Lower>();
     const double norm = (K.cwiseAbs() * Eigen::VectorXd::Ones(K.cols())).maxCoeff();
     for (const bool packed : {false, true}) {
         const Positions x = solved<double>(bar, flesh().factor(), packed, b);
@@ -97,19 +99,22 @@ TEST(WarpedSolve, NumbersThatAreNotFiniteLeaveNothingBehind)
     std::iota(place.begin(), place.end(), 0);
     pbs::WarpedSolve<float> solve(mesh, bar.energy, flesh().factor().order, place, true);
     solve.set_rotations(random_rotations(bar.vertices()));
-    const Positions b = test_support::jittered(Positions::Zero(bar.vertices(), 3), 0.1), before = applied(solve, place, b);
-    EXPECT_FALSE(applied(solve, place, Positions::Constant(bar.vertices(), 3, std::numeric_limits<double>::quiet_NaN())).allFinite());
+    const Positions b = test_support::jittered(Positions::Zero(bar.vertices(), 3), 0.1),
+                    before = applied(solve, place, b);
+    EXPECT_FALSE(applied(solve, place, Positions::Constant(bar.vertices(), 3, std::numeric_limits<double>::quiet_NaN()))
+                     .allFinite());
     EXPECT_EQ(applied(solve, place, b), before);
 }
 
-// Float has rounded values, but both substitutions read the same ones, so that the matrix is symmetric and positive definite as L-BFGS
-// requires.
+// Float has rounded values, but both substitutions read the same ones, so that the matrix is symmetric and positive
+// definite as L-BFGS requires.
 TEST(WarpedSolve, IsSymmetricAndPositiveDefiniteInFloat)
 {
     for (unsigned seed = 1; seed < 20; seed += 2) {
         const Positions a = test_support::jittered(Positions::Zero(mesh.rest.rows(), 3), 1.0, seed),
                         b = test_support::jittered(Positions::Zero(mesh.rest.rows(), 3), 1.0, seed + 1);
-        const Positions of_a = solved<float>(bar, flesh().factor(), true, a), of_b = solved<float>(bar, flesh().factor(), true, b);
+        const Positions of_a = solved<float>(bar, flesh().factor(), true, a),
+                        of_b = solved<float>(bar, flesh().factor(), true, b);
         EXPECT_NEAR(a.cwiseProduct(of_b).sum(), b.cwiseProduct(of_a).sum(),
                     3.0 * double(a.size()) * std::numeric_limits<float>::epsilon() * a.norm() * of_b.norm());
         EXPECT_GT(a.cwiseProduct(of_a).sum(), 0.0);
@@ -120,7 +125,8 @@ TEST(WarpedSolve, AVertexWithoutTetsHasARowOfItsOwn)
 {
     const HeldBar one = HeldBar::one_tet({3, 2, 2});
     const pbs::HeldFlesh held(one.bent.mesh, one.springs, 2, {});
-    const Positions expected = test_support::jittered(Positions::Zero(one.vertices(), 3), 1.0), b = multiplied(one, expected);
+    const Positions expected = test_support::jittered(Positions::Zero(one.vertices(), 3), 1.0),
+                    b = multiplied(one, expected);
     const auto tet = one.bent.mesh.tets.row(0);
     for (const bool packed : {false, true}) {
         const Positions x = solved<double>(one, held.factor(), packed, b);
@@ -144,7 +150,8 @@ struct Bent {
     {
         const std::vector<Eigen::Matrix3d> none(mesh.rest.rows(), Eigen::Matrix3d::Identity());
         Positions x = mesh.rest;
-        const auto summary = pbs::WarpedNewton<double>(mesh, bar.energy, flesh().factor(), options).minimise(centres, none, x);
+        const auto summary =
+            pbs::WarpedNewton<double>(mesh, bar.energy, flesh().factor(), options).minimise(centres, none, x);
         return {x, summary};
     }
     double distance(const pbs::WarpedNewtonOptions& options) const { return (moved(options).first - minimum).norm(); }
@@ -153,8 +160,9 @@ struct Bent {
     Positions centres, minimum;
 };
 
-// At rest K is the second derivative of the energy, so that the first step without sweeps is Newton's: it leaves an error of second order
-// in the angle. A Laplacian leaves one of first order. Between 0.1 and 0.2 degrees the third order is below a hundredth.
+// At rest K is the second derivative of the energy, so that the first step without sweeps is Newton's: it leaves an
+// error of second order in the angle. A Laplacian leaves one of first order. Between 0.1 and 0.2 degrees the third
+// order is below a hundredth.
 TEST(WarpedNewton, TheFirstStepFromRestIsOfSecondOrder)
 {
     const pbs::WarpedNewtonOptions one_step{.iterations = 1, .sweeps = 0};
@@ -179,7 +187,9 @@ TEST(WarpedNewton, ReportsEnergiesThatDoNotIncreaseAndCountsItsWork)
         EXPECT_EQ(summary.sweeps, 13 * sweeps);
         EXPECT_EQ(summary.energies.size() + summary.taken_back, 13u);
         for (std::size_t k = 1; k < summary.energies.size(); ++k)
-            EXPECT_LE(summary.energies[k], (1.0 + 16.0 * std::numeric_limits<double>::epsilon()) * summary.energies[k - 1]) << k;
+            EXPECT_LE(summary.energies[k],
+                      (1.0 + 16.0 * std::numeric_limits<double>::epsilon()) * summary.energies[k - 1])
+                << k;
         EXPECT_NEAR(bar.energy.value(x, bent.centres), summary.energies.back(), 1e-12 * summary.energies.back());
     }
 }
@@ -190,7 +200,8 @@ TEST(WarpedNewton, RefusesFactorsThatCannotConverge)
         EXPECT_THROW(pbs::WarpedNewton<double>(mesh, bar.energy, flesh().factor(), {.omega = omega}), pbs::InputError);
 }
 
-// Its energy and its sweeps, the parts with threads, are tested on so many vertices that they use several in packed_systems.cpp.
+// Its energy and its sweeps, the parts with threads, are tested on so many vertices that they use several in
+// packed_systems.cpp.
 TEST(WarpedNewton, NeitherThreadsNorRepetitionChangeABit)
 {
     const Bent bent(70.0);

@@ -1,4 +1,5 @@
-// Reference: the necessary conditions of a minimum and of a step of implicit Euler, computed by the plain energy (FleshEnergy).
+// Reference: the necessary conditions of a minimum and of a step of implicit Euler, computed by the plain energy
+// (FleshEnergy).
 #include "pbs/flesh/xpbd_neo_hookean.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/flesh_rounding.hpp"
@@ -27,18 +28,21 @@ double gradient_after(const pbs::XpbdNeoHookeanOptions& options, Positions x = l
     return bent_bar.gradient(x).norm() / bent_bar.gradient(lbs).norm();
 }
 
-// Multipliers that begin at zero in each iteration, or that are kept within a step only and without the residual, end elsewhere.
+// Multipliers that begin at zero in each iteration, or that are kept within a step only and without the residual, end
+// elsewhere.
 TEST(XpbdNeoHookean, OnlyKeptMultipliersEndWhereTheGradientVanishes)
 {
     for (const XpbdMultipliers multipliers : {XpbdMultipliers::reset, XpbdMultipliers::of_step}) {
-        pbs::XpbdNeoHookeanOptions options{.iterations = 1200, .iterations_per_step = 6, .multipliers = multipliers, .packed = false};
+        pbs::XpbdNeoHookeanOptions options{
+            .iterations = 1200, .iterations_per_step = 6, .multipliers = multipliers, .packed = false};
         EXPECT_GT(gradient_after(options), 1e-3);
         options.multipliers = XpbdMultipliers::kept;
         EXPECT_LT(gradient_after(options), 1e-6);
     }
 }
 
-// One step whose iterations have converged: the gradient of the energy balances the inertia to rounding. A step as published does not.
+// One step whose iterations have converged: the gradient of the energy balances the inertia to rounding. A step as
+// published does not.
 TEST(XpbdNeoHookean, TheFixedPointOfAStepIsImplicitEuler)
 {
     pbs::XpbdNeoHookeanOptions options{.iterations = 300, .iterations_per_step = 300, .packed = false};
@@ -54,8 +58,8 @@ TEST(XpbdNeoHookean, TheFixedPointOfAStepIsImplicitEuler)
     EXPECT_GT(bent_bar.gradient_with_inertia(published, lbs).norm(), 1e-3 * first);
 }
 
-// Two points with small gradients are at most the sum of these, over the lowest stiffness, from each other. Half of that stiffness leaves
-// room for its change between the points.
+// Two points with small gradients are at most the sum of these, over the lowest stiffness, from each other. Half of
+// that stiffness leaves room for its change between the points.
 TEST(XpbdNeoHookean, TheLimitDoesNotDependOnIterationsPerStepTimeStepOrMomentum)
 {
     const double first = bent_bar.gradient(lbs).norm();
@@ -110,14 +114,16 @@ pbs::BoneSprings springs_in(const pbs::TetMesh& tet)
     return {points, Eigen::VectorXd::Constant(4, 0.01), {0, 0, 1, 1}};
 }
 
-// At the default time step; the vertices of one tet share their stiffness with no other. Each iteration visits a vertex five times, once
-// for the tet and once for each mode of its springs. A rounding of a position acts from then on as a force, since the sum of the applied
-// forces does not contain it; such forces add up like a random walk, and move the tet by at most their sum over its lowest stiffness.
+// At the default time step; the vertices of one tet share their stiffness with no other. Each iteration visits a vertex
+// five times, once for the tet and once for each mode of its springs. A rounding of a position acts from then on as a
+// force, since the sum of the applied forces does not contain it; such forces add up like a random walk, and move the
+// tet by at most their sum over its lowest stiffness.
 TEST(XpbdNeoHookean, OneTetStaysAtRestInEitherArithmeticForThousandsOfIterations)
 {
     for (const double height_m : {0.1, 0.6, 3.0}) {
-        const pbs::TetMesh tet = {Positions{{-0.1, -0.1, -0.1}, {-0.1, 0.1, -0.1}, {-0.1, 0.0, 0.1}, {height_m - 0.1, 0.0, 0.0}},
-                                  pbs::Tets{{0, 1, 2, 3}}};
+        const pbs::TetMesh tet = {
+            Positions{{-0.1, -0.1, -0.1}, {-0.1, 0.1, -0.1}, {-0.1, 0.0, 0.1}, {height_m - 0.1, 0.0, 0.0}},
+            pbs::Tets{{0, 1, 2, 3}}};
         const HeldXpbd held{test_support::HeldBar(test_support::two_bones_in(tet), springs_in(tet))};
         const double lowest = test_support::stiffnesses(held.energy, held.centres, tet.rest)(0);
         for (const int iterations : {200, 3000}) {
@@ -156,8 +162,8 @@ Visited visited(const HeldXpbd& held, const Positions& from, int times = 1, bool
     return result;
 }
 
-// k C + k dC . dx + lambda = 0 for both constraints at once, linearised where the visit began. Without the coupling, or without one of the
-// constraints, this does not hold. Each term has some 100 roundings.
+// k C + k dC . dx + lambda = 0 for both constraints at once, linearised where the visit began. Without the coupling, or
+// without one of the constraints, this does not hold. Each term has some 100 roundings.
 TEST(PlainXpbd, OneVisitSolvesBothLinearisedEquations)
 {
     const HeldXpbd held = one_tet(no_springs);
@@ -168,14 +174,17 @@ TEST(PlainXpbd, OneVisitSolvesBothLinearisedEquations)
     const double k_H = held.material.lambda * tet.volume, k_D = held.material.mu * tet.volume;
     const double H = k_H * pbs::hydrostatic_value(F, held.material.alpha),
                  of_H = k_H * pbs::hydrostatic_gradient(F).cwiseProduct(change).sum();
-    const double D = k_D * pbs::deviatoric_value(F), of_D = k_D * pbs::deviatoric_gradient(F).cwiseProduct(change).sum();
-    const double largest = std::max({std::abs(H), std::abs(of_H), D, std::abs(of_D), after.multipliers.cwiseAbs().maxCoeff()});
+    const double D = k_D * pbs::deviatoric_value(F),
+                 of_D = k_D * pbs::deviatoric_gradient(F).cwiseProduct(change).sum();
+    const double largest =
+        std::max({std::abs(H), std::abs(of_H), D, std::abs(of_D), after.multipliers.cwiseAbs().maxCoeff()});
     EXPECT_NEAR(H + of_H + after.multipliers(0), 0.0, test_support::rounding_error(300, largest));
     EXPECT_NEAR(D + of_D + after.multipliers(1), 0.0, test_support::rounding_error(300, largest));
     EXPECT_GT(std::abs(of_H) + std::abs(of_D), 1e-3 * largest);
 }
 
-// The forces of both constraints cancel there: alpha = 1 + mu / lambda. Alone, the deviatoric one would collapse the tet.
+// The forces of both constraints cancel there: alpha = 1 + mu / lambda. Alone, the deviatoric one would collapse the
+// tet.
 TEST(PlainXpbd, ATetAtRestStaysAtRest)
 {
     const HeldXpbd held = one_tet(no_springs);

@@ -28,7 +28,8 @@ const std::string ply =
 const std::string off = "# a triangle\nOFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 const std::string obj = "# a triangle\n\nmtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 const std::string stl =
-    "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid x\n";
+    "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid "
+    "x\n";
 
 // One triangle. Some programs begin the header of a binary file with the word of a text file.
 std::string binary_stl()
@@ -66,7 +67,8 @@ TEST_F(ContentFormat, IsThatOfTheFirstBytesWhateverTheName)
 
 TEST_F(ContentFormat, OfOtherContentIsThatOfTheNameWhichElseGetsItsExtension)
 {
-    for (const char* text : {"", "ISO-10303-21;", "solid rock\n", "plywood\n", "SCOFFS\n", "v\n", "# only a comment\n"}) {
+    for (const char* text :
+         {"", "ISO-10303-21;", "solid rock\n", "plywood\n", "SCOFFS\n", "v\n", "# only a comment\n"}) {
         const std::string path = folder.file("A.STL", text);
         EXPECT_EQ(pbs::content_extension(path), "") << text;
         EXPECT_EQ(pbs::format_extension(path), ".stl") << text;
@@ -83,13 +85,15 @@ void expect_read_under_any_name(const std::string& own_extension, const std::str
 {
     const ScratchFolder folder;
     const pbs::SurfaceMesh expected = pbs::read_surface(folder.file("own" + own_extension, text));
-    for (const char* extension : {".obj", ".ply", ".off", ".stl", ".gltf", ".glb", ".dae", ".zae", ".fbx", ".step", ".vtk", ""}) {
+    for (const char* extension :
+         {".obj", ".ply", ".off", ".stl", ".gltf", ".glb", ".dae", ".zae", ".fbx", ".step", ".vtk", ""}) {
         const std::string path = folder.file(std::string("arm") + extension, text);
         std::vector<std::string> remarks;
         const pbs::SurfaceMesh surface = pbs::read_surface(path, remarks);
         EXPECT_EQ(surface.points, expected.points) << path;
         EXPECT_EQ(surface.triangles, expected.triangles) << path;
-        const std::string remark = path + ": format of the content = " + own_extension + ": read as such, whatever the file is called";
+        const std::string remark =
+            path + ": format of the content = " + own_extension + ": read as such, whatever the file is called";
         EXPECT_EQ(std::count(remarks.begin(), remarks.end(), remark), extension == own_extension ? 0 : 1) << path;
     }
 }
@@ -124,10 +128,14 @@ protected:
     {
         std::filesystem::create_directories(scratch.path() / "own" / "deeper");
         std::filesystem::create_directories(scratch.path() / "own2");
-        for (const char* name : {"own/a.gltf", "own/beside.bin", "own/deeper/below.bin", "own2/similar.bin", "above.bin"})
+        for (const char* name :
+             {"own/a.gltf", "own/beside.bin", "own/deeper/below.bin", "own2/similar.bin", "above.bin"})
             scratch.file(name, "x");
     }
-    bool may_open(const std::string& file) const { return pbs::may_be_opened_for(scratch / "own/a.gltf", scratch / file); }
+    bool may_open(const std::string& file) const
+    {
+        return pbs::may_be_opened_for(scratch / "own/a.gltf", scratch / file);
+    }
 
     const test_support::ScratchFolder scratch;
 };
@@ -137,12 +145,14 @@ TEST_F(OwnFolderTest, AllowsTheFileItselfAndRegularFilesBesideAndBelow)
     std::filesystem::create_symlink(scratch / "above.bin", scratch / "own/out.bin");
     std::filesystem::create_symlink(scratch / "own/deeper/below.bin", scratch / "own/in.bin");
     ASSERT_EQ(mkfifo((scratch / "own/pipe").c_str(), 0600), 0);
-    for (const char* file :
-         {"own/a.gltf", "own/beside.bin", "own/deeper/below.bin", "own/deeper/../beside.bin", "own/./beside.bin", "own/in.bin"})
+    for (const char* file : {"own/a.gltf", "own/beside.bin", "own/deeper/below.bin", "own/deeper/../beside.bin",
+                             "own/./beside.bin", "own/in.bin"})
         EXPECT_TRUE(may_open(file)) << file;
-    for (const char* file : {"above.bin", "own/../above.bin", "own2/similar.bin", "own/none.bin", "own/deeper", "own/out.bin", "own/pipe"})
+    for (const char* file :
+         {"above.bin", "own/../above.bin", "own2/similar.bin", "own/none.bin", "own/deeper", "own/out.bin", "own/pipe"})
         EXPECT_FALSE(may_open(file)) << file;
-    for (const char* file : {"/etc/passwd", ""}) EXPECT_FALSE(pbs::may_be_opened_for(scratch / "own/a.gltf", file)) << file;
+    for (const char* file : {"/etc/passwd", ""})
+        EXPECT_FALSE(pbs::may_be_opened_for(scratch / "own/a.gltf", file)) << file;
 }
 
 TEST_F(OwnFolderTest, AllowsWhatLiesBesideTheFileOrBesideALinkToIt)

@@ -38,7 +38,8 @@ TEST_F(ReadTextFile, RefusesTooLargeAFileByItsSize)
     expect_input_error([&] { read_text_file(path); }, path + ": bytes = 68719476736: ", "expected at most 268435456");
 }
 
-// Reference: TOML's grammar, https://toml.io/en/v1.0.0: bare keys are ASCII; texts, comments and lists hold any number of dots.
+// Reference: TOML's grammar, https://toml.io/en/v1.0.0: bare keys are ASCII; texts, comments and lists hold any number
+// of dots.
 
 std::string repeated(const std::string& before, int count, const std::string& text, const std::string& after)
 {
@@ -66,7 +67,8 @@ TEST(TomlText, KeysOfManyPartsAreNamedWithTheirLine)
 TEST(TomlText, KeysOfInlineTablesAreCountedWithThoseAroundThem)
 {
     const std::string told = "x.toml:1: key = x = ";
-    for (const std::string before : {"x = {", "x = { b = 1, ", "x = [1, {", "x = [{ b = { c = 2 }, ", "x = { b = \"{#\", 'c' = '}', "})
+    for (const std::string before :
+         {"x = {", "x = { b = 1, ", "x = [1, {", "x = [{ b = { c = 2 }, ", "x = { b = \"{#\", 'c' = '}', "})
         EXPECT_EQ(message_of(repeated(before, 64, "a.", "a = 1}\n")).substr(0, told.size()), told) << before;
     EXPECT_EQ(message_of(repeated("x = ", 8, "{a.a.a.a.a.a.a.a.a = ", "1\n")).substr(0, told.size()), told);
     EXPECT_EQ(message_of(repeated("x = [", 100, "{ a.b = 0.5, c.d = { e.f = 0.5 } }, ", "]\n")), "accepted");
@@ -86,14 +88,16 @@ TEST(TomlText, DotsElsewhereAreNoParts)
     EXPECT_EQ(message_of(repeated("x = \"", 100, "a.", "\"\n")), "accepted");
     EXPECT_EQ(message_of(repeated("# ", 100, "a.", "\n")), "accepted");
     EXPECT_EQ(message_of(repeated("x = [\n", 100, "0.5, ", "\n]\n")), "accepted");
-    EXPECT_EQ(message_of(repeated("\"", 100, "a.", "\" = 1\n")), "accepted");  // a single part, whose name contains dots
+    // a single part, whose name contains dots
+    EXPECT_EQ(message_of(repeated("\"", 100, "a.", "\" = 1\n")), "accepted");
 }
 
 TEST(TomlText, BareWordsAreAscii)
 {
     EXPECT_EQ(message_of("x = 1\nt\xc3\xa9te = 2\n"), "x.toml:2: byte = 195: expected ASCII outside of texts");
     EXPECT_EQ(message_of(std::string("x\0y = 2\n", 8)), "x.toml:1: byte = 0: expected ASCII outside of texts");
-    EXPECT_EQ(message_of("x = \"\"\"\n\"\"\"\nt\xc3\xa9te = 2\n"), "x.toml:3: byte = 195: expected ASCII outside of texts");
+    EXPECT_EQ(message_of("x = \"\"\"\n\"\"\"\nt\xc3\xa9te = 2\n"),
+              "x.toml:3: byte = 195: expected ASCII outside of texts");
     EXPECT_EQ(message_of("x = r\"t\xc3\xa9te\"\n").substr(0, 18), "x.toml:1: quote = ");
     EXPECT_EQ(message_of("x = \"t\xc3\xa9te\"  # t\xc3\xa9te\r\n\ty = 2\r\n"), "accepted");
 }
@@ -153,12 +157,14 @@ TEST_F(WriteAtomically, GivesTheUsualPermissions)
     EXPECT_EQ(status.st_mode & 0777, 0640u);
 }
 
-// Anyone who can write to the folder could create a link with the name of the temporary file, if that name were predictable.
+// Anyone who can write to the folder could create a link with the name of the temporary file, if that name were
+// predictable.
 TEST_F(WriteAtomically, NothingThatLiesThereIsWrittenThrough)
 {
     const std::string theirs = folder.file("theirs", "theirs");
     fs::create_directory(folder.path() / "out");
-    for (const std::string& name : {".limb." + std::to_string(getpid()) + ".vtu", ".limb.vtu." + std::to_string(getpid())})
+    for (const std::string& name :
+         {".limb." + std::to_string(getpid()) + ".vtu", ".limb.vtu." + std::to_string(getpid())})
         fs::create_symlink(theirs, folder.path() / "out" / name);
     write_atomically(folder / "out/limb.vtu", "ours");
     EXPECT_EQ(read_text_file(theirs), "theirs");

@@ -49,7 +49,8 @@ TEST(GuardedReading, TriesTheSameBytesOnceForEachReader)
 {
     const test_support::ScratchFolder folder;
     const std::string path = folder.file("x.vtu", "bytes"), tries = folder.file("tries", "");
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // a file that was just written may change without a new time
+    // a file that was just written may change without a new time
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
     const auto read = [&](const std::string&) {
         std::ofstream(tries, std::ios::app) << "x";
         return 1;
@@ -62,8 +63,9 @@ TEST(GuardedReading, TriesTheSameBytesOnceForEachReader)
 
 TEST(GuardedReading, WhatTheReaderThrowsComesBack)
 {
-    EXPECT_EQ(message_of([](const std::string& path) { throw pbs::InputError(path, 3, "tet", "-1", "expected 0 or more"); }),
-              "x.vtu:3: tet = -1: expected 0 or more");
+    EXPECT_EQ(
+        message_of([](const std::string& path) { throw pbs::InputError(path, 3, "tet", "-1", "expected 0 or more"); }),
+        "x.vtu:3: tet = -1: expected 0 or more");
     EXPECT_EQ(message_of([](const std::string&) { throw std::runtime_error("no header"); }), "x.vtu: no header");
     EXPECT_EQ(message_of([](const std::string&) { throw std::bad_alloc(); }),
               "x.vtu: damaged: asks for more memory than such a file can need");
@@ -74,8 +76,10 @@ TEST(GuardedReading, ADeathIsAnErrorThatNamesIt)
     const auto dying = [](int signal) { return [signal](const std::string&) { std::raise(signal); }; };
     EXPECT_EQ(message_of(dying(SIGSEGV)), "x.vtu: damaged: the reader broke down on it: Segmentation fault");
     EXPECT_EQ(message_of(dying(SIGABRT)), "x.vtu: damaged: the reader broke down on it: Aborted");
-    EXPECT_EQ(message_of([](const std::string&) { _exit(7); }), "x.vtu: damaged: the reader ended in the middle, with exit status 7");
-    EXPECT_EQ(message_of([](const std::string&) { _exit(0); }), "x.vtu: damaged: the reader ended in the middle, with exit status 0");
+    EXPECT_EQ(message_of([](const std::string&) { _exit(7); }),
+              "x.vtu: damaged: the reader ended in the middle, with exit status 7");
+    EXPECT_EQ(message_of([](const std::string&) { _exit(0); }),
+              "x.vtu: damaged: the reader ended in the middle, with exit status 0");
 }
 
 long open_files()
@@ -115,7 +119,8 @@ TEST(GuardedReading, MoreThanHalfOfTheMemoryIsNotGiven)
         };
     };
     EXPECT_EQ(message_of(taking(available_bytes() / 3), path), "accepted");
-    EXPECT_EQ(message_of(taking(available_bytes() * 2 / 3), path), path + ": damaged: asks for more memory than such a file can need");
+    EXPECT_EQ(message_of(taking(available_bytes() * 2 / 3), path),
+              path + ": damaged: asks for more memory than such a file can need");
 }
 
 TEST(GuardedReading, AFileThatShrinksWhileItIsMapped)

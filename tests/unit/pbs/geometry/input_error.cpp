@@ -1,5 +1,5 @@
-// Reference: the form that the header specifies. The content of a file neither breaks the single line nor reaches the terminal as a
-// command.
+// Reference: the form that the header specifies. The content of a file neither breaks the single line nor reaches the
+// terminal as a command.
 
 #include "pbs/geometry/input_error.hpp"
 
@@ -7,14 +7,16 @@
 
 namespace {
 
-std::string told(const std::string& file, int line, const std::string& field, const std::string& value, const std::string& rule)
+std::string told(const std::string& file, int line, const std::string& field, const std::string& value,
+                 const std::string& rule)
 {
     return pbs::InputError(file, line, field, value, rule).what();
 }
 
 TEST(InputError, IsFileLineFieldValueAndRule)
 {
-    EXPECT_EQ(told("limb.toml", 12, "k_volume", "1.4", "expected 0 <= k <= 1"), "limb.toml:12: k_volume = 1.4: expected 0 <= k <= 1");
+    EXPECT_EQ(told("limb.toml", 12, "k_volume", "1.4", "expected 0 <= k <= 1"),
+              "limb.toml:12: k_volume = 1.4: expected 0 <= k <= 1");
     EXPECT_EQ(told("limb.toml", 0, "k_volume", "", "missing"), "limb.toml: k_volume: missing");
     EXPECT_EQ(told("", 0, "", "", "expected a verb"), "expected a verb");
     EXPECT_EQ(told("t\xc3\xa9te.toml", 0, "", "", "no such file"), "t\xc3\xa9te.toml: no such file");
@@ -30,21 +32,25 @@ TEST(InputError, ControlCharactersStandByTheirCodes)
                    "no such joint"),
               "joint = \\x9b"
               "2J \xc2\xa0\xc3\x9b\\xc2: no such joint");
-    const std::string none = "\x82 \xc0\xaf \xed\xa0\x80 \xf4\x90\x80\x80 \xe2\x82", whole = "\xe2\x82\xac \xf0\x9f\xa6\xb4";
+    const std::string none = "\x82 \xc0\xaf \xed\xa0\x80 \xf4\x90\x80\x80 \xe2\x82",
+                      whole = "\xe2\x82\xac \xf0\x9f\xa6\xb4";
     EXPECT_EQ(told("", 0, "v", none, whole),
               "v = \\x82 \\xc0\\xaf \\xed\\xa0\\x80 \\xf4\\x90\\x80\\x80 \\xe2\\x82: \xe2\x82\xac \xf0\x9f\xa6\xb4")
         << "no UTF-8";
-    EXPECT_EQ(told("", 0, "", "", told("a\n", 0, "", "", "no such file")), "a\\n: no such file");  // a message that contains a message
+    // a message that contains a message
+    EXPECT_EQ(told("", 0, "", "", told("a\n", 0, "", "", "no such file")), "a\\n: no such file");
 }
 
 TEST(InputError, LongFieldsAndValuesAreCut)
 {
     const std::string most(80, 'a');
-    EXPECT_EQ(told("x.csv", 2, most, most, "expected a number"), "x.csv:2: " + most + " = " + most + ": expected a number");
+    EXPECT_EQ(told("x.csv", 2, most, most, "expected a number"),
+              "x.csv:2: " + most + " = " + most + ": expected a number");
     EXPECT_EQ(told("x.csv", 2, most + "b", std::string(5'000'000, 'a'), "expected a number"),
               "x.csv:2: " + most + "... = " + most + "...: expected a number");
     const std::string letters = std::string(79, 'a') + "\xc3\xa9t\xc3\xa9";
-    EXPECT_EQ(told("", 0, "joint", letters, "no such joint"), "joint = " + letters.substr(0, 79) + "...: no such joint");
+    EXPECT_EQ(told("", 0, "joint", letters, "no such joint"),
+              "joint = " + letters.substr(0, 79) + "...: no such joint");
 }
 
 // Reference: the specification in input_error.hpp.

@@ -34,7 +34,8 @@ void expect_refused(const pbs::TetMesh& mesh, const std::string& words)
 TEST(RestMesh, ASoundOneIsAcceptedAndAnInvertedTetTurnedAndCounted)
 {
     EXPECT_EQ(pbs::check_rest("m.vtu", unit_tet()).flipped_tets, 0);
-    EXPECT_EQ(pbs::check_rest("m.vtu", test_support::structured_bar({-1, -1, -1}, {1, 1, 1}, {2, 2, 2})).flipped_tets, 0);
+    EXPECT_EQ(pbs::check_rest("m.vtu", test_support::structured_bar({-1, -1, -1}, {1, 1, 1}, {2, 2, 2})).flipped_tets,
+              0);
     pbs::TetMesh mesh = unit_tet();
     mesh.tets << 0, 1, 3, 2;
     const pbs::MeshReading reading = pbs::check_rest("m.vtu", mesh);
@@ -89,17 +90,20 @@ TEST(RestMesh, AnUnusedVertexIsLeftOut)
     EXPECT_EQ(reading.file_vertices, 5);
 }
 
-// The middle one of three layers of 2 x 2 cubes has two cubes that touch in an edge alone; the other layers join its ends.
+// The middle one of three layers of 2 x 2 cubes has two cubes that touch in an edge alone; the other layers join its
+// ends.
 TEST(RestMesh, ThatTouchesItselfInAnEdgeIsAcceptedWithARemark)
 {
     const pbs::TetMesh bar = test_support::carved_box({2, 2, 3}, [](int i, int j, int k) { return k != 1 || i == j; });
     const pbs::MeshReading split = pbs::check_rest("m.vtu", bar), kept = pbs::check_rest("m.vtu", bar, false);
     EXPECT_EQ(pbs::remarks_on("m.vtu", split),
-              (std::vector<std::string>{"m.vtu: edges at which parts touch = 1 (13-22): split, so that each side has its own",
-                                        "m.vtu: vertices at which parts touch = 4 (13, 23, 25, 26): split, so that each part has its own",
-                                        "m.vtu: faces that were cut = 2: they joined parts that touch"}));
+              (std::vector<std::string>{
+                  "m.vtu: edges at which parts touch = 1 (13-22): split, so that each side has its own",
+                  "m.vtu: vertices at which parts touch = 4 (13, 23, 25, 26): split, so that each part has its own",
+                  "m.vtu: faces that were cut = 2: they joined parts that touch"}));
     EXPECT_EQ(pbs::remarks_on("m.vtu", kept),
-              std::vector<std::string>{"m.vtu: edges at which parts touch = 1 (13-22): kept: no metric needs a manifold boundary"});
+              std::vector<std::string>{
+                  "m.vtu: edges at which parts touch = 1 (13-22): kept: no metric needs a manifold boundary"});
     EXPECT_EQ(kept.mesh.tets, bar.tets);
     EXPECT_EQ(kept.mesh.rest, bar.rest);
 }
@@ -120,7 +124,8 @@ TEST(RestMesh, ForMetricsVerticesInOnePlaceAndBodiesThatOverlapAreKeptWithARemar
 #ifdef PBS_WITH_CGAL
         EXPECT_EQ(reading.overlapping >= 0, shift == 0.5);
         ASSERT_EQ(remarks.size(), 2u);
-        EXPECT_NE(remarks[0].find(shift == 1.0 ? "vertices in one place = 4 (" : "boundary that intersects itself, near vertex = "),
+        EXPECT_NE(remarks[0].find(shift == 1.0 ? "vertices in one place = 4 ("
+                                               : "boundary that intersects itself, near vertex = "),
                   std::string::npos)
             << remarks[0];
 #endif
@@ -131,14 +136,16 @@ TEST(RestMesh, ForMetricsVerticesInOnePlaceAndBodiesThatOverlapAreKeptWithARemar
 
 TEST(Frame, CoordinatesWhoseVolumesOverflowAreRefused)
 {
-    for (const double bad : {1e200, -2e9, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    for (const double bad :
+         {1e200, -2e9, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
         pbs::TetMesh frame = test_support::structured_bar({-1, -1, -1}, {1, 1, 1}, {2, 2, 2});
         frame.rest(1, 2) = bad;
         EXPECT_THROW(pbs::check_frame("m.vtu", frame), pbs::InputError) << bad;
         frame.rest(1, 2) = 1e9;
         EXPECT_NO_THROW(pbs::check_frame("m.vtu", frame));
     }
-    EXPECT_NO_THROW(pbs::check_frame("m.vtu", with(unit_tet(), {{0.2, 0.2, 0.5}}, {0, 1, 2, 2}))) << "indices and places alone are checked";
+    EXPECT_NO_THROW(pbs::check_frame("m.vtu", with(unit_tet(), {{0.2, 0.2, 0.5}}, {0, 1, 2, 2})))
+        << "indices and places alone are checked";
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ pbs::TetMesh awkward_bar()
 {
     pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {3, 2, 2});
     for (Eigen::Index i = 0; i < bar.rest.rows(); ++i)
-        bar.rest.row(i) += 0.01 * pbs::Vec3(std::sin(i), std::cos(3.0 * double(i)), std::sin(7.0 * double(i))).transpose();
+        bar.rest.row(i) +=
+            0.01 * pbs::Vec3(std::sin(i), std::cos(3.0 * double(i)), std::sin(7.0 * double(i))).transpose();
     bar.rest(0, 0) = 1e-17 / 3.0;
     bar.rest(1, 1) = -std::numeric_limits<double>::denorm_min();
     return bar;
@@ -111,33 +112,39 @@ TEST_F(Writing, UnknownExtensionsAndFieldsOfTheWrongLengthAreRefusedByName)
     const pbs::TetMesh bar = awkward_bar();
     pbs::FrameFields fields;
     fields.cell_scalars["volume_ratio"] = Eigen::VectorXd::Ones(3);
-    expect_input_error([&] { pbs::write_vtu(folder / "a.vtu", bar.rest, bar.tets, fields); }, folder / "a.vtu", "volume_ratio = 3");
+    expect_input_error([&] { pbs::write_vtu(folder / "a.vtu", bar.rest, bar.tets, fields); }, folder / "a.vtu",
+                       "volume_ratio = 3");
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST_F(Writing, TheSameFrameGivesTheSameBytesAndPvdListsFramesInOrderWithAllDigits)
 {
-    for (const char* name : {"a.vtu", "b.vtu"}) pbs::write_vtu(folder / name, awkward_bar().rest, awkward_bar().tets, {});
+    for (const char* name : {"a.vtu", "b.vtu"})
+        pbs::write_vtu(folder / name, awkward_bar().rest, awkward_bar().tets, {});
     EXPECT_EQ(pbs::read_text_file(folder / "a.vtu"), pbs::read_text_file(folder / "b.vtu"));
     pbs::write_pvd(folder / "pbs.pvd", {{0.0, "frames/pbs_000000.vtu"}, {1.0 / 3.0, "frames/pbs_000001.vtu"}});
     const std::string text = pbs::read_text_file(folder / "pbs.pvd");
-    EXPECT_NE(text.find("timestep=\"0.33333333333333331\" part=\"0\" file=\"frames/pbs_000001.vtu\""), std::string::npos) << text;
+    EXPECT_NE(text.find("timestep=\"0.33333333333333331\" part=\"0\" file=\"frames/pbs_000001.vtu\""),
+              std::string::npos)
+        << text;
     EXPECT_LT(text.find("pbs_000000"), text.find("pbs_000001"));
 }
 
-// Reference: the unit tet in formats whose names do not fit their content. Known vertices that no tet uses, and parts that touch.
+// Reference: the unit tet in formats whose names do not fit their content. Known vertices that no tet uses, and parts
+// that touch.
 
 using test_support::unit_tet;
 
 const std::string legacy_vtk =
-    "# vtk DataFile Version 3.0\ntet\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\n"
+    "# vtk DataFile Version 3.0\ntet\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 0 1 0 0 0 "
+    "1\nCELLS 1 5\n4 0 1 2 3\n"
     "CELL_TYPES 1\n10\n";
 TEST_F(ReadByContent, BothFormatsOfVtkUnderEitherName)
 {
     pbs::write_tet_mesh(folder / "a.vtu", unit_tet());
     std::filesystem::copy_file(folder / "a.vtu", folder / "xml.vtk");
-    for (const std::string& path : {folder / "xml.vtk", folder.file("legacy.vtu", legacy_vtk), folder.file("legacy.vtk", legacy_vtk),
-                                    folder.file("legacy", legacy_vtk)})
+    for (const std::string& path : {folder / "xml.vtk", folder.file("legacy.vtu", legacy_vtk),
+                                    folder.file("legacy.vtk", legacy_vtk), folder.file("legacy", legacy_vtk)})
         EXPECT_EQ(pbs::read_tet_mesh(path).mesh.rest, unit_tet().rest) << path;
 }
 
@@ -151,8 +158,8 @@ TEST_F(ReadByContent, GmshAndMeditUnderAnotherNameWithARemark)
         const pbs::MeshReading reading = pbs::read_tet_mesh(path);
         EXPECT_EQ(reading.mesh.rest, unit_tet().rest) << path;
         EXPECT_EQ(reading.read_as, extension) << path;
-        EXPECT_EQ(pbs::remarks_on(path, reading),
-                  std::vector{path + ": format of the content = " + extension + ": read as such, whatever the file is called"});
+        EXPECT_EQ(pbs::remarks_on(path, reading), std::vector{path + ": format of the content = " + extension +
+                                                              ": read as such, whatever the file is called"});
     }
 }
 
@@ -173,14 +180,14 @@ TEST_F(ReadTetMesh, LeavesOutUnusedVerticesWithARemark)
 TEST_F(ReadTetMesh, ListsTheUnusedNodesOfGmshAndMeditFiles)
 {
     const std::string nodes = "5\n1 0 0 0\n2 1 0 0\n3 9 9 9\n4 0 1 0\n5 0 0 1\n";
-    const std::string version_2 =
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + nodes + "$EndNodes\n$Elements\n1\n1 4 2 0 1 1 2 4 5\n$EndElements\n";
+    const std::string version_2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + nodes +
+                                  "$EndNodes\n$Elements\n1\n1 4 2 0 1 1 2 4 5\n$EndElements\n";
     const std::string version_1 = "$NOD\n" + nodes + "$ENDNOD\n$ELM\n1\n1 4 1 1 4 1 2 4 5\n$ENDELM\n";
     const std::string medit =
         "MeshVersionFormatted 2\nDimension 3\nVertices\n5\n0 0 0 1\n1 0 0 1\n9 9 9 1\n0 1 0 1\n0 0 1 1\n"
         "Tetrahedra\n1\n1 2 4 5 1\nEnd\n";
-    for (const std::string& path : {folder.file("2.msh", version_2), folder.file("2.txt", version_2), folder.file("1.msh", version_1),
-                                    folder.file("a.mesh", medit)}) {
+    for (const std::string& path : {folder.file("2.msh", version_2), folder.file("2.txt", version_2),
+                                    folder.file("1.msh", version_1), folder.file("a.mesh", medit)}) {
         const pbs::MeshReading reading = pbs::read_tet_mesh(path);
         EXPECT_EQ(reading.mesh.rest, unit_tet().rest) << path;
         EXPECT_EQ(reading.file_vertex, (std::vector<int>{0, 1, 3, 4})) << path;
@@ -190,8 +197,8 @@ TEST_F(ReadTetMesh, ListsTheUnusedNodesOfGmshAndMeditFiles)
 
 TEST_F(ReadTetMesh, SplitsAVertexAtWhichPartsTouchWithARemark)
 {
-    const std::string path =
-        folder.file("a.tobj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\nt 0 1 2 3\nt 0 4 6 5\n");
+    const std::string path = folder.file(
+        "a.tobj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\nt 0 1 2 3\nt 0 4 6 5\n");
     const pbs::MeshReading reading = pbs::read_tet_mesh(path);
     EXPECT_EQ(reading.mesh.rest.rows(), 8);
     EXPECT_EQ(reading.split_vertices, std::vector<int>{0});
@@ -205,7 +212,8 @@ TEST_F(ReadTetMesh, SplitsAVertexAtWhichPartsTouchWithARemark)
 TEST_F(ReadTetMesh, OfAMillimetreOrAHundredMetresNeedsNoRemarkAboutItsSize)
 {
     const auto remarks_at = [&](const std::string& edge) {
-        const std::string path = folder.file("a.tobj", "v 0 0 0\nv " + edge + " 0 0\nv 0 " + edge + " 0\nv 0 0 " + edge + "\nt 0 1 2 3\n");
+        const std::string path =
+            folder.file("a.tobj", "v 0 0 0\nv " + edge + " 0 0\nv 0 " + edge + " 0\nv 0 0 " + edge + "\nt 0 1 2 3\n");
         return pbs::remarks_on(path, pbs::read_tet_mesh(path)).size();
     };
     for (const char* edge : {"0.001", "1", "100"}) EXPECT_EQ(remarks_at(edge), 0u) << edge;
@@ -216,7 +224,8 @@ TEST_F(ReadTetMesh, OfAMillimetreOrAHundredMetresNeedsNoRemarkAboutItsSize)
 
 TEST_F(Tobj, HasVerticesAndTetsAndMayHaveCommentsTrianglesWindowsLineEndsAndExponents)
 {
-    const pbs::MeshReading reading = pbs::read_tet_mesh(folder.file("a.tobj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 0 1 2 3\n"));
+    const pbs::MeshReading reading =
+        pbs::read_tet_mesh(folder.file("a.tobj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 0 1 2 3\n"));
     EXPECT_EQ(reading.mesh.rest, test_support::unit_tet().rest);
     EXPECT_EQ(reading.mesh.tets, test_support::unit_tet().tets);
     const std::string text = "# a tet\r\nv 0 0 0\r\nv 1e0 0 0\r\n\r\nv 0 1 0\r\nt 0 1 2 3\r\nf 1 2 3\r\nv 0 0 1\r\n";

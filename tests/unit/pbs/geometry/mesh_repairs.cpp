@@ -1,4 +1,5 @@
-// Reference: vertices, edges and faces of a few tets and of boxes of cubes, counted by hand; what holds of every repaired mesh.
+// Reference: vertices, edges and faces of a few tets and of boxes of cubes, counted by hand; what holds of every
+// repaired mesh.
 
 #include "pbs/geometry/mesh_io_formats.hpp"
 #include "pbs/geometry/topology.hpp"
@@ -17,25 +18,30 @@ using test_support::carved_box, test_support::two_tets;
 using Edges = std::vector<std::array<int, 2>>;
 
 // The unit tet and one that touches it in a vertex, and in an edge.
-const pbs::TetMesh touching_in_a_vertex = {pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
-                                           pbs::Tets{{0, 1, 2, 3}, {0, 4, 6, 5}}};
-const pbs::TetMesh touching_in_an_edge = {pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.2, -1, -1}, {0.2, -1, -2}},
-                                          pbs::Tets{{0, 1, 2, 3}, {0, 1, 5, 4}}};
+const pbs::TetMesh touching_in_a_vertex = {
+    pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+    pbs::Tets{{0, 1, 2, 3}, {0, 4, 6, 5}}};
+const pbs::TetMesh touching_in_an_edge = {
+    pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.2, -1, -1}, {0.2, -1, -2}},
+    pbs::Tets{{0, 1, 2, 3}, {0, 1, 5, 4}}};
 
-// Each tet has an edge in common with the one before and, opposite to it, one with the next. The edges stand and lie in turn.
+// Each tet has an edge in common with the one before and, opposite to it, one with the next. The edges stand and lie in
+// turn.
 pbs::TetMesh ring(int tets)
 {
     pbs::TetMesh mesh{pbs::Positions(2 * tets, 3), pbs::Tets(tets, 4)};
     for (int i = 0; i < tets; ++i) {
-        const double angle = 2.0 * std::numbers::pi * i / tets, half = 0.2, along = i % 2 ? half : 0.0, up = i % 2 ? 0.0 : half;
+        const double angle = 2.0 * std::numbers::pi * i / tets, half = 0.2, along = i % 2 ? half : 0.0,
+                     up = i % 2 ? 0.0 : half;
         for (const int side : {-1, 1})
-            mesh.rest.row(2 * i + (side + 1) / 2) << (2.0 + side * along) * std::cos(angle), (2.0 + side * along) * std::sin(angle),
-                side * up;
+            mesh.rest.row(2 * i + (side + 1) / 2) << (2.0 + side * along) * std::cos(angle),
+                (2.0 + side * along) * std::sin(angle), side * up;
     }
     for (int i = 0; i < tets; ++i) {
         const int next = (i + 1) % tets;
         mesh.tets.row(i) << 2 * i, 2 * i + 1, 2 * next, 2 * next + 1;
-        if (pbs::tet_volumes(mesh.rest, mesh.tets.middleRows(i, 1))(0) < 0.0) std::swap(mesh.tets(i, 2), mesh.tets(i, 3));
+        if (pbs::tet_volumes(mesh.rest, mesh.tets.middleRows(i, 1))(0) < 0.0)
+            std::swap(mesh.tets(i, 2), mesh.tets(i, 3));
     }
     return mesh;
 }
@@ -43,7 +49,8 @@ pbs::TetMesh ring(int tets)
 // Two blocks of a box, which touch in the upright edges of these layers; all its other layers are whole.
 pbs::TetMesh blocks_joined_outside(int first_layer, int last_layer)
 {
-    return carved_box({4, 4, 5}, [=](int i, int j, int k) { return k < first_layer || k > last_layer || (i < 2) == (j < 2); });
+    return carved_box({4, 4, 5},
+                      [=](int i, int j, int k) { return k < first_layer || k > last_layer || (i < 2) == (j < 2); });
 }
 
 // Every corner of every tet stays in its place, the boundary is manifold, and another repair finds nothing to do.
@@ -67,7 +74,8 @@ void expect_sound(const pbs::MeshReading& repair, const pbs::TetMesh& mesh)
 TEST(MeshRepair, ASoundMeshStaysAsItIsToTheBit)
 {
     const pbs::TetMesh hollow = carved_box({3, 3, 3}, [](int i, int j, int k) { return i != 1 || j != 1 || k != 1; });
-    for (const pbs::TetMesh& mesh : {test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {3, 2, 2}), two_tets(), hollow}) {
+    for (const pbs::TetMesh& mesh :
+         {test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {3, 2, 2}), two_tets(), hollow}) {
         const pbs::MeshReading repair = pbs::repaired(mesh);
         EXPECT_EQ(repair.mesh.rest, mesh.rest);
         EXPECT_EQ(repair.mesh.tets, mesh.tets);
@@ -93,8 +101,8 @@ TEST(MeshRepair, UnusedVerticesAreLeftOut)
 
 TEST(MeshRepair, TwoTetsThatTouchGetVerticesOfTheirOwn)
 {
-    for (const auto& [mesh, split, edges] :
-         {std::tuple(touching_in_a_vertex, std::vector<int>{0}, Edges{}), {touching_in_an_edge, std::vector<int>{0, 1}, Edges{{0, 1}}}}) {
+    for (const auto& [mesh, split, edges] : {std::tuple(touching_in_a_vertex, std::vector<int>{0}, Edges{}),
+                                             {touching_in_an_edge, std::vector<int>{0, 1}, Edges{{0, 1}}}}) {
         const pbs::MeshReading repair = pbs::repaired(mesh);
         EXPECT_EQ(repair.split_vertices, split);
         EXPECT_EQ(pbs::touching_edges(mesh.tets), edges);
@@ -116,7 +124,8 @@ TEST(MeshRepair, SidesThatShareNoFaceAreSeparatedWithoutACut)
     const auto even = [](int i, int j, int k) { return (i + j + k) % 2 == 0; };
     for (const auto& [name, mesh, edges, split, vertices, parts] :
          {Case{"a ring of 8 tets", ring(8), 8, 16, 32, 8},
-          Case{"two blocks along two edges", carved_box({2, 2, 2}, [](int i, int j, int) { return i == j; }), 2, 3, 24, 2},
+          Case{"two blocks along two edges", carved_box({2, 2, 2}, [](int i, int j, int) { return i == j; }), 2, 3, 24,
+               2},
           Case{"every other cube of 8: six edges at one vertex", carved_box({2, 2, 2}, even), 6, 7, 32, 4},
           Case{"every other cube of 64", carved_box({4, 4, 4}, even), 108, 81, 256, 32}}) {
         SCOPED_TRACE(name);
@@ -130,7 +139,8 @@ TEST(MeshRepair, SidesThatShareNoFaceAreSeparatedWithoutACut)
     }
 }
 
-// Vertex (2, 2, k) of the box has number 12 + 25 k. The middle one of a chain of two edges belongs to sides that share no face.
+// Vertex (2, 2, k) of the box has number 12 + 25 k. The middle one of a chain of two edges belongs to sides that share
+// no face.
 TEST(MeshRepair, BlocksThatOtherLayersJoinStayOnePartAndOnlyASingleEdgeNeedsACut)
 {
     const pbs::TetMesh chain = blocks_joined_outside(2, 3), single = blocks_joined_outside(2, 2);
@@ -150,8 +160,8 @@ TEST(MeshRepair, BlocksThatOtherLayersJoinStayOnePartAndOnlyASingleEdgeNeedsACut
 // Two holes that touch in a vertex alone: no edge is in more than two triangles, and faces join all tets at the vertex.
 TEST(MeshRepair, HolesThatTouchInAVertexAreSeparatedByACut)
 {
-    const pbs::TetMesh mesh =
-        carved_box({4, 4, 4}, [](int i, int j, int k) { return (i != 1 || j != 1 || k != 1) && (i != 2 || j != 2 || k != 2); });
+    const pbs::TetMesh mesh = carved_box(
+        {4, 4, 4}, [](int i, int j, int k) { return (i != 1 || j != 1 || k != 1) && (i != 2 || j != 2 || k != 2); });
     const pbs::MeshReading repair = pbs::repaired(mesh);
     EXPECT_TRUE(pbs::touching_edges(mesh.tets).empty());
     EXPECT_EQ(repair.split_vertices, std::vector<int>{62});

@@ -47,10 +47,11 @@ TEST(Count, IsReachedInAFewTriesWhateverThePower)
 
 TEST(Count, TheNearestIsKeptWhereNoSizeReachesItAndASizeThatFailsIsStepped)
 {
-    const pbs::TetMesh mesh = pbs::mesh_at_vertex_count(500, 1.0, [](double size) { return with_vertices(size < 0.5 ? 900 : 400); });
+    const pbs::TetMesh mesh =
+        pbs::mesh_at_vertex_count(500, 1.0, [](double size) { return with_vertices(size < 0.5 ? 900 : 400); });
     EXPECT_EQ(mesh.rest.rows(), 400);
-    const pbs::TetMesh stepped =
-        pbs::mesh_at_vertex_count(500, 1.0, [](double size) { return size > 0.7 ? pbs::TetMesh() : with_vertices(500); });
+    const pbs::TetMesh stepped = pbs::mesh_at_vertex_count(
+        500, 1.0, [](double size) { return size > 0.7 ? pbs::TetMesh() : with_vertices(500); });
     EXPECT_EQ(stepped.rest.rows(), 500);
     EXPECT_EQ(pbs::mesh_at_vertex_count(500, 1.0, [](double) { return pbs::TetMesh(); }).tets.rows(), 0);
 }
@@ -100,8 +101,9 @@ TEST(Limb, HasItsSkinOnTheCapsule)
         }
 }
 
-// The volume that the facets cut off: the depth under a facet is, to leading order, a quadratic form that vanishes at its three corners,
-// whose mean is always 3/4 of its value at the middle. The remainder is of the order depth/radius, here 15 % of the cut.
+// The volume that the facets cut off: the depth under a facet is, to leading order, a quadratic form that vanishes at
+// its three corners, whose mean is always 3/4 of its value at the middle. The remainder is of the order depth/radius,
+// here 15 % of the cut.
 TEST(Limb, HasTheVolumeOfTheCapsuleLessWhatItsFacetsCutOff)
 {
     for (const int vertices : {500, 1000}) {
@@ -109,7 +111,8 @@ TEST(Limb, HasTheVolumeOfTheCapsuleLessWhatItsFacetsCutOff)
         const pbs::Triangles boundary = pbs::boundary_of(limb.tets);
         double cut = 0.0;
         for (Eigen::Index f = 0; f < boundary.rows(); ++f) {
-            const pbs::Vec3 a = limb.rest.row(boundary(f, 0)), b = limb.rest.row(boundary(f, 1)), c = limb.rest.row(boundary(f, 2));
+            const pbs::Vec3 a = limb.rest.row(boundary(f, 0)), b = limb.rest.row(boundary(f, 1)),
+                            c = limb.rest.row(boundary(f, 2));
             cut += 0.75 * depth((a + b + c) / 3.0) * 0.5 * (b - a).cross(c - a).norm();
         }
         const double volume = pbs::tet_volumes(limb.rest, limb.tets).sum();
@@ -119,7 +122,8 @@ TEST(Limb, HasTheVolumeOfTheCapsuleLessWhatItsFacetsCutOff)
     }
 }
 
-// The faces are flat. A point on them goes through some ten roundings where a segment of up to the bar's length meets a plane.
+// The faces are flat. A point on them goes through some ten roundings where a segment of up to the bar's length meets a
+// plane.
 TEST(Bar, IsSoundAtTheWantedSizeAndHasItsExactVolume)
 {
     for (const int vertices : {200, 300, 600}) {
@@ -128,8 +132,10 @@ TEST(Bar, IsSoundAtTheWantedSizeAndHasItsExactVolume)
         const double of_faces_m = test_support::rounding_error(10, 2.0), area_m2 = 4 * 2.0 * 0.3 + 2 * 0.3 * 0.3;
         EXPECT_NEAR(pbs::tet_volumes(bar.rest, bar.tets).sum(), 2.0 * 0.3 * 0.3,
                     area_m2 * of_faces_m + test_support::volume_error(bar.rest, bar.tets));
-        EXPECT_LT((bar.rest.colwise().maxCoeff() - Eigen::RowVector3d(1, 0.15, 0.15)).norm(), std::sqrt(3.0) * of_faces_m);
-        EXPECT_LT((bar.rest.colwise().minCoeff() + Eigen::RowVector3d(1, 0.15, 0.15)).norm(), std::sqrt(3.0) * of_faces_m);
+        EXPECT_LT((bar.rest.colwise().maxCoeff() - Eigen::RowVector3d(1, 0.15, 0.15)).norm(),
+                  std::sqrt(3.0) * of_faces_m);
+        EXPECT_LT((bar.rest.colwise().minCoeff() + Eigen::RowVector3d(1, 0.15, 0.15)).norm(),
+                  std::sqrt(3.0) * of_faces_m);
     }
 }
 
@@ -166,8 +172,9 @@ TEST(SurfaceToTets, TheSphereIsABallOfItsVolume)
     EXPECT_NEAR(quality.vertices, 500, 50);  // within 10 %, as for the built-in bodies
     EXPECT_GE(quality.min_dihedral_deg, options.min_dihedral_deg);
     EXPECT_GT(pbs::tet_volumes(ball.rest, ball.tets).minCoeff(), 0.0);
-    // Skin vertices lie on the wrap, whose vertices are at the offset of 0.01 from the icosphere. Its facets fit in circles of radius alpha
-    // and sink by at most 0.2^2 / 2 = 0.02 m, those of the icosphere by 0.006 m: from 0.984 to 1.01 m.
+    // Skin vertices lie on the wrap, whose vertices are at the offset of 0.01 from the icosphere. Its facets fit in
+    // circles of radius alpha and sink by at most 0.2^2 / 2 = 0.02 m, those of the icosphere by 0.006 m: from 0.984
+    // to 1.01 m.
     const std::vector<bool> on_skin = pbs::boundary_vertices(ball.tets, ball.rest.rows());
     for (Eigen::Index i = 0; i < ball.rest.rows(); ++i)
         if (on_skin[std::size_t(i)]) {
@@ -182,12 +189,13 @@ TEST(SurfaceToTets, TheTorusKeepsItsHandleWhenAsked)
     options.boundary_euler = 0;
     const pbs::Quality quality = pbs::quality_of(pbs::mesh_surface(torus(1.0, 0.4, 40, 20), options));
     test_support::expect_ball(quality, 0);
-    // The offset of 0.01 m adds 5 %. The polygons of 20 and 40 sides lack 1.6 % and 0.4 %, and facets that fit in circles of radius alpha,
-    // which sink by 0.1^2 / 0.8 = 0.0125 m, lack up to 6 %.
+    // The offset of 0.01 m adds 5 %. The polygons of 20 and 40 sides lack 1.6 % and 0.4 %, and facets that fit in
+    // circles of radius alpha, which sink by 0.1^2 / 0.8 = 0.0125 m, lack up to 6 %.
     EXPECT_NEAR(quality.volume_m3, 2.0 * std::numbers::pi * std::numbers::pi * 0.4 * 0.4, 0.08 * 3.2);
 }
 
-// A ball of a quarter of the other's size beside it. Facets that fit in circles of radius alpha sink by at most 0.15^2 / 0.5 = 0.045 m.
+// A ball of a quarter of the other's size beside it. Facets that fit in circles of radius alpha sink by at most 0.15^2
+// / 0.5 = 0.045 m.
 TEST(SurfaceToTets, ASmallPartBesideALargeOneIsKept)
 {
     pbs::SurfaceMesh both = icosphere(1.0, 2);
@@ -207,7 +215,8 @@ TEST(SurfaceToTets, ASmallPartBesideALargeOneIsKept)
 
 TEST(SurfaceToTets, WrapsOfAnotherShapeAndPointsOutsideAreRefused)
 {
-    expect_refused(torus(1.0, 0.4, 40, 20), quick(0.15, 0.02, 300), "Euler number of the wrapped surface = 0: ", "expected 2");
+    expect_refused(torus(1.0, 0.4, 40, 20), quick(0.15, 0.02, 300),
+                   "Euler number of the wrapped surface = 0: ", "expected 2");
     pbs::SurfaceMeshing options = quick(0.2, 0.02, 200);
     options.inside = {{0, 0, 0}, {0, 0, 3}};
     expect_refused(icosphere(1.0, 2), options, "point 1 asked inside: ", "expected inside the surface");
@@ -218,7 +227,8 @@ TEST(SurfaceToTets, APerturbationWithoutEndIsRefusedAfterTheLastAttempt)
 {
     pbs::SurfaceMeshing options = quick(0.3, 0.02, 150);
     options.most_questions = 1;
-    expect_refused(icosphere(1.0, 1), options, "vertices of the tets = 150: ", "without end to improve flat tets: expected another number");
+    expect_refused(icosphere(1.0, 1), options,
+                   "vertices of the tets = 150: ", "without end to improve flat tets: expected another number");
 }
 
 TEST(SurfaceToTets, SmallHolesAreClosedAndOpenSheetsRefused)
@@ -237,27 +247,34 @@ TEST(SurfaceToTets, BadInputIsRefused)
     flat.points.col(2).setConstant(1.0 / 3.0);
     not_finite.points(3, 1) = std::numeric_limits<double>::quiet_NaN();
     without_a_point.triangles(2, 2) = 1000;
-    expect_refused(flat, options, "enclosed volume [m^3] = ", "expected a closed surface round a volume, neither flat nor open");
+    expect_refused(flat, options,
+                   "enclosed volume [m^3] = ", "expected a closed surface round a volume, neither flat nor open");
     expect_refused({}, options, "triangles = 0: ", "");
     expect_refused(not_finite, options, "", "expected finite coordinates");
     expect_refused(without_a_point, options, "", "expected indices of points");
     expect_refused(icosphere(1.0, 1), quick(0.2, 0.02, 10), "vertices = 10: ", "");
 }
 
-// Reference: the mesh itself. Facets lie within a twentieth of the mean edge of its boundary, 0.1 m, which bounds the change of the volume.
+// Reference: the mesh itself. Facets lie within a twentieth of the mean edge of its boundary, 0.1 m, which bounds the
+// change of the volume.
 TEST(OtherTets, FillTheSameBoundaryAndRepeatAndDifferBySeed)
 {
-    const pbs::TetMesh &limb = limb_of(600), one = pbs::mesh_anew(limb, {.seed = 1}), other = pbs::mesh_anew(limb, {.seed = 2});
+    const pbs::TetMesh &limb = limb_of(600), one = pbs::mesh_anew(limb, {.seed = 1}),
+                       other = pbs::mesh_anew(limb, {.seed = 2});
     expect_sound(one, static_cast<int>(one.rest.rows()));
-    EXPECT_NEAR(static_cast<double>(one.rest.rows()), static_cast<double>(limb.rest.rows()), 0.2 * static_cast<double>(limb.rest.rows()));
+    EXPECT_NEAR(static_cast<double>(one.rest.rows()), static_cast<double>(limb.rest.rows()),
+                0.2 * static_cast<double>(limb.rest.rows()));
     EXPECT_EQ(pbs::mesh_anew(limb, {.seed = 1}).tets, one.tets);
     EXPECT_NE(other.rest.rows(), one.rest.rows());
-    const double volume = pbs::tet_volumes(limb.rest, limb.tets).sum(), area = 2.0 * std::numbers::pi * radius * (2.0 + 2.0 * radius);
-    for (const pbs::TetMesh& mesh : {one, other}) EXPECT_NEAR(pbs::tet_volumes(mesh.rest, mesh.tets).sum(), volume, 0.05 * 0.11 * area);
+    const double volume = pbs::tet_volumes(limb.rest, limb.tets).sum(),
+                 area = 2.0 * std::numbers::pi * radius * (2.0 + 2.0 * radius);
+    for (const pbs::TetMesh& mesh : {one, other})
+        EXPECT_NEAR(pbs::tet_volumes(mesh.rest, mesh.tets).sum(), volume, 0.05 * 0.11 * area);
 }
 
-// A facet's circumscribed circle is at most 0.75 of the wanted length in radius, so that no edge is longer than 1.5 of it. Where facets are
-// moved to improve the tets, or reach out of the ball, they are larger; half of the ball's radius is left out for them.
+// A facet's circumscribed circle is at most 0.75 of the wanted length in radius, so that no edge is longer than 1.5 of
+// it. Where facets are moved to improve the tets, or reach out of the ball, they are larger; half of the ball's radius
+// is left out for them.
 TEST(OtherTets, HaveAFinerSkinInABall)
 {
     const pbs::TetMesh& limb = limb_of(600);
@@ -268,15 +285,17 @@ TEST(OtherTets, HaveAFinerSkinInABall)
     for (const auto& face : skin.rowwise())
         for (int k = 0; k < 3; ++k) {
             const pbs::Vec3 a = fine.rest.row(face(k)), b = fine.rest.row(face((k + 1) % 3));
-            if (((a + b) / 2.0 - ball.centre).norm() < ball.radius_m / 2.0) longest_m = std::max(longest_m, (b - a).norm());
+            if (((a + b) / 2.0 - ball.centre).norm() < ball.radius_m / 2.0)
+                longest_m = std::max(longest_m, (b - a).norm());
         }
     EXPECT_GT(longest_m, ball.size_m / 2.0);
     EXPECT_LE(longest_m, 1.5 * ball.size_m);
     EXPECT_LT(fine.rest.rows(), 2 * limb.rest.rows());
 }
 
-// Otherwise the distance of two solutions does not show the influence of the mesh where it matters most. A disc of the ball's radius with
-// triangles of its edge length has pi 0.1^2 / (0.866 0.02^2) = 90 vertices. Where the sizes of the seeds were the same, all were the same.
+// Otherwise the distance of two solutions does not show the influence of the mesh where it matters most. A disc of the
+// ball's radius with triangles of its edge length has pi 0.1^2 / (0.866 0.02^2) = 90 vertices. Where the sizes of the
+// seeds were the same, all were the same.
 TEST(OtherTets, TakeOtherPointsInABallWithAnotherSeed)
 {
     const pbs::TetMesh& limb = limb_of(600);

@@ -1,4 +1,5 @@
-// Reference: one mesh by hand, written in every version of the format as its specification states it: text, and bytes of either order.
+// Reference: one mesh by hand, written in every version of the format as its specification states it: text, and bytes
+// of either order.
 #include "pbs/geometry/mesh_io.hpp"
 
 #include "tests/support/scratch_folder.hpp"
@@ -76,7 +77,8 @@ std::string nodes_of(const Dialect& dialect, const Content& content)
     const auto told = static_cast<std::uint64_t>(static_cast<int>(content.nodes.size()) + content.nodes_told);
     if (dialect.version < 4.0) {
         values.text = std::to_string(told) + "\n";
-        for (const auto& [tag, x] : content.nodes) values.put<std::int32_t>(tag).put(x[0]).put(x[1]).put(x[2]).end_line();
+        for (const auto& [tag, x] : content.nodes)
+            values.put<std::int32_t>(tag).put(x[0]).put(x[1]).put(x[2]).end_line();
         return values.text;
     }
     values.put<std::uint64_t>(1).put(told);
@@ -107,12 +109,18 @@ std::string elements_of(const Dialect& dialect, const Content& content)
         else if (dialect.version == 2.2 && !dialect.is_binary)
             values.put(number).put(type).put(2).put(7).put(8);
         else if (dialect.version == 2.2)
-            values.put(type).put<std::int32_t>(1).put<std::int32_t>(2).put(number).put<std::int32_t>(7).put<std::int32_t>(8);
+            values.put(type)
+                .put<std::int32_t>(1)
+                .put<std::int32_t>(2)
+                .put(number)
+                .put<std::int32_t>(7)
+                .put<std::int32_t>(8);
         else {
             values.put<std::int32_t>(3).put<std::int32_t>(3).put(type).put<std::uint64_t>(1).end_line();
             dialect.version == 4.1 ? values.put(static_cast<std::uint64_t>(number)) : values.put(number);
         }
-        for (const int node : nodes) dialect.version == 4.1 ? values.put(static_cast<std::uint64_t>(node)) : values.put(node);
+        for (const int node : nodes)
+            dialect.version == 4.1 ? values.put(static_cast<std::uint64_t>(node)) : values.put(node);
         values.end_line();
     }
     return values.text;
@@ -125,18 +133,23 @@ std::string msh(const Dialect& dialect, const Content& content)
     Values one(dialect);
     if (dialect.is_binary) one.put<std::int32_t>(1).text += '\n';
     const std::string version = dialect.version == 2.2 ? "2.2" : dialect.version == 4.0 ? "4" : "4.1";
-    return "$MeshFormat\n" + version + (dialect.is_binary ? " 1 8\n" : " 0 8\n") + one.text + "$EndMeshFormat\n$Nodes\n" +
-           nodes_of(dialect, content) + "\n$EndNodes\n$Elements\n" + elements_of(dialect, content) + "\n$EndElements\n";
+    return "$MeshFormat\n" + version + (dialect.is_binary ? " 1 8\n" : " 0 8\n") + one.text +
+           "$EndMeshFormat\n$Nodes\n" + nodes_of(dialect, content) + "\n$EndNodes\n$Elements\n" +
+           elements_of(dialect, content) + "\n$EndElements\n";
 }
 
 std::string name_of(const Dialect& dialect)
 {
-    return std::to_string(dialect.version) + (dialect.is_binary ? " binary" : " text") + (dialect.is_swapped ? " swapped" : "");
+    return std::to_string(dialect.version) + (dialect.is_binary ? " binary" : " text") +
+           (dialect.is_swapped ? " swapped" : "");
 }
 
 class Msh : public test_support::FolderTest {
 protected:
-    std::string written(const Dialect& dialect, const Content& content) const { return folder.file("a.msh", msh(dialect, content)); }
+    std::string written(const Dialect& dialect, const Content& content) const
+    {
+        return folder.file("a.msh", msh(dialect, content));
+    }
 };
 
 const pbs::Positions points = (pbs::Positions(5, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1).finished();
@@ -162,9 +175,12 @@ TEST_F(Msh, NumbersVerticesByTagAndSaysSoWhereNodesAreListedInAnotherOrder)
         const pbs::MeshReading reading = pbs::read_tet_mesh(path);
         EXPECT_EQ(reading.mesh.rest, points) << name_of(dialect);
         EXPECT_EQ(reading.listed_at, (std::vector<int>{3, 4, 0, 1, 2})) << name_of(dialect);
-        EXPECT_EQ(pbs::remarks_on(path, reading),
-                  std::vector{path + ": nodes = 5: not listed by their tags; vertices are numbered from 0 by ascending tag, as weights and "
-                                     "frames must be"});
+        EXPECT_EQ(
+            pbs::remarks_on(path, reading),
+            std::vector{
+                path +
+                ": nodes = 5: not listed by their tags; vertices are numbered from 0 by ascending tag, as weights and "
+                "frames must be"});
     }
 }
 
@@ -201,7 +217,8 @@ TEST_F(Msh, KeepsAllTetsWhoseNumbersRepeat)
 {
     Content content;
     content.elements[2].number = 2;
-    for (const Dialect& dialect : dialects) EXPECT_EQ(pbs::read_tet_mesh(written(dialect, content)).mesh.tets, tets) << name_of(dialect);
+    for (const Dialect& dialect : dialects)
+        EXPECT_EQ(pbs::read_tet_mesh(written(dialect, content)).mesh.tets, tets) << name_of(dialect);
 }
 
 TEST_F(Msh, RefusesCountsThatAreWrongByOne)
@@ -226,7 +243,8 @@ TEST_F(Msh, RefusesOtherVolumesWrongTagsAndUnknownVersionsByName)
     content.elements[1] = {2, 5, {1, 2, 3, 4, 1, 2, 3, 4}};
     for (const Dialect& dialect : dialects) {
         const std::string path = written(dialect, content);
-        expect_input_error([&] { pbs::read_tet_mesh(path); }, path + ": elements = hexahedron: ", "expected four-node tetrahedra");
+        expect_input_error([&] { pbs::read_tet_mesh(path); },
+                           path + ": elements = hexahedron: ", "expected four-node tetrahedra");
     }
     content = {};
     content.elements[1].nodes[3] = 6;
@@ -234,7 +252,8 @@ TEST_F(Msh, RefusesOtherVolumesWrongTagsAndUnknownVersionsByName)
     expect_input_error([&] { pbs::read_tet_mesh(path); }, path + ": element 2 = 6: ", "expected the tag of a node");
     content = {};
     content.nodes[3].tag = 2;
-    expect_input_error([&] { pbs::read_tet_mesh(written({4.1}, content)); }, path + ": node = 2: ", "expected each tag once");
+    expect_input_error([&] { pbs::read_tet_mesh(written({4.1}, content)); },
+                       path + ": node = 2: ", "expected each tag once");
     folder.file("a.msh", "$MeshFormat\n3 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n0\n$EndElements\n");
     expect_input_error([&] { pbs::read_tet_mesh(path); }, path + ":2: version = 3: ", "gmsh FILE -save -format msh41");
 }

@@ -52,27 +52,31 @@ TEST(SelfIntersection, ABarBentThroughItselfIsFound)
     pbs::TetMesh bar = test_support::structured_bar({-1, -0.1, -0.1}, {1, 0.1, 0.1}, {20, 2, 2});
     const pbs::Triangles boundary = pbs::boundary_of(bar.tets);
     EXPECT_FALSE(pbs::self_intersects(bar.rest, boundary));
-    for (Eigen::Index i = 0; i < bar.rest.rows(); ++i) {  // bend the bar to a circle whose circumference is shorter than the bar
+    // bend the bar to a circle whose circumference is shorter than the bar
+    for (Eigen::Index i = 0; i < bar.rest.rows(); ++i) {
         const double angle = 4.0 * bar.rest(i, 0), r = 0.3 + bar.rest(i, 1);
         bar.rest.row(i) << r * std::sin(angle), r * std::cos(angle), bar.rest(i, 2);
     }
     EXPECT_TRUE(pbs::self_intersects(bar.rest, boundary));
 }
 
-// A torus around z: a cut through its axis gives two circles of the tube's radius, one across its axis two concentric circles, and one
-// outside it none. A point of a cut goes through some twelve roundings of coordinates up to 1.4. The tube's 20 sides lie up to 0.4 (1 - cos
-// pi / 20) inside it, the 40 sides around the axis up to 1.4 (1 - cos pi / 40), and the cut passes the axis at 0.01.
+// A torus around z: a cut through its axis gives two circles of the tube's radius, one across its axis two concentric
+// circles, and one outside it none. A point of a cut goes through some twelve roundings of coordinates up to 1.4. The
+// tube's 20 sides lie up to 0.4 (1 - cos pi / 20) inside it, the 40 sides around the axis up to 1.4 (1 - cos pi / 40),
+// and the cut passes the axis at 0.01.
 TEST(SectionOutlines, OfATorus)
 {
     const pbs::SurfaceMesh torus = test_support::torus(1.0, 0.4, 40, 20);
-    const auto sections = pbs::section_outlines(torus.points, torus.triangles,
-                                                {{{0, 0.01, 0}, {0, 2, 0}}, {{0, 0, 0.01}, {0, 0, 1}}, {{0, 0, 0.5}, {0, 0, 1}}});
+    const auto sections =
+        pbs::section_outlines(torus.points, torus.triangles,
+                              {{{0, 0.01, 0}, {0, 2, 0}}, {{0, 0, 0.01}, {0, 0, 1}}, {{0, 0, 0.5}, {0, 0, 1}}});
     ASSERT_EQ(sections.size(), 3u);
     ASSERT_EQ(sections[0].size(), 2u);
     for (const pbs::Positions& circle : sections[0])
         for (Eigen::Index i = 0; i < circle.rows(); ++i) {
             EXPECT_NEAR(circle(i, 1), 0.01, test_support::rounding_error(12, 1.4));
-            EXPECT_NEAR(std::hypot(std::abs(circle(i, 0)) - 1.0, circle(i, 2)), 0.4, 0.005 + 0.0044 + 0.01 * 0.01 / (2.0 * 0.6));
+            EXPECT_NEAR(std::hypot(std::abs(circle(i, 0)) - 1.0, circle(i, 2)), 0.4,
+                        0.005 + 0.0044 + 0.01 * 0.01 / (2.0 * 0.6));
         }
     EXPECT_EQ(sections[1].size(), 2u);
     EXPECT_TRUE(sections[2].empty());
@@ -88,7 +92,8 @@ TEST(SectionOutlines, ASurfaceThroughItselfIsCutAndANormalOfZeroIsRefused)
 TEST(PointsInside, AreToldFromThoseOutside)
 {
     const pbs::SurfaceMesh torus = test_support::torus(1.0, 0.4, 40, 20);
-    const std::vector<bool> inside = pbs::points_inside(torus.points, torus.triangles, {{1, 0, 0}, {0, 0, 0}, {0, -1.1, 0.1}, {2, 0, 0}});
+    const std::vector<bool> inside =
+        pbs::points_inside(torus.points, torus.triangles, {{1, 0, 0}, {0, 0, 0}, {0, -1.1, 0.1}, {2, 0, 0}});
     EXPECT_EQ(inside, (std::vector<bool>{true, false, true, false}));
 }
 

@@ -1,5 +1,5 @@
-// Reference: the bytes that were written. Two objects share their bytes if they return the same address. The pauses are longer than a tick
-// of the file system's clock.
+// Reference: the bytes that were written. Two objects share their bytes if they return the same address. The pauses are
+// longer than a tick of the file system's clock.
 
 #include "pbs/geometry/source_file.hpp"
 #include "tests/support/scratch_folder.hpp"

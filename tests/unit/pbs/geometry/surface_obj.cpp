@@ -1,4 +1,5 @@
-// Reference: a tetrahedron with corners at 0 and one at each axis, of 1/6 m^3 at scale 1, in the forms in which programs write .obj.
+// Reference: a tetrahedron with corners at 0 and one at each axis, of 1/6 m^3 at scale 1, in the forms in which
+// programs write .obj.
 #include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 
@@ -32,7 +33,8 @@ TEST_F(Obj, IsReadInEveryFormThatProgramsWrite)
         of_windows += c == '\n' ? "\r\n" : std::string(1, c);
     }
     for (const std::string& text : std::vector<std::string>{
-             points + faces, utf16, "  " + indented, of_windows, "# a folder\\of\\windows\\\n" + points + "usemtl skin\\pale\\\n" + faces,
+             points + faces, utf16, "  " + indented, of_windows,
+             "# a folder\\of\\windows\\\n" + points + "usemtl skin\\pale\\\n" + faces,
              "v 0 0 0 # origin\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2 # below\nf 1 2 4#\nf 2 3 4\nf 1 4 3\n",
              "v 0 \\\n0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 \\\r\n3 \\\n2\nf 1 2 4\nf 2 3 4\nf 1 4 3",
              points + "f -4 -2 -3\nf -4 -3 -1\nf 2/1/1 3/2/1 4//1\nf 1/7 4/8 3/9\n",
@@ -48,7 +50,9 @@ TEST_F(Obj, IsReadInEveryFormThatProgramsWrite)
 TEST_F(Obj, KeepsItsVolumeFarFromTheOrigin)
 {
     const pbs::SurfaceMesh mesh = pbs::read_surface(folder.file(
-        "a.obj", "v 4649776.25 500000.5 0\nv 4649776.5 500000.5 0\nv 4649776.25 500000.75 0\nv 4649776.25 500000.5 0.25\n" + faces));
+        "a.obj",
+        "v 4649776.25 500000.5 0\nv 4649776.5 500000.5 0\nv 4649776.25 500000.75 0\nv 4649776.25 500000.5 0.25\n" +
+            faces));
     EXPECT_DOUBLE_EQ(volume_of(mesh), 0.25 * 0.25 * 0.25 / 6.0);  // differences of such coordinates are exact
 }
 
@@ -60,7 +64,8 @@ TEST_F(Obj, IsRefusedWithFileLineFieldValueAndRule)
           {"v 0 0 0\nv 1 0\n" + faces, ":2: vertex 2: ", "expected three numbers"},
           {"v 0 0 0\nv nan 0 0\n" + faces, ":2: vertex 2 = nan: ", "expected finite coordinates within 1e9 m"},
           {points + "f 1 2 5\n", ":5: face = 5: ", "expected the number of a vertex from 1 to 4"},
-          {points + "f 1 2 -5\n", ":5: face = -5: ", "expected the number of a vertex, from 1 or, backwards, from -1 to -4"},
+          {points + "f 1 2 -5\n",
+           ":5: face = -5: ", "expected the number of a vertex, from 1 or, backwards, from -1 to -4"},
           {points + "f 1 2 0\n", ":5: face = 0: ", "expected the number of a vertex"},
           {points + "f 1 2 x\n", ":5: face = x: ", "expected the number of a vertex"}}) {
         const std::string path = folder.file("a.obj", text);
@@ -77,12 +82,17 @@ TEST_F(Obj, AClosedCavityIsNamedWithItsVolume)
         pbs::read_surface(folder.file("a.obj", text), remarks);
         return remarks;
     };
-    const std::vector<std::string> remarks = remarks_on(points + inner + faces + "f 5 6 7\nf 5 8 6\nf 6 8 7\nf 5 7 8\n");
+    const std::vector<std::string> remarks =
+        remarks_on(points + inner + faces + "f 5 6 7\nf 5 8 6\nf 6 8 7\nf 5 7 8\n");
     ASSERT_EQ(remarks.size(), 1u);
-    EXPECT_NE(remarks[0].find("closed cavities = 1: 0.00133333 m^3 in all, filled by tets"), std::string::npos) << remarks[0];  // 0.2^3 / 6
-    EXPECT_TRUE(remarks_on(points + inner + faces + "f 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n").empty()) << "a body inside faces outwards";
+    // 0.2^3 / 6
+    EXPECT_NE(remarks[0].find("closed cavities = 1: 0.00133333 m^3 in all, filled by tets"), std::string::npos)
+        << remarks[0];
+    EXPECT_TRUE(remarks_on(points + inner + faces + "f 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n").empty())
+        << "a body inside faces outwards";
     const std::string beside = "v 2.1 0.1 0.1\nv 2.3 0.1 0.1\nv 2.1 0.3 0.1\nv 2.1 0.1 0.3\n";
-    EXPECT_TRUE(remarks_on(points + beside + faces + "f 5 6 7\nf 5 8 6\nf 6 8 7\nf 5 7 8\n").empty()) << "beside the other body";
+    EXPECT_TRUE(remarks_on(points + beside + faces + "f 5 6 7\nf 5 8 6\nf 6 8 7\nf 5 7 8\n").empty())
+        << "beside the other body";
 }
 #endif
 

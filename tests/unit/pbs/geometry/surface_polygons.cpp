@@ -1,4 +1,5 @@
-// Reference: the tetrahedron of 1/6 m^3 with a corner at 0 and one on each axis, in the forms in which programs write .stl, .ply and .off.
+// Reference: the tetrahedron of 1/6 m^3 with a corner at 0 and one on each axis, in the forms in which programs write
+// .stl, .ply and .off.
 #include "pbs/geometry/tet_mesh.hpp"
 
 #include "pbs/rig/surface_reader.hpp"
@@ -15,17 +16,20 @@ namespace {
 
 using Polygons = test_support::FolderTest;
 
-const std::string four_points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n", corners_of_faces = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+const std::string four_points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n",
+                  corners_of_faces = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
 
 std::string ply_text(const std::string& format, const std::string& index, const std::string& data)
 {
-    return "ply\nformat " + format + " 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4\n" +
+    return "ply\nformat " + format +
+           " 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4\n" +
            "property list uchar " + index + " vertex_indices\nend_header\n" + data;
 }
 
 std::string stl_facet(const char* a, const char* b, const char* c)
 {
-    return "facet normal 0 0 0\nouter loop\nvertex " + std::string(a) + "\nvertex " + b + "\nvertex " + c + "\nendloop\nendfacet\n";
+    return "facet normal 0 0 0\nouter loop\nvertex " + std::string(a) + "\nvertex " + b + "\nvertex " + c +
+           "\nendloop\nendfacet\n";
 }
 
 void expect_tetrahedron(const std::string& path)
@@ -59,8 +63,8 @@ TEST_F(Polygons, OfPlyMayHaveShortIndicesAsTextAndAreRefusedByNameAsBytes)
 
 TEST_F(Polygons, OfOffMayLackTheNumberOfEdges)
 {
-    for (const char* counts :
-         {"OFF\n4 4 0\n", "OFF\n4 4\n", "OFF 4 4\n", "# by a program\nOFF\n\n4 4 # points, faces\r\n", "\xEF\xBB\xBFOFF\n4 4\n"})
+    for (const char* counts : {"OFF\n4 4 0\n", "OFF\n4 4\n", "OFF 4 4\n",
+                               "# by a program\nOFF\n\n4 4 # points, faces\r\n", "\xEF\xBB\xBFOFF\n4 4\n"})
         expect_tetrahedron(folder.file("a.off", counts + four_points + corners_of_faces));
 }
 

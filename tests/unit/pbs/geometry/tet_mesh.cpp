@@ -54,7 +54,8 @@ TEST(LumpedVolumes, AreAQuarterOfEachTetAround)
     EXPECT_EQ(lumped(4), 0.0);
 }
 
-// Reference: counts of red refinement (V + E vertices, 2E + 3F + T edges, 8T tets), Euler's formula, and the definition of a midpoint.
+// Reference: counts of red refinement (V + E vertices, 2E + 3F + T edges, 8T tets), Euler's formula, and the definition
+// of a midpoint.
 
 using pbs::Refinement;
 using pbs::TetMesh;
@@ -64,8 +65,8 @@ TetMesh one_tet()
     return {pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0.2, 1, 0}, {0.1, 0.3, 1}}, pbs::Tets{{0, 1, 2, 3}}};
 }
 
-// The smallest of the four determinants of a tet in which the point replaces a corner: not negative where the point lies in the tet. It is
-// exact where all coordinates are small multiples of 1/4.
+// The smallest of the four determinants of a tet in which the point replaces a corner: not negative where the point
+// lies in the tet. It is exact where all coordinates are small multiples of 1/4.
 double smallest_determinant(const TetMesh& mesh, Eigen::Index tet, const pbs::Vec3& point)
 {
     double smallest = std::numeric_limits<double>::infinity();
@@ -78,8 +79,9 @@ double smallest_determinant(const TetMesh& mesh, Eigen::Index tet, const pbs::Ve
     return smallest;
 }
 
-// Each volume goes through ten roundings of products of edges, whose sum is bounded in tests/support/rounding_error.hpp. A midpoint is
-// rounded once; its coordinates are at most twice as long as an edge of a child, which has two ends: twelve more for three edges.
+// Each volume goes through ten roundings of products of edges, whose sum is bounded in
+// tests/support/rounding_error.hpp. A midpoint is rounded once; its coordinates are at most twice as long as an edge of
+// a child, which has two ends: twelve more for three edges.
 TEST(Refinement, OfOneTetIsEightOfAnEighthOfItsVolume)
 {
     const Refinement fine = pbs::refine(one_tet());
@@ -87,8 +89,10 @@ TEST(Refinement, OfOneTetIsEightOfAnEighthOfItsVolume)
     ASSERT_EQ(fine.mesh.tets.rows(), 8);
     const double volume = pbs::tet_volumes(one_tet().rest, one_tet().tets)(0);
     const Eigen::VectorXd volumes = pbs::tet_volumes(fine.mesh.rest, fine.mesh.tets);
-    const double edge_m = pbs::quality_of(fine.mesh).longest_edge_m, magnitude = 2.0 / std::sqrt(3.0) * std::pow(edge_m, 3) / 6.0;
-    for (const double child : volumes) EXPECT_NEAR(child, volume / 8.0, test_support::rounding_error(10 + 10 + 12, magnitude));
+    const double edge_m = pbs::quality_of(fine.mesh).longest_edge_m,
+                 magnitude = 2.0 / std::sqrt(3.0) * std::pow(edge_m, 3) / 6.0;
+    for (const double child : volumes)
+        EXPECT_NEAR(child, volume / 8.0, test_support::rounding_error(10 + 10 + 12, magnitude));
 }
 
 TEST(Refinement, KeepsTheCoarseVerticesAndHalvesTheEdges)
@@ -99,7 +103,8 @@ TEST(Refinement, KeepsTheCoarseVerticesAndHalvesTheEdges)
     ASSERT_EQ(fine.mesh.rest.rows(), bar.rest.rows() + fine.parents.rows());
     EXPECT_EQ(fine.parents, pbs::edges_of(bar.tets));  // each once
     for (Eigen::Index e = 0; e < fine.parents.rows(); ++e)
-        EXPECT_EQ(fine.mesh.rest.row(bar.rest.rows() + e), 0.5 * (bar.rest.row(fine.parents(e, 0)) + bar.rest.row(fine.parents(e, 1))));
+        EXPECT_EQ(fine.mesh.rest.row(bar.rest.rows() + e),
+                  0.5 * (bar.rest.row(fine.parents(e, 0)) + bar.rest.row(fine.parents(e, 1))));
 }
 
 TEST(Refinement, CountsAreThoseOfRedRefinement)
@@ -111,14 +116,16 @@ TEST(Refinement, CountsAreThoseOfRedRefinement)
     EXPECT_EQ(fine.tets, 8 * coarse.tets);
     EXPECT_EQ(fine.edges, 2 * coarse.edges + 3 * faces + coarse.tets);
     EXPECT_EQ(fine.boundary_triangles, 4 * coarse.boundary_triangles);  // neighbours agree on the faces between them
-    // Coordinates are multiples of 1/2: only the division by 6 in three terms of each tet is rounded, their sum, and the sum over tets.
+    // Coordinates are multiples of 1/2: only the division by 6 in three terms of each tet is rounded, their sum, and
+    // the sum over tets.
     EXPECT_NEAR(fine.volume_m3, coarse.volume_m3, test_support::rounding_error(2 * 5 + fine.tets + coarse.tets, 24.0));
 }
 
 TEST(Refinement, ABodyWithAHandleKeepsIt)
 {
     const auto all_but_the_middle = [](int i, int j, int) { return i != 1 || j != 1; };
-    for (TetMesh mesh = test_support::carved_box({3, 3, 1}, all_but_the_middle); mesh.tets.rows() < 10000; mesh = pbs::refine(mesh).mesh) {
+    for (TetMesh mesh = test_support::carved_box({3, 3, 1}, all_but_the_middle); mesh.tets.rows() < 10000;
+         mesh = pbs::refine(mesh).mesh) {
         const pbs::Topology topology = pbs::topology_of(mesh.tets, mesh.rest.rows());
         EXPECT_TRUE(topology.boundary_manifold);
         EXPECT_EQ(topology.boundary_euler, 0);
@@ -141,12 +148,14 @@ TEST(Refinement, ChildrenLieInTheirParentAndAtItsCorners)
 
 TEST(Refinement, CutsTheOctahedronAlongItsShortestDiagonal)
 {
-    for (int longest = 0; longest < 3; ++longest) {  // pairs of opposite edges of a box, so that the diagonals are its extents
+    // pairs of opposite edges of a box, so that the diagonals are its extents
+    for (int longest = 0; longest < 3; ++longest) {
         const pbs::Vec3 extent = pbs::Vec3(longest == 0 ? 1 : 3, longest == 1 ? 1 : 3, longest == 2 ? 1 : 3);
         TetMesh mesh{pbs::Positions{{0, 0, 0}, {1, 1, 0}, {0, 1, 1}, {1, 0, 1}}, pbs::Tets{{0, 1, 2, 3}}};
         mesh.rest = mesh.rest * extent.asDiagonal();
         const TetMesh fine = pbs::refine(mesh).mesh;
-        std::set<double> inner;  // lengths of the edges between the midpoints of opposite edges, which lie along one axis
+        // lengths of the edges between the midpoints of opposite edges, which lie along one axis
+        std::set<double> inner;
         for (Eigen::Index t = 4; t < 8; ++t)
             for (int a = 0; a < 4; ++a)
                 for (int b = 0; b < a; ++b) {
@@ -212,10 +221,11 @@ TEST(PointLocation, FindsEveryTetByItsOwnInnerPoint)
 {
     const PointLocation where(bar);
     const Vec3 barycentric(0.2, 0.3, 0.4);
-    // The point, of norm below 1.1, goes through six roundings. The inverse of the edges, of norm sqrt 5 / 0.1 on a Kuhn tet, magnifies
-    // them, and goes through a dozen of its own, times the condition number sqrt 6 sqrt 5.
+    // The point, of norm below 1.1, goes through six roundings. The inverse of the edges, of norm sqrt 5 / 0.1 on a
+    // Kuhn tet, magnifies them, and goes through a dozen of its own, times the condition number sqrt 6 sqrt 5.
     using test_support::rounding_error;
-    const double rounding = rounding_error(6, 1.1) * std::sqrt(5.0) / 0.1 + rounding_error(12 * std::sqrt(30.0) + 3, barycentric.norm());
+    const double rounding =
+        rounding_error(6, 1.1) * std::sqrt(5.0) / 0.1 + rounding_error(12 * std::sqrt(30.0) + 3, barycentric.norm());
     for (int t = 0; t < bar.tets.rows(); ++t) {
         const Location found = where.locate(point_in(bar, t, barycentric));
         EXPECT_EQ(found.tet, t);
@@ -238,7 +248,8 @@ TEST(PointLocation, PointsOnVerticesEdgesAndFacesGoToTheLowestTet)
 {
     const PointLocation where(bar);
     for (int t = 0; t < bar.tets.rows(); t += 7)
-        for (const Vec3& barycentric : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 0.5, 0), Vec3(0.25, 0, 0.25), Vec3(0.2, 0.3, 0.5)}) {
+        for (const Vec3& barycentric :
+             {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 0.5, 0), Vec3(0.25, 0, 0.25), Vec3(0.2, 0.3, 0.5)}) {
             const Vec3 point = point_in(bar, t, barycentric);
             EXPECT_EQ(where.locate(point).tet, first_tet_by_search(bar, point));
         }
@@ -257,8 +268,8 @@ TEST(PointLocation, PointsFarOutsideOrNotANumberAreInNoTet)
     EXPECT_EQ(in_one_tet.locate({0.4, 0.4, 0.4}).tet, -1);
 }
 
-// Reference: the definition of a division: every tet in one region, each region connected over faces, sizes between half of the wanted size
-// and what the merging of small rests allows; volumes of surfaces by the divergence theorem.
+// Reference: the definition of a division: every tet in one region, each region connected over faces, sizes between
+// half of the wanted size and what the merging of small rests allows; volumes of surfaces by the divergence theorem.
 
 const pbs::TetMesh divided_bar = test_support::structured_bar({0, 0, 0}, {4, 1, 1}, {8, 3, 3});  // 432 tets
 
@@ -285,13 +296,15 @@ TEST(TetRegions, DivideTheMeshIntoConnectedRegionsOfAboutTheWantedSize)
             EXPECT_GE(2 * own.rows(), size) << size;
             EXPECT_EQ(pbs::topology_of(own, divided_bar.rest.rows()).components, 1) << size << ' ' << r;
         }
-        EXPECT_GE(regions_in(region), divided_bar.tets.rows() / (2 * size)) << "rests may at most double the mean size here";
+        EXPECT_GE(regions_in(region), divided_bar.tets.rows() / (2 * size))
+            << "rests may at most double the mean size here";
     }
 }
 
 TEST(TetRegions, OneTetOrAllOfThemAndAPartOfItsOwn)
 {
-    const std::vector<int> single = pbs::tet_regions(divided_bar.tets, 1), whole = pbs::tet_regions(divided_bar.tets, 1000000);
+    const std::vector<int> single = pbs::tet_regions(divided_bar.tets, 1),
+                           whole = pbs::tet_regions(divided_bar.tets, 1000000);
     EXPECT_EQ(regions_in(single), divided_bar.tets.rows());
     EXPECT_EQ(regions_in(whole), 1);
     EXPECT_TRUE(pbs::tet_regions(pbs::Tets(0, 4), 8).empty());
@@ -309,7 +322,8 @@ TEST(TetRegions, SurfacesEncloseTheVolumesOfTheirTets)
         const double enclosed = test_support::enclosed_volume(divided_bar.rest, surfaces[r]);
         const pbs::Tets own = tets_in(divided_bar.tets, region, int(r));
         // Triangles with coordinates of up to 4 m, a dozen roundings each, and their sum.
-        EXPECT_NEAR(enclosed, pbs::tet_volumes(divided_bar.rest, own).sum(), test_support::rounding_error(200.0 * (12 + 200), 4.0 / 6.0));
+        EXPECT_NEAR(enclosed, pbs::tet_volumes(divided_bar.rest, own).sum(),
+                    test_support::rounding_error(200.0 * (12 + 200), 4.0 / 6.0));
     }
 }
 

@@ -36,7 +36,8 @@ TEST(AsUtf8, LeavesOutTheByteOrderMarkAndConvertsUtf16)
     EXPECT_EQ(pbs::as_utf8(std::string("\xFF\xFEv\0 \0\x31\0", 8)), "v 1");
     EXPECT_EQ(pbs::as_utf8(std::string("\xFE\xFF\0v\0 \0\x31", 8)), "v 1");
     // U+00E9, U+20AC and U+1D11E: two, three and four bytes
-    EXPECT_EQ(pbs::as_utf8(std::string("\xFF\xFE\xE9\0\xAC\x20\x34\xD8\x1E\xDD", 10)), "\xC3\xA9\xE2\x82\xAC\xF0\x9D\x84\x9E");
+    EXPECT_EQ(pbs::as_utf8(std::string("\xFF\xFE\xE9\0\xAC\x20\x34\xD8\x1E\xDD", 10)),
+              "\xC3\xA9\xE2\x82\xAC\xF0\x9D\x84\x9E");
     for (const std::string text : {"", "v 1", "\xC3\xA9", "\xFF"}) EXPECT_EQ(pbs::as_utf8(text), text);
 }
 

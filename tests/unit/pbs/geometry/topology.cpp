@@ -44,7 +44,8 @@ TEST(Boundary, OfOneTetIsItsFourFacesOutward)
     const Triangles boundary = pbs::boundary_of(one_tet);
     ASSERT_EQ(boundary.rows(), 4);
     const pbs::Positions point = test_support::unit_tet().rest;
-    for (const auto& f : boundary.rowwise())  // the tet from a face to an inner point is negative if the face points outward
+    // the tet from a face to an inner point is negative if the face points outward
+    for (const auto& f : boundary.rowwise())
         EXPECT_LT(pbs::tet_volume(point.row(f(0)), point.row(f(1)), point.row(f(2)), {0.25, 0.25, 0.25}), 0.0);
 }
 
@@ -52,7 +53,8 @@ TEST(Boundary, EnclosesTheVolumeOfTheBar)
 {
     const pbs::TetMesh bar = test_support::structured_bar({1, 2, 3}, {3, 3, 4}, {4, 2, 2});
     const Triangles boundary = pbs::boundary_of(bar.tets);
-    EXPECT_EQ(test_support::enclosed_volume(bar.rest, boundary), 2.0);  // exact, since all coordinates are small multiples of 1/2
+    // exact, since all coordinates are small multiples of 1/2
+    EXPECT_EQ(test_support::enclosed_volume(bar.rest, boundary), 2.0);
     EXPECT_EQ(boundary.rows(), 2 * 2 * (4 * 2 + 4 * 2 + 2 * 2));
 }
 
@@ -74,7 +76,9 @@ TEST(Topology, OfBodiesThatAreCountedByHand)
     const CountedBody bodies[] = {
         {"a ball", test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {4, 3, 2}), {true, 1, 2, 1}},
         {"a handle", carved_box({3, 3, 1}, [](int i, int j, int) { return i != 1 || j != 1; }), {true, 1, 0, 1}},
-        {"a void", carved_box({3, 3, 3}, [](int i, int j, int k) { return i != 1 || j != 1 || k != 1; }), {true, 2, 4, 1}},
+        {"a void",
+         carved_box({3, 3, 3}, [](int i, int j, int k) { return i != 1 || j != 1 || k != 1; }),
+         {true, 2, 4, 1}},
         {"two bodies", carved_box({3, 1, 1}, [](int i, int, int) { return i != 1; }), {true, 2, 4, 2}},
     };
     for (const auto& [name, mesh, expected] : bodies) {
@@ -130,7 +134,8 @@ TEST(ClosedTriangles, AreWatertightOrOpenAtTheirFirstEdge)
         std::optional<std::pair<int, int>> open_edge;
     };
     for (const auto& [name, triangles, closed, watertight, edge] :
-         {Case{"a tet", tet, true, true, {}}, Case{"tets that touch in an edge", together(tet, faces_of(0, 1, 4, 5)), true, false, {}},
+         {Case{"a tet", tet, true, true, {}},
+          Case{"tets that touch in an edge", together(tet, faces_of(0, 1, 4, 5)), true, false, {}},
           Case{"a hole", tet.topRows(3), false, false, {{0, 1}}},
           Case{"a fin", together(tet, Triangles{{0, 1, 4}}), false, false, {{0, 1}}},
           Case{"a turned triangle", turned, false, false, {{1, 2}}}, Case{"none", Triangles(0, 3), false, false, {}}}) {
@@ -165,7 +170,8 @@ pbs::TetMesh two_bars()
 TEST(Parts, AreNumberedInTheOrderOfTheirFirstTets)
 {
     EXPECT_TRUE(pbs::parts_of(Tets(0, 4)).empty());
-    EXPECT_EQ(pbs::parts_of(test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {3, 2, 2}).tets), std::vector<int>(72, 0));
+    EXPECT_EQ(pbs::parts_of(test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {3, 2, 2}).tets),
+              std::vector<int>(72, 0));
     EXPECT_EQ(pbs::parts_of(two_bars().tets), (std::vector<int>{0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1}));
 }
 
@@ -205,8 +211,9 @@ TEST(KeptTets, HaveTheVerticesThatTheyUseInTheirOrder)
 
 constexpr double degree = 180.0 / std::numbers::pi;
 
-// Angles of tets whose coordinates are whole numbers: normals are exact; their norm, the angle, two conversions and pi are rounded. Those
-// of comparison go through seven roundings: a root and a quotient in the cosine, the angle, the conversion and pi.
+// Angles of tets whose coordinates are whole numbers: normals are exact; their norm, the angle, two conversions and pi
+// are rounded. Those of comparison go through seven roundings: a root and a quotient in the cosine, the angle, the
+// conversion and pi.
 constexpr double of_angles_deg = test_support::rounding_error(5 + 7, 90.0);
 
 TEST(DihedralAngles, OfARegularTetAreAcosOfAThirdAndOfTheUnitCornerRightOnTheAxes)
@@ -214,14 +221,16 @@ TEST(DihedralAngles, OfARegularTetAreAcosOfAThirdAndOfTheUnitCornerRightOnTheAxe
     for (const double angle_deg : pbs::dihedral_angles_deg({1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}))
         EXPECT_NEAR(angle_deg, std::acos(1.0 / 3.0) * degree, of_angles_deg);
     const auto angles_deg = pbs::dihedral_angles_deg({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
-    for (int e = 0; e < 6; ++e) EXPECT_NEAR(angles_deg[e], e < 3 ? 90.0 : std::acos(1.0 / std::sqrt(3.0)) * degree, of_angles_deg);
+    for (int e = 0; e < 6; ++e)
+        EXPECT_NEAR(angles_deg[e], e < 3 ? 90.0 : std::acos(1.0 / std::sqrt(3.0)) * degree, of_angles_deg);
 }
 
 TEST(DihedralAngles, OfAFlatTetAreZeroOr180AndOfACollapsedOneZero)
 {
     for (const double angle_deg : pbs::dihedral_angles_deg({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}))
         EXPECT_TRUE(angle_deg == 0.0 || angle_deg == 180.0) << angle_deg;
-    for (const double angle_deg : pbs::dihedral_angles_deg({1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3})) EXPECT_EQ(angle_deg, 0.0);
+    for (const double angle_deg : pbs::dihedral_angles_deg({1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}))
+        EXPECT_EQ(angle_deg, 0.0);
 }
 
 TEST(Quality, OfAKuhnSplitBar)
@@ -238,7 +247,8 @@ TEST(Quality, OfAKuhnSplitBar)
     EXPECT_DOUBLE_EQ(quality.shortest_edge_m, 1.0);
     EXPECT_DOUBLE_EQ(quality.longest_edge_m, std::sqrt(3.0));
     EXPECT_TRUE(quality.topology.boundary_manifold);
-    EXPECT_NE(pbs::describe(quality).find("boundary manifold, 1 component(s), Euler characteristic 2"), std::string::npos);
+    EXPECT_NE(pbs::describe(quality).find("boundary manifold, 1 component(s), Euler characteristic 2"),
+              std::string::npos);
 }
 
 TEST(Quality, OfNothingIsZeros)

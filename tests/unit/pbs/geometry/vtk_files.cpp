@@ -35,9 +35,10 @@ std::string vtu(const std::string& types, const std::string& data = "")
     return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
            "header_type=\"UInt64\">\n"
            "<UnstructuredGrid><Piece NumberOfPoints=\"4\" NumberOfCells=\"" +
-           std::to_string(cells) + "\">\n<Points>" + array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", points) +
-           "</Points>\n<Cells>" + array("type=\"Int64\" Name=\"connectivity\"", corners) +
-           array("type=\"Int64\" Name=\"offsets\"", offsets) + array("type=\"UInt8\" Name=\"types\"", types) + "</Cells>\n" + data +
+           std::to_string(cells) + "\">\n<Points>" +
+           array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", points) + "</Points>\n<Cells>" +
+           array("type=\"Int64\" Name=\"connectivity\"", corners) + array("type=\"Int64\" Name=\"offsets\"", offsets) +
+           array("type=\"UInt8\" Name=\"types\"", types) + "</Cells>\n" + data +
            "</Piece></UnstructuredGrid></VTKFile>\n";
 }
 
@@ -53,30 +54,36 @@ TEST_F(VtkFiles, CallTetsOfFourNodesByAnyOfTheirNames)
     for (const char* type : {"10", "71", "78"}) expect_unit_tet(folder.file("a.vtu", vtu(type)));
     expect_unit_tet(folder.file("a.vtu", vtu("9 10 70")));  // a quadrangle and one of Lagrange's beside it
     const std::string path = folder.file("a.vtu", vtu("13"));
-    expect_input_error([&] { pbs::read_tet_mesh(path); }, path + ": cell 0 = vtkWedge: ", "expected four-node tetrahedra");
+    expect_input_error([&] { pbs::read_tet_mesh(path); },
+                       path + ": cell 0 = vtkWedge: ", "expected four-node tetrahedra");
 }
 
 TEST_F(VtkFiles, MayHaveNumbersThatAreNoneInArraysThatNoMetricNeeds)
 {
+    expect_unit_tet(folder.file(
+        "a.vtu", vtu("10", "<PointData>" + array("type=\"Float64\" Name=\"p\"", "0 1 nan nan") + "</PointData>\n")));
+    const std::string legacy = "# vtk DataFile Version 3.0\ntet\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n" +
+                               points + "\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
     expect_unit_tet(
-        folder.file("a.vtu", vtu("10", "<PointData>" + array("type=\"Float64\" Name=\"p\"", "0 1 nan nan") + "</PointData>\n")));
-    const std::string legacy = "# vtk DataFile Version 3.0\ntet\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n" + points +
-                               "\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
-    expect_unit_tet(folder.file("a.vtk", legacy + "POINT_DATA 4\nSCALARS p double\nLOOKUP_TABLE default\n0 nan inf 1\n"));
+        folder.file("a.vtk", legacy + "POINT_DATA 4\nSCALARS p double\nLOOKUP_TABLE default\n0 nan inf 1\n"));
     expect_unit_tet(folder.file("a.vtk", legacy + "CELL_DATA 1\nSCALARS p double\nLOOKUP_TABLE default\nnan\n"));
 }
 
 TEST_F(VtkFiles, OfSeveralPiecesAreReadWithoutTheCellsThatPiecesShare)
 {
     const std::string ghosts = array("type=\"UInt8\" Name=\"vtkGhostType\"", "1");
-    folder.file("own.vtu", vtu("10", "<CellData>" + array("type=\"UInt8\" Name=\"vtkGhostType\"", "0") + "</CellData>\n"));
+    folder.file("own.vtu",
+                vtu("10", "<CellData>" + array("type=\"UInt8\" Name=\"vtkGhostType\"", "0") + "</CellData>\n"));
     folder.file("shared.vtu", vtu("10", "<CellData>" + ghosts + "</CellData>\n"));
     const auto pvtu = [&](const std::string& pieces) {
-        return folder.file("a.pvtu",
-                           "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-                           "<PUnstructuredGrid GhostLevel=\"1\"><PCellData><PDataArray type=\"UInt8\" Name=\"vtkGhostType\"/></PCellData>"
-                           "<PPoints><PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/></PPoints>" +
-                               pieces + "</PUnstructuredGrid></VTKFile>\n");
+        return folder.file(
+            "a.pvtu",
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
+            "byte_order=\"LittleEndian\">\n"
+            "<PUnstructuredGrid GhostLevel=\"1\"><PCellData><PDataArray type=\"UInt8\" "
+            "Name=\"vtkGhostType\"/></PCellData>"
+            "<PPoints><PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/></PPoints>" +
+                pieces + "</PUnstructuredGrid></VTKFile>\n");
     };
     expect_unit_tet(pvtu("<Piece Source=\"own.vtu\"/>"));
     expect_unit_tet(pvtu("<Piece Source=\"own.vtu\"/><Piece Source=\"shared.vtu\"/>"));
@@ -92,9 +99,10 @@ TEST_F(VtkFiles, OfCollectionsAreListedByTime)
     expect_input_error([&] { pbs::read_tet_frame(path); }, path + ": ", ".pvd");
     pbs::write_pvd(path, {{1.0, "a.vtu"}, {1.0, "b.vtu"}});
     expect_input_error([&] { pbs::read_pvd(path); }, path + ": timestep = 1: ", "expected one file for each");
-    folder.file("a.pvd",
-                "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"1\" file=\"a.vtu\"/><DataSet file=\"b.vtu\"/>"
-                "</Collection></VTKFile>");
+    folder.file(
+        "a.pvd",
+        "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"1\" file=\"a.vtu\"/><DataSet file=\"b.vtu\"/>"
+        "</Collection></VTKFile>");
     expect_input_error([&] { pbs::read_pvd(path); }, path + ": timestep = 1: ", "expected one file for each");
     folder.file("a.pvd", "<VTKFile type=\"UnstructuredGrid\"/>");
     expect_input_error([&] { pbs::read_pvd(path); }, path + ": ", "expected a ParaView collection");

@@ -30,8 +30,9 @@ void expect_a_sequence(const std::vector<ConstraintGroup>& groups, int vertices)
     for (std::size_t i = 0; i < places.size(); ++i) ASSERT_EQ(places[i], static_cast<int>(i));
 }
 
-// A chain of edges has two colours: 0, 2, 4 and then 1, 3. The same tets twice share four vertices, which is a face and more. Fans 0 1 |
-// 2 3 4 and 0 1 | 5 6 7 share an edge, which does not count in groups of several tets, so that the first one stays first.
+// A chain of edges has two colours: 0, 2, 4 and then 1, 3. The same tets twice share four vertices, which is a face and
+// more. Fans 0 1 | 2 3 4 and 0 1 | 5 6 7 share an edge, which does not count in groups of several tets, so that the
+// first one stays first.
 //                   face  edge  vertex
 // A  0 1 2 3           0     0     0
 // B  0 1 4 5           0     1     1     an edge with A
@@ -57,7 +58,8 @@ TEST(ProjectionSequence, OfSmallMeshes)
         {"the same tet twice", pbs::single_tets({{0, 1, 2, 3}, {3, 2, 1, 0}}), 4, {0, 1}},
         {"two fans", {fan, other}, 8, {0, 1}},
     };
-    for (const auto& [name, groups, vertices, expected] : cases) EXPECT_EQ(projection_sequence(groups, vertices), expected) << name;
+    for (const auto& [name, groups, vertices, expected] : cases)
+        EXPECT_EQ(projection_sequence(groups, vertices), expected) << name;
 }
 
 TEST(ProjectionSequence, EveryGroupOfABarHasOnePlace)
@@ -66,8 +68,8 @@ TEST(ProjectionSequence, EveryGroupOfABarHasOnePlace)
     const int vertices = static_cast<int>(bar.rest.rows());
     const auto edges = rows_of(pbs::edges_of(bar.tets));
     const auto tets = rows_of(bar.tets);
-    for (const auto& groups :
-         {pbs::single_edges(edges), pbs::single_tets(tets), pbs::grouped_edges(edges, bar.tets), pbs::grouped_tets(tets)})
+    for (const auto& groups : {pbs::single_edges(edges), pbs::single_tets(tets), pbs::grouped_edges(edges, bar.tets),
+                               pbs::grouped_tets(tets)})
         expect_a_sequence(groups, vertices);
 }
 
@@ -108,18 +110,22 @@ double median_of_random_sequences(const TwoBoneLimb& limb, const pbs::Constraint
     return changes[2];
 }
 
-// This is the purpose of the sequence. Random sequences differ by 2 to 4 % among themselves; a sweep along the bar is behind their median.
+// This is the purpose of the sequence. Random sequences differ by 2 to 4 % among themselves; a sweep along the bar is
+// behind their median.
 TEST(ProjectionSequence, LeavesNoMoreVolumeChangeThanRandomSequences)
 {
-    for (const auto& [axis, angle_deg] : {std::pair(pbs::Vec3(pbs::Vec3::UnitX()), 150.0), {pbs::Vec3(pbs::Vec3::UnitZ()), 90.0}}) {
+    for (const auto& [axis, angle_deg] :
+         {std::pair(pbs::Vec3(pbs::Vec3::UnitX()), 150.0), {pbs::Vec3(pbs::Vec3::UnitZ()), 90.0}}) {
         const TwoBoneLimb limb = two_bone_limb({16, 4, 4}, axis, angle_deg);
-        const auto constraints = pbs::make_constraint_set<double>(limb.mesh, limb.binding.distance, {}, pbs::PbsOptions());
-        EXPECT_LE(volume_change(limb, constraints, pbs::Order::ordered), median_of_random_sequences(limb, constraints)) << angle_deg;
+        const auto constraints =
+            pbs::make_constraint_set<double>(limb.mesh, limb.binding.distance, {}, pbs::PbsOptions());
+        EXPECT_LE(volume_change(limb, constraints, pbs::Order::ordered), median_of_random_sequences(limb, constraints))
+            << angle_deg;
     }
 }
 
-// Reference: the conditions on which the kernels rely, checked for every batch: at most sixteen groups, no vertex twice, none of the
-// previous batch; and the order given, which groups that share a vertex keep.
+// Reference: the conditions on which the kernels rely, checked for every batch: at most sixteen groups, no vertex
+// twice, none of the previous batch; and the order given, which groups that share a vertex keep.
 
 using pbs::BatchScheduler;
 using Batches = std::vector<std::vector<int>>;
@@ -162,8 +168,8 @@ TEST(BatchSchedule, OfFewGroupsHasThisManyBatches)
     EXPECT_EQ(expect_sound(2, pbs::single_edges({{0, 1}, {1, 0}})).size(), 3u) << "two groups on the same vertices";
 }
 
-// Groups without common vertices fill every lane. A chain in two colours has first every other edge, then those between, and each half has
-// 200 edges in 13 batches.
+// Groups without common vertices fill every lane. A chain in two colours has first every other edge, then those
+// between, and each half has 200 edges in 13 batches.
 TEST(BatchSchedule, DisjointGroupsFillAllLanes)
 {
     std::vector<std::array<int, 2>> disjoint, by_colours;
@@ -176,13 +182,14 @@ TEST(BatchSchedule, DisjointGroupsFillAllLanes)
     EXPECT_LE(expect_sound(401, pbs::single_edges(by_colours)).size(), 2u * 13);
 }
 
-// One group per batch, with an empty batch between two: the only possible schedule. Each edge of a chain waits for the one before, and
-// pauses for one batch, which alone keeps the order.
+// One group per batch, with an empty batch between two: the only possible schedule. Each edge of a chain waits for the
+// one before, and pauses for one batch, which alone keeps the order.
 TEST(BatchSchedule, AllGroupsShareOneVertexOrAreAChain)
 {
     std::vector<std::array<int, 2>> star, chain;
     for (int i = 0; i < 40; ++i) star.push_back({0, i + 1}), chain.push_back({i, i + 1});
-    const Batches of_star = expect_sound(41, pbs::single_edges(star)), of_chain = expect_sound(41, pbs::single_edges(chain));
+    const Batches of_star = expect_sound(41, pbs::single_edges(star)),
+                  of_chain = expect_sound(41, pbs::single_edges(chain));
     ASSERT_EQ(of_star.size(), 79u);
     ASSERT_EQ(of_chain.size(), 79u);
     for (std::size_t b = 0; b < 79; ++b) {
@@ -209,8 +216,8 @@ TEST(BatchSchedule, EveryKindOfGroupOnABar)
     const int vertices = static_cast<int>(bar.rest.rows());
     const auto edges = rows_of(pbs::edges_of(bar.tets));
     std::map<pbs::GroupKind, std::vector<ConstraintGroup>> by_kind;
-    for (const auto& groups : {pbs::single_edges(edges), pbs::single_tets(rows_of(bar.tets)), pbs::grouped_edges(edges, bar.tets),
-                               pbs::grouped_tets(rows_of(bar.tets))})
+    for (const auto& groups : {pbs::single_edges(edges), pbs::single_tets(rows_of(bar.tets)),
+                               pbs::grouped_edges(edges, bar.tets), pbs::grouped_tets(rows_of(bar.tets))})
         for (const ConstraintGroup& group : groups) by_kind[group.kind].push_back(group);
     BatchScheduler scheduler(vertices);
     for (const auto& [kind, groups] : by_kind) expect_sound(scheduler, groups);

@@ -17,7 +17,8 @@ const pbs::TetMesh bar = structured_bar({0, 0, 0}, {3, 2, 2}, {3, 2, 2});
 
 TEST(ConstraintGroups, SizesOfEachKind)
 {
-    const std::vector<std::array<int, 3>> expected = {{2, 1, 2}, {3, 2, 2}, {3, 3, 2}, {4, 6, 2}, {4, 1, 4}, {5, 2, 4}, {6, 3, 4}};
+    const std::vector<std::array<int, 3>> expected = {{2, 1, 2}, {3, 2, 2}, {3, 3, 2}, {4, 6, 2},
+                                                      {4, 1, 4}, {5, 2, 4}, {6, 3, 4}};
     for (int kind = 0; kind < static_cast<int>(expected.size()); ++kind) {
         EXPECT_EQ(pbs::vertices_of(GroupKind(kind)), expected[kind][0]) << kind;
         EXPECT_EQ(pbs::constraints_of(GroupKind(kind)), expected[kind][1]) << kind;
@@ -52,8 +53,10 @@ TEST(ConstraintGroups, SinglesAreInFileOrder)
     const auto by_edge = pbs::single_edges(edges), by_tet = pbs::single_tets(tets);
     expect_each_once(by_edge, edges);
     expect_each_once(by_tet, tets);
-    for (std::size_t e = 0; e < by_edge.size(); ++e) EXPECT_EQ(joined(by_edge[e], 0), std::vector(edges[e].begin(), edges[e].end()));
-    for (std::size_t t = 0; t < by_tet.size(); ++t) EXPECT_EQ(joined(by_tet[t], 0), std::vector(tets[t].begin(), tets[t].end()));
+    for (std::size_t e = 0; e < by_edge.size(); ++e)
+        EXPECT_EQ(joined(by_edge[e], 0), std::vector(edges[e].begin(), edges[e].end()));
+    for (std::size_t t = 0; t < by_tet.size(); ++t)
+        EXPECT_EQ(joined(by_tet[t], 0), std::vector(tets[t].begin(), tets[t].end()));
     EXPECT_TRUE(pbs::single_edges({}).empty() && pbs::single_tets({}).empty());
     EXPECT_TRUE(pbs::grouped_edges({}, bar.tets).empty() && pbs::grouped_tets({}).empty());
 }
@@ -87,7 +90,8 @@ Tets tets_of(const std::vector<std::array<int, 4>>& rows)
 TEST(GroupedEdges, OfSmallMeshesAreCounted)
 {
     using enum GroupKind;
-    const Tets one = tet_ring(1, false), two = tet_ring(2, false), apart = tets_of({{0, 1, 2, 3}, {0, 1, 4, 5}, {5, 6, 7, 8}}), none(0, 4);
+    const Tets one = tet_ring(1, false), two = tet_ring(2, false),
+               apart = tets_of({{0, 1, 2, 3}, {0, 1, 4, 5}, {5, 6, 7, 8}}), none(0, 4);
     struct Case {
         const char* name;
         EdgeList edges;
@@ -96,8 +100,14 @@ TEST(GroupedEdges, OfSmallMeshesAreCounted)
     };
     const Case cases[] = {
         {"one tet is one group", edges_of_rows(one), one, {{edge_tet, 1}}},
-        {"a second tet adds three edges, all at one vertex", edges_of_rows(two), two, {{edge_tet, 1}, {edge_wedge, 1}, {edge, 1}}},
-        {"tets that share an edge or a vertex: the second lacks one edge", edges_of_rows(apart), apart, {{edge_tet, 3}}},
+        {"a second tet adds three edges, all at one vertex",
+         edges_of_rows(two),
+         two,
+         {{edge_tet, 1}, {edge_wedge, 1}, {edge, 1}}},
+        {"tets that share an edge or a vertex: the second lacks one edge",
+         edges_of_rows(apart),
+         apart,
+         {{edge_tet, 3}}},
         {"five edges of a tet", {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}}, one, {{edge_tet, 1}}},
         {"a triangle of a tet", {{1, 2}, {2, 3}, {1, 3}}, one, {{edge_triangle, 1}}},
         {"three edges at one corner", {{0, 1}, {0, 2}, {0, 3}}, one, {{edge_wedge, 1}, {edge, 1}}},
@@ -137,7 +147,8 @@ std::vector<pbs::ConstraintGroup> expect_sound(const TetList& tets)
     expect_each_once(groups, tets);
     expect_vertices_differ(groups);
     for (const pbs::ConstraintGroup& group : groups)
-        for (int c = 0; c < pbs::constraints_of(group.kind); ++c) EXPECT_GE(group.constraint[c], 0) << "a hole in a fan";
+        for (int c = 0; c < pbs::constraints_of(group.kind); ++c)
+            EXPECT_GE(group.constraint[c], 0) << "a hole in a fan";
     return groups;
 }
 
@@ -156,7 +167,9 @@ TEST(GroupedTets, OfSmallMeshesAreCounted)
         {"an open ring of 3", ring(3, false), {{tet_fan_3, 1}}},
         {"an open ring of 5", ring(5, false), {{tet_fan_3, 1}, {tet_fan_2, 1}}},
         {"an open ring of 6", ring(6, false), {{tet_fan_3, 2}}},
-        {"a closed ring of 3: a fan of three would return to its first vertex", ring(3, true), {{tet_fan_2, 1}, {tet, 1}}},
+        {"a closed ring of 3: a fan of three would return to its first vertex",
+         ring(3, true),
+         {{tet_fan_2, 1}, {tet, 1}}},
         {"a closed ring of 4", ring(4, true), {{tet_fan_3, 1}, {tet, 1}}},
         {"a closed ring of 6", ring(6, true), {{tet_fan_3, 2}}},
         {"tets that share no face are alone", {{0, 1, 2, 3}, {0, 1, 4, 5}, {5, 6, 7, 8}, {9, 10, 11, 12}}, {{tet, 4}}},
@@ -178,7 +191,8 @@ TEST(ConstraintGroups, OfRingsAndOfManyTetsOnOneFaceInAnyNumberingAreSound)
         for (const bool closed : {false, true}) {
             if (closed && count == 2) continue;
             meshes.push_back(tet_ring(count, closed));
-            for (unsigned seed = 0; seed < 10; ++seed) meshes.push_back(shuffled(tet_ring(count, closed), count + 3, seed));
+            for (unsigned seed = 0; seed < 10; ++seed)
+                meshes.push_back(shuffled(tet_ring(count, closed), count + 3, seed));
         }
     for (const Tets& tets : meshes) expect_sound(rows_of(tets)), expect_sound(edges_of_rows(tets), tets);
 }

@@ -66,7 +66,8 @@ TEST_P(ParallelTasks, WhatOneThrowsReachesTheCallerAndTheNextOnesRun)
     EXPECT_EQ(runs_of_each(parallel_, 10), std::vector<int>(10, 1));
 }
 
-// A task of the caller's thread waits until a worker has taken one, however busy the machine is. That thread goes on taking the signal.
+// A task of the caller's thread waits until a worker has taken one, however busy the machine is. That thread goes on
+// taking the signal.
 TEST_P(ParallelTasks, AreSharedWithWorkersThatTakeNoSigterm)
 {
     const std::thread::id caller = std::this_thread::get_id();

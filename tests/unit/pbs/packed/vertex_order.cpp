@@ -1,5 +1,6 @@
-// Reference: the condition on which threads rely. A group of constraints contains at most one vertex and all its neighbours, so slabs of
-// one parity share nothing if no such star extends beyond the slab of its first vertex and the next one.
+// Reference: the condition on which threads rely. A group of constraints contains at most one vertex and all its
+// neighbours, so slabs of one parity share nothing if no such star extends beyond the slab of its first vertex and the
+// next one.
 
 #include "pbs/geometry/topology.hpp"
 #include "pbs/packed/vertex_order.hpp"
@@ -36,7 +37,10 @@ void expect_slab_sizes(const VertexOrder& order, int vertices, int vertices_a_sl
     for (int slab = 0; order.slabs() > 1 && slab < order.slabs(); ++slab) {
         const int size = order.slab_begin[slab + 1] - order.slab_begin[slab];
         const bool is_first = slab == 0, is_last = slab + 1 == order.slabs();
-        EXPECT_GE(size, is_last ? vertices_a_slab / 3 : is_first ? vertices_a_slab / 2 : vertices_a_slab) << "slab " << slab;
+        EXPECT_GE(size, is_last    ? vertices_a_slab / 3
+                        : is_first ? vertices_a_slab / 2
+                                   : vertices_a_slab)
+            << "slab " << slab;
     }
 }
 
@@ -71,7 +75,8 @@ TEST(VertexOrder, IsSoundForSlabsOfManySizes)
 {
     const Tets two = beside(bar.tets, bar_vertices, shuffled(bar.tets, bar_vertices, 9));
     const Tets three = beside(two, 2 * bar_vertices, tet_ring(5, true)), after = (bar.tets.array() + 7).matrix();
-    Tets apart(0, 4);  // each with a level of one vertex and one of three: the end of one and the start of the next share slabs
+    // each with a level of one vertex and one of three: the end of one and the start of the next share slabs
+    Tets apart(0, 4);
     for (int t = 0; t < 20; ++t) apart = beside(apart, 4 * t, tet_ring(1, false));
     struct Case {
         const char* name;
@@ -87,7 +92,10 @@ TEST(VertexOrder, IsSoundForSlabsOfManySizes)
         {"unused vertices behind", bar.tets, bar_vertices + 7, {1, 3, 100}},
         {"unused vertices before and behind", after, bar_vertices + 14, {1, 3, 100}},
         {"three components", three, 2 * bar_vertices + 7, {1, 2, 5, 100}},
-        {"three components in any numbering", shuffled(three, 2 * bar_vertices + 7, 10), 2 * bar_vertices + 7, {1, 2, 5, 100}},
+        {"three components in any numbering",
+         shuffled(three, 2 * bar_vertices + 7, 10),
+         2 * bar_vertices + 7,
+         {1, 2, 5, 100}},
         {"many small components", apart, 80, {1, 4, 7}},
     };
     for (const auto& [name, tets, vertices, sizes] : cases)
@@ -148,7 +156,8 @@ TEST(VertexColours, NoTwoVerticesOfATetHaveOneColour)
 {
     const pbs::TetMesh bar = test_support::structured_bar({-1, -1, -1}, {1, 1, 1}, {5, 4, 3});
     expect_colouring(bar.tets, static_cast<int>(bar.rest.rows()));
-    expect_colouring(test_support::shuffled(bar.tets, static_cast<int>(bar.rest.rows()), 5), static_cast<int>(bar.rest.rows()));
+    expect_colouring(test_support::shuffled(bar.tets, static_cast<int>(bar.rest.rows()), 5),
+                     static_cast<int>(bar.rest.rows()));
     expect_colouring(test_support::tet_ring(7, true), 9);
 }
 

@@ -1,5 +1,5 @@
-// Reference: the rule for the weights of glTF files (finite, 0 or more), on the four weights of an arm, each of which a point uses. What
-// else is changed in a document is tested with the rig that is made of it.
+// Reference: the rule for the weights of glTF files (finite, 0 or more), on the four weights of an arm, each of which a
+// point uses. What else is changed in a document is tested with the rig that is made of it.
 
 #include "pbs/rig/collada_document.hpp"
 #include "pbs/rig/rig_reader.hpp"
@@ -34,8 +34,9 @@ void expect_refused(const std::string& text, const std::string& field_and_value)
 {
     const ScratchFolder folder;
     const std::string path = folder.file("arm.dae", text);
-    expect_input_error([&] { pbs::read_collada_document(path); },
-                       path + ": controller skin, weight of point " + field_and_value + ": expected a finite number of 0 or more", "");
+    expect_input_error(
+        [&] { pbs::read_collada_document(path); },
+        path + ": controller skin, weight of point " + field_and_value + ": expected a finite number of 0 or more", "");
 }
 
 TEST(ColladaDocument, ThatAssimpReadsRightIsLeftAsItIs)
@@ -62,10 +63,12 @@ TEST(ColladaWeights, OfZeroOrMoreAndThoseThatNoPointUsesAreAccepted)
     for (const char* weight : {"0.75", "+0.75", "0", "-0", "7.5E-1", "1e-400", "3", "0.75 -1"})
         expect_accepted(arm_with_weights("1 0.5 0.25 " + std::string(weight)));
     std::string text = arm_with_weights("1 0.5 0.25 -0.75");
-    expect_accepted(text.replace(text.find("url=\"#skin\""), 11, "url=\"#none\""));  // the controller is not part of the scene
+    // the controller is not part of the scene
+    expect_accepted(text.replace(text.find("url=\"#skin\""), 11, "url=\"#none\""));
     // What is no XML or no archive is left to the reader.
-    for (const std::string& other : {std::string("<COLLADA><library_controllers>"),
-                                     arm_of_weights_with("1 2 1 2</vcount>", "1 2 99 2</vcount>"), std::string("PK\x03\x04 nothing")})
+    for (const std::string& other :
+         {std::string("<COLLADA><library_controllers>"), arm_of_weights_with("1 2 1 2</vcount>", "1 2 99 2</vcount>"),
+          std::string("PK\x03\x04 nothing")})
         expect_accepted(other);
 }
 
@@ -89,7 +92,8 @@ TEST(ColladaGeometries, OfOneIdAreRefused)
     const std::size_t begin = text.find("<geometry "), end = text.find("</geometry>") + 11;
     text.insert(end, text.substr(begin, end - begin));
     const std::string path = folder.file("arm.dae", text);
-    expect_input_error([&] { pbs::read_collada_document(path); }, path + ": geometry = arm: ", "expected one id per geometry");
+    expect_input_error([&] { pbs::read_collada_document(path); },
+                       path + ": geometry = arm: ", "expected one id per geometry");
 }
 
 // Points near the origin replace those of a geometry that is far from it.
@@ -98,10 +102,12 @@ TEST(ColladaFarFromTheOrigin, IsLeftAsItIsWhereAWordIsNoNumber)
     const ScratchFolder folder;
     const auto text_of_arm_that_ends_at = [&](const std::string& word) {
         const std::string far = "1e7 0 0 1e7 2 0 1e7 4 0 1e7 2 " + word;
-        return pbs::read_collada_document(folder.file("arm.dae", arm_of_weights_with("1 0 0 1 2 0 1 4 0 2 2 0", far))).text;
+        return pbs::read_collada_document(folder.file("arm.dae", arm_of_weights_with("1 0 0 1 2 0 1 4 0 2 2 0", far)))
+            .text;
     };
     EXPECT_FALSE(text_of_arm_that_ends_at("1.5").empty());
-    for (const std::string word : {"1,5", "1.5abc", "1.5-2", "half"}) EXPECT_TRUE(text_of_arm_that_ends_at(word).empty()) << word;
+    for (const std::string word : {"1,5", "1.5abc", "1.5-2", "half"})
+        EXPECT_TRUE(text_of_arm_that_ends_at(word).empty()) << word;
 }
 
 void write_archive(const std::string& path, const std::vector<std::string>& texts)
@@ -110,7 +116,8 @@ void write_archive(const std::string& path, const std::vector<std::string>& text
     ASSERT_TRUE(archive);
     for (std::size_t i = 0; i < texts.size(); ++i) {
         const std::string name = std::to_string(i) + ".dae";
-        zipOpenNewFileInZip(archive, name.c_str(), nullptr, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED, Z_DEFAULT_COMPRESSION);
+        zipOpenNewFileInZip(archive, name.c_str(), nullptr, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED,
+                            Z_DEFAULT_COMPRESSION);
         zipWriteInFileInZip(archive, texts[i].data(), static_cast<unsigned>(texts[i].size()));
         zipCloseFileInZip(archive);
     }
@@ -122,7 +129,8 @@ TEST(ColladaWeights, OfAnArchiveAreChecked)
     const ScratchFolder folder;
     const std::string path = folder / "arm.zae";
     write_archive(path, {arm_with_weights("1 0.5 0.25 -0.75")});
-    expect_input_error([&] { pbs::read_collada_document(path); }, path + ": controller skin, weight of point 3 = -0.75: ", "");
+    expect_input_error([&] { pbs::read_collada_document(path); },
+                       path + ": controller skin, weight of point 3 = -0.75: ", "");
 }
 
 TEST(ColladaArchive, IsReadAsTheOneDocumentThatItHas)
@@ -135,12 +143,14 @@ TEST(ColladaArchive, IsReadAsTheOneDocumentThatItHas)
     EXPECT_EQ(document.text, pbs::read_collada_document(folder.file("arm.dae", stepped)).text);
     const pbs::Rig rig = pbs::read_rig(path);
     const auto elbow = std::ranges::find(rig.nodes, "elbow", &pbs::RigNode::name) - rig.nodes.begin();
-    for (const auto& [time_s, cosine] : {std::pair(0.9, 1.0), std::pair(1.0, 0.0)}) {  // it turns by 90 degrees at the second key
+    // it turns by 90 degrees at the second key
+    for (const auto& [time_s, cosine] : {std::pair(0.9, 1.0), std::pair(1.0, 0.0)}) {
         const auto nodes = pbs::node_transforms(rig, &rig.animations.at(0), time_s);
         EXPECT_NEAR(nodes.at(static_cast<std::size_t>(elbow)).linear().col(0).normalized().x(), cosine, 1e-6) << time_s;
     }
     write_archive(path, {stepped, test_support::collada_arm()});
-    expect_input_error([&] { pbs::read_collada_document(path); }, path + ": documents = 2: ", "unpack it, and use the .dae");
+    expect_input_error([&] { pbs::read_collada_document(path); },
+                       path + ": documents = 2: ", "unpack it, and use the .dae");
 }
 
 }  // namespace

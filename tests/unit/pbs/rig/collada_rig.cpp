@@ -1,5 +1,5 @@
-// Reference: an arm of two joints whose skinned points are computed by hand, as COLLADA, and as FBX with the same content. assimp computes
-// in single precision: at most 64 roundings of numbers of at most 8 of the files' units.
+// Reference: an arm of two joints whose skinned points are computed by hand, as COLLADA, and as FBX with the same
+// content. assimp computes in single precision: at most 64 roundings of numbers of at most 8 of the files' units.
 
 #include "pbs/rig/rig_formats.hpp"
 #include "pbs/rig/rig_reader.hpp"
@@ -46,7 +46,8 @@ void expect_arm(const Rig& rig, double time_s, const Positions& expected_cm)
         Eigen::Index found = 0;
         const double distance = (bound.rowwise() - 0.01 * places_cm.row(p)).rowwise().norm().minCoeff(&found);
         EXPECT_LE(distance, assimp_rounding_m) << "at rest, point " << p;
-        EXPECT_LE((posed.row(found) - 0.01 * expected_cm.row(p)).norm(), assimp_rounding_m) << "at " << time_s << " s, point " << p;
+        EXPECT_LE((posed.row(found) - 0.01 * expected_cm.row(p)).norm(), assimp_rounding_m)
+            << "at " << time_s << " s, point " << p;
     }
 }
 
@@ -69,7 +70,8 @@ TEST(ColladaRig, AnArmAsColladaAndFbx)
 {
     const Rig collada = rig_in("arm.dae", test_support::collada_arm());
     expect_bent_arm(collada);
-    EXPECT_FALSE(collada.nodes[std::size_t(node_named(collada, "elbow"))].rest.matrix) << "an animation replaces the matrix of its node";
+    EXPECT_FALSE(collada.nodes[std::size_t(node_named(collada, "elbow"))].rest.matrix)
+        << "an animation replaces the matrix of its node";
     EXPECT_TRUE(collada.nodes[std::size_t(node_named(collada, "root"))].rest.matrix);
     expect_bent_arm(rig_in("arm.dae", test_support::collada_arm(2)));  // the bind shape matrix moves the points first
     const Rig rig = rig_in("arm.fbx", test_support::fbx_arm());
@@ -105,7 +107,8 @@ double elbow_deg(const Rig& rig, double time_s)
     return std::atan2(-arm.x(), arm.y()) * 180.0 / M_PI;
 }
 
-constexpr double angle_rounding_deg = 1e-3;  // single precision of numbers with a magnitude of 90, and 1e-6 of their range
+constexpr double angle_rounding_deg =
+    1e-3;  // single precision of numbers with a magnitude of 90, and 1e-6 of their range
 
 TEST(ColladaRig, HasSteppedCurves)
 {
@@ -125,32 +128,38 @@ std::string tangents(const std::string& id, const std::string& numbers)
 TEST(ColladaRig, HasBezierCurves)
 {
     std::string text = arm_with("LINEAR LINEAR", "BEZIER BEZIER");
-    text = replaced(text, "<sampler id", tangents("in", "-0.2 0 0.6 70") + tangents("out", "0.8 -10 1.3 90") + "<sampler id");
+    text = replaced(text, "<sampler id",
+                    tangents("in", "-0.2 0 0.6 70") + tangents("out", "0.8 -10 1.3 90") + "<sampler id");
     text = replaced(text, "<input semantic=\"INTERPOLATION\"",
                     "<input semantic=\"IN_TANGENT\" source=\"#in\"/><input semantic=\"OUT_TANGENT\" source=\"#out\"/>"
                     "<input semantic=\"INTERPOLATION\"");
     const Rig rig = rig_in("arm.dae", text);
     for (double t = 0.0; t <= 1.0; t += 0.125) {
         const double u = 1.0 - t, time_s = 3 * u * u * t * 0.8 + 3 * u * t * t * 0.6 + t * t * t;
-        EXPECT_NEAR(elbow_deg(rig, time_s), 3 * u * u * t * -10 + 3 * u * t * t * 70 + t * t * t * 90, angle_rounding_deg) << t;
+        EXPECT_NEAR(elbow_deg(rig, time_s), 3 * u * u * t * -10 + 3 * u * t * t * 70 + t * t * t * 90,
+                    angle_rounding_deg)
+            << t;
     }
 }
 
-// Two angles from 0 to 90 degrees: at half of the time the forearm turns by 45 degrees about x and then about z, whereas the shortest way
-// from the first key to the second one turns about the axis (1, 1, 1).
+// Two angles from 0 to 90 degrees: at half of the time the forearm turns by 45 degrees about x and then about z,
+// whereas the shortest way from the first key to the second one turns about the axis (1, 1, 1).
 TEST(ColladaRig, InterpolatesEachAngle)
 {
-    std::string text =
-        arm_with("<rotate sid=\"turn\">0 0 1 0</rotate>", "<rotate sid=\"turn\">0 0 1 0</rotate><rotate sid=\"lift\">1 0 0 0</rotate>");
+    std::string text = arm_with("<rotate sid=\"turn\">0 0 1 0</rotate>",
+                                "<rotate sid=\"turn\">0 0 1 0</rotate><rotate sid=\"lift\">1 0 0 0</rotate>");
     text = replaced(text, "</animation>",
-                    "<sampler id=\"second\"><input semantic=\"INPUT\" source=\"#times\"/><input semantic=\"OUTPUT\" source=\"#angles\"/>"
+                    "<sampler id=\"second\"><input semantic=\"INPUT\" source=\"#times\"/><input semantic=\"OUTPUT\" "
+                    "source=\"#angles\"/>"
                     "<input semantic=\"INTERPOLATION\" source=\"#kinds\"/></sampler><channel source=\"#second\" "
                     "target=\"elbow/lift.ANGLE\"/></animation>");
     const Rig rig = rig_in("arm.dae", text);
-    const Eigen::Matrix3d elbow = node_transforms(rig, find_animation(rig, ""), 0.5)[std::size_t(node_named(rig, "elbow"))].linear();
+    const Eigen::Matrix3d elbow =
+        node_transforms(rig, find_animation(rig, ""), 0.5)[std::size_t(node_named(rig, "elbow"))].linear();
     const double h = 0.5, s = std::sqrt(0.5);
     const Eigen::Matrix3d expected = (Eigen::Matrix3d() << s, -h, h, s, h, -h, 0, s, s).finished();
-    EXPECT_LE((elbow / std::cbrt(elbow.determinant()) - expected).cwiseAbs().maxCoeff(), 3e-5) << "half a degree, squared, over 8, twice";
+    EXPECT_LE((elbow / std::cbrt(elbow.determinant()) - expected).cwiseAbs().maxCoeff(), 3e-5)
+        << "half a degree, squared, over 8, twice";
 }
 
 void expect_collada_refused(const std::string& text, const std::string& field, const std::string& rule)
@@ -162,9 +171,12 @@ void expect_collada_refused(const std::string& text, const std::string& field, c
 
 TEST(ColladaRig, RefusesCurvesOfOtherKindsByName)
 {
-    expect_collada_refused(arm_with("LINEAR LINEAR", "HERMITE HERMITE"), "animation bend, INTERPOLATION = HERMITE", "export glTF 2.0");
-    expect_collada_refused(arm_with("LINEAR LINEAR", "STEP"), "animation bend, INTERPOLATION = 1", "expected as many times");
-    expect_collada_refused(arm_with("LINEAR LINEAR", "BEZIER BEZIER"), "animation bend, IN_TANGENT", "expected a time and a value");
+    expect_collada_refused(arm_with("LINEAR LINEAR", "HERMITE HERMITE"), "animation bend, INTERPOLATION = HERMITE",
+                           "export glTF 2.0");
+    expect_collada_refused(arm_with("LINEAR LINEAR", "STEP"), "animation bend, INTERPOLATION = 1",
+                           "expected as many times");
+    expect_collada_refused(arm_with("LINEAR LINEAR", "BEZIER BEZIER"), "animation bend, IN_TANGENT",
+                           "expected a time and a value");
 }
 
 TEST(ColladaRig, KeepsPointsOfTheBindShapeInPlace)
@@ -172,7 +184,8 @@ TEST(ColladaRig, KeepsPointsOfTheBindShapeInPlace)
     std::string text = arm_with("<v>0 0 0 1", "<v>-1 0 0 1");   // the point at (1, 0, 0)
     text = replaced(text, "elbow/turn.ANGLE", "root/place.Y");  // from 0 to 90 within 1 s
     const Rig rig = rig_in("arm.dae", text);
-    const Positions posed = 100.0 * rig.unit_m * skinned_points(rig.meshes.at(0), node_transforms(rig, find_animation(rig, ""), 1.0));
+    const Positions posed =
+        100.0 * rig.unit_m * skinned_points(rig.meshes.at(0), node_transforms(rig, find_animation(rig, ""), 1.0));
     int in_place = 0, lifted = 0;
     for (const auto& point : posed.rowwise()) {
         in_place += (point - Eigen::RowVector3d(1, 0, 0)).norm() < 1e-4;
@@ -181,13 +194,15 @@ TEST(ColladaRig, KeepsPointsOfTheBindShapeInPlace)
     EXPECT_EQ(in_place, 1);
     EXPECT_EQ(lifted, 3);
     EXPECT_EQ(rig.remarks,
-              std::vector<std::string>{"1 weights of controller skin are those of joint -1, the bind shape, which no animation moves"});
+              std::vector<std::string>{
+                  "1 weights of controller skin are those of joint -1, the bind shape, which no animation moves"});
 }
 
 TEST(ColladaRig, SkinsTheBaseOfAMorph)
 {
     std::string text = arm_with("<skin source=\"#arm\">", "<skin source=\"#morph\">");
-    text = replaced(text, "<library_controllers>", "<library_controllers><controller id=\"morph\"><morph source=\"#arm\"/></controller>");
+    text = replaced(text, "<library_controllers>",
+                    "<library_controllers><controller id=\"morph\"><morph source=\"#arm\"/></controller>");
     const Rig rig = rig_in("arm.dae", text);
     expect_bent_arm(rig);
     EXPECT_EQ(rig.remarks, std::vector<std::string>{"the morph targets of controller morph are left out"});
@@ -199,7 +214,8 @@ TEST(ColladaRig, FindsASkeletonInLibraryNodes)
     const std::size_t begin = whole.find("<node id=\"root\""), end = whole.find("<node id=\"body\"");
     const std::string skeleton = whole.substr(begin, end - begin);
     std::string text = replaced(whole, skeleton, "<node id=\"rig\" name=\"rig\"><instance_node url=\"#root\"/></node>");
-    text = replaced(text, "<library_visual_scenes>", "<library_nodes>" + skeleton + "</library_nodes><library_visual_scenes>");
+    text = replaced(text, "<library_visual_scenes>",
+                    "<library_nodes>" + skeleton + "</library_nodes><library_visual_scenes>");
     expect_bent_arm(rig_in("arm.dae", text));
 }
 
@@ -211,7 +227,8 @@ TEST(ColladaRig, MovesOneSkinByTwoSkeletons)
     std::string second = replaced(whole.substr(begin, end - begin), "id=\"root\"", "id=\"other root\"");
     second = replaced(replaced(second, "id=\"elbow\"", "id=\"other elbow\""), ">1 0 0<", ">1 0 5<");
     const std::string instance =
-        "<node id=\"other\"><instance_controller url=\"#skin\"><skeleton>#other root</skeleton></instance_controller></node>";
+        "<node id=\"other\"><instance_controller url=\"#skin\"><skeleton>#other "
+        "root</skeleton></instance_controller></node>";
     const Rig rig = rig_in("arm.dae", replaced(whole, "</visual_scene>", second + instance + "</visual_scene>"));
     ASSERT_EQ(rig.meshes.size(), 2u);
     const auto nodes = node_transforms(rig, find_animation(rig, ""), 1.0);
@@ -227,8 +244,8 @@ TEST(ColladaRig, MovesOneSkinByTwoSkeletons)
     EXPECT_NEAR(tips[1], 5.0, 1e-5);
     std::string by_ids = replaced(replaced(whole, "<Name_array id='joints-array'", "<IDREF_array id='joints-array'"),
                                   "root elbow</Name_array>", "root elbow</IDREF_array>");
-    expect_collada_refused(replaced(by_ids, "</visual_scene>", second + instance + "</visual_scene>"), "controller skin-2, joints = joints",
-                           "copy the controller");
+    expect_collada_refused(replaced(by_ids, "</visual_scene>", second + instance + "</visual_scene>"),
+                           "controller skin-2, joints = joints", "copy the controller");
 }
 
 }  // namespace

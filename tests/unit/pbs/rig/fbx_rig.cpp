@@ -1,5 +1,6 @@
-// Reference: the format's formulas, computed by hand for a bone that bends or a node that moves; each kind of file by its name. Files hold
-// numbers with 17 digits and are read in double precision: at most 64 roundings of numbers of at most 8.
+// Reference: the format's formulas, computed by hand for a bone that bends or a node that moves; each kind of file by
+// its name. Files hold numbers with 17 digits and are read in double precision: at most 64 roundings of numbers of at
+// most 8.
 
 #include "pbs/rig/rig_formats.hpp"
 #include "pbs/rig/rig_reader.hpp"
@@ -38,8 +39,9 @@ void expect_refused(const FbxFile& file, const std::string& field, const std::st
 
 void expect_remark(const Rig& rig, const std::string& part)
 {
-    EXPECT_TRUE(std::ranges::any_of(rig.remarks, [&](const std::string& remark) { return remark.find(part) != std::string::npos; }))
-        << part;
+    EXPECT_TRUE(std::ranges::any_of(rig.remarks, [&](const std::string& remark) {
+        return remark.find(part) != std::string::npos;
+    })) << part;
 }
 
 std::vector<double> bound_at(const Vec3& place)
@@ -47,13 +49,14 @@ std::vector<double> bound_at(const Vec3& place)
     return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -place.x(), -place.y(), -place.z(), 1};
 }
 
-// A root joint at the origin, an elbow at (0, 2, 0) and a hand at (0, 3, 0). The mesh is a tetrahedron of a point of the root, one that
-// root and elbow share, one of the elbow and one of the hand.
+// A root joint at the origin, an elbow at (0, 2, 0) and a hand at (0, 3, 0). The mesh is a tetrahedron of a point of
+// the root, one that root and elbow share, one of the elbow and one of the hand.
 struct ArmFile : FbxFile {
     std::int64_t root, elbow, hand, body, mesh_of_body, skin_of_mesh;
 
-    explicit ArmFile(const FbxProperties& of_elbow = {}, const FbxProperties& of_hand = {}, const FbxProperties& of_body = {},
-                     const std::string& skinning = "", const test_support::FbxNumbers& points = {1, 0, 0, 0, 3, 0, 1, 3, 0, 0, 4, 1})
+    explicit ArmFile(const FbxProperties& of_elbow = {}, const FbxProperties& of_hand = {},
+                     const FbxProperties& of_body = {}, const std::string& skinning = "",
+                     const test_support::FbxNumbers& points = {1, 0, 0, 0, 3, 0, 1, 3, 0, 0, 4, 1})
     {
         const auto with = [](FbxProperties properties, const FbxProperties& others) {
             properties.insert(others.begin(), others.end());
@@ -121,7 +124,8 @@ TEST(FbxRig, TurnsByMoreThanHalfARoundBetweenTwoKeys)
 
 TEST(FbxRig, HasSteppedAndCubicCurves)
 {
-    for (const auto& [flags, angle_deg] : {std::pair<std::int64_t, double>(2, 0.0), {2 | 0x100, 90.0}, {4, 90 * 0.25}, {8, 90 * 0.15625}}) {
+    for (const auto& [flags, angle_deg] :
+         {std::pair<std::int64_t, double>(2, 0.0), {2 | 0x100, 90.0}, {4, 90 * 0.25}, {8, 90 * 0.15625}}) {
         ArmFile file;  // 3 t^2 - 2 t^3 = 0.15625 at t = 0.25
         file.bend({{0, 1}, {0, 90}, flags});
         expect_points(rig_of(file), 0.25, bent(angle_deg));
@@ -132,17 +136,19 @@ TEST(FbxRig, HasTheSlopesAndWeightsThatAreStored)
 {
     ArmFile file;
     file.bend({{0, 1}, {0, 90}, 8 | 0x400, {80, -40, 0, 0}});
-    const double t = 0.25, hermite = 90 * (3 * t * t - 2 * t * t * t) + 80 * (t * t * t - 2 * t * t + t) - 40 * (t * t * t - t * t);
+    const double t = 0.25, hermite = 90 * (3 * t * t - 2 * t * t * t) + 80 * (t * t * t - 2 * t * t + t) -
+                                     40 * (t * t * t - t * t);
     expect_points(rig_of(file), t, bent(hermite));
     ArmFile weighted;
     const double weights = 5000 + 65536.0 * 2500;  // 0.5 and 0.25 of the time
     weighted.bend({{0, 1}, {0, 90}, 8 | 0x400 | 0x1000000 | 0x2000000, {80, -40, weights, 0}});
     const double u = 0.6, time_s = 3 * u * (1 - u) * (1 - u) * 0.5 + 3 * u * u * (1 - u) * 0.75 + u * u * u;
-    expect_points(rig_of(weighted), time_s, bent(3 * u * (1 - u) * (1 - u) * 40 + 3 * u * u * (1 - u) * (90 + 10) + u * u * u * 90));
+    expect_points(rig_of(weighted), time_s,
+                  bent(3 * u * (1 - u) * (1 - u) * 40 + 3 * u * u * (1 - u) * (90 + 10) + u * u * u * 90));
 }
 
-// Where the slopes follow from the neighbours: a smooth key between two others, and Kochanek-Bartels splines without tension, which are
-// Catmull and Rom's where keys have equal distances.
+// Where the slopes follow from the neighbours: a smooth key between two others, and Kochanek-Bartels splines without
+// tension, which are Catmull and Rom's where keys have equal distances.
 TEST(FbxRig, HasSlopesThatFollowFromTheNeighbours)
 {
     const auto angle_at = [](std::int64_t flags, double time_s) {
@@ -152,12 +158,15 @@ TEST(FbxRig, HasSlopesThatFollowFromTheNeighbours)
         return value_at(*animation.nodes.at(0).fbx[1][2], time_s);
     };
     const double middle = (90 - 0) / 2.0, t = 0.5;  // slope of the key between them, and the middle of a piece
-    const auto hermite = [&](double a, double b, double slope_a, double slope_b) { return 0.5 * (a + b) + 0.125 * (slope_a - slope_b); };
+    const auto hermite = [&](double a, double b, double slope_a, double slope_b) {
+        return 0.5 * (a + b) + 0.125 * (slope_a - slope_b);
+    };
     for (const std::int64_t flags : {8 | 0x100 | 0x2000, 8 | 0x100, 8 | 0x200}) {
         EXPECT_NEAR(angle_at(flags, t), hermite(0, 30, 30, middle), 1e-12) << flags;
         EXPECT_NEAR(angle_at(flags, 1 + t), hermite(30, 90, middle, 60), 1e-12) << flags;
     }
-    // Clamped: flat at the ends, and a slope with which the tangent of a third of the time does not pass the neighbours.
+    // Clamped: flat at the ends, and a slope with which the tangent of a third of the time does not pass the
+    // neighbours.
     EXPECT_NEAR(angle_at(8 | 0x100 | 0x2000 | 0x4000, t), hermite(0, 30, 0, middle), 1e-12);
     ArmFile peak;
     peak.bend({{0, 1, 2}, {0, 30, 0}, 8 | 0x100 | 0x4000});
@@ -179,7 +188,8 @@ TEST(FbxRig, HasTheDefaultsOfACurveNodeOnAxesWithoutACurve)
 TEST(FbxRig, CountsTimesFromTheStartOfTheAnimation)
 {
     ArmFile file;
-    file.curves(file.layer(file.animation("Late", 10.0, 11.0)), file.elbow, "Lcl Rotation", {0, 0, 0}, {{2, {{10, 11, 20}, {0, 90, 0}}}});
+    file.curves(file.layer(file.animation("Late", 10.0, 11.0)), file.elbow, "Lcl Rotation", {0, 0, 0},
+                {{2, {{10, 11, 20}, {0, 90, 0}}}});
     const Rig rig = rig_of(file);
     EXPECT_NEAR(rig.animations.at(0).start_s, 0.0, 1e-9);
     EXPECT_NEAR(rig.animations.at(0).end_s, 1.0, 1e-9);
@@ -188,7 +198,10 @@ TEST(FbxRig, CountsTimesFromTheStartOfTheAnimation)
 
 TEST(FbxRig, PlacesPivotsOffsetsAndRotationsOfAnAnimatedJoint)
 {
-    ArmFile file({{"RotationPivot", {0, 0.5, 0}}, {"PreRotation", {0, 0, 30}}, {"PostRotation", {0, 0, 10}}, {"RotationActive", {1}}});
+    ArmFile file({{"RotationPivot", {0, 0.5, 0}},
+                  {"PreRotation", {0, 0, 30}},
+                  {"PostRotation", {0, 0, 10}},
+                  {"RotationActive", {1}}});
     file.bend({{0, 1}, {0, 90}});
     const Rig rig = rig_of(file);
     for (const double time_s : {0.0, 0.7, 1.0}) {
@@ -214,7 +227,8 @@ TEST(FbxRig, ScalesAsTheInheritTypeStates)
     EXPECT_LE((place_of_last_point({}) - Vec3(0, 2 + 3 + 3, 4)).norm(), file_rounding);
     EXPECT_LE((place_of_last_point({{"InheritType", {1}}}) - Vec3(0, 2 + 3 + 3, 4)).norm(), file_rounding);
     EXPECT_LE((place_of_last_point({{"InheritType", {2}}}) - Vec3(0, 2 + 3 + 1, 1)).norm(), file_rounding);
-    const FbxProperties turned = {{"Lcl Rotation", {90, 0, 0}}};  // y to z, z to -y: RrSs scales along the hand's own axes
+    // y to z, z to -y: RrSs scales along the hand's own axes
+    const FbxProperties turned = {{"Lcl Rotation", {90, 0, 0}}};
     FbxProperties own_axes = turned;
     own_axes["InheritType"] = {0};
     EXPECT_LE((place_of_last_point(turned) - Vec3(0, 2 + 3 - 3, 4)).norm(), file_rounding);
@@ -225,9 +239,10 @@ TEST(FbxRig, ScalesAsTheInheritTypeStates)
 TEST(FbxRig, TakesPropertiesThatANodeDoesNotStateFromTheDefaultsOfItsType)
 {
     ArmFile file({{"Lcl Scaling", {2, 3, 4}}});
-    file.definitions = {test_support::fbx_record(
-        "ObjectType", {std::string("Model")},
-        {test_support::fbx_record("PropertyTemplate", {std::string("FbxNode")}, {test_support::fbx_properties({{"InheritType", {2}}})})})};
+    file.definitions = {
+        test_support::fbx_record("ObjectType", {std::string("Model")},
+                                 {test_support::fbx_record("PropertyTemplate", {std::string("FbxNode")},
+                                                           {test_support::fbx_properties({{"InheritType", {2}}})})})};
     EXPECT_LE((Vec3(posed_arm(rig_of(file), 0.0).row(3)) - Vec3(0, 2 + 3 + 1, 1)).norm(), file_rounding);
 }
 
@@ -250,22 +265,26 @@ TEST(FbxRig, MovesAMeshWithoutASkinByItsNode)
 {
     ArmFile file;
     file.bend({{0, 1}, {0, 90}});
-    const auto sword = file.node("sword", file.hand, "Mesh", {{"Lcl Translation", {0, 0, 1}}, {"GeometricTranslation", {0, 2, 0}}});
+    const auto sword =
+        file.node("sword", file.hand, "Mesh", {{"Lcl Translation", {0, 0, 1}}, {"GeometricTranslation", {0, 2, 0}}});
     file.mesh("blade", sword, {0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, -3});
     const Rig rig = rig_of(file);
     const Positions points = skinned_points(rig.meshes.at(1), node_transforms(rig, &rig.animations.at(0), 1.0));
-    const Positions expected{{-3, 2, 1}, {-3, 3, 1}, {-4, 2, 1}};  // (0, 5, 1) and its neighbours turned about (0, 2, 0)
+    // (0, 5, 1) and its neighbours turned about (0, 2, 0)
+    const Positions expected{{-3, 2, 1}, {-3, 3, 1}, {-4, 2, 1}};
     EXPECT_LE((points - expected).cwiseAbs().maxCoeff(), file_rounding);
 }
 
-// Points with one joint move as before; the shared one turns by half of the angle about the elbow and keeps its distance, 1.
+// Points with one joint move as before; the shared one turns by half of the angle about the elbow and keeps its
+// distance, 1.
 TEST(FbxRig, BlendsByDualQuaternionsWhereTheSkinAsksForThem)
 {
     const double share = 0.25;
     for (const std::string kind : {"", "Linear", "Rigid", "DualQuaternion", "Blend"}) {
         ArmFile file({}, {}, {}, kind);
         file.bend({{0, 1}, {0, 90}});
-        auto& skin = *std::ranges::find_if(file.objects, [](const FbxRecord& object) { return object.record("SkinningType"); });
+        auto& skin =
+            *std::ranges::find_if(file.objects, [](const FbxRecord& object) { return object.record("SkinningType"); });
         skin.records.push_back(test_support::fbx_record("Indexes", {test_support::FbxNumbers{1}}));
         skin.records.push_back(test_support::fbx_record("BlendWeights", {test_support::FbxNumbers{share}}));
         const Vec3 by_quaternions(-std::sqrt(0.5), 2 + std::sqrt(0.5), 0);
@@ -277,7 +296,8 @@ TEST(FbxRig, BlendsByDualQuaternionsWhereTheSkinAsksForThem)
         const RigAnimation* animation = find_animation(rig, "");
         const RiggedBody body = make_rigged_body(rig, animation, 1.0);
         const Positions by_pose = artist_points(body, rigid_pose(body, node_transforms(rig, animation, 1.0)));
-        EXPECT_LE((by_pose - rig.unit_m * expected).cwiseAbs().maxCoeff(), file_rounding) << "by a pose of the skeleton";
+        EXPECT_LE((by_pose - rig.unit_m * expected).cwiseAbs().maxCoeff(), file_rounding)
+            << "by a pose of the skeleton";
         file.objects[0].records = {test_support::fbx_properties({{"Lcl Scaling", {2, 2, 2}}})};  // of the root
         expect_points(rig_of(file), 1.0, 2.0 * expected);
     }
@@ -302,7 +322,8 @@ TEST(FbxRig, LeavesAnAnimationOutThatItCannotEvaluate)
     EXPECT_TRUE(rig_of(layers).animations.empty());
     expect_remark(rig_of(layers), "animation Bend is left out: two of its layers move Lcl Rotation of elbow; bake it");
     ArmFile pivot;
-    pivot.curves(pivot.layer(pivot.animation("Bend")), pivot.elbow, "RotationPivot", {0, 0, 0}, {{2, {{0, 1}, {0, 90}}}});
+    pivot.curves(pivot.layer(pivot.animation("Bend")), pivot.elbow, "RotationPivot", {0, 0, 0},
+                 {{2, {{0, 1}, {0, 90}}}});
     expect_remark(rig_of(pivot), "animation Bend is left out: it moves RotationPivot of elbow");
     ArmFile added({{"Lcl Rotation", {0, 0, 5}}});
     const auto adding = added.animation("Bend");
@@ -311,7 +332,8 @@ TEST(FbxRig, LeavesAnAnimationOutThatItCannotEvaluate)
     expect_remark(rig_of(added), "animation Bend is left out: its layer Layer adds to Lcl Rotation of elbow");
     ArmFile muted;
     const auto one_muted = muted.animation("Bend");
-    muted.curves(muted.layer(one_muted, {{"Mute", {1}}}), muted.elbow, "Lcl Rotation", {0, 0, 0}, {{2, {{0, 1}, {0, 10}}}});
+    muted.curves(muted.layer(one_muted, {{"Mute", {1}}}), muted.elbow, "Lcl Rotation", {0, 0, 0},
+                 {{2, {{0, 1}, {0, 10}}}});
     muted.curves(muted.layer(one_muted), muted.elbow, "Lcl Rotation", {0, 0, 0}, {{2, {{0, 1}, {0, 90}}}});
     expect_points(rig_of(muted), 1.0, bent(90.0));
 }
@@ -320,16 +342,18 @@ TEST(FbxRig, LeavesAnAnimationOutWhoseCurveGoesOnBeyondItsKeys)
 {
     for (const auto& [kind, stop_s, is_left_out] : {std::tuple("R", 4.0, true), {"R", 1.0, false}, {"C", 4.0, false}}) {
         ArmFile file;
-        file.curves(file.layer(file.animation("Bend", 0.0, stop_s)), file.elbow, "Lcl Rotation", {0, 0, 0}, {{2, {{0, 1}, {0, 90}}}});
-        file.objects.back().records.push_back(
-            test_support::fbx_record("Post-Extrapolation", {}, {test_support::fbx_record("Type", {std::string(kind)})}));
+        file.curves(file.layer(file.animation("Bend", 0.0, stop_s)), file.elbow, "Lcl Rotation", {0, 0, 0},
+                    {{2, {{0, 1}, {0, 90}}}});
+        file.objects.back().records.push_back(test_support::fbx_record(
+            "Post-Extrapolation", {}, {test_support::fbx_record("Type", {std::string(kind)})}));
         EXPECT_EQ(rig_of(file).animations.empty(), is_left_out) << kind << stop_s;
     }
 }
 
 TEST(FbxRig, NamesWhatIsWrong)
 {
-    expect_refused(ArmFile({{"RotationOrder", {6}}, {"RotationActive", {1}}}), "Model elbow, RotationOrder = 6", "export glTF 2.0");
+    expect_refused(ArmFile({{"RotationOrder", {6}}, {"RotationActive", {1}}}), "Model elbow, RotationOrder = 6",
+                   "export glTF 2.0");
     ArmFile beyond;
     beyond.cluster(beyond.skin_of_mesh, beyond.hand, {4}, {1}, bound_at({0, 0, 0}));
     expect_refused(beyond, "Deformer ", "Indexes = 4: expected a point from 0 to 3");
@@ -353,7 +377,8 @@ TEST(FbxRig, NamesWhatIsWrong)
     expect_refused(corner, "Geometry more, PolygonVertexIndex = 1", "expected a point of the 1");
 }
 
-// The area of a polygon in the plane is the sum of its triangles, whatever its shape, if none lies outside and none twice.
+// The area of a polygon in the plane is the sum of its triangles, whatever its shape, if none lies outside and none
+// twice.
 TEST(FbxRig, SplitsPolygonsIntoTrianglesOfTheSameArea)
 {
     const test_support::FbxNumbers arrow = {0, 0, 0, 4, -3, 0, 1, 0, 0, 4, 3, 0},  // the third corner is concave
@@ -388,11 +413,13 @@ TEST(FbxRig, SplitsPointsWhereTheirNormalsDifferAndDropsUnusedOnes)
 {
     FbxFile file;
     const auto node = file.node("roof", 0, "Mesh", {});
-    file.mesh("roof", node, {0, 0, 0, 9, 9, 9, 1, 0, 0, 1, 1, 0, 0, 1, 0}, {0, 2, -4, 0, 3, -5});  // point 1 is in no triangle
+    // point 1 is in no triangle
+    file.mesh("roof", node, {0, 0, 0, 9, 9, 9, 1, 0, 0, 1, 1, 0, 0, 1, 0}, {0, 2, -4, 0, 3, -5});
     const auto layer = [](const test_support::FbxNumbers& normals) {
-        return test_support::fbx_record("LayerElementNormal", {std::int64_t(0)},
-                                        {test_support::fbx_record("MappingInformationType", {std::string("ByPolygonVertex")}),
-                                         test_support::fbx_record("Normals", {normals})});
+        return test_support::fbx_record(
+            "LayerElementNormal", {std::int64_t(0)},
+            {test_support::fbx_record("MappingInformationType", {std::string("ByPolygonVertex")}),
+             test_support::fbx_record("Normals", {normals})});
     };
     auto& geometry = file.objects.back();
     geometry.records.push_back(layer({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}));
@@ -412,7 +439,8 @@ TEST(FbxRig, NamesMorphTargetsAndShapesThatAreNoPolygons)
     file.add("Geometry", "smile", "Shape", channel, {});
     file.add("Geometry", "sleeve", "NurbsSurface", file.body, {});
     expect_remark(rig_of(file), "mesh skin: 1 morph targets are left out");
-    expect_remark(rig_of(file), "geometry sleeve of node body is left out: it is a NurbsSurface; convert it into a polygon mesh");
+    expect_remark(rig_of(file),
+                  "geometry sleeve of node body is left out: it is a NurbsSurface; convert it into a polygon mesh");
 }
 
 TEST(FbxRig, OfABinaryFileHasBonesWithWeights)
@@ -424,7 +452,8 @@ TEST(FbxRig, OfABinaryFileHasBonesWithWeights)
     for (const RigMesh& mesh : rig.meshes)
         for (int p = 0; p < mesh.skin.vertices(); ++p)
             EXPECT_NEAR(test_support::sum_of_weights(mesh.skin, p), 1.0, 1e-12) << "point " << p << " of " << mesh.name;
-    EXPECT_TRUE(std::any_of(rig.meshes.begin(), rig.meshes.end(), [](const RigMesh& mesh) { return mesh.joints.size() > 1; }));
+    EXPECT_TRUE(
+        std::any_of(rig.meshes.begin(), rig.meshes.end(), [](const RigMesh& mesh) { return mesh.joints.size() > 1; }));
 }
 
 }  // namespace

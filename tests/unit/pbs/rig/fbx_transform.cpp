@@ -1,5 +1,6 @@
-// Reference: the formula of the format as its documentation states it, as a product of 4 x 4 matrices in the order of that page, and closed
-// forms that follow from the meaning of each property. Reals are in double precision: at most 64 roundings of numbers of at most 100.
+// Reference: the formula of the format as its documentation states it, as a product of 4 x 4 matrices in the order of
+// that page, and closed forms that follow from the meaning of each property. Reals are in double precision: at most 64
+// roundings of numbers of at most 100.
 
 #include "pbs/rig/fbx_transform.hpp"
 #include "tests/support/rounding_error.hpp"
@@ -54,8 +55,9 @@ Matrix local_by_formula(const FbxTransform& node)
     const auto& [translation, rotation, scaling] = node.lcl;
     return moved_by(translation) * moved_by(node.rotation_offset) * moved_by(node.rotation_pivot) *
            turned_by(node.pre_rotation_deg, "xyz") * turned_by(rotation, orders[node.rotation_order]) *
-           turned_by(node.post_rotation_deg, "xyz").inverse() * moved_by(node.rotation_pivot).inverse() * moved_by(node.scaling_offset) *
-           moved_by(node.scaling_pivot) * scaled_by(scaling) * moved_by(node.scaling_pivot).inverse();
+           turned_by(node.post_rotation_deg, "xyz").inverse() * moved_by(node.rotation_pivot).inverse() *
+           moved_by(node.scaling_offset) * moved_by(node.scaling_pivot) * scaled_by(scaling) *
+           moved_by(node.scaling_pivot).inverse();
 }
 
 Vec3 random_vector(std::mt19937& random, double largest)
@@ -70,7 +72,8 @@ FbxTransform random_transform(std::mt19937& random)
 {
     const auto chance = [&] { return random() % 2 == 0; };
     FbxTransform node;
-    for (Vec3* part : {&node.lcl[0], &node.rotation_offset, &node.rotation_pivot, &node.scaling_offset, &node.scaling_pivot})
+    for (Vec3* part :
+         {&node.lcl[0], &node.rotation_offset, &node.rotation_pivot, &node.scaling_offset, &node.scaling_pivot})
         if (chance()) *part = random_vector(random, 5.0);
     for (Vec3* part : {&node.lcl[1], &node.pre_rotation_deg, &node.post_rotation_deg})
         if (chance()) *part = random_vector(random, 170.0);
@@ -87,7 +90,9 @@ TEST(FbxTransform, IsTheProductThatTheFormatDefines)
         const FbxPlacement placed = placed_below({}, node);
         EXPECT_LE((placed.world.matrix() - local_by_formula(node)).cwiseAbs().maxCoeff(), formula_rounding) << tried;
         const Matrix below = placed_below(placed_below({}, above), node).world.matrix();  // RSrs: the product of both
-        EXPECT_LE((below - local_by_formula(above) * local_by_formula(node)).cwiseAbs().maxCoeff(), 10.0 * formula_rounding) << tried;
+        EXPECT_LE((below - local_by_formula(above) * local_by_formula(node)).cwiseAbs().maxCoeff(),
+                  10.0 * formula_rounding)
+            << tried;
     }
 }
 
@@ -105,7 +110,8 @@ TEST(FbxTransform, InheritsScalesAsItsTypeStates)
         const Vec3 place = (parents * own).block<3, 1>(0, 3);  // the same for each type
         const Eigen::Matrix3d turned =
             (turned_by(grandparent.lcl[1], "xyz") * turned_by(parent.pre_rotation_deg, "xyz") *
-             turned_by(parent.lcl[1], orders[parent.rotation_order]) * turned_by(parent.post_rotation_deg, "xyz").inverse())
+             turned_by(parent.lcl[1], orders[parent.rotation_order]) *
+             turned_by(parent.post_rotation_deg, "xyz").inverse())
                 .block<3, 3>(0, 0);
         Eigen::Matrix3d rotation = own.block<3, 3>(0, 0);
         for (int axis = 0; axis < 3; ++axis) rotation.col(axis) /= node.lcl[2](axis);
@@ -133,7 +139,9 @@ TEST(FbxTransform, ASegmentWithScaleCompensationKeepsItsSize)
     EXPECT_LE((placed * Vec3::Zero() - Vec3(-56, 50, 0)).norm(), formula_rounding) << "35 times 1.6";
     EXPECT_LE((placed * Vec3(0, 10, 0) - Vec3(-66, 50, 0)).norm(), formula_rounding);
     elbow.lcl[2] = {1, 0, 1};
-    EXPECT_LE((placed_below(placed_below({}, elbow), hand).world * Vec3(0, 10, 0) - Vec3(0, 50, 0)).norm(), formula_rounding) << "nothing";
+    EXPECT_LE((placed_below(placed_below({}, elbow), hand).world * Vec3(0, 10, 0) - Vec3(0, 50, 0)).norm(),
+              formula_rounding)
+        << "nothing";
 }
 
 FbxCurve curve(FbxInterpolation interpolation, double slope = 0.0, double next_slope = 0.0)
@@ -166,7 +174,8 @@ TEST(FbxCurve, IsABezierCurveInTimeAndValueWhereItIsCubic)
                 return u * u * u * a + 3.0 * u * u * t * b + 3.0 * u * t * t * c + t * t * t * d;
             };
             const double time_s = bezier(1.0, 1.0 + weight * 2.0, 3.0 - next_weight * 2.0, 3.0);
-            EXPECT_NEAR(value_at(keys, time_s), bezier(10.0, 10.0 + 7.0 * 2.0 * weight, 30.0 + 4.0 * 2.0 * next_weight, 30.0), 1e-10);
+            EXPECT_NEAR(value_at(keys, time_s),
+                        bezier(10.0, 10.0 + 7.0 * 2.0 * weight, 30.0 + 4.0 * 2.0 * next_weight, 30.0), 1e-10);
         }
     }
 }

@@ -1,4 +1,5 @@
-// Reference: the container of glTF 2.0, Sec. 4.4, parsed here, and morph targets, which are differences from the mesh's points.
+// Reference: the container of glTF 2.0, Sec. 4.4, parsed here, and morph targets, which are differences from the mesh's
+// points.
 #include "pbs/rig/glb_writer.hpp"
 
 #include "pbs/geometry/files.hpp"
@@ -44,8 +45,11 @@ struct WrittenGlb {
     std::vector<float> floats(int accessor) const
     {
         const json& info = document["accessors"][std::size_t(accessor)];
-        const std::size_t offset = document["bufferViews"][info["bufferView"].get<std::size_t>()].value("byteOffset", 0);
-        std::vector<float> numbers(info["count"].get<std::size_t>() * (info["type"] == "VEC3" ? 3 : info["type"] == "VEC2" ? 2 : 1));
+        const std::size_t offset =
+            document["bufferViews"][info["bufferView"].get<std::size_t>()].value("byteOffset", 0);
+        std::vector<float> numbers(info["count"].get<std::size_t>() * (info["type"] == "VEC3"   ? 3
+                                                                       : info["type"] == "VEC2" ? 2
+                                                                                                : 1));
         for (std::size_t n = 0; n < numbers.size(); ++n) numbers[n] = number_in<float>(bytes, offset + 4 * n);
         return numbers;
     }
@@ -77,7 +81,8 @@ WrittenGlb written_glb(const std::vector<double>& times_s, const std::vector<Pos
     return parts_of(file_of(folder / "a.glb", times_s, frames));
 }
 
-// Two triangles at right angles that share an edge but no points. In the second frame the first one has turned onto its back.
+// Two triangles at right angles that share an edge but no points. In the second frame the first one has turned onto its
+// back.
 const Triangles two_triangles = (Triangles(2, 3) << 0, 1, 2, 3, 4, 5).finished();
 const Positions roof = (Positions(6, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1).finished();
 
@@ -107,7 +112,8 @@ TEST_F(GlbWriter, TheFirstFrameIsTheMeshWithItsBoundingBox)
     const json& points = glb.document["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
     EXPECT_EQ(points["min"].get<std::vector<double>>(), (std::vector<double>{0.5, 0.5, 0.5}));
     EXPECT_EQ(points["max"].get<std::vector<double>>(), (std::vector<double>{1.5, 1.5, 0.5}));
-    EXPECT_EQ(glb.floats(primitive["attributes"]["POSITION"]), (std::vector<float>{.5, .5, .5, 1.5, .5, .5, .5, 1.5, .5}));
+    EXPECT_EQ(glb.floats(primitive["attributes"]["POSITION"]),
+              (std::vector<float>{.5, .5, .5, 1.5, .5, .5, .5, 1.5, .5}));
     EXPECT_EQ(glb.document["nodes"][0]["name"], "hero");
     EXPECT_FALSE(glb.document.contains("animations")) << "a single frame does not move";
 }
@@ -135,8 +141,9 @@ TEST_F(GlbWriter, ItsMeshIsReadAgain)
     EXPECT_EQ(rig.meshes.at(0).triangles, one_triangle);
 }
 
-// Five bones in a chain, all of which move the last point, so that a second set of weights is needed. The reader knows the skin, and the
-// targets are compared as numbers. Tolerance: the file has single precision, and a point of 5 m goes through five joints below each other.
+// Five bones in a chain, all of which move the last point, so that a second set of weights is needed. The reader knows
+// the skin, and the targets are compared as numbers. Tolerance: the file has single precision, and a point of 5 m goes
+// through five joints below each other.
 TEST_F(GlbWriter, ASkinMovesItsPointsByLinearBlendingAndItsTargetsHaveTheirWeights)
 {
     GlbSkin skin;
@@ -146,7 +153,8 @@ TEST_F(GlbWriter, ASkinMovesItsPointsByLinearBlendingAndItsTargetsHaveTheirWeigh
         turns.emplace_back(Eigen::AngleAxisd(0.3 + 0.1 * b, Vec3(1, b, 2).normalized()));
     }
     skin.weights.first = {0};
-    for (const std::vector<double>& row : {std::vector{1.0}, std::vector{0.25, 0.75}, std::vector{0.1, 0.2, 0.3, 0.15, 0.25}}) {
+    for (const std::vector<double>& row :
+         {std::vector{1.0}, std::vector{0.25, 0.75}, std::vector{0.1, 0.2, 0.3, 0.15, 0.25}}) {
         for (std::size_t b = 0; b < row.size(); ++b) skin.weights.add(static_cast<int>(b), row[b]);
         skin.weights.end_vertex();
     }
@@ -163,7 +171,8 @@ TEST_F(GlbWriter, ASkinMovesItsPointsByLinearBlendingAndItsTargetsHaveTheirWeigh
     for (std::size_t key = 0; key < 2; ++key) {
         Positions expected;
         linear_blend_skinning(first_frame, skin.weights, skin.poses[key], expected);
-        const Positions moved = skinned_points(rig.meshes[0], node_transforms(rig, &rig.animations.at(0), skin.times_s[key]));
+        const Positions moved =
+            skinned_points(rig.meshes[0], node_transforms(rig, &rig.animations.at(0), skin.times_s[key]));
         EXPECT_LT((moved - expected).cwiseAbs().maxCoeff(), 5.0 * 5.0 * 16.0 * 0x1p-24) << key;
     }
     const WrittenGlb glb = parts_of(read_text_file(folder / "a.glb"));
@@ -180,11 +189,14 @@ TEST_F(GlbWriter, NormalsAreThoseOfTheFrameAndKeepTheArtistsHardEdges)
     look.put(0, 0, (Eigen::MatrixXf(6, 3) << 0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 0, 0).finished());
     const WrittenGlb hard = written_roof(look);
     const json& primitive = hard.document["meshes"][0]["primitives"][0];
-    EXPECT_EQ(hard.floats(primitive["attributes"]["NORMAL"]), repeated({{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}}));
-    EXPECT_EQ(hard.floats(primitive["targets"][0]["NORMAL"]), repeated({{0, 0, -2}, {0, 0, -2}, {0, 0, -2}, {}, {}, {}}));
+    EXPECT_EQ(hard.floats(primitive["attributes"]["NORMAL"]),
+              repeated({{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}}));
+    EXPECT_EQ(hard.floats(primitive["targets"][0]["NORMAL"]),
+              repeated({{0, 0, -2}, {0, 0, -2}, {0, 0, -2}, {}, {}, {}}));
     look.numbers.setConstant(0.6F);
     const WrittenGlb smooth = written_roof(look);
-    const std::vector<float> normals = smooth.floats(smooth.document["meshes"][0]["primitives"][0]["attributes"]["NORMAL"]);
+    const std::vector<float> normals =
+        smooth.floats(smooth.document["meshes"][0]["primitives"][0]["attributes"]["NORMAL"]);
     for (const std::size_t shared : {0, 2, 3, 4}) EXPECT_FLOAT_EQ(normals[3 * shared], std::sqrt(0.5F)) << shared;
     EXPECT_EQ(normals[3], 0.0F) << "not on the edge";
 }
@@ -194,19 +206,23 @@ TEST_F(GlbWriter, TextureCoordinatesMaterialsAndImagesAreCarried)
     RigLook look;
     look.put(0, 3, (Eigen::MatrixXf(6, 2) << 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11).finished());
     look.material = {1, 0};
-    const RigMaterials materials{R"({"materials": [{"name": "a"}, {"name": "b"}], "images": [{"mimeType": "image/png"}]})", {"\x89PNG5"}};
+    const RigMaterials materials{
+        R"({"materials": [{"name": "a"}, {"name": "b"}], "images": [{"mimeType": "image/png"}]})", {"\x89PNG5"}};
     const WrittenGlb glb = written_roof(look, materials);
     const json& primitives = glb.document["meshes"][0]["primitives"];
     ASSERT_EQ(primitives.size(), 2u);
     EXPECT_EQ(primitives[0]["material"], 0);
     EXPECT_EQ(primitives[1]["material"], 1);
-    EXPECT_EQ(number_in<std::uint32_t>(glb.bytes, 0), 3u) << "the second triangle comes first, for it has the first material";
+    EXPECT_EQ(number_in<std::uint32_t>(glb.bytes, 0), 3u)
+        << "the second triangle comes first, for it has the first material";
     EXPECT_EQ(primitives[0]["attributes"], primitives[1]["attributes"]);
     EXPECT_FALSE(primitives[0]["attributes"].contains("NORMAL"));
-    EXPECT_EQ(glb.floats(primitives[0]["attributes"]["TEXCOORD_0"]), (std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}));
+    EXPECT_EQ(glb.floats(primitives[0]["attributes"]["TEXCOORD_0"]),
+              (std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}));
     const json& view = glb.document["bufferViews"][glb.document["images"][0]["bufferView"].get<std::size_t>()];
     EXPECT_EQ(glb.bytes.substr(view["byteOffset"], view["byteLength"]), "\x89PNG5");
-    EXPECT_EQ(glb.floats(primitives[0]["attributes"]["POSITION"])[3], 1.0F) << "what follows the image begins at a multiple of four";
+    EXPECT_EQ(glb.floats(primitives[0]["attributes"]["POSITION"])[3], 1.0F)
+        << "what follows the image begins at a multiple of four";
     EXPECT_EQ(glb.bytes.size(), glb.document["buffers"][0]["byteLength"]);
 }
 
@@ -242,9 +258,11 @@ TEST_F(GlbWriter, WritesTheFramesSoFarAndLeavesNoOtherFile)
         EXPECT_EQ(one, file_of(folder / "b.glb", {0.0}, {first_frame}));
         writer.add_frame(0.5, first_frame.array() + 1.0);
         writer.write();
-        EXPECT_EQ(read_text_file(folder / "a.glb"), file_of(folder / "b.glb", {0.0, 0.5}, {first_frame, first_frame.array() + 1.0}));
+        EXPECT_EQ(read_text_file(folder / "a.glb"),
+                  file_of(folder / "b.glb", {0.0, 0.5}, {first_frame, first_frame.array() + 1.0}));
     }
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()), 2);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()),
+              2);
 }
 
 TEST_F(GlbWriter, ItsSizeIsKnownAfterTheFirstFrame)
@@ -262,7 +280,8 @@ TEST_F(GlbWriter, ItsSizeIsKnownAfterTheFirstFrame)
 
 TEST_F(GlbWriter, AFolderThatDoesNotExistIsRefusedByName)
 {
-    expect_input_error([] { pbs::GlbWriter("/no/such/folder/a.glb", "hero", one_triangle); }, "/no/such/folder/a.glb", "");
+    expect_input_error([] { pbs::GlbWriter("/no/such/folder/a.glb", "hero", one_triangle); }, "/no/such/folder/a.glb",
+                       "");
 }
 
 }  // namespace

@@ -87,7 +87,8 @@ TEST_F(GltfRig, HasItsNodesMeshesAndMetres)
 
 TEST_F(GltfRig, ParentsPrecedeTheirChildrenWhateverTheFilesOrder)
 {
-    const Rig rig = rig_of_nodes(R"([{"name": "tip"}, {"name": "elbow", "children": [0]}, {"name": "root", "children": [1, 3]},
+    const Rig rig =
+        rig_of_nodes(R"([{"name": "tip"}, {"name": "elbow", "children": [0]}, {"name": "root", "children": [1, 3]},
                                      {"name": "body", "mesh": 0}])");
     ASSERT_EQ(rig.nodes.size(), 4u);
     for (int n = 0; n < 4; ++n) EXPECT_LT(rig.nodes[std::size_t(n)].parent, n);
@@ -106,7 +107,8 @@ TEST_F(GltfRig, BodyPartsAreThoseOfVrmsTable)
 {
     const std::string list = R"({"VRM": {"humanoid": {"humanBones": [{"bone": "spine", "node": 1}, {"node": 0}, 3]}}})",
                       object = R"({"humanoid": {"humanBones": {"spine": {"node": 1}}}})";
-    for (const std::string& extensions : {list, "{\"VRMC_vrm\": " + object + "}", "{\"VRMC_vrm_animation\": " + object + "}"}) {
+    for (const std::string& extensions :
+         {list, "{\"VRMC_vrm\": " + object + "}", "{\"VRMC_vrm_animation\": " + object + "}"}) {
         gltf.json["extensions"] = json::parse(extensions);
         const Rig rig = read();
         EXPECT_EQ(rig.nodes[1].body_part, "spine");
@@ -114,8 +116,10 @@ TEST_F(GltfRig, BodyPartsAreThoseOfVrmsTable)
     }
     gltf.json["extensions"]["VRMC_vrm_animation"]["humanoid"]["humanBones"]["spine"]["node"] = 3;
     EXPECT_EQ(read().nodes[1].body_part, "");
-    EXPECT_EQ(read().remarks, std::vector<std::string>{"humanoid/humanBones/spine names no node of the file, and is left out"});
-    for (const char* odd : {R"({"VRM": 1})", R"({"VRM": {"humanoid": []}})", R"({"VRMC_vrm": {"humanoid": {"humanBones": "spine"}}})"}) {
+    EXPECT_EQ(read().remarks,
+              std::vector<std::string>{"humanoid/humanBones/spine names no node of the file, and is left out"});
+    for (const char* odd :
+         {R"({"VRM": 1})", R"({"VRM": {"humanoid": []}})", R"({"VRMC_vrm": {"humanoid": {"humanBones": "spine"}}})"}) {
         gltf.json["extensions"] = json::parse(odd);
         EXPECT_EQ(read().nodes[1].body_part, "");
     }
@@ -153,7 +157,8 @@ TEST_F(GltfRig, ShowsTheMeshesOfTheDefaultScene)
 TEST_F(GltfRig, ExtensionsThatDoNotMoveVerticesAreAllowed)
 {
     gltf.json["extensions"] = json::parse(R"({"KHR_lights_punctual": {"lights": [{"type": "point"}]}})");
-    for (const char* extension : {"KHR_materials_unlit", "KHR_texture_transform", "KHR_mesh_quantization", "KHR_lights_punctual"}) {
+    for (const char* extension :
+         {"KHR_materials_unlit", "KHR_texture_transform", "KHR_mesh_quantization", "KHR_lights_punctual"}) {
         gltf.json["extensionsRequired"] = {extension};
         gltf.json["nodes"][0]["extensions"] = {{extension, {{"light", 0}}}};
         EXPECT_NO_THROW(read()) << extension;
@@ -162,7 +167,8 @@ TEST_F(GltfRig, ExtensionsThatDoNotMoveVerticesAreAllowed)
     gltf.json["nodes"][0].erase("extensions");
     gltf.json["textures"] = {{{"extensions", {{"ACME_texture", {{"source", 0}}}}}}};
     EXPECT_NO_THROW(read());
-    for (json* owner : {&gltf.json["nodes"][1], &primitive(), &animation()["channels"][0]["target"], &gltf.json["bufferViews"][2]}) {
+    for (json* owner :
+         {&gltf.json["nodes"][1], &primitive(), &animation()["channels"][0]["target"], &gltf.json["bufferViews"][2]}) {
         (*owner)["extensions"] = {{"ACME_texture", json::object()}};
         expect_refused("extensionsRequired = ACME_texture: not supported", "export the model without it");
         owner->erase("extensions");
@@ -171,8 +177,9 @@ TEST_F(GltfRig, ExtensionsThatDoNotMoveVerticesAreAllowed)
 
 TEST_F(GltfRig, BuffersMayBeNamedAsTheirFiles)
 {
-    for (const auto& [file, uri] : {std::pair("arm 10%.bin", "arm 10%.bin"), std::pair("arm 10%.bin", "arm%2010%25.bin"),
-                                    std::pair("50%more+.bin", "50%more+.bin"), std::pair("100%", "100%")}) {
+    for (const auto& [file, uri] :
+         {std::pair("arm 10%.bin", "arm 10%.bin"), std::pair("arm 10%.bin", "arm%2010%25.bin"),
+          std::pair("50%more+.bin", "50%more+.bin"), std::pair("100%", "100%")}) {
         const test_support::ScratchFolder folder;
         folder.file(file, gltf.bytes);
         gltf.json["buffers"] = {{{"byteLength", gltf.bytes.size()}, {"uri", uri}}};
@@ -224,19 +231,21 @@ TEST_F(GltfMeshes, PrimitivesWithTheSameAttributesShareTheirPoints)
 TEST_F(GltfMeshes, AWeightThatIsNoNumberIsRefusedByTheNumberOfItsPoints)
 {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-    primitive()["attributes"]["WEIGHTS_0"] = gltf.put<float>("VEC4", {1, 0, 0, 0, nan, 0.5F, 0, 0, 1, 0, 0, 0, 0.25F, 0.75F, 0, 0});
+    primitive()["attributes"]["WEIGHTS_0"] =
+        gltf.put<float>("VEC4", {1, 0, 0, 0, nan, 0.5F, 0, 0, 1, 0, 0, 0, 0.25F, 0.75F, 0, 0});
     expect_refused("mesh arm, weights = 1 of 4 points: ", "expected at most 1 %");
     primitive()["attributes"]["POSITION"] = gltf.put<float>("VEC3", {1, 0, 0, 1, 2, 0, 1, nan, 0, nan, 2, 0});
-    expect_refused("meshes/0/primitives/0/attributes/POSITION = 2 of 4 elements: ", "expected finite numbers, first in element 2");
+    expect_refused("meshes/0/primitives/0/attributes/POSITION = 2 of 4 elements: ",
+                   "expected finite numbers, first in element 2");
 }
 
 TEST_F(GltfMeshes, InverseBindMatricesByRowsAreRefused)
 {
-    gltf.json["skins"][0]["inverseBindMatrices"] =
-        gltf.put<float>("MAT4", {1, 0, 0, -1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, -1, 0, 1, 0, -2, 0, 0, 1, 0, 0, 0, 0, 1});
+    gltf.json["skins"][0]["inverseBindMatrices"] = gltf.put<float>(
+        "MAT4", {1, 0, 0, -1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, -1, 0, 1, 0, -2, 0, 0, 1, 0, 0, 0, 0, 1});
     expect_refused("skins/0/inverseBindMatrices = matrix 0: is stored by rows", "transpose");
-    gltf.json["skins"][0]["inverseBindMatrices"] =
-        gltf.put<float>("MAT4", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 0.5F, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 0, 1});
+    gltf.json["skins"][0]["inverseBindMatrices"] = gltf.put<float>(
+        "MAT4", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 0.5F, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 0, 1});
     expect_refused("skins/0/inverseBindMatrices = matrix 1: expected the last row 0, 0, 0, 1", "");
 }
 
@@ -253,8 +262,8 @@ TEST_F(GltfMeshes, PointsLinesAndMorphTargetsAreLeftOutWithARemark)
     gltf = test_support::two_joint_document();
 }
 
-// Theory: glTF 2.0, Sec. 3.7.2.2: points + sum_t w_t displacement_t, with the weights of the animation, else of the node,
-// else of the mesh.
+// Theory: glTF 2.0, Sec. 3.7.2.2: points + sum_t w_t displacement_t, with the weights of the animation, else of the
+// node, else of the mesh.
 TEST_F(GltfMeshes, AreMovedByTheirMorphTargetsBeforeTheirSkin)
 {
     const Positions plain = read_mesh().points;
@@ -263,7 +272,8 @@ TEST_F(GltfMeshes, AreMovedByTheirMorphTargetsBeforeTheirSkin)
     const int target = gltf.put("VEC3", up);
     primitive()["targets"] = {{{"POSITION", 0}}, {{"POSITION", target}}};
     const auto expect_weights = [&](const Positions& points, double first, double second) {
-        const Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>> second_target(up.data(), plain.rows(), 3);
+        const Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>> second_target(up.data(),
+                                                                                                       plain.rows(), 3);
         EXPECT_LE((points - (1.0 + first) * plain - second * second_target.cast<double>()).cwiseAbs().maxCoeff(), 1e-6);
     };
     gltf.json["meshes"][0]["weights"] = {0.25, 0.5};
@@ -272,8 +282,8 @@ TEST_F(GltfMeshes, AreMovedByTheirMorphTargetsBeforeTheirSkin)
     node["weights"] = {0.0, 2.0};
     expect_weights(read_mesh().points, 0.0, 2.0);
 
-    animation()["samplers"] = {
-        {{"input", gltf.put("SCALAR", std::vector<float>{0, 1})}, {"output", gltf.put("SCALAR", std::vector<float>{0, 2, 1, 4})}}};
+    animation()["samplers"] = {{{"input", gltf.put("SCALAR", std::vector<float>{0, 1})},
+                                {"output", gltf.put("SCALAR", std::vector<float>{0, 2, 1, 4})}}};
     const auto number = std::distance(gltf.json["nodes"].begin(), std::ranges::find(gltf.json["nodes"], node));
     animation()["channels"] = {{{"sampler", 0}, {"target", {{"node", number}, {"path", "weights"}}}}};
     const Rig rig = read();
@@ -295,7 +305,8 @@ TEST_F(GltfMeshes, HaveTheSkinOfTheirNode)
     EXPECT_EQ(mesh.skin.bone, (std::vector<int>{0, 0, 1, 1, 0, 1}));
     EXPECT_EQ(mesh.skin.weight, (std::vector<double>{1.0, 0.5, 0.5, 1.0, 0.25, 0.75}));
     gltf.json["skins"][0].erase("inverseBindMatrices");
-    for (const SkinJoint& joint : read_mesh().joints) EXPECT_EQ(joint.inverse_bind.matrix(), Eigen::Matrix4d(Eigen::Matrix4d::Identity()));
+    for (const SkinJoint& joint : read_mesh().joints)
+        EXPECT_EQ(joint.inverse_bind.matrix(), Eigen::Matrix4d(Eigen::Matrix4d::Identity()));
 }
 
 TEST_F(GltfMeshes, ASecondSetOfJointsAddsItsWeights)
@@ -317,8 +328,10 @@ TEST_F(GltfMeshes, NormalisedBytesAsWeightsAndAnyJointOfAWeightOfZero)
     ASSERT_EQ(skin.weight.size(), 6u);
     EXPECT_DOUBLE_EQ(skin.weight[1], 0.2);
     EXPECT_DOUBLE_EQ(skin.weight[4], 0.4);
-    gltf = test_support::two_joint_document();  // glTF 2.0, Sec. 3.7.3.3: unused joints should be zero, and often are not
-    primitive()["attributes"]["JOINTS_0"] = gltf.put<std::uint8_t>("VEC4", {0, 99, 0, 0, 0, 1, 99, 0, 1, 0, 0, 99, 0, 1, 0, 0});
+    // glTF 2.0, Sec. 3.7.3.3: unused joints should be zero, and often are not
+    gltf = test_support::two_joint_document();
+    primitive()["attributes"]["JOINTS_0"] =
+        gltf.put<std::uint8_t>("VEC4", {0, 99, 0, 0, 0, 1, 99, 0, 1, 0, 0, 99, 0, 1, 0, 0});
     EXPECT_EQ(read_mesh().skin.bone, (std::vector<int>{0, 0, 1, 1, 0, 1}));
 }
 
@@ -387,10 +400,12 @@ TEST_F(GltfAnimations, WhatMovesNoNodeIsLeftOut)
         const Rig rig = read();
         EXPECT_EQ(rig.animations.at(0).nodes.size(), 1u) << other;
         const bool is_named = other == without_targets;
-        EXPECT_EQ(rig.remarks, is_named
-                                   ? std::vector<std::string>{"animation Bend: its weights of node body are left out, for no mesh with "
-                                                              "morph targets is shown there"}
-                                   : std::vector<std::string>{});
+        EXPECT_EQ(
+            rig.remarks,
+            is_named
+                ? std::vector<std::string>{"animation Bend: its weights of node body are left out, for no mesh with "
+                                           "morph targets is shown there"}
+                : std::vector<std::string>{});
     }
     gltf.json.erase("animations");
     EXPECT_TRUE(read().animations.empty());
@@ -405,14 +420,18 @@ TEST_F(GltfAnimations, WithoutANameAreNumberedAndAMeshIsCalledAsItsNode)
     EXPECT_EQ(read().animations.at(1).name, "animation 1");
 }
 
-// Reference: glTF 2.0, Sec. 3.6.2 (accessors, sparse accessors) and the conversion of normalised integers in Sec. 3.6.2.2, by hand.
+// Reference: glTF 2.0, Sec. 3.6.2 (accessors, sparse accessors) and the conversion of normalised integers in
+// Sec. 3.6.2.2, by hand.
 
 TEST_F(GltfNumbers, NormalisedBytesAndShorts)  // the least signed number is minus one, too
 {
     EXPECT_EQ(last_rotation<std::uint8_t>({0, 0, 0, 255, 0, 51, 102, 255}), Eigen::Vector4d(0.0, 0.2, 0.4, 1.0));
-    EXPECT_EQ(last_rotation<std::uint16_t>({0, 0, 0, 65535, 0, 13107, 26214, 65535}), Eigen::Vector4d(0.0, 0.2, 0.4, 1.0));
-    EXPECT_EQ(last_rotation<std::int8_t>({0, 0, 0, 127, 0, 127, -127, 1}), Eigen::Vector4d(0.0, 1.0, -1.0, 1.0 / 127.0));
-    EXPECT_EQ(last_rotation<std::int16_t>({0, 0, 0, 32767, 0, 32767, -32767, 1}), Eigen::Vector4d(0.0, 1.0, -1.0, 1.0 / 32767.0));
+    EXPECT_EQ(last_rotation<std::uint16_t>({0, 0, 0, 65535, 0, 13107, 26214, 65535}),
+              Eigen::Vector4d(0.0, 0.2, 0.4, 1.0));
+    EXPECT_EQ(last_rotation<std::int8_t>({0, 0, 0, 127, 0, 127, -127, 1}),
+              Eigen::Vector4d(0.0, 1.0, -1.0, 1.0 / 127.0));
+    EXPECT_EQ(last_rotation<std::int16_t>({0, 0, 0, 32767, 0, 32767, -32767, 1}),
+              Eigen::Vector4d(0.0, 1.0, -1.0, 1.0 / 32767.0));
     EXPECT_EQ(last_rotation<std::int8_t>({0, 0, 0, 127, -128, 0, 0, 127}).x(), -1.0);
     EXPECT_EQ(last_rotation<std::int16_t>({0, 0, 0, 32767, -32768, 0, 0, 32767}).x(), -1.0);
 }
@@ -471,7 +490,8 @@ TEST_F(GltfLook, MaterialsHaveTheImagesOfTheFileAndOfItsFolderAndWhiteForTheRest
     EXPECT_EQ(materials.images[2], other);
     EXPECT_EQ(materials.images[3].substr(0, 4), png.substr(0, 4));
     ASSERT_EQ(materials.remarks.size(), 2u);
-    EXPECT_NE(materials.remarks[0].find("lost.png: expected PNG or JPEG in the file or below its folder"), std::string::npos);
+    EXPECT_NE(materials.remarks[0].find("lost.png: expected PNG or JPEG in the file or below its folder"),
+              std::string::npos);
     const json document = json::parse(materials.document);
     EXPECT_EQ(document["images"][1], (json{{"mimeType", "image/jpeg"}}));
     EXPECT_EQ(document["textures"], gltf.json["textures"]);
@@ -494,8 +514,9 @@ TEST_F(GltfNumbers, ASparseAccessorReplacesSomeElementsOfItsViewOrOfZeros)
 {
     const int indices = gltf.put_bytes<std::uint8_t>({1, 3}), values = gltf.put_bytes<float>({10, 20, 30, 40, 50, 60});
     json& points = gltf.json["accessors"][0];
-    points["sparse"] = {
-        {"count", 2}, {"indices", {{"bufferView", indices}, {"componentType", 5121}}}, {"values", {{"bufferView", values}}}};
+    points["sparse"] = {{"count", 2},
+                        {"indices", {{"bufferView", indices}, {"componentType", 5121}}},
+                        {"values", {{"bufferView", values}}}};
     EXPECT_EQ(read_mesh().points, (Positions(4, 3) << 1, 0, 0, 10, 20, 30, 1, 4, 0, 40, 50, 60).finished());
     points.erase("bufferView");
     EXPECT_EQ(read_mesh().points, (Positions(4, 3) << 0, 0, 0, 10, 20, 30, 0, 0, 0, 40, 50, 60).finished());

@@ -1,4 +1,5 @@
-// Reference: bind poses of one or two joints, computed by hand. Tolerances: at most 64 roundings of numbers of at most 8.
+// Reference: bind poses of one or two joints, computed by hand. Tolerances: at most 64 roundings of numbers of at
+// most 8.
 
 #include "pbs/rig/rigged_body.hpp"
 #include "tests/support/rounding_error.hpp"
@@ -18,7 +19,8 @@ const double bind_rounding = test_support::rounding_error(64, 8.0);
 // Three points that follow the first of the given joints.
 RigMesh small_mesh(const std::string& name, int node, const std::vector<SkinJoint>& joints)
 {
-    return {name, node, Positions::Identity(3, 3), Triangles{{0, 1, 2}}, joints, test_support::one_joint_each({0, 0, 0})};
+    return {
+        name, node, Positions::Identity(3, 3), Triangles{{0, 1, 2}}, joints, test_support::one_joint_each({0, 0, 0})};
 }
 
 void expect_rest_points(const RigBinding& binding, std::size_t mesh, const Positions& expected)
@@ -62,12 +64,14 @@ TEST(RigBinding, TheLargestMeshComesFirstAndDeterminesTheBindPose)
     Rig rig = two_joint_rig();                                    // 4 points
     rig.nodes[1].rest.rotation = Eigen::Quaterniond(0, 0, 0, 1);  // the rest pose of the elbow does not matter
     rig.nodes.push_back(test_support::rig_node("hand", 1, {0, 1, 0}));
-    rig.meshes.insert(rig.meshes.begin(), small_mesh("cuff", 2, {joint_bound_at(1, {1, 2, 3}), joint_bound_at(3, {1, 3, 3})}));
+    rig.meshes.insert(rig.meshes.begin(),
+                      small_mesh("cuff", 2, {joint_bound_at(1, {1, 2, 3}), joint_bound_at(3, {1, 3, 3})}));
     const RigBinding binding = bind_rig(rig, nullptr, 1.0);
     EXPECT_EQ(binding.meshes[0].name, "arm");
     EXPECT_LE((binding.bind.at(1).translation() - Vec3(1, 2, 0)).norm(), bind_rounding);
     EXPECT_LE((binding.bind.at(3).translation() - Vec3(1, 3, 0)).norm(), bind_rounding);
-    expect_rest_points(binding, 1, moved(rig.meshes[0].points, 0, 0, -3));  // brought to where the larger mesh was bound
+    // brought to where the larger mesh was bound
+    expect_rest_points(binding, 1, moved(rig.meshes[0].points, 0, 0, -3));
 }
 
 TEST(RigBinding, BindPosesThatContradictEachOtherAreARemark)
@@ -76,7 +80,8 @@ TEST(RigBinding, BindPosesThatContradictEachOtherAreARemark)
     rig.meshes.push_back(small_mesh("cuff", 2, {joint_bound_at(0, {1, 0, 0}), joint_bound_at(1, {1, 3, 0})}));
     const RigBinding binding = bind_rig(rig, nullptr, 1.0);
     ASSERT_EQ(binding.remarks.size(), 1u);
-    EXPECT_NE(binding.remarks[0].find("mesh cuff was bound to 1 of 2 joints in another pose"), std::string::npos) << binding.remarks[0];
+    EXPECT_NE(binding.remarks[0].find("mesh cuff was bound to 1 of 2 joints in another pose"), std::string::npos)
+        << binding.remarks[0];
 }
 
 TEST(RigBinding, AMeshWithoutASkinHangsOnTheJointAboveIt)
@@ -106,7 +111,8 @@ TEST(RigBinding, AMeshThatNoJointMovesIsLeftOutUnlessThereIsNoJointOrNoOtherMesh
     expect_rest_points(at_rest, 0, moved(without_joints.meshes[0].points, 1, 2, 0));
 
     floor_alone.meshes = {small_mesh("floor", 2, {})};  // the animation moves a node, but no mesh
-    expect_input_error([&] { bind_rig(floor_alone, nullptr, 1.0); }, "arm.gltf: meshes: ", "expected a mesh that a joint moves");
+    expect_input_error([&] { bind_rig(floor_alone, nullptr, 1.0); },
+                       "arm.gltf: meshes: ", "expected a mesh that a joint moves");
 }
 
 // Reference: the size of a body whose animation scales its root joint is that of the first frame.
@@ -119,7 +125,8 @@ Rig with_scaled_root(const Vec3& first)
     return rig;
 }
 
-// The arm below a joint that moves no point and a node, which is none, as converters add them. The skin was bound without that node.
+// The arm below a joint that moves no point and a node, which is none, as converters add them. The skin was bound
+// without that node.
 Rig below_a_container(const Vec3& scale)
 {
     Rig arm = test_support::two_joint_rig(), rig = arm;
@@ -170,7 +177,8 @@ TEST(ScaledContainer, AJointThatIsScaledForItsLooksDoesNotCount)
     EXPECT_EQ(rest_points(binding.meshes[0], binding), rig.meshes[0].points);
 }
 
-// A mirrored root has the size of its magnitude. The scale is a cubic root of a determinant: some 20 roundings of numbers of at most 12.
+// A mirrored root has the size of its magnitude. The scale is a cubic root of a determinant: some 20 roundings of
+// numbers of at most 12.
 TEST(ScaledAnimation, TheFirstFrameDeterminesTheSize)
 {
     for (const auto& [scale, size] : {std::pair(Vec3(3, 3, 3), 3.0), {Vec3(-2, 2, 2), 2.0}}) {
@@ -190,13 +198,17 @@ TEST(ScaledAnimation, AThousandthIsTakenForRoundingAndZeroRefusedByTheNameOfTheJ
     expect_input_error([&] { bind_rig(flat, &flat.animations[0], 1.0); }, "arm.gltf: scale of root = 0: ", "not zero");
 }
 
-// Reference: an elbow that turns half round within 1 s at a constant rate. Angles are in error by some hundred roundings.
+// Reference: an elbow that turns half round within 1 s at a constant rate. Angles are in error by some hundred
+// roundings.
 
 const double motion_rounding = test_support::rounding_error(512, 8.0);
 
 class RigMotionOfAnElbow : public testing::Test {
 protected:
-    RigMotion motion(const MotionSampling& sampling) const { return rig_motion(rig, body, rig.animations[0], sampling); }
+    RigMotion motion(const MotionSampling& sampling) const
+    {
+        return rig_motion(rig, body, rig.animations[0], sampling);
+    }
 
     Rig rig = test_support::two_joint_rig();
     RiggedBody body = make_rigged_body(rig, nullptr, 1.0);
@@ -211,7 +223,8 @@ TEST_F(RigMotionOfAnElbow, HasAPosePerTimeStepFromTheFirstKeyToTheLast)
     for (std::size_t step = 0; step < made.steps.size(); ++step) {
         const Eigen::Matrix3d expected(Eigen::AngleAxisd(M_PI * double(step) / 8.0, Vec3::UnitZ()));
         EXPECT_LE((made.steps[step][1].linear() - expected).cwiseAbs().maxCoeff(), motion_rounding) << step;
-        EXPECT_LE((made.steps[step][0].matrix() - Eigen::Matrix4d::Identity()).cwiseAbs().maxCoeff(), motion_rounding) << step;
+        EXPECT_LE((made.steps[step][0].matrix() - Eigen::Matrix4d::Identity()).cwiseAbs().maxCoeff(), motion_rounding)
+            << step;
     }
 }
 
@@ -243,7 +256,8 @@ TEST_F(RigMotionOfAnElbow, TheArtistsFramesAreThoseOfTheMotion)
 
 TEST_F(RigMotionOfAnElbow, AStretchBeyondTheAnimationIsRefused)
 {
-    expect_input_error([&] { motion({.start_s = 1.5, .rate_hz = 4.0, .time_step_s = 0.25}); }, "arm.gltf: start_s = 1.5", "lasts 1.0");
+    expect_input_error([&] { motion({.start_s = 1.5, .rate_hz = 4.0, .time_step_s = 0.25}); },
+                       "arm.gltf: start_s = 1.5", "lasts 1.0");
     expect_input_error([&] { motion({.start_s = 0.5, .duration_s = 0.75, .rate_hz = 4.0, .time_step_s = 0.25}); },
                        "arm.gltf: duration_s = 0.75", "ends at 1.0");
 }

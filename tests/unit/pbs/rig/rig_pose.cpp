@@ -1,5 +1,5 @@
-// Reference: the interpolations of glTF 2.0, Appendix C, and skinned points, computed by hand. Tolerances: at most 64 roundings of numbers
-// of at most 8.
+// Reference: the interpolations of glTF 2.0, Appendix C, and skinned points, computed by hand. Tolerances: at most 64
+// roundings of numbers of at most 8.
 
 #include "pbs/rig/rigged_body.hpp"
 #include "tests/support/rounding_error.hpp"
@@ -73,7 +73,8 @@ TEST(KeyTracks, ACubicSplineReproducesACubicPolynomial)
     KeyTrack track{Interpolation::cubic_spline, {0.25, 1.0, 2.0}, {}};
     for (const double t : track.times_s)
         for (const double number : {slope(t), value(t), slope(t)}) track.values.emplace_back(number, 0, 0, 0);
-    for (const double t : {0.25, 0.3, 0.7, 1.0, 1.1, 1.9, 2.0}) EXPECT_NEAR(vector_at(track, t).x(), value(t), pose_rounding) << t;
+    for (const double t : {0.25, 0.3, 0.7, 1.0, 1.1, 1.9, 2.0})
+        EXPECT_NEAR(vector_at(track, t).x(), value(t), pose_rounding) << t;
 }
 
 TEST(KeyTracks, RotationsTurnAtAConstantRateTheShorterWay)
@@ -92,7 +93,8 @@ TEST(KeyTracks, RotationsHaveUnitLength)
 {
     EXPECT_EQ(rotation_at({Interpolation::step, {0.0}, {{0, 0, 3, 4}}}, 0.0).coeffs(), Eigen::Vector4d(0, 0, 0.6, 0.8));
     const Eigen::Vector4d still = Eigen::Vector4d::Zero();
-    const KeyTrack track{Interpolation::cubic_spline, {0.0, 1.0}, {still, {0, 0, 0, 1}, still, still, {0, 0, 1, 0}, still}};
+    const KeyTrack track{
+        Interpolation::cubic_spline, {0.0, 1.0}, {still, {0, 0, 0, 1}, still, still, {0, 0, 1, 0}, still}};
     const Eigen::Quaterniond middle = rotation_at(track, 0.5);  // (0, 0, 1, 1) / 2 before it is normalised
     EXPECT_NEAR(middle.z(), std::sqrt(0.5), pose_rounding);
     EXPECT_NEAR(middle.w(), std::sqrt(0.5), pose_rounding);
@@ -104,14 +106,16 @@ TEST(FindAnimation, TheFirstOneWithoutANameAndAnErrorThatListsTheNames)
     rig.animations.push_back({"Walk", 0.0, 1.0, {}});
     EXPECT_EQ(find_animation(rig, ""), &rig.animations[0]);
     EXPECT_EQ(find_animation(rig, "Walk"), &rig.animations[1]);
-    expect_input_error([&] { find_animation(rig, "walk"); }, "arm.gltf: animation = walk: ", "expected one of Bend, Walk");
+    expect_input_error([&] { find_animation(rig, "walk"); },
+                       "arm.gltf: animation = walk: ", "expected one of Bend, Walk");
     rig.animations.clear();
     EXPECT_EQ(find_animation(rig, ""), nullptr);
-    expect_input_error([&] { find_animation(rig, "Walk"); }, "arm.gltf: animation = Walk: ", "the file has no animation");
+    expect_input_error([&] { find_animation(rig, "Walk"); },
+                       "arm.gltf: animation = Walk: ", "the file has no animation");
 }
 
-// Reference: rigid motions of two bones and the artist's points, by hand. A rotation from a singular value decomposition is in error by
-// some hundred roundings.
+// Reference: rigid motions of two bones and the artist's points, by hand. A rotation from a singular value
+// decomposition is in error by some hundred roundings.
 
 const double rigid_rounding = test_support::rounding_error(256, 8.0);
 
@@ -146,7 +150,8 @@ TEST(RigidPose, CarriesRestPointsAndTheArtistsToTheirPlacesInMetres)
     const Positions expected{{1, 0, 0}, {1, 2, 0}, {1, 0, 0}, {0.5, 2, 0}};
     const Positions points = artist_points(half_round.body, half_round.nodes);
     EXPECT_LE((points - 0.5 * expected).cwiseAbs().maxCoeff(), rigid_rounding);
-    EXPECT_LE((artist_points(half_round.body, pose) - points).cwiseAbs().maxCoeff(), rigid_rounding) << "as of a clip, which has no nodes";
+    EXPECT_LE((artist_points(half_round.body, pose) - points).cwiseAbs().maxCoeff(), rigid_rounding)
+        << "as of a clip, which has no nodes";
 }
 
 TEST(RigidPose, LeavesOutScaleWhichTheArtistsPointsKeepAndReportsIt)
@@ -168,7 +173,8 @@ TEST(RigidPose, OfAMirroredBoneIsARotation)
         EXPECT_NEAR(bone.linear().determinant(), 1.0, rigid_rounding);
 }
 
-// Reference: poses of nodes and skinned points, computed by hand. Tolerances: at most 64 roundings of numbers of at most 8.
+// Reference: poses of nodes and skinned points, computed by hand. Tolerances: at most 64 roundings of numbers of at
+// most 8.
 
 using test_support::two_joint_rig;
 

@@ -21,8 +21,9 @@ using test_support::ScratchFolder;
 using test_support::two_joint_document;
 TEST_F(RigReader, ReadsEachFormatByItsContent)
 {
-    for (const auto& [extension, text] : {std::pair(".gltf", two_joint_document().text()), std::pair(".dae", test_support::collada_arm()),
-                                          std::pair(".fbx", test_support::fbx_arm())}) {
+    for (const auto& [extension, text] :
+         {std::pair(".gltf", two_joint_document().text()), std::pair(".dae", test_support::collada_arm()),
+          std::pair(".fbx", test_support::fbx_arm())}) {
         const std::string path = folder.file("arm" + std::string(extension), text);
         EXPECT_TRUE(is_rig_file(path)) << path;
         EXPECT_TRUE(rig_has_skin(path)) << path;
@@ -66,7 +67,8 @@ TEST(CheckedRig, TellsAnimationsWithOneNameApartAndKeepsNamesThatAreUnique)
     }
     std::vector<std::string> names;
     for (const RigAnimation& animation : checked(rig).animations) names.push_back(animation.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"Take 001", "Walk", "Take 001 (3)", "Take 001 (2)", "Take 001 (4)", "Walk (2)"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"Take 001", "Walk", "Take 001 (3)", "Take 001 (2)", "Take 001 (4)",
+                                               "Walk (2)"}));
 }
 
 TEST(CheckedRig, HasNoIndexOutOfRange)
@@ -128,7 +130,8 @@ TEST_F(RigReader, WhatIsNoRigIsRefusedByName)
     for (const char* text : {"v 0 0 0\n", "HIERARCHY\n", "[1, 2]"}) {
         const std::string path = folder.file("a.glb", text);
         EXPECT_FALSE(is_rig_file(path)) << text;
-        expect_input_error([&] { read_rig(path); }, path + ": no rig: ", "expected glTF 2.0 (.glb, .gltf), FBX (.fbx) or COLLADA");
+        expect_input_error([&] { read_rig(path); },
+                           path + ": no rig: ", "expected glTF 2.0 (.glb, .gltf), FBX (.fbx) or COLLADA");
     }
     for (const std::string& path : {folder / "none.glb", folder.file("empty.glb", ""), folder.path().string()})
         EXPECT_FALSE(is_rig_file(path)) << path;
@@ -137,7 +140,8 @@ TEST_F(RigReader, WhatIsNoRigIsRefusedByName)
 TEST_F(RigReader, TheNameOfAGltfDoesNotMatterAndRemarksReachTheCaller)
 {
     for (const char* name : {"arm.glb", "arm.fbx", "arm"})
-        EXPECT_EQ(read_rig(folder.file(name, "\n " + two_joint_document().text())).meshes.at(0).joints.size(), 2u) << name;
+        EXPECT_EQ(read_rig(folder.file(name, "\n " + two_joint_document().text())).meshes.at(0).joints.size(), 2u)
+            << name;
     GltfDocument gltf = two_joint_document();
     auto& primitives = gltf.json["meshes"][0]["primitives"];
     primitives.push_back(primitives[0]);
@@ -156,7 +160,8 @@ Weights weights_of_one_point(const std::vector<JointShare>& shares, std::vector<
 TEST(SkinWeights, SumToOneAfterThoseOfAJointWereAddedAndZerosLeftOut)
 {
     for (const auto& [shares, bones, weights, is_sum] :
-         {std::tuple(std::vector<JointShare>{{2, 0.25}, {0, 0.75}}, std::vector<int>{2, 0}, std::vector<double>{0.25, 0.75}, true),
+         {std::tuple(std::vector<JointShare>{{2, 0.25}, {0, 0.75}}, std::vector<int>{2, 0},
+                     std::vector<double>{0.25, 0.75}, true),
           {{{0, 1.0}, {1, 3.0}}, {0, 1}, {0.25, 0.75}, false},
           {{{0, 0.5}, {1, 0.5009}}, {0, 1}, {0.5 / 1.0009, 0.5009 / 1.0009}, true},  // within a thousandth of one
           {{{3, 0.25}, {1, 0.5}, {3, 0.25}}, {3, 1}, {0.5, 0.5}, true},
@@ -190,20 +195,23 @@ TEST(SkinWeights, ARoundingBelowZeroIsZeroAndNamed)
     const std::vector<std::vector<JointShare>> points = {{{0, 1.0}, {1, -5.6e-5}}};
     EXPECT_EQ(normalised_skin(points, "a.fbx", "arm", remarks, notes).weight, std::vector<double>{1.0});
     EXPECT_TRUE(remarks.empty());
-    EXPECT_EQ(notes, std::vector<std::string>{"negative weights of mesh arm, down to -5.6e-05, are taken as 0, as a rounding"});
+    EXPECT_EQ(notes, std::vector<std::string>{
+                         "negative weights of mesh arm, down to -5.6e-05, are taken as 0, as a rounding"});
 }
 
 TEST(SkinWeights, ThatAreNegativeNotFiniteOrNoneAreRefused)
 {
     std::vector<std::string> none;
     const std::vector<JointShare> zero = {{1, 0.0}};
-    expect_input_error([&] { weights_of_one_point(zero, none); }, "a.glb: mesh arm, weights = 0: ", "expected a point with a weight");
+    expect_input_error([&] { weights_of_one_point(zero, none); },
+                       "a.glb: mesh arm, weights = 0: ", "expected a point with a weight");
     constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [weight, text] :
          {std::pair(-0.5, "-0.5"), std::pair(-1e-3, "-0.001"), std::pair(nan, "nan"), std::pair(infinity, "inf")}) {
         const std::vector<std::vector<JointShare>> points = {{{0, 1.0}}, {{0, 1.0}, {1, weight}}};
         expect_input_error([&] { normalised_skin(points, "a.glb", "arm", none, none); },
-                           std::string("a.glb: mesh arm, weight of point 1 = ") + text + ": ", "expected a finite number of 0 or more");
+                           std::string("a.glb: mesh arm, weight of point 1 = ") + text + ": ",
+                           "expected a finite number of 0 or more");
     }
 }
 

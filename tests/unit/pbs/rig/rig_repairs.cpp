@@ -1,5 +1,5 @@
-// Reference: the enclosed volume of a sphere of triangles, and weights by hand. Repairs move no point, so that results are equal to the
-// bit.
+// Reference: the enclosed volume of a sphere of triangles, and weights by hand. Repairs move no point, so that results
+// are equal to the bit.
 
 #include "pbs/rig/rig_reader.hpp"
 #include "tests/support/closed_surfaces.hpp"
@@ -79,11 +79,14 @@ protected:
         const RigMesh mesh = left_of(points, triangles);
         EXPECT_EQ(mesh.triangles.rows(), own.rows());
         EXPECT_EQ(mesh.points.rows(), ball.points.rows());
-        EXPECT_NEAR(test_support::enclosed_volume(mesh.points, mesh.triangles), test_support::enclosed_volume(ball.points, own), 1e-14);
+        EXPECT_NEAR(test_support::enclosed_volume(mesh.points, mesh.triangles),
+                    test_support::enclosed_volume(ball.points, own), 1e-14);
         ASSERT_FALSE(remarks.empty());
-        EXPECT_EQ(remarks[0], std::to_string(own.rows()) + " of " + std::to_string(2 * own.rows()) +
-                                  " triangles of mesh ball are the second side of others, with their corners in the reverse order; they "
-                                  "are left out");
+        EXPECT_EQ(
+            remarks[0],
+            std::to_string(own.rows()) + " of " + std::to_string(2 * own.rows()) +
+                " triangles of mesh ball are the second side of others, with their corners in the reverse order; they "
+                "are left out");
     }
 
     const SurfaceMesh ball = test_support::icosphere(1.0, 2);
@@ -96,7 +99,8 @@ TEST_F(SecondSides, OfAClosedBodyAreLeftOutInAnyOrder)
     for (const Triangles& triangles : {both, stacked(inward, ball.triangles), in_random_order(both)})
         expect_one_side(ball.points, triangles, ball.triangles);
     const auto points = static_cast<int>(ball.points.rows());
-    expect_one_side(stacked(ball.points, ball.points), stacked(ball.triangles, Triangles(inward.array() + points)), ball.triangles);
+    expect_one_side(stacked(ball.points, ball.points), stacked(ball.triangles, Triangles(inward.array() + points)),
+                    ball.triangles);
 }
 
 TEST_F(SecondSides, OfABodyWithASmallOpeningAreLeftOut)
@@ -141,7 +145,8 @@ TEST_F(SecondSides, PointsWithoutATriangleAreLeftOutWithTheirWeightsAndTheirLook
     EXPECT_EQ(mesh.look.numbers, ball.points.cast<float>());
     EXPECT_EQ(mesh.skin.vertices(), ball.points.rows());
     EXPECT_EQ(std::ranges::count(mesh.skin.bone, 1), 0);
-    EXPECT_EQ(rig.remarks, std::vector<std::string>{"1,200 of 1,362 points of mesh ball are left out; no triangle uses them"});
+    EXPECT_EQ(rig.remarks,
+              std::vector<std::string>{"1,200 of 1,362 points of mesh ball are left out; no triangle uses them"});
 }
 
 // A ball of 642 points, whose weights of a second joint are the heights of the points.
@@ -191,8 +196,9 @@ TEST_F(WeightsOfNeighbours, AreTheirMean)
     }
     EXPECT_EQ(made[8][1].weight, height(8));
     EXPECT_EQ(remarks,
-              std::vector<std::string>{"the weights of 2 of 642 points of mesh ball are no finite numbers; they take those of their "
-                                       "neighbours"});
+              std::vector<std::string>{
+                  "the weights of 2 of 642 points of mesh ball are no finite numbers; they take those of their "
+                  "neighbours"});
 }
 
 TEST_F(WeightsOfNeighbours, AreThoseOfAnotherPointAtThePlace)
@@ -215,7 +221,8 @@ TEST_F(WeightsOfNeighbours, ReachThePointsInTheMiddleOfSeveral)
         if ((triangle.array() == 0).any()) around.insert(triangle.begin(), triangle.end());
     ASSERT_LE(around.size(), 6u);  // a corner of the icosahedron and its neighbours
     for (const int point : around) spoil(static_cast<std::size_t>(point));
-    for (const auto& own : filled()) EXPECT_TRUE(std::ranges::all_of(own, [](const JointShare& share) { return share.weight <= 1.0; }));
+    for (const auto& own : filled())
+        EXPECT_TRUE(std::ranges::all_of(own, [](const JointShare& share) { return share.weight <= 1.0; }));
 }
 
 TEST_F(WeightsOfNeighbours, AreNoneOfMoreThanAHundredthOfThePointsOrOfAPartWithoutAny)
@@ -227,7 +234,8 @@ TEST_F(WeightsOfNeighbours, AreNoneOfMoreThanAHundredthOfThePointsOrOfAPartWitho
     mesh.triangles = stacked(ball.triangles, Triangles{{642, 643, 644}});
     for (std::size_t p = 0; p < 7; ++p) shares[p] = shares[10];
     for (std::size_t p = 642; p < 645; ++p) shares.push_back({{0, not_a_number}});
-    expect_input_error([&] { filled(); }, "a.glb: mesh ball, weights = 3 of 645 points: ", "point 642 has no neighbour with weights");
+    expect_input_error([&] { filled(); },
+                       "a.glb: mesh ball, weights = 3 of 645 points: ", "point 642 has no neighbour with weights");
 }
 
 }  // namespace

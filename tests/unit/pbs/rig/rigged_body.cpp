@@ -1,5 +1,5 @@
-// Reference: the bones, weights and poses of a rig of two joints, by hand. Tolerances: at most 64 roundings of numbers of at most 8; a
-// rotation from a singular value decomposition is in error by some hundred of them.
+// Reference: the bones, weights and poses of a rig of two joints, by hand. Tolerances: at most 64 roundings of numbers
+// of at most 8; a rotation from a singular value decomposition is in error by some hundred of them.
 
 #include "pbs/rig/rigged_body.hpp"
 #include "tests/support/rounding_error.hpp"
@@ -113,19 +113,21 @@ TEST(RiggedBody, AClosedSurfaceInsideOutIsTurnedWithANote)
     rig.meshes[0].triangles.col(1).swap(rig.meshes[0].triangles.col(2));
     const RiggedBody body = make_rigged_body(rig, nullptr, 1.0);
     EXPECT_EQ(body.triangles, outward);
-    EXPECT_EQ(body.notes, std::vector<std::string>{"the surface is inside out; it is taken as the body that it encloses"});
+    EXPECT_EQ(body.notes,
+              std::vector<std::string>{"the surface is inside out; it is taken as the body that it encloses"});
 }
 
 TEST(RiggedBody, TheAngleFromTheBindPoseToTheRestPoseIsReported)
 {
     Rig rig = two_joint_rig();
-    EXPECT_NEAR(make_rigged_body(rig, nullptr, 1.0).bind_pose_deg, 0.0, 1e-6);  // the angle of a small rotation: the root of eps
+    // the angle of a small rotation: the root of eps
+    EXPECT_NEAR(make_rigged_body(rig, nullptr, 1.0).bind_pose_deg, 0.0, 1e-6);
     rig.nodes[1].rest.rotation = Eigen::AngleAxisd(M_PI / 5.0, Vec3(1, 1, 0).normalized());
     EXPECT_NEAR(make_rigged_body(rig, nullptr, 1.0).bind_pose_deg, 36.0, 1e-9);
 }
 
-// Reference: the rules of the header on rigs whose joints and points have round coordinates. Tolerances: at most 64 roundings of numbers of
-// at most 8.
+// Reference: the rules of the header on rigs whose joints and points have round coordinates. Tolerances: at most 64
+// roundings of numbers of at most 8.
 
 using test_support::rig_node;
 
@@ -138,13 +140,15 @@ struct PlacedJoint {
 };
 
 // A rig of joints in this order and of points that follow one joint each.
-Rig rig_with(const std::vector<PlacedJoint>& joints, const std::vector<Vec3>& points, const std::vector<int>& joint_of_point)
+Rig rig_with(const std::vector<PlacedJoint>& joints, const std::vector<Vec3>& points,
+             const std::vector<int>& joint_of_point)
 {
     Rig rig;
     RigMesh mesh;
     for (std::size_t j = 0; j < joints.size(); ++j) {
         const auto& [name, parent, place] = joints[j];
-        rig.nodes.push_back(rig_node(name, parent, parent < 0 ? place : Vec3(place - joints[std::size_t(parent)].place)));
+        rig.nodes.push_back(
+            rig_node(name, parent, parent < 0 ? place : Vec3(place - joints[std::size_t(parent)].place)));
         mesh.joints.push_back(test_support::joint_bound_at(int(j), place));
     }
     rig.nodes.push_back(rig_node("body", -1, Vec3::Zero()));
@@ -157,16 +161,18 @@ Rig rig_with(const std::vector<PlacedJoint>& joints, const std::vector<Vec3>& po
     return rig;
 }
 
-// A chain a - helper - b whose helper moves no point. Rotations of all three change no distance, and translations of b and the helper add
-// up.
+// A chain a - helper - b whose helper moves no point. Rotations of all three change no distance, and translations of b
+// and the helper add up.
 TEST(RiggedBody, TheDistanceOfABoneFromItsParentIsAlongTheJointsBetweenThem)
 {
-    Rig rig = rig_with({{"a", -1, {0, 0, 0}}, {"helper", 0, {0, 2, 0}}, {"b", 1, {0, 3, 0}}}, {{0, 0, 1}, {0, 4, 0}, {1, 3, 0}}, {0, 2, 2});
+    Rig rig = rig_with({{"a", -1, {0, 0, 0}}, {"helper", 0, {0, 2, 0}}, {"b", 1, {0, 3, 0}}},
+                       {{0, 0, 1}, {0, 4, 0}, {1, 3, 0}}, {0, 2, 2});
     RigAnimation animation{"Move", 0.0, 1.0, {}};
     const Vec3 axis = Vec3(1, 2, 3).normalized() * std::sin(0.5);
     const Eigen::Vector4d rest(0, 0, 0, 1), turned(axis.x(), axis.y(), axis.z(), std::cos(0.5));
     for (const int node : {0, 1, 2})
-        animation.nodes.push_back({.node = node, .rotation = KeyTrack{.times_s = {0.0, 1.0}, .values = {rest, turned}}});
+        animation.nodes.push_back(
+            {.node = node, .rotation = KeyTrack{.times_s = {0.0, 1.0}, .values = {rest, turned}}});
     const MotionSampling sampling{.rate_hz = 2.0, .time_step_s = 0.25};
     const auto distances = [&] {
         const RiggedBody body = make_rigged_body(rig, nullptr, 1.0);
@@ -186,8 +192,9 @@ Vec3 tail_of(const std::string& name, const Rig& rig)
     return body.skeleton.bones.at(static_cast<std::size_t>(find_bone(body.skeleton, name))).tail;
 }
 
-void expect_tail(const std::string& rule, const Vec3& tail, const std::string& bone, const std::vector<PlacedJoint>& joints,
-                 const std::vector<Vec3>& points, const std::vector<int>& joint_of_point)
+void expect_tail(const std::string& rule, const Vec3& tail, const std::string& bone,
+                 const std::vector<PlacedJoint>& joints, const std::vector<Vec3>& points,
+                 const std::vector<int>& joint_of_point)
 {
     EXPECT_LE((tail_of(bone, rig_with(joints, points, joint_of_point)) - tail).norm(), tail_rounding) << rule;
 }
@@ -195,21 +202,24 @@ void expect_tail(const std::string& rule, const Vec3& tail, const std::string& b
 TEST(BoneTails, FollowTheRules)
 {
     const std::vector<Vec3> upwards = {{0, 1, 0}, {0, 2, 0}, {0, 4, 0}};
-    expect_tail("a bone ends at the joint below it", {0, 2, 0}, "a", {{"a", -1, {0, 0, 0}}, {"b", 0, {0, 2, 0}}}, upwards, {0, 1, 1});
-    expect_tail("a joint below without weight counts too", {3, 0, 0}, "a", {{"a", -1, {0, 0, 0}}, {"end", 0, {3, 0, 0}}},
-                {{1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {0, 0, 0});
+    expect_tail("a bone ends at the joint below it", {0, 2, 0}, "a", {{"a", -1, {0, 0, 0}}, {"b", 0, {0, 2, 0}}},
+                upwards, {0, 1, 1});
+    expect_tail("a joint below without weight counts too", {3, 0, 0}, "a",
+                {{"a", -1, {0, 0, 0}}, {"end", 0, {3, 0, 0}}}, {{1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {0, 0, 0});
     expect_tail("several joints below end it in their middle", {4, -1, 0}, "hand",
-                {{"hand", -1, {0, 0, 0}}, {"b", 0, {4, 1, 0}}, {"c", 0, {4, -3, 0}}}, {{1, 0, 0}, {4, 1, 0}, {4, -3, 0}}, {0, 1, 2});
+                {{"hand", -1, {0, 0, 0}}, {"b", 0, {4, 1, 0}}, {"c", 0, {4, -3, 0}}},
+                {{1, 0, 0}, {4, 1, 0}, {4, -3, 0}}, {0, 1, 2});
     expect_tail("joints on opposite sides end it at the one that moves most", {0, 3, 0}, "hips",
-                {{"hips", -1, {0, 0, 0}}, {"spine", 0, {0, 3, 0}}, {"tail", 0, {0, -3, 0}}}, {{0, 0, 1}, {0, 3, 0}, {0, 4, 0}, {0, -3, 0}},
-                {0, 1, 1, 2});
+                {{"hips", -1, {0, 0, 0}}, {"spine", 0, {0, 3, 0}}, {"tail", 0, {0, -3, 0}}},
+                {{0, 0, 1}, {0, 3, 0}, {0, 4, 0}, {0, -3, 0}}, {0, 1, 1, 2});
     expect_tail("below a joint at the same place the next one counts", {0, 2, 0}, "a",
                 {{"a", -1, {0, 0, 0}}, {"twist", 0, {0, 0, 0}}, {"b", 1, {0, 2, 0}}}, upwards, {0, 1, 2});
     // The middle of the leaf's points is at (0, 5, 0), so that it points along y; the farthest one is 4 along y.
     expect_tail("a leaf ends at nine tenths of the way to its farthest point", {0, 2 + 0.9 * 4, 0}, "b",
                 {{"a", -1, {0, 0, 0}}, {"b", 0, {0, 2, 0}}}, {{0, 1, 0}, {1, 4, 0}, {-1, 6, 0}}, {0, 1, 1});
-    expect_tail("a leaf whose points say nothing goes on as its parent, by three tenths of its length", {3 + 0.3 * 3, 0, 0}, "b",
-                {{"a", -1, {0, 0, 0}}, {"b", 0, {3, 0, 0}}}, {{0, 1, 0}, {0, -1, 0}, {3, 0, 0}}, {0, 0, 1});
+    expect_tail("a leaf whose points say nothing goes on as its parent, by three tenths of its length",
+                {3 + 0.3 * 3, 0, 0}, "b", {{"a", -1, {0, 0, 0}}, {"b", 0, {3, 0, 0}}},
+                {{0, 1, 0}, {0, -1, 0}, {3, 0, 0}}, {0, 0, 1});
 }
 
 TEST(BoneTails, ANodeWithAMeshIsNoJointBelow)
@@ -238,7 +248,8 @@ TEST(BoneTails, ASingleJointAmongItsPointsStillHasALength)
 
 TEST(BoneTails, AreThoseOfTheBindPoseNotOfTheRestPose)
 {
-    Rig rig = rig_with({{"a", -1, {0, 0, 0}}, {"b", 0, {0, 2, 0}}, {"end", 1, {0, 4, 0}}}, {{0, 1, 0}, {0, 2, 0}, {0, 4, 0}}, {0, 1, 1});
+    Rig rig = rig_with({{"a", -1, {0, 0, 0}}, {"b", 0, {0, 2, 0}}, {"end", 1, {0, 4, 0}}},
+                       {{0, 1, 0}, {0, 2, 0}, {0, 4, 0}}, {0, 1, 1});
     rig.nodes[1].rest.rotation = Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2.0, Vec3::UnitZ()));
     EXPECT_LE((tail_of("b", rig) - Vec3(0, 4, 0)).norm(), tail_rounding);
     rig.meshes[0].joints.pop_back();  // `end` is no joint of the skin: it keeps its place relative to b

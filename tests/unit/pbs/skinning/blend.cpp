@@ -1,6 +1,6 @@
-// The contract of the blends, plain and packed. Reference: closed forms of two bones blended half and half, the rest pose and rigid
-// transforms. Tolerances: the rounding of motions, two for a linear blend and its closed form and three where rotations become quaternions
-// and back.
+// The contract of the blends, plain and packed. Reference: closed forms of two bones blended half and half, the rest
+// pose and rigid transforms. Tolerances: the rounding of motions, two for a linear blend and its closed form and three
+// where rotations become quaternions and back.
 
 #include "pbs/skinning/blend.hpp"
 #include "tests/support/rounding_error.hpp"
@@ -26,7 +26,10 @@ constexpr double degree = std::numbers::pi / 180.0;
 struct Plain {
     using Scalar = double;
     void linear(const Pose& pose, Positions& posed) const { pbs::linear_blend_skinning(rest, weights, pose, posed); }
-    void dual_quaternion(const Pose& pose, Positions& posed) const { pbs::dual_quaternion_skinning(rest, weights, pose, posed); }
+    void dual_quaternion(const Pose& pose, Positions& posed) const
+    {
+        pbs::dual_quaternion_skinning(rest, weights, pose, posed);
+    }
 
     Positions rest;
     Weights weights;
@@ -55,7 +58,10 @@ protected:
         Skinning{rest, weights}.dual_quaternion(pose, posed);
         return posed;
     }
-    static Vec3 linear(const Vec3& point, const Pose& pose) { return linear(point.transpose(), half_and_half, pose).row(0); }
+    static Vec3 linear(const Vec3& point, const Pose& pose)
+    {
+        return linear(point.transpose(), half_and_half, pose).row(0);
+    }
     static Vec3 dual_quaternion(const Vec3& point, const Pose& pose)
     {
         return dual_quaternion(point.transpose(), half_and_half, pose).row(0);
@@ -80,8 +86,8 @@ TYPED_TEST_SUITE(BlendOf, Blends);
 TYPED_TEST(BlendOf, LinearShrinksATwistByTheCosineOfHalfTheAngle)
 {
     for (const double angle_deg : {10.0, 90.0, 150.0, 180.0})  // 180: the candy wrapper, radius zero
-        EXPECT_NEAR(this->linear({0, 0.2, 0}, this->twisted(angle_deg)).template tail<2>().norm(), 0.2 * std::cos(angle_deg / 2 * degree),
-                    this->motion_error(2, 0.2))
+        EXPECT_NEAR(this->linear({0, 0.2, 0}, this->twisted(angle_deg)).template tail<2>().norm(),
+                    0.2 * std::cos(angle_deg / 2 * degree), this->motion_error(2, 0.2))
             << angle_deg;
 }
 
@@ -89,7 +95,8 @@ TYPED_TEST(BlendOf, DualQuaternionsKeepTheRadiusOfATwistAndHalveItsAngle)
 {
     for (const double angle_deg : {10.0, 90.0, 150.0, 179.0}) {
         const Vec3 expected = 0.2 * Vec3(0, std::cos(angle_deg / 2 * degree), std::sin(angle_deg / 2 * degree));
-        EXPECT_LT((this->dual_quaternion({0, 0.2, 0}, this->twisted(angle_deg)) - expected).norm(), this->motion_error(3, 0.2))
+        EXPECT_LT((this->dual_quaternion({0, 0.2, 0}, this->twisted(angle_deg)) - expected).norm(),
+                  this->motion_error(3, 0.2))
             << angle_deg;
     }
 }
@@ -97,12 +104,13 @@ TYPED_TEST(BlendOf, DualQuaternionsKeepTheRadiusOfATwistAndHalveItsAngle)
 TYPED_TEST(BlendOf, DualQuaternionsBulgeWhereABendIsBlended)
 {
     const Pose bent = this->moved(Vec3::UnitZ(), 90.0);
-    EXPECT_NEAR(this->dual_quaternion({0, -0.2, 0}, bent).norm(), 0.2, this->motion_error(3, 0.2));  // a circle; LBS cuts the corner
+    // a circle; LBS cuts the corner
+    EXPECT_NEAR(this->dual_quaternion({0, -0.2, 0}, bent).norm(), 0.2, this->motion_error(3, 0.2));
     EXPECT_NEAR(this->linear({0, -0.2, 0}, bent).norm(), 0.2 * std::cos(45.0 * degree), this->motion_error(2, 0.2));
 }
 
-// Rotations by 170 and -170 degrees are 20 degrees apart; their quaternions lie in opposite hemispheres. An entry without weight must not
-// determine the hemisphere of the others: 180 lies between 100 and 260.
+// Rotations by 170 and -170 degrees are 20 degrees apart; their quaternions lie in opposite hemispheres. An entry
+// without weight must not determine the hemisphere of the others: 180 lies between 100 and 260.
 TYPED_TEST(BlendOf, TakesTheShortWayAndPivotsOnTheHeaviestBone)
 {
     const auto turned = [](std::vector<double> angles_deg) {
@@ -112,7 +120,8 @@ TYPED_TEST(BlendOf, TakesTheShortWayAndPivotsOnTheHeaviestBone)
         return pose;
     };
     const Weights with_zero = {{0, 3}, {0, 1, 2}, {0.0, 0.5, 0.5}};
-    for (const auto& [weights, pose] : {std::pair(this->half_and_half, turned({170, -170})), {with_zero, turned({0, 100, -100})}}) {
+    for (const auto& [weights, pose] :
+         {std::pair(this->half_and_half, turned({170, -170})), {with_zero, turned({0, 100, -100})}}) {
         const Positions posed = this->dual_quaternion(Vec3(0, 1, 0).transpose(), weights, pose);
         EXPECT_LT((posed.row(0).transpose() - Vec3(0, -1, 0)).norm(), this->motion_error(3, 1.0));
     }
@@ -129,7 +138,8 @@ Pose two_bones()
 
 // One rigid vertex, one blended by its own row, and two with a shared row.
 const Weights four_vertices = {{0, 1, 3, 5, 7}, {1, 0, 1, 0, 1, 0, 1}, {1.0, 0.25, 0.75, 0.5, 0.5, 0.5, 0.5}};
-const Positions four_points = (Positions(4, 3) << 0.125, 0.5, -0.25, 0.25, -0.5, 1.0, -1.0, 0.0, 0.75, 0.5, 0.5, 0.5).finished();
+const Positions four_points =
+    (Positions(4, 3) << 0.125, 0.5, -0.25, 0.25, -0.5, 1.0, -1.0, 0.0, 0.75, 0.5, 0.5, 0.5).finished();
 
 TYPED_TEST(BlendOf, LeavesTheRestPoseWhereItIs)
 {
@@ -162,7 +172,8 @@ TYPED_TEST(BlendOf, OfNoVerticesIsEmpty)
 using pbs::PackedWeights;
 
 // Vertices 0, 3: only bone 2; 1, 4: equal parts of 0 and 1; 2: its own row, whose second bone has the largest weight.
-const Weights five_vertices = {{0, 1, 3, 5, 6, 8}, {2, 0, 1, 0, 1, 2, 0, 1}, {1.0, 0.5, 0.5, 0.25, 0.75, 1.0, 0.5, 0.5}};
+const Weights five_vertices = {
+    {0, 1, 3, 5, 6, 8}, {2, 0, 1, 0, 1, 2, 0, 1}, {1.0, 0.5, 0.5, 0.25, 0.75, 1.0, 0.5, 0.5}};
 
 using Kind = pbs::VertexStretch::Kind;
 
@@ -178,7 +189,8 @@ TEST(PackedWeights, OneBoneOrASharedRowIsAMatrixAndARowOfOneVertexItsOwn)
 {
     const PackedWeights<float> packed = pbs::pack_weights<float>(five_vertices);
     EXPECT_EQ(packed.bones, 3);
-    EXPECT_TRUE(std::equal(packed.matrix.begin(), packed.matrix.begin() + 5, std::vector{2, 3, -1, 2, 3}.begin()));  // 3: after the bones
+    // 3: after the bones
+    EXPECT_TRUE(std::equal(packed.matrix.begin(), packed.matrix.begin() + 5, std::vector{2, 3, -1, 2, 3}.begin()));
     EXPECT_EQ(packed.shared.rows(), 1);
     EXPECT_EQ(packed.shared.bone, (std::vector<int>{0, 1}));
     EXPECT_EQ(packed.own.rows(), 1);
@@ -189,24 +201,28 @@ TEST(PackedWeights, OneBoneOrASharedRowIsAMatrixAndARowOfOneVertexItsOwn)
 TEST(PackedWeights, StretchesCoverTheVerticesInOrder)
 {
     using Stretches = std::vector<std::tuple<Kind, int, int>>;
-    EXPECT_EQ(stretches_of(five_vertices), (Stretches{{Kind::matrix_each, 0, 2}, {Kind::own_rows, 2, 3}, {Kind::matrix_each, 3, 5}}));
+    EXPECT_EQ(stretches_of(five_vertices),
+              (Stretches{{Kind::matrix_each, 0, 2}, {Kind::own_rows, 2, 3}, {Kind::matrix_each, 3, 5}}));
     Weights rigid = {{0}, {}, std::vector<double>(300, 1.0)};
     for (int vertex = 0; vertex < 300; ++vertex) {
         rigid.bone.push_back(vertex < 100 ? vertex % 2 : vertex < 200 ? 2 : 3);
         rigid.first.push_back(vertex + 1);
     }
-    EXPECT_EQ(stretches_of(rigid), (Stretches{{Kind::matrix_each, 0, 100}, {Kind::one_matrix, 100, 200}, {Kind::one_matrix, 200, 300}}));
+    EXPECT_EQ(stretches_of(rigid),
+              (Stretches{{Kind::matrix_each, 0, 100}, {Kind::one_matrix, 100, 200}, {Kind::one_matrix, 200, 300}}));
 }
 
 TEST(PackedWeights, TheHeaviestBoneIsThePivotAndEachPairStandsOnce)
 {
     const auto bones = pbs::pack_weights<double>(five_vertices).turned_bones;
-    EXPECT_EQ(bones, (std::vector<pbs::TurnedBone>{{0, 0}, {1, 0}, {0, 1}, {1, 1}}));  // the first of equal weights; then vertex 2's
+    // the first of equal weights; then vertex 2's
+    EXPECT_EQ(bones, (std::vector<pbs::TurnedBone>{{0, 0}, {1, 0}, {0, 1}, {1, 1}}));
 }
 
 TEST(PackedWeights, WeightsOfZeroAreLeftOutAndRowsInAnotherOrderAreOthers)
 {
-    const PackedWeights<double> packed = pbs::pack_weights<double>({{0, 3, 5}, {0, 1, 2, 1, 4}, {0.0, 0.5, 0.5, 0.0, 1.0}});
+    const PackedWeights<double> packed =
+        pbs::pack_weights<double>({{0, 3, 5}, {0, 1, 2, 1, 4}, {0.0, 0.5, 0.5, 0.0, 1.0}});
     EXPECT_EQ(packed.own.bone, (std::vector<int>{1, 2}));
     EXPECT_EQ(packed.matrix[1], 4);  // one bone remains, so it moves the vertex rigidly
     // Rows in another order are others: sums in another order are rounded differently.
@@ -224,17 +240,19 @@ class BlendSkinningOf : public testing::Test {
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(BlendSkinningOf, Scalars);
 
-// Coordinates [m] of these points, which are rounded relative to an origin at that distance. The norm of a point relative to the body's
-// middle is at most 1.7, and that of a translation of the middle is at most 2.3. An entry of a matrix is rounded once and blended in two
-// roundings for each of two bones; its product with a coordinate and three sums follow, and the reference rounds as often.
+// Coordinates [m] of these points, which are rounded relative to an origin at that distance. The norm of a point
+// relative to the body's middle is at most 1.7, and that of a translation of the middle is at most 2.3. An entry of a
+// matrix is rounded once and blended in two roundings for each of two bones; its product with a coordinate and three
+// sums follow, and the reference rounds as often.
 template <class Scalar>
 double linear_error(double origin = 0.0)
 {
     return test_support::rounding_error_in<Scalar>(2 * (1 + 2 * 2 + 1 + 3), 1.7 + 2.3 + origin);
 }
 
-// The same for dual quaternions. The five roundings of their entries occur twice in an entry of the matrix, with two of a product and a
-// sum, and twice more in |r|^2, with four of its products and sums; |r|^2 >= 1/4 + 1/4 of two bones divides.
+// The same for dual quaternions. The five roundings of their entries occur twice in an entry of the matrix, with two of
+// a product and a sum, and twice more in |r|^2, with four of its products and sums; |r|^2 >= 1/4 + 1/4 of two bones
+// divides.
 template <class Scalar>
 double dual_quaternion_error()
 {
@@ -285,7 +303,8 @@ TYPED_TEST(BlendSkinningOf, BonesWithoutVertices)  // bones 0 and 2 of four
     std::vector<TypeParam> posed(6);
     BlendSkinning<TypeParam> skinning(points, weights);
     for (const bool linear : {true, false}) {
-        linear ? skinning.linear_rows(pose, Vec3::Zero(), posed.data()) : skinning.dual_quaternion_rows(pose, Vec3::Zero(), posed.data());
+        linear ? skinning.linear_rows(pose, Vec3::Zero(), posed.data())
+               : skinning.dual_quaternion_rows(pose, Vec3::Zero(), posed.data());
         for (int i = 0; i < 2; ++i) {
             const Vec3 expected = pose[1] * Vec3(points.row(i));
             const double rounding = linear ? linear_error<TypeParam>() : dual_quaternion_error<TypeParam>();

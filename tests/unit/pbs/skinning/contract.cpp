@@ -1,5 +1,6 @@
-// The contract of the skinners: LBS, dual quaternions, delta mush, direct delta mush and correctives, plain and packed. References: rigid
-// motions, the limits of the definitions, and of packed code the plain one. Tolerances: tests/support/skinners.hpp.
+// The contract of the skinners: LBS, dual quaternions, delta mush, direct delta mush and correctives, plain and packed.
+// References: rigid motions, the limits of the definitions, and of packed code the plain one. Tolerances:
+// tests/support/skinners.hpp.
 #include "tests/support/random_points.hpp"
 #include "tests/support/skinners.hpp"
 
@@ -36,9 +37,10 @@ template <typename Method>
 class Skinner : public testing::Test {
 };
 using Skinners = testing::Types<Blend<double, false, true>, Blend<float, true, true>, Blend<double, true, true>,
-                                Blend<double, false, false>, Blend<float, true, false>, Blend<double, true, false>, Delta<double, false>,
-                                Delta<float, true>, Delta<double, true>, Direct<double, false>, Direct<float, true>, Direct<double, true>,
-                                Corrective<double, false>, Corrective<float, true>, Corrective<double, true>>;
+                                Blend<double, false, false>, Blend<float, true, false>, Blend<double, true, false>,
+                                Delta<double, false>, Delta<float, true>, Delta<double, true>, Direct<double, false>,
+                                Direct<float, true>, Direct<double, true>, Corrective<double, false>,
+                                Corrective<float, true>, Corrective<double, true>>;
 TYPED_TEST_SUITE(Skinner, Skinners);
 
 TYPED_TEST(Skinner, IsThePlainOne)
@@ -57,10 +59,12 @@ TYPED_TEST(Skinner, RestComesBack)
 {
     const Positions& rest = TypeParam::limb.mesh.rest;
     for (const auto& options : TypeParam::settings)
-        EXPECT_LT(largest(TypeParam::applied(TypeParam::limb, rest_pose, options) - rest), TypeParam::error(options, rest_pose, 1.0));
+        EXPECT_LT(largest(TypeParam::applied(TypeParam::limb, rest_pose, options) - rest),
+                  TypeParam::error(options, rest_pose, 1.0));
 }
 
-// The rest shape by one motion of all bones, and a pose with a motion after it. Both sides are rounded, also by the motion.
+// The rest shape by one motion of all bones, and a pose with a motion after it. Both sides are rounded, also by the
+// motion.
 TYPED_TEST(Skinner, TurnsWithARigidMotion)
 {
     RandomPoints random(51);
@@ -74,10 +78,13 @@ TYPED_TEST(Skinner, TurnsWithARigidMotion)
             for (Eigen::Isometry3d& bone : moved) bone = motion * bone;
             const double at_rest = TypeParam::error(options, Pose(2, motion), farthest) + of_motion,
                          posed = 2.0 * TypeParam::error(options, moved, farthest) + of_motion;
-            EXPECT_LT(largest(TypeParam::applied(limb, Pose(2, motion), options) - transformed(limb.mesh.rest, motion)), at_rest);
-            EXPECT_LT(largest(TypeParam::applied(limb, moved, options) - transformed(TypeParam::applied(limb, limb.pose, options), motion)),
+            EXPECT_LT(largest(TypeParam::applied(limb, Pose(2, motion), options) - transformed(limb.mesh.rest, motion)),
+                      at_rest);
+            EXPECT_LT(largest(TypeParam::applied(limb, moved, options) -
+                              transformed(TypeParam::applied(limb, limb.pose, options), motion)),
                       posed);
-            EXPECT_TRUE(TypeParam::packed || at_rest + posed < proof) << "a bound that would let a wrong rotation pass proves nothing";
+            EXPECT_TRUE(TypeParam::packed || at_rest + posed < proof)
+                << "a bound that would let a wrong rotation pass proves nothing";
         }
 }
 
@@ -121,7 +128,8 @@ TYPED_TEST(Skinner, FollowsAMirrorAnotherUnitAndAnyOrderOfVerticesAndBones)
         const Eigen::Matrix3d mirror = Vec3(1, -1, 1).asDiagonal(), identity = Eigen::Matrix3d::Identity();
         for (const Eigen::Matrix3d& map : {mirror, Eigen::Matrix3d(1e-6 * identity), Eigen::Matrix3d(1e6 * identity)}) {
             const TwoBoneLimb other = mapped(limb, map);
-            EXPECT_LT(largest(TypeParam::applied(other, other.pose, options) * map.inverse().transpose() - expected), tolerance)
+            EXPECT_LT(largest(TypeParam::applied(other, other.pose, options) * map.inverse().transpose() - expected),
+                      tolerance)
                 << map.diagonal().transpose();
         }
         std::vector<int> place;
@@ -146,7 +154,9 @@ TYPED_TEST(Skinner, LosesNoDigitsFarFromTheOrigin)
 TYPED_TEST(Skinner, WithoutSmoothingItIsTheBlend)
 {
     for (const auto& options : TypeParam::without_smoothing)
-        EXPECT_LE((TypeParam::applied(TypeParam::limb, TypeParam::limb.pose, options) - TypeParam::limb.lbs).cwiseAbs().maxCoeff(),
+        EXPECT_LE((TypeParam::applied(TypeParam::limb, TypeParam::limb.pose, options) - TypeParam::limb.lbs)
+                      .cwiseAbs()
+                      .maxCoeff(),
                   TypeParam::blend_error());
 }
 
@@ -154,7 +164,8 @@ TYPED_TEST(Skinner, AVertexThatNoTetUsesFollowsTheBlend)
 {
     const TwoBoneLimb limb = with_loose_vertex(TypeParam::limb);
     const double farther = 1.36;  // 1.5 m from the origin instead of 1.1 m
-    EXPECT_LE((TypeParam::applied(limb, limb.pose, {}) - limb.lbs).bottomRows(1).norm(), farther * TypeParam::blend_error());
+    EXPECT_LE((TypeParam::applied(limb, limb.pose, {}) - limb.lbs).bottomRows(1).norm(),
+              farther * TypeParam::blend_error());
 }
 
 TYPED_TEST(Skinner, NotANumberIsNoRotation)

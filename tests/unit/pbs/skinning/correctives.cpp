@@ -1,5 +1,5 @@
-// Reference: deformations that correctives can express exactly, made here; the regression repeated without each sample; rest and LBS.
-// Tolerances: rounding, times the condition number of what is solved.
+// Reference: deformations that correctives can express exactly, made here; the regression repeated without each sample;
+// rest and LBS. Tolerances: rounding, times the condition number of what is solved.
 #include "pbs/skinning/correctives.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -23,7 +23,8 @@ TwoBoneLimb chain()
 {
     TwoBoneLimb limb;
     limb.mesh = test_support::structured_bar({0.0, -0.15, -0.15}, {3.0, 0.15, 0.15}, {12, 2, 2});
-    limb.skeleton.bones = {{"a", -1, {0, 0, 0}, {1, 0, 0}}, {"b", 0, {1, 0, 0}, {2, 0, 0}}, {"c", 1, {2, 0, 0}, {3, 0, 0}}};
+    limb.skeleton.bones = {
+        {"a", -1, {0, 0, 0}, {1, 0, 0}}, {"b", 0, {1, 0, 0}, {2, 0, 0}}, {"c", 1, {2, 0, 0}, {3, 0, 0}}};
     limb.binding = bind_to_nearest_bone(limb.mesh.rest, limb.skeleton);
     limb.weights = paper_weights(limb.binding, limb.skeleton);
     return limb;
@@ -58,11 +59,13 @@ std::vector<CorrectiveSample> solved(const TwoBoneLimb& limb, int count, double 
 }
 
 // The sum that a fit minimises, without the ridge.
-double weighted_residual(const TwoBoneLimb& limb, const Correctives& correctives, const std::vector<CorrectiveSample>& samples)
+double weighted_residual(const TwoBoneLimb& limb, const Correctives& correctives,
+                         const std::vector<CorrectiveSample>& samples)
 {
     Eigen::VectorXd residuals(samples.size()), left(samples.size());
     for (std::size_t s = 0; s < samples.size(); ++s) {
-        const Positions residual = rest_residual(limb.mesh.rest, limb.weights, samples[s], CorrectiveOptions().least_stretch);
+        const Positions residual =
+            rest_residual(limb.mesh.rest, limb.weights, samples[s], CorrectiveOptions().least_stretch);
         residuals(s) = residual.squaredNorm();
         left(s) = (residual - corrective_displacements(correctives, samples[s].pose)).squaredNorm();
     }
@@ -92,7 +95,8 @@ TEST(Correctives, ReproduceADeformationOfTheirOwnForm)
         sample.pose = random_pose(limb.skeleton, random, 1.2);
         corrected_skinning(made, limb.mesh.rest, limb.weights, sample.pose, sample.shape);
     }
-    const Correctives learned = fit_correctives(limb.skeleton, limb.mesh.rest, limb.weights, samples, {.least_strength = 0.0});
+    const Correctives learned =
+        fit_correctives(limb.skeleton, limb.mesh.rest, limb.weights, samples, {.least_strength = 0.0});
     EXPECT_EQ(learned.modes(), rank);
     Positions posed, expected, lbs;
     for (int trial = 0; trial < 10; ++trial) {
@@ -101,7 +105,8 @@ TEST(Correctives, ReproduceADeformationOfTheirOwnForm)
         corrected_skinning(learned, limb.mesh.rest, limb.weights, pose, posed);
         corrected_skinning(made, limb.mesh.rest, limb.weights, pose, expected);
         linear_blend_skinning(limb.mesh.rest, limb.weights, pose, lbs);
-        // Some hundred roundings of coordinates up to 3 m, times the condition number of the features, which is below 1e3 here.
+        // Some hundred roundings of coordinates up to 3 m, times the condition number of the features, which is below
+        // 1e3 here.
         EXPECT_LT((posed - expected).cwiseAbs().maxCoeff(), 1e-10);
         EXPECT_GT((expected - lbs).cwiseAbs().maxCoeff(), 1e-3);
     }
@@ -110,12 +115,14 @@ TEST(Correctives, ReproduceADeformationOfTheirOwnForm)
 TEST(Correctives, AreZeroAtRestToTheBit)
 {
     const TwoBoneLimb limb = chain();
-    const Correctives correctives = fit_correctives(limb.skeleton, limb.mesh.rest, limb.weights, solved(limb, 40, 0.003, 4));
+    const Correctives correctives =
+        fit_correctives(limb.skeleton, limb.mesh.rest, limb.weights, solved(limb, 40, 0.003, 4));
     ASSERT_GT(correctives.modes(), 0);
     EXPECT_TRUE(corrective_displacements(correctives, Pose(3, Eigen::Isometry3d::Identity())).isZero(0.0));
 }
 
-// The same samples, each moved as a whole. The residuals change by rounding alone, of some 60 operations over the least stretch.
+// The same samples, each moved as a whole. The residuals change by rounding alone, of some 60 operations over the least
+// stretch.
 TEST(Correctives, DoNotDependOnTheRootsMotionOfTheTrainingPoses)
 {
     const TwoBoneLimb limb = chain();
@@ -131,7 +138,9 @@ TEST(Correctives, DoNotDependOnTheRootsMotionOfTheTrainingPoses)
     const Correctives there = fit_correctives(limb.skeleton, limb.mesh.rest, limb.weights, samples, options);
     ASSERT_GT(here.modes(), 0);
     for (const CorrectiveSample& sample : samples)
-        EXPECT_LT((corrective_displacements(here, sample.pose) - corrective_displacements(there, sample.pose)).cwiseAbs().maxCoeff(),
+        EXPECT_LT((corrective_displacements(here, sample.pose) - corrective_displacements(there, sample.pose))
+                      .cwiseAbs()
+                      .maxCoeff(),
                   test_support::rounding_error(60.0 * 40.0 * std::sqrt(30.0) * 1.75 / options.least_strength, 4.0));
 }
 
@@ -155,14 +164,17 @@ TEST(Correctives, AFlattenedVertexHasABoundedResidual)
     Positions lbs;
     linear_blend_skinning(limb.mesh.rest, limb.weights, sample.pose, lbs);
     const double largest = (sample.shape - lbs).rowwise().norm().maxCoeff();
-    EXPECT_LT(rest_residual(limb.mesh.rest, limb.weights, sample, 0.2).rowwise().norm().maxCoeff(), 1.001 * largest / 0.2);
+    EXPECT_LT(rest_residual(limb.mesh.rest, limb.weights, sample, 0.2).rowwise().norm().maxCoeff(),
+              1.001 * largest / 0.2);
 }
 
 TEST(Correctives, CoefficientsStayInTheRangeOfTheTraining)
 {
     const TwoBoneLimb& limb = bar();
     std::vector<CorrectiveSample> samples;
-    const auto bent = [&](double deg) { return joint_sweep(limb.skeleton, 1, Vec3::UnitZ(), deg, 2, 0.01).steps.back(); };
+    const auto bent = [&](double deg) {
+        return joint_sweep(limb.skeleton, 1, Vec3::UnitZ(), deg, 2, 0.01).steps.back();
+    };
     for (const double deg : {-60.0, -30.0, 30.0, 60.0}) {
         samples.push_back({bent(deg), {}});
         dual_quaternion_skinning(limb.mesh.rest, limb.weights, samples.back().pose, samples.back().shape);
@@ -172,14 +184,17 @@ TEST(Correctives, CoefficientsStayInTheRangeOfTheTraining)
     EXPECT_TRUE(is_within_training(correctives, bent(45.0)));
     EXPECT_FALSE(is_within_training(correctives, bent(61.0)));
     const JointCorrective& joint = correctives.joints[0];
-    const Eigen::VectorXd free = joint.drivers * corrective_features_of(correctives.parents, bent(120.0)).row(1).transpose();
+    const Eigen::VectorXd free =
+        joint.drivers * corrective_features_of(correctives.parents, bent(120.0)).row(1).transpose();
     const Eigen::VectorXd kept = corrective_coefficients(correctives, bent(120.0));
     EXPECT_EQ(kept, free.cwiseMax(joint.lowest).cwiseMin(joint.highest));
     EXPECT_GT((kept - free).norm(), 0.1);
     Eigen::VectorXd largest = Eigen::VectorXd::Zero(joint.drivers.rows());
     for (const CorrectiveSample& sample : samples) {
         const Eigen::VectorXd own = corrective_coefficients(correctives, sample.pose);
-        EXPECT_LE((own - joint.drivers * corrective_features_of(correctives.parents, sample.pose).row(1).transpose()).norm(), 1e-12);
+        EXPECT_LE(
+            (own - joint.drivers * corrective_features_of(correctives.parents, sample.pose).row(1).transpose()).norm(),
+            1e-12);
         largest = largest.cwiseMax(own.cwiseAbs());
     }
     EXPECT_LE((largest.array() - 1.0).abs().maxCoeff(), 1e-12);
@@ -198,10 +213,12 @@ TEST(RidgeRegression, LeavesOutEachSampleInClosedForm)
             others.row(out).setZero();
             values.row(out).setZero();
             const Eigen::MatrixXd normal = others.transpose() * others + strength * Eigen::MatrixXd::Identity(5, 5);
-            expected += (features.row(out) * normal.ldlt().solve(others.transpose() * values) - targets.row(out)).squaredNorm();
+            expected +=
+                (features.row(out) * normal.ldlt().solve(others.transpose() * values) - targets.row(out)).squaredNorm();
         }
         // Fourteen samples, normal equations of a condition number below 100, some 100 roundings each.
-        EXPECT_NEAR(ridge.left_out_error(targets, strength), expected, test_support::rounding_error(100.0 * 100.0 * 14.0, expected));
+        EXPECT_NEAR(ridge.left_out_error(targets, strength), expected,
+                    test_support::rounding_error(100.0 * 100.0 * 14.0, expected));
         const Eigen::MatrixXd normal = features.transpose() * features + strength * Eigen::MatrixXd::Identity(5, 5);
         EXPECT_LT((ridge.coefficients(targets, strength) - normal.ldlt().solve(features.transpose() * targets)).norm(),
                   test_support::rounding_error(100.0 * 100.0, 14.0));
@@ -221,13 +238,14 @@ TEST(RidgeRegression, TakesTheStrengthThatPredictsBest)
 TEST(Correctives, APoseThatDeformsLittleCountsAsOneThatDeformsALot)
 {
     const Eigen::VectorXd weights = sample_weights(Eigen::Vector4d(1.0, 4.0, 15.0, 0.0));
-    for (int s = 0; s < 4; ++s) EXPECT_NEAR(weights(s), 1.0 / (Eigen::Vector4d(1.0, 4.0, 15.0, 0.0)(s) + 0.25), 1e-15) << s;
+    for (int s = 0; s < 4; ++s)
+        EXPECT_NEAR(weights(s), 1.0 / (Eigen::Vector4d(1.0, 4.0, 15.0, 0.0)(s) + 0.25), 1e-15) << s;
     EXPECT_EQ(sample_weights(Eigen::Vector2d::Zero()), Eigen::Vector2d::Ones());
     EXPECT_EQ(sample_weights(Eigen::VectorXd()).size(), 0);
 }
 
-// With one joint and no ridge, the weighted sum of |r|^2 falls with the rank. With several it is never above that of LBS, since each fit of
-// a joint minimises the sum with the ridge.
+// With one joint and no ridge, the weighted sum of |r|^2 falls with the rank. With several it is never above that of
+// LBS, since each fit of a joint minimises the sum with the ridge.
 TEST(Correctives, TheFitNeverEnlargesTheResidualOfItsTraining)
 {
     const TwoBoneLimb three = chain();
@@ -238,9 +256,12 @@ TEST(Correctives, TheFitNeverEnlargesTheResidualOfItsTraining)
         return weighted_residual(limb, correctives, samples);
     };
     for (const unsigned seed : {11u, 12u}) {
-        const std::vector<CorrectiveSample> of_bar = solved(bar(), 40, 0.003, seed), of_chain = solved(three, 60, 0.003, seed);
-        double before = weighted_residual(bar(), fit_correctives(bar().skeleton, bar().mesh.rest, bar().weights, {}), of_bar);
-        const double without = weighted_residual(three, fit_correctives(three.skeleton, three.mesh.rest, three.weights, {}), of_chain);
+        const std::vector<CorrectiveSample> of_bar = solved(bar(), 40, 0.003, seed),
+                                            of_chain = solved(three, 60, 0.003, seed);
+        double before =
+            weighted_residual(bar(), fit_correctives(bar().skeleton, bar().mesh.rest, bar().weights, {}), of_bar);
+        const double without =
+            weighted_residual(three, fit_correctives(three.skeleton, three.mesh.rest, three.weights, {}), of_chain);
         for (const int rank : {1, 2, 4, 8}) {
             const double after = left(bar(), of_bar, rank);
             EXPECT_LT(after, before) << rank;
@@ -266,7 +287,8 @@ TEST(Correctives, OfNoPoseAndOfOneAreLbs)
 TEST(Correctives, OfResidualsThatAreZeroAreLbs)
 {
     std::vector<CorrectiveSample> samples = solved(bar(), 20, 0.0, 15);
-    for (CorrectiveSample& sample : samples) linear_blend_skinning(bar().mesh.rest, bar().weights, sample.pose, sample.shape);
+    for (CorrectiveSample& sample : samples)
+        linear_blend_skinning(bar().mesh.rest, bar().weights, sample.pose, sample.shape);
     EXPECT_EQ(fit_correctives(bar().skeleton, bar().mesh.rest, bar().weights, samples).modes(), 0);
 }
 
@@ -274,7 +296,8 @@ TEST(Correctives, OfJointsThatDoNotTurnAreLbs)
 {
     std::vector<CorrectiveSample> samples = solved(bar(), 20, 0.003, 16);
     for (CorrectiveSample& sample : samples) sample.pose[1] = sample.pose[0];
-    EXPECT_EQ(fit_correctives(bar().skeleton, bar().mesh.rest, bar().weights, samples, {.least_strength = 1e-2}).modes(), 0);
+    EXPECT_EQ(
+        fit_correctives(bar().skeleton, bar().mesh.rest, bar().weights, samples, {.least_strength = 1e-2}).modes(), 0);
 }
 
 TEST(Correctives, AJointWithoutVerticesHasNone)
@@ -282,7 +305,8 @@ TEST(Correctives, AJointWithoutVerticesHasNone)
     TwoBoneLimb limb = chain();
     for (const char* name : {"d", "e"})
         limb.skeleton.bones.push_back({name, static_cast<int>(limb.skeleton.bones.size()) - 1, {3, 0, 0}, {4, 0, 0}});
-    const Correctives correctives = fit_correctives(limb.skeleton, limb.mesh.rest, limb.weights, solved(limb, 60, 0.003, 17));
+    const Correctives correctives =
+        fit_correctives(limb.skeleton, limb.mesh.rest, limb.weights, solved(limb, 60, 0.003, 17));
     for (const JointCorrective& joint : correctives.joints) EXPECT_LT(joint.joint, 4) << "no vertex follows d or e";
 }
 
@@ -299,8 +323,8 @@ TEST(Correctives, OptionsOutOfRangeAreRefused)
 {
     for (const CorrectiveOptions& options :
          {CorrectiveOptions{.rank = 0}, CorrectiveOptions{.sweeps = 0}, CorrectiveOptions{.least_strength = -1.0},
-          CorrectiveOptions{.least_strength = 2.0}, CorrectiveOptions{.least_stretch = 0.0}, CorrectiveOptions{.least_stretch = 1.5},
-          CorrectiveOptions{.negligible = 1.0}})
+          CorrectiveOptions{.least_strength = 2.0}, CorrectiveOptions{.least_stretch = 0.0},
+          CorrectiveOptions{.least_stretch = 1.5}, CorrectiveOptions{.negligible = 1.0}})
         EXPECT_THROW(fit_correctives(bar().skeleton, bar().mesh.rest, bar().weights, {}, options), InputError);
 }
 

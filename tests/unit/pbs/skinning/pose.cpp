@@ -30,11 +30,13 @@ TEST(BonesThatMoveAsOne, AreThoseThatNoPoseMovesApart)
 {
     const pbs::Pose rest(5, Eigen::Isometry3d::Identity());
     pbs::Pose moved = rest, spine_turned = rest, thigh_shifted = rest;
-    for (Eigen::Isometry3d& bone : moved) bone = Eigen::Translation3d(0.0, 3.0, 0.0) * Eigen::AngleAxisd(1.0, pbs::Vec3::UnitX());
+    for (Eigen::Isometry3d& bone : moved)
+        bone = Eigen::Translation3d(0.0, 3.0, 0.0) * Eigen::AngleAxisd(1.0, pbs::Vec3::UnitX());
     spine_turned[1].rotate(Eigen::AngleAxisd(0.002, pbs::Vec3::UnitZ()));
     for (const auto& [shift, own] : {std::pair(0.0009, 0), std::pair(0.0011, 4)}) {
         thigh_shifted[4].translation() = pbs::Vec3(2.0 * shift, 0.0, 0.0);
-        EXPECT_EQ(pbs::bones_that_move_as_one(body(), {rest, moved, thigh_shifted, spine_turned}, 2.0), (Indices{0, 1, 0, 0, own}));
+        EXPECT_EQ(pbs::bones_that_move_as_one(body(), {rest, moved, thigh_shifted, spine_turned}, 2.0),
+                  (Indices{0, 1, 0, 0, own}));
     }
     EXPECT_EQ(pbs::bones_that_move_as_one(body(), {rest, moved}, 2.0), Indices(5, 0));
 }
@@ -50,7 +52,9 @@ TEST(BonesMeeting, AreThoseThatShareTheEnd)
     const pbs::Skeleton single = {{{"only", -1, {0, 0, 0}, {1, 0, 0}}}};
     const pbs::Skeleton with_point = {
         {{"a", -1, {0, 0, 0}, {1, 0, 0}}, {"point", 0, {1, 0, 0}, {1, 0, 0}}, {"c", 1, {1, 0, 0}, {2, 0, 0}}}};
-    const auto child_at = [](double y) -> pbs::Skeleton { return {{{"a", -1, {0, 0, 0}, {1, 0, 0}}, {"b", 0, {1, y, 0}, {1, 0, 0}}}}; };
+    const auto child_at = [](double y) -> pbs::Skeleton {
+        return {{{"a", -1, {0, 0, 0}, {1, 0, 0}}, {"b", 0, {1, y, 0}, {1, 0, 0}}}};
+    };
     struct Case {
         const char* name;
         pbs::Skeleton skeleton;
@@ -71,7 +75,8 @@ TEST(BonesMeeting, AreThoseThatShareTheEnd)
         {"the tail of a single bone", single, 0, BoneEnd::tail, {0}},
         {"a bone of length zero", with_point, 1, BoneEnd::head, {1, 0, 2}},
     };
-    for (const auto& [name, skeleton, bone, end, expected] : cases) EXPECT_EQ(pbs::bones_meeting(skeleton, bone, end), expected) << name;
+    for (const auto& [name, skeleton, bone, end, expected] : cases)
+        EXPECT_EQ(pbs::bones_meeting(skeleton, bone, end), expected) << name;
 }
 
 using pbs::Vec3;
@@ -105,7 +110,8 @@ TEST(PoseFromJoints, ComposesDownTheChain)
 TEST(PoseFromJoints, KeepsJointsTogether)
 {
     const pbs::Skeleton skeleton = chain();
-    const pbs::Pose pose = pbs::pose_from_joints(skeleton, {turn(33, y), turn(-71, x + z), turn(120, y)}, Vec3(1, 2, 3));
+    const pbs::Pose pose =
+        pbs::pose_from_joints(skeleton, {turn(33, y), turn(-71, x + z), turn(120, y)}, Vec3(1, 2, 3));
     for (int j = 1; j < 3; ++j)  // j motions to the parent's end, and one more to the head
         EXPECT_LT((pose[j] * skeleton.bones[j].head - pose[j - 1] * skeleton.bones[j].head).norm(),
                   test_support::motion_error(2 * j + 1, 6.0));

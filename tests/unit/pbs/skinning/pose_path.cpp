@@ -1,5 +1,6 @@
-// Reference: rigid kinematics. A joint is connected if parent and child move it to the same place; slerp rotates at a constant rate.
-// Tolerances: the rounding of motions. A path takes three per joint: that of the pose, its inverse relative to the parent, and slerp.
+// Reference: rigid kinematics. A joint is connected if parent and child move it to the same place; slerp rotates at a
+// constant rate. Tolerances: the rounding of motions. A path takes three per joint: that of the pose, its inverse
+// relative to the parent, and slerp.
 
 #include "pbs/skinning/pose.hpp"
 #include "tests/support/refusal.hpp"
@@ -16,14 +17,16 @@ namespace {
 using pbs::PosePath;
 using pbs::Vec3;
 
-const pbs::Skeleton arm{{{"upper", -1, {0, 0, 0}, {1, 0, 0}}, {"fore", 0, {1, 0, 0}, {2, 0, 0}}, {"hand", 1, {2, 0, 0}, {2.5, 0, 0}}}};
+const pbs::Skeleton arm{
+    {{"upper", -1, {0, 0, 0}, {1, 0, 0}}, {"fore", 0, {1, 0, 0}, {2, 0, 0}}, {"hand", 1, {2, 0, 0}, {2.5, 0, 0}}}};
 
 Eigen::Quaterniond turn(double angle_deg, const Vec3& axis)
 {
     return Eigen::Quaterniond(Eigen::AngleAxisd(angle_deg * std::acos(-1.0) / 180.0, axis.normalized()));
 }
 
-pbs::Pose pose(const Eigen::Quaterniond& upper, const Eigen::Quaterniond& fore, const Eigen::Quaterniond& hand, const Vec3& root)
+pbs::Pose pose(const Eigen::Quaterniond& upper, const Eigen::Quaterniond& fore, const Eigen::Quaterniond& hand,
+               const Vec3& root)
 {
     return pbs::pose_from_joints(arm, {upper, fore, hand}, root);
 }
@@ -35,8 +38,10 @@ const pbs::Pose stretched = pose(turn(-20, {0, 1, 0}), turn(5, {1, 0, 0}), turn(
 
 void expect_near(const pbs::Pose& a, const pbs::Pose& b)
 {
-    const double rounding = test_support::motion_matrix_error(3 * 3 + 3, 2.0);  // of three joints on a path, and of three others
-    for (std::size_t j = 0; j < a.size(); ++j) EXPECT_LT((a[j].matrix() - b[j].matrix()).norm(), rounding) << arm.bones[j].name;
+    // of three joints on a path, and of three others
+    const double rounding = test_support::motion_matrix_error(3 * 3 + 3, 2.0);
+    for (std::size_t j = 0; j < a.size(); ++j)
+        EXPECT_LT((a[j].matrix() - b[j].matrix()).norm(), rounding) << arm.bones[j].name;
 }
 
 TEST(PosePath, ItsEndsAreThePosesToTheBit)
@@ -55,7 +60,8 @@ TEST(PosePath, JointsStayJoinedAndBonesRigid)
         const pbs::Pose between = path.at(fraction);
         for (std::size_t j = 1; j < arm.bones.size(); ++j) {
             const Vec3 joint = arm.bones[j].head;
-            EXPECT_LT((between[j] * joint - between[arm.bones[j].parent] * joint).norm(), test_support::motion_error(3 * 3 + 3 * 2, 5.0));
+            EXPECT_LT((between[j] * joint - between[arm.bones[j].parent] * joint).norm(),
+                      test_support::motion_error(3 * 3 + 3 * 2, 5.0));
         }
         for (const auto& bone : between)
             EXPECT_LT((bone.linear() * bone.linear().transpose() - Eigen::Matrix3d::Identity()).norm(),
@@ -73,7 +79,8 @@ TEST(PosePath, TurnsAtAnEvenRateAndTheShortWayRound)
 
 TEST(PosePath, TheRootMovesInAStraightLine)
 {
-    const PosePath path(arm, pose(still, still, still, {1, 0, 0}), pose(turn(90, Vec3::UnitY()), still, still, {3, 4, 0}));
+    const PosePath path(arm, pose(still, still, still, {1, 0, 0}),
+                        pose(turn(90, Vec3::UnitY()), still, still, {3, 4, 0}));
     EXPECT_LT((path.at(0.5)[0] * arm.bones[0].head - Vec3(2, 2, 0)).norm(), test_support::motion_error(3, 5.0));
 }
 
@@ -95,7 +102,8 @@ TEST(PosePath, TheLargestTurnIsThatOfABoneInTheWorld)
     EXPECT_EQ(PosePath(arm, bent, bent).largest_turn_deg(), 0.0);
 }
 
-// Reference: a rigid motion and its inverse. Tolerances: the rounding of two motions, one of them on each side or both on one.
+// Reference: a rigid motion and its inverse. Tolerances: the rounding of two motions, one of them on each side or both
+// on one.
 
 using pbs::RootFrame;
 using test_support::motion_error;
@@ -131,7 +139,8 @@ using test_support::refusal_of;
 
 TEST(TimeStepFor, FillsAFrameWithWholeStepsOfAtMostAHundredthOfASecond)
 {
-    const std::pair<double, int> steps_at[] = {{24.0, 5}, {25.0, 4}, {30.0, 4}, {50.0, 2}, {60.0, 2}, {100.0, 1}, {120.0, 1}, {1.0, 100}};
+    const std::pair<double, int> steps_at[] = {{24.0, 5}, {25.0, 4},  {30.0, 4},  {50.0, 2},
+                                               {60.0, 2}, {100.0, 1}, {120.0, 1}, {1.0, 100}};
     for (const auto& [rate_hz, steps] : steps_at) {
         const double time_step_s = time_step_for(rate_hz);
         EXPECT_DOUBLE_EQ(time_step_s, 1.0 / (rate_hz * steps)) << rate_hz;
@@ -169,11 +178,12 @@ TEST(StepsPerFrame, ThatAreNotWholeOrTooManyOrOfNoTimeAreRefused)
         std::string message;  // a part of it
     };
     for (const auto& [sampling, message] :
-         {Case{{.rate_hz = 30.0, .time_step_s = 0.01}, "expected 1 / n"}, Case{{.rate_hz = 30.0, .time_step_s = 0.1}, "expected 1 / n"},
+         {Case{{.rate_hz = 30.0, .time_step_s = 0.01}, "expected 1 / n"},
+          Case{{.rate_hz = 30.0, .time_step_s = 0.1}, "expected 1 / n"},
           Case{{.rate_hz = 1.0, .time_step_s = 1e-6}, "100000 steps"}, Case{{.rate_hz = 0.0}, "rate_hz = "},
-          Case{{.rate_hz = -1.0}, "rate_hz = "}, Case{{.rate_hz = nan}, "rate_hz = "}, Case{{.rate_hz = infinite}, "rate_hz"},
-          Case{{.time_step_s = 0.0}, "time_step_s = "}, Case{{.time_step_s = -1.0}, "time_step_s = "},
-          Case{{.time_step_s = nan}, "time_step_s = "}}) {
+          Case{{.rate_hz = -1.0}, "rate_hz = "}, Case{{.rate_hz = nan}, "rate_hz = "},
+          Case{{.rate_hz = infinite}, "rate_hz"}, Case{{.time_step_s = 0.0}, "time_step_s = "},
+          Case{{.time_step_s = -1.0}, "time_step_s = "}, Case{{.time_step_s = nan}, "time_step_s = "}}) {
         const std::string refusal = refusal_of([&] { steps_per_frame(sampling); });
         EXPECT_NE(refusal.find(message), std::string::npos) << refusal;
     }

@@ -75,7 +75,8 @@ TEST(PosedBindPoints, AreCarriedByTheirBones)
     EXPECT_LT((Vec3(points.row(1)) - Vec3(0, 0.5, 0)).norm(), motion_error(2, 0.5));
 }
 
-// The forearm turned by 90 degrees about z lies along y; (0.1, 0.4, 0) is 0.4 along it, and (0.3, 2, 0) beyond its tail.
+// The forearm turned by 90 degrees about z lies along y; (0.1, 0.4, 0) is 0.4 along it, and (0.3, 2, 0) beyond its
+// tail.
 TEST(ReprojectedBindPoints, AreOnThePosedSegment)
 {
     const pbs::Positions rest = (pbs::Positions(2, 3) << 0.5, 0.1, 0, 0.9, 0.1, 0).finished();
@@ -83,7 +84,8 @@ TEST(ReprojectedBindPoints, AreOnThePosedSegment)
     const pbs::Pose bent = pbs::joint_sweep(limb, 1, Vec3::UnitZ(), 90.0, 2, 0.01).steps.back();
     const pbs::Positions moved = (pbs::Positions(2, 3) << 0.1, 0.4, 0, 0.3, 2.0, 0).finished();
     const pbs::Positions points = pbs::reprojected_bind_points(binding, limb, bent, moved);
-    EXPECT_LT((Vec3(points.row(0)) - Vec3(0, 0.4, 0)).norm(), motion_error(3, 1.0));  // two of the bone, one for the projection
+    // two of the bone, one for the projection
+    EXPECT_LT((Vec3(points.row(0)) - Vec3(0, 0.4, 0)).norm(), motion_error(3, 1.0));
     EXPECT_LT((Vec3(points.row(1)) - Vec3(0, 1, 0)).norm(), motion_error(3, 1.0));
 }
 
@@ -91,11 +93,14 @@ TEST(ReprojectedBindPoints, OfARigidlyMovedBodyAreTheCarriedOnes)
 {
     const pbs::Positions rest = (pbs::Positions(2, 3) << -0.5, 0.1, 0.2, 0.9, 0.1, 0).finished();
     const pbs::BoneBinding binding = pbs::bind_to_nearest_bone(rest, limb);
-    const pbs::Pose turned(2, Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.7, Vec3(1, 2, 2) / 3.0)));
+    const pbs::Pose turned(
+        2, Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.7, Vec3(1, 2, 2) / 3.0)));
     pbs::Positions moved(2, 3);
     for (int i = 0; i < 2; ++i) moved.row(i) = turned[0] * Vec3(rest.row(i));
-    EXPECT_LT((pbs::reprojected_bind_points(binding, limb, turned, moved) - pbs::posed_bind_points(binding, turned)).norm(),
-              std::sqrt(2.0) * motion_error(1 + 1 + 3, 5.0));  // of two points: the body, the points, and the projection on the moved bone
+    EXPECT_LT(
+        (pbs::reprojected_bind_points(binding, limb, turned, moved) - pbs::posed_bind_points(binding, turned)).norm(),
+        // of two points: the body, the points, and the projection on the moved bone
+        std::sqrt(2.0) * motion_error(1 + 1 + 3, 5.0));
 }
 
 // A palm with three fingers that start at its tail.
@@ -156,7 +161,8 @@ TEST(RigidWeights, AreTheNearestBoneAlone)
 // Bones a, b, c in a row: b touches a and c; near its far end, a touches only b.
 TEST(EitherEndWeights, AreOfAllBonesThatTouchTheBone)
 {
-    const pbs::Skeleton row = {{{"a", -1, {-3, 0, 0}, {0, 0, 0}}, {"b", 0, {0, 0, 0}, {3, 0, 0}}, {"c", 1, {3, 0, 0}, {6, 0, 0}}}};
+    const pbs::Skeleton row = {
+        {{"a", -1, {-3, 0, 0}, {0, 0, 0}}, {"b", 0, {0, 0, 0}, {3, 0, 0}}, {"c", 1, {3, 0, 0}, {6, 0, 0}}}};
     const pbs::Positions rest{{2.9, 0.1, 0}, {1.5, 0.1, 0}, {-2.9, 0.1, 0}};
     const pbs::Weights weights = pbs::either_end_weights(pbs::bind_to_nearest_bone(rest, row), row);
     EXPECT_EQ(weights.first, (std::vector{0, 3, 4, 6}));
@@ -178,10 +184,10 @@ Eigen::MatrixXd dense(const pbs::Weights& weights, int bones)
     return matrix;
 }
 
-// Whole cross-sections are gripped beyond x = 0.2 and x = 0.7. The term that keeps the matrix L regular, 1e-9 of its diagonal D, changes
-// the weights by at most 1e-9 max(L^-1 D 1), by the maximum principle. With w the weight of the edges along x at a vertex and h the cell,
-// L f = w h^2 for f = (x - 0.2) (0.7 - x) / 2, and D <= 10 w in cubes of six tets, whose edges have a weight of h / 6 or h / 3. Rounding is
-// a millionth of that.
+// Whole cross-sections are gripped beyond x = 0.2 and x = 0.7. The term that keeps the matrix L regular, 1e-9 of its
+// diagonal D, changes the weights by at most 1e-9 max(L^-1 D 1), by the maximum principle. With w the weight of the
+// edges along x at a vertex and h the cell, L f = w h^2 for f = (x - 0.2) (0.7 - x) / 2, and D <= 10 w in cubes of six
+// tets, whose edges have a weight of h / 6 or h / 3. Rounding is a millionth of that.
 TEST(HarmonicWeights, AreLinearBetweenGrippedCrossSections)
 {
     std::vector<int> gripping(bar.rest.rows(), -1);
@@ -200,8 +206,8 @@ TEST(HarmonicWeights, AreLinearBetweenGrippedCrossSections)
     EXPECT_EQ(ungripped.col(0).minCoeff(), 1.0) << "a part that nothing grips goes with the first bone";
 }
 
-// Reference: functions that are linear in the place are harmonic, and linear elements represent them exactly. The term 1e-9 that keeps the
-// system regular and the removal of weights below 1e-6 change weights by less than 3e-6.
+// Reference: functions that are linear in the place are harmonic, and linear elements represent them exactly. The term
+// 1e-9 that keeps the system regular and the removal of weights below 1e-6 change weights by less than 3e-6.
 
 using pbs::harmonic_extension;
 
@@ -230,10 +236,12 @@ TEST(HarmonicExtension, ReproducesLinearWeightsFromTheBoundary)
             ++inside;
         }
     EXPECT_EQ(inside, 5 * 4 * 3);
-    EXPECT_LE((dense(harmonic_extension(extension_bar, boundary, given), 3) - expected).cwiseAbs().maxCoeff(), extension_tolerance);
+    EXPECT_LE((dense(harmonic_extension(extension_bar, boundary, given), 3) - expected).cwiseAbs().maxCoeff(),
+              extension_tolerance);
 }
 
-// Weights are from the least to the greatest known one (maximum principle, whose condition the Kuhn tets of cubes fulfil).
+// Weights are from the least to the greatest known one (maximum principle, whose condition the Kuhn tets of cubes
+// fulfil).
 TEST(HarmonicExtension, StaysBetweenTheKnownWeightsAndSumsToOne)
 {
     std::vector<bool> known(std::size_t(extension_bar.rest.rows()), false);
@@ -258,8 +266,10 @@ TEST(HarmonicExtension, OfAllOrNoKnownWeights)
     const Eigen::MatrixXd linear = linear_weights_of(extension_bar.rest);
     EXPECT_LE((dense(harmonic_extension(extension_bar, all, linear), 3) - linear).cwiseAbs().maxCoeff(), 1e-14);
     const Eigen::RowVector3d given(0.5, 5e-7, 1.5), expected(0.25, 0.0, 0.75);
-    EXPECT_EQ(dense(harmonic_extension(extension_bar, all, given.replicate(rows, 1)), 3), Eigen::MatrixXd(expected.replicate(rows, 1)));
-    EXPECT_EQ(dense(harmonic_extension(extension_bar, none, Eigen::MatrixXd::Zero(rows, 2)), 2).col(0).minCoeff(), 1.0) << "the first bone";
+    EXPECT_EQ(dense(harmonic_extension(extension_bar, all, given.replicate(rows, 1)), 3),
+              Eigen::MatrixXd(expected.replicate(rows, 1)));
+    EXPECT_EQ(dense(harmonic_extension(extension_bar, none, Eigen::MatrixXd::Zero(rows, 2)), 2).col(0).minCoeff(), 1.0)
+        << "the first bone";
 }
 
 // Reference: the definition on rows of cross-sections, and what diffusion conserves.
@@ -292,7 +302,8 @@ TEST(DiffusedWeights, ArePositiveAndAddUpToOneAndWithoutStepsAreTheGivenOnes)
 
 TEST(DiffusedWeights, OneStepGoesHalfWayToTheMeanOfTheNeighbours)
 {
-    const pbs::TetMesh tet{pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 2, 2}}, pbs::Tets{{0, 1, 2, 3}}};
+    const pbs::TetMesh tet{pbs::Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 2, 2}},
+                           pbs::Tets{{0, 1, 2, 3}}};
     const pbs::Weights given = {{0, 1, 2, 3, 4, 5}, {0, 1, 1, 1, 0}, {1.0, 1.0, 1.0, 1.0, 1.0}};
     const Eigen::VectorXd first = dense(diffused_weights(tet, given, 1), 2).col(0);
     EXPECT_NEAR(first(0), 0.5, test_support::rounding_error(6, 1.0));
@@ -303,7 +314,8 @@ TEST(DiffusedWeights, OneStepGoesHalfWayToTheMeanOfTheNeighbours)
 // A step takes means, so that the jumps along edges do not grow, and spread over several edges they fall.
 TEST(DiffusedWeights, JumpLessFromVertexToVertex)
 {
-    const double given = largest_jump(straight.weights), once = largest_jump(diffused_weights(straight.mesh, straight.weights, 1)),
+    const double given = largest_jump(straight.weights),
+                 once = largest_jump(diffused_weights(straight.mesh, straight.weights, 1)),
                  eight = largest_jump(diffused_weights(straight.mesh, straight.weights));
     EXPECT_EQ(given, 0.5);
     EXPECT_LT(once, given);

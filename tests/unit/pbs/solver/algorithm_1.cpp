@@ -40,11 +40,13 @@ TEST(Algorithm1, UnconstrainedParticlesFallFreely)
     // Symplectic Euler: after n steps x = x0 + a dt^2 n (n + 1) / 2.
     const Vec3 fall(0, 0, -9.81 * dt * dt * 10 * 11 / 2);
     const Positions expected = limb.lbs.rowwise() + fall.transpose();
-    // A rounding of a position, of coordinates up to 1 m, changes the velocity and is repeated in each later step: n (n + 1) / 2 roundings,
-    // and five of the expected position.
+    // A rounding of a position, of coordinates up to 1 m, changes the velocity and is repeated in each later step: n (n
+    // + 1) / 2 roundings, and five of the expected position.
     using test_support::rounding_error_in;
-    EXPECT_LT((advanced<double>(all, jiggling_freely(), 10) - expected).cwiseAbs().maxCoeff(), rounding_error_in<double>(55 + 5, 1.0));
-    EXPECT_LT((advanced<float>(all, jiggling_freely(), 10) - expected).cwiseAbs().maxCoeff(), rounding_error_in<float>(55 + 5, 1.0));
+    EXPECT_LT((advanced<double>(all, jiggling_freely(), 10) - expected).cwiseAbs().maxCoeff(),
+              rounding_error_in<double>(55 + 5, 1.0));
+    EXPECT_LT((advanced<float>(all, jiggling_freely(), 10) - expected).cwiseAbs().maxCoeff(),
+              rounding_error_in<float>(55 + 5, 1.0));
 }
 
 TEST(Algorithm1, ParticlesOutsideTheZoneDoNotFall)
@@ -79,7 +81,8 @@ TEST(Algorithm1, JigglingParticlesLagBehindAndFollow)
     const Eigen::RowVector3d shift(0, 0.02, 0);
     algorithm.advance(limb.lbs.rowwise() + shift, limb.bind_points.rowwise() + shift, dt);
     const Positions once = algorithm.positions();
-    EXPECT_GT((once.rowwise() - shift - limb.lbs).rowwise().norm().maxCoeff(), 1e-3);  // the sides of the bind spheres do not follow
+    // the sides of the bind spheres do not follow
+    EXPECT_GT((once.rowwise() - shift - limb.lbs).rowwise().norm().maxCoeff(), 1e-3);
     algorithm.advance(limb.lbs.rowwise() + shift, limb.bind_points.rowwise() + shift, dt);
     EXPECT_NE(algorithm.positions(), once);  // it still has a velocity
 }
@@ -98,7 +101,8 @@ TEST(Algorithm1, BindToTheBlendedPositionOfStiffnessOneGoesBackToIt)
         options.gravity_m_s2 = Vec3(0, 0, -9.81);
         Algorithm1<double> algorithm(limb.mesh, limb.binding.distance, all, options);
         for (int step = 0; step < 3; ++step) algorithm.advance(blend, limb.bind_points, dt);
-        EXPECT_LE((algorithm.positions() - blend).cwiseAbs().maxCoeff(), test_support::rounding_error_in<double>(2 * 11, 1.1));
+        EXPECT_LE((algorithm.positions() - blend).cwiseAbs().maxCoeff(),
+                  test_support::rounding_error_in<double>(2 * 11, 1.1));
         options.bind_to = pbs::BindTo::bone_distance;
         Algorithm1<double> free(limb.mesh, limb.binding.distance, all, options);
         for (int step = 0; step < 3; ++step) free.advance(blend, limb.bind_points, dt);

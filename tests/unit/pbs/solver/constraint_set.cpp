@@ -19,7 +19,8 @@ using pbs::PbsOptions;
 const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
 const Eigen::VectorXd distance = Eigen::VectorXd::LinSpaced(bar.rest.rows(), 0.0, 1.0);
 
-ConstraintSet<double> constraints_of(const PbsOptions& options, const std::vector<bool>& jiggle_zone = {}, const pbs::TetMesh& mesh = bar)
+ConstraintSet<double> constraints_of(const PbsOptions& options, const std::vector<bool>& jiggle_zone = {},
+                                     const pbs::TetMesh& mesh = bar)
 {
     return pbs::make_constraint_set<double>(mesh, distance, jiggle_zone, options);
 }
@@ -75,8 +76,8 @@ TEST(ConstraintSet, SoftensEdgesWithBothEndsInTheJiggleZone)
     for (const auto& edge : constraints_of(options, zone).stretch) EXPECT_EQ(edge.stiffness, 0.2);
 }
 
-// n projections of the share s leave (1 - s)^n; with Mueller's exponent that is 1 - k for any n. 1 - s goes through three roundings, which
-// the power multiplies by n, and the power itself is rounded.
+// n projections of the share s leave (1 - s)^n; with Mueller's exponent that is 1 - k for any n. 1 - s goes through
+// three roundings, which the power multiplies by n, and the power itself is rounded.
 TEST(ConstraintSet, MuellersExponentLeavesTheSameWhateverTheIterations)
 {
     PbsOptions options;
@@ -109,7 +110,8 @@ TEST(ConstraintSet, RegionsTakeThePlaceOfTetsOrFollowThem)
         EXPECT_EQ(region.stiffness, 0.5);
         volume += region.rest_volume;
     }
-    EXPECT_NEAR(volume, 2.0, test_support::rounding_error(12 * 20, 2.0));  // of twelve tets' faces, some twenty roundings each
+    // of twelve tets' faces, some twenty roundings each
+    EXPECT_NEAR(volume, 2.0, test_support::rounding_error(12 * 20, 2.0));
     options.volume_of = pbs::VolumeOf::tets_and_regions;
     EXPECT_EQ(constraints_of(options).volume.size(), 12u);
     EXPECT_EQ(constraints_of(options).regions.size(), of_regions.regions.size());
@@ -131,9 +133,9 @@ TEST(ConstraintSet, StiffnessByLengthFallsWithTheSquareOfTheLength)
         EXPECT_EQ(edge.stiffness, pbs::stiffness_at_length(0.2, edge.rest_length, 1.0));
 }
 
-// A chain of length 1 m between two held points, displaced along itself by a sine: the mode decays at the rate k h^2 pi^2 / 2 per sweep,
-// the diffusion that the formula keeps. A sweep moves every point by two shares one after the other, whose product, of relative size k,
-// and the mode's (pi h)^2 / 12 are left out of that rate.
+// A chain of length 1 m between two held points, displaced along itself by a sine: the mode decays at the rate k h^2
+// pi^2 / 2 per sweep, the diffusion that the formula keeps. A sweep moves every point by two shares one after the
+// other, whose product, of relative size k, and the mode's (pi h)^2 / 12 are left out of that rate.
 double decay_per_sweep(int edges, double k_stretch_length_m)
 {
     const double h = 1.0 / edges, k = pbs::stiffness_at_length(0.02, h, k_stretch_length_m);
@@ -144,24 +146,29 @@ double decay_per_sweep(int edges, double k_stretch_length_m)
     constexpr int sweeps = 100;
     for (int sweep = 0; sweep < sweeps; ++sweep)
         for (int e = 0; e < edges; ++e)
-            project(pbs::StretchConstraint<double>{{e, e + 1}, h, k}, e == 0 ? 0.0 : 1.0, e + 1 == edges ? 0.0 : 1.0, p[e], p[e + 1]);
+            project(pbs::StretchConstraint<double>{{e, e + 1}, h, k}, e == 0 ? 0.0 : 1.0, e + 1 == edges ? 0.0 : 1.0,
+                    p[e], p[e + 1]);
     return -std::log(middle() / amplitude) / sweeps;
 }
 
 TEST(ConstraintSet, StiffnessByLengthGivesTheSameMaterialOnAFinerMesh)
 {
-    const double coarse = decay_per_sweep(8, 1.0 / 8), fine = decay_per_sweep(16, 1.0 / 8), unscaled = decay_per_sweep(16, 0.0);
+    const double coarse = decay_per_sweep(8, 1.0 / 8), fine = decay_per_sweep(16, 1.0 / 8),
+                 unscaled = decay_per_sweep(16, 0.0);
     const double larger_share = pbs::stiffness_at_length(0.02, 1.0 / 16, 1.0 / 8);
-    EXPECT_NEAR(fine / coarse, 1.0, larger_share + std::pow(M_PI / 8, 2) / 12.0 + 2.0 / 8) << "2 / 8: the end edges move one point alone";
+    EXPECT_NEAR(fine / coarse, 1.0, larger_share + std::pow(M_PI / 8, 2) / 12.0 + 2.0 / 8)
+        << "2 / 8: the end edges move one point alone";
     EXPECT_NEAR(unscaled / coarse, 0.25, 0.1) << "the control: k alone makes the finer mesh four times softer";
 }
 
 TEST(ConstraintSet, LumpedMassesAreRelativeToTheirMean)
 {
-    const ConstraintSet<double> constraints = constraints_of(with([](PbsOptions& o) { o.masses = pbs::Masses::lumped; }));
+    const ConstraintSet<double> constraints =
+        constraints_of(with([](PbsOptions& o) { o.masses = pbs::Masses::lumped; }));
     double mass = 0.0;
     for (const double w : constraints.inverse_mass) mass += 1.0 / w;
-    EXPECT_NEAR(mass, 12.0, test_support::rounding_error(2 * 12 + 3, 12.0));  // the mean and the sum of twelve, and three quotients
+    // the mean and the sum of twelve, and three quotients
+    EXPECT_NEAR(mass, 12.0, test_support::rounding_error(2 * 12 + 3, 12.0));
     EXPECT_GT(*std::max_element(constraints.inverse_mass.begin(), constraints.inverse_mass.end()), 1.5);
 }
 
@@ -172,7 +179,8 @@ TEST(ConstraintSet, HeldVerticesHaveNoInverseMass)
         PbsOptions options;
         options.masses = masses;
         const std::vector<double> free = constraints_of(options).inverse_mass;
-        const std::vector<double> inverse_mass = pbs::make_constraint_set<double>(bar, distance, {}, options, held).inverse_mass;
+        const std::vector<double> inverse_mass =
+            pbs::make_constraint_set<double>(bar, distance, {}, options, held).inverse_mass;
         for (std::size_t i = 0; i < free.size(); ++i) EXPECT_EQ(inverse_mass[i], i == 3 ? 0.0 : free[i]);
     }
 }
@@ -185,7 +193,8 @@ TEST(ConstraintSet, RefusesToHoldWhatIsIntegratedOrHasNoMass)
     };
     EXPECT_NO_THROW(made([](PbsOptions&) {}, held, held));  // the zone is switched off
     EXPECT_THROW(made([](PbsOptions& o) { o.jiggle = pbs::Jiggle{}; }, held, held), pbs::InputError);
-    EXPECT_THROW(made([](PbsOptions& o) { o.volume_form = pbs::VolumeForm::labels_relative; }, {}, held), pbs::InputError);
+    EXPECT_THROW(made([](PbsOptions& o) { o.volume_form = pbs::VolumeForm::labels_relative; }, {}, held),
+                 pbs::InputError);
     EXPECT_THROW(made([](PbsOptions&) {}, {}, std::vector<bool>(3, true)), pbs::InputError);
 }
 
@@ -197,16 +206,18 @@ TEST(ConstraintSet, RefusesOptionsOutOfRange)
             options.*field = k;
             EXPECT_THROW(constraints_of(options), pbs::InputError) << k;
         }
-    const Change refused[] = {[](PbsOptions& o) { o.jiggle = pbs::Jiggle{1.5}; },
-                              [](PbsOptions& o) { o.jiggle = pbs::Jiggle{.k_stretch = 0.1, .k_bind = 1.5}; },
-                              [](PbsOptions& o) { o.iterations = -1; },
-                              [](PbsOptions& o) { o.region_tets = 0; },
-                              [](PbsOptions& o) { o.k_stretch_length_m = -1.0; },
-                              [](PbsOptions& o) { o.k_stretch_length_m = std::nan(""); },
-                              [](PbsOptions& o) { o.k_stretch_length_m = INFINITY; },
-                              [](PbsOptions& o) { o.volume_of = pbs::VolumeOf::regions, o.sleep = true; },
-                              [](PbsOptions& o) { o.volume_of = pbs::VolumeOf::regions, o.volume_form = pbs::VolumeForm::sign; }};
-    for (const Change& change : refused) EXPECT_THROW(constraints_of(with(change)), pbs::InputError) << &change - refused;
+    const Change refused[] = {
+        [](PbsOptions& o) { o.jiggle = pbs::Jiggle{1.5}; },
+        [](PbsOptions& o) { o.jiggle = pbs::Jiggle{.k_stretch = 0.1, .k_bind = 1.5}; },
+        [](PbsOptions& o) { o.iterations = -1; },
+        [](PbsOptions& o) { o.region_tets = 0; },
+        [](PbsOptions& o) { o.k_stretch_length_m = -1.0; },
+        [](PbsOptions& o) { o.k_stretch_length_m = std::nan(""); },
+        [](PbsOptions& o) { o.k_stretch_length_m = INFINITY; },
+        [](PbsOptions& o) { o.volume_of = pbs::VolumeOf::regions, o.sleep = true; },
+        [](PbsOptions& o) { o.volume_of = pbs::VolumeOf::regions, o.volume_form = pbs::VolumeForm::sign; }};
+    for (const Change& change : refused)
+        EXPECT_THROW(constraints_of(with(change)), pbs::InputError) << &change - refused;
 }
 
 TEST(ConstraintSet, RefusesWrongSizesAndBadTets)
@@ -217,7 +228,8 @@ TEST(ConstraintSet, RefusesWrongSizesAndBadTets)
     outside.tets(3, 0) = 12;
     std::swap(mirrored.tets(3, 0), mirrored.tets(3, 1));
     flat.rest.col(2).setZero();
-    for (const pbs::TetMesh& bad : {outside, mirrored, flat}) EXPECT_THROW(constraints_of({}, {}, bad), pbs::InputError);
+    for (const pbs::TetMesh& bad : {outside, mirrored, flat})
+        EXPECT_THROW(constraints_of({}, {}, bad), pbs::InputError);
 }
 
 // It is recognised by its distance from the bone, also where the bind to the blended position has no distance.
@@ -242,7 +254,8 @@ TEST(ConstraintSet, BindInTheJigglingZoneMayHaveAStiffnessOfItsOwn)
     PbsOptions options;
     options.k_bind = 0.8;
     options.jiggle = pbs::Jiggle{.k_stretch = 0.1, .k_bind = 0.25};
-    for (const auto& bind : constraints_of(options, zone).bind) EXPECT_EQ(bind.stiffness, bind.vertex == 3 ? 0.25 : 0.8);
+    for (const auto& bind : constraints_of(options, zone).bind)
+        EXPECT_EQ(bind.stiffness, bind.vertex == 3 ? 0.25 : 0.8);
     options.jiggle->k_bind = 0.0;
     EXPECT_EQ(constraints_of(options, zone).bind.size(), 11u);
     options.jiggle->k_bind.reset();

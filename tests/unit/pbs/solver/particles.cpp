@@ -60,8 +60,8 @@ TEST(Particles, ByIncrementKeepWhatProjectionsMadeOfThem)
     EXPECT_EQ(particles.predicted().row(1), moved_by({0.25, 0, 0}).row(1));
 }
 
-// n steps of v += g dt, x += v dt: g dt^2 n (n + 1) / 2. Each step goes through six roundings, which the velocity repeats in every later
-// one.
+// n steps of v += g dt, x += v dt: g dt^2 n (n + 1) / 2. Each step goes through six roundings, which the velocity
+// repeats in every later one.
 TEST(Particles, ByIncrementFallUnderGravity)
 {
     Particles particles(rest, {}, by_increment({0, -9.81, 0}));

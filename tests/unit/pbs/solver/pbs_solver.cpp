@@ -34,12 +34,16 @@ test_support::Stepped stepped(Change change)
     return test_support::stepped(limb, options);
 }
 
-// Volumes alone can all be satisfied (as in the rest pose), so their error has no floor and keeps falling with the iterations.
+// Volumes alone can all be satisfied (as in the rest pose), so their error has no floor and keeps falling with the
+// iterations.
 TEST(PbsSolver, VolumeAloneGoesOnConverging)
 {
     const auto change_after = [](int iterations) {
-        const Positions after = stepped([&](PbsOptions& o) { o.k_stretch = o.k_bind = 0.0, o.iterations = iterations; }).positions;
-        return (pbs::tet_volumes(after, limb.mesh.tets) - pbs::tet_volumes(limb.mesh.rest, limb.mesh.tets)).cwiseAbs().sum();
+        const Positions after =
+            stepped([&](PbsOptions& o) { o.k_stretch = o.k_bind = 0.0, o.iterations = iterations; }).positions;
+        return (pbs::tet_volumes(after, limb.mesh.tets) - pbs::tet_volumes(limb.mesh.rest, limb.mesh.tets))
+            .cwiseAbs()
+            .sum();
     };
     double previous = change_after(0);
     for (const int iterations : {100, 500, 2500}) {
@@ -51,7 +55,8 @@ TEST(PbsSolver, VolumeAloneGoesOnConverging)
 
 TEST(PbsSolver, BindAloneIsExactAfterOneIteration)
 {
-    const Positions positions = stepped([](PbsOptions& o) { o.k_stretch = o.k_volume = 0.0, o.iterations = 1; }).positions;
+    const Positions positions =
+        stepped([](PbsOptions& o) { o.k_stretch = o.k_volume = 0.0, o.iterations = 1; }).positions;
     for (int v = 0; v < positions.rows(); ++v) {  // the rounding of a projection, and four of the length
         const pbs::BindConstraint<double> bind{v, limb.binding.distance(v), 1.0};
         const Vec3 point = limb.bind_points.row(v);
@@ -93,8 +98,8 @@ TEST(PbsSolver, RefusesWrongSizes)
     EXPECT_THROW(solver.advance(limb.lbs, limb.bind_points.topRows(3), 0.01), pbs::InputError);
 }
 
-// Reference: PbsSolver, one pose at a time. The two share their order of projection and their arithmetic, so the only difference is, with
-// unequal masses, the rounding of k / (w1 + w2).
+// Reference: PbsSolver, one pose at a time. The two share their order of projection and their arithmetic, so the only
+// difference is, with unequal masses, the rounding of k / (w1 + w2).
 
 using pbs::Order;
 using pbs::PosesSolver;
@@ -135,7 +140,8 @@ TEST_P(Poses, CountTheWorkOfEachAlone)
     PbsSolver single(limb.mesh, limb.binding.distance, {}, base);
     const pbs::WorkCounters work = single.advance(limb.lbs, limb.bind_points, 0.01).work;
     EXPECT_GT(work.projections, work.tet_visits);
-    for (const pbs::StepSummary& step : solver.advance({limb.lbs}, {limb.bind_points}, 0.01)) EXPECT_EQ(step.work, work);
+    for (const pbs::StepSummary& step : solver.advance({limb.lbs}, {limb.bind_points}, 0.01))
+        EXPECT_EQ(step.work, work);
 }
 
 TEST_P(Poses, OfManyFramesEqualEachAloneToTheBit)
@@ -174,8 +180,8 @@ TEST_P(Poses, HeldVerticesAndUnequalMasses)
     const Positions expected = alone(base, limb.lbs, 1, {}, held);
     // Each of 24 iterations may add a rounding of the 1 m half length in each of the some 20 constraints at a vertex.
     const bool f32 = base.precision == Precision::f32;
-    const double rounding =
-        f32 ? test_support::rounding_error_in<float>(24 * 20, 1.0) : test_support::rounding_error_in<double>(24 * 20, 1.0);
+    const double rounding = f32 ? test_support::rounding_error_in<float>(24 * 20, 1.0)
+                                : test_support::rounding_error_in<double>(24 * 20, 1.0);
     EXPECT_LT((solver.positions(1) - expected).cwiseAbs().maxCoeff(), rounding);
     EXPECT_EQ(solver.positions(1).row(7), expected.row(7));
 }

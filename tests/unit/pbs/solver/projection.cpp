@@ -20,7 +20,8 @@ protected:
         pbs::PbsOptions options;
         options.masses = pbs::Masses::lumped;
         const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
-        constraints = pbs::make_constraint_set<double>(bar, Eigen::VectorXd::Constant(bar.rest.rows(), 0.5), {}, options);
+        constraints =
+            pbs::make_constraint_set<double>(bar, Eigen::VectorXd::Constant(bar.rest.rows(), 0.5), {}, options);
         for (Eigen::Index i = 0; i < bar.rest.rows(); ++i) {
             p.push_back(Vec3(bar.rest.row(i)) + random.point(0.2));
             q.push_back(Vec3(bar.rest(i, 0), 0.5, 0.5));
@@ -38,12 +39,13 @@ TEST_F(ProjectPlain, OneAfterTheOtherInFileOrder)
     for (const auto& c : constraints.bind) project(c, w[c.vertex], q[c.vertex], expected[c.vertex]);
     pbs::project_bind_constraints(constraints, q, p);
     EXPECT_EQ(p, expected);
-    for (const auto& c : constraints.stretch) project(c, w[c.vertex[0]], w[c.vertex[1]], expected[c.vertex[0]], expected[c.vertex[1]]);
+    for (const auto& c : constraints.stretch)
+        project(c, w[c.vertex[0]], w[c.vertex[1]], expected[c.vertex[0]], expected[c.vertex[1]]);
     pbs::project_stretch_constraints(constraints, p);
     EXPECT_EQ(p, expected);
     for (const auto& c : constraints.volume)
-        project(c, w[c.vertex[0]], w[c.vertex[1]], w[c.vertex[2]], w[c.vertex[3]], expected[c.vertex[0]], expected[c.vertex[1]],
-                expected[c.vertex[2]], expected[c.vertex[3]]);
+        project(c, w[c.vertex[0]], w[c.vertex[1]], w[c.vertex[2]], w[c.vertex[3]], expected[c.vertex[0]],
+                expected[c.vertex[1]], expected[c.vertex[2]], expected[c.vertex[3]]);
     pbs::project_volume_constraints(constraints, p);
     EXPECT_EQ(p, expected);
 }
@@ -73,8 +75,8 @@ std::unique_ptr<Plain> projection(ClassOrder class_order)
     pbs::PbsOptions options;
     options.order = pbs::Order::plain;
     options.class_order = class_order;
-    auto made =
-        pbs::make_projection(pbs::make_constraint_set<double>(limb.mesh, limb.binding.distance, {}, options), limb.mesh.tets, options);
+    auto made = pbs::make_projection(pbs::make_constraint_set<double>(limb.mesh, limb.binding.distance, {}, options),
+                                     limb.mesh.tets, options);
     made->load(limb.lbs, limb.bind_points, pbs::Vec3::Zero());
     return made;
 }
@@ -92,10 +94,12 @@ struct NamedOrder {
     ClassOrder order;
     std::array<Project, 3> classes;
 };
-const NamedOrder orders[] = {
-    {ClassOrder::bind_stretch_volume, {bind, stretch, volume}}, {ClassOrder::bind_volume_stretch, {bind, volume, stretch}},
-    {ClassOrder::stretch_bind_volume, {stretch, bind, volume}}, {ClassOrder::stretch_volume_bind, {stretch, volume, bind}},
-    {ClassOrder::volume_bind_stretch, {volume, bind, stretch}}, {ClassOrder::volume_stretch_bind, {volume, stretch, bind}}};
+const NamedOrder orders[] = {{ClassOrder::bind_stretch_volume, {bind, stretch, volume}},
+                             {ClassOrder::bind_volume_stretch, {bind, volume, stretch}},
+                             {ClassOrder::stretch_bind_volume, {stretch, bind, volume}},
+                             {ClassOrder::stretch_volume_bind, {stretch, volume, bind}},
+                             {ClassOrder::volume_bind_stretch, {volume, bind, stretch}},
+                             {ClassOrder::volume_stretch_bind, {volume, stretch, bind}}};
 
 TEST(ReorderedProjection, TakesTheClassesInTheOrderOfItsNameWhichMatters)
 {

@@ -35,9 +35,10 @@ TEST(FrameStep, HasTheWorstOutcomeOfItsSteps)
     };
     for (const auto& [steps, outcome, worst_step] :
          {Case{{finished, not_converged, finished, finished}, not_converged, 1},
-          Case{{finished, not_finite, finished, finished}, not_finite, 1}, Case{{not_converged, not_finite}, not_finite, 1},
-          Case{{not_finite, not_converged}, not_finite, 0}, Case{{not_converged, not_converged}, not_converged, 0},
-          Case{{not_converged, finished}, not_converged, 0}, Case{{finished, finished, finished}, finished, 2}}) {
+          Case{{finished, not_finite, finished, finished}, not_finite, 1},
+          Case{{not_converged, not_finite}, not_finite, 1}, Case{{not_finite, not_converged}, not_finite, 0},
+          Case{{not_converged, not_converged}, not_converged, 0}, Case{{not_converged, finished}, not_converged, 0},
+          Case{{finished, finished, finished}, finished, 2}}) {
         const FrameStep frame = after(steps);
         EXPECT_EQ(frame.summary().outcome, outcome);
         EXPECT_EQ(frame.worst_step(), worst_step);

@@ -1,5 +1,5 @@
-// The contract of a step, by PBS and by XPBD in every order and precision. References: rest, the counts of constraints, the same order in
-// double, and outcomes by definition. Tolerances: the rounding of a step (step_rounding.hpp).
+// The contract of a step, by PBS and by XPBD in every order and precision. References: rest, the counts of constraints,
+// the same order in double, and outcomes by definition. Tolerances: the rounding of a step (step_rounding.hpp).
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
@@ -19,7 +19,8 @@ using pbs::Outcome;
 using pbs::Positions;
 using pbs::Precision;
 
-const TwoBoneLimb bent = two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 60.0), straight = two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 0.0);
+const TwoBoneLimb bent = two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 60.0),
+                  straight = two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 0.0);
 
 enum class Method { pbs, xpbd };
 
@@ -42,15 +43,16 @@ protected:
     static Positions stepped(const TwoBoneLimb& limb = bent, int iterations = 24, const std::vector<bool>& held = {},
                              Precision precision = std::get<2>(GetParam()))
     {
-        const Stepped after =
-            with_options([&](const auto& options) { return test_support::stepped(limb, options, held); }, iterations, precision);
+        const Stepped after = with_options(
+            [&](const auto& options) { return test_support::stepped(limb, options, held); }, iterations, precision);
         EXPECT_EQ(after.summary.outcome, Outcome::finished);
         return after.positions;
     }
     // Between two steps in float [m].
     double rounding_m() const
     {
-        return (is_pbs ? 2.0 : 1.0) * with_options([](const auto& options) { return step_rounding_m(bent, options); }, 24, Precision::f32);
+        return (is_pbs ? 2.0 : 1.0) *
+               with_options([](const auto& options) { return step_rounding_m(bent, options); }, 24, Precision::f32);
     }
 };
 INSTANTIATE_TEST_SUITE_P(Codes, Step,
@@ -58,8 +60,9 @@ INSTANTIATE_TEST_SUITE_P(Codes, Step,
                                           testing::Values(Order::plain, Order::ordered, Order::grouped),
                                           testing::Values(Precision::f32, Precision::f64)));
 
-// Each of 24 iterations may add a rounding of the 1 m half length, of XPBD in each of the some 20 constraints at a vertex; packed code may
-// round a * b + c once where the rest data are rounded twice. Plain PBS in double returns the bits.
+// Each of 24 iterations may add a rounding of the 1 m half length, of XPBD in each of the some 20 constraints at a
+// vertex; packed code may round a * b + c once where the rest data are rounded twice. Plain PBS in double returns the
+// bits.
 TEST_P(Step, RestStaysAtRest)
 {
     const bool plain = std::get<1>(GetParam()) == Order::plain;
@@ -86,26 +89,32 @@ TEST_P(Step, FloatKeepsItsDigitsFarFromTheOrigin)
     TwoBoneLimb moved = bent;
     moved.lbs.rowwise() += far;
     moved.bind_points.rowwise() += far;
-    EXPECT_LT(((stepped(moved).rowwise() - far) - stepped()).cwiseAbs().maxCoeff(), rounding_m() + rounding_error(3, far.norm()));
+    EXPECT_LT(((stepped(moved).rowwise() - far) - stepped()).cwiseAbs().maxCoeff(),
+              rounding_m() + rounding_error(3, far.norm()));
 }
 
 TEST_P(Step, RestoresTheVolumeThatBlendingLost)
 {
     const auto lost = [](const Positions& positions) {
-        return (pbs::tet_volumes(positions, bent.mesh.tets) - pbs::tet_volumes(bent.mesh.rest, bent.mesh.tets)).cwiseAbs().sum();
+        return (pbs::tet_volumes(positions, bent.mesh.tets) - pbs::tet_volumes(bent.mesh.rest, bent.mesh.tets))
+            .cwiseAbs()
+            .sum();
     };
     EXPECT_LT(lost(stepped()), 0.5 * lost(bent.lbs));
 }
 
-// One bind constraint per vertex, one of its length per edge, one of its volume per tet, in each iteration of each substep.
+// One bind constraint per vertex, one of its length per edge, one of its volume per tet, in each iteration of each
+// substep.
 TEST_P(Step, CountsItsProjections)
 {
-    const Eigen::Index tets = bent.mesh.tets.rows(), edges = pbs::edges_of(bent.mesh.tets).rows(), vertices = bent.mesh.rest.rows();
+    const Eigen::Index tets = bent.mesh.tets.rows(), edges = pbs::edges_of(bent.mesh.tets).rows(),
+                       vertices = bent.mesh.rest.rows();
     const auto work = []<typename Options>(Options options) {
         if constexpr (std::is_same_v<Options, pbs::XpbdOptions>) options.iterations = 3, options.substeps = 2;
         return test_support::stepped(bent, options).summary.work;
     };
-    EXPECT_EQ(with_options(work, 6), (pbs::WorkCounters{.tet_visits = 6 * tets, .projections = 6 * (vertices + edges + tets)}));
+    EXPECT_EQ(with_options(work, 6),
+              (pbs::WorkCounters{.tet_visits = 6 * tets, .projections = 6 * (vertices + edges + tets)}));
 }
 
 TEST_P(Step, WithoutIterationsItIsLbs)
@@ -154,7 +163,8 @@ TEST(XpbdSolver, PackedSmallStepsAreNearPlainOnes)
     const Positions expected = test_support::stepped(bent, options).positions;
     for (const Order order : {Order::ordered, Order::grouped}) {
         options.order = order;
-        EXPECT_LT((test_support::stepped(bent, options).positions - expected).norm(), 0.1 * (expected - bent.lbs).norm());
+        EXPECT_LT((test_support::stepped(bent, options).positions - expected).norm(),
+                  0.1 * (expected - bent.lbs).norm());
     }
 }
 
@@ -165,7 +175,8 @@ TEST(XpbdSolver, ASubstepIsAStepThatBeginsWhereTheLastOneEnded)
         XpbdSolver halves(bent.mesh, bent.binding.distance, {}, {.iterations = 3, .order = order});
         halves.advance(bent.lbs, bent.bind_points, 0.005);
         halves.advance(Positions(halves.positions()), bent.bind_points, 0.005);
-        EXPECT_EQ(test_support::stepped(bent, XpbdOptions{.iterations = 3, .substeps = 2, .order = order}).positions, halves.positions());
+        EXPECT_EQ(test_support::stepped(bent, XpbdOptions{.iterations = 3, .substeps = 2, .order = order}).positions,
+                  halves.positions());
     }
 }
 

@@ -1,5 +1,5 @@
-// Reference: distances known by hand in every region of both kinds of pairs, calculus (eps sweeps of distance and gradient), and invariance
-// under rigid motion, mirroring, exchange and scale.
+// Reference: distances known by hand in every region of both kinds of pairs, calculus (eps sweeps of distance and
+// gradient), and invariance under rigid motion, mirroring, exchange and scale.
 #include "reference_fem/contact/closest_points.hpp"
 #include "tests/support/eps_sweep.hpp"
 #include "tests/support/rounding_error.hpp"
@@ -65,23 +65,28 @@ TEST_P(ClosestPointsIn, HaveTheDistanceKnownByHand)
     EXPECT_EQ(closest.offset, GetParam().points * closest.weights);
 }
 
-// The second region on the other side of the boundary would spoil the order, so that the sweep stays within a fiftieth of the size.
+// The second region on the other side of the boundary would spoil the order, so that the sweep stays within a fiftieth
+// of the size.
 TEST_P(ClosestPointsIn, HaveTheSlopesAndCurvaturesOfTheirDistance)
 {
     const auto& [name, kind, points, distance_m, parameters] = GetParam();
     std::mt19937 generator(7);
     std::uniform_real_distribution<double> entry(-1.0, 1.0);
-    const auto random = [&] { return Eigen::VectorXd(Eigen::VectorXd::NullaryExpr(12, [&] { return entry(generator); })); };
+    const auto random = [&] {
+        return Eigen::VectorXd(Eigen::VectorXd::NullaryExpr(12, [&] { return entry(generator); }));
+    };
     const Eigen::VectorXd at = points.reshaped(), along = random(), across = random();
     const auto shaped = [](const Eigen::VectorXd& v) -> FourPoints { return v.reshaped(3, 4); };
-    const auto gradient = [&, kind = kind](const Eigen::VectorXd& v) { return distance_gradient(closest_points(kind, shaped(v))); };
+    const auto gradient = [&, kind = kind](const Eigen::VectorXd& v) {
+        return distance_gradient(closest_points(kind, shaped(v)));
+    };
     constexpr double size = 0.02;
     test_support::expect_slope_by_eps_sweep(
         [&, kind = kind](const Eigen::VectorXd& v) { return closest_points(kind, shaped(v)).distance_m; }, at, along,
         gradient(at).dot(along), size);
     const FourPointHessian hessian = distance_hessian(closest_points(kind, points), points);
-    test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& v) { return gradient(v).dot(across); }, at, along,
-                                            across.dot(hessian * along), size);
+    test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& v) { return gradient(v).dot(across); }, at,
+                                            along, across.dot(hessian * along), size);
     EXPECT_LE((hessian - hessian.transpose()).norm(), test_support::rounding_error(30, hessian.norm()));
 }
 
@@ -101,7 +106,8 @@ TEST_P(ClosestPointsIn, DoNotDependOnTheOrderOfCornersAndEnds)
 {
     FourPoints exchanged = GetParam().points;
     exchanged.col(2).swap(exchanged.col(3));
-    EXPECT_NEAR(closest_points(GetParam().kind, exchanged).distance_m, GetParam().distance_m, test_support::rounding_error(20, 2.0));
+    EXPECT_NEAR(closest_points(GetParam().kind, exchanged).distance_m, GetParam().distance_m,
+                test_support::rounding_error(20, 2.0));
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryRegion, ClosestPointsIn, testing::ValuesIn(regions), [](const auto& region) {
@@ -121,8 +127,8 @@ TEST(ClosestPoints, OfParallelAndOfShortEdgesAreAtTheirEnds)
 {
     EXPECT_NEAR(closest_points(PairKind::edge_edge, over_edge({-0.5, 0.3, 0.4}, {0.5, 0.3, 0.4})).distance_m, 0.5,
                 test_support::rounding_error(20, 2.0));
-    EXPECT_NEAR(closest_points(PairKind::edge_edge, over_edge({2, 0.3, 0.4}, {4, 0.3, 0.4})).distance_m, std::sqrt(1.25),
-                test_support::rounding_error(20, 2.0));
+    EXPECT_NEAR(closest_points(PairKind::edge_edge, over_edge({2, 0.3, 0.4}, {4, 0.3, 0.4})).distance_m,
+                std::sqrt(1.25), test_support::rounding_error(20, 2.0));
     EXPECT_NEAR(closest_points(PairKind::edge_edge, over_edge(z, z)).distance_m, 1.0, 0.0);
 }
 
@@ -134,8 +140,8 @@ TEST(EdgeCross, HasTheSlopesAndCurvaturesOfTheSquaredCrossProduct)
     const auto cross = [](const Eigen::VectorXd& v) { return edge_cross(FourPoints(v.reshaped(3, 4))); };
     test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& v) { return cross(v).squared_m4; }, at, along,
                                             cross(at).gradient.dot(along), 1.0);
-    test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& v) { return cross(v).gradient.dot(across); }, at, along,
-                                            across.dot(cross(at).hessian * along), 1.0);
+    test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& v) { return cross(v).gradient.dot(across); }, at,
+                                            along, across.dot(cross(at).hessian * along), 1.0);
 }
 
 TEST(SafeShare, LeavesATenthOfTheDistanceOfAPairThatMeetsHeadOn)
@@ -155,7 +161,8 @@ TEST(SafeShare, IsWholeForAStepThatLeadsApartOrThatMovesAllPoints)
     EXPECT_EQ(safe_share(PairKind::edge_edge, over_edge({0.2, -1, 0.3}, {0.2, 1, 0.3}), step, 0.5), 0.5);
 }
 
-// 300 random pairs whose ends cross. The distance along the way, at 200 places up to the share, never falls below a tenth of the first.
+// 300 random pairs whose ends cross. The distance along the way, at 200 places up to the share, never falls below a
+// tenth of the first.
 TEST(SafeShare, KeepsATenthOfTheDistanceEverywhereOnTheWay)
 {
     std::mt19937 generator(3);
@@ -167,7 +174,9 @@ TEST(SafeShare, KeepsATenthOfTheDistanceEverywhereOnTheWay)
         const double share = safe_share(kind, points, step, 1.0), first = closest_points(kind, points).distance_m;
         EXPECT_GT(share, 0.0);
         for (int place = 0; place <= 200; ++place)
-            EXPECT_GE(closest_points(kind, points + place / 200.0 * share * step).distance_m, 0.1 * first * (1.0 - 1e-9)) << pair;
+            EXPECT_GE(closest_points(kind, points + place / 200.0 * share * step).distance_m,
+                      0.1 * first * (1.0 - 1e-9))
+                << pair;
     }
 }
 

@@ -1,5 +1,5 @@
-// Reference: closed forms of flat faces, calculus (eps sweeps), sums of force and moment, and the definition of a range and of a step that
-// leaves nothing meeting.
+// Reference: closed forms of flat faces, calculus (eps sweeps), sums of force and moment, and the definition of a range
+// and of a step that leaves nothing meeting.
 #include "reference_fem/contact/contact_potential.hpp"
 #include "reference_fem/verification/problems.hpp"
 #include "tests/support/eps_sweep.hpp"
@@ -20,13 +20,15 @@ using pbs::Vec3;
 constexpr double range_m = 0.05, young_pa = 1e4;
 const ContactOptions options{.range_m = range_m, .stiffness_pa = young_pa};
 
-// Two blocks of 1 x 1 x 0.5 m, one above the other at a distance of 1 m, whose facing sides have 2 x 2 and n x n squares.
+// Two blocks of 1 x 1 x 0.5 m, one above the other at a distance of 1 m, whose facing sides have 2 x 2 and n x n
+// squares.
 pbs::TetMesh two_blocks(int n)
 {
     return joined({box_mesh({0, 0, 0}, {1, 1, 0.5}, {2, 2, 1}), box_mesh({0, 0, 1.5}, {1, 1, 2}, {n, n, 1})});
 }
 
-// Each node above the height above_m moves up by gap_m - 1 m. The two blocks, 1 m apart at rest, then have the distance gap_m.
+// Each node above the height above_m moves up by gap_m - 1 m. The two blocks, 1 m apart at rest, then have the distance
+// gap_m.
 Eigen::VectorXd brought_together(const SimplexSpace& space, double gap_m, double above_m = 1.0)
 {
     Eigen::VectorXd displacement = Eigen::VectorXd::Zero(space.dofs());
@@ -35,7 +37,8 @@ Eigen::VectorXd brought_together(const SimplexSpace& space, double gap_m, double
     return displacement;
 }
 
-// The same, and turned by 0.3 rad about the vertical through (0.4, 0.6), so that no edges are parallel and no nodes opposite each other.
+// The same, and turned by 0.3 rad about the vertical through (0.4, 0.6), so that no edges are parallel and no nodes
+// opposite each other.
 Eigen::VectorXd brought_together_askew(const SimplexSpace& space, double gap_m)
 {
     Eigen::VectorXd displacement = brought_together(space, gap_m);
@@ -73,8 +76,10 @@ TEST(Barrier, HasItsSlopesAndEndsAtItsRange)
 {
     const auto at = [](const Eigen::VectorXd& d) { return barrier(d(0), range_m); };
     const Eigen::VectorXd d = Eigen::VectorXd::Constant(1, 0.4 * range_m), one = Eigen::VectorXd::Ones(1);
-    test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& v) { return at(v).value; }, d, one, at(d).first, 0.2 * range_m);
-    test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& v) { return at(v).first; }, d, one, at(d).second, 0.2 * range_m);
+    test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& v) { return at(v).value; }, d, one, at(d).first,
+                                            0.2 * range_m);
+    test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& v) { return at(v).first; }, d, one, at(d).second,
+                                            0.2 * range_m);
     EXPECT_EQ(barrier(range_m, range_m).value, 0.0);
     EXPECT_EQ(barrier(range_m, range_m).first, 0.0);
     EXPECT_TRUE(std::isinf(barrier(0.0, range_m).value));
@@ -89,21 +94,24 @@ protected:
     const ContactPotential contact{space, options};
 };
 
-// Every node of a facing side, rim included, is pressed by the other side once. The areas of the nodes at the rim include a part of the
-// sides of the block. The gap of 3 cm is a difference of places of 2 m, whose rounding it has some hundredfold, and the barrier changes by
-// up to ten times as much: some 10,000 roundings in all.
+// Every node of a facing side, rim included, is pressed by the other side once. The areas of the nodes at the rim
+// include a part of the sides of the block. The gap of 3 cm is a difference of places of 2 m, whose rounding it has
+// some hundredfold, and the barrier changes by up to ten times as much: some 10,000 roundings in all.
 TEST_P(FlatFaces, PressWithTheBarrierOncePerAreaOnAnyTwoMeshes)
 {
     const double gap_m = 0.6 * range_m;  // edges press below half the range
     const Eigen::VectorXd together = brought_together(space, gap_m);
     double area_m2 = 0.0;
     for (int n = 0; n < space.nodes(); ++n)
-        if (const double z = space.node_positions()(n, 2); z == 0.5 || z == 1.5) area_m2 += contact.surface().node_area(n) / 2.0;
+        if (const double z = space.node_positions()(n, 2); z == 0.5 || z == 1.5)
+            area_m2 += contact.surface().node_area(n) / 2.0;
     const Barrier b = barrier(gap_m, range_m);
-    EXPECT_NEAR(contact.value(together), young_pa * area_m2 * b.value, test_support::rounding_error(1e4, young_pa * area_m2 * b.value));
+    EXPECT_NEAR(contact.value(together), young_pa * area_m2 * b.value,
+                test_support::rounding_error(1e4, young_pa * area_m2 * b.value));
     const Vec3 force = force_on(gradient_of(contact, together), space, true);
     EXPECT_NEAR(force.z(), -young_pa * area_m2 * b.first, test_support::rounding_error(1e4, young_pa * area_m2));
-    // The upper face is tilted about its rim at x = 0, which stays above the rim of the lower face. All other places are farther apart.
+    // The upper face is tilted about its rim at x = 0, which stays above the rim of the lower face. All other places
+    // are farther apart.
     Eigen::VectorXd tilted = together;
     for (int n = 0; n < space.nodes(); ++n)
         if (space.node_positions()(n, 2) > 1.0) tilted(3 * n + 2) += 0.01 * space.node_positions()(n, 0);
@@ -124,20 +132,23 @@ TEST_P(FlatFaces, HaveForcesWithoutSumAndMoment)
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
     double forces = 0.0;
     for (int n = 0; n < space.nodes(); ++n) {
-        const Vec3 of_node = gradient.segment<3>(3 * n), at = space.node_positions().row(n).transpose() + folded.segment<3>(3 * n);
+        const Vec3 of_node = gradient.segment<3>(3 * n),
+                   at = space.node_positions().row(n).transpose() + folded.segment<3>(3 * n);
         force += of_node;
         moment += at.cross(of_node);
         forces += of_node.norm();
     }
     ASSERT_GT(forces, 0.0);
     EXPECT_LT(force.norm(), test_support::rounding_error(100, forces));
-    EXPECT_LT(moment.norm(), test_support::rounding_error(100, 3.0 * forces) / 1e-2);  // an offset of 0.01 m from places of 3 m
+    // an offset of 0.01 m from places of 3 m
+    EXPECT_LT(moment.norm(), test_support::rounding_error(100, 3.0 * forces) / 1e-2);
 }
 
 // A generic state: the nearest places change along no direction of the sweep, since the faces are tilted by random.
 TEST_P(FlatFaces, HaveTheSlopesAndCurvaturesOfTheirEnergy)
 {
-    const Eigen::VectorXd at = brought_together_askew(space, 0.4 * range_m) + random_dofs(space.dofs(), 0.1 * range_m, 1),
+    const Eigen::VectorXd at = brought_together_askew(space, 0.4 * range_m) +
+                               random_dofs(space.dofs(), 0.1 * range_m, 1),
                           along = random_dofs(space.dofs(), 1.0, 2), across = random_dofs(space.dofs(), 1.0, 3);
     constexpr double size = 3e-4;
     test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& u) { return contact.value(u); }, at, along,
@@ -146,8 +157,9 @@ TEST_P(FlatFaces, HaveTheSlopesAndCurvaturesOfTheirEnergy)
     EXPECT_TRUE(hessian.couple(contact.couplings(at)));
     EXPECT_FALSE(hessian.couple(contact.couplings(at)));
     contact.add_hessian(at, Definiteness::as_it_is, hessian);
-    test_support::expect_slope_by_eps_sweep([&](const Eigen::VectorXd& u) { return gradient_of(contact, u).dot(across); }, at, along,
-                                            across.dot(hessian.matrix() * along), size);
+    test_support::expect_slope_by_eps_sweep(
+        [&](const Eigen::VectorXd& u) { return gradient_of(contact, u).dot(across); }, at, along,
+        across.dot(hessian.matrix() * along), size);
     hessian.set_zero();
     contact.add_hessian(at, Definiteness::projected, hessian);
     EXPECT_GE(along.dot(hessian.matrix() * along), 0.0);
@@ -165,7 +177,9 @@ TEST_P(FlatFaces, KeepATenthOfTheirDistanceInAnyStep)
     crossing.head<3>().setConstant(std::nan(""));
     EXPECT_TRUE(contact.intersects(crossing)) << "where the corner at the origin has no place";
     EXPECT_EQ(contact.largest_step(apart, -step), 1.0);
-    EXPECT_EQ(contact.largest_step(apart, Eigen::VectorXd::Constant(space.dofs(), std::numeric_limits<double>::quiet_NaN())), 0.0);
+    EXPECT_EQ(
+        contact.largest_step(apart, Eigen::VectorXd::Constant(space.dofs(), std::numeric_limits<double>::quiet_NaN())),
+        0.0);
 }
 
 // To the bit: what was searched before has no effect.
@@ -179,14 +193,16 @@ TEST_P(FlatFaces, HaveAnEnergyThatDoesNotDependOnTheStatesBefore)
     EXPECT_EQ(used.value(at), value);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfTwoMeshes, FlatFaces, testing::Values(Blocks{1, 2}, Blocks{1, 5}, Blocks{2, 2}, Blocks{2, 3}),
+INSTANTIATE_TEST_SUITE_P(OfTwoMeshes, FlatFaces,
+                         testing::Values(Blocks{1, 2}, Blocks{1, 5}, Blocks{2, 2}, Blocks{2, 3}),
                          [](const auto& blocks) {
-                             return "Order" + std::to_string(blocks.param.element_order) + "Squares" + std::to_string(blocks.param.squares);
+                             return "Order" + std::to_string(blocks.param.element_order) + "Squares" +
+                                    std::to_string(blocks.param.squares);
                          });
 
-// Two tets whose facing edges cross at right angles, 1 m apart at rest. All other pairs are farther apart than the range. An edge has a
-// third of its two triangles, whose area is sqrt 2 m^2 each, and a pair of edges presses with half the mean of their areas. The roundings
-// are those of flat faces.
+// Two tets whose facing edges cross at right angles, 1 m apart at rest. All other pairs are farther apart than the
+// range. An edge has a third of its two triangles, whose area is sqrt 2 m^2 each, and a pair of edges presses with half
+// the mean of their areas. The roundings are those of flat faces.
 TEST(ContactPotential, OfTwoEdgesThatCrossIsTheBarrierOnceForTheMeanOfTheirAreas)
 {
     pbs::TetMesh tets{pbs::Positions(8, 3), pbs::Tets(2, 4)};
@@ -203,7 +219,8 @@ TEST(ContactPotential, OfTwoEdgesThatCrossIsTheBarrierOnceForTheMeanOfTheirAreas
 
 TEST(ContactPotential, IsZeroAtRestHoweverLongItsRange)
 {
-    const pbs::TetMesh cube = test_support::jittered(test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {3, 3, 3}), {0.5, 0.5, 0.5}, 0.2);
+    const pbs::TetMesh cube =
+        test_support::jittered(test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {3, 3, 3}), {0.5, 0.5, 0.5}, 0.2);
     for (const int order : {1, 2}) {
         const SimplexSpace space(cube, order);
         const ContactPotential contact(space, {.range_m = 2.0, .stiffness_pa = 1.0});
@@ -218,8 +235,9 @@ TEST(ContactPotential, IsZeroAtRestHoweverLongItsRange)
 TEST(ContactPotential, OfPartsThatAreNearAtRestHasHalfTheirDistanceAsItsRange)
 {
     const double slit_m = range_m / 2.0;
-    const SimplexSpace space(joined({box_mesh({0, 0, 0}, {1, 1, 0.5}, {2, 2, 1}), box_mesh({0, 0, 0.5 + slit_m}, {1, 1, 1.5}, {2, 2, 1})}),
-                             1);
+    const SimplexSpace space(
+        joined({box_mesh({0, 0, 0}, {1, 1, 0.5}, {2, 2, 1}), box_mesh({0, 0, 0.5 + slit_m}, {1, 1, 1.5}, {2, 2, 1})}),
+        1);
     const ContactPotential contact(space, options);
     const auto closed_by = [&](double share) { return brought_together(space, 1.0 - share * slit_m, 0.51); };
     EXPECT_EQ(contact.value(closed_by(0.49)), 0.0);
@@ -227,13 +245,14 @@ TEST(ContactPotential, OfPartsThatAreNearAtRestHasHalfTheirDistanceAsItsRange)
     EXPECT_NEAR(contact.largest_step(closed_by(0.0), closed_by(2.0)), 0.45, 1e-3);
 }
 
-// The two sides of a cut touch at rest up to rounding, and half of their distance would be the range. These pairs would press once 0.7 of
-// the distance is closed.
+// The two sides of a cut touch at rest up to rounding, and half of their distance would be the range. These pairs would
+// press once 0.7 of the distance is closed.
 TEST(ContactPotential, LeavesOutPairsThatTouchAtRest)
 {
     constexpr double long_range_m = 1.0, touching_m = 1e-6 * long_range_m;  // `joined` merges vertices within 1e-7 m
-    const SimplexSpace space(
-        joined({box_mesh({0, 0, 0}, {1, 1, 0.5}, {2, 2, 1}), box_mesh({0, 0, 0.5 + touching_m}, {1, 1, 1.5}, {2, 2, 1})}), 1);
+    const SimplexSpace space(joined({box_mesh({0, 0, 0}, {1, 1, 0.5}, {2, 2, 1}),
+                                     box_mesh({0, 0, 0.5 + touching_m}, {1, 1, 1.5}, {2, 2, 1})}),
+                             1);
     const ContactPotential contact(space, {.range_m = long_range_m, .stiffness_pa = young_pa});
     const Eigen::VectorXd opened = brought_together(space, 2.0, 0.5);
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(space.dofs());
@@ -246,10 +265,13 @@ TEST(NearPairs, AreThoseThatTryingAllPairsFinds)
     const SimplexSpace space(two_blocks(5), 1);
     const NearPairs near(space, range_m);
     const auto& [nodes, edges, triangles, node_area, edge_area] = near.surface();
-    const Eigen::VectorXd askew = brought_together_askew(space, 0.2 * range_m) + random_dofs(space.dofs(), 0.1 * range_m, 1);
-    const pbs::Positions place = space.node_positions() + Eigen::Map<const pbs::Positions>(askew.data(), space.nodes(), 3);
+    const Eigen::VectorXd askew =
+        brought_together_askew(space, 0.2 * range_m) + random_dofs(space.dofs(), 0.1 * range_m, 1);
+    const pbs::Positions place =
+        space.node_positions() + Eigen::Map<const pbs::Positions>(askew.data(), space.nodes(), 3);
     for (const int axis : {0, 1, 2}) {  // the pairs are swept along the axis on which the body is longest
-        pbs::Positions change = place(Eigen::all, std::array{axis, (axis + 1) % 3, (axis + 2) % 3}) - space.node_positions();
+        pbs::Positions change =
+            place(Eigen::all, std::array{axis, (axis + 1) % 3, (axis + 2) % 3}) - space.node_positions();
         change.col(axis) += 3.0 * (change + space.node_positions()).col(axis);
         const Eigen::VectorXd at = Eigen::VectorXd::Map(change.data(), change.size());
         std::vector<std::tuple<PairKind, int, int>> found, expected;
@@ -257,13 +279,16 @@ TEST(NearPairs, AreThoseThatTryingAllPairsFinds)
         const auto expect_if_near = [&](PairKind kind, int first, int second) {
             const std::array<int, 4> corners = near.nodes_of({kind, first, second});
             if (std::set<int>(corners.begin(), corners.end()).size() < 4) return;  // they have a node in common
-            if (closest_points(kind, near.points_of(corners, at)).distance_m <= 3.0 * range_m) expected.push_back({kind, first, second});
+            if (closest_points(kind, near.points_of(corners, at)).distance_m <= 3.0 * range_m)
+                expected.push_back({kind, first, second});
         };
         for (const int node : nodes)
             for (std::size_t t = 0; t < triangles.size(); ++t) expect_if_near(PairKind::point_triangle, node, int(t));
         for (std::size_t one = 0; one < edges.size(); ++one)
-            for (std::size_t other = one + 1; other < edges.size(); ++other) expect_if_near(PairKind::edge_edge, int(one), int(other));
-        EXPECT_TRUE(expected.size() > 50 && found == expected) << found.size() << " pairs instead of " << expected.size();
+            for (std::size_t other = one + 1; other < edges.size(); ++other)
+                expect_if_near(PairKind::edge_edge, int(one), int(other));
+        EXPECT_TRUE(expected.size() > 50 && found == expected)
+            << found.size() << " pairs instead of " << expected.size();
     }
 }
 
@@ -271,7 +296,8 @@ TEST(ContactPotential, IsTheSameForAMovedAndAMirroredBody)
 {
     const pbs::TetMesh blocks = two_blocks(3);
     const SimplexSpace space(blocks, 1);
-    const Eigen::VectorXd together = brought_together(space, 0.5 * range_m) + random_dofs(space.dofs(), 0.1 * range_m, 1);
+    const Eigen::VectorXd together =
+        brought_together(space, 0.5 * range_m) + random_dofs(space.dofs(), 0.1 * range_m, 1);
     const double value = ContactPotential(space, options).value(together);
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.0, Vec3(1, 2, 3).normalized()).toRotationMatrix();
     const Eigen::Matrix3d mirror = Vec3(-1, 1, 1).asDiagonal();
@@ -286,8 +312,10 @@ TEST(ContactPotential, IsTheSameForAMovedAndAMirroredBody)
 TEST(ContactPotential, RefusesARangeOrAStiffnessThatIsNotPositive)
 {
     const SimplexSpace space(two_blocks(2), 1);
-    test_support::expect_refused("contact.range_m", [&] { ContactPotential(space, {.range_m = 0.0, .stiffness_pa = 1.0}); });
-    test_support::expect_refused("contact.stiffness_pa", [&] { ContactPotential(space, {.range_m = 1.0, .stiffness_pa = -1.0}); });
+    test_support::expect_refused("contact.range_m",
+                                 [&] { ContactPotential(space, {.range_m = 0.0, .stiffness_pa = 1.0}); });
+    test_support::expect_refused("contact.stiffness_pa",
+                                 [&] { ContactPotential(space, {.range_m = 1.0, .stiffness_pa = -1.0}); });
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ class Stepper : public testing::Test {
 protected:
     // Held at one end, or where this is true.
     TimeStepper stepper(
-        const TimeStepperOptions& options, const std::function<Held(const Vec3&)>& held = [](const Vec3& x) { return x.x() < 1e-9; })
+        const TimeStepperOptions& options,
+        const std::function<Held(const Vec3&)>& held = [](const Vec3& x) { return x.x() < 1e-9; })
     {
         fixed = prescribed_data(space, {.held = held}).held;
         newton = std::make_unique<NewtonMinimiser>(space, fixed, LinearSolver::cholmod);
@@ -34,14 +35,16 @@ protected:
         return at_nodes(space, [](const Vec3& x) -> Vec3 { return {0.1 * x.x(), 0.0, 0.0}; });
     }
 
-    LoadPathSummary step(TimeStepper& stepper, double step_s, const MovingData& data = {}, const NewtonOptions& options = {})
+    LoadPathSummary step(TimeStepper& stepper, double step_s, const MovingData& data = {},
+                         const NewtonOptions& options = {})
     {
         Eigen::VectorXd guess = stepper.motion().displacement;
         return stepper.advance({&flesh}, data, step_s, guess, options, {});
     }
 
     const SimplexSpace space{test_support::structured_bar({0, 0, 0}, {2, 1, 1}, {2, 1, 1}), 1};
-    const ElasticPotential flesh{space, Model::stable_neo_hookean, lame_parameters(1e3, 0.3), Formulation::displacement};
+    const ElasticPotential flesh{space, Model::stable_neo_hookean, lame_parameters(1e3, 0.3),
+                                 Formulation::displacement};
     std::vector<bool> fixed;
     std::unique_ptr<NewtonMinimiser> newton;
 };
@@ -51,7 +54,8 @@ TEST_F(Stepper, RefusesAStepThatIsNotPositiveABodyWithoutMassAndNegativeDamping)
     TimeStepper time = stepper({});
     for (const double step_s : {0.0, -0.01, std::nan(""), std::numeric_limits<double>::infinity()})
         EXPECT_THROW(step(time, step_s), pbs::InputError) << step_s;
-    for (const double density : {0.0, -1.0, std::nan("")}) EXPECT_THROW(stepper({.density_kg_m3 = density}), pbs::InputError);
+    for (const double density : {0.0, -1.0, std::nan("")})
+        EXPECT_THROW(stepper({.density_kg_m3 = density}), pbs::InputError);
     EXPECT_THROW(stepper({.rayleigh_mass_1_s = -1.0}), pbs::InputError);
     EXPECT_THROW(stepper({.rayleigh_stiffness_s = -1.0}), pbs::InputError);
 }
@@ -70,14 +74,15 @@ TEST_F(Stepper, WithEveryDegreeOfFreedomPrescribedTheDataAreReturned)
     const MovingData data{[&](double fraction) -> Eigen::VectorXd { return fraction * end; }, {}};
     ASSERT_TRUE(step(time, 0.1, data).converged());
     EXPECT_EQ(time.motion().displacement, end);
-    const Eigen::VectorXd velocity = 2.0 / 0.1 * end;  // from rest it is twice the mean velocity, in four roundings there and two here
+    const Eigen::VectorXd velocity =
+        2.0 / 0.1 * end;  // from rest it is twice the mean velocity, in four roundings there and two here
     EXPECT_LT((time.motion().velocity - velocity).norm(), rounding_error(4 + 2, velocity.norm()));
 }
 
-// Nothing holds the body and no force acts on it, so its motion continues. Newton's method ends at the residual that the rounding of
-// positions causes, 4 eps D |diag H|, D = sqrt 6 m, or before it. Such a force accelerates the body by at most that over the smallest
-// eigenvalue of M, for one second. The rounding of a position, ten roundings per step, changes the velocity by 2 / h times as much, which
-// moves the body for half a second on average.
+// Nothing holds the body and no force acts on it, so its motion continues. Newton's method ends at the residual that
+// the rounding of positions causes, 4 eps D |diag H|, D = sqrt 6 m, or before it. Such a force accelerates the body by
+// at most that over the smallest eigenvalue of M, for one second. The rounding of a position, ten roundings per step,
+// changes the velocity by 2 / h times as much, which moves the body for half a second on average.
 TEST_F(Stepper, AnUnheldBodyFliesOn)
 {
     TimeStepper time = stepper({}, [](const Vec3&) { return false; });
@@ -86,7 +91,8 @@ TEST_F(Stepper, AnUnheldBodyFliesOn)
     const double h = 0.1;
     for (int k = 0; k < 10; ++k) ASSERT_TRUE(step(time, h).converged());
     const SparseMatrix mass = time.mass().matrix();
-    const Eigen::VectorXd diagonal = inertia_coefficient(newmark(), h) * mass.diagonal() + rest_stiffness(space, flesh).matrix().diagonal();
+    const Eigen::VectorXd diagonal =
+        inertia_coefficient(newmark(), h) * mass.diagonal() + rest_stiffness(space, flesh).matrix().diagonal();
     const double residual_n = 4.0 * std::numeric_limits<double>::epsilon() * std::sqrt(6.0) * diagonal.norm();
     const double of_residual = residual_n / spectrum(mass, fixed).smallest / 2.0;
     const double of_positions = 10 * (1.0 + 2.0 / h * 0.5) * rounding_error(10, velocity.norm());
@@ -94,9 +100,10 @@ TEST_F(Stepper, AnUnheldBodyFliesOn)
     EXPECT_LT(of_residual + of_positions, 1e-9) << "a bound that would let a wrong velocity pass proves nothing";
 }
 
-// M a = -grad Pi - C v initially; after one short step the velocity has changed by h a. The remainder is h times the rate of change of
-// the acceleration, of first order in h. The next order is smaller by the number of cells of 1 m that a wave of 10 m/s crosses in a step,
-// and rounding grows as the rounding of positions over h^2: both are below a hundredth of it.
+// M a = -grad Pi - C v initially; after one short step the velocity has changed by h a. The remainder is h times the
+// rate of change of the acceleration, of first order in h. The next order is smaller by the number of cells of 1 m that
+// a wave of 10 m/s crosses in a step, and rounding grows as the rounding of positions over h^2: both are below a
+// hundredth of it.
 TEST_F(Stepper, TheFirstAccelerationFollowsFromTheBalanceOfForces)
 {
     const double density = 10.0, a = 2.0, b = 0.05;
@@ -106,7 +113,8 @@ TEST_F(Stepper, TheFirstAccelerationFollowsFromTheBalanceOfForces)
         for (Eigen::Index i = 0; i < velocity.size(); ++i) velocity(i) *= !fixed[i];
         time.start(pulled(), velocity);
         EXPECT_TRUE(step(time, h, {}, {.relative_tolerance = 1e-13}).converged());
-        Eigen::VectorXd balance = time.mass().times((time.motion().velocity - velocity) / h) + a * time.mass().times(velocity) +
+        Eigen::VectorXd balance = time.mass().times((time.motion().velocity - velocity) / h) +
+                                  a * time.mass().times(velocity) +
                                   b * (rest_stiffness(space, flesh).matrix() * velocity);
         flesh.add_gradient(pulled(), balance);
         for (Eigen::Index i = 0; i < balance.size(); ++i)
@@ -128,7 +136,8 @@ TEST_F(Stepper, OfAStepThatFailsNothingIsKept)
     ASSERT_TRUE(step(time, 0.01).converged());
     const Motion before = time.motion();
     const Eigen::VectorXd end = Eigen::VectorXd::Constant(space.dofs(), std::nan(""));
-    const MovingData data{[&](double fraction) -> Eigen::VectorXd { return fraction < 1.0 ? before.displacement : end; }, {}};
+    const MovingData data{
+        [&](double fraction) -> Eigen::VectorXd { return fraction < 1.0 ? before.displacement : end; }, {}};
     const LoadPathSummary failed = step(time, 0.01, data);
     EXPECT_FALSE(failed.converged());
     EXPECT_GT(failed.reached, 0.9);
@@ -166,7 +175,8 @@ TEST_F(Stepper, AStepThatFailsIsTakenInParts)
 TEST_F(Stepper, DampingBringsTheBarToRest)
 {
     for (const auto& [mass, stiffness] : {std::pair(2.0, 0.0), std::pair(0.0, 0.2)}) {
-        TimeStepper time = stepper({.density_kg_m3 = 10.0, .rayleigh_mass_1_s = mass, .rayleigh_stiffness_s = stiffness});
+        TimeStepper time =
+            stepper({.density_kg_m3 = 10.0, .rayleigh_mass_1_s = mass, .rayleigh_stiffness_s = stiffness});
         time.start(pulled());
         double before = flesh.value(pulled());
         for (int k = 0; k < 300; ++k) ASSERT_TRUE(step(time, 0.03).converged());
@@ -174,8 +184,9 @@ TEST_F(Stepper, DampingBringsTheBarToRest)
     }
 }
 
-// Reference: the scheme's own three equations, which the accepted step must satisfy, and the conditions of Chung and Hulbert. Tolerances:
-// roundings of the equations' terms, whose magnitudes add up in displacements to `size`; the rates divide them by powers of the step.
+// Reference: the scheme's own three equations, which the accepted step must satisfy, and the conditions of Chung and
+// Hulbert. Tolerances: roundings of the equations' terms, whose magnitudes add up in displacements to `size`; the rates
+// divide them by powers of the step.
 
 TEST(Scheme, SatisfiesItsEquationsAndTheConditionsOfStability)
 {
@@ -188,20 +199,24 @@ TEST(Scheme, SatisfiesItsEquationsAndTheConditionsOfStability)
         const auto mean = [](double alpha, const Eigen::VectorXd& now, const Eigen::VectorXd& next) -> Eigen::VectorXd {
             return (1.0 - alpha) * next + alpha * now;
         };
-        const Eigen::VectorXd u =
-            before.displacement + h * before.velocity + h * h * ((0.5 - s.beta) * before.acceleration + s.beta * after.acceleration);
-        const Eigen::VectorXd v = before.velocity + h * ((1.0 - s.gamma) * before.acceleration + s.gamma * after.acceleration);
-        const double size = before.displacement.norm() + w.norm() + h * before.velocity.norm() + h * h * before.acceleration.norm();
+        const Eigen::VectorXd u = before.displacement + h * before.velocity +
+                                  h * h * ((0.5 - s.beta) * before.acceleration + s.beta * after.acceleration);
+        const Eigen::VectorXd v =
+            before.velocity + h * ((1.0 - s.gamma) * before.acceleration + s.gamma * after.acceleration);
+        const double size =
+            before.displacement.norm() + w.norm() + h * before.velocity.norm() + h * h * before.acceleration.norm();
         const double c_m = inertia_coefficient(s, h), c_c = damping_coefficient(s, h);
-        // The increment is (w - u) / (1 - alpha_f), twice the size at most. The new acceleration takes it in eight roundings, and the
-        // test's own equation in eight.
+        // The increment is (w - u) / (1 - alpha_f), twice the size at most. The new acceleration takes it in eight
+        // roundings, and the test's own equation in eight.
         EXPECT_LT((after.displacement - u).norm(), rounding_error(8 + 8, 2.0 * size));
         EXPECT_LT((after.velocity - v).norm(),  // six roundings on each side, of the same accelerations
-                  rounding_error(6 + 6, before.velocity.norm() + h * (before.acceleration.norm() + s.gamma * after.acceleration.norm())));
+                  rounding_error(6 + 6, before.velocity.norm() +
+                                            h * (before.acceleration.norm() + s.gamma * after.acceleration.norm())));
         EXPECT_LT((mean(s.alpha_f, before.displacement, after.displacement) - w).norm(), rounding_error(8, 2.0 * size));
-        // Eqs. (d) to (g): the rates in the balance are affine in w, with the factors c_m and c_c. Each side goes through some fifteen
-        // roundings.
-        EXPECT_LT((mean(s.alpha_m, before.acceleration, after.acceleration) - c_m * (w - inertia_centre(s, before, h))).norm(),
+        // Eqs. (d) to (g): the rates in the balance are affine in w, with the factors c_m and c_c. Each side goes
+        // through some fifteen roundings.
+        EXPECT_LT((mean(s.alpha_m, before.acceleration, after.acceleration) - c_m * (w - inertia_centre(s, before, h)))
+                      .norm(),
                   rounding_error(15 + 15, c_m * size));
         EXPECT_LT((mean(s.alpha_f, before.velocity, after.velocity) - c_c * (w - damping_centre(s, before, h))).norm(),
                   rounding_error(15 + 15, c_c * size));
@@ -209,7 +224,8 @@ TEST(Scheme, SatisfiesItsEquationsAndTheConditionsOfStability)
         EXPECT_EQ(s.gamma, 0.5 - s.alpha_m + s.alpha_f);
         EXPECT_LE(s.alpha_m, s.alpha_f);
         EXPECT_LE(s.alpha_f, 0.5);
-        EXPECT_GE(s.beta, 0.25 + (s.alpha_f - s.alpha_m) / 2.0);  // equal, and of exact numbers, if alpha_f = alpha_m; well above otherwise
+        // equal, and of exact numbers, if alpha_f = alpha_m; well above otherwise
+        EXPECT_GE(s.beta, 0.25 + (s.alpha_f - s.alpha_m) / 2.0);
     }
 }
 
@@ -223,9 +239,10 @@ TEST(GeneralizedAlpha, OfSpectralRadiusOneHalfIsAsPrintedAndOneOutsideZeroToOneI
     for (const double radius : {-0.1, 1.1, std::nan("")}) EXPECT_THROW(generalized_alpha(radius), pbs::InputError);
 }
 
-// Reference: polynomials, whose derivatives are known. A parabola through three displacements gives the velocity of quadratic motion
-// exactly, and a cubic through four the acceleration of cubic motion, for steps of any length. Tolerances: the condition of differences, by
-// which an error d of the displacements grows to 2 d / h in a slope, to its differences over two and three steps in the next.
+// Reference: polynomials, whose derivatives are known. A parabola through three displacements gives the velocity of
+// quadratic motion exactly, and a cubic through four the acceleration of cubic motion, for steps of any length.
+// Tolerances: the condition of differences, by which an error d of the displacements grows to 2 d / h in a slope, to
+// its differences over two and three steps in the next.
 
 // One free and one prescribed degree of freedom.
 class Prescribed : public testing::Test {
@@ -251,9 +268,9 @@ TEST_F(Prescribed, RatesOfACubicAreExactInUnequalSteps)
         t += h;
         step(u(t), h);
     }
-    // A displacement is in error by d, ten roundings of terms that add up to at most 4. The slopes of the last three steps are in error by
-    // 2 d / 0.3, 2 d / 0.05 and 2 d / 0.2, their differences over 0.35 and 0.25 by 133 d and 200 d, the third difference over 0.55 by
-    // 606 d, and the acceleration by 2 (133 d + 0.65 (606 d)).
+    // A displacement is in error by d, ten roundings of terms that add up to at most 4. The slopes of the last three
+    // steps are in error by 2 d / 0.3, 2 d / 0.05 and 2 d / 0.2, their differences over 0.35 and 0.25 by 133 d and 200
+    // d, the third difference over 0.55 by 606 d, and the acceleration by 2 (133 d + 0.65 (606 d)).
     EXPECT_NEAR(motion.acceleration(1), -6.0 + 3.0 * t, 1054.0 * rounding_error(10, 4.0));
     // u''' / 6 times the distances to the previous two points
     EXPECT_NEAR(motion.velocity(1), 2.0 - 6.0 * t + 1.5 * t * t, 0.5 * 0.3 * 0.35);
@@ -268,13 +285,14 @@ TEST_F(Prescribed, TheFirstStepTakesTheVelocityItIsGiven)
     EXPECT_NEAR(motion.acceleration(1), 3.0, 2.0 / 0.1 * rounding_error(6, 2.15));
 }
 
-// From rest, the velocity becomes constant at once: the accelerations vanish after three steps, and their impulse equals the velocity. The
-// slopes are in error by 2 d / h, the velocity by 4 d / h, the second and third differences by 2 d / h^2 and 4/3 d / h^3 and the
-// acceleration by 2 (2 + 3 (4/3)) d / h^2, six of which add up to the impulse.
+// From rest, the velocity becomes constant at once: the accelerations vanish after three steps, and their impulse
+// equals the velocity. The slopes are in error by 2 d / h, the velocity by 4 d / h, the second and third differences by
+// 2 d / h^2 and 4/3 d / h^3 and the acceleration by 2 (2 + 3 (4/3)) d / h^2, six of which add up to the impulse.
 TEST_F(Prescribed, AJumpOfTheVelocityIsForgottenAndItsImpulseIsWhole)
 {
     const double h = 0.1, velocity = 3.0;
-    const double d = rounding_error(4, 6 * h * velocity);  // two roundings of the displacement and two of its differences
+    // two roundings of the displacement and two of its differences
+    const double d = rounding_error(4, 6 * h * velocity);
     double impulse = 0.0;
     step(0.0, h);
     step(0.0, h);
@@ -302,8 +320,9 @@ TEST_F(Prescribed, RestStaysRestToTheBitAndFreeDegreesOfFreedomAreNotTouched)
         << "it may be of nothing";
 }
 
-// Reference: rigid motion. M sums to the mass of the body, and a rigid velocity has the kinetic energy of mechanics. Tolerances: a term of
-// v M v goes through the roundings of an entry, of its row and of the sum over the degrees of freedom.
+// Reference: rigid motion. M sums to the mass of the body, and a rigid velocity has the kinetic energy of mechanics.
+// Tolerances: a term of v M v goes through the roundings of an entry, of its row and of the sum over the degrees of
+// freedom.
 class Mass : public testing::TestWithParam<int> {
 protected:
     const SimplexSpace space{test_support::jittered_cube(2), GetParam()};
@@ -316,8 +335,8 @@ protected:
 
     double product_error(const Eigen::VectorXd& v) const
     {
-        const double roundings =
-            test_support::entry_roundings(space, GetParam() + 1, 2) + test_support::most_entries(mass.matrix()) + space.dofs();
+        const double roundings = test_support::entry_roundings(space, GetParam() + 1, 2) +
+                                 test_support::most_entries(mass.matrix()) + space.dofs();
         return rounding_error(roundings, v.cwiseAbs().dot(test_support::magnitudes(mass.matrix()) * v.cwiseAbs()));
     }
 };
@@ -348,9 +367,10 @@ TEST_P(Mass, AsAMatrixAndAsBlocksIsTheSameOperator)
 
 INSTANTIATE_TEST_SUITE_P(ElementOrder, Mass, testing::Values(1, 2));
 
-// Reference: a dense eigenvalue problem by Eigen. Tolerances: both reduce it to eigenvalues of L^-1 K L^-T with M = L L^T, whose error by
-// rounding is sqrt(n) eps |K| |M^-1| (G. Golub, C. Van Loan, Matrix Computations, 4th ed., Sec. 8.7.2), and omega is the root of an
-// eigenvalue. The iteration ends at a change of the shape of 1e-13; (K - omega^2 M) turns it and the rounding of the solve into a residual.
+// Reference: a dense eigenvalue problem by Eigen. Tolerances: both reduce it to eigenvalues of L^-1 K L^-T with M = L
+// L^T, whose error by rounding is sqrt(n) eps |K| |M^-1| (G. Golub, C. Van Loan, Matrix Computations, 4th ed.,
+// Sec. 8.7.2), and omega is the root of an eigenvalue. The iteration ends at a change of the shape of 1e-13; (K -
+// omega^2 M) turns it and the rounding of the solve into a residual.
 
 Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric)
 {
@@ -366,10 +386,11 @@ TEST(FirstMode, IsTheLowestOfADenseEigenvalueProblemIfThereIsOne)
     std::vector<int> free;
     for (int i = 0; i < body.space().dofs(); ++i)
         if (!body.fixed()[i]) free.push_back(i);
-    const Eigen::MatrixXd K = Eigen::MatrixXd(stiffness.matrix())(free, free), M = Eigen::MatrixXd(body.mass().matrix())(free, free);
+    const Eigen::MatrixXd K = Eigen::MatrixXd(stiffness.matrix())(free, free),
+                          M = Eigen::MatrixXd(body.mass().matrix())(free, free);
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(K, M);
-    const double c = std::sqrt(static_cast<double>(free.size())) * std::numeric_limits<double>::epsilon(), lowest = dense.eigenvalues()(0),
-                 norm_of_K = eigenvalues(K).maxCoeff();
+    const double c = std::sqrt(static_cast<double>(free.size())) * std::numeric_limits<double>::epsilon(),
+                 lowest = dense.eigenvalues()(0), norm_of_K = eigenvalues(K).maxCoeff();
     const double omega_bound = c * norm_of_K / eigenvalues(M).minCoeff() / lowest;
     EXPECT_NEAR(mode.omega_rad_s, std::sqrt(lowest), omega_bound * mode.omega_rad_s);
     EXPECT_LT(omega_bound, 1e-8) << "a bound that would let an error of a percent pass proves nothing";

@@ -1,6 +1,6 @@
-// Reference: the formulas of the laws, evaluated by hand, where a deformation gradient degenerates. mu = 1 and lambda = 2 (any unit).
-// Comparisons are exact where every number is a small multiple of a power of two, so that nothing is rounded; the singular value
-// decomposition of a diagonal matrix takes no rotation.
+// Reference: the formulas of the laws, evaluated by hand, where a deformation gradient degenerates. mu = 1 and lambda =
+// 2 (any unit). Comparisons are exact where every number is a small multiple of a power of two, so that nothing is
+// rounded; the singular value decomposition of a diagonal matrix takes no rotation.
 
 #include "reference_fem/laws/constitutive_law.hpp"
 #include "tests/support/law_points.hpp"
@@ -51,8 +51,9 @@ TEST_P(EveryLaw, GivesTheSameWithFewerDerivatives)
 
 TEST_P(EveryLaw, IsDefinedAndFiniteOrSaysNot)
 {
-    const Eigen::Matrix3d flat = diagonal(1.3, 0.8, 0.0), line = diagonal(1.3, 0.0, 0.0), mirror = diagonal(1.0, 1.0, -1.0),
-                          point_mirror = -identity, inside_out = diagonal(1.4, 1.1, -0.3);
+    const Eigen::Matrix3d flat = diagonal(1.3, 0.8, 0.0), line = diagonal(1.3, 0.0, 0.0),
+                          mirror = diagonal(1.0, 1.0, -1.0), point_mirror = -identity,
+                          inside_out = diagonal(1.4, 1.1, -0.3);
     for (const Eigen::Matrix3d& f : {zero, flat, line, mirror, point_mirror, inside_out}) {
         const PointResponse response = respond(GetParam().model, f);
         EXPECT_EQ(response.defined, GetParam().through_inversion) << f;
@@ -69,10 +70,10 @@ TEST_P(EveryLaw, IsDefinedAndFiniteOrSaysNot)
 
 INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, testing::ValuesIn(all_models), name_of_model);
 
-// psi, P and the tangent at F = 0, at reflections and of flat tets, by hand. St Venant-Kirchhoff gives way at zero, where its energy has a
-// maximum, and is blind to mirrors; stable neo-Hookean flesh has a minimum there, resists mirrors and pushes a flat tet open. For the
-// corotational law the choice of the rotation R among several is arbitrary; |F - R|^2 = |F|^2 + 3 - 2 tr S and tr S = s_1 + s_2 + s_3 do
-// not depend on it.
+// psi, P and the tangent at F = 0, at reflections and of flat tets, by hand. St Venant-Kirchhoff gives way at zero,
+// where its energy has a maximum, and is blind to mirrors; stable neo-Hookean flesh has a minimum there, resists
+// mirrors and pushes a flat tet open. For the corotational law the choice of the rotation R among several is arbitrary;
+// |F - R|^2 = |F|^2 + 3 - 2 tr S and tr S = s_1 + s_2 + s_3 do not depend on it.
 TEST(DegenerateStates, HaveTheirEnergyStressAndTangent)
 {
     struct Case {
@@ -84,13 +85,16 @@ TEST(DegenerateStates, HaveTheirEnergyStressAndTangent)
     };
     const Eigen::Matrix3d mirror = diagonal(1.0, 1.0, -1.0), flat = diagonal(1.0, 1.0, 0.0);
     const std::vector<Case> all = {
-        {Model::linear, zero, 3.0 + 9.0},                                                     // eps = -I
-        {Model::linear, diagonal(-1.0, 1.0, 1.0), 4.0 + 4.0},                                 // eps = diag(-2, 0, 0)
-        {Model::st_venant_kirchhoff, zero, 0.75 + 9.0 / 4.0, zero, -4.0},                     // E = -I / 2; -(mu + 3 lambda / 2) I
-        {Model::st_venant_kirchhoff, mirror, 0.0, zero},                                      //
-        {Model::stable_neo_hookean, zero, 1.0, zero, 1.0},                                    // shape 0, lambda / 2; mu I
-        {Model::stable_neo_hookean, mirror, 2.0 + 2.0 + 0.5 * 2.0 * 4.0},                     // J - 1 = -2
-        {Model::stable_neo_hookean, flat, -0.5 + 1.0 + 0.5 + 1.0, diagonal(1.0, 1.0, -4.0)},  // |F|^2 - 3 = J - 1 = -1; -mu - mu - lambda
+        {Model::linear, zero, 3.0 + 9.0},                      // eps = -I
+        {Model::linear, diagonal(-1.0, 1.0, 1.0), 4.0 + 4.0},  // eps = diag(-2, 0, 0)
+        // E = -I / 2; -(mu + 3 lambda / 2) I
+        {Model::st_venant_kirchhoff, zero, 0.75 + 9.0 / 4.0, zero, -4.0},
+        {Model::st_venant_kirchhoff, mirror, 0.0, zero},  //
+        // shape 0, lambda / 2; mu I
+        {Model::stable_neo_hookean, zero, 1.0, zero, 1.0},
+        {Model::stable_neo_hookean, mirror, 2.0 + 2.0 + 0.5 * 2.0 * 4.0},  // J - 1 = -2
+        // |F|^2 - 3 = J - 1 = -1; -mu - mu - lambda
+        {Model::stable_neo_hookean, flat, -0.5 + 1.0 + 0.5 + 1.0, diagonal(1.0, 1.0, -4.0)},
         {Model::corotational, zero, 3.0 + 9.0},
         {Model::corotational, mirror, 4.0 + 4.0},
         {Model::corotational, diagonal(2.0, 1.0, -1.0), 5.0 + 1.0}};  // |F|^2 + 3 - 4, (2 - 3)^2
@@ -99,20 +103,23 @@ TEST(DegenerateStates, HaveTheirEnergyStressAndTangent)
         EXPECT_EQ(law.energy(of.f), of.energy) << static_cast<int>(of.model) << "\n" << of.f;
         if (!of.stress) continue;
         EXPECT_EQ(law.stress(of.f), *of.stress) << static_cast<int>(of.model) << "\n" << of.f;
-        EXPECT_TRUE(!of.tangent || law.tangent(of.f) == *of.tangent * Tangent::Identity()) << static_cast<int>(of.model);
+        EXPECT_TRUE(!of.tangent || law.tangent(of.f) == *of.tangent * Tangent::Identity())
+            << static_cast<int>(of.model);
     }
-    // A change of this stretch by h changes |F|^2, -2 tr S and (tr S - 3)^2 by at most 2 h each. Their sum changes by at most 6 h - 2 h^2,
-    // and 2 h^2 is larger than its rounding.
+    // A change of this stretch by h changes |F|^2, -2 tr S and (tr S - 3)^2 by at most 2 h each. Their sum changes by
+    // at most 6 h - 2 h^2, and 2 h^2 is larger than its rounding.
     for (const double side : {-1e-7, 1e-7})
-        EXPECT_NEAR(LawPoint(Model::corotational, lame).energy(diagonal(2.0, 1.0, -1.0 + side)), 6.0, 6.0 * std::abs(side));
+        EXPECT_NEAR(LawPoint(Model::corotational, lame).energy(diagonal(2.0, 1.0, -1.0 + side)), 6.0,
+                    6.0 * std::abs(side));
 }
 
-// If two stretches sum to 0 or nearly so, the energy has a ridge (2 mu + lambda (3 - tr S) > 0 times a concave kink). There the tangent is
-// large, finite, symmetric and negative across the ridge, so that a check of definiteness cannot miss it. Entries across the diagonal are
-// the same four products and sums, of which a compiler may fuse those of one.
+// If two stretches sum to 0 or nearly so, the energy has a ridge (2 mu + lambda (3 - tr S) > 0 times a concave kink).
+// There the tangent is large, finite, symmetric and negative across the ridge, so that a check of definiteness cannot
+// miss it. Entries across the diagonal are the same four products and sums, of which a compiler may fuse those of one.
 TEST(DegenerateStates, CorotationalTangentStaysFiniteWhereTwoStretchesSumToZero)
 {
-    for (const Eigen::Matrix3d& f : {diagonal(2.0, 1.0, -1.0), diagonal(2.0, 1.0, -1.0 + 1e-12), diagonal(1.0, 0.0, 0.0)}) {
+    for (const Eigen::Matrix3d& f :
+         {diagonal(2.0, 1.0, -1.0), diagonal(2.0, 1.0, -1.0 + 1e-12), diagonal(1.0, 0.0, 0.0)}) {
         const Tangent tangent = LawPoint(Model::corotational, lame).tangent(f);
         EXPECT_TRUE(tangent.allFinite());
         EXPECT_LE((tangent - tangent.transpose()).norm(), rounding_error(2 * 4, tangent.norm()));
@@ -131,19 +138,20 @@ TEST(IsochoricNeoHookean, HasNoVolumeTermOfItsOwn)
     EXPECT_EQ(response.dilatation_hessian.norm(), 0.0);
 }
 
-// Reference: the definition of the polar decomposition, F = R S with R a rotation and S symmetric. For its derivative: R does not depend on
-// the scale of F or on a stretch along its own axes, and rotates with F.
-// Tolerances: Jacobi's method takes at most five sweeps of three pairs, each pair a rotation from the left and one from the right, so that
-// an entry of R goes through 30 rotations of six roundings. Roundings of random sign add up to the square root of their number (N. Higham,
-// Accuracy and stability of numerical algorithms, 2nd ed., SIAM 2002, Sec. 2.8); the Frobenius norm of nine entries is three times as
-// large.
+// Reference: the definition of the polar decomposition, F = R S with R a rotation and S symmetric. For its derivative:
+// R does not depend on the scale of F or on a stretch along its own axes, and rotates with F. Tolerances: Jacobi's
+// method takes at most five sweeps of three pairs, each pair a rotation from the left and one from the right, so that
+// an entry of R goes through 30 rotations of six roundings. Roundings of random sign add up to the square root of their
+// number (N. Higham, Accuracy and stability of numerical algorithms, 2nd ed., SIAM 2002, Sec. 2.8); the Frobenius norm
+// of nine entries is three times as large.
 
 using namespace reference_fem;
 
-const double of_rotations = 3.0 * rounding_error(std::sqrt(30.0 * 6.0), 1.0);  // the error of R, and of U S V^T relative to F
+// the error of R, and of U S V^T relative to F
+const double of_rotations = 3.0 * rounding_error(std::sqrt(30.0 * 6.0), 1.0);
 
-// The products and the determinant contain R twice or thrice in directions of norm one. The stretch contains both errors, and its
-// asymmetry contains it twice.
+// The products and the determinant contain R twice or thrice in directions of norm one. The stretch contains both
+// errors, and its asymmetry contains it twice.
 void expect_polar(const Eigen::Matrix3d& f)
 {
     const PolarDecomposition polar = polar_decomposition(f);
@@ -152,7 +160,8 @@ void expect_polar(const Eigen::Matrix3d& f)
     EXPECT_NEAR(polar.rotation.determinant(), 1.0, std::sqrt(3.0) * of_rotations);
     EXPECT_LE((stretch - stretch.transpose()).norm(), 4.0 * of_rotations * f.norm());
     EXPECT_NEAR(stretch.trace(), polar.stretches.sum(), std::sqrt(3.0) * 2.0 * of_rotations * f.norm());
-    EXPECT_GE(polar.stretches(1) + polar.stretches(2), 0.0);  // singular values are sorted, and only the sign of the last one changes
+    // singular values are sorted, and only the sign of the last one changes
+    EXPECT_GE(polar.stretches(1) + polar.stretches(2), 0.0);
 }
 
 TEST(PolarDecomposition, IsARotationTimesASymmetricStretchAlsoWhereFDegenerates)
@@ -164,12 +173,14 @@ TEST(PolarDecomposition, IsARotationTimesASymmetricStretchAlsoWhereFDegenerates)
         expect_polar(random_rotation(random));
     }
     const Eigen::Matrix3d q = random_rotation(random);
-    for (const Eigen::Vector3d& stretches : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(2, 1, 0),
-                                             Eigen::Vector3d(1, 1, -1), Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1e8, 1, 1e-8)})
+    for (const Eigen::Vector3d& stretches :
+         {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(2, 1, 0), Eigen::Vector3d(1, 1, -1),
+          Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1e8, 1, 1e-8)})
         expect_polar(q * stretches.asDiagonal());
 }
 
-// The derivative, of norm 2 / (s_2 + s_3), contains the axes twice, and its argument and what it is compared with contain R.
+// The derivative, of norm 2 / (s_2 + s_3), contains the axes twice, and its argument and what it is compared with
+// contain R.
 TEST(RotationDerivative, VanishesAlongStretchesAndFollowsSpins)
 {
     RandomPoints random(4);

@@ -48,8 +48,8 @@ struct HeldBar {
     Eigen::VectorXd zero = Eigen::VectorXd::Zero(space.dofs());
 };
 
-// E = sum of (u_d - 1)^2 / 2, but -u_0^2 / 2 + u_0^4 / 4 of the first degree of freedom, which has no force at u_0 = 0. The projected
-// Hessian overestimates the others by factors from 1 to 100.
+// E = sum of (u_d - 1)^2 / 2, but -u_0^2 / 2 + u_0^4 / 4 of the first degree of freedom, which has no force at u_0 = 0.
+// The projected Hessian overestimates the others by factors from 1 to 100.
 class Saddle : public Potential {
 public:
     double value(const Eigen::VectorXd& u) const override
@@ -84,7 +84,8 @@ TEST(Newton, AQuadraticTakesOneStepAndKeepsItsFactorAndNothingToDoTakesNone)
     EXPECT_EQ(summary.steps(), 1);
     EXPECT_EQ(summary.factorisations, 1);
     // The gradient at both states and the Hessian at the first one visit the 12 tets.
-    EXPECT_EQ(summary.work, (pbs::WorkCounters{.gradients = 2, .tet_visits = 3 * 12, .linear_solves = 1, .factorisations = 1}));
+    EXPECT_EQ(summary.work,
+              (pbs::WorkCounters{.gradients = 2, .tet_visits = 3 * 12, .linear_solves = 1, .factorisations = 1}));
     const Eigen::VectorXd once = u;
 
     load.set(held.weight(20.0));
@@ -112,13 +113,15 @@ TEST(Newton, ConvergesFasterThanLinearly)
     ASSERT_GE(summary.iterations.size(), 4u);
     const auto& last = summary.iterations;
     const std::size_t n = last.size();
-    // Theory: r_{k+1} = O(r_k^2), so each reduction is stronger than the previous one; a wrong tangent reduces by the same factor each
-    // time.
-    const double before_last = last[n - 3].residual_n / last[n - 4].residual_n, reduction = last[n - 2].residual_n / last[n - 3].residual_n;
+    // Theory: r_{k+1} = O(r_k^2), so each reduction is stronger than the previous one; a wrong tangent reduces by the
+    // same factor each time.
+    const double before_last = last[n - 3].residual_n / last[n - 4].residual_n,
+                 reduction = last[n - 2].residual_n / last[n - 3].residual_n;
     EXPECT_LT(reduction, 0.1 * before_last);
     // Rounding of an energy: a sum over 12 tets of some 50 products each, of terms that may cancel tenfold.
     const double of_sums = 10.0 * 12 * 50 * std::numeric_limits<double>::epsilon();
-    for (std::size_t k = 1; k < n; ++k) EXPECT_LE(last[k].energy_j, last[k - 1].energy_j + of_sums * std::abs(last[k - 1].energy_j));
+    for (std::size_t k = 1; k < n; ++k)
+        EXPECT_LE(last[k].energy_j, last[k - 1].energy_j + of_sums * std::abs(last[k - 1].energy_j));
 }
 
 // The same minimum with fewer factorisations. A kept factor serves only after a whole step that contracted enough.
@@ -130,7 +133,8 @@ TEST(Newton, ReusesItsFactorWhileStepsContract)
     const auto minimise = [&](double reuse_contraction, Eigen::VectorXd& u) {
         NewtonMinimiser newton(held.space, held_end(held.space), LinearSolver::cholmod);
         u = held.zero;
-        return newton.minimise({&held.flesh, &load}, u, u, {.relative_tolerance = tolerance, .reuse_contraction = reuse_contraction});
+        return newton.minimise({&held.flesh, &load}, u, u,
+                               {.relative_tolerance = tolerance, .reuse_contraction = reuse_contraction});
     };
     Eigen::VectorXd anew, kept;
     const NewtonSummary each_step = minimise(0.0, anew), reusing = minimise(contraction, kept);
@@ -145,10 +149,11 @@ TEST(Newton, ReusesItsFactorWhileStepsContract)
         EXPECT_EQ(states[k].reuses_factor, states[k].residual_n <= contraction * states[k - 1].residual_n) << k;
         EXPECT_EQ(states[k].step_length, 1.0);
     }
-    // Both residuals are at most the tolerance times the scale of the forces, and the Hessian, that at rest to first order, divides them by
-    // its smallest eigenvalue.
+    // Both residuals are at most the tolerance times the scale of the forces, and the Hessian, that at rest to first
+    // order, divides them by its smallest eigenvalue.
     const Spectrum of_flesh = spectrum(rest_stiffness(held.space, held.flesh).matrix(), held_end(held.space));
-    const double residuals = tolerance * (each_step.iterations.back().force_scale_n + reusing.iterations.back().force_scale_n);
+    const double residuals =
+        tolerance * (each_step.iterations.back().force_scale_n + reusing.iterations.back().force_scale_n);
     EXPECT_LT((kept - anew).norm(), 2.0 * residuals / of_flesh.smallest);
 }
 
@@ -182,18 +187,21 @@ TEST(Newton, AnIndefiniteHessianIsProjectedAndSaidSo)
     Eigen::VectorXd u = held.strained(-1.4);  // compressed flat and beyond
     const NewtonSummary summary = held.newton.minimise({&held.flesh}, held.zero, u, {});
     ASSERT_TRUE(summary.converged()) << name_of(summary.outcome);
-    EXPECT_TRUE(std::any_of(summary.iterations.begin(), summary.iterations.end(), [](const auto& it) { return it.projected; }));
-    // The only stress-free state with this end held is rest. All forces vanish there, so Newton's method ends at the residual that the
-    // rounding of positions causes, 4 eps D |diag H|, D = sqrt 6 m; the error of u is at most that over the smallest eigenvalue. The factor
-    // 2 is for the Hessian of the step before, at which the solver takes this residual.
+    EXPECT_TRUE(
+        std::any_of(summary.iterations.begin(), summary.iterations.end(), [](const auto& it) { return it.projected; }));
+    // The only stress-free state with this end held is rest. All forces vanish there, so Newton's method ends at the
+    // residual that the rounding of positions causes, 4 eps D |diag H|, D = sqrt 6 m; the error of u is at most that
+    // over the smallest eigenvalue. The factor 2 is for the Hessian of the step before, at which the solver takes this
+    // residual.
     const SparseMatrix hessian = rest_stiffness(held.space, held.flesh).matrix();
     const double residual_n = 4.0 * std::numeric_limits<double>::epsilon() * std::sqrt(6.0) * hessian.diagonal().norm();
     EXPECT_LT(u.norm(), 2.0 * residual_n / spectrum(hessian, held_end(held.space)).smallest);
 }
 
-// Each step reduces the residual, at first sqrt(35) N, to a tenth. A single term converges down to the rounding of positions,
-// 4 eps D |diag H| with D = sqrt 6 m and |diag H| < 300 N/m, which is 14 decades. Steps of the projected Hessian alone would leave 99 % of
-// the largest component each. The Hessian is 1 N/m for all but the first degree of freedom, so that the residual is the error.
+// Each step reduces the residual, at first sqrt(35) N, to a tenth. A single term converges down to the rounding of
+// positions, 4 eps D |diag H| with D = sqrt 6 m and |diag H| < 300 N/m, which is 14 decades. Steps of the projected
+// Hessian alone would leave 99 % of the largest component each. The Hessian is 1 N/m for all but the first degree of
+// freedom, so that the residual is the error.
 const double rounding_n = 4.0 * std::numeric_limits<double>::epsilon() * std::sqrt(6.0) * 300.0;
 
 class NewtonAtASaddle : public testing::Test {
@@ -218,7 +226,8 @@ TEST_F(NewtonAtASaddle, StepsAreThoseOfTheHessianItselfWhereItIsIndefinite)
     for (std::size_t k = 0; k + 1 < summary.iterations.size(); ++k) EXPECT_TRUE(summary.iterations[k].projected);
 }
 
-// Where the force has a component along the direction of negative curvature, the way leads from the saddle to a minimum, u_0 = 1.
+// Where the force has a component along the direction of negative curvature, the way leads from the saddle to a
+// minimum, u_0 = 1.
 TEST_F(NewtonAtASaddle, LeavesItAlongNegativeCurvature)
 {
     u(0) = 0.01;
@@ -230,7 +239,8 @@ TEST_F(NewtonAtASaddle, LeavesItAlongNegativeCurvature)
 TEST_F(NewtonAtASaddle, EndsAfterSoManyIndefiniteHessiansInARow)
 {
     Eigen::VectorXd other = u;
-    const NewtonSummary ended = minimise(u, {.indefinite_in_a_row = 3}), allowed = minimise(other, {.indefinite_in_a_row = 15});
+    const NewtonSummary ended = minimise(u, {.indefinite_in_a_row = 3}),
+                        allowed = minimise(other, {.indefinite_in_a_row = 15});
     EXPECT_EQ(ended.outcome, NewtonOutcome::iterations_exhausted);
     EXPECT_EQ(ended.steps(), 3);
     EXPECT_TRUE(allowed.converged()) << "fewer than 15 steps lead to the saddle";
@@ -243,7 +253,10 @@ public:
     double value(const Eigen::VectorXd&) const override { return 0.0; }
     void add_gradient(const Eigen::VectorXd&, Eigen::VectorXd&) const override {}
     void add_hessian(const Eigen::VectorXd&, Definiteness, NodalMatrix&) const override {}
-    double largest_step(const Eigen::VectorXd&, const Eigen::VectorXd&) const override { return asked_++ < 2 ? share_ : 1.0; }
+    double largest_step(const Eigen::VectorXd&, const Eigen::VectorXd&) const override
+    {
+        return asked_++ < 2 ? share_ : 1.0;
+    }
     bool is_quadratic() const override { return false; }
 
 private:
@@ -260,7 +273,8 @@ TEST(Newton, DataThatMoveFartherThanContactAllowsArriveLaterOrTheStepFails)
     const NewtonSummary moved = bar.newton.minimise({&bar.flesh, &shortened}, ones, u, {});
     EXPECT_TRUE(moved.converged());
     EXPECT_EQ(std::ranges::count(moved.iterations, true, &NewtonIteration::carries_increment), 3);
-    // A rigid translation strains nothing. Its last step is one solve, and the two before have moved it in the same direction.
+    // A rigid translation strains nothing. Its last step is one solve, and the two before have moved it in the same
+    // direction.
     const Spectrum of_flesh = spectrum(rest_stiffness(bar.space, bar.flesh).matrix(), held_end(bar.space));
     EXPECT_LT((u - ones).norm(), 3.0 * rounding_bound(of_flesh) * ones.norm());
     EXPECT_EQ(bar.newton.minimise({&bar.flesh, &none}, ones, unmoved, {}).outcome, NewtonOutcome::no_descent);
@@ -273,9 +287,11 @@ TEST(Newton, OutcomesOfFailure)
     Eigen::VectorXd inverted = held.strained(-2.0), u = held.zero, ones = Eigen::VectorXd::Ones(held.space.dofs());
     EXPECT_EQ(infinite.newton.minimise({&infinite.flesh}, held.zero, inverted, {}).outcome, NewtonOutcome::not_finite);
     const DeadLoad load(held.weight(10.0));
-    EXPECT_EQ(held.newton.minimise({&held.flesh, &load}, held.zero, u, {.iterations = 1}).outcome, NewtonOutcome::iterations_exhausted);
+    EXPECT_EQ(held.newton.minimise({&held.flesh, &load}, held.zero, u, {.iterations = 1}).outcome,
+              NewtonOutcome::iterations_exhausted);
     u = held.zero;
-    EXPECT_EQ(held.newton.minimise({&held.flesh, &load}, held.zero, u, {.is_over = [] { return true; }}).outcome, NewtonOutcome::given_up);
+    EXPECT_EQ(held.newton.minimise({&held.flesh, &load}, held.zero, u, {.is_over = [] { return true; }}).outcome,
+              NewtonOutcome::given_up);
     EXPECT_EQ(u, held.zero) << "no step is taken";
     const NodalMatrix stiffness = rest_stiffness(other.space, other.flesh);
     StiffnessPotential concave(stiffness);
@@ -314,7 +330,8 @@ TEST(LoadPath, EndsWhereItHasTakenTheStepsItMay)
     u.setZero();
     EXPECT_TRUE(follow_load_path(attempt, u, {.most_newton_steps = needed}).converged());
     u.setZero();
-    const LoadPathSummary path = follow_load_path(attempt, u, {.most_newton_steps = needed - 2});  // the last attempt is not started
+    // the last attempt is not started
+    const LoadPathSummary path = follow_load_path(attempt, u, {.most_newton_steps = needed - 2});
     EXPECT_FALSE(path.converged());
     EXPECT_EQ(path.reached, u(0));
     EXPECT_GT(path.reached, 0.0);
@@ -323,7 +340,8 @@ TEST(LoadPath, EndsWhereItHasTakenTheStepsItMay)
 TEST(LoadPath, TakesOneStepWhereItConvergesHalvesUntilItDoesAndDoublesAfterTwo)
 {
     Eigen::VectorXd u = Eigen::VectorXd::Zero(1), halved = u;
-    const LoadPathSummary one = follow_load_path(Attempt{u, 1.0}, u, {}), path = follow_load_path(Attempt{halved, 0.3}, halved, {});
+    const LoadPathSummary one = follow_load_path(Attempt{u, 1.0}, u, {}),
+                          path = follow_load_path(Attempt{halved, 0.3}, halved, {});
     EXPECT_TRUE(one.converged() && path.converged());
     EXPECT_EQ(one.steps.size(), 1u);
     EXPECT_EQ(one.halvings(), 0);
@@ -359,7 +377,8 @@ TEST(LoadPath, EndsInTheLastConvergedStateWhereAnAttemptIsGivenUp)
 TEST(LoadPath, StopsAtAWallInTheLastConvergedState)
 {
     Eigen::VectorXd u = Eigen::VectorXd::Zero(1);
-    const LoadPathSummary path = follow_load_path(Attempt{u, 1.0, 0.6}, u, {.first_step = 1.0, .smallest_step = 1.0 / 16.0});
+    const LoadPathSummary path =
+        follow_load_path(Attempt{u, 1.0, 0.6}, u, {.first_step = 1.0, .smallest_step = 1.0 / 16.0});
     EXPECT_FALSE(path.converged());
     EXPECT_LE(path.reached, 0.6);
     EXPECT_GT(path.reached, 0.6 - 2.0 / 16.0);

@@ -1,5 +1,5 @@
-// Reference: volumes in closed form, and the topology of a ball. Tolerances: the roundings of tets' volumes and of their sum. Where
-// coordinates are multiples of 1/2 a volume is rounded once, by its division by 6.
+// Reference: volumes in closed form, and the topology of a ball. Tolerances: the roundings of tets' volumes and of
+// their sum. Where coordinates are multiples of 1/2 a volume is rounded once, by its division by 6.
 #include "reference_fem/verification/problems.hpp"
 
 #include "analysis/records/tables.hpp"
@@ -46,7 +46,8 @@ TEST(StructuredMesh, ABoxIsFilledByEqualTetsAndJoinedBoxesShareTheirVertices)
     EXPECT_EQ(text_of({3, 2, 2}), "3 x 2 x 2");
     const pbs::TetMesh mirrored = mapped(box, [](const Vec3& p) -> Vec3 { return {-p.x(), p.y(), p.z()}; });
     EXPECT_GT(lowest_volume(mirrored), 0.0) << "a mirrored mesh is turned right side out";
-    const pbs::TetMesh whole = joined({box_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 2}), box_mesh({1, 0, 0}, {2, 1, 1}, {2, 2, 2})});
+    const pbs::TetMesh whole =
+        joined({box_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 2}), box_mesh({1, 0, 0}, {2, 1, 1}, {2, 2, 2})});
     EXPECT_EQ(whole.rest.rows(), 5 * 3 * 3);
     EXPECT_NEAR(volume(whole), 2.0, rounding_error(1 + 2 * 6 * 8, 2.0));
     expect_ball(whole);
@@ -58,20 +59,23 @@ TEST(StructuredMesh, JitterMovesInnerVerticesOnly)
     EXPECT_GT(lowest_volume(moved), 0.0);
     EXPECT_NEAR(volume(moved), 1.0, test_support::volume_error(moved.rest, moved.tets));
     const std::vector<bool> on_boundary = pbs::boundary_vertices(even.tets, even.rest.rows());
-    for (Eigen::Index v = 0; v < even.rest.rows(); ++v) EXPECT_EQ(even.rest.row(v) == moved.rest.row(v), on_boundary[v]);
+    for (Eigen::Index v = 0; v < even.rest.rows(); ++v)
+        EXPECT_EQ(even.rest.row(v) == moved.rest.row(v), on_boundary[v]);
 }
 
-// Reference: beam theory. A slender beam follows Bernoulli and Euler, and the reduction by shear and rotary inertia is proportional to (h /
-// L)^2.
+// Reference: beam theory. A slender beam follows Bernoulli and Euler, and the reduction by shear and rotary inertia is
+// proportional to (h / L)^2.
 
-// Rayleigh's quotient over the Bernoulli-Euler mode lowers omega^2 by a factor of 1 + 2 s with s = 4.647 (r / L)^2 (1 + E / (k G)) / 2.
+// Rayleigh's quotient over the Bernoulli-Euler mode lowers omega^2 by a factor of 1 + 2 s with s = 4.647 (r / L)^2 (1 +
+// E / (k G)) / 2.
 double first_order_share(double length_m)
 {
     const double nu = 0.3, r_over_l = std::sqrt(1.0 / 12.0) * 0.1 / length_m;
     return 4.647 * r_over_l * r_over_l * (1.0 + (12.0 + 11.0 * nu) / 5.0) / 2.0;
 }
 
-// At 20 to 100 times the height. The mode itself changes by s, which changes the quotient by s^2; 4.647 has half a unit of its last digit.
+// At 20 to 100 times the height. The mode itself changes by s, which changes the quotient by s^2; 4.647 has half a unit
+// of its last digit.
 TEST(BeamFrequency, IsLoweredByRotaryInertiaAndShear)
 {
     for (const double length_m : {2.0, 4.0, 10.0}) {
@@ -83,15 +87,16 @@ TEST(BeamFrequency, IsLoweredByRotaryInertiaAndShear)
 }
 
 // Factors of powers of two change no digit. Blevins, Formulas for natural frequency and mode shape, 1979, table 8-1:
-// f = 1.87510407^2 / (2 pi L^2) sqrt(E I / m). The printed root is rounded by half a unit of its last digit, which changes its square by
-// twice the root times as much.
+// f = 1.87510407^2 / (2 pi L^2) sqrt(E I / m). The printed root is rounded by half a unit of its last digit, which
+// changes its square by twice the root times as much.
 TEST(BeamFrequency, OfBernoulliAndEulerIsAsPrintedAndScalesAsTheRootOfYoungsModulusOverDensity)
 {
     const Beam beam{1.0, 0.1, 1e5, 0.3, 1000.0}, stiff{1.0, 0.1, 4e5, 0.3, 1000.0}, heavy{1.0, 0.1, 1e5, 0.3, 4000.0};
     EXPECT_EQ(timoshenko_rad_s(stiff), 2.0 * timoshenko_rad_s(beam));
     EXPECT_EQ(timoshenko_rad_s(heavy), 0.5 * timoshenko_rad_s(beam));
     const double root = 1.87510407, half_a_unit = 0.5e-8, scale = std::sqrt(1e5 * 1e-4 / 12.0 / (1000.0 * 1e-2));
-    EXPECT_NEAR(bernoulli_euler_rad_s({1.0, 0.1, 1e5, 0.0, 1000.0}), root * root * scale, 2.0 * root * half_a_unit * scale);
+    EXPECT_NEAR(bernoulli_euler_rad_s({1.0, 0.1, 1e5, 0.0, 1000.0}), root * root * scale,
+                2.0 * root * half_a_unit * scale);
 }
 
 // Reference: the rules in the header, by hand.
@@ -142,7 +147,9 @@ TEST(VerificationRowTest, HoldsBetweenItsBoundsWithItsOrder)
         {"its order", ordered(1.91), true},
         {"another order", ordered(2.11), false},
         {"its order outside of the bounds", ordered(2.0, 0.0), false},
-        {"without bounds there is nothing to hold", [](auto& r) { r.low = r.high = std::nullopt, r.observed_order = 1.2; }, {}}};
+        {"without bounds there is nothing to hold",
+         [](auto& r) { r.low = r.high = std::nullopt, r.observed_order = 1.2; },
+         {}}};
     for (const Case& of : all) {
         VerificationRow changed = row();
         of.change(changed);

@@ -1,6 +1,7 @@
-// Reference: finite elements (deal.II, Newton's method), which share neither the energy nor the solver with these deformers, on the same
-// mesh, with the same attachment and material. A deformer that minimises the energy of neo-Hookean flesh has to converge to the same
-// solution. With multipliers kept over the steps XPBD does; as published it does not.
+// Reference: finite elements (deal.II, Newton's method), which share neither the energy nor the solver with these
+// deformers, on the same mesh, with the same attachment and material. A deformer that minimises the energy of
+// neo-Hookean flesh has to converge to the same solution. With multipliers kept over the steps XPBD does; as published
+// it does not.
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 
@@ -12,7 +13,8 @@ namespace {
 
 using experiments::DeformerSpec;
 
-// The finite element reference's own solution on linear tets for the material of the energy-minimising deformers, in one pose of a body.
+// The finite element reference's own solution on linear tets for the material of the energy-minimising deformers, in
+// one pose of a body.
 class FleshReference {
 public:
     FleshReference(const std::string& scene, const std::vector<std::string>& settings, int frame, double poisson,
@@ -47,13 +49,14 @@ private:
 DeformerSpec spec_of(const std::string& kind, int iterations, double poisson, const std::vector<std::string>& keys)
 {
     std::vector<std::string> lines{"deformers.use=[\"" + kind + "\"]", "reference.name=\"\"", kind + ".precision=f64",
-                                   kind + ".iterations=" + std::to_string(iterations), kind + ".poisson=" + std::to_string(poisson)};
+                                   kind + ".iterations=" + std::to_string(iterations),
+                                   kind + ".poisson=" + std::to_string(poisson)};
     for (const std::string& key : keys) lines.push_back(kind + "." + key);
     return experiments::spec_of(experiments::read_scene("limb_twist", lines), kind);
 }
 
-// `times` as many iterations lower the difference to `factor` at least until it is below 1e-6, which the last number of them reaches. The
-// rest is the tolerance of the reference's own iteration.
+// `times` as many iterations lower the difference to `factor` at least until it is below 1e-6, which the last number of
+// them reaches. The rest is the tolerance of the reference's own iteration.
 struct FleshMethod {
     std::string kind;
     std::vector<std::string> keys;
@@ -67,7 +70,8 @@ void expect_convergence(const FleshReference& reference, double poisson, const F
     for (int iterations = method.first; iterations <= method.last; iterations *= method.times) {
         const double difference = reference.difference(spec_of(method.kind, iterations, poisson, method.keys));
         if (last > 1e-6) {
-            EXPECT_LT(difference, method.factor * last) << method.kind << ", " << iterations << " iterations, nu " << poisson;
+            EXPECT_LT(difference, method.factor * last)
+                << method.kind << ", " << iterations << " iterations, nu " << poisson;
         }
         last = difference;
     }
@@ -86,7 +90,8 @@ const FleshMethod kept_xpbd = {"xpbd_neo_hookean", {}, 16, 1024, 4, 0.5};
 class FleshLimits : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(PoissonsRatios, FleshLimits, testing::Values(0.3, 0.45));
 
-const std::vector<std::string> reference_of_twist = {"motion.angle_deg=90", "motion.frames=2", "character.vertices=600"};
+const std::vector<std::string> reference_of_twist = {"motion.angle_deg=90", "motion.frames=2",
+                                                     "character.vertices=600"};
 
 TEST_P(FleshLimits, OfTheTwistedLimb)
 {
@@ -99,19 +104,22 @@ TEST_P(FleshLimits, OfTheTwistedLimb)
 TEST(FleshLimitsOfBodies, OfTheBentLimbAndOfTheHumansCrouch)
 {
     const double poisson = 0.45;
-    const FleshReference bent("limb_bend", {"motion.angle_deg=60", "motion.frames=2", "character.vertices=600"}, 1, poisson);
+    const FleshReference bent("limb_bend", {"motion.angle_deg=60", "motion.frames=2", "character.vertices=600"}, 1,
+                              poisson);
     const FleshReference crouch("human_01_01", {}, 164, poisson);
     for (const FleshReference* reference : {&bent, &crouch})
         for (const FleshMethod& method : {quasi_newton("smooth_dqs"), relaxed_vbd, kept_xpbd})
             expect_convergence(*reference, poisson, method);
 }
 
-// Bones that are rigid capsules, and bones that hold the flesh that they alone move. With springs of another attachment the limit differs.
+// Bones that are rigid capsules, and bones that hold the flesh that they alone move. With springs of another attachment
+// the limit differs.
 TEST(FleshAttachments, HaveTheLimitOfTheReferenceWithTheSameSprings)
 {
-    const std::vector<std::string> rigid = {"attachment=embedded", "core_radius=0.35", "spring_factor=1e4"}, held = {"attachment=held"};
-    for (const auto& [attachment, own, other] :
-         {std::tuple(experiments::FemAttachment::embedded, rigid, held), std::tuple(experiments::FemAttachment::held, held, rigid)}) {
+    const std::vector<std::string> rigid = {"attachment=embedded", "core_radius=0.35", "spring_factor=1e4"},
+                                   held = {"attachment=held"};
+    for (const auto& [attachment, own, other] : {std::tuple(experiments::FemAttachment::embedded, rigid, held),
+                                                 std::tuple(experiments::FemAttachment::held, held, rigid)}) {
         SCOPED_TRACE(own.front());
         const FleshReference reference("limb_twist", reference_of_twist, 1, 0.45, attachment);
         expect_convergence(reference, 0.45, {"quasi_newton", own, 4, 1024, 4, 0.5});
@@ -120,12 +128,14 @@ TEST(FleshAttachments, HaveTheLimitOfTheReferenceWithTheSameSprings)
     }
 }
 
-// The control: the multipliers of each step begin at zero and the residual is neglected, or they are reset in each iteration.
+// The control: the multipliers of each step begin at zero and the residual is neglected, or they are reset in each
+// iteration.
 TEST(XpbdNeoHookeanControls, AsPublishedOrWithResetMultipliersItStopsElsewhere)
 {
     const FleshReference reference("limb_twist", reference_of_twist, 1, 0.45);
     for (const std::string multipliers : {"of_step", "reset"}) {
-        const DeformerSpec control = spec_of("xpbd_neo_hookean", 1024, 0.45, {"multipliers=" + multipliers, "iterations_per_step=4"});
+        const DeformerSpec control =
+            spec_of("xpbd_neo_hookean", 1024, 0.45, {"multipliers=" + multipliers, "iterations_per_step=4"});
         EXPECT_GT(reference.difference(control), 1e-3) << multipliers;
     }
 }

@@ -1,4 +1,5 @@
-// An independent reader of BVH for tests: every number by its place in the file, every rotation as a product of elementary matrices.
+// An independent reader of BVH for tests: every number by its place in the file, every rotation as a product of
+// elementary matrices.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -78,7 +79,8 @@ inline std::vector<Eigen::Isometry3d> forward(const Bvh& bvh, const std::vector<
 {
     std::vector<Eigen::Isometry3d> global;
     for (const Joint& joint : bvh.joints) {
-        const bool moves = !joint.channels.empty() && joint.channels[0].substr(1) == "position";  // then they replace the offset
+        // then they replace the offset
+        const bool moves = !joint.channels.empty() && joint.channels[0].substr(1) == "position";
         Eigen::Isometry3d own = Eigen::Isometry3d::Identity();
         if (!moves) own.translation() = joint.offset;
         for (std::size_t c = 0; c < joint.channels.size(); ++c)

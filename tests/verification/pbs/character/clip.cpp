@@ -40,8 +40,8 @@ TEST(ReadClip, AgreesWithIndependentKinematicsOnACmuClip)
         }
     }
     RecordProperty("largest_difference_clip_units", std::to_string(largest));
-    // assimp computes in single precision, with coordinates up to 30 units, over a chain of 9 joints with three products of rotations each,
-    // of which each is rounded twice, as a product and as a sum.
+    // assimp computes in single precision, with coordinates up to 30 units, over a chain of 9 joints with three
+    // products of rotations each, of which each is rounded twice, as a product and as a sum.
     EXPECT_LT(largest, rounding_error_in<float>(2 * 3 * 9, 30.0));
 }
 
@@ -98,7 +98,8 @@ TEST(ReadClip, OtherFormatsThanBvh)
     EXPECT_NEAR(largest, M_PI / 2.0, 2.0 * rounding_error_in<float>(8, 1.0));
 }
 
-// The skeleton of a clip's file. Reference: the offsets in the header of CMU's 01_01.bvh, and the clip's own kinematics.
+// The skeleton of a clip's file. Reference: the offsets in the header of CMU's 01_01.bvh, and the clip's own
+// kinematics.
 
 const Clip& cmu_clip()
 {
@@ -113,7 +114,8 @@ TEST(SkeletonFromClip, BonesAreTheOffsetsOfTheFile)
     ASSERT_GE(thigh, 0);
     const Bone& bone = skeleton.bones[thigh];
     // In single precision: both ends are sums of offsets, up to 10 units long.
-    EXPECT_NEAR((bone.tail - bone.head - Vec3(2.44811, -6.72613, 0.0)).norm(), 0.0, rounding_error_in<float>(2 * 3, 10.0));
+    EXPECT_NEAR((bone.tail - bone.head - Vec3(2.44811, -6.72613, 0.0)).norm(), 0.0,
+                rounding_error_in<float>(2 * 3, 10.0));
     EXPECT_EQ(skeleton.bones[bone.parent].name, "LHipJoint");
 }
 
@@ -131,7 +133,8 @@ TEST(SkeletonFromClip, NoBoneIsAPointAndParentsComeFirst)
 TEST(SkeletonFromClip, ScaleIsMetresAUnit)
 {
     const Skeleton unit = skeleton_from_clip(cmu_clip(), 1.0), metres = skeleton_from_clip(cmu_clip(), 0.0254 / 0.45);
-    for (std::size_t b = 0; b < unit.bones.size(); ++b) EXPECT_EQ(metres.bones[b].tail, 0.0254 / 0.45 * unit.bones[b].tail);
+    for (std::size_t b = 0; b < unit.bones.size(); ++b)
+        EXPECT_EQ(metres.bones[b].tail, 0.0254 / 0.45 * unit.bones[b].tail);
 }
 
 TEST(SkeletonFromClip, JointsInOnePlaceAreRefused)

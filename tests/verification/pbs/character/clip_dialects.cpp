@@ -1,5 +1,6 @@
-// One walk in the dialects of other programs moves one body alike. Reference: CMU's clip 01_03 as it is, written again by an independent
-// kinematics (bvh_kinematics.hpp) with the frames, axes, names and roots of other programs. Needs Debian's assimp-testmodels.
+// One walk in the dialects of other programs moves one body alike. Reference: CMU's clip 01_03 as it is, written again
+// by an independent kinematics (bvh_kinematics.hpp) with the frames, axes, names and roots of other programs. Needs
+// Debian's assimp-testmodels.
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/clip.hpp"
 #include "pbs/character/skinning_weights.hpp"
@@ -27,7 +28,7 @@ constexpr int every = 40;  // frames of the clip, so that the test is quick
 struct Dialect {
     std::string name;
     Eigen::Matrix3d world = Eigen::Matrix3d::Identity();  // from the axes of the clip to those of the dialect
-    bool frames_along_bones = false;                      // x of each joint points to its child, and all offsets lie along x
+    bool frames_along_bones = false;  // x of each joint points to its child, and all offsets lie along x
     bool positions_everywhere = false, second_root = false, first_frame = true;
     std::string prefix = {};
 };
@@ -43,7 +44,8 @@ std::vector<Eigen::Matrix3d> frames_of(const Bvh& bvh, const Dialect& dialect)
     std::vector<Eigen::Matrix3d> frames(bvh.joints.size(), dialect.world.transpose());
     for (std::size_t child = bvh.joints.size(); dialect.frames_along_bones && child-- > 1;)
         if (const Vec3 offset = bvh.joints[child].offset; offset.norm() > 0.0)
-            frames[bvh.joints[child].parent] = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), offset).toRotationMatrix();
+            frames[bvh.joints[child].parent] =
+                Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), offset).toRotationMatrix();
     return frames;
 }
 
@@ -52,7 +54,8 @@ std::string row_of(const Vec3& numbers)
     return number_text(numbers.x(), 9) + " " + number_text(numbers.y(), 9) + " " + number_text(numbers.z(), 9) + " ";
 }
 
-std::string joint_text(const Bvh& bvh, const Dialect& dialect, const std::vector<Eigen::Matrix3d>& frames, std::size_t joint)
+std::string joint_text(const Bvh& bvh, const Dialect& dialect, const std::vector<Eigen::Matrix3d>& frames,
+                       std::size_t joint)
 {
     const auto& own = bvh.joints[joint];
     const bool is_end = own.channels.empty(), is_root = own.parent < 0;
@@ -62,13 +65,16 @@ std::string joint_text(const Bvh& bvh, const Dialect& dialect, const std::vector
                                  : "JOINT ") +
                        (is_end ? "" : dialect.prefix + own.name) + "\n{\nOFFSET " + row_of(offset) + "\n";
     const bool moves = is_root || dialect.positions_everywhere;
-    if (!is_end) text += std::string("CHANNELS ") + (moves ? "6 Xposition Yposition Zposition" : "3") + " Zrotation Yrotation Xrotation\n";
+    if (!is_end)
+        text += std::string("CHANNELS ") + (moves ? "6 Xposition Yposition Zposition" : "3") +
+                " Zrotation Yrotation Xrotation\n";
     for (std::size_t child = joint + 1; child < bvh.joints.size(); ++child)
         if (bvh.joints[child].parent == static_cast<int>(joint)) text += joint_text(bvh, dialect, frames, child);
     return text + "}\n";
 }
 
-std::string frame_text(const Bvh& bvh, const Dialect& dialect, const std::vector<Eigen::Matrix3d>& frames, const std::vector<double>& row)
+std::string frame_text(const Bvh& bvh, const Dialect& dialect, const std::vector<Eigen::Matrix3d>& frames,
+                       const std::vector<double>& row)
 {
     const std::vector<Eigen::Isometry3d> places = bvh_kinematics::forward(bvh, row);
     std::vector<Eigen::Matrix3d> turns;
@@ -77,7 +83,8 @@ std::string frame_text(const Bvh& bvh, const Dialect& dialect, const std::vector
         turns.push_back(dialect.world * places[j].linear() * frames[j]);
         const auto& joint = bvh.joints[j];
         if (joint.channels.empty()) continue;
-        const Eigen::Matrix3d local = joint.parent < 0 ? turns[j] : Eigen::Matrix3d(turns[joint.parent].transpose() * turns[j]);
+        const Eigen::Matrix3d local =
+            joint.parent < 0 ? turns[j] : Eigen::Matrix3d(turns[joint.parent].transpose() * turns[j]);
         if (joint.parent < 0)
             text += row_of(dialect.world * places[j].translation());
         else if (dialect.positions_everywhere)
@@ -87,7 +94,8 @@ std::string frame_text(const Bvh& bvh, const Dialect& dialect, const std::vector
     return text + (dialect.second_root ? "0 0 0 0 0 0" : "") + "\n";
 }
 
-// The T pose in front of the motion, from which CMU's own turns are measured: its first frame has the legs 17 degrees closer together.
+// The T pose in front of the motion, from which CMU's own turns are measured: its first frame has the legs 17 degrees
+// closer together.
 std::vector<double> zero_pose_of(const Bvh& bvh)
 {
     std::vector<double> row = bvh.frames.front();
@@ -100,7 +108,8 @@ std::string written(const Bvh& bvh, const Dialect& dialect)
     const std::vector<Eigen::Matrix3d> frames = frames_of(bvh, dialect);
     std::string text = "HIERARCHY\n" + joint_text(bvh, dialect, frames, 0), rows;
     if (dialect.second_root)
-        text += "ROOT Prop\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n}\n";
+        text +=
+            "ROOT Prop\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n}\n";
     int count = 0;
     for (std::size_t f = dialect.first_frame ? 0 : 1; f < bvh.frames.size(); f += f == 0 ? 1 : every, ++count)
         rows += frame_text(bvh, dialect, frames, f == 0 ? zero_pose_of(bvh) : bvh.frames[f]);
@@ -147,14 +156,16 @@ class ClipDialect : public testing::TestWithParam<Dialect> {};
 
 INSTANTIATE_TEST_SUITE_P(
     Programs, ClipDialect,
-    testing::Values(Dialect{"z_up", turned(Vec3::UnitX(), 90.0)}, Dialect{"faces_minus_z", turned(Vec3::UnitY(), 180.0)},
-                    Dialect{"faces_x", turned(Vec3::UnitY(), 90.0)}, Dialect{.name = "maya_frames", .frames_along_bones = true},
-                    Dialect{.name = "maya_frames_z_up", .world = turned(Vec3::UnitX(), 90.0), .frames_along_bones = true},
-                    Dialect{.name = "blender_export", .world = turned(Vec3::UnitX(), 90.0), .positions_everywhere = true},
-                    Dialect{.name = "two_roots", .second_root = true}, Dialect{.name = "prefixed_names", .prefix = "Walker_"}),
+    testing::Values(
+        Dialect{"z_up", turned(Vec3::UnitX(), 90.0)}, Dialect{"faces_minus_z", turned(Vec3::UnitY(), 180.0)},
+        Dialect{"faces_x", turned(Vec3::UnitY(), 90.0)}, Dialect{.name = "maya_frames", .frames_along_bones = true},
+        Dialect{.name = "maya_frames_z_up", .world = turned(Vec3::UnitX(), 90.0), .frames_along_bones = true},
+        Dialect{.name = "blender_export", .world = turned(Vec3::UnitX(), 90.0), .positions_everywhere = true},
+        Dialect{.name = "two_roots", .second_root = true}, Dialect{.name = "prefixed_names", .prefix = "Walker_"}),
     [](const auto& info) { return info.param.name; });
 
-// The angles are in single precision, where 180 degrees have an error of 1e-5; the bound is a hundredth of a per cent of the volume.
+// The angles are in single precision, where 180 degrees have an error of 1e-5; the bound is a hundredth of a per cent
+// of the volume.
 TEST_P(ClipDialect, LbsHasTheSameVolumeOnTheHuman)
 {
     static const std::vector<double> expected = volume_changes_pct(motion_of({"as_it_is"}));

@@ -1,5 +1,5 @@
-// Man, Lady and Frankie where they are installed, and the ring. Reference: topology; the sizes in Table 1; the heights of MakeHuman's young
-// figures; the volume of a ring by Pappus; the joints that clips name.
+// Man, Lady and Frankie where they are installed, and the ring. Reference: topology; the sizes in Table 1; the heights
+// of MakeHuman's young figures; the volume of a ring by Pappus; the joints that clips name.
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/clip.hpp"
 #include "pbs/character/named_bodies.hpp"
@@ -30,7 +30,8 @@ TEST_P(FetchedBody, IsABallOfGoodTetsAsLargeAsInTable1WithTheHumansBonesByName)
     const Character body = make_character({.body = GetParam().body});
     const Quality quality = quality_of(body.mesh);
     test_support::expect_ball(quality);
-    EXPECT_NEAR(quality.vertices, GetParam().table_1_vertices, 0.1 * GetParam().table_1_vertices);  // the specification of mesh_surface
+    // the specification of mesh_surface
+    EXPECT_NEAR(quality.vertices, GetParam().table_1_vertices, 0.1 * GetParam().table_1_vertices);
     const double height_m = body.mesh.rest.col(1).maxCoeff() - body.mesh.rest.col(1).minCoeff();
     EXPECT_GT(height_m, GetParam().lowest_height_m);
     EXPECT_LT(height_m, GetParam().highest_height_m);
@@ -55,8 +56,8 @@ TEST(Ring, HasOneHandleAndTheVolumeOfItsTube)
     const Character ring = make_character({.body = "ring"});
     const Quality quality = quality_of(ring.mesh);
     test_support::expect_ball(quality, 0);
-    // Pappus: the area of the section times the path of its centre. The wrap adds an offset of the diagonal / 510 all around; chords of
-    // facets reduce the volume by up to a few per cent.
+    // Pappus: the area of the section times the path of its centre. The wrap adds an offset of the diagonal / 510 all
+    // around; chords of facets reduce the volume by up to a few per cent.
     const double way_m = 4.0 * 0.36 + 2.0 * std::numbers::pi * 0.14, tube_m3 = std::numbers::pi * 0.07 * 0.07 * way_m;
     EXPECT_NEAR(quality.volume_m3 / tube_m3, 1.0, 0.1);
 }
@@ -65,10 +66,12 @@ TEST(Ring, AClipBendsItAtTheKnee)
 {
     if (!body_is_installed("human")) GTEST_SKIP() << "the clip comes with assimp-testmodels";
     const Character ring = make_character({.body = "ring"});
-    const Motion motion = retarget(read_clip(find_clip("01_01.bvh", "")), ring.skeleton, {{.duration_s = 2.0, .rate_hz = 25.0}});
+    const Motion motion =
+        retarget(read_clip(find_clip("01_01.bvh", "")), ring.skeleton, {{.duration_s = 2.0, .rate_hz = 25.0}});
     double most_rad = 0.0;
     for (const Pose& pose : motion.steps)
-        most_rad = std::max(most_rad, Eigen::Quaterniond(pose[1].linear()).angularDistance(Eigen::Quaterniond(pose[2].linear())));
+        most_rad = std::max(most_rad,
+                            Eigen::Quaterniond(pose[1].linear()).angularDistance(Eigen::Quaterniond(pose[2].linear())));
     EXPECT_GT(most_rad, 1.0);  // the crouch before a jump
 }
 

@@ -87,7 +87,8 @@ TEST(Human, LeftAndRightAreMirrored)
 {
     for (const Bone& bone : human().skeleton.bones) {
         if (!bone.name.ends_with(".L")) continue;
-        const Bone& other = human().skeleton.bones[find_bone(human().skeleton, bone.name.substr(0, bone.name.size() - 1) + "R")];
+        const Bone& other =
+            human().skeleton.bones[find_bone(human().skeleton, bone.name.substr(0, bone.name.size() - 1) + "R")];
         EXPECT_EQ(other.head, bone.head.cwiseProduct(Vec3(-1, 1, 1))) << bone.name;
         EXPECT_EQ(other.tail, bone.tail.cwiseProduct(Vec3(-1, 1, 1))) << bone.name;
     }
@@ -102,8 +103,9 @@ TEST(Human, TheSurfaceIsMakeHumansWholeAndNearTheTets)
     EXPECT_LT(surface.largest_distance_outside_m, 0.02);
 }
 
-// Smooth weights on the real body, as a control of Eq. 2. Reference: the definition of weights (they are not negative and sum up to one)
-// and the tets' own orientation. In the crouch of clip 01_01 LBS with Eq. 2's weights, which jump between vertices, turns tets inside out.
+// Smooth weights on the real body, as a control of Eq. 2. Reference: the definition of weights (they are not negative
+// and sum up to one) and the tets' own orientation. In the crouch of clip 01_01 LBS with Eq. 2's weights, which jump
+// between vertices, turns tets inside out.
 
 const Pose& crouch()
 {
@@ -131,14 +133,15 @@ TEST(SmoothWeightsOfTheHuman, SumUpToOneAndAreNotNegative)
     int blended = 0;
     for (const double weight : weights.weight) EXPECT_GE(weight, 0.0);
     for (int v = 0; v < weights.vertices(); ++v) {
-        EXPECT_NEAR(test_support::sum_of_weights(weights, v), 1.0, test_support::mean_error(weights.first[v + 1] - weights.first[v], 1.0));
+        EXPECT_NEAR(test_support::sum_of_weights(weights, v), 1.0,
+                    test_support::mean_error(weights.first[v + 1] - weights.first[v], 1.0));
         blended += weights.blended(v);
     }
     EXPECT_GT(blended, weights.vertices() / 10);
 }
 
-// Both blends have the same pose and the same mesh, and the counts are whole numbers: no tolerance. The blends with smooth weights leave at
-// most a tenth of the inverted tets.
+// Both blends have the same pose and the same mesh, and the counts are whole numbers: no tolerance. The blends with
+// smooth weights leave at most a tenth of the inverted tets.
 TEST(SmoothWeightsOfTheHuman, LeaveFewerTetsInverted)
 {
     const int paper = inverted_tets(WeightKind::paper, linear_blend_skinning),
@@ -147,7 +150,8 @@ TEST(SmoothWeightsOfTheHuman, LeaveFewerTetsInverted)
     RecordProperty("inverted_by_lbs_with_smooth_weights", smooth);
     EXPECT_GT(paper, 50);
     EXPECT_LT(10 * smooth, paper);
-    EXPECT_LT(inverted_tets(WeightKind::diffused, dual_quaternion_skinning), inverted_tets(WeightKind::paper, dual_quaternion_skinning));
+    EXPECT_LT(inverted_tets(WeightKind::diffused, dual_quaternion_skinning),
+              inverted_tets(WeightKind::paper, dual_quaternion_skinning));
 }
 
 }  // namespace

@@ -33,14 +33,15 @@ test_support::GltfDocument ellipsoid_document(int balls, bool with_skin)
         const SurfaceMesh sphere = test_support::icosphere(1.0, body == 0 ? 2 : 1);
         const auto first = static_cast<int>(points.size() / 3);
         for (const auto& p : sphere.points.rowwise()) {
-            const Vec3 place =
-                body == 0 ? Vec3(short_m * p(0), long_m * p(1), short_m * p(2)) : Vec3(0.1 * p.transpose() + Vec3(0.8 * body, 0.3, 0));
+            const Vec3 place = body == 0 ? Vec3(short_m * p(0), long_m * p(1), short_m * p(2))
+                                         : Vec3(0.1 * p.transpose() + Vec3(0.8 * body, 0.3, 0));
             const double upper = body == 0 ? upper_weight(place.y()) : 0.0;
             for (int axis = 0; axis < 3; ++axis) points.push_back(float(place(axis)));
             for (const double weight : {1.0 - upper, upper, 0.0, 0.0}) weights.push_back(float(weight));
             joints.insert(joints.end(), {0, 1, 0, 0});
         }
-        for (const int corner : sphere.triangles.reshaped<Eigen::RowMajor>()) corners.push_back(std::uint16_t(first + corner));
+        for (const int corner : sphere.triangles.reshaped<Eigen::RowMajor>())
+            corners.push_back(std::uint16_t(first + corner));
     }
     test_support::GltfDocument gltf = test_support::two_joint_document();
     gltf.json["nodes"][0]["translation"] = {0, -0.5, 0};
@@ -50,8 +51,8 @@ test_support::GltfDocument ellipsoid_document(int balls, bool with_skin)
     primitive["indices"] = gltf.put("SCALAR", corners);
     primitive["attributes"]["WEIGHTS_0"] = gltf.put("VEC4", weights);
     primitive["attributes"]["JOINTS_0"] = gltf.put("VEC4", joints);
-    gltf.json["skins"][0]["inverseBindMatrices"] =
-        gltf.put<float>("MAT4", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.5F, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    gltf.json["skins"][0]["inverseBindMatrices"] = gltf.put<float>(
+        "MAT4", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.5F, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
     if (!with_skin) {
         gltf.json["nodes"][2].erase("skin");
         gltf.json.erase("animations");
@@ -59,7 +60,8 @@ test_support::GltfDocument ellipsoid_document(int balls, bool with_skin)
     return gltf;
 }
 
-Character made_from(const test_support::ScratchFolder& folder, const test_support::GltfDocument& gltf, RemarkList& remarks)
+Character made_from(const test_support::ScratchFolder& folder, const test_support::GltfDocument& gltf,
+                    RemarkList& remarks)
 {
     const std::string path = folder.file("hero.gltf", gltf.text());
     return make_model_character({.file = path, .animation = {}, .vertices = 150}, remarks);
@@ -90,9 +92,12 @@ TEST_F(ModelCharacter, HasTheVolumeTheBonesTheWeightsAndTheSurfaceOfItsModel)
     ASSERT_EQ(hero.artist->weights.vertices(), hero.mesh.rest.rows());
     const Weights& weights = hero.artist->weights;
     for (int v = 0; v < weights.vertices(); ++v)
-        EXPECT_NEAR(test_support::weight_in(weights, v, 1), upper_weight(hero.mesh.rest(v, 1)), 0.05) << "at y = " << hero.mesh.rest(v, 1);
+        EXPECT_NEAR(test_support::weight_in(weights, v, 1), upper_weight(hero.mesh.rest(v, 1)), 0.05)
+            << "at y = " << hero.mesh.rest(v, 1);
     ASSERT_TRUE(hero.surface);
-    EXPECT_LE((embedded_positions(*hero.surface, hero.mesh.rest, hero.mesh.tets) - hero.artist->model->body.surface).cwiseAbs().maxCoeff(),
+    EXPECT_LE((embedded_positions(*hero.surface, hero.mesh.rest, hero.mesh.tets) - hero.artist->model->body.surface)
+                  .cwiseAbs()
+                  .maxCoeff(),
               1e-12);
     EXPECT_EQ(hero.artist->model->animation->name, "Bend");
     EXPECT_EQ(hero.inputs.at(0).first, "hero.gltf");
@@ -102,7 +107,8 @@ TEST_F(ModelCharacter, PartsWithoutABoneAreLeftOutWithARemark)
 {
     const Character hero = made_from(folder, ellipsoid_document(1, true), remarks);
     ASSERT_EQ(remarks.size(), 1u);
-    EXPECT_NE(remarks[0].text.find("1 of 2 separate parts have no bone inside; they are left out"), std::string::npos) << remarks[0].text;
+    EXPECT_NE(remarks[0].text.find("1 of 2 separate parts have no bone inside; they are left out"), std::string::npos)
+        << remarks[0].text;
     EXPECT_LT(hero.mesh.rest.col(0).maxCoeff(), 0.5);
 }
 
@@ -118,7 +124,8 @@ TEST_F(ModelCharacter, TheSurfaceOfAPartThatIsLeftOutFollowsItsJoint)
     for (Eigen::Index p = 0; p < rest.rows(); ++p) {
         const bool is_ball = rest(p, 0) > 0.5;
         balls += is_ball;
-        EXPECT_LE((moved.row(p) - (is_ball ? 1.0 : 2.0) * rest.row(p)).norm(), 1e-6) << p;  // the file's points are floats
+        // the file's points are floats
+        EXPECT_LE((moved.row(p) - (is_ball ? 1.0 : 2.0) * rest.row(p)).norm(), 1e-6) << p;
     }
     EXPECT_EQ(balls, 42);
 }

@@ -1,5 +1,5 @@
-// Reference: the source's own limb directions (independent kinematics, bvh_kinematics.hpp), rigid bones, and what a body can do in 10 ms.
-// Needs Debian's assimp-testmodels, which set-up installs.
+// Reference: the source's own limb directions (independent kinematics, bvh_kinematics.hpp), rigid bones, and what a
+// body can do in 10 ms. Needs Debian's assimp-testmodels, which set-up installs.
 #include "pbs/character/clip.hpp"
 #include "pbs/character/named_bodies.hpp"
 
@@ -84,7 +84,8 @@ TEST(RetargetHuman, LimbsPointWhereTheSourcesDo)
         for (const Limb& limb : limbs()) {
             const Vec3 expected = joints[joint(limb.to)].translation() - joints[joint(limb.from)].translation();
             const Vec3 direction = posed_direction(cmu().motion.steps[step], limb.bone);
-            largest = std::max(largest, std::atan2(direction.cross(expected).norm(), direction.dot(expected)) * degrees);
+            largest =
+                std::max(largest, std::atan2(direction.cross(expected).norm(), direction.dot(expected)) * degrees);
         }
     }
     RecordProperty("largest_limb_angle_deg", std::to_string(largest));
@@ -95,15 +96,18 @@ TEST(RetargetHuman, LimbsPointWhereTheSourcesDo)
 TEST(RetargetHuman, TheTrunkTurnsAsTheSourceDoes)
 {
     const bvh_kinematics::Bvh source = bvh_kinematics::read(cmu().path);
-    for (const auto& [bone, name] : {std::pair<std::string, std::string>{"pelvis", "Hips"}, {"chest", "Spine1"}, {"head", "Head"}}) {
+    for (const auto& [bone, name] :
+         {std::pair<std::string, std::string>{"pelvis", "Hips"}, {"chest", "Spine1"}, {"head", "Head"}}) {
         const int index = find_bone(cmu().skeleton, bone);
         const std::string& wanted = name;
-        const auto joint = std::find_if(source.joints.begin(), source.joints.end(), [&](const auto& j) { return j.name == wanted; });
+        const auto joint =
+            std::find_if(source.joints.begin(), source.joints.end(), [&](const auto& j) { return j.name == wanted; });
         for (std::size_t step = 0; step < cmu().motion.steps.size(); step += 100) {
             const auto joints = bvh_kinematics::forward(source, source.frames[step + 1]);
             const Eigen::Matrix3d turned = cmu().motion.steps[step][index].linear(),
                                   expected = joints[joint - source.joints.begin()].linear();
-            // In single precision, over a chain of at most 9 joints with three products of rotations each, for nine entries.
+            // In single precision, over a chain of at most 9 joints with three products of rotations each, for nine
+            // entries.
             EXPECT_LT((turned - expected).norm(), 3.0 * test_support::rounding_error_in<float>(2 * 3 * 9, 1.0)) << bone;
         }
     }
@@ -116,13 +120,16 @@ TEST(RetargetHuman, BonesAreRigidAndStayJoined)
     for (const Pose& pose : cmu().motion.steps)
         for (std::size_t b = 0; b < pose.size(); ++b) {
             const Eigen::Matrix3d rotation = pose[b].linear();
-            largest_shear = std::max(largest_shear, (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff());
+            largest_shear = std::max(
+                largest_shear, (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff());
             EXPECT_GT(rotation.determinant(), 0.0);
             if (const int parent = skeleton.bones[b].parent; parent >= 0)
-                largest_gap_m = std::max(largest_gap_m, (pose[b] * skeleton.bones[b].head - pose[parent] * skeleton.bones[b].head).norm());
+                largest_gap_m = std::max(
+                    largest_gap_m, (pose[b] * skeleton.bones[b].head - pose[parent] * skeleton.bones[b].head).norm());
         }
     EXPECT_LT(largest_shear, 2.0 * test_support::motion_matrix_error(1, 0.0));  // of a unit quaternion, twice
-    EXPECT_LT(largest_gap_m, test_support::motion_error(2 + 1, 4.0));           // of two bones and the joint, within 4 m
+    // of two bones and the joint, within 4 m
+    EXPECT_LT(largest_gap_m, test_support::motion_error(2 + 1, 4.0));
 }
 
 TEST(RetargetHuman, NothingFlips)
@@ -136,11 +143,13 @@ TEST(RetargetHuman, NothingFlips)
             largest_deg = std::max(largest_deg, before.angularDistance(after) * degrees);
         }
         const Vec3 hip = cmu().skeleton.bones[0].head;
-        largest_move_m = std::max(largest_move_m, (motion.steps[step][0] * hip - motion.steps[step - 1][0] * hip).norm());
+        largest_move_m =
+            std::max(largest_move_m, (motion.steps[step][0] * hip - motion.steps[step - 1][0] * hip).norm());
     }
     RecordProperty("largest_angle_per_10_ms_deg", std::to_string(largest_deg));
     RecordProperty("largest_root_move_per_10_ms_m", std::to_string(largest_move_m));
-    // Fast human joints turn at some 30 rad/s, 17 degrees in 10 ms, and hips in a jump move at some 4 m/s; a flip would be 180 degrees.
+    // Fast human joints turn at some 30 rad/s, 17 degrees in 10 ms, and hips in a jump move at some 4 m/s; a flip would
+    // be 180 degrees.
     EXPECT_LT(largest_deg, 25.0);
     EXPECT_LT(largest_move_m, 0.05);
 }
@@ -165,7 +174,8 @@ TEST(RetargetHuman, TheForearmSharesTheWristsTwistInThirds)
             const auto rotation = [&](const std::string& bone) {
                 return Eigen::Quaterniond(pose[find_bone(cmu().skeleton, bone + side)].linear());
             };
-            // Both halves lie in one line at rest, so their relative rotation is exactly a third of the twist about that line.
+            // Both halves lie in one line at rest, so their relative rotation is exactly a third of the twist about
+            // that line.
             const Eigen::AngleAxisd between(rotation("forearm_lower") * rotation("forearm_upper").conjugate());
             if (between.angle() * degrees < 0.5) continue;
             largest_twist_deg = std::max(largest_twist_deg, 3.0 * between.angle() * degrees);

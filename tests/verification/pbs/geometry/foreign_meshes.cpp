@@ -1,4 +1,5 @@
-// Reference: another program. Gmsh and VTK's Python write files that this code reads, and read files that it writes, to the bit.
+// Reference: another program. Gmsh and VTK's Python write files that this code reads, and read files that it writes, to
+// the bit.
 #include "pbs/geometry/mesh_io.hpp"
 
 #include "tests/support/scratch_folder.hpp"
@@ -129,7 +130,8 @@ for mode in ("ASCII", "Binary"):
               0);
     for (const char* name : {"Ascii.vtu", "Binary.vtu", "Appended.vtu", "ASCII.vtk", "Binary.vtk"}) {
         const pbs::MeshReading reading = pbs::read_tet_mesh(folder / name);
-        const double digits = std::string(name) == "ASCII.vtk" ? 1e-8 : 0.0;  // VTK writes this format with fewer digits
+        // VTK writes this format with fewer digits
+        const double digits = std::string(name) == "ASCII.vtk" ? 1e-8 : 0.0;
         EXPECT_LE((reading.mesh.rest - bar().rest).cwiseAbs().maxCoeff(), digits) << name;
         EXPECT_EQ(reading.mesh.tets, bar().tets) << name;
     }

@@ -1,5 +1,5 @@
-// Reference: for one tet and two, counting by hand; for a bar, the tets' volumes and the balance of work. The locking table compares the
-// equilibrium with the linear tets of the reference.
+// Reference: for one tet and two, counting by hand; for a bar, the tets' volumes and the balance of work. The locking
+// table compares the equilibrium with the linear tets of the reference.
 
 #include "pbs/near_rest/near_rest.hpp"
 #include "pbs/solver/pbs_solver.hpp"
@@ -34,11 +34,12 @@ TetVolume volume_of(const pbs::TetMesh& mesh, const auto& tet)
 {
     const auto corner = [&](int c) -> Vec3 { return mesh.rest.row(tet(c)); };
     const pbs::VolumeConstraint<double> volume{};
-    return {gradient(volume, corner(0), corner(1), corner(2), corner(3)), value(volume, corner(0), corner(1), corner(2), corner(3))};
+    return {gradient(volume, corner(0), corner(1), corner(2), corner(3)),
+            value(volume, corner(0), corner(1), corner(2), corner(3))};
 }
 
-// |G u|: the root of the sum of squares of the tets' changes of volume, to first order, over the roots of their volumes. magnitude: the
-// same with the magnitudes of all terms.
+// |G u|: the root of the sum of squares of the tets' changes of volume, to first order, over the roots of their
+// volumes. magnitude: the same with the magnitudes of all terms.
 struct VolumeChange {
     double change = 0.0, magnitude = 0.0;
 };
@@ -53,7 +54,8 @@ VolumeChange volume_change(const pbs::TetMesh& mesh, const Positions& motion)
             change += gradient[c].dot(motion.row(tet(c)));
             magnitude += gradient[c].norm() * motion.row(tet(c)).norm();
         }
-        result = {std::hypot(result.change, change / std::sqrt(rest)), std::hypot(result.magnitude, magnitude / std::sqrt(rest))};
+        result = {std::hypot(result.change, change / std::sqrt(rest)),
+                  std::hypot(result.magnitude, magnitude / std::sqrt(rest))};
     }
     return result;
 }
@@ -93,8 +95,8 @@ TEST(VolumeConstraints, OneTetHasOneConstraintOnTwelveMotions)
     EXPECT_EQ(volumes.rank(), 1);
 }
 
-// Six tets around a cube's diagonal: with all vertices free, the six volumes are independent (each tet has an own edge of the cube's
-// boundary). A tet whose four corners are held is not a constraint.
+// Six tets around a cube's diagonal: with all vertices free, the six volumes are independent (each tet has an own edge
+// of the cube's boundary). A tet whose four corners are held is not a constraint.
 TEST(VolumeConstraints, RankOfACube)
 {
     const pbs::TetMesh cube = test_support::structured_bar({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
@@ -116,8 +118,9 @@ TEST(VolumeConstraints, EquilibriumKeepsEveryVolumeAndBalancesTheLoad)
     const VolumeConstraints volumes(bar, held);
     const double shear_pa = 2.0, penalty = 1e4;
     const Positions u = volumes.equilibrium(load, shear_pa);
-    // Its rounds end at |G u| <= 1e-9 |G u0|. The first solution u0 minimises u^T K u / 2 + penalty |G u|^2 / 2 - f . u with f = load /
-    // shear modulus, so that penalty |G u0|^2 is at most the work f . u0. Without the penalty the body is softer, and that work is larger.
+    // Its rounds end at |G u| <= 1e-9 |G u0|. The first solution u0 minimises u^T K u / 2 + penalty |G u|^2 / 2 - f . u
+    // with f = load / shear modulus, so that penalty |G u0|^2 is at most the work f . u0. Without the penalty the body
+    // is softer, and that work is larger.
     const double first = std::sqrt(work_without_constraints(bar, held, load) / shear_pa / penalty);
     // Each tet's change goes through six roundings of an entry of G, of a motion and of a product, and twelve of a sum.
     const auto [change, magnitude] = volume_change(bar, u);
@@ -127,7 +130,8 @@ TEST(VolumeConstraints, EquilibriumKeepsEveryVolumeAndBalancesTheLoad)
     EXPECT_EQ(volumes.equilibrium(load, 2.0 * shear_pa), 0.5 * u);
 }
 
-// Reference: linear algebra for one hanging particle; for a bar, the time stepper itself, which stays in the state of rest.
+// Reference: linear algebra for one hanging particle; for a bar, the time stepper itself, which stays in the state of
+// rest.
 
 using pbs::settle;
 
@@ -141,14 +145,16 @@ TEST(SettledState, OfAHangingParticleIsTheFixedPoint)
         const Vec3 expected = (Eigen::Matrix3d::Identity() - S).inverse() * S * acceleration;
         EXPECT_TRUE(state.converged);
         // The residual is required to be at most 1e-7 of the right-hand side.
-        const double of_residual = (Eigen::Matrix3d::Identity() - S).inverse().norm() * 1e-7 * (S * acceleration).norm();
+        const double of_residual =
+            (Eigen::Matrix3d::Identity() - S).inverse().norm() * 1e-7 * (S * acceleration).norm();
         EXPECT_LT((state.displacement.row(3).transpose() - expected).norm(), of_residual) << iterations;
         EXPECT_EQ(state.displacement.topRows(3), Positions::Zero(3, 3));
     }
 }
 
-// A bar held at one end, with stretch and volume constraints. A time step with gravity does not move it away from its state of rest: the
-// first step is S (x + a dt^2) = x. Only the second order may move it, a share of deflection over edge of the deflection.
+// A bar held at one end, with stretch and volume constraints. A time step with gravity does not move it away from its
+// state of rest: the first step is S (x + a dt^2) = x. Only the second order may move it, a share of deflection over
+// edge of the deflection.
 TEST(SettledState, OfABarIsWhereTheTimeStepperStays)
 {
     const pbs::TetMesh bar = test_support::structured_bar({0, 0, 0}, {1.0, 0.2, 0.2}, {10, 2, 2});
@@ -168,7 +174,8 @@ TEST(SettledState, OfABarIsWhereTheTimeStepperStays)
         stepping.order = pbs::Order::plain;  // the order of the settled state
         stepping.k_bind = 0.0;
         stepping.jiggle = pbs::Jiggle{options.k_stretch};
-        stepping.gravity_m_s2 = -deflection_m / (tip * dt_s * dt_s) * Vec3::UnitZ();  // the same deflection at any time step
+        // the same deflection at any time step
+        stepping.gravity_m_s2 = -deflection_m / (tip * dt_s * dt_s) * Vec3::UnitZ();
         pbs::PbsSolver solver(bar, Eigen::VectorXd::Zero(bar.rest.rows()), free, stepping, held);
         const Positions start = bar.rest + deflection_m / tip * state.displacement;
         for (int step = 0; step < 200; ++step) solver.advance(step == 0 ? start : bar.rest, bar.rest, dt_s);

@@ -1,7 +1,8 @@
-// Reference: linear algebra. One particle hangs from three held ones by the three edges of a tet, k_stretch on each: near rest the
-// iterations are a 3 x 3 matrix S (tests/support/hanging_tet.hpp), and Algorithm 1 is the recurrence
+// Reference: linear algebra. One particle hangs from three held ones by the three edges of a tet, k_stretch on each:
+// near rest the iterations are a 3 x 3 matrix S (tests/support/hanging_tet.hpp), and Algorithm 1 is the recurrence
 //   x(t+1) = S (2 x(t) - x(t-1) + g dt^2)
-// with the fixed point (I - S)^-1 S g dt^2. Tolerances: the neglected terms, of second order in displacement over length, and rounding.
+// with the fixed point (I - S)^-1 S g dt^2. Tolerances: the neglected terms, of second order in displacement over
+// length, and rounding.
 #include "pbs/solver/pbs_solver.hpp"
 #include "tests/support/hanging_tet.hpp"
 #include "tests/support/rounding_error.hpp"
@@ -29,18 +30,20 @@ pbs::PbsOptions options_of(int iterations)
     return options;
 }
 
-// The second-order error [m] of one step that begins at a displacement of that size [m]. The projection of an edge of length l neglects
-// k |u|^2 / l times (sin^2 / 2, sin cos) of the angle between u and the edge, of its length and of its direction, at most 1 / sqrt 3. The
-// matrix of a sweep over the three edges reduces u before and the error after. Each projection also rounds positions of the order of 1 m,
-// with four more roundings in a step.
+// The second-order error [m] of one step that begins at a displacement of that size [m]. The projection of an edge of
+// length l neglects k |u|^2 / l times (sin^2 / 2, sin cos) of the angle between u and the edge, of its length and of
+// its direction, at most 1 / sqrt 3. The matrix of a sweep over the three edges reduces u before and the error after.
+// Each projection also rounds positions of the order of 1 m, with four more roundings in a step.
 double step_error_m(int iterations, double predicted_m)
 {
     std::vector<double> reduced = {1.0};
     for (int i = 1; i < iterations; ++i) reduced.push_back(test_support::step_matrix(tet, i, k_stretch).norm());
     double shortest_m = 1e9, error_m = test_support::rounding_error(3 * iterations + 4, 1.0);
-    for (int other = 0; other < 3; ++other) shortest_m = std::min(shortest_m, (tet.mesh.rest.row(3) - tet.mesh.rest.row(other)).norm());
+    for (int other = 0; other < 3; ++other)
+        shortest_m = std::min(shortest_m, (tet.mesh.rest.row(3) - tet.mesh.rest.row(other)).norm());
     for (int i = 0; i < iterations; ++i)
-        error_m += std::sqrt(3.0) * k_stretch / shortest_m * reduced[iterations - 1 - i] * std::pow(reduced[i] * predicted_m, 2);
+        error_m += std::sqrt(3.0) * k_stretch / shortest_m * reduced[iterations - 1 - i] *
+                   std::pow(reduced[i] * predicted_m, 2);
     return error_m;
 }
 

@@ -1,7 +1,7 @@
-// A deformer that is a program: when it is called, with what, and what is made of its files. Reference: the specification in
-// experiments/deformers/external/README.md. The programs are shell scripts that copy files made here.
-// robustness/experiments/own_deformer.py compares the contents of the files with pbskin's own LBS, and has each way in which a program can
-// fail.
+// A deformer that is a program: when it is called, with what, and what is made of its files. Reference: the
+// specification in experiments/deformers/external/README.md. The programs are shell scripts that copy files made here.
+// robustness/experiments/own_deformer.py compares the contents of the files with pbskin's own LBS, and has each way in
+// which a program can fail.
 
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "tests/support/bar_character.hpp"
@@ -32,8 +32,9 @@ TEST_F(ExchangeFolder, DescribesTheCharacter)
     write_exchange(folder.path().string(), character, {3, pbs::Pose(2, Eigen::Isometry3d::Identity())}, 0.02);
     nlohmann::json facts;
     std::ifstream(folder / "character.json") >> facts;
-    const nlohmann::json bones = {{{"name", "upper"}, {"parent", -1}, {"head_m", {-1.0, 0.0, 0.0}}, {"tail_m", {0.0, 0.0, 0.0}}},
-                                  {{"name", "forearm"}, {"parent", 0}, {"head_m", {0.0, 0.0, 0.0}}, {"tail_m", {1.0, 0.0, 0.0}}}};
+    const nlohmann::json bones = {
+        {{"name", "upper"}, {"parent", -1}, {"head_m", {-1.0, 0.0, 0.0}}, {"tail_m", {0.0, 0.0, 0.0}}},
+        {{"name", "forearm"}, {"parent", 0}, {"head_m", {0.0, 0.0, 0.0}}, {"tail_m", {1.0, 0.0, 0.0}}}};
     const nlohmann::json expected = {{"schema", 1},   {"name", "bar"},       {"vertices", character.mesh.rest.rows()},
                                      {"poses", 3},    {"time_step_s", 0.02}, {"tets", character.mesh.tets.rows()},
                                      {"bones", bones}};
@@ -73,11 +74,12 @@ class ProgramDeformer : public ExchangeFolder {
 protected:
     ProgramDeformer()
     {
-        for (int i = 0; i < 3; ++i) poses.push_back(pbs::Pose(2, Eigen::Isometry3d(Eigen::Translation3d(0.25 * i, 0.0, 0.0))));
+        for (int i = 0; i < 3; ++i)
+            poses.push_back(pbs::Pose(2, Eigen::Isometry3d(Eigen::Translation3d(0.25 * i, 0.0, 0.0))));
     }
 
-    // A deformer called `mine` in scene.toml, whose program is `/bin/sh -c SCRIPT` with the scratch folder as $0 and the exchange folder as
-    // $1. It is at rest and knows its poses.
+    // A deformer called `mine` in scene.toml, whose program is `/bin/sh -c SCRIPT` with the scratch folder as $0 and
+    // the exchange folder as $1. It is at rest and knows its poses.
     std::unique_ptr<Deformer> deformer(const std::string& script, bool has_memory = false) const
     {
         auto made = make_program_deformer({.command = {"/bin/sh", "-c", script, folder.path().string()},
@@ -94,8 +96,10 @@ protected:
     {
         std::string bytes;
         for (std::size_t pose = 0; pose < count; ++pose) {
-            const pbs::Positions moved = character.mesh.rest.rowwise() + Eigen::RowVector3d(first + double(pose), 0.0, 0.0);
-            bytes.append(reinterpret_cast<const char*>(moved.data()), static_cast<std::size_t>(moved.size()) * sizeof(double));
+            const pbs::Positions moved =
+                character.mesh.rest.rowwise() + Eigen::RowVector3d(first + double(pose), 0.0, 0.0);
+            bytes.append(reinterpret_cast<const char*>(moved.data()),
+                         static_cast<std::size_t>(moved.size()) * sizeof(double));
         }
         folder.file("answer", bytes);
     }

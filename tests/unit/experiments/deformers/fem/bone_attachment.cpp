@@ -1,5 +1,5 @@
-// Reference: the definitions of the attachments (springs of density q E / r^2 over the capsule; whole tets, no vertex of two bones; bind
-// stiffness of density q E / R^2 over the flesh).
+// Reference: the definitions of the attachments (springs of density q E / r^2 over the capsule; whole tets, no vertex
+// of two bones; bind stiffness of density q E / R^2 over the flesh).
 
 #include "experiments/deformers/fem/bone_attachment.hpp"
 #include "pbs/character/character.hpp"
@@ -42,8 +42,8 @@ TEST(EmbeddedAttachment, SpringsAddUpToTheirDensityTimesTheCapsule)
     EXPECT_NEAR(sum, 1e3 * 2e5 * std::numbers::pi * 4.0 / 6.0, rounding_error(roundings, sum));
 }
 
-// Bound vertices are tied to their rest projections. A translation of norm below 4 is added to points of norm below 1.1, and the points are
-// taken away again.
+// Bound vertices are tied to their rest projections. A translation of norm below 4 is added to points of norm
+// below 1.1, and the points are taken away again.
 TEST(BoneAttachment, TargetsAreCarriedByTheirBones)
 {
     const auto character = bar_character({24, 2, 2});
@@ -58,15 +58,16 @@ TEST(BoneAttachment, TargetsAreCarriedByTheirBones)
         const std::vector<int>& bone = bound ? character.binding.bone : bones.spring_bone;
         ASSERT_GT(moved.rows(), 0);
         for (Eigen::Index s = 0; s < moved.rows(); ++s)
-            EXPECT_LT((moved.row(s) - (bone[s] == 1 ? Eigen::RowVector3d(1, 2, 3) : Eigen::RowVector3d(0, 0, 0))).norm(),
-                      rounding_error(2, 4.0 + 1.1));
+            EXPECT_LT(
+                (moved.row(s) - (bone[s] == 1 ? Eigen::RowVector3d(1, 2, 3) : Eigen::RowVector3d(0, 0, 0))).norm(),
+                rounding_error(2, 4.0 + 1.1));
         EXPECT_EQ(held.springs.rows(), bound ? 0 : moved.rows());
         EXPECT_EQ(held.vertices, character.mesh.rest);
     }
 }
 
-// Two bones at the same place claim the same vertices: the later one yields, and has no vertices left. A mesh that is too coarse for whole
-// tets is refused with the bone's name.
+// Two bones at the same place claim the same vertices: the later one yields, and has no vertices left. A mesh that is
+// too coarse for whole tets is refused with the bone's name.
 TEST(NodesAttachment, WholeTetsInsideTheCapsulesAndTheLaterBoneGivesWay)
 {
     auto character = bar_character({48, 8, 8});
@@ -95,26 +96,27 @@ TEST(BindAttachment, StiffnessAddsUpToItsDensityTimesTheFlesh)
             const double radius = bones.capsules[character.binding.bone[v]].radius_m;
             sum += bones.attachment.bind_stiffness(v) * radius * radius;
         }
-        // Eight roundings of a tet's volume, sums over at most 24 tets about a vertex and over the vertices, eight roundings of a
-        // stiffness.
+        // Eight roundings of a tet's volume, sums over at most 24 tets about a vertex and over the vertices, eight
+        // roundings of a stiffness.
         const double roundings = 8 + 24 + static_cast<double>(character.mesh.rest.rows()) + 8;
         EXPECT_NEAR(sum, 1e3 * 2e5 * 2.0 * 0.3 * 0.3, rounding_error(roundings, sum));
         EXPECT_EQ(bones.attachment.bind_distance, character.binding.distance);
     }
 }
 
-// Springs in tet 5 or outside. A vertex that springs of two bones share belongs to the stiffer ones; springs of less than half of the
-// density on the axis do not count.
+// Springs in tet 5 or outside. A vertex that springs of two bones share belongs to the stiffer ones; springs of less
+// than half of the density on the axis do not count.
 TEST(GrippingBones, AreThoseOfTheSpringsTetsWhereTheStifferOnesDecide)
 {
     const auto character = bar_character({24, 2, 2});
     const auto corners = character.mesh.tets.row(5);
-    const auto gripping = [&](const std::vector<int>& bone, const std::vector<double>& density, const std::vector<double>& stiffness,
-                              const std::vector<int>& tets) {
+    const auto gripping = [&](const std::vector<int>& bone, const std::vector<double>& density,
+                              const std::vector<double>& stiffness, const std::vector<int>& tets) {
         BoneAttachment springs;
         springs.spring_bone = bone;
         springs.spring_density = density;
-        springs.attachment.spring_stiffness = Eigen::VectorXd::Map(stiffness.data(), static_cast<Eigen::Index>(stiffness.size()));
+        springs.attachment.spring_stiffness =
+            Eigen::VectorXd::Map(stiffness.data(), static_cast<Eigen::Index>(stiffness.size()));
         springs.vertex_bone.assign(character.mesh.rest.rows(), -1);
         return gripping_bones(springs, character.mesh.tets, tets);
     };
@@ -125,17 +127,20 @@ TEST(GrippingBones, AreThoseOfTheSpringsTetsWhereTheStifferOnesDecide)
     for (const int v : corners) EXPECT_EQ(shared[v], 1);
 }
 
-// The integral of q E / r^2 (1 - (rho / r)^2)^2 across a bone is q E pi / 3; the steps of one radius at both ends take half a radius each.
-// The midpoint rule in rho^2 and along the axis is exact within h^2 / 8 times the integral of the second derivative (its Peano kernel). A
-// ring holds 24 of 193 points, less than 1/8; the difference outweighs that the point at the centre, 1/193, stands at the end of its share.
+// The integral of q E / r^2 (1 - (rho / r)^2)^2 across a bone is q E pi / 3; the steps of one radius at both ends take
+// half a radius each. The midpoint rule in rho^2 and along the axis is exact within h^2 / 8 times the integral of the
+// second derivative (its Peano kernel). A ring holds 24 of 193 points, less than 1/8; the difference outweighs that the
+// point at the centre, 1/193, stands at the end of its share.
 TEST(SmoothAttachment, SpringsAddUpToTheIntegralOfTheirDensityAndLieInTheCapsuleOfTheirBone)
 {
     for (const int samples : {1, 2}) {
-        const BoneAttachment bones = bone_attachment(bar_character({24, 2, 2}), {.young_pa = 2e5, .attachment_samples = samples});
+        const BoneAttachment bones =
+            bone_attachment(bar_character({24, 2, 2}), {.young_pa = 2e5, .attachment_samples = samples});
         const double length = 4.0 / 6.0, radius = bones.capsules[1].radius_m;
         const double exact = 10.0 * 2e5 * std::numbers::pi / 3.0 * (length - radius);
         const double station = length / (40 * samples), ring = 1.0 / (8 * samples);
-        const double along = station * station / 8.0 * (6.0 / radius) / (length - radius), across = ring * ring / 8.0 * 2.0 * 3.0;
+        const double along = station * station / 8.0 * (6.0 / radius) / (length - radius),
+                     across = ring * ring / 8.0 * 2.0 * 3.0;
         EXPECT_NEAR(stiffness_of_forearm(bones), exact, (along + across) * exact) << samples;
     }
     // Each spring lies in the capsule of its own bone and has the density that the kernel has there.
@@ -148,7 +153,8 @@ TEST(SmoothAttachment, SpringsAddUpToTheIntegralOfTheirDensityAndLieInTheCapsule
     }
 }
 
-// The attachment of the flesh is the same on a refined character. Reference: the continuous problem does not depend on the mesh.
+// The attachment of the flesh is the same on a refined character. Reference: the continuous problem does not depend on
+// the mesh.
 
 double volume_of(const pbs::TetMesh& mesh, const std::vector<int>& tets)
 {
@@ -158,8 +164,8 @@ double volume_of(const pbs::TetMesh& mesh, const std::vector<int>& tets)
     return volume;
 }
 
-// Skin vertices determine the radius. In the middle of edges and faces they are closer to the bone, so without the stored radii of the
-// character the capsules would shrink.
+// Skin vertices determine the radius. In the middle of edges and faces they are closer to the bone, so without the
+// stored radii of the character the capsules would shrink.
 TEST(RefinedAttachment, HasTheSameCapsulesAndSprings)
 {
     const pbs::Character coarse = bar_character({24, 2, 2});
@@ -192,13 +198,14 @@ TEST(RefinedNodes, HoldTheSameFlesh)
         const BoneAttachment after = bone_attachment(fine, by_nodes);
         ASSERT_EQ(after.tet_bone.size(), after.attachment.prescribed_tets.size());
         const double volume = volume_of(coarse.mesh, before.attachment.prescribed_tets);
-        // A volume goes through eight roundings of products of edges, and a coordinate of at most 1 m is rounded once, over a cell of 2 m /
-        // 48 in each direction. Then both volumes are sums.
+        // A volume goes through eight roundings of products of edges, and a coordinate of at most 1 m is rounded once,
+        // over a cell of 2 m / 48 in each direction. Then both volumes are sums.
         const double roundings = 2 * (8 + 3 * 24) + static_cast<double>(before.tet_bone.size() + after.tet_bone.size());
         EXPECT_NEAR(volume_of(fine.mesh, after.attachment.prescribed_tets), volume, rounding_error(roundings, volume));
         EXPECT_TRUE(std::equal(before.vertex_bone.begin(), before.vertex_bone.end(), after.vertex_bone.begin()));
         for (std::size_t k = 0; k < after.tet_bone.size(); ++k)
-            for (const int v : fine.mesh.tets.row(after.attachment.prescribed_tets[k])) EXPECT_EQ(after.vertex_bone[v], after.tet_bone[k]);
+            for (const int v : fine.mesh.tets.row(after.attachment.prescribed_tets[k]))
+                EXPECT_EQ(after.vertex_bone[v], after.tet_bone[k]);
     }
 }
 

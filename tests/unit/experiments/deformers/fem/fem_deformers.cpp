@@ -1,5 +1,6 @@
-// How the deformer reaches frames, and what it reports of those that it does not reach. The verification tests show that it deforms
-// correctly. Tolerances between two solutions for one pose: newton_error_m, the error that Newton's method leaves, for each of them.
+// How the deformer reaches frames, and what it reports of those that it does not reach. The verification tests show
+// that it deforms correctly. Tolerances between two solutions for one pose: newton_error_m, the error that Newton's
+// method leaves, for each of them.
 
 #include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
@@ -29,7 +30,10 @@ const pbs::Character& bar()
 // A deformer that has been reset.
 template <typename Fem>
 struct On : Fem {
-    explicit On(const FemOptions& options, const pbs::Character& character = bar()) : Fem(options) { this->reset(character); }
+    explicit On(const FemOptions& options, const pbs::Character& character = bar()) : Fem(options)
+    {
+        this->reset(character);
+    }
     Outcome at(const pbs::Pose& pose, double dt_s = 0.01) { return this->advance(pose, dt_s).outcome; }
     // The record of the first frame that was not reached.
     nlohmann::json failure() const { return this->record()["newton"]["not_converged"][0]; }
@@ -44,8 +48,8 @@ pbs::Pose not_a_number()
     return broken;
 }
 
-// The forearm is pushed 0.7 m into the upper arm: the flesh between the facing ends of the capsules, 1/3 m long, would have to invert,
-// which a law that is infinite at det F <= 0 prevents.
+// The forearm is pushed 0.7 m into the upper arm: the flesh between the facing ends of the capsules, 1/3 m long, would
+// have to invert, which a law that is infinite at det F <= 0 prevents.
 pbs::Pose crushed()
 {
     pbs::Pose pose = turned(0.0);
@@ -61,7 +65,9 @@ TEST(ElasticFemDeformer, RecordsModelGripAndNewton)
     EXPECT_EQ(fem.positions(), bar().mesh.rest);
     EXPECT_EQ(fem.at(turned(20.0)), Outcome::finished);
     const nlohmann::json record = fem.record();
-    expect_facts(record, R"({"model": "stable_neo_hookean", "formulation": "displacement", "dynamics": "quasi_static", "frames": 2,
+    expect_facts(
+        record,
+        R"({"model": "stable_neo_hookean", "formulation": "displacement", "dynamics": "quasi_static", "frames": 2,
                              "newton": {"frames_not_converged": 0}})");
     EXPECT_FALSE(record.contains("fictitious_strain")) << "the law is objective";
     EXPECT_GT(record["newton"]["newton_steps"]["most"].get<int>(), 0);
@@ -78,7 +84,8 @@ TEST(FemDeformer, ABoneOutsideTheFleshMovesNothingAndIsOnRecord)
     const FemOptions linear{.model = Model::linear, .element_order = 1};
     EXPECT_EQ(deformed(character, linear, {pose}), deformed(bar(), linear, {turned(20.0)}));
     const pbs::Positions expected = deformed(bar(), coarse, {turned(20.0)});
-    EXPECT_LT(largest_distance(deformed(character, coarse, {pose}), expected), 2.0 * newton_error_m(bar(), coarse, turned(20.0), expected));
+    EXPECT_LT(largest_distance(deformed(character, coarse, {pose}), expected),
+              2.0 * newton_error_m(bar(), coarse, turned(20.0), expected));
     const nlohmann::json grips = ElasticBar(coarse, character).record()["attachment"]["bones"];
     EXPECT_EQ(grips[2]["bone"], "ground");
     EXPECT_EQ(grips[2]["tets_gripped"], 0);
@@ -115,15 +122,18 @@ TEST(ElasticFemDeformer, WithContactAFoldDoesNotOverlapItself)
     }
 }
 
-// Reference: the corners' own positions, of which the middle of a tet of order 1 and the reflection of a corner in another are sums.
+// Reference: the corners' own positions, of which the middle of a tet of order 1 and the reflection of a corner in
+// another are sums.
 TEST(ElasticFemDeformer, MovesPlacesInItsTetsAndBeyond)
 {
     ElasticBar fem(coarse);
     ASSERT_EQ(fem.at(turned(60.0)), Outcome::finished);
     const pbs::Positions& x = fem.positions();
     const auto corners = bar().mesh.tets.row(3);
-    const pbs::Positions moved = fem.facts()->moved({{3, {0.0, 0.0, 0.0}}, {3, {0.25, 0.25, 0.25}}, {3, {2.0, 0.0, 0.0}}});
-    const double rounding = rounding_error(20, 2.0);  // of sums of four coordinates up to 2 m, which the root's frame turns
+    const pbs::Positions moved =
+        fem.facts()->moved({{3, {0.0, 0.0, 0.0}}, {3, {0.25, 0.25, 0.25}}, {3, {2.0, 0.0, 0.0}}});
+    // of sums of four coordinates up to 2 m, which the root's frame turns
+    const double rounding = rounding_error(20, 2.0);
     EXPECT_LT((moved.row(0) - x.row(corners(0))).norm(), rounding);
     EXPECT_LT((moved.row(1) - x(corners, Eigen::all).colwise().mean()).norm(), rounding);
     EXPECT_LT((moved.row(2) - (2.0 * x.row(corners(1)) - x.row(corners(0)))).norm(), rounding);
@@ -158,7 +168,10 @@ struct TwoWays {
     {
         for (ElasticBar* fem : {&along_the_way, &nested}) EXPECT_EQ(fem->at(pose), expected);
     }
-    static int steps(const ElasticFemDeformer& fem) { return fem.record()["newton"]["newton_steps"]["most"].get<int>(); }
+    static int steps(const ElasticFemDeformer& fem)
+    {
+        return fem.record()["newton"]["newton_steps"]["most"].get<int>();
+    }
     double difference_m() const { return largest_distance(along_the_way.positions(), nested.positions()); }
 
     ElasticBar along_the_way, nested;
@@ -167,14 +180,16 @@ struct TwoWays {
 // Reference: an equilibrium does not depend on the path to it, nor on the solution on coarser tets at which it begins.
 TEST(ElasticFemDeformer, ANestedStartLeadsToTheSameSolutionInFewerSteps)
 {
-    const FemOptions quadratic{
-        .model = Model::stable_neo_hookean, .element_order = 2, .formulation = reference_fem::Formulation::mean_dilatation};
+    const FemOptions quadratic{.model = Model::stable_neo_hookean,
+                               .element_order = 2,
+                               .formulation = reference_fem::Formulation::mean_dilatation};
     const pbs::Character fine = pbs::refined(bar());
     for (const auto& [character, options] : {std::pair(&bar(), quadratic), {&fine, coarse}}) {
         const TwoWays ways(*character, options, turned(75.0), Outcome::finished);
         const double error_m = newton_error_m(*character, options, turned(75.0), ways.nested.positions());
         EXPECT_LT(ways.difference_m(), 2.0 * error_m);
-        EXPECT_LT(error_m, options.element_order == 2 ? 1e-6 : 1e-3) << "a bound that would let another shape of the bar pass";
+        EXPECT_LT(error_m, options.element_order == 2 ? 1e-6 : 1e-3)
+            << "a bound that would let another shape of the bar pass";
         EXPECT_LT(ways.steps(ways.nested), ways.steps(ways.along_the_way));
     }
 }
@@ -186,8 +201,9 @@ TEST(ElasticFemDeformer, WhereOrder1DoesNotArriveANestedStartGoesTheWayItself)
     EXPECT_EQ(ways.along_the_way.positions(), ways.nested.positions());
 }
 
-// Order 1 may take four times the steps, which suffice for this pose. Reference: Newton's method alone from the same initial guess, which
-// keeps its last iterate. The first step does not reduce the residual to a tenth, so that neither solve uses a factor again.
+// Order 1 may take four times the steps, which suffice for this pose. Reference: Newton's method alone from the same
+// initial guess, which keeps its last iterate. The first step does not reduce the residual to a tenth, so that neither
+// solve uses a factor again.
 TEST(ElasticFemDeformer, AfterANestedStartThatFailsTheRecordIsOfTheLastNewtonState)
 {
     const FemOptions options{.model = Model::neo_hookean, .element_order = 2, .most_newton_steps = 2};
@@ -235,7 +251,8 @@ TEST(ElasticFemDeformer, AFrameThatIsNotReachedIsReportedAndTheNextSetsOutFromTh
     EXPECT_GT(largest_distance(fem.positions(), bar().mesh.rest), 0.01);
 
     EXPECT_EQ(fem.at(turned(0.0)), Outcome::finished);
-    EXPECT_LT(largest_distance(fem.positions(), bar().mesh.rest), newton_error_m(bar(), options, turned(0.0), bar().mesh.rest));
+    EXPECT_LT(largest_distance(fem.positions(), bar().mesh.rest),
+              newton_error_m(bar(), options, turned(0.0), bar().mesh.rest));
 }
 
 TEST(ElasticFemDeformer, TheSecondFailureInARowIsTriedAgainFromRestOnce)
@@ -261,8 +278,9 @@ TEST(ElasticFemDeformer, StartedFromItsEquilibriumItStaysThere)
     EXPECT_LE(largest_distance(fem.positions(), equilibrium), frame_rounding_m(equilibrium));
 }
 
-// From an inverted state, stable neo-Hookean flesh returns, whatever was requested before. A law that is infinite there cannot start: the
-// initial guess is the last iterate, the next frame fails from it, and after the second failure the deformer starts from rest.
+// From an inverted state, stable neo-Hookean flesh returns, whatever was requested before. A law that is infinite there
+// cannot start: the initial guess is the last iterate, the next frame fails from it, and after the second failure the
+// deformer starts from rest.
 TEST(ElasticFemDeformer, ABrokenStartIsTakenAsItIs)
 {
     const pbs::Pose pose = turned(40.0);
@@ -272,7 +290,8 @@ TEST(ElasticFemDeformer, ABrokenStartIsTakenAsItIs)
     const pbs::Positions equilibrium = stable.positions();
     stable.start_from(mirrored);
     EXPECT_GT(stable.advance(pose, 0.0).iterations, 1);
-    EXPECT_LT(largest_distance(stable.positions(), equilibrium), 2.0 * newton_error_m(bar(), coarse, pose, equilibrium));
+    EXPECT_LT(largest_distance(stable.positions(), equilibrium),
+              2.0 * newton_error_m(bar(), coarse, pose, equilibrium));
 
     ElasticBar fem(without_contact({.model = Model::neo_hookean, .element_order = 1}));
     fem.start_from(mirrored);
@@ -331,9 +350,9 @@ protected:
     FemOptions options = coarse;
 };
 
-// The first pose is taken at rest in equilibrium under gravity, so nothing moves after it. A force that is as large as Newton's residual,
-// and suddenly applied, moves a vibrating body by at most twice the static displacement. There are two such forces: what the solution for
-// the equilibrium leaves, and what the time steps leave.
+// The first pose is taken at rest in equilibrium under gravity, so nothing moves after it. A force that is as large as
+// Newton's residual, and suddenly applied, moves a vibrating body by at most twice the static displacement. There are
+// two such forces: what the solution for the equilibrium leaves, and what the time steps leave.
 TEST_P(InTime, StartsInEquilibriumAndStaysThere)
 {
     ElasticBar fem(options);
@@ -371,7 +390,8 @@ TEST(LinearFemDeformer, BarHasTheConditionNumberThatOthersRelyOn)
 {
     const auto character = bar_character({12, 3, 3});
     const FemOptions options{.element_order = 2};
-    const auto spectrum = spectrum_of(character.mesh, linear_options(options), bone_attachment(character, options).attachment);
+    const auto spectrum =
+        spectrum_of(character.mesh, linear_options(options), bone_attachment(character, options).attachment);
     EXPECT_LT(spectrum.condition(), quadratic_bar_condition);
 }
 
@@ -381,14 +401,15 @@ TEST(LinearFemDeformer, RecordsWhatIsGrippedOfEachBone)
     LinearBar fem(linear_tets, fine_bar());
     for (const double angle_deg : {10.0, 5.0}) fem.at(turned(angle_deg));
     const nlohmann::json record = fem.record();
-    expect_facts(record, R"({"frames": 2, "attachment": {"bones": [{"samples": 7720, "inside": 7720, "shared_vertices": 0},
+    expect_facts(record,
+                 R"({"frames": 2, "attachment": {"bones": [{"samples": 7720, "inside": 7720, "shared_vertices": 0},
                                                                    {"samples": 7720, "inside": 7720, "shared_vertices": 0}]}})");
     // The angle is that of a quaternion of norm one, some twenty roundings after the angle of the pose.
     const double degree = std::acos(-1.0) / 180.0, rounding = rounding_error(20, 1.0);
     EXPECT_NEAR(record["largest_rotation_deg"].get<double>(), 10.0, rounding / degree);
     EXPECT_NEAR(record["fictitious_strain"].get<double>(), 1.0 - std::cos(10.0 * degree), rounding);
-    // |r| <= sqrt(n) eps |K| |u| (reference_fem/verification/problems.hpp). The stiffest entries of K are those of the springs, which
-    // are also the load, so that |K| |u| is at most 100 |f|.
+    // |r| <= sqrt(n) eps |K| |u| (reference_fem/verification/problems.hpp). The stiffest entries of K are those of the
+    // springs, which are also the load, so that |K| |u| is at most 100 |f|.
     const double unknowns = 3.0 * static_cast<double>(fine_bar().mesh.rest.rows());
     EXPECT_LT(record["largest_residual"].get<double>(), rounding_error(2.0 * std::sqrt(unknowns), 100.0));
     EXPECT_EQ(record["setup"]["dofs"], 3 * fine_bar().mesh.rest.rows());
@@ -426,7 +447,8 @@ NewtonSummary newton(NewtonOutcome outcome, int steps, int projected)
 {
     NewtonSummary summary;
     summary.outcome = outcome;
-    for (int k = 0; k < steps; ++k) summary.iterations.push_back({.residual_n = 10.0 - k, .step_length = 1.0, .projected = k < projected});
+    for (int k = 0; k < steps; ++k)
+        summary.iterations.push_back({.residual_n = 10.0 - k, .step_length = 1.0, .projected = k < projected});
     summary.factorisations = steps + projected;
     return summary;
 }
@@ -443,10 +465,13 @@ TEST(NewtonRecord, AddsUpWhatFramesCost)
     NewtonRecord record(1.0);
     record.add_frame({{path(1.0, {{1.0, newton(NewtonOutcome::converged, 4, 0)}})}, 1.0, false}, sound);
     record.add_frame(
-        {{path(1.0, {{1.0, newton(NewtonOutcome::no_descent, 5, 2)}, {0.5, newton(NewtonOutcome::converged, 3, 0)}})}, 1.0, false},
+        {{path(1.0, {{1.0, newton(NewtonOutcome::no_descent, 5, 2)}, {0.5, newton(NewtonOutcome::converged, 3, 0)}})},
+         1.0,
+         false},
         {0.5, 7, 0, 1.01});
     const nlohmann::json json = record.to_json();
-    expect_facts(json, R"({"newton_steps": {"mean": 6, "most": 8}, "factorisations": 14, "projected_hessians": 2, "halvings": 1,
+    expect_facts(
+        json, R"({"newton_steps": {"mean": 6, "most": 8}, "factorisations": 14, "projected_hessians": 2, "halvings": 1,
                            "lowest_det_f": 0.5, "solve_s": {"mean": 2}, "frames_not_converged": 0})");
     // 0.98 and 1.01 are not binary numbers: a rounding of one, times a hundred, and one of the product.
     EXPECT_NEAR(json["volume_change_pct"]["lowest"].get<double>(), -2.0, 100.0 * rounding_error(2, 1.0));
@@ -458,7 +483,9 @@ TEST(NewtonRecord, AFrameThatIsNotReachedIsNamedWithItsReason)
     NewtonRecord record(1.0);
     record.add_frame({{path(1.0, {{1.0, newton(NewtonOutcome::converged, 1, 0)}})}, 1.0, false}, sound);
     record.add_frame(
-        {{path(0.25, {{0.25, newton(NewtonOutcome::converged, 1, 0)}, {0.5, newton(NewtonOutcome::no_descent, 3, 3)}})}, 0.25, true},
+        {{path(0.25, {{0.25, newton(NewtonOutcome::converged, 1, 0)}, {0.5, newton(NewtonOutcome::no_descent, 3, 3)}})},
+         0.25,
+         true},
         {-0.4, 17, 2, 0.5});
     // lowest_det_f: of frames that converged
     expect_facts(record.to_json(), R"({"restarts_from_rest": 1, "lowest_det_f": 0.9,

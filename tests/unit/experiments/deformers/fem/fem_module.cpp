@@ -1,4 +1,5 @@
-// The module as the program uses it: loaded at run time, with errors thrown inside and caught outside. This test itself links no deal.II.
+// The module as the program uses it: loaded at run time, with errors thrown inside and caught outside. This test itself
+// links no deal.II.
 #include "experiments/deformers/fem/fem_options.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -33,7 +34,8 @@ pbs::Pose turned()
 bool is_loaded(const char* library)
 {
     const auto has_name = [](dl_phdr_info* info, std::size_t, void* name) {
-        return static_cast<int>(std::string_view(info->dlpi_name).find(static_cast<const char*>(name)) != std::string_view::npos);
+        return static_cast<int>(std::string_view(info->dlpi_name).find(static_cast<const char*>(name)) !=
+                                std::string_view::npos);
     };
     return dl_iterate_phdr(has_name, const_cast<char*>(library)) != 0;
 }
@@ -49,11 +51,12 @@ TEST(FemModule, BringsDealIIOnlyWhenItIsAskedFor)
     EXPECT_EQ(fem->advance(rest, 0.01).outcome, pbs::Outcome::finished);
     EXPECT_EQ(fem->positions(), character.mesh.rest);
     EXPECT_NE(fem->record()["setup"]["blas"].get<std::string>().find("blas"), std::string::npos);
-    EXPECT_THROW(make_fem({.element_order = 7})->reset(character), pbs::InputError) << "input errors are caught outside";
+    EXPECT_THROW(make_fem({.element_order = 7})->reset(character), pbs::InputError)
+        << "input errors are caught outside";
 }
 
-// MPI starts with the first multigrid hierarchy and ends with the program. The iteration ends with a residual of 1e-10, so that |error| <=
-// cond(K) 1e-10 |u|, u the displacements of vertices and of as many nodes as there are edges.
+// MPI starts with the first multigrid hierarchy and ends with the program. The iteration ends with a residual of 1e-10,
+// so that |error| <= cond(K) 1e-10 |u|, u the displacements of vertices and of as many nodes as there are edges.
 TEST(FemModule, ConjugateGradientsRunInsideIt)
 {
     const auto character = test_support::bar_character({12, 3, 3});
@@ -63,20 +66,24 @@ TEST(FemModule, ConjugateGradientsRunInsideIt)
         fem->reset(character);
         EXPECT_EQ(fem->advance(turned(), 0.01).outcome, pbs::Outcome::finished);
     }
-    const double edges = static_cast<double>(pbs::edges_of(character.mesh.tets).rows()), vertices = character.mesh.rest.rows();
+    const double edges = static_cast<double>(pbs::edges_of(character.mesh.tets).rows()),
+                 vertices = character.mesh.rest.rows();
     const double size_m = (direct->positions() - character.mesh.rest).norm() * std::sqrt(1.0 + edges / vertices);
-    EXPECT_LT((iterative->positions() - direct->positions()).norm(), test_support::quadratic_bar_condition * 1e-10 * size_m);
+    EXPECT_LT((iterative->positions() - direct->positions()).norm(),
+              test_support::quadratic_bar_condition * 1e-10 * size_m);
     EXPECT_GT(iterative->record()["most_iterations"].get<int>(), 0);
     EXPECT_FALSE(direct->record().contains("most_iterations"));
 }
 
-// At nu = 0.3 nothing locks, and the formulations differ by their discretisation errors: a few percent of the motion on these tets.
+// At nu = 0.3 nothing locks, and the formulations differ by their discretisation errors: a few percent of the motion on
+// these tets.
 TEST(FemModule, EveryFormulationOfTheLinearModelKeepsItsFactor)
 {
     const auto character = test_support::bar_character({24, 4, 4});
     pbs::Positions of_displacement;
     for (const auto formulation :
-         {reference_fem::Formulation::displacement, reference_fem::Formulation::mean_dilatation, reference_fem::Formulation::taylor_hood}) {
+         {reference_fem::Formulation::displacement, reference_fem::Formulation::mean_dilatation,
+          reference_fem::Formulation::taylor_hood}) {
         const auto fem = make_fem({.formulation = formulation, .poisson = 0.3});
         fem->reset(character);
         EXPECT_EQ(fem->advance(turned(), 0.01).outcome, pbs::Outcome::finished);

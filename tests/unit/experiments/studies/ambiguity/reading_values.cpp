@@ -1,4 +1,5 @@
-// What the studies measure of readings. Reference: the studies' own functions, called directly, and what a reading cannot change.
+// What the studies measure of readings. Reference: the studies' own functions, called directly, and what a reading
+// cannot change.
 
 #include "analysis/verdicts/measurement.hpp"
 #include "experiments/scene/scene.hpp"
@@ -23,7 +24,8 @@ const nlohmann::json bent_limb = {{"name", "limb_bend"},  {"quick_s", 1.0},
                                   {"frame", 18},          {"iterations", 60},
                                   {"jolt_steps", 60},     {"along", {1.0, 0.0, 0.0}}};
 
-std::vector<ReadingValues> read(const std::string& study, const std::vector<Overrides>& readings, const nlohmann::json& of = bent_limb)
+std::vector<ReadingValues> read(const std::string& study, const std::vector<Overrides>& readings,
+                                const nlohmann::json& of = bent_limb)
 {
     return std::ranges::find(studies(), study, &Study::name)->read(StudyCase("ambiguity", of, false), readings);
 }
@@ -58,8 +60,9 @@ TEST(ReadingValues, OfProjectionsAreTheMomentumStudysDrifts)
     const auto all = read("momentum", {{}, {"pbs.masses=lumped"}});
     const Scene scene = read_scene("limb_bend", {"character.vertices=400"});
     const PosedCharacter posed(scene, {18});
-    const auto drift = drift_of_projections(posed.character(), posed.pose(0), options_of<pbs::PbsOptions>(spec_of(scene, "pbs")),
-                                            ProjectedClass::stretch, pbs::Masses::unit);
+    const auto drift =
+        drift_of_projections(posed.character(), posed.pose(0), options_of<pbs::PbsOptions>(spec_of(scene, "pbs")),
+                             ProjectedClass::stretch, pbs::Masses::unit);
     EXPECT_EQ(value(all[0], "linear_drift").value, drift.linear);
     EXPECT_EQ(value(all[0], "angular_drift").value, drift.angular);
     EXPECT_NE(value(all[1], "linear_drift_of_a_pass").value, value(all[0], "linear_drift_of_a_pass").value);
@@ -67,15 +70,16 @@ TEST(ReadingValues, OfProjectionsAreTheMomentumStudysDrifts)
     EXPECT_LE(value(all[1], "linear_drift").value, claim_named("C07").own.thresholds.at(1).high);
 }
 
-// In Algorithm 1 the next position depends on the last two alone, whatever the step, so half the step swings twice as fast, exactly. In the
-// last reading LBS moves the flesh by the jolt beforehand, and a body that moves as a whole violates no constraint.
+// In Algorithm 1 the next position depends on the last two alone, whatever the step, so half the step swings twice as
+// fast, exactly. In the last reading LBS moves the flesh by the jolt beforehand, and a body that moves as a whole
+// violates no constraint.
 TEST(ReadingValues, OfJoltsHaveTheSameDampingInSubstepsAndNoSwingWhereTheFleshIsCarriedAlong)
 {
     const auto all = read("jiggle", {{}, {"pbs.time_step_s=0.005"}, {"pbs.variant.lbs_entry=increment"}});
     EXPECT_EQ(value(all[0], "frequency_ratio_at_half_time_step").value, 2.0);
-    // The series is the same one with twice the samples. The fit uses those until 2 % of the largest excursion remain, so that the later
-    // ones change the value at rest, and by it the ratio, by less than 2 %. Frequencies or decays by another step's time would double or
-    // halve it.
+    // The series is the same one with twice the samples. The fit uses those until 2 % of the largest excursion remain,
+    // so that the later ones change the value at rest, and by it the ratio, by less than 2 %. Frequencies or decays by
+    // another step's time would double or halve it.
     const double ratio = value(all[0], "damping_ratio").value;
     EXPECT_NEAR(value(all[1], "damping_ratio").value, ratio, 0.02 * ratio);
     EXPECT_EQ(number_of(all[0], "damping_ratio"), 4);  // one per setting
@@ -87,18 +91,21 @@ TEST(ReadingValues, OfJoltsHaveTheSameDampingInSubstepsAndNoSwingWhereTheFleshIs
         EXPECT_EQ(number_of(all[0], quantity), 1) << quantity;
 }
 
-// C04 has the smallest radius per pose and joint, and that of the reference, by which it is divided. A shape that is not finite has none.
+// C04 has the smallest radius per pose and joint, and that of the reference, by which it is divided. A shape that is
+// not finite has none.
 TEST(ReadingValues, OfSectionsAreOnePerPoseBesideTheReferenceUnlessTheReadingBreaksDown)
 {
-    const nlohmann::json twisted = {{"name", "limb_twist"},
-                                    {"quick_s", 1.0},
-                                    {"scene", "limb_twist"},
-                                    {"what", "twist"},
-                                    {"step_deg", 45},
-                                    {"poses", 2},
-                                    {"overrides", {"character.vertices=400", R"(deformers.use=["lbs","pbs"])", "reference.name=lbs"}}};
-    const auto all =
-        read("artefacts", {{}, {"skinning.weights=either_end"}, {"pbs.jiggle.k_stretch=0.1", "pbs.gravity_m_s2=[0,-1e308,0]"}}, twisted);
+    const nlohmann::json twisted = {
+        {"name", "limb_twist"},
+        {"quick_s", 1.0},
+        {"scene", "limb_twist"},
+        {"what", "twist"},
+        {"step_deg", 45},
+        {"poses", 2},
+        {"overrides", {"character.vertices=400", R"(deformers.use=["lbs","pbs"])", "reference.name=lbs"}}};
+    const auto all = read(
+        "artefacts",
+        {{}, {"skinning.weights=either_end"}, {"pbs.jiggle.k_stretch=0.1", "pbs.gravity_m_s2=[0,-1e308,0]"}}, twisted);
     for (const int i : {0, 1}) EXPECT_EQ(all[i].values.size(), 4u);
     for (int i = 0; i < 4; ++i) {
         const analysis::Measurement &own = all[0].values.at(i), &other = all[1].values.at(i);

@@ -1,5 +1,5 @@
-// Reference: the description in readings.hpp, and how each claim's values are measured, with invented values; for scenes that move, the
-// solver, LBS and the metrics, called directly, and the claims' own rules.
+// Reference: the description in readings.hpp, and how each claim's values are measured, with invented values; for
+// scenes that move, the solver, LBS and the metrics, called directly, and the claims' own rules.
 
 #include "experiments/studies/ambiguity/readings.hpp"
 
@@ -35,8 +35,9 @@ std::vector<ClaimChange> compared(const JudgedReading& a, const JudgedReading& b
 // A value that B lacks because it breaks down does not hold.
 TEST(ClaimChanges, StateWhetherTheVerdictFlipsOrWhyThereIsNoValue)
 {
-    const std::vector<JudgedValue> none, holds = {value(0.5, true)}, holds_too = {value(0.6, true)}, fails = {value(2.0, false)},
-                                         zero = {value(0.0, false)}, bounded = {value(1.25, false, analysis::Limit::at_least)},
+    const std::vector<JudgedValue> none, holds = {value(0.5, true)}, holds_too = {value(0.6, true)},
+                                         fails = {value(2.0, false)}, zero = {value(0.0, false)},
+                                         bounded = {value(1.25, false, analysis::Limit::at_least)},
                                          unknown = {value(std::numeric_limits<double>::quiet_NaN(), false)};
     struct Row {
         const char* name;
@@ -69,7 +70,8 @@ TEST(ClaimChanges, StateWhetherTheVerdictFlipsOrWhyThereIsNoValue)
 
 TEST(ClaimChanges, OfAQuantityThatIsLeftOutHaveARowWithTheReason)
 {
-    const JudgedReading measured = {{value(0.5, true)}, false, {{"C09a", "share", "four settings"}, {"C12a", "other", "why"}}};
+    const JudgedReading measured = {
+        {value(0.5, true)}, false, {{"C09a", "share", "four settings"}, {"C12a", "other", "why"}}};
     const auto table = compared(measured, measured);
     ASSERT_EQ(table.size(), 2u);
     EXPECT_EQ(table.at(0).verdict_flips, "no");
@@ -99,8 +101,8 @@ TEST(ClaimChanges, HoldBothValuesOfEachCase)
 TEST(JudgedValue, IsTheUnitOfAClaimInAnySettingWithItsLimit)
 {
     const analysis::CaseKey jolted = {.body = "limb", .deformer = "pbs", .masses = "lumped"};
-    const auto values =
-        judged({{"C09", "damping_ratio", jolted, 0.5, 0.5, 0.5, "1"}, {"C09", "frequency_hz", jolted, 14.0, 14.0, 14.0, "Hz"}});
+    const auto values = judged({{"C09", "damping_ratio", jolted, 0.5, 0.5, 0.5, "1"},
+                                {"C09", "frequency_hz", jolted, 14.0, 14.0, 14.0, "Hz"}});
     ASSERT_EQ(values.size(), 1u);
     EXPECT_EQ(values[0].claim, "C09a");
     EXPECT_EQ(values[0].quantity, "damping_ratio");
@@ -109,7 +111,8 @@ TEST(JudgedValue, IsTheUnitOfAClaimInAnySettingWithItsLimit)
 
     const analysis::CaseKey of = {
         .body = "limb", .order = "ordered", .precision = "f32", .initial_guess = "rigid_bind", .tolerance = "residual"};
-    const auto bounded = judged({{"C03", "iterations_over_lbs_guess", of, 30.0, 30.0, 30.0, "1", "", analysis::Limit::at_least}});
+    const auto bounded =
+        judged({{"C03", "iterations_over_lbs_guess", of, 30.0, 30.0, 30.0, "1", "", analysis::Limit::at_least}});
     ASSERT_EQ(bounded.size(), 1u);
     EXPECT_EQ(bounded[0].of.body, "limb");
     EXPECT_EQ(bounded[0].limit, analysis::Limit::at_least);
@@ -149,7 +152,8 @@ std::vector<Reading> readings()
     const auto with = [](const std::string& place, const std::string& name, const nlohmann::json& settings) {
         return Reading{.place = place, .name = name, .baseline = "own", .settings = settings};
     };
-    return {with("", "own", {{"masses", "unit"}, {"k_volume", 1.0}}), with("a place", "lumped", {{"masses", "lumped"}, {"k_volume", 1.0}}),
+    return {with("", "own", {{"masses", "unit"}, {"k_volume", 1.0}}),
+            with("a place", "lumped", {{"masses", "lumped"}, {"k_volume", 1.0}}),
             with("a place", "softer", {{"masses", "unit"}, {"k_volume", 0.5}})};
 }
 
@@ -186,8 +190,10 @@ TEST(ReadingComparison, SaysWhichReadingBreaksDown)
 
 // A reading belongs to a place and differs from its baseline, which comes before it.
 
-const StudyCase limb("ambiguity",
-                     {{"name", "limb"}, {"quick_s", 1.0}, {"scene", "limb_bend"}, {"overrides", {"pbs.gravity_m_s2=[0,-9.81,0]"}}}, false);
+const StudyCase limb(
+    "ambiguity",
+    {{"name", "limb"}, {"quick_s", 1.0}, {"scene", "limb_bend"}, {"overrides", {"pbs.gravity_m_s2=[0,-9.81,0]"}}},
+    false);
 
 const Reading& named(const std::vector<Reading>& all, const std::string& name)
 {
@@ -212,7 +218,8 @@ TEST(Readings, DifferFromTheirBaselineWhichComesBeforeAndThoseOfAStepRememberNot
             }
         }
     }
-    EXPECT_EQ(readings_of(limb, "all").size() + 1, readings_of(limb, "of_a_step").size() + readings_of(limb, "of_motion").size());
+    EXPECT_EQ(readings_of(limb, "all").size() + 1,
+              readings_of(limb, "of_a_step").size() + readings_of(limb, "of_motion").size());
     for (const Reading& reading : readings_of(limb, "of_a_step")) {
         EXPECT_FALSE(reading.jiggles()) << reading.name;
         EXPECT_EQ(reading.settings.at("lbs_entry"), "start") << reading.name;
@@ -243,7 +250,9 @@ TEST(Untouched, IsAClaimWhoseValuesAReadingCannotChange)
                         {"k_bind_0_in_zone", {"C09a", "C10a"}, {}}};
     for (const auto& [name, touched, untouched] : rows) {
         const Reading& reading = named(readings, name);
-        const auto reason = [&](const std::string& claim) { return untouched_because(claim, reading, named(readings, reading.baseline)); };
+        const auto reason = [&](const std::string& claim) {
+            return untouched_because(claim, reading, named(readings, reading.baseline));
+        };
         for (const std::string& claim : touched) EXPECT_EQ(reason(claim), "") << name << " " << claim;
         for (const std::string& claim : untouched) EXPECT_NE(reason(claim), "") << name << " " << claim;
         EXPECT_EQ(untouched_because("C02a", reading, reading), "the scene is so by itself");
@@ -255,7 +264,8 @@ const pbs::Character character = test_support::character_of(bar);
 
 ReadMotion bending(const pbs::Character& character, const Overrides& overrides, int frames = 4)
 {
-    Overrides all = {"motion.angle_deg=60", "motion.frames=" + std::to_string(frames), "motion.axis=[0,0,1]", "pbs.k_stretch=0.2"};
+    Overrides all = {"motion.angle_deg=60", "motion.frames=" + std::to_string(frames), "motion.axis=[0,0,1]",
+                     "pbs.k_stretch=0.2"};
     all.insert(all.end(), overrides.begin(), overrides.end());
     return move(character, read_scene("limb_bend", all));
 }
@@ -354,7 +364,8 @@ TEST(VolumeChanges, HaveTheValuesOfBothAndTheirChange)
     EXPECT_EQ(change_of(rows, "distance_of_b_from_a_rms_m").b, 0.5);
 }
 
-// Gravity acts only on integrated particles. If all are integrated, a huge weight leaves nothing finite; if none is, it has no effect.
+// Gravity acts only on integrated particles. If all are integrated, a huge weight leaves nothing finite; if none is, it
+// has no effect.
 TEST(FrameTimes, OfReadingsAreOneTimeEachAndStateABreakdown)
 {
     const StudyCase of("ambiguity",

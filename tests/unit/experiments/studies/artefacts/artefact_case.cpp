@@ -1,6 +1,7 @@
-// Reference: theory of the blends on the built-in limb, whose vertices near the joint are blended with equal weights by Eq. 2. For a twist
-// by t, LBS reduces their distance from the axis by cos(t/2), so the area of the section falls by cos^2(t/2). This is exact where the plane
-// cuts only triangles of such vertices. Tolerances: the rounding of the points at which planes cut edges.
+// Reference: theory of the blends on the built-in limb, whose vertices near the joint are blended with equal weights by
+// Eq. 2. For a twist by t, LBS reduces their distance from the axis by cos(t/2), so the area of the section falls by
+// cos^2(t/2). This is exact where the plane cuts only triangles of such vertices. Tolerances: the rounding of the
+// points at which planes cut edges.
 
 #include "analysis/metrics/cross_section.hpp"
 #include "experiments/studies/artefacts/artefact_case.hpp"
@@ -31,11 +32,12 @@ protected:
         return posed;
     }
 
-    // The rounding error of an area or a radius over that at rest. A vertex has the rounding error of its motions, and its height above a
-    // plane that of eight more roundings; a cut moves by as much over the sine of the angle between its edge and the plane, and goes
-    // through six roundings. Moving all points of an outline by e changes its area by at most e times its length, and a radius by 2 e; at
-    // rest, an outline has a length of 2 pi r at most, four fifths of the area pi r^2 at least, and radii of 0.8 r at least. A ratio has
-    // the errors of two sections. The planes cut across x.
+    // The rounding error of an area or a radius over that at rest. A vertex has the rounding error of its motions, and
+    // its height above a plane that of eight more roundings; a cut moves by as much over the sine of the angle between
+    // its edge and the plane, and goes through six roundings. Moving all points of an outline by e changes its area by
+    // at most e times its length, and a radius by 2 e; at rest, an outline has a length of 2 pi r at most, four fifths
+    // of the area pi r^2 at least, and radii of 0.8 r at least. A ratio has the errors of two sections. The planes cut
+    // across x.
     double rounding(const pbs::Positions& posed, int motions, double farthest_m) const
     {
         const pbs::Edges edges = pbs::edges_of(limb.mesh.tets);
@@ -46,7 +48,8 @@ protected:
                 if ((a.x() - section.offset_m) * (b.x() - section.offset_m) > 0.0) continue;
                 smallest_sine = std::min(smallest_sine, std::abs(a.x() - b.x()) / (a - b).norm());
             }
-        const double of_vertex = test_support::motion_error(motions, farthest_m) + test_support::rounding_error(8, farthest_m);
+        const double of_vertex =
+            test_support::motion_error(motions, farthest_m) + test_support::rounding_error(8, farthest_m);
         const double of_cut = of_vertex / smallest_sine + test_support::rounding_error(6, farthest_m);
         return 2.0 * 2.0 * of_cut / (0.8 * 0.15);
     }
@@ -108,9 +111,9 @@ TEST_F(JointSectionsOfLimb, BendIsTheAngleBetweenTheBonesAndTwistIsNone)
     EXPECT_NEAR(sections.bend_deg(pose), 0.0, rounding_deg);
 }
 
-// Reference: the built-in limb's skeleton, (-1,0,0) -> 0 -> (1,0,0), and a bent one drawn by hand; for joints by hand, the limb with
-// Frankie's names and, where he is installed, his skin. The limb's bones lie along an axis and are a metre long, so that nothing of them is
-// rounded; nor is a vector along an axis when it is divided by its length.
+// Reference: the built-in limb's skeleton, (-1,0,0) -> 0 -> (1,0,0), and a bent one drawn by hand; for joints by hand,
+// the limb with Frankie's names and, where he is installed, his skin. The limb's bones lie along an axis and are a
+// metre long, so that nothing of them is rounded; nor is a vector along an axis when it is divided by its length.
 
 using pbs::Vec3;
 using test_support::on_skin_m;
@@ -123,7 +126,8 @@ TEST(LimbJoints, LimbHasOneInItsMiddleThatIsNearAThirdOfEachBone)
     EXPECT_EQ(joints[0].name, "upper|forearm");
     EXPECT_EQ(joints[0].point, Vec3(Vec3::Zero()));
     EXPECT_EQ(joints[0].reach_parent_m, 0.5);
-    EXPECT_NEAR(joints[0].radius_m, 0.15, on_skin_m);  // the vertices of the caps have the same distance from the bones' ends
+    // the vertices of the caps have the same distance from the bones' ends
+    EXPECT_NEAR(joints[0].radius_m, 0.15, on_skin_m);
     EXPECT_EQ(experiments::twist_axis(limb.skeleton, joints[0]), Vec3(Vec3::UnitX()));
     EXPECT_EQ(experiments::hinge_axis(limb.skeleton, joints[0]), Vec3(Vec3::UnitZ()));
     const auto near = experiments::near_joint(limb, joints[0]);
@@ -200,16 +204,20 @@ Vec3 direction(const pbs::Bone& bone)
     return (bone.tail - bone.head).normalized();
 }
 
-Section section_across(const pbs::Character& body, const experiments::LimbJoint& joint, double offset_m, const Vec3& normal)
+Section section_across(const pbs::Character& body, const experiments::LimbJoint& joint, double offset_m,
+                       const Vec3& normal)
 {
-    const Vec3 point = joint.point + offset_m * direction(body.skeleton.bones[offset_m < 0.0 ? joint.parent : joint.child]);
-    const auto outlines = pbs::section_outlines(body.mesh.rest, pbs::boundary_of(body.mesh.tets), {{point, normal}}).front();
+    const Vec3 point =
+        joint.point + offset_m * direction(body.skeleton.bones[offset_m < 0.0 ? joint.parent : joint.child]);
+    const auto outlines =
+        pbs::section_outlines(body.mesh.rest, pbs::boundary_of(body.mesh.tets), {{point, normal}}).front();
     const pbs::Positions* own = analysis::enclosing_outline(outlines, {point, normal});
-    return own ? Section{analysis::winding_number(*own, {point, normal}), analysis::outline_size(*own)} : Section{0, {}};
+    return own ? Section{analysis::winding_number(*own, {point, normal}), analysis::outline_size(*own)}
+               : Section{0, {}};
 }
 
-// The section belongs to one limb: the outline encloses the bone, and no point is farther from its middle than 2.2 of the joint's radii;
-// the trunk has four. The planes cover 3 radii on each side, like those of JointSections.
+// The section belongs to one limb: the outline encloses the bone, and no point is farther from its middle than 2.2 of
+// the joint's radii; the trunk has four. The planes cover 3 radii on each side, like those of JointSections.
 TEST(JointsByHand, SectionsOfFrankieAreOneLimbs)
 {
     if (!pbs::body_is_installed("frankie")) GTEST_SKIP() << "pbskin fetch frankie";
@@ -218,10 +226,11 @@ TEST(JointsByHand, SectionsOfFrankieAreOneLimbs)
     ASSERT_EQ(joints.size(), 5u);
     for (const auto& joint : joints)
         for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
-            const double offset_m = share * std::min(2.0 * joint.radius_m, share < 0.0 ? joint.reach_parent_m : joint.reach_child_m);
+            const double offset_m =
+                share * std::min(2.0 * joint.radius_m, share < 0.0 ? joint.reach_parent_m : joint.reach_child_m);
             const double turned = 0.5 + offset_m / (6.0 * joint.radius_m);
-            const Vec3 normal =
-                (1.0 - turned) * direction(frankie.skeleton.bones[joint.parent]) + turned * direction(frankie.skeleton.bones[joint.child]);
+            const Vec3 normal = (1.0 - turned) * direction(frankie.skeleton.bones[joint.parent]) +
+                                turned * direction(frankie.skeleton.bones[joint.child]);
             const Section section = section_across(frankie, joint, offset_m, normal);
             EXPECT_EQ(std::abs(section.winding), 1) << joint.name << " " << share;
             EXPECT_LT(section.size.largest_radius_m, 2.2 * joint.radius_m) << joint.name << " " << share;

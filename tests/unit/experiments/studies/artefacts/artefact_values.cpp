@@ -16,8 +16,8 @@ namespace {
 using namespace experiments;
 using test_support::sample;
 
-std::vector<analysis::Measurement> of_quantity(const std::vector<analysis::Measurement>& measurements, const std::string& quantity,
-                                               const std::string& deformer)
+std::vector<analysis::Measurement> of_quantity(const std::vector<analysis::Measurement>& measurements,
+                                               const std::string& quantity, const std::string& deformer)
 {
     std::vector<analysis::Measurement> chosen;
     for (const auto& measurement : measurements)
@@ -49,7 +49,8 @@ TEST_F(BulgeFigures, AreOverTheReferenceOfTheHighestOrder)
         EXPECT_DOUBLE_EQ(measurements()[0].high, high);
         EXPECT_EQ(text_of(measurements()[0].of), "limb, bend, upper|forearm, " + of);
     };
-    samples = {sample("pbs", 0, 1.2), sample("reference", 0, 1.0, 1), sample("reference", 0, 1.5, 2), sample("reference", 0, 0.8, 1)};
+    samples = {sample("pbs", 0, 1.2), sample("reference", 0, 1.0, 1), sample("reference", 0, 1.5, 2),
+               sample("reference", 0, 0.8, 1)};
     expect_values(1.2 / 1.5, 1.2 / 1.5, 1.2 / 0.8,
                   "30 deg, pbs, reference nh_p2, plain, f64");  // relative to the largest and the smallest reference
     samples = {sample("pbs", 1, 1.1), sample("pbs", 1, 1.3), sample("reference", 1, 1.0, 1)};
@@ -80,8 +81,8 @@ TEST_F(BulgeFigures, StateWhySectionsAreLeftOut)
                          {{2, bent_too_far}},
                          {{2, ""}}},
                         {"a part that the reference has gone into",
-                         {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1), sample("reference", 0, 3.1, 1), sample("dqs", 0, 1.0),
-                          sample("pbs", 1, 1.0), sample("reference", 1, 2.9, 1)},
+                         {sample("pbs", 0, 1.0), sample("reference", 0, 1.0, 1), sample("reference", 0, 3.1, 1),
+                          sample("dqs", 0, 1.0), sample("pbs", 1, 1.0), sample("reference", 1, 2.9, 1)},
                          1,
                          0,
                          {{0, inside_another_part}, {1, measured}},
@@ -138,7 +139,8 @@ TEST_F(BulgeFigures, TableHasALineASectionWithItsOutcome)
     std::vector<std::string> outcomes;
     for (const auto& row : section_rows(of, body, section_outcomes(of, body, samples)))
         outcomes.push_back(row.reference + " " + row.outcome);
-    EXPECT_EQ(outcomes, (std::vector<std::string>{"nh_p2 measured", " reference_not_reached", " bent_by_more_than_110_deg"}));
+    EXPECT_EQ(outcomes,
+              (std::vector<std::string>{"nh_p2 measured", " reference_not_reached", " bent_by_more_than_110_deg"}));
 }
 
 TEST(SectionTable, SaysWhyAJointHasNoSection)
@@ -162,8 +164,9 @@ TEST(CandyWrapperFigures, AreThoseOfTheOwnMeshInEachOrderAndDoWithoutTheReferenc
 {
     const ArtefactCase of = test_support::small_limb(ArtefactCase::Claim::candy_wrapper);
     const ArtefactBody body(of);
-    const std::vector<ArtefactSample> samples = {sample("pbs", 0, 0.95), sample("pbs", 0, 0.8, 0, "grouped"), sample("pbs", 0, 0.85),
-                                                 sample("lbs", 0, 0.1),  sample("reference", 0, 1.1),         sample("pbs", 2, 0.9)};
+    const std::vector<ArtefactSample> samples = {sample("pbs", 0, 0.95),      sample("pbs", 0, 0.8, 0, "grouped"),
+                                                 sample("pbs", 0, 0.85),      sample("lbs", 0, 0.1),
+                                                 sample("reference", 0, 1.1), sample("pbs", 2, 0.9)};
     const auto measurements = section_values(of, body, samples);
     const auto own = of_quantity(measurements, "smallest_section_radius_over_rest", "pbs");
     ASSERT_EQ(own.size(), 3u);
@@ -183,8 +186,8 @@ TEST(CandyWrapperFigures, AreThoseOfTheOwnMeshInEachOrderAndDoWithoutTheReferenc
 TEST(ArtefactBreakdown, NamesThePoseTheMeshAndTheWorstTet)
 {
     ArtefactCase of;
-    of.scene = read_scene("limb_bend", {"character.vertices=400", "motion.frames=2", "pbs.iterations=2", "pbs.stop_residual=1e-12",
-                                        R"(deformers.use=["pbs"])", R"(reference.name="")"});
+    of.scene = read_scene("limb_bend", {"character.vertices=400", "motion.frames=2", "pbs.iterations=2",
+                                        "pbs.stop_residual=1e-12", R"(deformers.use=["pbs"])", R"(reference.name="")"});
     of.poses.push_back({1, "bend_150_deg", {.motion = "bend", .angle_deg = 150.0}});
     const ArtefactBody body(of);
     const std::string breakdown = find_artefacts(of, body).breakdown;
@@ -198,14 +201,16 @@ TEST(ArtefactBreakdown, NamesThePoseTheMeshAndTheWorstTet)
 // A deformer that remembers its last frame would take the pose before for it.
 TEST(ArtefactPoses, AreReachedFromRestByADeformerWithMemory)
 {
-    const Scene scene =
-        read_scene("limb_bend", {"character.vertices=400", "motion.frames=6", R"(deformers.use=["pbs_author"])", R"(reference.name="")"});
-    const auto shapes = [&](const std::vector<int>& frames) { return PosedCharacter(scene, frames).shapes(spec_of(scene, "pbs_author")); };
+    const Scene scene = read_scene("limb_bend", {"character.vertices=400", "motion.frames=6",
+                                                 R"(deformers.use=["pbs_author"])", R"(reference.name="")"});
+    const auto shapes = [&](const std::vector<int>& frames) {
+        return PosedCharacter(scene, frames).shapes(spec_of(scene, "pbs_author"));
+    };
     EXPECT_EQ(shapes({1, 3}).at(1).positions, shapes({3}).at(0).positions);
 }
 
-// The weights of Eq. 2 compared with rigid ones on a small limb. Reference: the records whose ratios are the values; with rigid weights one
-// layer of tets takes all of a twist; without a pose there is no roughness.
+// The weights of Eq. 2 compared with rigid ones on a small limb. Reference: the records whose ratios are the values;
+// with rigid weights one layer of tets takes all of a twist; without a pose there is no roughness.
 
 WeightsComparison compared(const std::vector<ArtefactPose>& poses)
 {
@@ -214,7 +219,8 @@ WeightsComparison compared(const std::vector<ArtefactPose>& poses)
     return compare_weights(of);
 }
 
-const analysis::Measurement* measurement(const WeightsComparison& comparison, const std::string& quantity, const std::string& deformer)
+const analysis::Measurement* measurement(const WeightsComparison& comparison, const std::string& quantity,
+                                         const std::string& deformer)
 {
     for (const auto& one : comparison.measurements)
         if (one.quantity == quantity && one.of.deformer == deformer) return &one;
@@ -238,8 +244,10 @@ TEST(WeightsComparison, FiguresAreTheRatiosOfTheRecords)
     std::map<std::string, int> rows;  // by variant
     for (const auto& one : bent.measurements) {
         if (one.quantity != "strain_jump_over_rigid_weights") continue;
-        EXPECT_DOUBLE_EQ(one.value, strain_jump(bent, weights.at(one.of.variant), one.of) / strain_jump(bent, "rigid", one.of));
-        EXPECT_TRUE(text_of(one.of).starts_with("limb, bend, upper|forearm, 60 deg, " + one.of.deformer)) << text_of(one.of);
+        EXPECT_DOUBLE_EQ(one.value,
+                         strain_jump(bent, weights.at(one.of.variant), one.of) / strain_jump(bent, "rigid", one.of));
+        EXPECT_TRUE(text_of(one.of).starts_with("limb, bend, upper|forearm, 60 deg, " + one.of.deformer))
+            << text_of(one.of);
         ++rows[one.of.variant];
     }
     EXPECT_EQ(rows, (std::map<std::string, int>{{"default", 7}, {"exchanged_weights", 2}, {"diffused_weights", 2}}));
@@ -260,8 +268,8 @@ TEST(WeightsComparison, AtRestThereIsNothingToCompare)
 {
     const WeightsComparison rest = compared({{0, "rest"}});
     EXPECT_EQ(measurement(rest, "strain_jump_over_rigid_weights", "lbs"), nullptr);  // a ratio of roundings
-    // A gradient is edges, of two positions that are blended from two motions, times the inverse of edges at rest; strains differ by as
-    // much as gradients do, a jump twice.
+    // A gradient is edges, of two positions that are blended from two motions, times the inverse of edges at rest;
+    // strains differ by as much as gradients do, a jump twice.
     const auto worst = test_support::worst_magnification(pbs::make_character({.body = "limb", .vertices = 400}).mesh);
     const double of_gradient = 2.0 * std::sqrt(3.0) * test_support::motion_error(2, 1.15) * worst.inverse_edges +
                                test_support::rounding_error(12 + 3, worst.condition);

@@ -26,7 +26,8 @@ TEST(TableOne, HasTheseConsistentValues)
     const std::map<std::string, bool> has_enough_edges = {
         {"Man", false}, {"bunny", false}, {"ManHQ", true}, {"bunnyHQ", true}, {"Lady", true}};
     for (const auto& row : experiments::table_1()) {
-        EXPECT_EQ(value_of(row.model, "stretch_constraints").is_consistent(), has_enough_edges.at(row.model)) << row.model;
+        EXPECT_EQ(value_of(row.model, "stretch_constraints").is_consistent(), has_enough_edges.at(row.model))
+            << row.model;
         EXPECT_FALSE(value_of(row.model, "ct_total_ms").is_consistent()) << row.model;
         EXPECT_TRUE(value_of(row.model, "bind_constraints").is_consistent()) << row.model;
     }
@@ -64,7 +65,8 @@ TEST(PrintedEquationsAudit, SumsHoldLabelsAndSignsDoNot)
         const auto values = experiments::equation_values(50, seed);
         ASSERT_EQ(values.size(), 10u);
         for (int i = 0; i < 10; ++i)
-            EXPECT_EQ(values[i].printed <= values[i].most, i == 0 || i == 9) << seed << " " << analysis::text_of(values[i].of);
+            EXPECT_EQ(values[i].printed <= values[i].most, i == 0 || i == 9)
+                << seed << " " << analysis::text_of(values[i].of);
     }
 }
 

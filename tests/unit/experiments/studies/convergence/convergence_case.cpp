@@ -37,15 +37,17 @@ TEST(ConvergenceCase, TheDistanceToTheReferenceBeginsWithThatOfLbs)
     EXPECT_EQ(result.breakdown, "");
     ASSERT_EQ(result.all.size(), 2u);
     for (const ConvergencePaths& paths : result.all) {
-        const Scene scene = read_scene("limb_twist", {"character.vertices=" + std::to_string(paths.of.own_mesh ? fewer : more)});
+        const Scene scene =
+            read_scene("limb_twist", {"character.vertices=" + std::to_string(paths.of.own_mesh ? fewer : more)});
         const PosedCharacter limb(scene, {3});
         ASSERT_EQ(limb.character().mesh.rest.rows(), paths.of.vertices);
-        const PosedReference reference(limb.character(), of.reference, limb.pose(0), scene.motion.time_step_s, ReferenceEffort::own_tets);
+        const PosedReference reference(limb.character(), of.reference, limb.pose(0), scene.motion.time_step_s,
+                                       ReferenceEffort::own_tets);
         const double of_lbs = reference.error_of(limb.shapes(spec_of(scene, "lbs")).front().positions).joint_pct;
         EXPECT_GT(of_lbs, 0.0);
-        // The path's positions are relative to an origin: each coordinate goes through two more roundings. They are related to the mean
-        // distance of the flesh from the bones, two thirds of the radius of 0.15 m; other sums and quotients have a different order at
-        // most.
+        // The path's positions are relative to an origin: each coordinate goes through two more roundings. They are
+        // related to the mean distance of the flesh from the bones, two thirds of the radius of 0.15 m; other sums and
+        // quotients have a different order at most.
         const double rounding_pct = 100.0 * std::sqrt(3.0) * test_support::rounding_error(2, 1.15) / 0.1;
         const Look& first = paths.paths.front().looks.front();
         EXPECT_NEAR(first.error_joint_pct, of_lbs, rounding_pct + test_support::rounding_error(20, of_lbs));
@@ -71,7 +73,8 @@ TEST(ConvergenceCase, AboveReferenceToThereIsNoneAndTheRecordSaysSo)
     const analysis::CsvTable towards = table_of(experiments::towards_columns, towards_rows(look_rows(result)));
     EXPECT_EQ(rate_rows(result).back().reference, "left_out_above_400_vertices");
     ASSERT_GT(towards.rows(), 0);
-    for (int row = 0; row < towards.rows(); ++row) EXPECT_EQ(towards.integer(row, "vertices"), result.all.front().of.vertices);
+    for (int row = 0; row < towards.rows(); ++row)
+        EXPECT_EQ(towards.integer(row, "vertices"), result.all.front().of.vertices);
 }
 
 // A reference that is not reached, or a pose that is not compared.

@@ -18,18 +18,21 @@ using test_support::papers_paths;
 using test_support::starts_at_rates;
 using test_support::values_of_paths;
 
-std::vector<Measurement> values_named(const std::vector<Measurement>& all, const std::string& quantity, const std::string& guess = "")
+std::vector<Measurement> values_named(const std::vector<Measurement>& all, const std::string& quantity,
+                                      const std::string& guess = "")
 {
     std::vector<Measurement> named;
     for (const Measurement& measured : all)
-        if (measured.quantity == quantity && (guess.empty() || measured.of.initial_guess == guess)) named.push_back(measured);
+        if (measured.quantity == quantity && (guess.empty() || measured.of.initial_guess == guess))
+            named.push_back(measured);
     return named;
 }
 
 TEST(ConvergenceFigures, ValueIsOfTheOwnMeshAndTheOthersAreItsRange)
 {
-    const auto all = values_of_paths({starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8}), starts_at_rates(1900, {0.88, 0.95, 0.9, 0.8}),
-                                      starts_at_rates(1650, {0.91, 0.95, 0.9, 0.8})});
+    const auto all =
+        values_of_paths({starts_at_rates(1780, {0.9, 0.95, 0.9, 0.8}), starts_at_rates(1900, {0.88, 0.95, 0.9, 0.8}),
+                         starts_at_rates(1650, {0.91, 0.95, 0.9, 0.8})});
     const auto iterations = values_named(all, "iterations_to_tolerance");
     ASSERT_EQ(iterations.size(), 2u);  // by residual; by volume, which stays at 1 %
     EXPECT_EQ(iterations[0].value, 29.0);
@@ -41,7 +44,8 @@ TEST(ConvergenceFigures, ValueIsOfTheOwnMeshAndTheOthersAreItsRange)
 
 TEST(ConvergenceFigures, EachOrderAndPrecisionHasAValueOfItsOwn)
 {
-    const auto all = values_of_paths({papers_paths({0.88, 0.9, 0.9, 0.9}), starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})});
+    const auto all =
+        values_of_paths({papers_paths({0.88, 0.9, 0.9, 0.9}), starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})});
     const auto iterations = values_named(all, "iterations_to_tolerance");
     ASSERT_EQ(iterations.size(), 4u);  // two settings by two tolerances
     for (const auto& [at, value, setting] : {std::tuple(0, 24.0, "plain f64"), {2, 29.0, "ordered f32"}}) {
@@ -75,7 +79,8 @@ TEST(ConvergenceFigures, TheAuthorsLaterCodeHasAFloorOfItsOwn)
     ASSERT_EQ(all.size(), 3u);
     EXPECT_EQ(all[2].value, 5.0);
     EXPECT_EQ(all[2].limit, analysis::Limit::none);
-    EXPECT_EQ(text_of(all[2].of), "human, pbs_author, first_fit, f64, vertices 1780, k_stretch 0.2, tolerance residual");
+    EXPECT_EQ(text_of(all[2].of),
+              "human, pbs_author, first_fit, f64, vertices 1780, k_stretch 0.2, tolerance residual");
 }
 
 TEST(ConvergenceFigures, StartsAreComparedWithLbs)
@@ -101,7 +106,8 @@ TEST(ConvergenceFigures, WhereNeitherArrivesThereIsNone)
 {
     const auto all = values_of_paths({starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9})});
     for (const Measurement& measured : all)
-        EXPECT_FALSE(measured.quantity == "iterations_over_lbs_guess" && measured.of.tolerance == "volume") << text_of(measured.of);
+        EXPECT_FALSE(measured.quantity == "iterations_over_lbs_guess" && measured.of.tolerance == "volume")
+            << text_of(measured.of);
 }
 
 // From LBS and from the previous frame the second mesh is never within 0.5 %.
@@ -133,7 +139,8 @@ TEST(ConvergenceFigures, TwistsAndTheLimbAreReportedAndNotJudged)
     EXPECT_EQ(values_named(all, "iterations_over_lbs_guess_in_a_twist", "previous_frame").at(0).value, 59.0 / 29.0);
 }
 
-// Rates exp(-1 / sqrt(vertices)) need log 20 sqrt(vertices) iterations, rounded up: by at most 1 in 67, 1.5 % at one end of a factor of 64.
+// Rates exp(-1 / sqrt(vertices)) need log 20 sqrt(vertices) iterations, rounded up: by at most 1 in 67, 1.5 % at one
+// end of a factor of 64.
 TEST(ConvergenceFigures, ExponentOfALadderIsThatOfTheFormula)
 {
     std::vector<ConvergencePaths> ladder;
@@ -149,7 +156,8 @@ TEST(ConvergenceFigures, ExponentOfALadderIsThatOfTheFormula)
     EXPECT_NEAR(exponent[0].value, 0.5, 0.015 / std::log(64.0) * 2.0);
     EXPECT_LE(exponent[0].low, exponent[0].value);
     EXPECT_GE(exponent[0].high, exponent[0].value);
-    EXPECT_EQ(text_of(exponent[0].of), "human, pbs, ordered, f32, vertices 500 to 32000, k_stretch 0.2, tolerance residual");
+    EXPECT_EQ(text_of(exponent[0].of),
+              "human, pbs, ordered, f32, vertices 500 to 32000, k_stretch 0.2, tolerance residual");
     // One for each size and order, with two tolerances.
     EXPECT_EQ(values_named(all, "iterations_to_tolerance").size(), 16u);
     EXPECT_TRUE(values_named(all, "iterations_over_lbs_guess").empty());
@@ -158,7 +166,8 @@ TEST(ConvergenceFigures, ExponentOfALadderIsThatOfTheFormula)
 // Two sizes have an exponent for any numbers of iterations.
 TEST(ConvergenceFigures, TwoSizesHaveNoExponent)
 {
-    std::vector<ConvergencePaths> ladder = {starts_at_rates(500, {0.9, 0.9, 0.9, 0.9}), starts_at_rates(2000, {0.95, 0.9, 0.9, 0.9})};
+    std::vector<ConvergencePaths> ladder = {starts_at_rates(500, {0.9, 0.9, 0.9, 0.9}),
+                                            starts_at_rates(2000, {0.95, 0.9, 0.9, 0.9})};
     ladder.push_back(starts_at_rates(8000, {0.999999, 0.9, 0.9, 0.9}));  // not reached
     EXPECT_TRUE(convergence_conclusions(values_of_paths(ladder, true)).empty());
 }
@@ -168,7 +177,8 @@ TEST(ConvergenceFigures, ErrorsOfNoReferenceAreLeftOut)
     ConvergencePaths paths = starts_at_rates(1780, {0.9, 0.9, 0.9, 0.9});
     for (IterationPath& path : paths.paths)
         for (Look& look : path.looks) look.error_joint_pct = std::numeric_limits<double>::quiet_NaN();
-    for (const Measurement& measured : values_of_paths({paths})) EXPECT_FALSE(measured.quantity.starts_with("error")) << measured.quantity;
+    for (const Measurement& measured : values_of_paths({paths}))
+        EXPECT_FALSE(measured.quantity.starts_with("error")) << measured.quantity;
 }
 
 // Reference: the definition of each initial guess.
@@ -220,7 +230,8 @@ TEST(Starts, RandomPositionsFillTheBoxOfLbsAndAreTheSameAgain)
         const double low = lbs.col(axis).minCoeff(), high = lbs.col(axis).maxCoeff();
         EXPECT_GE(frame.random.col(axis).minCoeff(), low);
         EXPECT_LE(frame.random.col(axis).maxCoeff(), high);
-        EXPECT_NEAR(frame.random.col(axis).mean(), 0.5 * (low + high), 6.0 * (high - low) / std::sqrt(12.0 * double(lbs.rows())));
+        EXPECT_NEAR(frame.random.col(axis).mean(), 0.5 * (low + high),
+                    6.0 * (high - low) / std::sqrt(12.0 * double(lbs.rows())));
     }
 }
 
@@ -234,7 +245,8 @@ TEST(AuthorPath, LeadsFromItsLbsWhereTheAuthorsSolverGoes)
     solver.advance(pose);
     EXPECT_EQ(path.last, solver.positions());
     ASSERT_EQ(path.looks.size(), 13u);
-    EXPECT_EQ(path.looks.front().combined, metrics.measure(0, blended(pbs::author_weights(limb.binding, limb.skeleton), pose)).combined);
+    EXPECT_EQ(path.looks.front().combined,
+              metrics.measure(0, blended(pbs::author_weights(limb.binding, limb.skeleton), pose)).combined);
 }
 
 // The first frame has none before it.
@@ -246,8 +258,10 @@ TEST(Starts, ThePreviousFrameIsWhatTheSolverMadeOfTheOneBeforeWithSeveralStepsAF
         solver.advance(positions, pbs::posed_bind_points(limb.binding, bending.steps[step]), 0.01);
         positions = solver.positions();
     }
-    EXPECT_EQ(shape(experiments::starts_of(character, bending, {3}, {}).front(), SolverStart::previous_frame), positions);
-    EXPECT_EQ(shape(experiments::starts_of(character, bending, {1, 3}, {}).back(), SolverStart::previous_frame), positions);
+    EXPECT_EQ(shape(experiments::starts_of(character, bending, {3}, {}).front(), SolverStart::previous_frame),
+              positions);
+    EXPECT_EQ(shape(experiments::starts_of(character, bending, {1, 3}, {}).back(), SolverStart::previous_frame),
+              positions);
     const FrameStarts frame = experiments::starts_of(character, bending, {0}, {}).front();
     EXPECT_EQ(shape(frame, SolverStart::previous_frame), shape(frame, SolverStart::lbs));
     pbs::Motion slower = bending;

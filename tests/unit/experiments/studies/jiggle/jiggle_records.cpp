@@ -59,7 +59,8 @@ TEST(JiggleFigures, WhatDoesNotSwingCountsInTheShareAndHasNeitherFrequencyNorDam
 
 TEST(JiggleFigures, OtherReadingsHaveTheirOwnDampingRatio)
 {
-    const std::vector<ResponseRow> measured = {swinging({}, 3.0), swinging({.k_bind = 0.0}, 3.0), swinging({.masses = "lumped"}, 3.0)};
+    const std::vector<ResponseRow> measured = {swinging({}, 3.0), swinging({.k_bind = 0.0}, 3.0),
+                                               swinging({.masses = "lumped"}, 3.0)};
     EXPECT_EQ(of_quantity(measured, "damping_ratio").size(), 1u);
     EXPECT_EQ(of_quantity(measured, "damping_ratio_in_other_readings").size(), 2u);
     EXPECT_EQ(of_quantity(measured, "last_share_of_peak").size(), 1u);
@@ -68,25 +69,30 @@ TEST(JiggleFigures, OtherReadingsHaveTheirOwnDampingRatio)
 
 TEST(JiggleFigures, RatiosOfHalfTheStepAndOfTwiceTheIterationsHaveTheirRange)
 {
-    const auto halved = of_quantity({swinging({}, 6.0), swinging({.time_step_ms = 5.0}, 12.0), swinging({.time_step_ms = 2.5}, 27.0),
-                                     swinging({.time_step_ms = 20.0}, 4.0), swinging({.iterations = 48}, 9.0)},
-                                    half_step);
+    const auto halved =
+        of_quantity({swinging({}, 6.0), swinging({.time_step_ms = 5.0}, 12.0), swinging({.time_step_ms = 2.5}, 27.0),
+                     swinging({.time_step_ms = 20.0}, 4.0), swinging({.iterations = 48}, 9.0)},
+                    half_step);
     ASSERT_EQ(halved.size(), 1u);
     EXPECT_DOUBLE_EQ(halved[0].value, 12.0 / 6.0);
     EXPECT_DOUBLE_EQ(halved[0].low, 6.0 / 4.0);
     EXPECT_DOUBLE_EQ(halved[0].high, 27.0 / 12.0);
-    EXPECT_EQ(text_of(halved[0].of), "limb, pbs, plain, f64, k_stretch 0.1, masses unit, iterations 24, time_step 0.01 s");
+    EXPECT_EQ(text_of(halved[0].of),
+              "limb, pbs, plain, f64, k_stretch 0.1, masses unit, iterations 24, time_step 0.01 s");
     EXPECT_EQ(halved[0].n, 3);
-    const auto ratios = of_quantity({swinging({}, 6.0), swinging({.iterations = 48}, 9.0)}, "frequency_ratio_at_twice_iterations");
+    const auto ratios =
+        of_quantity({swinging({}, 6.0), swinging({.iterations = 48}, 9.0)}, "frequency_ratio_at_twice_iterations");
     ASSERT_EQ(ratios.size(), 1u);
     EXPECT_DOUBLE_EQ(ratios[0].value, 1.5);
-    // The ends, 1 -+ 0.1 times a frequency, go through three roundings each, and their ratio through one; the numbers here go through four.
+    // The ends, 1 -+ 0.1 times a frequency, go through three roundings each, and their ratio through one; the numbers
+    // here go through four.
     EXPECT_NEAR(ratios[0].low, 1.5 * 0.9 / 1.1, test_support::rounding_error(2 * 3 + 1 + 4, 1.5 * 0.9 / 1.1));
     EXPECT_NEAR(ratios[0].high, 1.5 * 1.1 / 0.9, test_support::rounding_error(2 * 3 + 1 + 4, 1.5 * 1.1 / 0.9));
 }
 
-// The correlation of ranks 1 to n is a sum of n products of differences from the mean over the sum of n squares, (n^3 - n) / 12. A
-// difference of at most n goes through three roundings of the running mean for each of the n ranks, and so do sums and squares.
+// The correlation of ranks 1 to n is a sum of n products of differences from the mean over the sum of n squares, (n^3 -
+// n) / 12. A difference of at most n goes through three roundings of the running mean for each of the n ranks, and so
+// do sums and squares.
 double correlation_error(int n)
 {
     const double sum = n * (2.0 * 3.0 * n + 3.0) * double(n) * double(n);
@@ -95,8 +101,8 @@ double correlation_error(int n)
 
 TEST(JiggleFigures, CorrelationIsOfRanksAndTakesTheLeastWithoutOne)
 {
-    std::vector<ResponseRow> measured = {swinging({.k_stretch = 0.05}, 2.0), swinging({}, 3.0), swinging({.k_stretch = 0.2}, 50.0),
-                                         swinging({.k_stretch = 0.5}, 51.0)};
+    std::vector<ResponseRow> measured = {swinging({.k_stretch = 0.05}, 2.0), swinging({}, 3.0),
+                                         swinging({.k_stretch = 0.2}, 50.0), swinging({.k_stretch = 0.5}, 51.0)};
     ASSERT_EQ(of_quantity(measured, correlation).size(), 1u);
     EXPECT_DOUBLE_EQ(of_quantity(measured, correlation)[0].value, 1.0);
     measured.push_back(swinging({.k_stretch = 1.0}, 1.0));
@@ -104,8 +110,8 @@ TEST(JiggleFigures, CorrelationIsOfRanksAndTakesTheLeastWithoutOne)
     EXPECT_NEAR(of_quantity(measured, correlation)[0].value, 0.0, correlation_error(5));
     EXPECT_LT(of_quantity(measured, correlation)[0].low, 0.0);
 
-    // For any number of settings, rounding must neither move the correlation of a perfect order out of [-1, 1] nor the value out of its
-    // interval.
+    // For any number of settings, rounding must neither move the correlation of a perfect order out of [-1, 1] nor the
+    // value out of its interval.
     measured.clear();
     for (int n = 1; n <= 12; ++n) {
         measured.push_back(swinging({.k_stretch = 0.07 * n}, 1.0 + 0.1 * n));
@@ -121,8 +127,9 @@ TEST(JiggleFigures, CorrelationIsOfRanksAndTakesTheLeastWithoutOne)
 // A setting that does not swing has an amplitude as well. Other time steps, iterations and readings do not enter.
 TEST(JiggleFigures, AmplitudesAreComparedOverKStretchAlone)
 {
-    std::vector<ResponseRow> measured = {swinging({}, 3.0), creeping({.k_stretch = 1.0}), swinging({.k_stretch = 0.05}, 2.0),
-                                         swinging({.k_stretch = 0.5}, 4.0), swinging({.iterations = 96}, 4.0)};
+    std::vector<ResponseRow> measured = {swinging({}, 3.0), creeping({.k_stretch = 1.0}),
+                                         swinging({.k_stretch = 0.05}, 2.0), swinging({.k_stretch = 0.5}, 4.0),
+                                         swinging({.iterations = 96}, 4.0)};
     const double amplitudes[] = {0.25, 0.125, 0.5, 0.1875, 100.0};
     for (std::size_t i = 0; i < measured.size(); ++i) measured[i].response.overshoot_over_jolt = amplitudes[i];
     const auto ratio = of_quantity(measured, "amplitude_ratio_over_k_stretch");
@@ -141,8 +148,8 @@ TEST(JiggleFigures, AmplitudesAreComparedOverKStretchAlone)
 
 TEST(JiggleFigures, RangeIsOfTheEndsThatSwing)
 {
-    std::vector<ResponseRow> measured = {swinging({}, 3.0), swinging({.k_stretch = 1.0}, 12.0), swinging({.k_stretch = 0.05}, 2.0),
-                                         swinging({.k_stretch = 0.5}, 4.0)};
+    std::vector<ResponseRow> measured = {swinging({}, 3.0), swinging({.k_stretch = 1.0}, 12.0),
+                                         swinging({.k_stretch = 0.05}, 2.0), swinging({.k_stretch = 0.5}, 4.0)};
     ASSERT_EQ(of_quantity(measured, range).size(), 1u);
     EXPECT_DOUBLE_EQ(of_quantity(measured, range)[0].value, 6.0);
     measured[1] = creeping({.k_stretch = 1.0});
@@ -151,8 +158,8 @@ TEST(JiggleFigures, RangeIsOfTheEndsThatSwing)
     EXPECT_TRUE(of_quantity({swinging({}, 3.0)}, range).empty());
 }
 
-// Reference: necessary behaviour. Flesh that does not jiggle follows the bones; flesh without constraints stays behind, at rest; a jolt in
-// the opposite direction gives the mirror image.
+// Reference: necessary behaviour. Flesh that does not jiggle follows the bones; flesh without constraints stays behind,
+// at rest; a jolt in the opposite direction gives the mirror image.
 
 // As in the study: the zone is bound, and everything else has a k_stretch of 1.
 void jiggle(pbs::PbsOptions& options, double k_stretch)
@@ -201,8 +208,8 @@ TEST_F(JoltResponseOfLimb, FreeFleshStaysBehind)
     EXPECT_EQ(free.overshoot_over_jolt, 0.0);
 }
 
-// The motion from step to step does not depend on time (Algorithm 1, lines 7, 8 and 16). A quarter of a time step and four times a velocity
-// are exact.
+// The motion from step to step does not depend on time (Algorithm 1, lines 7, 8 and 16). A quarter of a time step and
+// four times a velocity are exact.
 TEST_F(JoltResponseOfLimb, WithoutWeightTheSeriesIsTheSameAtEveryTimeStep)
 {
     jiggle(options(), 0.1);
@@ -224,7 +231,8 @@ TEST_F(JoltResponseOfLimb, HeldFleshSwingsAndCalmsDown)
     EXPECT_LT(held.speed_growth, 1.0);
 }
 
-// LBS has no inertia: it stands in its place at once. A point at the radius r goes along an arc in chords of 2 r sin(step / 2).
+// LBS has no inertia: it stands in its place at once. A point at the radius r goes along an arc in chords of 2 r
+// sin(step / 2).
 TEST(JiggleStop, LbsStopsAtOnceAfterThePathOfItsBones)
 {
     const pbs::Character limb = pbs::make_character({.body = "limb", .vertices = 400});

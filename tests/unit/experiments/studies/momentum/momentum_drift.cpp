@@ -1,4 +1,5 @@
-// Reference: Eq. 3-4 and the definition of the drift. A class that conserves has a drift of rounding; one force alone has 1.
+// Reference: Eq. 3-4 and the definition of the drift. A class that conserves has a drift of rounding; one force alone
+// has 1.
 #include "experiments/studies/momentum/momentum_drift.hpp"
 
 #include "experiments/studies/shared/posed_character.hpp"
@@ -33,12 +34,13 @@ TEST(MomentumDrift, OfStretchAndVolumeIsRounding)
             const auto rounding = test_support::drift_rounding(character, bent.pose, in_double(masses), projected);
             EXPECT_LT(drift.linear, rounding.linear);
             EXPECT_LT(drift.angular, rounding.angular);
-            EXPECT_LT(drift_of_a_pass(character, bent.pose, in_double(masses), projected, masses).linear, rounding.of_a_pass);
+            EXPECT_LT(drift_of_a_pass(character, bent.pose, in_double(masses), projected, masses).linear,
+                      rounding.of_a_pass);
         }
 }
 
-// The sums of the definition, over projections of positions that are in f32 before the first one begins: a correction is the difference of
-// two f32 numbers. This program is compiled without vectorisation, the study with it.
+// The sums of the definition, over projections of positions that are in f32 before the first one begins: a correction
+// is the difference of two f32 numbers. This program is compiled without vectorisation, the study with it.
 TEST(MomentumDrift, OfAVolumeProjectionInF32StartsFromTheRoundedPosition)
 {
     pbs::PbsOptions options = in_double(Masses::unit);
@@ -54,7 +56,8 @@ TEST(MomentumDrift, OfAVolumeProjectionInF32StartsFromTheRoundedPosition)
         project(tet, 1.0f, 1.0f, 1.0f, 1.0f, p[0], p[1], p[2], p[3]);
         pbs::Vec3 own = pbs::Vec3::Zero();
         for (int corner = 0; corner < 4; ++corner) {
-            const pbs::Vec3 correction = p[corner].cast<double>() - rounded.row(tet.vertex[corner]).transpose().cast<double>();
+            const pbs::Vec3 correction =
+                p[corner].cast<double>() - rounded.row(tet.vertex[corner]).transpose().cast<double>();
             own += correction;
             sum += correction.norm();
         }
@@ -66,8 +69,9 @@ TEST(MomentumDrift, OfAVolumeProjectionInF32StartsFromTheRoundedPosition)
                 test_support::rounding_error(2.0 * (4.0 * std::ssize(set.volume) + 10.0), 1.0));  // of sums in f64
 }
 
-// To first order in the corrections: with a stiffness ten times smaller the drift is, per correction, ten times smaller, up to terms of
-// second order; a drift of order zero would not become smaller, and one of second order a hundred times.
+// To first order in the corrections: with a stiffness ten times smaller the drift is, per correction, ten times
+// smaller, up to terms of second order; a drift of order zero would not become smaller, and one of second order a
+// hundred times.
 TEST(MomentumDrift, OfAPassTurnsAtSecondOrder)
 {
     const auto angular = [](double k_stretch) {
@@ -79,11 +83,13 @@ TEST(MomentumDrift, OfAPassTurnsAtSecondOrder)
     EXPECT_NEAR(angular(1e-3) / angular(1e-2), 0.1, 0.02);
 }
 
-// Neither is rounding, which is below 1e-10: unequal masses that the projection does not know, and the momentum that the bones take.
+// Neither is rounding, which is below 1e-10: unequal masses that the projection does not know, and the momentum that
+// the bones take.
 TEST(MomentumDrift, OfUnknownMassesAndOfBindIsNoRounding)
 {
     const pbs::PbsOptions options = in_double(Masses::unit);
-    EXPECT_GT(drift_of_projections(character, bent.pose, options, ProjectedClass::stretch, Masses::lumped).linear, 1e-3);
+    EXPECT_GT(drift_of_projections(character, bent.pose, options, ProjectedClass::stretch, Masses::lumped).linear,
+              1e-3);
     const auto of_bones = drift_of_a_pass(character, bent.pose, options, ProjectedClass::bind, Masses::unit);
     EXPECT_GT(of_bones.linear, 1e-3);
     EXPECT_LE(of_bones.linear, 1.0);

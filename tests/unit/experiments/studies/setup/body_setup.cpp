@@ -22,7 +22,8 @@ TEST(BodySetup, BodyAndVerticesAloneAreTheBodyAndEveryFurtherKeyIsAKeyOfTheScene
     EXPECT_TRUE(changed(ring).empty());
     EXPECT_EQ(ring.character.body, "ring");
     EXPECT_EQ(ring.character.vertices, 1200);
-    for (const auto& further : further_keys()) EXPECT_EQ(changed(scene_of({"ring", 0, further}, 5.0)).size(), further.size());
+    for (const auto& further : further_keys())
+        EXPECT_EQ(changed(scene_of({"ring", 0, further}, 5.0)).size(), further.size());
 }
 
 TEST(BodySetup, EveryBodyTakesTheSharedClip)
@@ -30,7 +31,9 @@ TEST(BodySetup, EveryBodyTakesTheSharedClip)
     for (const char* body : {"human", "ring"}) {
         if (!pbs::body_is_installed(body)) continue;
         const Scene scene = scene_of({body, 600}, 5.0);
-        EXPECT_GT(make_case_motion(scene.motion, pbs::make_character(scene.character), scene.file).motion.steps.size(), 1u) << body;
+        EXPECT_GT(make_case_motion(scene.motion, pbs::make_character(scene.character), scene.file).motion.steps.size(),
+                  1u)
+            << body;
     }
 }
 
@@ -38,8 +41,10 @@ TEST(BodySetup, CountsEveryFurtherKeyThatIsChangedAddedOrMissing)
 {
     const auto further = [](const std::vector<std::string>& keys) { return scene_of({"ring", 0, keys}, 5.0).resolved; };
     const nlohmann::json character = {{"character", {{"body", "human"}, {"vertices", 0}, {"skeleton_scale", 1.0}}}},
-                         other_character = {{"character", {{"body", "ring"}, {"vertices", 1200}, {"skeleton_scale", 0.5}}}},
-                         pbs = {{"pbs", {{"iterations", 24}}}}, pbs_with_jiggle = {{"pbs", {{"iterations", 24}, {"jiggle", 0.5}}}};
+                         other_character = {{"character",
+                                             {{"body", "ring"}, {"vertices", 1200}, {"skeleton_scale", 0.5}}}},
+                         pbs = {{"pbs", {{"iterations", 24}}}},
+                         pbs_with_jiggle = {{"pbs", {{"iterations", 24}, {"jiggle", 0.5}}}};
     using Keys = std::vector<std::string>;
     for (const auto& [shared, own, changed] :
          {std::tuple(shared_scene(5.0).resolved, further({"pbs.k_volume=0.5", "pbs.gravity_m_s2=[0.0, 0.0, -9.81]"}),

@@ -1,5 +1,5 @@
-// Reference: the solver's own step for the end of a path, its own residuals for the measurements on positions, and a uniformly scaled body,
-// whose residuals are known.
+// Reference: the solver's own step for the end of a path, its own residuals for the measurements on positions, and a
+// uniformly scaled body, whose residuals are known.
 
 #include "experiments/studies/shared/iteration_path.hpp"
 #include "pbs/solver/pbs_solver.hpp"
@@ -32,11 +32,11 @@ IterationPath path_of(const pbs::PbsOptions& options, const pbs::Positions& star
 
 class IterationPathOf : public testing::TestWithParam<std::pair<Order, Precision>> {};
 
-// The root mean square of residuals differs by no more than the residuals: by eight roundings of a length and of a distance in the solver's
-// scalar, over their lengths at rest, and of sixteen of a volume, of products of at most five times its size; no length and no volume
-// doubles. The solver's positions are relative to an origin, to which a coordinate of a metre is added in double: over a cell's width of
-// 0.075 m these are 2 sqrt 3 / 0.075 roundings of a length and three times as many of a volume. A sum goes through as many roundings as
-// there are terms.
+// The root mean square of residuals differs by no more than the residuals: by eight roundings of a length and of a
+// distance in the solver's scalar, over their lengths at rest, and of sixteen of a volume, of products of at most five
+// times its size; no length and no volume doubles. The solver's positions are relative to an origin, to which a
+// coordinate of a metre is added in double: over a cell's width of 0.075 m these are 2 sqrt 3 / 0.075 roundings of a
+// length and three times as many of a volume. A sum goes through as many roundings as there are terms.
 TEST_P(IterationPathOf, LeadsWhereTheSolverGoesToTheBitAndHasItsResiduals)
 {
     pbs::PbsOptions options;
@@ -62,12 +62,13 @@ TEST_P(IterationPathOf, LeadsWhereTheSolverGoesToTheBitAndHasItsResiduals)
 }
 
 INSTANTIATE_TEST_SUITE_P(Orders, IterationPathOf,
-                         testing::Values(std::pair(Order::plain, Precision::f64), std::pair(Order::ordered, Precision::f32),
+                         testing::Values(std::pair(Order::plain, Precision::f64),
+                                         std::pair(Order::ordered, Precision::f32),
                                          std::pair(Order::grouped, Precision::f64)));
 
-// A coordinate of at most 1.1 is rounded once by the scale, over a cell of at least 0.075: 2 / 0.075 = 27 roundings of an edge and 80 of a
-// volume, which goes through ten of products of at most five times its size. A ratio contains two volumes or lengths, and one is subtracted
-// from it.
+// A coordinate of at most 1.1 is rounded once by the scale, over a cell of at least 0.075: 2 / 0.075 = 27 roundings of
+// an edge and 80 of a volume, which goes through ten of products of at most five times its size. A ratio contains two
+// volumes or lengths, and one is subtracted from it.
 TEST(IterationMetrics, OfAUniformlyScaledBody)
 {
     constexpr double scale = 1.1;
@@ -131,12 +132,13 @@ TEST(ReachedResidual, IsTheIterationFromWhichOnItStaysWithinFivePerCentOfTheFloo
         int iterations;
         bool within;
     };
-    const Row rows[] = {{"1 + 0.9^n <= 1.05 from n = ceil(log 0.05 / log 0.9) on", formula, floor_of({formula}), 29, true},
-                        {"it leaves once more", path_by(100, [](int n) { return n == 40  ? 1.2
-                                                                                : n < 10 ? 2.0
-                                                                                         : 1.0; }), 1.0, 41, true},
-                        {"it stalls above the lowest floor", stalled[1], floor_of(stalled), 100, false},
-                        {"rounding", path_by(100, [](int n) { return n % 2 == 0 ? 3e-7 : 6e-7; }), 3e-7, 0, true}};
+    const Row rows[] = {
+        {"1 + 0.9^n <= 1.05 from n = ceil(log 0.05 / log 0.9) on", formula, floor_of({formula}), 29, true},
+        {"it leaves once more", path_by(100, [](int n) { return n == 40  ? 1.2
+                                                                : n < 10 ? 2.0
+                                                                         : 1.0; }), 1.0, 41, true},
+        {"it stalls above the lowest floor", stalled[1], floor_of(stalled), 100, false},
+        {"rounding", path_by(100, [](int n) { return n % 2 == 0 ? 3e-7 : 6e-7; }), 3e-7, 0, true}};
     for (const Row& row : rows) {
         const Reached reached = reached_residual(row.path, row.floor);
         EXPECT_EQ(reached.iterations, row.iterations) << row.name;
@@ -154,14 +156,15 @@ TEST(FloorOf, LeavesOutWhatBrokeDownAndVolumeIsWithinThePapersHalfPerCent)
     EXPECT_TRUE(std::isnan(floor_of({broken})));
 }
 
-// The rounding error of the slope of log(above rate^n) against n = 1, 2, ..., iterations. The numbers 1 + above rate^n are rounded once,
-// which the difference from 1 magnifies most at the end; a power, a product and a logarithm of at most `steepest` go through two more,
-// each.
+// The rounding error of the slope of log(above rate^n) against n = 1, 2, ..., iterations. The numbers 1 + above rate^n
+// are rounded once, which the difference from 1 magnifies most at the end; a power, a product and a logarithm of at
+// most `steepest` go through two more, each.
 double log_rate_error(int iterations, double above, double rate)
 {
     std::vector<double> n, logs;
     for (int i = 1; i <= iterations; ++i) n.push_back(i), logs.push_back(std::log(above) + i * std::log(rate));
-    const double least = above * std::pow(rate, iterations), steepest = std::max(std::abs(logs.front()), std::abs(logs.back()));
+    const double least = above * std::pow(rate, iterations),
+                 steepest = std::max(std::abs(logs.front()), std::abs(logs.back()));
     const double of_logs = rounding_error(1, (1.0 + least) / least) + rounding_error(2 + 1 + 2 * steepest, 1.0);
     return slope_error(n, logs, std::log(rate), 0.0, of_logs);
 }
@@ -169,7 +172,8 @@ double log_rate_error(int iterations, double above, double rate)
 // The end of the path replaces the limit: 0.9^400 is below the spacing of numbers at 1.
 TEST(RateOf, IsThatOfTheFormula)
 {
-    EXPECT_NEAR(rate_of(path_to_floor(400, 1.0, 1.0, 0.9), 0.3), 0.9, 0.9 * log_rate_error(29, 1.0, 0.9) + rounding_error(2, 0.9));
+    EXPECT_NEAR(rate_of(path_to_floor(400, 1.0, 1.0, 0.9), 0.3), 0.9,
+                0.9 * log_rate_error(29, 1.0, 0.9) + rounding_error(2, 0.9));
 }
 
 // Rounding has no rate.
@@ -235,8 +239,10 @@ Numbers randomly_numbered(int edges, int tets, unsigned seed)
 
 TEST(ConstraintSequence, SpreadTakesEightPartsInTurn)
 {
-    const auto constraints = in_spread_order(numbered<double>(20, 4)), none = in_spread_order(numbered<double>(0, 0));  // parts of three
-    EXPECT_EQ(numbers_in(constraints).edges, (std::vector<int>{0, 3, 6, 9, 12, 15, 18, 1, 4, 7, 10, 13, 16, 19, 2, 5, 8, 11, 14, 17}));
+    // parts of three
+    const auto constraints = in_spread_order(numbered<double>(20, 4)), none = in_spread_order(numbered<double>(0, 0));
+    EXPECT_EQ(numbers_in(constraints).edges,
+              (std::vector<int>{0, 3, 6, 9, 12, 15, 18, 1, 4, 7, 10, 13, 16, 19, 2, 5, 8, 11, 14, 17}));
     EXPECT_EQ(numbers_in(constraints).tets, (std::vector<int>{0, 1, 2, 3}));
     EXPECT_EQ(numbers_in(none), Numbers());
 }

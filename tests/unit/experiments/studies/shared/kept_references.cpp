@@ -1,5 +1,6 @@
-// Reference: the shapes and numbers that were packed. A coordinate is kept as a multiple of kept_quantum_m from a predicted one, so that it
-// comes back within half of it; the rounding of the sum is below a thousand-millionth of that.
+// Reference: the shapes and numbers that were packed. A coordinate is kept as a multiple of kept_quantum_m from a
+// predicted one, so that it comes back within half of it; the rounding of the sum is below a thousand-millionth of
+// that.
 #include "experiments/studies/shared/kept_references.hpp"
 
 #include "pbs/character/body_cache.hpp"
@@ -30,7 +31,8 @@ using test_support::refusal_of;
 constexpr double half_a_quantum_m = kept_quantum_m / 2.0 * (1.0 + 1e-9);
 const pbs::Character bar = test_support::bar_character({6, 2, 2});
 
-// A pose in which the bar is bent by 70 degrees. Each member has a shape of its own, unrelated to the one before; nu_0.49 was not reached.
+// A pose in which the bar is bent by 70 degrees. Each member has a shape of its own, unrelated to the one before;
+// nu_0.49 was not reached.
 KeptReferences bent_bar()
 {
     KeptReferences references{
@@ -95,7 +97,8 @@ TEST(KeptReferences, ComeBackWithinHalfAQuantumWithAllTheirNumbers)
         SCOPED_TRACE(was.member.name);
         EXPECT_EQ(to_json(one.member), to_json(was.member));
         const auto numbers = [](const KeptReference& of) {
-            return std::tie(of.outcome, of.linear_distance_pct, of.energy_j, of.lowest_det_f, of.newton_steps, of.seconds, of.at_tips);
+            return std::tie(of.outcome, of.linear_distance_pct, of.energy_j, of.lowest_det_f, of.newton_steps,
+                            of.seconds, of.at_tips);
         };
         EXPECT_EQ(numbers(one), numbers(was));
         ASSERT_EQ(one.positions.rows(), was.positions.rows());
@@ -117,12 +120,13 @@ TEST(KeptReferences, AreFoundByTheirMember)
 
 TEST(KeptReferences, EstimateTheirOwnErrorByTheDistanceOfLinearElements)
 {
-    EXPECT_DOUBLE_EQ((KeptReference{.member = {}, .outcome = "reached", .linear_distance_pct = 0.5}.own_error_pct()), 0.3);
+    EXPECT_DOUBLE_EQ((KeptReference{.member = {}, .outcome = "reached", .linear_distance_pct = 0.5}.own_error_pct()),
+                     0.3);
     EXPECT_TRUE(std::isnan(KeptReference{}.own_error_pct()));
 }
 
-// A bit of each seventh byte is flipped, and the text ends before each seventh byte. Zlib's checksum, Adler-32, misses few flips: those of
-// padding, and some that change neighbouring bytes by the same amounts in opposite directions.
+// A bit of each seventh byte is flipped, and the text ends before each seventh byte. Zlib's checksum, Adler-32, misses
+// few flips: those of padding, and some that change neighbouring bytes by the same amounts in opposite directions.
 TEST(KeptReferences, ThatAreDamagedAreRefused)
 {
     const std::string whole = packed(bent_bar(), bar);
@@ -134,7 +138,8 @@ TEST(KeptReferences, ThatAreDamagedAreRefused)
         for (const std::string& damaged : {flipped, whole.substr(0, place)}) {
             const std::string message = refusal_of_text(damaged);
             const bool is_missed = message == "accepted" && damaged.size() == whole.size();
-            EXPECT_TRUE(is_missed || message.starts_with("kept.ref: is no file of references, or damaged: ")) << place << ": " << message;
+            EXPECT_TRUE(is_missed || message.starts_with("kept.ref: is no file of references, or damaged: "))
+                << place << ": " << message;
             ++(is_missed ? missed : refused);
         }
     }
@@ -151,26 +156,27 @@ struct WrongText {
 TEST(KeptReferences, OfAnotherFormOrSizeAreRefused)
 {
     const std::string damaged = "is no file of references, or damaged: ";
-    const std::vector<WrongText> wrong = {
-        {"schema = 2: expected 1", [](json& all) { all["schema"] = 2; }},
-        {damaged,
-         [](json& all) {
-             all = json::array({1, 2});
-         }},
-        {damaged, [](json& all) { all.erase("quantum_m"); }},
-        {damaged, [](json& all) { all["pose"] = 7; }},
-        {"a member soft that this program does not have", [](json& all) { all["members"][1]["member"]["name"] = "soft"; }},
-        {"a member nu_0.3 that this program does not have", [](json& all) { all["members"][4]["member"]["poisson"] = 0.31; }},
-        {"a transform of another size", [](json& all) { all["bones"][1].erase(0); }},
-        {"another number of bones", [](json& all) { all["bones"].erase(1); }},
-        {damaged, [](json& all) { all["members"][0]["tips"] = {63}; }},
-        {damaged, [](json& all) { all["members"][0]["tips"] = {-1}; }},
-        {damaged, [](json& all) { all["members"][0].erase("shape"); }},
-        {"a shape of another size", [](json& all) {
-             json::binary_t bytes = all["members"][2]["shape"].get_binary();
-             bytes.resize(bytes.size() - 4);
-             all["members"][2]["shape"] = json::binary(bytes);
-         }}};
+    const std::vector<WrongText> wrong = {{"schema = 2: expected 1", [](json& all) { all["schema"] = 2; }},
+                                          {damaged,
+                                           [](json& all) {
+                                               all = json::array({1, 2});
+                                           }},
+                                          {damaged, [](json& all) { all.erase("quantum_m"); }},
+                                          {damaged, [](json& all) { all["pose"] = 7; }},
+                                          {"a member soft that this program does not have",
+                                           [](json& all) { all["members"][1]["member"]["name"] = "soft"; }},
+                                          {"a member nu_0.3 that this program does not have",
+                                           [](json& all) { all["members"][4]["member"]["poisson"] = 0.31; }},
+                                          {"a transform of another size", [](json& all) { all["bones"][1].erase(0); }},
+                                          {"another number of bones", [](json& all) { all["bones"].erase(1); }},
+                                          {damaged, [](json& all) { all["members"][0]["tips"] = {63}; }},
+                                          {damaged, [](json& all) { all["members"][0]["tips"] = {-1}; }},
+                                          {damaged, [](json& all) { all["members"][0].erase("shape"); }},
+                                          {"a shape of another size", [](json& all) {
+                                               json::binary_t bytes = all["members"][2]["shape"].get_binary();
+                                               bytes.resize(bytes.size() - 4);
+                                               all["members"][2]["shape"] = json::binary(bytes);
+                                           }}};
     for (const auto& [message, change] : wrong) {
         const std::string refusal = refusal_of_text(packed_with(change));
         EXPECT_TRUE(refusal.starts_with("kept.ref: ") && refusal.find(message) != std::string::npos)
@@ -185,8 +191,8 @@ TEST(KeptReferences, OfOtherTetsAreRefusedByNameWithTheCommandThatSolvesThem)
     other.mesh.rest(0, 0) += 1e-9;
     const std::string message = refusal_of_text(packed(bent_bar(), bar), other);
     for (const std::string& part :
-         {std::string("kept.ref: mesh_hash = ") + pbs::content_hash(bar.mesh), "bar have the hash " + pbs::content_hash(other.mesh),
-          std::string("`pbskin reproduce references --full`")})
+         {std::string("kept.ref: mesh_hash = ") + pbs::content_hash(bar.mesh),
+          "bar have the hash " + pbs::content_hash(other.mesh), std::string("`pbskin reproduce references --full`")})
         EXPECT_NE(message.find(part), std::string::npos) << message;
 }
 
@@ -202,14 +208,17 @@ TEST(KeptReferences, AreReadByTheNameAndTheBonesOfTheirPose)
     pbs::Pose nearly = references.bones, elsewhere = references.bones;
     nearly[1].translation().x() += 1e-12;
     elsewhere[1].translation().x() += 1e-6;
-    for (const pbs::Pose& bones : {references.bones, nearly}) EXPECT_EQ(read_references("bar_bend_70", bar, bones).members.size(), 8u);
-    const auto expect_refused = [&](const std::string& pose, const pbs::Pose& bones, const std::string& begin, const std::string& rule) {
+    for (const pbs::Pose& bones : {references.bones, nearly})
+        EXPECT_EQ(read_references("bar_bend_70", bar, bones).members.size(), 8u);
+    const auto expect_refused = [&](const std::string& pose, const pbs::Pose& bones, const std::string& begin,
+                                    const std::string& rule) {
         const std::string message = refusal_of([&] { read_references(pose, bar, bones); });
         EXPECT_TRUE(message.starts_with(folder / begin) && message.find(rule) != std::string::npos) << message;
     };
     const std::string solve = "`pbskin reproduce references --full`";
     expect_refused("bar_bend_80", references.bones, "bar_bend_80.ref: does not exist: ", solve);
-    expect_refused("renamed", references.bones, "renamed.ref: pose = bar_bend_70: ", "expected the references of renamed");
+    expect_refused("renamed", references.bones,
+                   "renamed.ref: pose = bar_bend_70: ", "expected the references of renamed");
     expect_refused("bar_bend_70", elsewhere, "bar_bend_70.ref: bones = forearm: ", solve);
 }
 
@@ -218,7 +227,8 @@ TEST(OtherTets, AreThoseThatTheReferencesOfTheBodyWereNotSolvedOn)
 {
     const test_support::ScratchFolder folder;
     const std::string name = "bar-1800-v2-", kept = folder.path() / "tets";
-    const test_support::EnvironmentVariable references("PBSKIN_REFERENCES", folder.path()), cache("PBSKIN_CACHE", folder.path());
+    const test_support::EnvironmentVariable references("PBSKIN_REFERENCES", folder.path()),
+        cache("PBSKIN_CACHE", folder.path());
     write_tet_mesh(folder / "bar.vtu", bar.mesh);
     std::filesystem::rename(folder / "bar.vtu", folder / (name + pbs::hash_of_file(folder / "bar.vtu") + ".vtu"));
 
@@ -233,7 +243,8 @@ TEST(OtherTets, AreThoseThatTheReferencesOfTheBodyWereNotSolvedOn)
     std::filesystem::create_directory(kept);
     std::ofstream(kept + "/" + name + std::string(32, '0') + ".vtu") << "";
     const std::string damaged = refusal_of([] { why_other_tets("bar"); });
-    EXPECT_NE(damaged.find("0.vtu: is damaged: the hash in its name is not that of its bytes"), std::string::npos) << damaged;
+    EXPECT_NE(damaged.find("0.vtu: is damaged: the hash in its name is not that of its bytes"), std::string::npos)
+        << damaged;
 }
 
 }  // namespace

@@ -41,7 +41,8 @@ TEST(TimedRounds, MedianAndQuartiles)
 TEST(TimedRounds, ColumnsOfASpread)
 {
     const analysis::Columns<Spread> columns = spread_columns("step_ms");
-    EXPECT_EQ(table_of(columns, std::vector<Spread>{{2.0, 1.5, 4.0, 7}}).text(), "step_ms,step_ms_low,step_ms_high\n2,1.5,4\n");
+    EXPECT_EQ(table_of(columns, std::vector<Spread>{{2.0, 1.5, 4.0, 7}}).text(),
+              "step_ms,step_ms_low,step_ms_high\n2,1.5,4\n");
 }
 
 }  // namespace

@@ -58,18 +58,20 @@ TEST(CellRun, SignOfTheVolumeGradientAsPrintedDivergesAndWithoutVolumeConstraint
     EXPECT_EQ(outcome(without_volume), StabilityOutcome::inverted);
 }
 
-// The controls of C08: in the rest pose and without gravity every constraint is satisfied; a projection with the printed sign doubles the
-// error that it should remove.
+// The controls of C08: in the rest pose and without gravity every constraint is satisfied; a projection with the
+// printed sign doubles the error that it should remove.
 TEST(CellRun, WhatNothingDisturbsStaysAtRestAndThePrintedSignDiverges)
 {
     const auto outcome_of = [](const std::vector<StabilityCell>& cells, const std::string& model, double time_step_s) {
         for (const StabilityCell& cell : cells)
-            if (cell.model == model && cell.factor == "time_step" && cell.time_step_s == time_step_s) return outcome(cell);
+            if (cell.model == model && cell.factor == "time_step" && cell.time_step_s == time_step_s)
+                return outcome(cell);
         ADD_FAILURE() << "no cell of " << model;
         return StabilityOutcome::bounded;
     };
     EXPECT_EQ(outcome_of(stability_cells("controls"), "pbs_undisturbed", 1.0), StabilityOutcome::converged);
-    EXPECT_EQ(outcome_of(stability_cells("pbs_character", "human"), "pbs_undisturbed", 0.1), StabilityOutcome::converged);
+    EXPECT_EQ(outcome_of(stability_cells("pbs_character", "human"), "pbs_undisturbed", 0.1),
+              StabilityOutcome::converged);
     EXPECT_EQ(outcome_of(stability_cells("controls"), "pbs_printed_sign", 0.01), StabilityOutcome::diverged);
 }
 
@@ -111,7 +113,8 @@ TEST(CellRun, WithoutJiggleTheTimeStepDoesNotEnterAndATeleportIsForgotten)
     EXPECT_EQ(result.stability.recovery_steps, 0);
 }
 
-// With forgotten multipliers, a soft body comes to rest in another state than the correct one, since its iterations have stiffened it.
+// With forgotten multipliers, a soft body comes to rest in another state than the correct one, since its iterations
+// have stiffened it.
 TEST(CellRun, ForgottenMultipliersEndElsewhere)
 {
     StabilityCell cell = pbs_cell();
@@ -139,8 +142,9 @@ TEST(CellRun, ForgottenMultipliersEndElsewhere)
     EXPECT_EQ(outcome_against(broken), StabilityOutcome::bounded);
 }
 
-// Theory: predicted positions are x + (x - x_before) + g dt^2, so 64 times the step equals 64^2 times the gravity, and powers of two are
-// exact. The test uses a smooth initial state in double, since roundings grow to centimetres within a few steps where tets are inverted.
+// Theory: predicted positions are x + (x - x_before) + g dt^2, so 64 times the step equals 64^2 times the gravity, and
+// powers of two are exact. The test uses a smooth initial state in double, since roundings grow to centimetres within a
+// few steps where tets are inverted.
 TEST(CellRun, WithJiggleTheTimeStepEntersBesideGravityAlone)
 {
     StabilityCell cell = pbs_cell();
@@ -154,7 +158,8 @@ TEST(CellRun, WithJiggleTheTimeStepEntersBesideGravityAlone)
         return run_cell(cell).steps;
     };
     const double little = 1.0 / 1024.0, much = 64.0 * 64.0 * little, short_s = 1.0 / 64.0;
-    const auto slow = steps_under(little, 1.0), heavy = steps_under(much, short_s), light = steps_under(little, short_s);
+    const auto slow = steps_under(little, 1.0), heavy = steps_under(much, short_s),
+               light = steps_under(little, short_s);
     ASSERT_EQ(slow.size(), heavy.size());
     for (std::size_t i = 0; i < slow.size(); ++i) EXPECT_EQ(slow[i].motion, heavy[i].motion) << i;
     EXPECT_NE(slow.back().motion, light.back().motion);
@@ -164,16 +169,18 @@ TEST(CellRun, WithJiggleTheTimeStepEntersBesideGravityAlone)
 
 const pbs::TetMesh mesh = test_support::two_bone_limb({16, 4, 4}, pbs::Vec3::UnitZ(), 0.0).mesh;
 
-// A tet with a vertex at the share s of its height has s of its volume; so does one whose edge is shortened to s of its length towards one
-// corner. The corners of a thin tet stay in place, and no other tet is as thin or inverted. Kuhn tets of cells of width b = 0.075 m across
-// have heights of at least b / sqrt 2, and the place of a vertex goes through six roundings of each coordinate of a metre at most. A volume
-// goes through ten roundings of products of three edges, of at most five times its size. A twentieth of the vertices is moved at most.
+// A tet with a vertex at the share s of its height has s of its volume; so does one whose edge is shortened to s of its
+// length towards one corner. The corners of a thin tet stay in place, and no other tet is as thin or inverted. Kuhn
+// tets of cells of width b = 0.075 m across have heights of at least b / sqrt 2, and the place of a vertex goes through
+// six roundings of each coordinate of a metre at most. A volume goes through ten roundings of products of three edges,
+// of at most five times its size. A twentieth of the vertices is moved at most.
 TEST(DistortedMesh, TheThinnestTetKeepsTheWantedShareOfItsVolume)
 {
     for (const Defect defect : {Defect::slivers, Defect::needles})
         for (const double thinness : {1e-1, 1e-3, 1e-6}) {
             const pbs::TetMesh spoilt = distorted(mesh, defect, thinness);
-            const Eigen::ArrayXd volumes = pbs::tet_volumes(spoilt.rest, spoilt.tets), at_rest = pbs::tet_volumes(mesh.rest, mesh.tets);
+            const Eigen::ArrayXd volumes = pbs::tet_volumes(spoilt.rest, spoilt.tets),
+                                 at_rest = pbs::tet_volumes(mesh.rest, mesh.tets);
             EXPECT_NEAR((volumes / at_rest).minCoeff(), thinness,
                         test_support::rounding_error(6 * std::sqrt(3.0), 1.0) * std::sqrt(2.0) / 0.075 +
                             test_support::rounding_error(2 * 10 * 5, 1.0));

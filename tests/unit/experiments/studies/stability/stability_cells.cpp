@@ -21,11 +21,13 @@ pbs::PbsOptions pbs_of(const StabilityCell& cell)
 }
 
 // The cells of a list that vary this factor alone, of one model and precision.
-std::vector<StabilityCell> swept(const std::string& list, const std::string& factor, const std::string& model, const std::string& precision)
+std::vector<StabilityCell> swept(const std::string& list, const std::string& factor, const std::string& model,
+                                 const std::string& precision)
 {
     std::vector<StabilityCell> cells = stability_cells(list);
     std::erase_if(cells, [&](const StabilityCell& cell) {
-        return cell.factor != factor || !cell.second_factor.empty() || cell.model != model || precision_of(cell) != precision;
+        return cell.factor != factor || !cell.second_factor.empty() || cell.model != model ||
+               precision_of(cell) != precision;
     });
     EXPECT_GE(cells.size(), 2u) << factor;
     return cells;
@@ -40,11 +42,14 @@ TEST(CellSweep, SetsWhatItsFactorNames)
         void (*reset)(pbs::PbsOptions& options);
     };
     const Varied factors[] = {
-        {"k_stretch", [](const auto& options) { return options.k_stretch == options.jiggle->k_stretch ? options.k_stretch : -1.0; },
+        {"k_stretch",
+         [](const auto& options) { return options.k_stretch == options.jiggle->k_stretch ? options.k_stretch : -1.0; },
          [](auto& options) { options.k_stretch = options.jiggle->k_stretch = 0.2; }},
-        {"k_volume", [](const auto& options) { return options.k_volume; }, [](auto& options) { options.k_volume = 1.0; }},
+        {"k_volume", [](const auto& options) { return options.k_volume; },
+         [](auto& options) { options.k_volume = 1.0; }},
         {"k_bind", [](const auto& options) { return options.k_bind; }, [](auto& options) { options.k_bind = 1.0; }},
-        {"iterations", [](const auto& options) { return double(options.iterations); }, [](auto& options) { options.iterations = 24; }},
+        {"iterations", [](const auto& options) { return double(options.iterations); },
+         [](auto& options) { options.iterations = 24; }},
         {"gravity", [](const auto& options) { return options.gravity_m_s2.y() / -9.81; },
          [](auto& options) { options.gravity_m_s2.y() = -9.81; }}};
     DeformerSpec base = swept("pbs_jiggle", "twist", "pbs_jiggle", "f64").front().spec;
@@ -64,8 +69,10 @@ TEST(CellSweep, SetsWhatItsFactorNames)
 // The named values, on which a cell's own factors and overrides depend, are those of the options.
 TEST(CellSweep, NamesTheValuesThatAreNoNumbers)
 {
-    for (const StabilityCell& cell : swept("pbs", "order", "pbs", "f32")) EXPECT_EQ(cell.named, name_of(pbs_of(cell).order));
-    for (const StabilityCell& cell : swept("pbs", "start", "pbs", "f32")) EXPECT_EQ(cell.named, name_of(cell.disturbance.start));
+    for (const StabilityCell& cell : swept("pbs", "order", "pbs", "f32"))
+        EXPECT_EQ(cell.named, name_of(pbs_of(cell).order));
+    for (const StabilityCell& cell : swept("pbs", "start", "pbs", "f32"))
+        EXPECT_EQ(cell.named, name_of(cell.disturbance.start));
     for (const StabilityCell& cell : swept("controls", "printed_form", "pbs", "f64")) {
         EXPECT_EQ(cell.named, name_of(pbs_of(cell).volume_form));
         EXPECT_NE(cell.named, name_of(pbs::VolumeForm::derived));
@@ -129,7 +136,8 @@ std::set<std::string> factors_where(const std::vector<StabilityCell>& cells, Cou
 TEST(PbsCells, AreJudgedInThePapersOrderAndHaveTheirControls)
 {
     const auto is_judged = [](const StabilityCell& cell) {
-        return cell.as_published && precision_of(cell) == "f64" && options_of<pbs::PbsOptions>(cell.spec).order == pbs::Order::plain;
+        return cell.as_published && precision_of(cell) == "f64" &&
+               options_of<pbs::PbsOptions>(cell.spec).order == pbs::Order::plain;
     };
     const auto is_undisturbed = [](const StabilityCell& cell) { return cell.model == "pbs_undisturbed"; };
     std::vector<StabilityCell> limb = stability_cells("pbs_jiggle");
@@ -141,15 +149,18 @@ TEST(PbsCells, AreJudgedInThePapersOrderAndHaveTheirControls)
     const std::vector<StabilityCell> lady = stability_cells("pbs_character", "lady");
     EXPECT_EQ(factors_where(lady, is_undisturbed), factors_where(lady, is_judged));
     for (const StabilityCell& cell : lady) EXPECT_NE(cell.as_published, is_undisturbed(cell));
-    EXPECT_TRUE(std::ranges::any_of(lady, [&](const auto& cell) { return is_judged(cell) && cell.time_step_s >= 0.05; }));
+    EXPECT_TRUE(
+        std::ranges::any_of(lady, [&](const auto& cell) { return is_judged(cell) && cell.time_step_s >= 0.05; }));
 }
 
-// The deformers that are compared with PBS in the study of stability. Reference: the list of methods and of extreme cases that the study
-// must have, written down here again; and settings beyond the limit of a method, which must be seen to fail.
+// The deformers that are compared with PBS in the study of stability. Reference: the list of methods and of extreme
+// cases that the study must have, written down here again; and settings beyond the limit of a method, which must be
+// seen to fail.
 
 using analysis::StabilityOutcome;
 
-const std::set<std::string> minimising_kinds = {"quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean", "projective_dynamics"};
+const std::set<std::string> minimising_kinds = {"quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean",
+                                                "projective_dynamics"};
 const std::set<std::string> other_kinds = {"delta_mush", "direct_delta_mush", "pbs_author"};
 
 std::set<std::string> factors_of(const std::vector<StabilityCell>& cells, const std::string& model)
@@ -192,7 +203,8 @@ TEST(OtherCells, EveryDeformerHasEveryExtremeCase)
     EXPECT_EQ(models, kinds);
     for (const std::string& model : kinds) {
         const std::set<std::string> factors = factors_of(cells, model);
-        for (const char* factor : {"time_step", "twist", "bend_in_one_step", "teleport", "slivers_height_kept", "needles_edge_kept"})
+        for (const char* factor :
+             {"time_step", "twist", "bend_in_one_step", "teleport", "slivers_height_kept", "needles_edge_kept"})
             EXPECT_TRUE(factors.count(factor)) << model << ", " << factor;
         EXPECT_EQ(factors.count("poisson"), minimising_kinds.count(model)) << model;
     }
@@ -208,7 +220,8 @@ TEST(OtherCells, EveryDeformerHasItsBrokenStarts)
         if (cell.second_factor.empty()) starts.insert({cell.model, cell.disturbance.start});
     }
     for (const std::string& model : minimising_kinds)
-        for (const Start start : {Start::flattened, Start::mirrored, Start::random, Start::point}) expected.insert({model, start});
+        for (const Start start : {Start::flattened, Start::mirrored, Start::random, Start::point})
+            expected.insert({model, start});
     EXPECT_EQ(starts, expected);
     std::set<std::string> without;
     for (const StartRow& row : starts_not_applicable()) {
@@ -247,7 +260,8 @@ TEST(OtherCells, PbsAuthorIsSteppedWhileItsPoseIsStill)
     EXPECT_FALSE(moves_in_the_third_step());
 }
 
-// With gravity the published code's own time step matters: a step of a second lets flesh fall by g h^2 = 9.8 m per frame.
+// With gravity the published code's own time step matters: a step of a second lets flesh fall by g h^2 = 9.8 m per
+// frame.
 TEST(OtherCells, TheOwnTimeStepOfPbsAuthorMatters)
 {
     const auto reach = [](double time_step_s) {
@@ -258,13 +272,14 @@ TEST(OtherCells, TheOwnTimeStepOfPbsAuthorMatters)
     EXPECT_GT(reach(1.0), 10.0 * reach(1e-3));
 }
 
-// Negative controls: Chebyshev's weights for a spectral radius above that of the sweeps; time steps beyond 0.8 of the time in which the
-// stiffness of a vertex moves its mass.
+// Negative controls: Chebyshev's weights for a spectral radius above that of the sweeps; time steps beyond 0.8 of the
+// time in which the stiffness of a vertex moves its mass.
 struct BeyondItsLimit {
     const char *model, *setting;
     double within, beyond;
 };
-const BeyondItsLimit beyond_limits[] = {{"vbd", "chebyshev_rho", 0.9, 0.9999}, {"xpbd_neo_hookean", "step_of_stiffness", 0.8, 16.0}};
+const BeyondItsLimit beyond_limits[] = {{"vbd", "chebyshev_rho", 0.9, 0.9999},
+                                        {"xpbd_neo_hookean", "step_of_stiffness", 0.8, 16.0}};
 
 TEST(OtherCells, SettingsBeyondTheLimitOfAMethodAreSeenToFail)
 {

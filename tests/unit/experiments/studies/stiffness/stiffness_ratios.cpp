@@ -14,13 +14,14 @@ namespace {
 
 using namespace experiments;
 
-// The rounding error of a ratio per doubling, (stiffness ratio)^(log 2 / log(x ratio)). The exponent is at most 1 and goes through five
-// roundings, of two logarithms and their quotient, and through those of the x ratio over the least logarithm here, that of 1.9; the power
-// goes through two, and through those of the stiffness ratio.
+// The rounding error of a ratio per doubling, (stiffness ratio)^(log 2 / log(x ratio)). The exponent is at most 1 and
+// goes through five roundings, of two logarithms and their quotient, and through those of the x ratio over the least
+// logarithm here, that of 1.9; the power goes through two, and through those of the stiffness ratio.
 double doubling_error(double ratio, double roundings_of_stiffnesses, double roundings_of_x)
 {
     const double roundings_of_exponent = 5.0 + roundings_of_x / std::log(1.9);
-    return test_support::rounding_error(roundings_of_exponent * std::abs(std::log(ratio)) + 2.0 + roundings_of_stiffnesses, ratio);
+    return test_support::rounding_error(
+        roundings_of_exponent * std::abs(std::log(ratio)) + 2.0 + roundings_of_stiffnesses, ratio);
 }
 
 StiffnessRow row(int iterations, double stiffness_n_m)
@@ -48,11 +49,14 @@ TEST(StiffnessRatios, OfASquareIsFourForADoubling)
     ASSERT_EQ(ratios.size(), 1u);
     EXPECT_EQ(ratios[0].claim, "C11");
     EXPECT_EQ(ratios[0].quantity, "stiffness_ratio_at_twice_iterations");
-    EXPECT_EQ(text_of(ratios[0].of), "limb, pbs, vertices 600, k_stretch 0.2, iterations 12 to 48, time_step 0.01 s, load zone");
-    for (const double value : {ratios[0].value, ratios[0].low, ratios[0].high}) EXPECT_NEAR(value, 4.0, doubling_error(4.0, 1, 0));
+    EXPECT_EQ(text_of(ratios[0].of),
+              "limb, pbs, vertices 600, k_stretch 0.2, iterations 12 to 48, time_step 0.01 s, load zone");
+    for (const double value : {ratios[0].value, ratios[0].low, ratios[0].high})
+        EXPECT_NEAR(value, 4.0, doubling_error(4.0, 1, 0));
     const auto exponents = stiffness_exponents(squares(), Varied::iterations);
     std::vector<double> iterations, stiffnesses;
-    for (const StiffnessRow& row : squares()) iterations.push_back(row.setting.iterations), stiffnesses.push_back(row.stiffness_n_m);
+    for (const StiffnessRow& row : squares())
+        iterations.push_back(row.setting.iterations), stiffnesses.push_back(row.stiffness_n_m);
     EXPECT_NEAR(exponents.at(0).exponent, 2.0, test_support::exponent_error(iterations, stiffnesses, 2.0, 0));
     EXPECT_EQ(exponents[0].first, 3.0);
     EXPECT_EQ(exponents[0].last, 96.0);
@@ -90,8 +94,10 @@ TEST(StiffnessRatios, OfHalfTheTimeStepAndOfMeshesThatAreNotQuiteTwiceEachOther)
     }
     const auto ratio = stiffness_ratios(steps, Varied::time_step).at(0);
     EXPECT_EQ(ratio.quantity, "stiffness_ratio_at_half_time_step");
-    EXPECT_NEAR(ratio.value, 4.0, doubling_error(4.0, 2 * 2 + 1, 2 * 2 + 1));  // squares and quotients, quotients of milliseconds
-    EXPECT_EQ(text_of(ratio.of), "limb, pbs, vertices 600, k_stretch 0.2, iterations 24, time_step 0.02 to 0.005 s, load zone");
+    // squares and quotients, quotients of milliseconds
+    EXPECT_NEAR(ratio.value, 4.0, doubling_error(4.0, 2 * 2 + 1, 2 * 2 + 1));
+    EXPECT_EQ(text_of(ratio.of),
+              "limb, pbs, vertices 600, k_stretch 0.2, iterations 24, time_step 0.02 to 0.005 s, load zone");
     for (const int vertices : {310, 590, 1205}) {
         meshes.push_back(row(24, 1.0 / vertices));
         meshes.back().vertices = vertices;
@@ -116,16 +122,20 @@ TEST(StiffnessRatios, AreThoseOfTheWantedMeshes)
     const auto ratio = stiffness_ratios(meshes, Varied::resolution).at(0);
     EXPECT_NEAR(ratio.value, 0.5, doubling_error(0.5, 2, 0));
     EXPECT_NEAR(ratio.low, 0.25, doubling_error(0.25, 4, 0));
-    EXPECT_NEAR(stiffness_exponents(meshes, Varied::resolution).at(0).exponent, -1.0,
-                test_support::exponent_error({300.0, 600.0, 1200.0}, {1.0 / 300.0, 1.0 / 600.0, 1.0 / 1200.0}, -1.0, 1));
+    EXPECT_NEAR(
+        stiffness_exponents(meshes, Varied::resolution).at(0).exponent, -1.0,
+        test_support::exponent_error({300.0, 600.0, 1200.0}, {1.0 / 300.0, 1.0 / 600.0, 1.0 / 1200.0}, -1.0, 1));
 }
 
 // All five run at the same settings, and none is mistaken for another.
 TEST(StiffnessRatios, TellTheMethodsApart)
 {
     std::vector<StiffnessRow> rows;
-    const std::pair<Method, double> constant[] = {
-        {Method::pbs, 0.0}, {Method::exponent, 1.0}, {Method::xpbd, 2.0}, {Method::xpbd_small_steps, 3.0}, {Method::xpbd_forgetting, 4.0}};
+    const std::pair<Method, double> constant[] = {{Method::pbs, 0.0},
+                                                  {Method::exponent, 1.0},
+                                                  {Method::xpbd, 2.0},
+                                                  {Method::xpbd_small_steps, 3.0},
+                                                  {Method::xpbd_forgetting, 4.0}};
     for (const auto& [method, power] : constant)
         for (StiffnessRow of_method : squares()) {
             of_method.setting.method = method;
@@ -140,7 +150,8 @@ TEST(StiffnessRatios, TellTheMethodsApart)
     }
     std::set<std::string> deformers;
     for (const auto& ratio : ratios) deformers.insert(ratio.of.deformer);
-    EXPECT_EQ(deformers, (std::set<std::string>{"pbs", "pbs_exponent", "xpbd", "xpbd_small_steps", "xpbd_forgetting_multipliers"}));
+    EXPECT_EQ(deformers, (std::set<std::string>{"pbs", "pbs_exponent", "xpbd", "xpbd_small_steps",
+                                                "xpbd_forgetting_multipliers"}));
 }
 
 }  // namespace

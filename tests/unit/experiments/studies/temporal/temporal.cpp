@@ -1,5 +1,5 @@
-// Jitter, error and starts along a motion. Reference: the definition of the jitter on shapes that are made in another way, a rigid motion,
-// whose shapes are known, and the rows of the frames for those of the clip.
+// Jitter, error and starts along a motion. Reference: the definition of the jitter on shapes that are made in another
+// way, a rigid motion, whose shapes are known, and the rows of the frames for those of the clip.
 #include "experiments/studies/temporal/temporal.hpp"
 
 #include "experiments/deformers/fem/fem_options.hpp"
@@ -61,8 +61,10 @@ TEST(Temporal, JitterIsTheDifferenceOfTheSecondDifferencesOverTheSkin)
     Eigen::VectorXd area = Eigen::VectorXd::Zero(limb.mesh.rest.rows());
     Eigen::AlignedBox3d box;
     for (const auto face : skin.rowwise()) {
-        const pbs::Vec3 a = limb.mesh.rest.row(face(0)), b = limb.mesh.rest.row(face(1)), c = limb.mesh.rest.row(face(2));
-        for (const int v : face) area(v) += (b - a).cross(c - a).norm() / 6.0, box.extend(pbs::Vec3(limb.mesh.rest.row(v)));
+        const pbs::Vec3 a = limb.mesh.rest.row(face(0)), b = limb.mesh.rest.row(face(1)),
+                        c = limb.mesh.rest.row(face(2));
+        for (const int v : face)
+            area(v) += (b - a).cross(c - a).norm() / 6.0, box.extend(pbs::Vec3(limb.mesh.rest.row(v)));
     }
     const double to_mm = 1700.0 / box.sizes().maxCoeff();
     std::vector<double> jitter_mm;
@@ -85,7 +87,8 @@ TEST(Temporal, JitterIsTheDifferenceOfTheSecondDifferencesOverTheSkin)
 TEST(Temporal, ComparesTheStartsInTheFramesWithFlesh)
 {
     const TemporalRecords records = measure_temporal(sweep("forearm", 60.0));
-    const auto own = frames_of(records, "pbs", FrameStart::own), before = frames_of(records, "pbs", FrameStart::frame_before);
+    const auto own = frames_of(records, "pbs", FrameStart::own),
+               before = frames_of(records, "pbs", FrameStart::frame_before);
     int worse = 0, compared = 0;
     for (std::size_t t = 0; t < own.size(); ++t) {
         ASSERT_EQ(own[t].error_joint_pct.has_value(), t % 10 == 0) << t;

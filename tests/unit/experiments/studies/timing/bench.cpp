@@ -1,4 +1,5 @@
-// Sizes and fits follow their definitions, both builds of the plain loops are the same mathematics, and the body is twisted as stated.
+// Sizes and fits follow their definitions, both builds of the plain loops are the same mathematics, and the body is
+// twisted as stated.
 #include "experiments/studies/timing/bench.hpp"
 
 #include "pbs/geometry/input_error.hpp"
@@ -30,7 +31,8 @@ TEST(BenchSizes, AreNumbersOfTets)
 nlohmann::json of_size(double constraints, double ms_step)
 {
     const nlohmann::json entry = {{"variant", "ordered"}, {"precision", "f32"}, {"threads", 1}, {"ms_step", ms_step}};
-    return {{"mesh", {{"vertices", 0}, {"edges", 0}, {"tets", constraints}}}, {"results", nlohmann::json::array({entry})}};
+    return {{"mesh", {{"vertices", 0}, {"edges", 0}, {"tets", constraints}}},
+            {"results", nlohmann::json::array({entry})}};
 }
 
 // A cost of c n^1.1 has the exponent 1.1, with an interval of width zero.
@@ -45,20 +47,22 @@ TEST(BenchScaling, ExponentOfAPower)
     }
     const nlohmann::json fits = fit_scaling(meshes);
     ASSERT_EQ(fits.size(), 1u);
-    // A power and a product go through three roundings. The interval is t s / sqrt(S) wide on either side, where t = 12.71 is Student's
-    // quantile at 97.5 % for n - 2 = 1, S the sum of (x - mean)^2 over the logarithms x of the sizes and s^2 the sum of the squared
-    // residuals. A residual is at most e + d |x - mean| with e the error of a point and d that of the slope, and neither e sqrt(n / S) nor
-    // d exceeds `rounding`.
+    // A power and a product go through three roundings. The interval is t s / sqrt(S) wide on either side, where t
+    // = 12.71 is Student's quantile at 97.5 % for n - 2 = 1, S the sum of (x - mean)^2 over the logarithms x of the
+    // sizes and s^2 the sum of the squared residuals. A residual is at most e + d |x - mean| with e the error of a
+    // point and d that of the slope, and neither e sqrt(n / S) nor d exceeds `rounding`.
     const double rounding = test_support::exponent_error(sizes, ms, 1.1, 3);
     EXPECT_NEAR(fits[0].at("exponent"), 1.1, rounding);
-    EXPECT_LE(fits[0].at("interval").at(1).get<double>() - fits[0].at("interval").at(0).get<double>(), 2.0 * 12.71 * 2.0 * rounding);
+    EXPECT_LE(fits[0].at("interval").at(1).get<double>() - fits[0].at("interval").at(0).get<double>(),
+              2.0 * 12.71 * 2.0 * rounding);
     EXPECT_TRUE(fit_scaling(nlohmann::json::array({of_size(1000, 1.0)})).empty()) << "one mesh has no exponent";
 }
 
 TEST(Bandwidth, IsInterpolatedBetweenWhatWasMeasured)
 {
     const std::vector<MemoryBandwidth> memory = {{1e4, 400.0}, {1e6, 100.0}, {1e8, 20.0}};
-    for (const auto& [bytes, gb_s] : {std::pair(1e3, 400.0), {1e4, 400.0}, {1e5, 250.0}, {1e6, 100.0}, {1e9, 20.0}})  // in the logarithm
+    // in the logarithm
+    for (const auto& [bytes, gb_s] : {std::pair(1e3, 400.0), {1e4, 400.0}, {1e5, 250.0}, {1e6, 100.0}, {1e9, 20.0}})
         EXPECT_DOUBLE_EQ(bandwidth_at(memory, bytes), gb_s) << bytes;
     EXPECT_DOUBLE_EQ(bandwidth_at({}, 1e6), 0.0);
     const std::vector<MemoryBandwidth> measured = measure_bandwidth(1e-4, 1e5);
@@ -68,7 +72,8 @@ TEST(Bandwidth, IsInterpolatedBetweenWhatWasMeasured)
 
 const BenchBody& twisted_bar()
 {
-    static const BenchBody body = make_bench_body("bar", test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {8, 2, 2}));
+    static const BenchBody body =
+        make_bench_body("bar", test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {8, 2, 2}));
     return body;
 }
 
@@ -76,7 +81,8 @@ TEST(BenchBody, IsTwistedByNinetyDegreesFromTheHeldEnd)
 {
     const BenchBody& body = twisted_bar();
     const pbs::Positions& rest = body.mesh().rest;
-    const double begin = rest.col(0).minCoeff(), end = rest.col(0).maxCoeff(), y0 = (rest.col(1).maxCoeff() + rest.col(1).minCoeff()) / 2.0,
+    const double begin = rest.col(0).minCoeff(), end = rest.col(0).maxCoeff(),
+                 y0 = (rest.col(1).maxCoeff() + rest.col(1).minCoeff()) / 2.0,
                  z0 = (rest.col(2).maxCoeff() + rest.col(2).minCoeff()) / 2.0;
     const double rounding_m = test_support::motion_error(1, rest.rightCols(2).rowwise().norm().maxCoeff());
     for (Eigen::Index i = 0; i < rest.rows(); ++i) {
@@ -110,14 +116,16 @@ test_support::ResidualRounding rounding_on(const BenchBody& body)
     return test_support::residual_rounding(limb, options, body.held);
 }
 
-// Every variant projects the same problem. The native build differs from the library's only by rounding, on both sides. Other orders settle
-// elsewhere: on a regular grid, file order lies 20 to 30 % below random orders of the same loops (properties/pbs/solver/orders.cpp). The
-// bound of 30 % separates them from a shape that was not projected, whose residuals must differ by more than twice as much.
+// Every variant projects the same problem. The native build differs from the library's only by rounding, on both sides.
+// Other orders settle elsewhere: on a regular grid, file order lies 20 to 30 % below random orders of the same loops
+// (properties/pbs/solver/orders.cpp). The bound of 30 % separates them from a shape that was not projected, whose
+// residuals must differ by more than twice as much.
 TEST(ProjectionVariants, SettleOnTheSameResiduals)
 {
     const BenchBody& body = twisted_bar();
     const auto variants = projection_variants(body, {1, 2});
-    ASSERT_EQ(variants.size(), 18u);  // for each precision three plain variants, and ordered, grouped and poses on one and on two threads
+    // for each precision three plain variants, and ordered, grouped and poses on one and on two threads
+    ASSERT_EQ(variants.size(), 18u);
     const pbs::Residuals plain = settled(variants[0]), twisted = settled(variants[0], 0);
     EXPECT_GT(std::abs(twisted.stretch_rms - plain.stretch_rms), 2.0 * 0.3 * plain.stretch_rms);
     EXPECT_GT(std::abs(twisted.volume_rms - plain.volume_rms), 2.0 * 0.3 * plain.volume_rms);
@@ -125,15 +133,17 @@ TEST(ProjectionVariants, SettleOnTheSameResiduals)
     for (const ProjectionVariant& variant : variants) {
         const bool same_order = variant.variant == "plain" || variant.variant == "plain_native";
         const pbs::Residuals residuals = settled(variant);
-        EXPECT_NEAR(residuals.stretch_rms, plain.stretch_rms, same_order ? 2.0 * rounding.stretch_rms : 0.3 * plain.stretch_rms)
+        EXPECT_NEAR(residuals.stretch_rms, plain.stretch_rms,
+                    same_order ? 2.0 * rounding.stretch_rms : 0.3 * plain.stretch_rms)
             << variant.variant;
-        EXPECT_NEAR(residuals.volume_rms, plain.volume_rms, same_order ? 2.0 * rounding.volume_rms : 0.3 * plain.volume_rms)
+        EXPECT_NEAR(residuals.volume_rms, plain.volume_rms,
+                    same_order ? 2.0 * rounding.volume_rms : 0.3 * plain.volume_rms)
             << variant.variant;
     }
 }
 
-// Worked by hand: residuals (3, 4, 0) and (0.3, 0.4, 0) have the combined values 5 / sqrt(3) and 0.5 / sqrt(3); a bind error of 2 m over a
-// mean distance of 0.5 m is 4.
+// Worked by hand: residuals (3, 4, 0) and (0.3, 0.4, 0) have the combined values 5 / sqrt(3) and 0.5 / sqrt(3); a bind
+// error of 2 m over a mean distance of 0.5 m is 4.
 TEST(AnswerRatios, AreOfTheCombinedResidualAndOfTheVolume)
 {
     const AnswerRatio loss = answer_ratio({.stretch_rms = 3.0, .volume_rms = 4.0, .bind_rms_m = 0.0},
@@ -149,14 +159,17 @@ TEST(AnswerRatios, AreOfTheCombinedResidualAndOfTheVolume)
 TEST(AnswerRatios, StandNextToEachSpeedUp)
 {
     const BenchBody& body = twisted_bar();
-    const nlohmann::json timings = time_projections(body, {1}, {{1e3, 80.0}, {1e9, 20.0}}, {.seconds = 0.0, .fewest = 1, .most = 1});
+    const nlohmann::json timings =
+        time_projections(body, {1}, {{1e3, 80.0}, {1e9, 20.0}}, {.seconds = 0.0, .fewest = 1, .most = 1});
     ASSERT_EQ(timings.size(), 12u);
     for (const nlohmann::json& timing : timings) {
         const std::string variant = timing.at("variant");
         const nlohmann::json& spread = *std::ranges::find_if(timings, [&](const nlohmann::json& one) {
             return one.at("variant") == "plain_spread" && one.at("precision") == timing.at("precision");
         });
-        const auto volume_rms = [](const nlohmann::json& of) { return of.at("residuals").at("volume_rms").get<double>(); };
+        const auto volume_rms = [](const nlohmann::json& of) {
+            return of.at("residuals").at("volume_rms").get<double>();
+        };
         EXPECT_EQ(timing.at("volume_rms_to_plain_spread"), volume_rms(timing) / volume_rms(spread)) << variant;
         EXPECT_GT(timing.at("ms_floor"), 0.0) << variant;
         if (variant == "plain") {

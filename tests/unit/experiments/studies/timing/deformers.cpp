@@ -22,7 +22,8 @@ using namespace experiments;
 
 const BenchBody& bar()
 {
-    static const BenchBody body = make_bench_body("bar", test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {6, 2, 2}));
+    static const BenchBody body =
+        make_bench_body("bar", test_support::structured_bar({-1, -0.15, -0.15}, {1, 0.15, 0.15}, {6, 2, 2}));
     return body;
 }
 
@@ -77,14 +78,17 @@ INSTANTIATE_TEST_SUITE_P(
     OfKinds, DeformerSettings,
     testing::Values(SettingsOfKinds{{"pbs"}, four_orders}, SettingsOfKinds{{"xpbd"}, four_orders, false},
                     SettingsOfKinds{{"lbs", "dqs"}, packed_and_plain, false},
-                    SettingsOfKinds{{"quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean", "projective_dynamics"}, packed_and_plain},
-                    SettingsOfKinds{{"pbs_author"}, {{"", "f64"}}}, SettingsOfKinds{{"xpbd_small_steps"}, {{"", "f64"}}, false}));
+                    SettingsOfKinds{{"quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean", "projective_dynamics"},
+                                    packed_and_plain},
+                    SettingsOfKinds{{"pbs_author"}, {{"", "f64"}}},
+                    SettingsOfKinds{{"xpbd_small_steps"}, {{"", "f64"}}, false}));
 
 struct GivenOptions {
     pbs::Precision precision = pbs::Precision::f64;
 };
 
-// A deformer that works for 2 ms in f64 and 1 ms in f32, or longer where a virtual machine counts the time of others, too.
+// A deformer that works for 2 ms in f64 and 1 ms in f32, or longer where a virtual machine counts the time of others,
+// too.
 class GivenTime : public Deformer {
 public:
     explicit GivenTime(const GivenOptions& options)
@@ -113,9 +117,10 @@ private:
 // Every registered kind has a row, also one that is registered later, except those that only a scene's tables define.
 TEST(DeformerTimings, TakeUpWhatIsRegistered)
 {
-    add_deformer_kind(kind_of<GivenTime>(
-        "given_time", "works for a given time",
-        OptionFields<GivenOptions>("given_time").add("precision", &GivenOptions::precision, {.meaning = "floating point"})));
+    add_deformer_kind(
+        kind_of<GivenTime>("given_time", "works for a given time",
+                           OptionFields<GivenOptions>("given_time")
+                               .add("precision", &GivenOptions::precision, {.meaning = "floating point"})));
     const nlohmann::json timings = time_deformers(bar(), two_rounds);
     std::set<std::string> timed;
     std::vector<nlohmann::json> given;
@@ -136,8 +141,8 @@ TEST(DeformerTimings, TakeUpWhatIsRegistered)
 
     ASSERT_EQ(given.size(), 2u);
     EXPECT_EQ(given[0].at("precision"), "f32");
-    // The time of a frame is one of its times, or between them, and little more: a reading of the clock takes less than a tenth of a
-    // millisecond.
+    // The time of a frame is one of its times, or between them, and little more: a reading of the clock takes less than
+    // a tenth of a millisecond.
     const double ms_frame = given[0].at("ms_frame");
     const auto f32 = std::ranges::minmax(GivenTime::taken_ms[pbs::Precision::f32]),
                f64 = std::ranges::minmax(GivenTime::taken_ms[pbs::Precision::f64]);

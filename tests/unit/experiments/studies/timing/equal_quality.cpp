@@ -35,19 +35,23 @@ IterationPath falling(int most)
 
 TEST(FirstWithin, IsTheFirstLookNotAboveTheBound)
 {
-    const auto first = [](const IterationPath& path, double bound) { return first_within(path, &Look::combined, bound); };
+    const auto first = [](const IterationPath& path, double bound) {
+        return first_within(path, &Look::combined, bound);
+    };
     EXPECT_EQ(first(falling(10), 1.0), 3);
     EXPECT_EQ(first(falling(10), 4.0), 0);
     EXPECT_EQ(first(falling(10), 0.1), std::nullopt);
     EXPECT_EQ(first({}, 1.0), std::nullopt);
-    EXPECT_EQ(first(path_by(10, [](int n) { return std::abs(n - 5.0); }), 1.0), 4) << "it rises again and has reached it";
+    EXPECT_EQ(first(path_by(10, [](int n) { return std::abs(n - 5.0); }), 1.0), 4)
+        << "it rises again and has reached it";
     EXPECT_EQ(first(path_by(3, [](int) { return std::numeric_limits<double>::quiet_NaN(); }), 1.0), std::nullopt);
 }
 
 TEST(TargetRows, IterationsAndTimeToPlainsResidual)
 {
     const analysis::CaseKey of = {.body = "limb"};
-    // plain: 4 / 25 = 0.16 after 24 iterations; the other order halves its value in each iteration: 4, 2, 1, 1/2, 1/4, 1/8.
+    // plain: 4 / 25 = 0.16 after 24 iterations; the other order halves its value in each iteration: 4, 2, 1, 1/2, 1/4,
+    // 1/8.
     const std::vector<MeasuredOrder> all = {measured("plain", file_sequence, falling(100), 2.0),
                                             measured("ordered", "random_1", path_to_floor(100, 0.0, 4.0, 0.5), 0.25)};
     const std::vector<TargetRow> rows = target_rows(of, all);
@@ -81,7 +85,8 @@ TEST(TargetRows, AnOrderWithAHigherLimitNeverReachesIt)
 TEST(TargetRows, AreReadBackAndThereAreNoneWithoutPlainInFileOrder)
 {
     const std::vector<MeasuredOrder> all = {measured("plain", file_sequence, falling(30), 2.0)};
-    const std::vector<TargetRow> read = rows_of(target_columns, table_of(target_columns, target_rows({.body = "limb"}, all)));
+    const std::vector<TargetRow> read =
+        rows_of(target_columns, table_of(target_columns, target_rows({.body = "limb"}, all)));
     ASSERT_EQ(read.size(), 4u);
     EXPECT_EQ(read[0].iterations, 24);
     EXPECT_EQ(read[3].iterations, 7);  // 4 / 8 = 0.5
@@ -90,7 +95,8 @@ TEST(TargetRows, AreReadBackAndThereAreNoneWithoutPlainInFileOrder)
 
 TEST(OrderRows, ValuesAfter24AndInTheLimit)
 {
-    const std::vector<OrderRow> rows = order_rows({.body = "limb"}, {measured("plain", file_sequence, falling(100), 2.0)});
+    const std::vector<OrderRow> rows =
+        order_rows({.body = "limb"}, {measured("plain", file_sequence, falling(100), 2.0)});
     ASSERT_EQ(rows.size(), 1u);
     const analysis::CsvTable table = table_of(order_columns, rows);
     EXPECT_DOUBLE_EQ(table.number(0, "residual_24"), 4.0 / 25);
@@ -114,25 +120,28 @@ TargetRow target_row(const std::string& order, const std::string& sequence, std:
 // Where either never reaches the target, there is no speed-up.
 TEST(EqualAnswers, SpeedUpsAreRatiosOfTimesToTheTarget)
 {
-    const std::vector<EqualAnswer> all =
-        equal_answers({target_row("plain", "file", 80.0), target_row("plain", "spread", 40.0), target_row("plain", "random_1", 60.0),
-                       target_row("ordered", "file", 10.0), target_row("ordered", "random_1", 11.0)});
+    const std::vector<EqualAnswer> all = equal_answers(
+        {target_row("plain", "file", 80.0), target_row("plain", "spread", 40.0), target_row("plain", "random_1", 60.0),
+         target_row("ordered", "file", 10.0), target_row("ordered", "random_1", 11.0)});
     ASSERT_EQ(all.size(), 2u);
     EXPECT_EQ(all[1].speedup_to_plain, 8.0);
     EXPECT_EQ(all[1].speedup_to_plain_spread, 4.0);
-    const std::vector<EqualAnswer> unreached = equal_answers({target_row("plain", "file", 80.0), target_row("plain", "spread", {}),
-                                                              target_row("ordered", "file", 10.0), target_row("grouped", "file", {})});
+    const std::vector<EqualAnswer> unreached =
+        equal_answers({target_row("plain", "file", 80.0), target_row("plain", "spread", {}),
+                       target_row("ordered", "file", 10.0), target_row("grouped", "file", {})});
     ASSERT_EQ(unreached.size(), 3u);
     EXPECT_EQ(unreached[1].speedup_to_plain, 8.0);
     EXPECT_EQ(unreached[1].speedup_to_plain_spread, std::nullopt);
     EXPECT_EQ(unreached[2].speedup_to_plain, std::nullopt);
-    EXPECT_THROW(equal_answers({target_row("plain", "file", 80.0)}), std::out_of_range) << "there is no spread baseline";
+    EXPECT_THROW(equal_answers({target_row("plain", "file", 80.0)}), std::out_of_range)
+        << "there is no spread baseline";
 }
 
-// The order `ordered` gives an answer that is no worse than the median of random orders. Reference: `plain` in the five random sequences of
-// the study, on two of its bodies.
+// The order `ordered` gives an answer that is no worse than the median of random orders. Reference: `plain` in the five
+// random sequences of the study, on two of its bodies.
 
-// The absolute volume change after 24 iterations in file order over the median of `plain` in random orders, by order and precision.
+// The absolute volume change after 24 iterations in file order over the median of `plain` in random orders, by order
+// and precision.
 std::map<std::pair<std::string, std::string>, double> volume_to_random_plain(const std::string& body, double angle_deg)
 {
     EqualQualityCase of;
@@ -156,7 +165,8 @@ std::map<std::pair<std::string, std::string>, double> volume_to_random_plain(con
     return ratios;
 }
 
-// `poses` has the bits of `ordered`. The order `grouped` is faster, and its answer on the limb is worse than that of random orders.
+// `poses` has the bits of `ordered`. The order `grouped` is faster, and its answer on the limb is worse than that of
+// random orders.
 TEST(RandomOrders, OrderedIsNoWorseThanTheirMedianAndGroupedIsOnTheLimb)
 {
     for (const auto& [body, angle_deg] : {std::pair("limb", 150.0), std::pair("tapered_limb", 165.0)}) {
@@ -184,10 +194,9 @@ TEST(TaperedLimb, IsAGridOfPositiveTetsOnTwoBonesAndNearlyAFrustum)
     EXPECT_EQ(limb.weights.vertices(), 2025);
     EXPECT_EQ(limb.binding.distance.size(), 2025);
 
-    // The outline of a layer has 32 points on a circle: u^2 (1 - v^2 / 2) + v^2 (1 - u^2 / 2) = 1 where |u| = 1. Its area is below that of
-    // the
-    // disc and above that of the inscribed square, which has the share 2 / pi of the disc. Frustum: pi (R^2 + R r + r^2) / 3 times its
-    // length.
+    // The outline of a layer has 32 points on a circle: u^2 (1 - v^2 / 2) + v^2 (1 - u^2 / 2) = 1 where |u| = 1. Its
+    // area is below that of the disc and above that of the inscribed square, which has the share 2 / pi of the disc.
+    // Frustum: pi (R^2 + R r + r^2) / 3 times its length.
     for (const int i : {0, 12, 24})
         for (int k = 0; k < 9; ++k) {
             const Eigen::RowVector3d point = limb.mesh.rest.row(i * 81 + k);  // u = -1

@@ -51,7 +51,8 @@ TEST(Features, TheBareSceneHasNothingThatAFeatureAdds)
     EXPECT_FALSE(bare.output.errors || bare.output.sections || bare.output.surface || bare.output.writes(0));
 }
 
-// The arithmetic of the cost table. Expected: medians, quartiles and ratios by hand, on rounds whose disturbances are known.
+// The arithmetic of the cost table. Expected: medians, quartiles and ratios by hand, on rounds whose disturbances are
+// known.
 
 // The run.json of a run of three frames in `frame_s` each, half of which is PBS's step.
 nlohmann::json run(double frame_s, double start_s)
@@ -62,8 +63,9 @@ nlohmann::json run(double frame_s, double start_s)
                                     {"metrics_set_up", 0.0},
                                     {"total", 3.0 * frame_s + start_s},
                                     {"deformers", {{"pbs", {{"step", 1.5 * frame_s}}}}}};
-    return {{"outcome", {{"frames", 3}}},
-            {"cost", {{"seconds", seconds}, {"cpu_seconds", seconds}, {"peak_memory_mb", 42.0}, {"shared_objects", 60}}}};
+    return {
+        {"outcome", {{"frames", 3}}},
+        {"cost", {{"seconds", seconds}, {"cpu_seconds", seconds}, {"peak_memory_mb", 42.0}, {"shared_objects", 60}}}};
 }
 
 Samples costs(const std::vector<double>& frame_ms)
@@ -76,7 +78,8 @@ Samples costs(const std::vector<double>& frame_ms)
     return samples;
 }
 
-// The total of 125 ms and three frames is rounded; a frame, its share of the step and their multiples go through five roundings.
+// The total of 125 ms and three frames is rounded; a frame, its share of the step and their multiples go through five
+// roundings.
 double frame_error_ms(double ms)
 {
     return test_support::rounding_error(1, (125.0 + 3.0 * ms) / 3.0) + test_support::rounding_error(5, ms);
@@ -100,7 +103,8 @@ TEST(FeatureTable, RatiosAreThoseWithinARound)
     const Compared compared = compare({2.0, 4.0, 2.0}, {3.0, 6.0, 3.0});
     EXPECT_EQ(compared.without.median, 2.0);
     EXPECT_EQ(compared.with.median, 3.0);
-    for (const double ratio : {compared.ratio.lower, compared.ratio.median, compared.ratio.upper}) EXPECT_EQ(ratio, 1.5);
+    for (const double ratio : {compared.ratio.lower, compared.ratio.median, compared.ratio.upper})
+        EXPECT_EQ(ratio, 1.5);
     EXPECT_EQ(compared.ratio.rounds, 3);
     const Spread quartiles = compare({1.0, 1.0, 1.0, 1.0, 1.0}, {1.0, 2.0, 3.0, 4.0, 5.0}).ratio;
     EXPECT_EQ(quartiles.lower, 2.0);

@@ -1,5 +1,5 @@
-// Expected values follow from made-up timings and from Table 1 as the paper prints it; all of them are single quotients. Times themselves
-// are not compared, since others use the machine too.
+// Expected values follow from made-up timings and from Table 1 as the paper prints it; all of them are single
+// quotients. Times themselves are not compared, since others use the machine too.
 #include "experiments/studies/timing/timing.hpp"
 
 #include "pbs/skinning/pose.hpp"
@@ -18,8 +18,10 @@ using namespace experiments;
 // A whole takes longer than its parts, and every variant has the same number of rounds.
 TEST(FrameTiming, OfEveryVariantByTurns)
 {
-    const pbs::Character limb = test_support::character_of(test_support::two_bone_limb({20, 6, 6}, pbs::Vec3::UnitZ(), 0.0));
-    const pbs::Motion motion = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), 60.0, 4, 0.01);  // fewer frames than the turns need
+    const pbs::Character limb =
+        test_support::character_of(test_support::two_bone_limb({20, 6, 6}, pbs::Vec3::UnitZ(), 0.0));
+    // fewer frames than the turns need
+    const pbs::Motion motion = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), 60.0, 4, 0.01);
     const auto timings = time_frames(limb, motion, 0.5, {.seconds = 0.0, .fewest = 5, .most = 5}, 3);
     ASSERT_EQ(timings.size(), 3u);
     const char* const variants[] = {"plainf64", "plainf32", "orderedf32"};
@@ -46,8 +48,8 @@ Spread spread(double median)
 FrameTiming of_variant(const char* variant, const char* precision, double total_ms, double wall_ms)
 {
     FrameTiming timing{.variant = variant, .precision = precision};
-    for (Spread FrameTiming::*part :
-         {&FrameTiming::lbs_ms, &FrameTiming::bind_ms, &FrameTiming::stretch_ms, &FrameTiming::volume_ms, &FrameTiming::rest_ms})
+    for (Spread FrameTiming::*part : {&FrameTiming::lbs_ms, &FrameTiming::bind_ms, &FrameTiming::stretch_ms,
+                                      &FrameTiming::volume_ms, &FrameTiming::rest_ms})
         timing.*part = spread(0.1);
     timing.total_ms = spread(total_ms);
     timing.total_wall_ms = spread(wall_ms);
@@ -70,7 +72,8 @@ std::vector<TimingRow> rows_of_mesh(const std::string& model = "Man", int vertic
                        timings);
 }
 
-double measurement(const std::vector<analysis::Measurement>& measured, const std::string& quantity, const analysis::CaseKey& of = {})
+double measurement(const std::vector<analysis::Measurement>& measured, const std::string& quantity,
+                   const analysis::CaseKey& of = {})
 {
     for (const auto& one : measured)
         if (one.quantity == quantity && analysis::matches(one.of, of)) return one.value;
@@ -124,12 +127,14 @@ TEST(TimingTable, ARefinedMeshHasTheFrameRateThatIsJudgedAlone)
 
 TEST(TimingTable, TheAuthorsLaterCodeIsTimedOnTheSameMesh)
 {
-    const pbs::Character limb = test_support::character_of(test_support::two_bone_limb({20, 6, 6}, pbs::Vec3::UnitZ(), 0.0));
+    const pbs::Character limb =
+        test_support::character_of(test_support::two_bone_limb({20, 6, 6}, pbs::Vec3::UnitZ(), 0.0));
     const pbs::Motion motion = pbs::joint_sweep(limb.skeleton, 1, pbs::Vec3::UnitZ(), 60.0, 8, 0.01);
-    const auto rate = author_frame_rate({.mesh = "man_1654", .body = "man", .model = "Man", .vertices = 1654}, limb, motion,
-                                        {.seconds = 0.0, .fewest = 3, .most = 3});
+    const auto rate = author_frame_rate({.mesh = "man_1654", .body = "man", .model = "Man", .vertices = 1654}, limb,
+                                        motion, {.seconds = 0.0, .fewest = 3, .most = 3});
     EXPECT_EQ(rate.quantity, "frames_per_s");
-    EXPECT_EQ(text_of(rate.of), "man, 01_01, pbs_author, table_1, first_fit, f64, vertices 1654, iterations 12, model Man");
+    EXPECT_EQ(text_of(rate.of),
+              "man, 01_01, pbs_author, table_1, first_fit, f64, vertices 1654, iterations 12, model Man");
     EXPECT_GT(rate.low, 0.0);
     EXPECT_LE(rate.low, rate.value);
     EXPECT_LE(rate.value, rate.high);

@@ -1,5 +1,6 @@
-// The tables over all poses. Reference: rows that are made here, whose shares, decisions and choices are known by construction, and the
-// formulas evaluated by hand. tests/unit/analysis/statistics/paired_comparison.cpp checks the steps of a decision.
+// The tables over all poses. Reference: rows that are made here, whose shares, decisions and choices are known by
+// construction, and the formulas evaluated by hand. tests/unit/analysis/statistics/paired_comparison.cpp checks the
+// steps of a decision.
 #include "experiments/studies/work_precision/conclusions.hpp"
 
 #include <gtest/gtest.h>
@@ -71,10 +72,12 @@ struct Rows {
         for (const double budget_ms : times_ms) settings.push_back({budget_ms, method, "of_" + method, ms, 1.0});
     }
 
-    void add_points(const std::string& method, const std::string& setting, double ms, const Share& share, GivenFlesh flesh)
+    void add_points(const std::string& method, const std::string& setting, double ms, const Share& share,
+                    GivenFlesh flesh)
     {
         for (int pose = 0; pose < movements + folds; ++pose) {
-            PointRow& row = points.emplace_back(PointRow{.pose = pose_name(pose), .body = body_of(pose), .stratum = stratum_of(pose)});
+            PointRow& row = points.emplace_back(
+                PointRow{.pose = pose_name(pose), .body = body_of(pose), .stratum = stratum_of(pose)});
             row.method = method, row.flesh = flesh, row.setting = setting, row.outcome = "finished";
             row.ms = ms, row.times_pbs = 2.0 * ms, row.skin_mm = 3.0;
             for (std::size_t m = 0; m < members_of_family; ++m)
@@ -85,10 +88,12 @@ struct Rows {
     Comparison concluded() const { return experiments::concluded(points, own, settings); }
 };
 
-const MethodRow& method_row(const Comparison& comparison, ComparisonTable table, double budget_ms, const std::string& method)
+const MethodRow& method_row(const Comparison& comparison, ComparisonTable table, double budget_ms,
+                            const std::string& method)
 {
-    const auto found = std::ranges::find_if(
-        comparison.methods, [&](const MethodRow& row) { return row.table == table && row.budget_ms == budget_ms && row.method == method; });
+    const auto found = std::ranges::find_if(comparison.methods, [&](const MethodRow& row) {
+        return row.table == table && row.budget_ms == budget_ms && row.method == method;
+    });
     if (found == comparison.methods.end()) throw std::out_of_range(method);
     return *found;
 }
@@ -101,8 +106,8 @@ std::vector<std::string> ranked(const Comparison& comparison, ComparisonTable ta
     return methods;
 }
 
-Decision decision(const Comparison& comparison, const std::string& first, const std::string& second, ComparisonTable table = known,
-                  const std::string& without_body = "", double budget_ms = 1.0)
+Decision decision(const Comparison& comparison, const std::string& first, const std::string& second,
+                  ComparisonTable table = known, const std::string& without_body = "", double budget_ms = 1.0)
 {
     const auto found = std::ranges::find_if(comparison.decisions, [&](const DecisionRow& row) {
         return std::tie(row.table, row.budget_ms, row.without_body, row.first, row.second) ==
@@ -113,15 +118,18 @@ Decision decision(const Comparison& comparison, const std::string& first, const 
 }
 
 // By member, at 1 ms.
-std::map<std::string, MethodPairRow> pairs(const Comparison& comparison, const std::string& first, const std::string& second)
+std::map<std::string, MethodPairRow> pairs(const Comparison& comparison, const std::string& first,
+                                           const std::string& second)
 {
     std::map<std::string, MethodPairRow> of_member;
     for (const MethodPairRow& row : comparison.pairs)
-        if (row.table == known && row.budget_ms == 1.0 && row.first == first && row.second == second) of_member[row.member] = row;
+        if (row.table == known && row.budget_ms == 1.0 && row.first == first && row.second == second)
+            of_member[row.member] = row;
     return of_member;
 }
 
-// Flesh of each reference leaves 10 to 17 % of LBS's error, flesh of the first member 10 % against it and 90 % against all others.
+// Flesh of each reference leaves 10 to 17 % of LBS's error, flesh of the first member 10 % against it and 90 % against
+// all others.
 Rows four_methods(const std::vector<double>& times_ms = {1.0})
 {
     Rows rows(times_ms);
@@ -130,7 +138,8 @@ Rows four_methods(const std::vector<double>& times_ms = {1.0})
     rows.add(
         "quasi_newton", 0.6, [](int, std::size_t m) { return 0.1 + 0.01 * static_cast<double>(m); }, GivenFlesh::own);
     rows.add_points(
-        "quasi_newton", "of_quasi_newton", 0.6, [](int, std::size_t m) { return m == 0 ? 0.1 : 0.9; }, GivenFlesh::standard);
+        "quasi_newton", "of_quasi_newton", 0.6, [](int, std::size_t m) { return m == 0 ? 0.1 : 0.9; },
+        GivenFlesh::standard);
     return rows;
 }
 
@@ -155,10 +164,13 @@ TEST(Conclusions, RankMethodsByTheirShareOfTheErrorOfLbs)
     EXPECT_EQ(newton.times_pbs, 1.2);
     EXPECT_EQ(newton.skin_mm, 3.0);
     EXPECT_NEAR(method_row(comparison, known, 1.0, "lbs").share, 1.0, rounding);
-    EXPECT_EQ(ranked(comparison, known, 1.0), (std::vector<std::string>{"quasi_newton a", "pbs b", "delta_mush c", "lbs d"}));
-    // Of a guess, the median is 0.9. The pairs with PBS and delta mush depend on the member, so that their letters are shared.
+    EXPECT_EQ(ranked(comparison, known, 1.0),
+              (std::vector<std::string>{"quasi_newton a", "pbs b", "delta_mush c", "lbs d"}));
+    // Of a guess, the median is 0.9. The pairs with PBS and delta mush depend on the member, so that their letters are
+    // shared.
     EXPECT_NEAR(method_row(comparison, guessed, 1.0, "quasi_newton").share, 0.9, rounding);
-    EXPECT_EQ(ranked(comparison, guessed, 1.0), (std::vector<std::string>{"pbs a", "delta_mush b", "quasi_newton ab", "lbs c"}));
+    EXPECT_EQ(ranked(comparison, guessed, 1.0),
+              (std::vector<std::string>{"pbs a", "delta_mush b", "quasi_newton ab", "lbs c"}));
 }
 
 TEST(Conclusions, DecidePairsByWhatEachMethodIsGiven)
@@ -195,7 +207,9 @@ TEST(Conclusions, HaveTheRowsThatTheyCompareInTheirTable)
 TEST(Conclusions, StateWhetherTheTimeIsKept)
 {
     const Comparison& comparison = comparison_of_four();
-    const auto within = [&](double budget_ms, const char* name) { return method_row(comparison, known, budget_ms, name).within; };
+    const auto within = [&](double budget_ms, const char* name) {
+        return method_row(comparison, known, budget_ms, name).within;
+    };
     EXPECT_EQ(within(10.0, "quasi_newton"), "doubled");
     EXPECT_EQ(within(1.0, "quasi_newton"), "once");
     EXPECT_EQ(within(0.1, "quasi_newton"), "no");
@@ -206,7 +220,8 @@ TEST(Conclusions, AreTiesWhereTheDifferenceIsNotAboveTheReferencesOwnError)
 {
     Rows rows = four_methods();
     for (OwnErrorRow& row : rows.own)
-        if (row.pose == pose_name(0) && row.member == "smooth") row.own_error_pct = 0.5 * error_of_lbs(0, 0);  // LBS's error minus PBS's
+        // LBS's error minus PBS's
+        if (row.pose == pose_name(0) && row.member == "smooth") row.own_error_pct = 0.5 * error_of_lbs(0, 0);
     const auto of_member = pairs(rows.concluded(), "lbs", "pbs");
     EXPECT_EQ(of_member.at("smooth").ties, 1);
     EXPECT_EQ(of_member.at("smooth").losses, movements - 1);
@@ -233,7 +248,8 @@ TEST(Conclusions, AreNotChangedByAMemberWithoutAnOwnError)
 TEST(Conclusions, SkipPosesInWhichAMemberWasNotReached)
 {
     Rows rows;
-    rows.add("pbs", 0.3, [](int pose, std::size_t m) { return pose < 3 && m == 6 ? std::nullopt : std::optional(0.5); });
+    rows.add("pbs", 0.3,
+             [](int pose, std::size_t m) { return pose < 3 && m == 6 ? std::nullopt : std::optional(0.5); });
     const Comparison comparison = rows.concluded();
     const auto of_member = pairs(comparison, "lbs", "pbs");
     EXPECT_EQ(of_member.at("rigid_capsules").losses, movements - 3);
@@ -266,14 +282,16 @@ TEST(Attacks, ExchangedLabelsReverseTheAnswerOrLeaveItOpen)
     EXPECT_EQ(method_row(open, known, 1.0, "pbs").letters, method_row(open, known, 1.0, "delta_mush").letters);
 }
 
-// PBS is nearer on three bodies and farther on two. 24 to 16 of the poses are no difference, and 24 to 8 have p = 0.007, of one pair.
+// PBS is nearer on three bodies and farther on two. 24 to 16 of the poses are no difference, and 24 to 8 have p =
+// 0.007, of one pair.
 TEST(Conclusions, AreDrawnAgainWithoutEachBody)
 {
     Rows rows;
     rows.add("pbs", 0.3, [](int pose, std::size_t) { return pose < 24 ? 0.5 : 2.0; });
     const Comparison comparison = rows.concluded();
     EXPECT_EQ(decision(comparison, "lbs", "pbs"), Decision::open);
-    for (const char* body : {"limb", "human", "man"}) EXPECT_EQ(decision(comparison, "lbs", "pbs", known, body), Decision::open) << body;
+    for (const char* body : {"limb", "human", "man"})
+        EXPECT_EQ(decision(comparison, "lbs", "pbs", known, body), Decision::open) << body;
     for (const char* body : {"lady", "frankie"})
         EXPECT_EQ(decision(comparison, "lbs", "pbs", known, body), Decision::second_is_nearer) << body;
     std::set<std::string> excluded;
@@ -284,10 +302,12 @@ TEST(Conclusions, AreDrawnAgainWithoutEachBody)
 TEST(Conclusions, HaveFoldsInSharesOfTheirOwn)
 {
     Rows rows;
-    rows.add("pbs", 0.3, [](int pose, std::size_t m) { return pose < movements ? 0.5 : 2.0 + 0.1 * static_cast<double>(m); });
+    rows.add("pbs", 0.3,
+             [](int pose, std::size_t m) { return pose < movements ? 0.5 : 2.0 + 0.1 * static_cast<double>(m); });
     for (PointRow& row : rows.points)
         if (row.stratum == Stratum::fold) row.skin_mm = 90.0;
-    for (PointRow& row : rows.points) row.inverted = row.method == "pbs" && (row.pose == pose_name(1) || row.pose == pose_name(41)) ? 7 : 0;
+    for (PointRow& row : rows.points)
+        row.inverted = row.method == "pbs" && (row.pose == pose_name(1) || row.pose == pose_name(41)) ? 7 : 0;
     const Comparison comparison = rows.concluded();
     const MethodRow& pbs = method_row(comparison, known, 1.0, "pbs");
     EXPECT_NEAR(pbs.share, 0.5, rounding);
@@ -323,7 +343,8 @@ TEST(Conclusions, HaveAMethodOfTheUsersOwnWithinTimesThatItKeeps)
     EXPECT_EQ(decision(comparison, "quasi_newton", "mine", guessed), Decision::depends);
 }
 
-// 190 ms are more than each time: the table of any time has the method, beside the others with their settings of the longest time.
+// 190 ms are more than each time: the table of any time has the method, beside the others with their settings of the
+// longest time.
 TEST(Conclusions, HaveASlowMethodOfTheUsersOwnAtAnyTime)
 {
     constexpr double any_time_ms = std::numeric_limits<double>::infinity();
@@ -360,8 +381,8 @@ TEST(Conclusions, HaveACurveOverAllTimes)
                                   : std::tuple(comparison_times().budgets_ms[i], std::string("of_pbs"), 0.3));
 }
 
-// In ten of the 40 poses PBS leaves 30 % of the error and in the others 45 %; on one member it leaves 60 % everywhere, and on another one
-// half of the poses has no reference.
+// In ten of the 40 poses PBS leaves 30 % of the error and in the others 45 %; on one member it leaves 60 % everywhere,
+// and on another one half of the poses has no reference.
 TEST(Profiles, AreSharesOfSolvedPosesInTheMeanOverTheMembers)
 {
     Rows rows;
@@ -375,10 +396,12 @@ TEST(Profiles, AreSharesOfSolvedPosesInTheMeanOverTheMembers)
             if (row.pose == pose_name(pose) && !is_reached(pose, 6)) row.errors[6].reset();
     std::map<double, double> solved_pct;  // by target, at 1 ms
     for (const SolvedRow& row : rows.concluded().profiles)
-        if (row.table == known && row.method == "pbs" && row.budget_ms == 1.0) solved_pct[row.target_pct] = row.solved_pct;
+        if (row.table == known && row.method == "pbs" && row.budget_ms == 1.0)
+            solved_pct[row.target_pct] = row.solved_pct;
     ASSERT_EQ(solved_pct.size(), 3u);
     EXPECT_EQ(solved_pct.at(20.0), 0.0);
-    EXPECT_DOUBLE_EQ(solved_pct.at(35.0), 7.0 * 25.0 / 8.0) << "five of the twenty poses with rigid capsules are a quarter, too";
+    EXPECT_DOUBLE_EQ(solved_pct.at(35.0), 7.0 * 25.0 / 8.0)
+        << "five of the twenty poses with rigid capsules are a quarter, too";
     EXPECT_DOUBLE_EQ(solved_pct.at(50.0), 7.0 * 100.0 / 8.0);
 }
 
@@ -388,10 +411,11 @@ TEST(OtherStarts, AreComparedInTheirOwnPosesAgainstTheFirstMember)
     Rows rows;
     rows.add("pbs", 0.3, [](int pose, std::size_t) { return pose < 3 ? 0.5 : 0.9; });
     rows.add_points(
-        "pbs_from_the_initial_guess", "of_pbs", 0.3, [](int, std::size_t m) { return m == 0 ? std::optional(0.4) : std::nullopt; },
-        GivenFlesh::start);
+        "pbs_from_the_initial_guess", "of_pbs", 0.3,
+        [](int, std::size_t m) { return m == 0 ? std::optional(0.4) : std::nullopt; }, GivenFlesh::start);
     std::erase_if(rows.points, [](const PointRow& row) {
-        return row.flesh == GivenFlesh::start && row.pose != pose_name(0) && row.pose != pose_name(1) && row.pose != pose_name(2);
+        return row.flesh == GivenFlesh::start && row.pose != pose_name(0) && row.pose != pose_name(1) &&
+               row.pose != pose_name(2);
     });
     const Comparison comparison = rows.concluded();
     ASSERT_EQ(comparison.starts.size(), 1u);
@@ -400,18 +424,21 @@ TEST(OtherStarts, AreComparedInTheirOwnPosesAgainstTheFirstMember)
               std::tuple(1.0, std::string("pbs_from_the_initial_guess"), std::string("pbs"), 3));
     EXPECT_NEAR(row.share, 0.4, rounding);
     EXPECT_NEAR(row.share_of_setting, 0.5, rounding);
-    EXPECT_EQ(ranked(comparison, known, 1.0), (std::vector<std::string>{"pbs a", "lbs b"})) << "a start has no row of its own";
+    EXPECT_EQ(ranked(comparison, known, 1.0), (std::vector<std::string>{"pbs a", "lbs b"}))
+        << "a start has no row of its own";
 }
 
 // By hand: geometric means sqrt(0.5 0.5) and sqrt(0.25 0.5) over the two frames.
 TEST(Motion, HasTheSharesOfTheColdAndThePlayedFrames)
 {
     std::vector<PlayedRow> played;
-    const auto add = [&](const char* pose, const char* method, FrameGuess start, double error_pct, double skin_mm, double ms) {
+    const auto add = [&](const char* pose, const char* method, FrameGuess start, double error_pct, double skin_mm,
+                         double ms) {
         played.push_back({pose, "01_01", method, std::string("of_") + method, start, "smooth", ms, error_pct, skin_mm});
     };
     for (const auto& [pose, error_pct] : {std::pair("one", 10.0), {"two", 20.0}})
-        for (const FrameGuess start : {FrameGuess::cold, FrameGuess::frame_before}) add(pose, "lbs", start, error_pct, 8.0, 0.02);
+        for (const FrameGuess start : {FrameGuess::cold, FrameGuess::frame_before})
+            add(pose, "lbs", start, error_pct, 8.0, 0.02);
     add("one", "pbs", FrameGuess::cold, 5.0, 3.0, 0.2);
     add("two", "pbs", FrameGuess::cold, 10.0, 5.0, 0.2);
     add("one", "pbs", FrameGuess::frame_before, 2.5, 1.0, 0.3);
@@ -431,12 +458,13 @@ TEST(Motion, HasTheSharesOfTheColdAndThePlayedFrames)
 }
 
 // Settings of PBS in two training poses.
-std::vector<PointRow> trained(const std::string& setting, double ms, const std::vector<std::optional<double>>& errors_pct)
+std::vector<PointRow> trained(const std::string& setting, double ms,
+                              const std::vector<std::optional<double>>& errors_pct)
 {
     std::vector<PointRow> rows;
     for (std::size_t pose = 0; pose < errors_pct.size(); ++pose) {
-        PointRow& row =
-            rows.emplace_back(PointRow{.pose = "training_" + std::to_string(pose), .stratum = Stratum::training, .method = "pbs"});
+        PointRow& row = rows.emplace_back(
+            PointRow{.pose = "training_" + std::to_string(pose), .stratum = Stratum::training, .method = "pbs"});
         row.setting = setting;
         row.outcome = errors_pct[pose] ? "finished" : "not_finite";
         row.ms = pose == 0 ? 0.5 * ms : 1.5 * ms;  // the mean counts
@@ -464,9 +492,13 @@ TEST(ChosenSettings, HaveTheLeastGeometricMeanErrorWithinEachTime)
                                      trained("uneven", 0.4, {1.0, 16.0}), trained("long", 12.0, {3.0, 3.0})});
     std::map<double, std::string> settings;
     for (const auto& [budget_ms, one] : chosen) settings[budget_ms] = one.setting;
-    EXPECT_EQ(settings,
-              (std::map<double, std::string>{
-                  {0.1, "quick"}, {0.2, "quick"}, {0.5, "uneven"}, {1.0, "uneven"}, {2.0, "uneven"}, {5.0, "uneven"}, {10.0, "uneven"}}));
+    EXPECT_EQ(settings, (std::map<double, std::string>{{0.1, "quick"},
+                                                       {0.2, "quick"},
+                                                       {0.5, "uneven"},
+                                                       {1.0, "uneven"},
+                                                       {2.0, "uneven"},
+                                                       {5.0, "uneven"},
+                                                       {10.0, "uneven"}}));
     EXPECT_NEAR(chosen.at(1.0).training_error_pct, 4.0, 10.0 * rounding);
     EXPECT_NEAR(chosen.at(1.0).training_ms, 0.4, rounding);
 }
@@ -474,7 +506,8 @@ TEST(ChosenSettings, HaveTheLeastGeometricMeanErrorWithinEachTime)
 TEST(ChosenSettings, AreFiniteInAllPosesOfAllBodies)
 {
     const std::vector<PointRow> sound = trained("sound", 0.3, {8.0, 8.0});
-    EXPECT_EQ(chosen_from({sound, trained("of_one_body", 0.3, {2.0})}).at(1.0).setting, "sound") << "a ladder that ended early on one body";
+    EXPECT_EQ(chosen_from({sound, trained("of_one_body", 0.3, {2.0})}).at(1.0).setting, "sound")
+        << "a ladder that ended early on one body";
     EXPECT_EQ(chosen_from({sound, trained("diverging", 0.3, {2.0, std::nullopt})}).at(1.0).setting, "sound");
     EXPECT_EQ(chosen_from({sound, trained("better", 0.3, {2.0, 7.0})}).at(1.0).setting, "better");
 }

@@ -1,4 +1,5 @@
-// The file with deformers of the user's own: what is read, and each wrong input with its file, line, field, value and rule.
+// The file with deformers of the user's own: what is read, and each wrong input with its file, line, field, value and
+// rule.
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/work_precision/methods.hpp"
@@ -40,7 +41,8 @@ protected:
 TEST_F(ExternalMethods, AreTheTablesInTheirOrder)
 {
     const std::string program = folder.file("mine.sh", "exit 0");
-    const std::vector<ComparedMethod> all = read(entry_table("mine") + entry_table("other", "command = [\"sh\"]\nhas_memory = true"));
+    const std::vector<ComparedMethod> all =
+        read(entry_table("mine") + entry_table("other", "command = [\"sh\"]\nhas_memory = true"));
     ASSERT_EQ(all.size(), 2u);
     EXPECT_EQ(all[0].name, "mine");
     EXPECT_FALSE(all[0].takes_flesh());
@@ -73,7 +75,8 @@ TEST_F(ExternalMethods, ChangeWithEachFileAndWord)
     EXPECT_NE(record("exit 0", "exit 1", other_order), first);
     EXPECT_EQ(record("exit 1", "exit 0", other_order), first) << "the files themselves are the same";
     EXPECT_EQ(first.dump().find(folder.path().string()), std::string::npos) << "the record is that of any folder";
-    EXPECT_NE(record("exit 0", "exit 1", both + R"(, "/nowhere/one/data")"), record("exit 0", "exit 1", both + R"(, "/nowhere/two/data")"));
+    EXPECT_NE(record("exit 0", "exit 1", both + R"(, "/nowhere/one/data")"),
+              record("exit 0", "exit 1", both + R"(, "/nowhere/two/data")"));
 }
 
 struct RefusedEntry {
@@ -90,49 +93,58 @@ TEST_P(RefusedEntries, NameThePlaceAndTheRule)
 }
 
 const std::string alone = "expected only [[external]] tables";
-INSTANTIATE_TEST_SUITE_P(OfOtherTables, RefusedEntries,
-                         testing::Values(RefusedEntry{"", ": external: missing", "expected at least one [[external]] table"},
-                                         RefusedEntry{"[external]\nname = \"mine\"\n", ":2: external:", "expected [[external]] tables"},
-                                         RefusedEntry{entry_table("mine") + "[deformers]\nuse = [\"mine\"]\n", ":5: deformers:", alone},
-                                         RefusedEntry{entry_table("mine") + "deformers.use = [\"mine\"]\n", ":5: external.0.deformers",
-                                                      "unknown key"},
-                                         RefusedEntry{"deformers.use = [\"mine\"]\n" + entry_table("mine"), ":2: deformers:", alone},
-                                         RefusedEntry{entry_table("mine") + "[[fem]]\nname = \"solid\"\n", ":5: fem.0:", alone},
-                                         RefusedEntry{entry_table("mine") + "[[fem]]\nmodel = \"linear\"\n", ":5: fem.0:", alone},
-                                         RefusedEntry{entry_table("mine") + "[[lbs]]\n", ":5: lbs.0:", alone},
-                                         RefusedEntry{entry_table("mine") + "[pbs]\n", ":5: pbs:", alone},
-                                         RefusedEntry{entry_table("mine") + "[reference]\nname = \"mine\"\n", ":5: reference:", alone},
-                                         RefusedEntry{entry_table("mine") + "[[mine]]\n", ":5: mine", "unknown key"}));
+INSTANTIATE_TEST_SUITE_P(
+    OfOtherTables, RefusedEntries,
+    testing::Values(RefusedEntry{"", ": external: missing", "expected at least one [[external]] table"},
+                    RefusedEntry{"[external]\nname = \"mine\"\n", ":2: external:", "expected [[external]] tables"},
+                    RefusedEntry{entry_table("mine") + "[deformers]\nuse = [\"mine\"]\n", ":5: deformers:", alone},
+                    RefusedEntry{entry_table("mine") + "deformers.use = [\"mine\"]\n", ":5: external.0.deformers",
+                                 "unknown key"},
+                    RefusedEntry{"deformers.use = [\"mine\"]\n" + entry_table("mine"), ":2: deformers:", alone},
+                    RefusedEntry{entry_table("mine") + "[[fem]]\nname = \"solid\"\n", ":5: fem.0:", alone},
+                    RefusedEntry{entry_table("mine") + "[[fem]]\nmodel = \"linear\"\n", ":5: fem.0:", alone},
+                    RefusedEntry{entry_table("mine") + "[[lbs]]\n", ":5: lbs.0:", alone},
+                    RefusedEntry{entry_table("mine") + "[pbs]\n", ":5: pbs:", alone},
+                    RefusedEntry{entry_table("mine") + "[reference]\nname = \"mine\"\n", ":5: reference:", alone},
+                    RefusedEntry{entry_table("mine") + "[[mine]]\n", ":5: mine", "unknown key"}));
 INSTANTIATE_TEST_SUITE_P(
     OfTheirNames, RefusedEntries,
-    testing::Values(RefusedEntry{entry_table("reference"), ":3: external.0.name = reference", "of the comparison"},
-                    RefusedEntry{entry_table("vbd_from_lbs"), ":3: external.0.name = vbd_from_lbs", "of the comparison"},
-                    RefusedEntry{entry_table("mine") + entry_table("mine"), ":6: external.1.name = mine", "is used twice"},
-                    RefusedEntry{entry_table("my own"), ":3: external.0.name = my own", "letters, digits and underscores"},
-                    RefusedEntry{"[[external]]\ncommand = [\"sh\"]\n", ": external.0.name: missing", "states it"}));
-INSTANTIATE_TEST_SUITE_P(
-    OfTheirPrograms, RefusedEntries,
     testing::Values(
-        RefusedEntry{entry_table("mine", "command = [\"no_such_program\"]"), ":4: external.0.command =", "No such file or directory"},
-        RefusedEntry{entry_table("mine", "command = [\"mine.sh\"]"), ":4: external.0.command =", "Permission denied"},
-        RefusedEntry{entry_table("mine", "command = [\"./none.sh\"]"), ":4: external.0.command =", "No such file or directory"},
-        RefusedEntry{entry_table("mine", "library = \"libnone.so\""), ":4: external.0.library = libnone.so", "cannot be loaded"},
-        RefusedEntry{entry_table("mine", "library = \"libmine.so\""), ":4: external.0.library = libmine.so", "cannot be loaded: "},
-        RefusedEntry{entry_table("mine", ""), ": external.0.command", "expected either a command or a library"}));
+        RefusedEntry{entry_table("reference"), ":3: external.0.name = reference", "of the comparison"},
+        RefusedEntry{entry_table("vbd_from_lbs"), ":3: external.0.name = vbd_from_lbs", "of the comparison"},
+        RefusedEntry{entry_table("mine") + entry_table("mine"), ":6: external.1.name = mine", "is used twice"},
+        RefusedEntry{entry_table("my own"), ":3: external.0.name = my own", "letters, digits and underscores"},
+        RefusedEntry{"[[external]]\ncommand = [\"sh\"]\n", ": external.0.name: missing", "states it"}));
+INSTANTIATE_TEST_SUITE_P(OfTheirPrograms, RefusedEntries,
+                         testing::Values(RefusedEntry{entry_table("mine", "command = [\"no_such_program\"]"),
+                                                      ":4: external.0.command =", "No such file or directory"},
+                                         RefusedEntry{entry_table("mine", "command = [\"mine.sh\"]"),
+                                                      ":4: external.0.command =", "Permission denied"},
+                                         RefusedEntry{entry_table("mine", "command = [\"./none.sh\"]"),
+                                                      ":4: external.0.command =", "No such file or directory"},
+                                         RefusedEntry{entry_table("mine", "library = \"libnone.so\""),
+                                                      ":4: external.0.library = libnone.so", "cannot be loaded"},
+                                         RefusedEntry{entry_table("mine", "library = \"libmine.so\""),
+                                                      ":4: external.0.library = libmine.so", "cannot be loaded: "},
+                                         RefusedEntry{entry_table("mine", ""), ": external.0.command",
+                                                      "expected either a command or a library"}));
 
 TEST_F(ExternalMethods, NeedAFileAndNamesOfTheirOwn)
 {
-    expect_input_error([&] { external_methods(folder / "none.toml"); }, folder / "none.toml" + ": cannot be read", "[[external]]");
+    expect_input_error([&] { external_methods(folder / "none.toml"); }, folder / "none.toml" + ": cannot be read",
+                       "[[external]]");
     expect_input_error([&] { external_methods(folder.path().string()); }, folder.path().string(), "cannot be read");
-    expect_input_error([&] { external_methods(folder.file("mine.toml", entry_table("mine"))); }, folder / "mine.toml: schema",
-                       "write schema = 1");
-    for (const ComparedMethod& one : methods()) expect_refused(entry_table(one.name), ":3: external.0.name = " + one.name, "");
+    expect_input_error([&] { external_methods(folder.file("mine.toml", entry_table("mine"))); },
+                       folder / "mine.toml: schema", "write schema = 1");
+    for (const ComparedMethod& one : methods())
+        expect_refused(entry_table(one.name), ":3: external.0.name = " + one.name, "");
 }
 
 // Their rows would be those of a variation.
 TEST_F(ExternalMethods, HaveNoNameOfAnotherStart)
 {
-    for (const OtherStart& start : other_starts()) expect_refused(entry_table(start.name), ":3: external.0.name = " + start.name, "");
+    for (const OtherStart& start : other_starts())
+        expect_refused(entry_table(start.name), ":3: external.0.name = " + start.name, "");
 }
 
 }  // namespace

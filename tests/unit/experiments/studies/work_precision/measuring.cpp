@@ -1,5 +1,6 @@
-// Errors against kept references. Reference: references that are made here, at known distances from the shapes of LBS, and each deformer
-// driven by hand. Tolerance: references are kept in multiples of kept_quantum_m, and LBS blends in single precision.
+// Errors against kept references. Reference: references that are made here, at known distances from the shapes of LBS,
+// and each deformer driven by hand. Tolerance: references are kept in multiples of kept_quantum_m, and LBS blends in
+// single precision.
 #include "experiments/studies/work_precision/measuring.hpp"
 
 #include "experiments/deformers/external/external_deformers.hpp"
@@ -29,8 +30,8 @@ using namespace experiments;
 
 const std::vector<std::string> small_limb = {"character.vertices=300", "motion.angle_deg=60", "motion.frames=31"};
 
-// The limb twisted by 60 degrees, which is one of the poses of other starts, and bent by 60 degrees. Its reference for member m is the
-// shape of LBS, moved along x by m + 1 centimetres. In the bent pose rigid capsules were not reached.
+// The limb twisted by 60 degrees, which is one of the poses of other starts, and bent by 60 degrees. Its reference for
+// member m is the shape of LBS, moved along x by m + 1 centimetres. In the bent pose rigid capsules were not reached.
 class MeasuredLimb : public testing::Test {
 protected:
     MeasuredLimb()
@@ -43,7 +44,11 @@ protected:
 
     void keep(const ReferencePose& pose)
     {
-        KeptReferences kept{.pose = pose.name, .body = "limb", .mesh_hash = pbs::content_hash(limb().mesh), .revision = "", .bones = {}};
+        KeptReferences kept{.pose = pose.name,
+                            .body = "limb",
+                            .mesh_hash = pbs::content_hash(limb().mesh),
+                            .revision = "",
+                            .bones = {}};
         kept.bones = bones_in(pose, limb().skeleton);
         for (const EnsembleMember& member : family()) {
             KeptReference& of_member = kept.members.emplace_back(KeptReference{.member = member, .outcome = "reached"});
@@ -65,7 +70,8 @@ protected:
         return character;
     }
 
-    std::vector<PointRow> rows_of(const Measurements& measurements, const std::string& method, const std::string& pose) const
+    std::vector<PointRow> rows_of(const Measurements& measurements, const std::string& method,
+                                  const std::string& pose) const
     {
         std::vector<PointRow> rows;
         std::ranges::copy_if(measurements.points, std::back_inserter(rows),
@@ -78,8 +84,8 @@ protected:
     ComparisonCase of;
 };
 
-// 100 |t| over the mean distance of the blended vertices from their bones, weighted by lumped volumes; without a vertex the mean is that of
-// the others.
+// 100 |t| over the mean distance of the blended vertices from their bones, weighted by lumped volumes; without a vertex
+// the mean is that of the others.
 double error_of_translation_pct(const pbs::Character& character, double translation_m, int without = -1)
 {
     const Eigen::VectorXd mass = pbs::lumped_volumes(character.mesh.rest, character.mesh.tets);
@@ -115,7 +121,9 @@ TEST_F(MeasuredLimb, HasTheDistanceFromEachReferenceThatWasReached)
             const double translation_m = 0.01 * static_cast<double>(m + 1);
             ASSERT_EQ(row.errors[m].has_value(), !(is_bent && m == 6)) << m;
             if (!row.errors[m]) continue;
-            EXPECT_NEAR(*row.errors[m], error_of_translation_pct(limb(), translation_m, m == 1 ? static_cast<int>(tip) : -1), tolerance_pct)
+            EXPECT_NEAR(*row.errors[m],
+                        error_of_translation_pct(limb(), translation_m, m == 1 ? static_cast<int>(tip) : -1),
+                        tolerance_pct)
                 << m;
             moved_m.push_back(translation_m);
         }
@@ -131,7 +139,8 @@ double error_by_hand(const ReferencePose& pose, const Setting& setting, std::siz
     const auto deformer = make_deformer(spec_of(setting, pose.scene, character, family()[flesh]));
     deformer->reset(character);
     deformer->advance(bones_in(pose, character.skeleton), pose.scene.motion.time_step_s);
-    const KeptReference reference = read_references(pose.name, character, bones_in(pose, character.skeleton)).members[member];
+    const KeptReference reference =
+        read_references(pose.name, character, bones_in(pose, character.skeleton)).members[member];
     return analysis::ErrorMetrics(error_domain(character, {}))
         .measure(deformer->positions(), reference.positions, reference.at_tips)
         .joint_pct;
@@ -147,7 +156,8 @@ TEST_F(MeasuredLimb, GivesMethodsTheFleshOfTheReferenceOrOfTheFirstMember)
     ASSERT_EQ(rows.size(), 2u);
     EXPECT_EQ(rows[0].flesh, GivenFlesh::own);
     EXPECT_EQ(rows[1].flesh, GivenFlesh::standard);
-    const Setting setting{&*std::ranges::find(methods(), "quasi_newton", &ComparedMethod::name), {"quasi_newton.iterations=1"}};
+    const Setting setting{&*std::ranges::find(methods(), "quasi_newton", &ComparedMethod::name),
+                          {"quasi_newton.iterations=1"}};
     for (const std::size_t m : {0, 4, 6, 7}) {
         EXPECT_DOUBLE_EQ(rows[0].errors[m].value(), error_by_hand(of.poses[0], setting, m, m, limb())) << m;
         EXPECT_DOUBLE_EQ(rows[1].errors[m].value(), error_by_hand(of.poses[0], setting, 0, m, limb())) << m;
@@ -174,11 +184,12 @@ TEST_F(MeasuredLimb, NeedsTheReferencesOfItsTets)
 {
     of.settings = {{1.0, "lbs", ""}};
     std::filesystem::remove(references / "limb_bend_60.ref");
-    expect_input_error([&] { measure(of); }, references / "limb_bend_60.ref: does not exist", "`pbskin reproduce references --full`");
+    expect_input_error([&] { measure(of); }, references / "limb_bend_60.ref: does not exist",
+                       "`pbskin reproduce references --full`");
 }
 
-// A deformer of the user's own: a program that writes the shapes of LBS, which the test computes, and times of 1, 2, 4 ... ms for its
-// successive poses.
+// A deformer of the user's own: a program that writes the shapes of LBS, which the test computes, and times of 1, 2, 4
+// ... ms for its successive poses.
 class OwnDeformer : public MeasuredLimb {
 protected:
     // The poses that a program gets: of each pose the pose itself and three turns, which begin at the frame before.
@@ -201,7 +212,8 @@ protected:
         for (const pbs::Pose& pose : turns()) {
             pbs::Positions shape = blended(limb(), pose);
             if (bad) shape(3, 1) = std::nan("");
-            positions.append(reinterpret_cast<const char*>(shape.data()), static_cast<std::size_t>(shape.size()) * sizeof(double));
+            positions.append(reinterpret_cast<const char*>(shape.data()),
+                             static_cast<std::size_t>(shape.size()) * sizeof(double));
             seconds.append(reinterpret_cast<const char*>(&time_s), sizeof(double));
             time_s *= 2.0;
         }
@@ -223,7 +235,8 @@ protected:
     }
 };
 
-const std::string copies_answers = "echo run >> $0/calls; cp $0/positions $1/positions.f64; cp $0/seconds.f64 $1 2> /dev/null || true";
+const std::string copies_answers =
+    "echo run >> $0/calls; cp $0/positions $1/positions.f64; cp $0/seconds.f64 $1 2> /dev/null || true";
 
 // The medians of 2, 4 and 8, and of 32, 64 and 128 ms.
 TEST_F(OwnDeformer, IsCalledOnceForAllItsPosesAndHasTheTimesThatItStates)
@@ -240,7 +253,8 @@ TEST_F(OwnDeformer, IsCalledOnceForAllItsPosesAndHasTheTimesThatItStates)
     EXPECT_EQ(twisted.setting, "");
     EXPECT_NEAR(bent.times_pbs.value() / twisted.times_pbs.value(), 16.0, 1e-12) << "of the same PBS";
     const double tolerance_pct = error_of_translation_pct(limb(), kept_error_m);
-    for (const PointRow& row : {twisted, bent}) EXPECT_NEAR(row.errors[2].value(), error_of_translation_pct(limb(), 0.03), tolerance_pct);
+    for (const PointRow& row : {twisted, bent})
+        EXPECT_NEAR(row.errors[2].value(), error_of_translation_pct(limb(), 0.03), tolerance_pct);
 }
 
 TEST_F(OwnDeformer, WithoutTimesHasTheWallTimeOverItsPoses)
@@ -265,7 +279,8 @@ TEST_F(OwnDeformer, ThatIsNotFiniteBreaksDown)
 
 TEST_F(OwnDeformer, ThatFailsEndsTheRun)
 {
-    expect_input_error([&] { measured("exit 3"); }, "mine.toml: mine.command = /bin/sh", "ended with status 3: expected status 0");
+    expect_input_error([&] { measured("exit 3"); }, "mine.toml: mine.command = /bin/sh",
+                       "ended with status 3: expected status 0");
 }
 
 // The 24 frames before the pose.
@@ -288,21 +303,27 @@ TEST_F(OwnDeformer, WithMemoryGetsTheEarlierFramesFirst)
     EXPECT_EQ(std::memcmp(bytes.data(), expected.data(), bytes.size()), 0);
 }
 
-// Half a second of the human's clip. The reference is the converged shape, so that an iteration that begins near it ends nearer to it.
+// Half a second of the human's clip. The reference is the converged shape, so that an iteration that begins near it
+// ends nearer to it.
 TEST(MeasuredMotion, BeginsEachFrameAtTheOneBefore)
 {
     const test_support::ScratchFolder references;
     std::filesystem::create_symlink(std::filesystem::path(pbs::references_folder()) / "tets", references / "tets");
     const test_support::EnvironmentVariable in_use("PBSKIN_REFERENCES", references.path());
     ComparisonCase of{.body = "human", .what = Measured::played, .clip = "01_01"};
-    of.poses = {{"human_played", {.body = "human", .motion = "01_01"}, Stratum::played, read_scene("human_01_01", {}), 50}};
+    of.poses = {
+        {"human_played", {.body = "human", .motion = "01_01"}, Stratum::played, read_scene("human_01_01", {}), 50}};
     of.settings = {{1.0, "lbs", ""}, {1.0, "quasi_newton", "quasi_newton.iterations=4"}};
     const pbs::Character human = pbs::make_character(of.poses[0].scene.character);
     const pbs::Pose bones = bones_in(of.poses[0], human.skeleton);
-    KeptReferences kept{
-        .pose = "human_played", .body = "human", .mesh_hash = pbs::content_hash(human.mesh), .revision = "", .bones = bones};
+    KeptReferences kept{.pose = "human_played",
+                        .body = "human",
+                        .mesh_hash = pbs::content_hash(human.mesh),
+                        .revision = "",
+                        .bones = bones};
     for (const EnsembleMember& member : members_of(Stratum::played)) {
-        const Setting converged{&*std::ranges::find(methods(), "quasi_newton", &ComparedMethod::name), {"quasi_newton.iterations=100"}};
+        const Setting converged{&*std::ranges::find(methods(), "quasi_newton", &ComparedMethod::name),
+                                {"quasi_newton.iterations=100"}};
         const auto deformer = make_deformer(spec_of(converged, of.poses[0].scene, human, member));
         deformer->reset(human);
         deformer->advance(bones, 0.01);
@@ -314,12 +335,14 @@ TEST(MeasuredMotion, BeginsEachFrameAtTheOneBefore)
     EXPECT_TRUE(measurements.points.empty());
     ASSERT_EQ(measurements.played.size(), 8u) << "two methods, two members, and two starts";
     const auto row = [&](const std::string& method, FrameGuess start, const std::string& member) {
-        return *std::ranges::find_if(
-            measurements.played, [&](const PlayedRow& one) { return one.method == method && one.start == start && one.member == member; });
+        return *std::ranges::find_if(measurements.played, [&](const PlayedRow& one) {
+            return one.method == method && one.start == start && one.member == member;
+        });
     };
     for (const char* member : {"smooth", "rigid_capsules"}) {
         SCOPED_TRACE(member);
-        const PlayedRow cold = row("lbs", FrameGuess::cold, member), played = row("lbs", FrameGuess::frame_before, member);
+        const PlayedRow cold = row("lbs", FrameGuess::cold, member),
+                        played = row("lbs", FrameGuess::frame_before, member);
         EXPECT_EQ(cold.error_joint_pct, played.error_joint_pct) << "LBS has no initial guess";
         EXPECT_EQ(cold.pose, "human_played");
         EXPECT_GT(played.ms, 0.0);

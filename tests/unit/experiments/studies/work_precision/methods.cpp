@@ -1,5 +1,5 @@
-// The table of compared methods. Reference: the registered kinds and their options, and the members of the family as the study's page lists
-// them.
+// The table of compared methods. Reference: the registered kinds and their options, and the members of the family as
+// the study's page lists them.
 #include "experiments/studies/work_precision/methods.hpp"
 
 #include "experiments/deformers/correctives.hpp"
@@ -28,7 +28,8 @@ namespace {
 using namespace experiments;
 using nlohmann::json;
 
-const std::set<std::string> minimisers = {"quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean", "projective_dynamics"};
+const std::set<std::string> minimisers = {"quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean",
+                                          "projective_dynamics"};
 
 const ComparedMethod& method(const std::string& name)
 {
@@ -43,7 +44,8 @@ json listed(const std::string& study, const std::string& tables)
 
 const Scene& twist()
 {
-    static const Scene scene = read_scene("limb_twist", {"character.vertices=300", "motion.angle_deg=60", "motion.frames=2"});
+    static const Scene scene =
+        read_scene("limb_twist", {"character.vertices=300", "motion.angle_deg=60", "motion.frames=2"});
     return scene;
 }
 
@@ -76,8 +78,10 @@ TEST(Methods, AreDeclaredOnceForKindsThatThisProgramHas)
         for (const std::string& table : one.tables) EXPECT_TRUE(table == "known" || table == "guessed") << one.name;
     }
     for (const json& table : listed("work_precision", "method"))
-        EXPECT_EQ(names.contains(table.at("name")), find_deformer_kind(table.at("kind")) != nullptr) << table.at("name");
-    for (const char* name : {"lbs", "dqs", "delta_mush", "direct_delta_mush", "pbs", "xpbd"}) EXPECT_TRUE(names.contains(name)) << name;
+        EXPECT_EQ(names.contains(table.at("name")), find_deformer_kind(table.at("kind")) != nullptr)
+            << table.at("name");
+    for (const char* name : {"lbs", "dqs", "delta_mush", "direct_delta_mush", "pbs", "xpbd"})
+        EXPECT_TRUE(names.contains(name)) << name;
 }
 
 // A pose of the limb that is twisted by 60 degrees.
@@ -101,9 +105,11 @@ TEST(Methods, TheirFilesBelongToTheBodiesOfTheReferences)
 {
     for (const char* body : {"limb", "human", "frankie"}) {
         if (!pbs::body_is_installed(body)) continue;  // Frankie is in a package of the full form
-        const Scene scene =
-            std::string(body) == "limb" ? read_scene("limb_twist", {}) : read_scene("human_01_01", {std::string("character.body=") + body});
-        const pbs::Character character = pbs::with_weights(pbs::WeightKind::diffused, pbs::make_character(scene.character));
+        const Scene scene = std::string(body) == "limb"
+                                ? read_scene("limb_twist", {})
+                                : read_scene("human_01_01", {std::string("character.body=") + body});
+        const pbs::Character character =
+            pbs::with_weights(pbs::WeightKind::diffused, pbs::make_character(scene.character));
         const std::string file = file_of_correctives(body);
         EXPECT_GT(parse_correctives(pbs::read_text_file(file), file, character).modes(), 7) << body;
     }
@@ -115,13 +121,15 @@ TEST(Methods, ThatAreLearnedHaveAFileOfTheBody)
     const Scene scene = read_scene("limb_twist", {"motion.angle_deg=60", "motion.frames=2"});
     const pbs::Character character = pbs::make_character(scene.character);
     const pbs::Motion motion = make_motion(scene.motion, character.skeleton, "");
-    const std::unique_ptr<Deformer> deformer = make_deformer(spec_of({&method("correctives"), {}}, scene, character, family().front()));
+    const std::unique_ptr<Deformer> deformer =
+        make_deformer(spec_of({&method("correctives"), {}}, scene, character, family().front()));
     deformer->reset(character);
     EXPECT_EQ(deformer->advance(motion.steps.back(), motion.time_step_s).outcome, pbs::Outcome::finished);
     pbs::Positions lbs;
     pbs::linear_blend_skinning(character.mesh.rest, character.weights, motion.steps.back(), lbs);
     const auto loss = [&](const pbs::Positions& x) {
-        return 1.0 - pbs::tet_volumes(x, character.mesh.tets).sum() / pbs::tet_volumes(character.mesh.rest, character.mesh.tets).sum();
+        return 1.0 - pbs::tet_volumes(x, character.mesh.tets).sum() /
+                         pbs::tet_volumes(character.mesh.rest, character.mesh.tets).sum();
     };
     EXPECT_GT(loss(lbs), 0.03);
     EXPECT_LT(std::abs(loss(deformer->positions())), 0.01);
@@ -141,7 +149,8 @@ TEST(Methods, TryEachSettingOnceInSinglePrecisionAndOnOneThread)
                 EXPECT_EQ(made.threads, 1);
                 const DeformerTraits traits = traits_of(made);
                 EXPECT_TRUE(one.kind == "pbs_author" || traits.precision == "f32") << setting.text();
-                EXPECT_TRUE(one.kind == "pbs_author" || made.kind == "xpbd_small_steps" || one.is_learned() || traits.packed)
+                EXPECT_TRUE(one.kind == "pbs_author" || made.kind == "xpbd_small_steps" || one.is_learned() ||
+                            traits.packed)
                     << setting.text();
                 if (traits.iterations && made.kind != "xpbd_small_steps") {
                     const std::string iterations = one.iterations_key + "=" + std::to_string(*traits.iterations);
@@ -168,7 +177,8 @@ TEST(Settings, OfListedDeformersReachThemInEachScene)
 {
     for (const BuiltInScene& scene : built_in_scenes())
         for (const char* name : {"lbs", "dqs"}) {
-            const DeformerTraits traits = traits_of(spec_of({&method(name), {}}, read_scene(scene.name, {}), limb(), family().front()));
+            const DeformerTraits traits =
+                traits_of(spec_of({&method(name), {}}, read_scene(scene.name, {}), limb(), family().front()));
             EXPECT_EQ(traits.precision, "f32") << scene.name;
             EXPECT_TRUE(traits.packed) << scene.name;
         }
@@ -209,18 +219,22 @@ TEST(FleshOfAMember, ReachesTheOptionsOfThoseThatTakeIt)
     }
 }
 
-// Reference: the options that exist. Flesh changes the spec of a method if and only if the table states that it takes some.
+// Reference: the options that exist. Flesh changes the spec of a method if and only if the table states that it takes
+// some.
 TEST(FleshOfAMember, IsTakenByThoseThatStateIt)
 {
     for (const ComparedMethod& one : methods()) {
         SCOPED_TRACE(one.name);
         const json given = options(one.name);
         const std::vector<std::string> all = {"material", "attachment", "start"};
-        const bool has_springs = given.contains("spring_factor"), is_elastic = has_springs || given.contains("young_pa");
+        const bool has_springs = given.contains("spring_factor"),
+                   is_elastic = has_springs || given.contains("young_pa");
         if (one.is_learned())
             EXPECT_EQ(one.takes, std::vector<std::string>{"learned"});
         else
-            EXPECT_EQ(one.takes, has_springs ? all : is_elastic ? std::vector<std::string>{"material"} : std::vector<std::string>{});
+            EXPECT_EQ(one.takes, has_springs  ? all
+                                 : is_elastic ? std::vector<std::string>{"material"}
+                                              : std::vector<std::string>{});
         EXPECT_EQ(one.takes_flesh(), is_elastic);
         EXPECT_EQ(minimisers.contains(one.name), has_springs);
         EXPECT_EQ(options(one.name, {}, family()[4]) != given, is_elastic) << "another Poisson's ratio";
@@ -233,12 +247,14 @@ TEST(Settings, OfXpbdMultiplyYoungsModulusAndTakeAnotherDeformer)
     EXPECT_EQ(stiff.kind, "xpbd");
     EXPECT_EQ(options_of<pbs::XpbdOptions>(stiff).young_pa, 16e5);
     EXPECT_EQ(options_of<pbs::XpbdOptions>(stiff).iterations, 4);
-    const DeformerSpec small_steps = spec("xpbd", {"pbs.iterations=8", "kind=xpbd_small_steps", "young_factor=256"}, family()[4]);
+    const DeformerSpec small_steps =
+        spec("xpbd", {"pbs.iterations=8", "kind=xpbd_small_steps", "young_factor=256"}, family()[4]);
     EXPECT_EQ(small_steps.kind, "xpbd_small_steps");
     EXPECT_EQ(small_steps.name, "xpbd");
     EXPECT_EQ(options_of<pbs::XpbdOptions>(small_steps).young_pa, 256e5);
     EXPECT_EQ(options_of<pbs::XpbdOptions>(small_steps).poisson, 0.3);
-    EXPECT_EQ(options_of<pbs::XpbdOptions>(small_steps).substeps * options_of<pbs::XpbdOptions>(small_steps).iterations, 8);
+    EXPECT_EQ(options_of<pbs::XpbdOptions>(small_steps).substeps * options_of<pbs::XpbdOptions>(small_steps).iterations,
+              8);
 }
 
 TEST(Settings, OfWeightsAreThoseOfTheDeformer)
@@ -254,7 +270,8 @@ TEST(Settings, LaterValuesOfAKeyAreTheOnesThatCount)
 {
     EXPECT_EQ(options_of<pbs::PbsOptions>(spec("pbs", {"pbs.k_bind=0.5", "pbs.k_bind=0.25"})).k_bind, 0.25);
     EXPECT_EQ(options_of<pbs::PbsOptions>(spec("pbs")).precision, pbs::Precision::f32);
-    EXPECT_EQ(options_of<pbs::PbsOptions>(spec("pbs", {"pbs.precision=f64"})).precision, pbs::Precision::f64) << "over the method's own";
+    EXPECT_EQ(options_of<pbs::PbsOptions>(spec("pbs", {"pbs.precision=f64"})).precision, pbs::Precision::f64)
+        << "over the method's own";
     EXPECT_EQ(options("vbd", {"vbd.poisson=0.2"}).at("poisson"), 0.2) << "over the flesh";
 }
 
@@ -265,7 +282,8 @@ TEST(OtherStarts, ChangeTheSettingOfAMethodWhateverTheFleshIs)
     for (const OtherStart& start : other_starts()) {
         SCOPED_TRACE(start.name);
         EXPECT_TRUE(names.insert(start.name).second);
-        EXPECT_EQ(std::ranges::count(methods(), start.name, &ComparedMethod::name), 0) << "rows are told apart by their method";
+        EXPECT_EQ(std::ranges::count(methods(), start.name, &ComparedMethod::name), 0)
+            << "rows are told apart by their method";
         const ComparedMethod& of = method(start.of);
         KeyValues keys = tried_settings(of, of.grid.front()).back().keys;
         for (const EnsembleMember& member : {family().front(), family()[6]}) {
@@ -274,7 +292,8 @@ TEST(OtherStarts, ChangeTheSettingOfAMethodWhateverTheFleshIs)
             changed.insert(changed.end(), start.overrides.begin(), start.overrides.end());
             const json made = options(start.of, changed, member);
             if (start.name.ends_with("_of_wrong_material")) {
-                EXPECT_EQ(json({made.at("spring_factor"), made.at("core_radius"), made.at("poisson")}), json({100.0, 0.5, 0.3}));
+                EXPECT_EQ(json({made.at("spring_factor"), made.at("core_radius"), made.at("poisson")}),
+                          json({100.0, 0.5, 0.3}));
                 EXPECT_EQ(made.at("start"), from.at("start"));
             } else if (start.name == "initial_guess_alone") {
                 EXPECT_EQ(made.at("iterations"), 0);
@@ -285,7 +304,8 @@ TEST(OtherStarts, ChangeTheSettingOfAMethodWhateverTheFleshIs)
         }
     }
     for (const std::string& name : minimisers)
-        for (const char* change : {"_from_lbs", "_of_wrong_material"}) EXPECT_TRUE(names.contains(name + change)) << name << change;
+        for (const char* change : {"_from_lbs", "_of_wrong_material"})
+            EXPECT_TRUE(names.contains(name + change)) << name << change;
 }
 
 std::set<std::string> changed_fields(const DeformerSpec& changed, const DeformerSpec& from)
@@ -297,8 +317,8 @@ std::set<std::string> changed_fields(const DeformerSpec& changed, const Deformer
     return fields;
 }
 
-// Reference: the options of PBS with the same constants k_stretch and k_bind; a change differs from it in what its name says and in nothing
-// else.
+// Reference: the options of PBS with the same constants k_stretch and k_bind; a change differs from it in what its name
+// says and in nothing else.
 TEST(ChangesToPbs, ChangeOneThingAtATime)
 {
     const std::map<std::string, std::set<std::string>> allowed = {{"pbs_smooth_weights", {}},
@@ -309,8 +329,9 @@ TEST(ChangesToPbs, ChangeOneThingAtATime)
         SCOPED_TRACE(name);
         for (const KeyValues& of_grid : method(name).grid) {
             KeyValues constants = of_grid;
-            std::erase_if(constants,
-                          [](const std::string& key) { return !key.starts_with("pbs.k_stretch=") && !key.starts_with("pbs.k_bind="); });
+            std::erase_if(constants, [](const std::string& key) {
+                return !key.starts_with("pbs.k_stretch=") && !key.starts_with("pbs.k_bind=");
+            });
             const DeformerSpec changed = spec(name, of_grid), from = spec("pbs", constants);
             const std::set<std::string> found = changed_fields(changed, from);
             EXPECT_TRUE(std::ranges::includes(fields, found)) << testing::PrintToString(of_grid);
@@ -338,7 +359,8 @@ TEST(ChangesToPbs, KeepTheMeanStiffnessWhereItDependsOnTheLengthOfAnEdge)
         for (int a = 0; a < 4; ++a)
             for (int b = a + 1; b < 4; ++b) edges.insert(std::minmax({tet(a), tet(b)}));
     for (const auto& [a, b] : edges) {
-        sum += pbs::stiffness_at_length(pbs.k_stretch, (limb().mesh.rest.row(a) - limb().mesh.rest.row(b)).norm(), pbs.k_stretch_length_m);
+        sum += pbs::stiffness_at_length(pbs.k_stretch, (limb().mesh.rest.row(a) - limb().mesh.rest.row(b)).norm(),
+                                        pbs.k_stretch_length_m);
         ++count;
     }
     EXPECT_NEAR(sum / count, pbs.k_stretch, 1e-10);
@@ -386,11 +408,13 @@ TEST(KeptSettings, AreThoseOfMethodsAndTimesThatAreTried)
         if (of == methods().end()) continue;  // a program without finite elements lacks some methods
         bool is_tried = false;
         for (const KeyValues& of_grid : of->grid)
-            for (const Setting& setting : tried_settings(*of, of_grid)) is_tried = is_tried || setting.text() == chosen.setting;
+            for (const Setting& setting : tried_settings(*of, of_grid))
+                is_tried = is_tried || setting.text() == chosen.setting;
         EXPECT_TRUE(is_tried);
     }
     for (const double ms : comparison_times().tables_ms)
-        for (const char* name : {"lbs", "pbs"}) EXPECT_TRUE(chosen_for.contains({ms, name})) << name << " within " << ms << " ms";
+        for (const char* name : {"lbs", "pbs"})
+            EXPECT_TRUE(chosen_for.contains({ms, name})) << name << " within " << ms << " ms";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Reference: the groups from which a program was made, found again lane by lane; and the condition on which threads rely: slabs of one
-// parity have no vertex in common, including dummies.
+// Reference: the groups from which a program was made, found again lane by lane; and the condition on which threads
+// rely: slabs of one parity have no vertex in common, including dummies.
 
 #include "pbs/geometry/topology.hpp"
 #include "pbs/solver/batched/batch_program.hpp"
@@ -59,8 +59,9 @@ struct ReadBack {
 
     pbs::ConstraintValues<Scalar> values = numbered<Scalar>(constraints.size());
     std::vector<int> slab_of = order.slab_of_new();
-    std::vector<int> uses = std::vector<int>(constraints.size(), 0);                 // how often each constraint occurs
-    std::vector<std::set<int>> touched = std::vector<std::set<int>>(order.slabs());  // vertices of each slab, in the new order
+    std::vector<int> uses = std::vector<int>(constraints.size(), 0);  // how often each constraint occurs
+    // vertices of each slab, in the new order
+    std::vector<std::set<int>> touched = std::vector<std::set<int>>(order.slabs());
     int groups = 0;
 
     void read(const BatchProgram<Scalar>& program)
@@ -88,7 +89,8 @@ struct ReadBack {
         const bool is_group = first < static_cast<int>(slab_of.size());
         groups += is_group;
         EXPECT_EQ(is_group ? slab_of[first] : (first - dummy_begin) / BatchProgram<Scalar>::dummies_a_slab, slab);
-        EXPECT_LE(is_group ? slab_of[last] : (last - dummy_begin) / BatchProgram<Scalar>::dummies_a_slab, slab + is_group);
+        EXPECT_LE(is_group ? slab_of[last] : (last - dummy_begin) / BatchProgram<Scalar>::dummies_a_slab,
+                  slab + is_group);
     }
 
     template <pbs::GroupKind kind>
@@ -100,7 +102,8 @@ struct ReadBack {
             if (constraint < 0) continue;
             ++uses[constraint];
             std::vector<int> joined;
-            for (const int v : pbs::GroupShape<kind>::joins[c]) joined.push_back(order.old_of_new[batch.offset[v][lane] / 4]);
+            for (const int v : pbs::GroupShape<kind>::joins[c])
+                joined.push_back(order.old_of_new[batch.offset[v][lane] / 4]);
             EXPECT_TRUE(std::is_permutation(joined.begin(), joined.end(), constraints[constraint].begin()));
         }
     }
@@ -112,7 +115,8 @@ void expect_disjoint(const std::vector<std::set<int>>& touched_by)
     for (const std::size_t parity : {0, 1}) {
         std::set<int> touched;
         for (std::size_t slab = parity; slab < touched_by.size(); slab += 2)
-            for (const int vertex : touched_by[slab]) EXPECT_TRUE(touched.insert(vertex).second) << "vertex " << vertex << " slab " << slab;
+            for (const int vertex : touched_by[slab])
+                EXPECT_TRUE(touched.insert(vertex).second) << "vertex " << vertex << " slab " << slab;
     }
 }
 
@@ -146,7 +150,8 @@ void expect_sound(const pbs::Tets& tets, int vertices, int vertices_a_slab)
 template <typename Scalar>
 void expect_two_runs(const std::vector<ConstraintGroup>& groups, GroupKind kind, const VertexOrder& order)
 {
-    const BatchProgram<Scalar> program(groups, numbered<Scalar>(groups.size()), order, static_cast<int>(order.old_of_new.size()));
+    const BatchProgram<Scalar> program(groups, numbered<Scalar>(groups.size()), order,
+                                       static_cast<int>(order.old_of_new.size()));
     ASSERT_EQ(program.runs(0).size(), 2u);
     for (const pbs::BatchRun& run : program.runs(0)) EXPECT_EQ(run.kind, kind);
 }
@@ -161,13 +166,16 @@ TYPED_TEST(BatchPrograms, OfManyMeshesInSlabsOfManySizes)
         expect_sound<TypeParam>(shuffled(bar.tets, bar_vertices, 11), bar_vertices, vertices_a_slab);
     }
     for (int count = 1; count < 8; ++count) expect_sound<TypeParam>(tet_ring(count, count > 2), count + 3, 1);
-    const pbs::Tets with_unused = beside(beside(bar.tets, bar_vertices + 3, tet_ring(5, true)), bar_vertices + 12, bar.tets);
-    for (const int vertices_a_slab : {1, 30}) expect_sound<TypeParam>(with_unused, 2 * bar_vertices + 15, vertices_a_slab);
+    const pbs::Tets with_unused =
+        beside(beside(bar.tets, bar_vertices + 3, tet_ring(5, true)), bar_vertices + 12, bar.tets);
+    for (const int vertices_a_slab : {1, 30})
+        expect_sound<TypeParam>(with_unused, 2 * bar_vertices + 15, vertices_a_slab);
 }
 
 TYPED_TEST(BatchPrograms, SeveralClustersInASlab)
 {
-    const pbs::TetMesh large = structured_bar({0, 0, 0}, {25, 10, 10}, {25, 10, 10});  // 15,000 tets: clusters of 8192 and the rest
+    // 15,000 tets: clusters of 8192 and the rest
+    const pbs::TetMesh large = structured_bar({0, 0, 0}, {25, 10, 10}, {25, 10, 10});
     const int vertices = static_cast<int>(large.rest.rows());
     expect_sound<TypeParam>(large.tets, vertices, 100000);
     const VertexOrder order = pbs::order_vertices(large.tets, vertices, 100000);
@@ -184,12 +192,14 @@ TYPED_TEST(BatchPrograms, NoGroupsAreNoBatches)
     for (int slab = 0; slab < program.slabs(); ++slab) EXPECT_TRUE(program.runs(slab).empty());
 }
 
-// The sequence in which the form for several poses projects: the same constraints, sixteen in a row without a common vertex.
+// The sequence in which the form for several poses projects: the same constraints, sixteen in a row without a common
+// vertex.
 TYPED_TEST(BatchPrograms, ConstraintsInTheOrderOfProjection)
 {
     const VertexOrder order = pbs::order_vertices(bar.tets, bar_vertices, 30);
     const auto tets = rows_of(bar.tets);
-    const BatchProgram<TypeParam> program(pbs::grouped_tets(tets), numbered<TypeParam>(tets.size()), order, bar_vertices);
+    const BatchProgram<TypeParam> program(pbs::grouped_tets(tets), numbered<TypeParam>(tets.size()), order,
+                                          bar_vertices);
     std::vector<int> uses(tets.size(), 0);
     program.for_each_constraint([&](const auto& vertex, TypeParam rest, TypeParam stiffness) {
         const int tet = static_cast<int>(rest) - 1;

@@ -1,4 +1,5 @@
-// Reference: the input comes out again, the residuals equal those of the plain form, and nothing exists that a scene does not need.
+// Reference: the input comes out again, the residuals equal those of the plain form, and nothing exists that a scene
+// does not need.
 #include "pbs/solver/batched/batched_projection.hpp"
 
 #include "pbs/solver/project_plain.hpp"
@@ -39,7 +40,8 @@ PbsOptions options_of(Order order)
 template <typename Scalar>
 BatchedProjection<Scalar> projection_of(const PbsOptions& options, const std::vector<bool>& held = {})
 {
-    return {pbs::make_constraint_set<Scalar>(limb.mesh, limb.binding.distance, {}, options, held), limb.mesh.tets, options};
+    return {pbs::make_constraint_set<Scalar>(limb.mesh, limb.binding.distance, {}, options, held), limb.mesh.tets,
+            options};
 }
 
 template <typename Scalar>
@@ -66,8 +68,8 @@ void iterate(BatchedProjection<Scalar>& projection)
     projection.project_volume_constraints();
 }
 
-// Exact to the bit in double. In float, the difference is half a spacing of numbers of the size of the body, plus that of double at the
-// distance.
+// Exact to the bit in double. In float, the difference is half a spacing of numbers of the size of the body, plus that
+// of double at the distance.
 TYPED_TEST(BatchedProjections, WhatIsLoadedIsStored)
 {
     const Eigen::RowVector3d far(1e4, -1e4, 1e4);
@@ -78,14 +80,17 @@ TYPED_TEST(BatchedProjections, WhatIsLoadedIsStored)
             const Vec3 origin = is_double ? Vec3(Vec3::Zero()) : Vec3(p.colwise().mean());
             auto projection = projection_of<TypeParam>(options_of(order));
             projection.load(p, q, origin);
-            // A coordinate relative to the middle, and the coordinate itself: its shift, its distance from the middle, and their sum.
-            const double rounding = rounding_error_in<float>(1, 1.5) + rounding_error_in<double>(3, shift.cwiseAbs().maxCoeff() + 1.5);
+            // A coordinate relative to the middle, and the coordinate itself: its shift, its distance from the middle,
+            // and their sum.
+            const double rounding =
+                rounding_error_in<float>(1, 1.5) + rounding_error_in<double>(3, shift.cwiseAbs().maxCoeff() + 1.5);
             const double tolerance = is_double ? 0.0 : rounding;
             EXPECT_LE((stored(projection, origin) - p).cwiseAbs().maxCoeff(), tolerance);
         }
 }
 
-// Two evaluations of each error in the same precision, with some twenty roundings of terms of order one; root mean square over all.
+// Two evaluations of each error in the same precision, with some twenty roundings of terms of order one; root mean
+// square over all.
 TYPED_TEST(BatchedProjections, ResidualsAreThoseOfThePlainForm)
 {
     RandomPoints random(41);
@@ -96,8 +101,10 @@ TYPED_TEST(BatchedProjections, ResidualsAreThoseOfThePlainForm)
             for (Eigen::Index i = 0; i < p.rows(); ++i) p.row(i) += random.point(noise).transpose();
             auto projection = projection_of<TypeParam>(options_of(order));
             projection.load(p, limb.bind_points, Vec3::Zero());
-            const auto constraints = pbs::make_constraint_set<TypeParam>(limb.mesh, limb.binding.distance, {}, options_of(order));
-            const pbs::Residuals expected = residuals_of(constraints, points_of<TypeParam>(p), points_of<TypeParam>(limb.bind_points)),
+            const auto constraints =
+                pbs::make_constraint_set<TypeParam>(limb.mesh, limb.binding.distance, {}, options_of(order));
+            const pbs::Residuals expected = residuals_of(constraints, points_of<TypeParam>(p),
+                                                         points_of<TypeParam>(limb.bind_points)),
                                  found = projection.residuals();
             EXPECT_GT(expected.volume_rms, 0.01);
             EXPECT_NEAR(found.stretch_rms, expected.stretch_rms, tolerance * (1.0 + expected.stretch_rms));
@@ -117,14 +124,16 @@ TYPED_TEST(BatchedProjections, RegionsAreThoseOfThePlainForm)
         auto projection = projection_of<TypeParam>(options);
         const auto constraints = pbs::make_constraint_set<TypeParam>(limb.mesh, limb.binding.distance, {}, options);
         ASSERT_GT(constraints.regions.size(), 5u);
-        std::vector<pbs::Vector3<TypeParam>> p = points_of<TypeParam>(limb.lbs), q = points_of<TypeParam>(limb.bind_points);
+        std::vector<pbs::Vector3<TypeParam>> p = points_of<TypeParam>(limb.lbs),
+                                             q = points_of<TypeParam>(limb.bind_points);
         projection.load(limb.lbs, limb.bind_points, Vec3::Zero());
         EXPECT_EQ(projection.residuals().volume_rms, residuals_of(constraints, p, q).volume_rms);
         EXPECT_GT(projection.residuals().volume_rms, 1e-3);
         project_region_constraints(constraints, p);
         projection.project_volume_constraints();
         const Positions after = stored(projection, Vec3::Zero());
-        for (Eigen::Index i = 0; i < after.rows(); ++i) EXPECT_EQ(after.row(i).transpose(), p[i].template cast<double>()) << i;
+        for (Eigen::Index i = 0; i < after.rows(); ++i)
+            EXPECT_EQ(after.row(i).transpose(), p[i].template cast<double>()) << i;
     }
 }
 
@@ -144,7 +153,8 @@ TYPED_TEST(BatchedProjections, EachClassMovesAlone)
                 which == 0   ? projection.project_bind_constraints()
                 : which == 1 ? projection.project_stretch_constraints()
                              : projection.project_volume_constraints();
-                EXPECT_EQ(stored(projection, Vec3::Zero()) != before, bool(classes >> which & 1)) << which << " of " << classes;
+                EXPECT_EQ(stored(projection, Vec3::Zero()) != before, bool(classes >> which & 1))
+                    << which << " of " << classes;
             }
         }
 }
@@ -163,8 +173,8 @@ TYPED_TEST(BatchedProjections, NotANumberShowsInTheResiduals)
     }
 }
 
-// By hand, in f32: an edge has 2 indices, a length and a stiffness; each of 10 vertices goes in and out once per class. Sixteen poses share
-// the data of a constraint; each has its own positions (x, y, z) and bind points.
+// By hand, in f32: an edge has 2 indices, a length and a stiffness; each of 10 vertices goes in and out once per class.
+// Sixteen poses share the data of a constraint; each has its own positions (x, y, z) and bind points.
 TEST(ProjectionBytes, OfOnePoseAndOfMany)
 {
     const pbs::BodySize size{10, 50, 30};

@@ -1,7 +1,8 @@
-// The contract of the kernels of Algorithm 1 and of XPBD: each projects as the plain form in pbs/constraints does, constraint by
-// constraint, within the bounds of rounding (projection_rounding.hpp). For XPBD, the reference is value and gradient of pbs/constraints and
-// the change of the multiplier by Eq. 18 of Macklin 2016; a compliance makes the correction smaller, and the multiplier is at most what the
-// rest value would give, so that twice the rounding of a projection that removes all of the error bounds the difference.
+// The contract of the kernels of Algorithm 1 and of XPBD: each projects as the plain form in pbs/constraints does,
+// constraint by constraint, within the bounds of rounding (projection_rounding.hpp). For XPBD, the reference is value
+// and gradient of pbs/constraints and the change of the multiplier by Eq. 18 of Macklin 2016; a compliance makes the
+// correction smaller, and the multiplier is at most what the rest value would give, so that twice the rounding of a
+// projection that removes all of the error bounds the difference.
 #include "tests/support/projection_rounding.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/rounding_error.hpp"
@@ -19,7 +20,8 @@ using namespace test_support;
 using pbs::Vec3;
 using enum pbs::GroupKind;
 
-// The corners of a tet, and the points that may follow around its first edge; any three neighbours in the ring make a well-shaped tet.
+// The corners of a tet, and the points that may follow around its first edge; any three neighbours in the ring make a
+// well-shaped tet.
 const Vec3 ring[] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0.5}, {0, 1, 0.5}, {-1, 0.1, 0.5}, {-0.3, -1, 0.5}};
 
 struct TetShape {
@@ -45,7 +47,11 @@ template <typename Scalar, typename Constraint, std::size_t n>
 void project_by_eq_18(const Constraint& constraint, Scalar k, Scalar lambda, const std::array<Scalar, n>& w,
                       std::array<pbs::Vector3<Scalar>, n>& p)
 {
-    const auto [C, g] = std::apply([&](const auto&... x) { return std::pair{value(constraint, x...), gradient(constraint, x...)}; }, p);
+    const auto [C, g] = std::apply(
+        [&](const auto&... x) {
+            return std::pair{value(constraint, x...), gradient(constraint, x...)};
+        },
+        p);
     Scalar w_gradient2 = Scalar(0);
     for (std::size_t i = 0; i < n; ++i) w_gradient2 += w[i] * g[i].squaredNorm();
     if (!(w_gradient2 > Scalar(0))) return;
@@ -88,7 +94,8 @@ struct Kernel {
     int vertices;
     std::vector<std::vector<int>> links;  // the vertices of each constraint
     void (*project)(Sixteen<Scalar>&);
-    // Groups alone have it. It returns the sum of squares of the errors l / l0 - 1 and V / V0 - 1, and the largest in each lane.
+    // Groups alone have it. It returns the sum of squares of the errors l / l0 - 1 and V / V0 - 1, and the largest in
+    // each lane.
     std::pair<double, std::array<Scalar, lanes>> (*errors)(const Sixteen<Scalar>&) = nullptr;
     RandomPoints random{31};
 
@@ -116,14 +123,16 @@ struct Kernel {
         }
     }
 
-    // Bit v of `pinned` marks vertex v of the first lane; of groups, each lane has other pinned vertices. Poses share their masses.
+    // Bit v of `pinned` marks vertex v of the first lane; of groups, each lane has other pinned vertices. Poses share
+    // their masses.
     void set_mass(Sixteen<Scalar>& on, int lane, int v, int pinned)
     {
         on.w[lane][v] = (one_body ? pinned : pinned + lane) >> v & 1 ? Scalar(0) : Scalar(random.number(0.2, 5.0));
         if (one_body) on.w[lane][v] = on.w[0][v];
     }
 
-    // Stiffnesses from 0 to 1 inclusive; of XPBD, from soft to nearly rigid, in units in which 1 removes half of the error.
+    // Stiffnesses from 0 to 1 inclusive; of XPBD, from soft to nearly rigid, in units in which 1 removes half of the
+    // error.
     void set_link(typename Sixteen<Scalar>::Link& link, int c, double rest, double size_m)
     {
         const bool tet = link.vertex.size() == 4;
@@ -132,7 +141,8 @@ struct Kernel {
             link.k[lane] = Scalar((5 * lane + 7 * (tet ? 2 : c % 2)) % lanes) / (lanes - 1);
             if (link.vertex.size() == 1) link.k[lane] = Scalar(5 * lane % lanes) / (lanes - 1);
             if (!compliant) continue;
-            link.k[lane] = Scalar(std::pow(10.0, -3.0 + (tet ? 6.0 : 9.0) * lane / (lanes - 1)) / (tet ? std::pow(size_m, 4) : 1.0));
+            link.k[lane] = Scalar(std::pow(10.0, -3.0 + (tet ? 6.0 : 9.0) * lane / (lanes - 1)) /
+                                  (tet ? std::pow(size_m, 4) : 1.0));
             link.lambda[lane] = Scalar(0.25 * link.k[lane] * (tet ? 6.0 : 1.0) * rest * random.number(-1.0, 1.0));
         }
     }
@@ -143,7 +153,8 @@ struct Kernel {
         Sixteen<Scalar> on;
         for (int lane = 0; lane < lanes; ++lane)
             for (int v = 0; v < vertices; ++v) {
-                on.p[lane][v] = (size_m * (ring[v] + random.point(noise)).cwiseProduct(Vec3(1, 1, mirror))).template cast<Scalar>();
+                on.p[lane][v] =
+                    (size_m * (ring[v] + random.point(noise)).cwiseProduct(Vec3(1, 1, mirror))).template cast<Scalar>();
                 on.q[lane][v] = (size_m * (ring[v] + random.point(0.5))).template cast<Scalar>();
                 set_mass(on, lane, v, pinned);
             }
@@ -152,7 +163,8 @@ struct Kernel {
             double rest = 0.1 * v[0] * size_m;
             if (v.size() == 2) rest = size_m * (ring[v[1]] - ring[v[0]]).norm();
             if (v.size() == 4)
-                rest = std::pow(size_m, 3) / 6 * (ring[v[1]] - ring[v[0]]).cross(ring[v[2]] - ring[v[0]]).dot(ring[v[3]] - ring[v[0]]);
+                rest = std::pow(size_m, 3) / 6 *
+                       (ring[v[1]] - ring[v[0]]).cross(ring[v[2]] - ring[v[0]]).dot(ring[v[3]] - ring[v[0]]);
             set_link(on.links.back(), static_cast<int>(on.links.size()) - 1, rest, size_m);
         }
         return on;
@@ -266,13 +278,15 @@ TYPED_TEST(KernelContract, DegenerateTetsAndEdges)
                 if (corners == 4)
                     for (const TetShape& shape : tet_shapes) {
                         SCOPED_TRACE(shape.name);
-                        kernel.expect_one_as_plain({shape.corners.begin(), shape.corners.end()}, 1.0 / 6.0, size_m, pinned);
+                        kernel.expect_one_as_plain({shape.corners.begin(), shape.corners.end()}, 1.0 / 6.0, size_m,
+                                                   pinned);
                     }
                 if (corners == 2)
                     for (const double length : {0.0, 1e-3, 0.9, 1.0, 100.0}) {
                         SCOPED_TRACE(length);
                         const Vec3 first = kernel.random.point(1.0);
-                        kernel.expect_one_as_plain({first, first + length * kernel.random.point(1.0).normalized()}, 1.0, size_m, pinned);
+                        kernel.expect_one_as_plain({first, first + length * kernel.random.point(1.0).normalized()}, 1.0,
+                                                   size_m, pinned);
                     }
             }
     }
@@ -285,7 +299,8 @@ TYPED_TEST(KernelContract, NotANumberStaysInItsLane)
         SCOPED_TRACE(kernel.name);
         auto clean = kernel.noisy_ring(1.0, 0.1), sick = clean;
         for (int lane = 3; lane < lanes; lane += 5) sick.p[lane][1](0) = std::numeric_limits<TypeParam>::quiet_NaN();
-        if (kernel.one_body) std::fill_n(clean.w[0], lanes * most_vertices, 1), std::fill_n(sick.w[0], lanes * most_vertices, 1);
+        if (kernel.one_body)
+            std::fill_n(clean.w[0], lanes * most_vertices, 1), std::fill_n(sick.w[0], lanes * most_vertices, 1);
         kernel.project(clean);
         kernel.project(sick);
         for (int lane = 0; lane < lanes; ++lane)
@@ -298,7 +313,8 @@ TYPED_TEST(KernelContract, NotANumberStaysInItsLane)
     }
 }
 
-// The input of lanes without a group: no mass, no rest value, no stiffness, at the origin. The errors of a group are zero.
+// The input of lanes without a group: no mass, no rest value, no stiffness, at the origin. The errors of a group are
+// zero.
 TYPED_TEST(KernelContract, DummiesStayZero)
 {
     for (const auto& kernel : kernels<TypeParam>()) {
@@ -330,8 +346,8 @@ TYPED_TEST(KernelContract, BindOnTheBoneAndOnTheBindPoint)
     }
 }
 
-// By the plain form in the same precision: some twenty roundings of sums of positive terms, and those of C itself, whose two parts may
-// cancel. The largest of each group is that of its constraints.
+// By the plain form in the same precision: some twenty roundings of sums of positive terms, and those of C itself,
+// whose two parts may cancel. The largest of each group is that of its constraints.
 TYPED_TEST(KernelContract, GroupErrorsAreThoseOfThePlainForm)
 {
     const double eps = std::numeric_limits<TypeParam>::epsilon();
@@ -347,9 +363,10 @@ TYPED_TEST(KernelContract, GroupErrorsAreThoseOfThePlainForm)
                 for (const auto& link : on.links) {
                     const auto p = [&](int i) { return on.p[lane][link.vertex[i]]; };
                     const TypeParam rest = link.rest[lane];
-                    const double error = link.vertex.size() == 2
-                                             ? value(pbs::StretchConstraint<TypeParam>{{}, rest, 1}, p(0), p(1)) / rest
-                                             : value(pbs::VolumeConstraint<TypeParam>{{}, rest, 1}, p(0), p(1), p(2), p(3)) / rest;
+                    const double error =
+                        link.vertex.size() == 2
+                            ? value(pbs::StretchConstraint<TypeParam>{{}, rest, 1}, p(0), p(1)) / rest
+                            : value(pbs::VolumeConstraint<TypeParam>{{}, rest, 1}, p(0), p(1), p(2), p(3)) / rest;
                     expected += error * error;
                     rounding += 20 * eps * (std::abs(error) + 1) * (std::abs(error) + 1);
                     worst = std::max(worst, std::abs(error));
@@ -360,8 +377,8 @@ TYPED_TEST(KernelContract, GroupErrorsAreThoseOfThePlainForm)
         }
 }
 
-// Whichever vertex is not finite, in the first constraint or in the last, the error of its group is not below a tolerance. The errors of
-// the other lanes do not change.
+// Whichever vertex is not finite, in the first constraint or in the last, the error of its group is not below a
+// tolerance. The errors of the other lanes do not change.
 TYPED_TEST(KernelContract, AGroupThatIsNotANumberIsNeverSatisfied)
 {
     for (auto& kernel : kernels<TypeParam>()) {
@@ -381,7 +398,8 @@ TYPED_TEST(KernelContract, AGroupThatIsNotANumberIsNeverSatisfied)
     }
 }
 
-// The two terms of an error go through some seven roundings, its square through twice as many and one, and the sum follows, twice.
+// The two terms of an error go through some seven roundings, its square through twice as many and one, and the sum
+// follows, twice.
 TYPED_TEST(KernelContract, SumOfSquaredBindErrors)
 {
     RandomPoints random(38);
@@ -400,11 +418,13 @@ TYPED_TEST(KernelContract, SumOfSquaredBindErrors)
     }
     const BindBatches<TypeParam> packed(on);
     const double rounding = rounding_error_in<TypeParam>(2 * (2 * 7 + 1 + most_vertices * lanes), squared_terms);
-    EXPECT_NEAR(pbs::sum_squared_bind_errors<TypeParam>(packed.batches, most_vertices, packed.xyzw[0]), squares, rounding);
+    EXPECT_NEAR(pbs::sum_squared_bind_errors<TypeParam>(packed.batches, most_vertices, packed.xyzw[0]), squares,
+                rounding);
 }
 
-// Two projections of an edge of stiffness k = 1 / w between two free points of mass 1 / w, by hand: d lambda = (-k C - lambda) / 3, and the
-// edge becomes shorter by 2 w d lambda. C: 3, 1; lambda: 0, -1. Afterwards C / alpha + lambda = 0: in equilibrium.
+// Two projections of an edge of stiffness k = 1 / w between two free points of mass 1 / w, by hand: d lambda = (-k C -
+// lambda) / 3, and the edge becomes shorter by 2 w d lambda. C: 3, 1; lambda: 0, -1. Afterwards C / alpha + lambda = 0:
+// in equilibrium.
 TYPED_TEST(KernelContract, TheMultiplierIsKept)
 {
     Sixteen<TypeParam> on;
@@ -418,8 +438,8 @@ TYPED_TEST(KernelContract, TheMultiplierIsKept)
     }
 }
 
-// An edge without length and a tet that is a point have no gradient. Their multipliers stay, as in plain code. Otherwise they would grow
-// while the constraint cannot act, and move the vertices too far later.
+// An edge without length and a tet that is a point have no gradient. Their multipliers stay, as in plain code.
+// Otherwise they would grow while the constraint cannot act, and move the vertices too far later.
 TYPED_TEST(KernelContract, WithoutAGradientTheMultiplierStays)
 {
     for (const std::vector<int>& vertex : {std::vector<int>{0, 1}, {0, 1, 2, 3}}) {

@@ -1,6 +1,6 @@
-// The contract of the packed projections of Algorithm 1 and of XPBD. Reference: the plain projection of the same constraints in the
-// sequence of the program, since the kernels project in exactly that order. Tolerance: the rounding of the iterations (step_rounding.hpp).
-// Another sequence exceeds it by far, which AnotherSequenceIsFarOff confirms.
+// The contract of the packed projections of Algorithm 1 and of XPBD. Reference: the plain projection of the same
+// constraints in the sequence of the program, since the kernels project in exactly that order. Tolerance: the rounding
+// of the iterations (step_rounding.hpp). Another sequence exceeds it by far, which AnotherSequenceIsFarOff confirms.
 #include "pbs/solver/batched/batch_program.hpp"
 #include "pbs/solver/projection.hpp"
 #include "tests/support/step_rounding.hpp"
@@ -39,7 +39,8 @@ struct Pbs {
         options.masses = pbs::Masses::lumped;
         options.iterations = 1;
         const auto k = [part](Part own, double k) { return part == own || part == Part::all ? k : 0.0; };
-        options.k_bind = k(Part::bind, 0.7), options.k_stretch = k(Part::stretch, 0.7), options.k_volume = k(Part::volume, 1.0);
+        options.k_bind = k(Part::bind, 0.7), options.k_stretch = k(Part::stretch, 0.7),
+        options.k_volume = k(Part::volume, 1.0);
         if (part == Part::bind) options.bind_to = pbs::BindTo::blended_position;
         return options;
     }
@@ -65,7 +66,8 @@ struct Xpbd {
 
     static pbs::XpbdOptions options(Order order)
     {
-        return {.iterations = 3, .order = order, .precision = sizeof(S) == 4 ? pbs::Precision::f32 : pbs::Precision::f64};
+        return {
+            .iterations = 3, .order = order, .precision = sizeof(S) == 4 ? pbs::Precision::f32 : pbs::Precision::f64};
     }
     static pbs::XpbdConstraints constraints(Part, const std::vector<bool>& held)
     {
@@ -137,8 +139,8 @@ private:
 
     // Fails where a constraint is missing or is projected twice.
     template <typename Constraint>
-    static std::vector<Constraint> sorted(const std::vector<Constraint>& constraints, const pbs::BatchProgram<Scalar>& program,
-                                          const pbs::VertexOrder& order)
+    static std::vector<Constraint> sorted(const std::vector<Constraint>& constraints,
+                                          const pbs::BatchProgram<Scalar>& program, const pbs::VertexOrder& order)
     {
         std::map<std::vector<int>, Constraint> by_vertices;
         for (const Constraint& constraint : constraints) by_vertices.emplace(key(vertices_of(constraint)), constraint);
@@ -160,7 +162,8 @@ TYPED_TEST(Sequence, EqualsThePlainProjectionInTheSameSequence)
 {
     for (const Order order : orders)
         for (const Part part : TypeParam::parts) {
-            const Positions found = this->by_kernels(order, part, this->constraints(part)), expected = this->one_by_one(order, part);
+            const Positions found = this->by_kernels(order, part, this->constraints(part)),
+                            expected = this->one_by_one(order, part);
             EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), TypeParam::rounding_m(order, part)) << int(order);
             EXPECT_GT((expected - this->start()).cwiseAbs().maxCoeff(), 1e-3) << "nothing moved";
         }
@@ -170,7 +173,8 @@ TYPED_TEST(Sequence, AnotherSequenceIsFarOff)
 {
     for (const Part part : TypeParam::parts)
         if (part != Part::bind) {  // each of which moves its own vertex alone
-            EXPECT_GT((this->by_kernels(Order::ordered, part, this->constraints(part)) - this->one_by_one(Order::grouped, part))
+            EXPECT_GT((this->by_kernels(Order::ordered, part, this->constraints(part)) -
+                       this->one_by_one(Order::grouped, part))
                           .cwiseAbs()
                           .maxCoeff(),
                       TypeParam::far_off * TypeParam::rounding_m(Order::ordered, part));

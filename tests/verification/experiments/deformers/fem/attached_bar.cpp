@@ -1,5 +1,6 @@
-// Reference: rigid motion and objectivity, which are exact for a linear law since the root's motion is removed; the limit of stiff springs;
-// a second solver. The body is the bar of two bones, with both attachments and both element orders.
+// Reference: rigid motion and objectivity, which are exact for a linear law since the root's motion is removed; the
+// limit of stiff springs; a second solver. The body is the bar of two bones, with both attachments and both element
+// orders.
 
 #include "experiments/studies/verification/problem.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
@@ -23,8 +24,9 @@ struct AttachedRounding {
     SolveRounding solve;
     int nodes = 0;
 
-    // Targets in error by d: with springs of stiffness k, u K u <= sum k d^2, the energy of u = 0, and sum k <= |K| nodes, since it is the
-    // energy of a unit translation. Prescribed nodes in error by d have the same bound. Hence |u| <= sqrt(cond(K) nodes) d.
+    // Targets in error by d: with springs of stiffness k, u K u <= sum k d^2, the energy of u = 0, and sum k <= |K|
+    // nodes, since it is the energy of a unit translation. Prescribed nodes in error by d have the same bound. Hence
+    // |u| <= sqrt(cond(K) nodes) d.
     double of_targets_m(double d) const { return std::sqrt(solve.spectrum.condition() * nodes) * d; }
 };
 
@@ -42,8 +44,10 @@ AttachedRounding attached_rounding(const FemOptions& options, const pbs::Pose& p
 
 class AttachedBar : public testing::TestWithParam<std::tuple<FemAttachment, int>> {
 protected:
-    FemOptions options{
-        .element_order = std::get<1>(GetParam()), .attachment = std::get<0>(GetParam()), .core_radius = 1.0, .spring_factor = 1e4};
+    FemOptions options{.element_order = std::get<1>(GetParam()),
+                       .attachment = std::get<0>(GetParam()),
+                       .core_radius = 1.0,
+                       .spring_factor = 1e4};
 };
 
 // The targets are at rest except for the rounding of positions in the frame of the root.
@@ -57,8 +61,8 @@ TEST_P(AttachedBar, FollowsARigidMotionOfAllBones)
     EXPECT_LT(error_m, 1e-7) << "a bound that would let another motion of the bar of 2 m pass proves nothing";
 }
 
-// If the whole pose and gravity are rotated, the solution rotates with them. Tolerance: the errors of two solves, and those of the targets
-// in the frame of the root.
+// If the whole pose and gravity are rotated, the solution rotates with them. Tolerance: the errors of two solves, and
+// those of the targets in the frame of the root.
 TEST_P(AttachedBar, IsObjective)
 {
     FemOptions along = options;
@@ -81,8 +85,8 @@ TEST_P(AttachedBar, UmfpackGivesTheSame)
     EXPECT_LT(error_m, 1e-5) << "a bound that would let another shape of the bar of 2 m pass proves nothing";
 }
 
-// A rotation of the joint by a small angle must be reproduced far from the joint. Where the bone's middle is held, the flesh follows it
-// except for the fictitious strain 1 - cos(theta) = 1.5e-4 at 1 degree, over the width.
+// A rotation of the joint by a small angle must be reproduced far from the joint. Where the bone's middle is held, the
+// flesh follows it except for the fictitious strain 1 - cos(theta) = 1.5e-4 at 1 degree, over the width.
 TEST_P(AttachedBar, FollowsASmallRotationWhereTheBoneHoldsIt)
 {
     options.core_radius = 0.7;
@@ -96,11 +100,13 @@ TEST_P(AttachedBar, FollowsASmallRotationWhereTheBoneHoldsIt)
 }
 
 INSTANTIATE_TEST_SUITE_P(Attachments, AttachedBar,
-                         testing::Combine(testing::Values(FemAttachment::embedded, FemAttachment::nodes), testing::Values(1, 2)));
+                         testing::Combine(testing::Values(FemAttachment::embedded, FemAttachment::nodes),
+                                          testing::Values(1, 2)));
 
-// Doubling q from 1e4, with the joint bent by 10 degrees, for which a linear reference is still useful. Stated bounds: the root mean square
-// change, which error_l2_pct reports, is below 0.01 % of the diagonal, a tenth of the bound of a claim; that of a single vertex is below
-// 0.05 %. (A vertex that the springs reach only through a small shape function is held softly and still moves.)
+// Doubling q from 1e4, with the joint bent by 10 degrees, for which a linear reference is still useful. Stated bounds:
+// the root mean square change, which error_l2_pct reports, is below 0.01 % of the diagonal, a tenth of the bound of a
+// claim; that of a single vertex is below 0.05 %. (A vertex that the springs reach only through a small shape function
+// is held softly and still moves.)
 TEST(EmbeddedBar, DoublingTheSpringsChangesNothingThatIsReported)
 {
     const double diagonal = (bar.mesh.rest.colwise().maxCoeff() - bar.mesh.rest.colwise().minCoeff()).norm();
@@ -119,8 +125,8 @@ TEST(EmbeddedBar, DoublingTheSpringsChangesNothingThatIsReported)
 }
 
 // Reference: a manufactured solution of stable neo-Hookean flesh that is held by smooth springs
-// (experiments/studies/verification/problem.hpp). The verification record's problem nested_convergence shows the order and
-// the bound of nested solutions on it.
+// (experiments/studies/verification/problem.hpp). The verification record's problem nested_convergence shows the order
+// and the bound of nested solutions on it.
 
 double error_of(const pbs::TetMesh& mesh, int element_order, const ManufacturedSprings& springs = {})
 {
@@ -131,9 +137,9 @@ double error_of(const pbs::TetMesh& mesh, int element_order, const ManufacturedS
 
 class ManufacturedAttachment : public testing::TestWithParam<std::pair<int, int>> {};
 
-// On three meshes, from so many cells a side on. Errors C h^p (1 + c h) show an order that differs from p by c h / (2 ln 2), half as much
-// on meshes twice as fine. The order of the finest two is therefore within 0.1 (jittered meshes: their constants differ by a few per cent)
-// or closer than that of the coarser two by nearly a half.
+// On three meshes, from so many cells a side on. Errors C h^p (1 + c h) show an order that differs from p by c h / (2
+// ln 2), half as much on meshes twice as fine. The order of the finest two is therefore within 0.1 (jittered meshes:
+// their constants differ by a few per cent) or closer than that of the coarser two by nearly a half.
 TEST_P(ManufacturedAttachment, ConvergesWithOneOrderMoreThanTheElements)
 {
     const auto& [element_order, coarsest] = GetParam();
@@ -151,8 +157,9 @@ TEST_P(ManufacturedAttachment, ConvergesWithOneOrderMoreThanTheElements)
 
 INSTANTIATE_TEST_SUITE_P(ElementOrder, ManufacturedAttachment, testing::Values(std::pair(1, 4), std::pair(2, 2)));
 
-// Springs of twice or half the weight pull with another force than the body force balances. Where they are stiff, the flesh then moves by
-// the offset times 1 / 2 or 1; right ones leave only the error of the elements and of the sample points.
+// Springs of twice or half the weight pull with another force than the body force balances. Where they are stiff, the
+// flesh then moves by the offset times 1 / 2 or 1; right ones leave only the error of the elements and of the sample
+// points.
 TEST(ManufacturedSpringsTest, OfAnotherWeightLeaveAnotherForce)
 {
     const pbs::Vec3 large_offset(0.02, -0.01, 0.03);
@@ -161,17 +168,20 @@ TEST(ManufacturedSpringsTest, OfAnotherWeightLeaveAnotherForce)
     for (const double weight : {0.5, 2.0}) EXPECT_GT(error_of(mesh, 1, {large_offset, weight}), 3.0 * right) << weight;
 }
 
-// Reference: the theory of quadrature. Twice as many sample points of the springs in every direction are a finer midpoint rule, whose error
-// falls to a quarter. The body is the bar of two bones, bent by 40 degrees, with stable neo-Hookean flesh.
+// Reference: the theory of quadrature. Twice as many sample points of the springs in every direction are a finer
+// midpoint rule, whose error falls to a quarter. The body is the bar of two bones, bent by 40 degrees, with stable
+// neo-Hookean flesh.
 
 // Errors of order h^2 leave a quarter of the first difference: |x_2 - x_4| = (1/4 - 1/16) C, |x_1 - x_2| = (1 - 1/4) C.
-// Points that fall into other tets add an error that is not smooth, so that the test requires a half instead of a quarter.
+// Points that fall into other tets add an error that is not smooth, so that the test requires a half instead of a
+// quarter.
 TEST(SmoothAttachment, MoreSamplePointsChangeLessAndLess)
 {
     const pbs::Character middle_bar = bar_character({16, 4, 4});
     std::vector<Positions> shapes;
     for (const int samples : {1, 2, 4}) {
-        ElasticFemDeformer fem({.model = reference_fem::Model::stable_neo_hookean, .element_order = 1, .attachment_samples = samples});
+        ElasticFemDeformer fem(
+            {.model = reference_fem::Model::stable_neo_hookean, .element_order = 1, .attachment_samples = samples});
         fem.reset(middle_bar);
         EXPECT_EQ(fem.advance(turned(40.0), 0.01).outcome, pbs::Outcome::finished);
         EXPECT_EQ(fem.record()["newton"]["most_inverted_points"].get<int>(), 0);

@@ -1,5 +1,6 @@
-// Reference: objectivity of the laws; the independence of an equilibrium from the path to it; the small-strain limit, which is the linear
-// reference; the motions that the bind constraint allows and prevents. The body is the bar of two bones.
+// Reference: objectivity of the laws; the independence of an equilibrium from the path to it; the small-strain limit,
+// which is the linear reference; the motions that the bind constraint allows and prevents. The body is the bar of two
+// bones.
 #include "tests/support/fem_bar.hpp"
 #include "tests/support/newton_rounding.hpp"
 
@@ -22,11 +23,14 @@ const pbs::Character& bar()
 using Case = std::tuple<Model, FemAttachment>;
 class ElasticBar : public testing::TestWithParam<Case> {
 protected:
-    FemOptions options{.model = std::get<0>(GetParam()), .element_order = 1, .attachment = std::get<1>(GetParam()), .core_radius = 1.0};
+    FemOptions options{.model = std::get<0>(GetParam()),
+                       .element_order = 1,
+                       .attachment = std::get<1>(GetParam()),
+                       .core_radius = 1.0};
 };
 
-// If the whole pose and gravity are rotated, the solution rotates with them. Tolerance: the error that Newton's method leaves in each of
-// the two solutions, and the rounding of positions that the motion carries away.
+// If the whole pose and gravity are rotated, the solution rotates with them. Tolerance: the error that Newton's method
+// leaves in each of the two solutions, and the rounding of positions that the motion carries away.
 TEST_P(ElasticBar, IsObjective)
 {
     FemOptions along = options;
@@ -39,7 +43,8 @@ TEST_P(ElasticBar, IsObjective)
     EXPECT_LT(error_m, 1e-5) << "a bound that would let another shape of the bar of 2 m pass proves nothing";
 }
 
-// Below the load at which the flesh buckles there is one equilibrium. Tolerance: the error that Newton's method leaves in each solution.
+// Below the load at which the flesh buckles there is one equilibrium. Tolerance: the error that Newton's method leaves
+// in each solution.
 TEST_P(ElasticBar, DoesNotRememberTheWay)
 {
     const pbs::Pose end = turned(60.0);
@@ -49,15 +54,17 @@ TEST_P(ElasticBar, DoesNotRememberTheWay)
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, ElasticBar,
-                         testing::Combine(testing::Values(Model::stable_neo_hookean, Model::corotational, Model::neo_hookean),
+                         testing::Combine(testing::Values(Model::stable_neo_hookean, Model::corotational,
+                                                          Model::neo_hookean),
                                           testing::Values(FemAttachment::embedded, FemAttachment::nodes)));
 
-// The nonlinear part is c a^2 (1 + d a + ...) of the angle a: a quarter at half the angle, except for the factor (1 + d a) / (1 + d a / 2),
-// which is within 10 % of 1 for |d| < 6 at a = 2 degrees = 0.035. The strains are at most of the order of a, so d is of order one. A
-// part of first or third order would give 2 or 8.
+// The nonlinear part is c a^2 (1 + d a + ...) of the angle a: a quarter at half the angle, except for the factor (1 + d
+// a) / (1 + d a / 2), which is within 10 % of 1 for |d| < 6 at a = 2 degrees = 0.035. The strains are at most of the
+// order of a, so d is of order one. A part of first or third order would give 2 or 8.
 TEST(SmallAngles, TheDifferenceFromTheLinearReferenceIsOfSecondOrder)
 {
-    for (const Model model : {Model::corotational, Model::stable_neo_hookean, Model::neo_hookean, Model::st_venant_kirchhoff})
+    for (const Model model :
+         {Model::corotational, Model::stable_neo_hookean, Model::neo_hookean, Model::st_venant_kirchhoff})
         for (const int order : {1, 2}) {
             const FemOptions options{.model = model, .element_order = order}, linear{.element_order = order};
             std::vector<double> difference;
@@ -81,18 +88,20 @@ TEST(MeanDilatation, OnLinearTetsItIsTheDisplacementFormulation)
               2.0 * newton_error_m(bar(), options, frames.back(), displacement));
 }
 
-// The bind constraint only keeps distances to the bone. A rotation about the bone itself moves no bind point, so the flesh does not move.
-// Tolerance: the rounding of the bind points, whose forces Newton's method accepts at rest.
+// The bind constraint only keeps distances to the bone. A rotation about the bone itself moves no bind point, so the
+// flesh does not move. Tolerance: the rounding of the bind points, whose forces Newton's method accepts at rest.
 TEST(BoundBar, ATwistAboutTheBoneIsHeldByNothing)
 {
     FemOptions bound{.model = Model::stable_neo_hookean, .element_order = 1, .attachment = FemAttachment::bind};
-    EXPECT_LT(largest_distance(deformed(bar(), bound, {turned(90.0, Vec3::UnitX())}), bar().mesh.rest), frame_rounding_m(bar().mesh.rest));
+    EXPECT_LT(largest_distance(deformed(bar(), bound, {turned(90.0, Vec3::UnitX())}), bar().mesh.rest),
+              frame_rounding_m(bar().mesh.rest));
 }
 
-// Reference: dimensional analysis. With displacement data, free surfaces and no body force, every force is proportional to Young's modulus
-// (also those of the attachment's springs, whose density is q E / r^2). The positions therefore do not depend on it, and twist and bend can
-// only determine nu. Multiplied by an even power of two, Young's modulus changes no digit of a force, of a root in Cholesky's factorisation
-// or of a quotient of forces, and Newton's stopping criterion is relative to the forces: the positions are equal to the bit.
+// Reference: dimensional analysis. With displacement data, free surfaces and no body force, every force is proportional
+// to Young's modulus (also those of the attachment's springs, whose density is q E / r^2). The positions therefore do
+// not depend on it, and twist and bend can only determine nu. Multiplied by an even power of two, Young's modulus
+// changes no digit of a force, of a root in Cholesky's factorisation or of a quotient of forces, and Newton's stopping
+// criterion is relative to the forces: the positions are equal to the bit.
 
 class YoungCancels : public testing::TestWithParam<std::tuple<Model, int, FemAttachment>> {
 protected:
@@ -119,7 +128,8 @@ TEST_P(YoungCancels, WhereTheSkeletonIsAllThatActsButNotWhereAForceActs)
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, YoungCancels,
-                         testing::Combine(testing::Values(Model::linear, Model::stable_neo_hookean), testing::Values(1, 2),
+                         testing::Combine(testing::Values(Model::linear, Model::stable_neo_hookean),
+                                          testing::Values(1, 2),
                                           testing::Values(FemAttachment::embedded, FemAttachment::nodes)));
 
 using YoungCancelsSprings = YoungCancels;

@@ -1,6 +1,7 @@
-// The narrowest section of a twisted limb, recomputed without CGAL and without the classes of the study. Reference: the limb lies along x
-// and its twist does not move that axis, so that a station's plane is x = const; the smallest radius of the outline is the distance from
-// the centroid of the segments in which the skin's triangles meet the plane to the nearest of them.
+// The narrowest section of a twisted limb, recomputed without CGAL and without the classes of the study. Reference: the
+// limb lies along x and its twist does not move that axis, so that a station's plane is x = const; the smallest radius
+// of the outline is the distance from the centroid of the segments in which the skin's triangles meet the plane to the
+// nearest of them.
 #include "experiments/studies/artefacts/artefact_case.hpp"
 
 #include "experiments/scene/scene.hpp"
@@ -84,7 +85,8 @@ TEST(ReadingSections, HaveTheNarrowestSectionThatPlainSlicingFinds)
             double smallest = std::numeric_limits<double>::infinity();
             for (int station = -10; station <= 10; ++station) {
                 const double x = joints[0].point.x() + station * radius_m / 5.0;  // up to 2 radii
-                smallest = std::min(smallest, smallest_radius_m(positions, skin, x) / smallest_radius_m(character.mesh.rest, skin, x));
+                smallest = std::min(
+                    smallest, smallest_radius_m(positions, skin, x) / smallest_radius_m(character.mesh.rest, skin, x));
             }
             return smallest;
         };

@@ -1,5 +1,5 @@
-// Reference: the study convergence, which measures the same 24 iterations of PBS with another solver, the finite elements on each mesh by
-// themselves, and the definitions of the parts.
+// Reference: the study convergence, which measures the same 24 iterations of PBS with another solver, the finite
+// elements on each mesh by themselves, and the definitions of the parts.
 #include "experiments/studies/ensemble/ensemble.hpp"
 
 #include "experiments/deformers/fem/fem_options.hpp"
@@ -54,8 +54,8 @@ RateRow row_of_convergence(const EnsembleCase& as)
     return rate_rows(measure_convergence(of, solutions())).front();
 }
 
-// The parts, after a check that convergence, which has another solver, measures the same errors after these iterations. Both read the same
-// solved reference.
+// The parts, after a check that convergence, which has another solver, measures the same errors after these iterations.
+// Both read the same solved reference.
 PartsRow checked_parts(const EnsembleCase& of)
 {
     const EnsembleRecords records = measure_ensemble(of, solutions());
@@ -107,11 +107,14 @@ TEST(ErrorSplit, MeasuresEachAttachmentAgainstTheReference)
         EXPECT_LE(other.model_pct, own.model_pct + other.difference_pct) << other.reference;
         EXPECT_EQ(other.core_radius.has_value(), other.attachment != "bind");
     }
-    const auto row_of = [&](const char* label) { return *std::ranges::find(records.attachments, label, &AttachmentRow::reference); };
+    const auto row_of = [&](const char* label) {
+        return *std::ranges::find(records.attachments, label, &AttachmentRow::reference);
+    };
     EXPECT_EQ(row_of("smooth_q_100").spring_factor, 100.0);
     EXPECT_EQ(row_of("embedded").spring_factor, 1e4);
     EXPECT_EQ(row_of("bind").spring_factor, 1e4);  // its stiffness is q E V / R^2 (bone_attachment.hpp)
-    EXPECT_GT(row_of("linear_smooth").difference_pct, row_of("smooth_q_100").difference_pct);  // small strain at 30 degrees
+    // small strain at 30 degrees
+    EXPECT_GT(row_of("linear_smooth").difference_pct, row_of("smooth_q_100").difference_pct);
 }
 
 // Linear and quadratic elements on the character's own tets, each solved alone.
@@ -132,8 +135,10 @@ TEST(OwnTets, HaveTheDistanceOfLinearElementsAndABoundThatCoversFinerTets)
         return limb.shapes(flesh).front();
     };
     const double linear_distance_pct = limb.distance(solved(1), solved(2)).joint_pct;
-    EXPECT_NEAR(row.linear_distance_pct.value(), linear_distance_pct, 1e-6 * linear_distance_pct) << "Newton's method leaves less";
-    const PosedReference reference(limb.character(), of.flesh, limb.pose(0), of.scene.motion.time_step_s, ReferenceEffort::refined);
+    EXPECT_NEAR(row.linear_distance_pct.value(), linear_distance_pct, 1e-6 * linear_distance_pct)
+        << "Newton's method leaves less";
+    const PosedReference reference(limb.character(), of.flesh, limb.pose(0), of.scene.motion.time_step_s,
+                                   ReferenceEffort::refined);
     EXPECT_GT(row.bound_pct.value(), reference.error_of(solved(2).positions).joint_pct);
     EXPECT_LT(row.bound_pct.value(), linear_distance_pct);
 }

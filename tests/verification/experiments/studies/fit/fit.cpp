@@ -1,5 +1,5 @@
-// Reference: the finite elements themselves. The fit must find the modulus of a body that is an elastic bar, and leave a misfit for one
-// that is not. The sag is compared with Timoshenko's beam.
+// Reference: the finite elements themselves. The fit must find the modulus of a body that is an elastic bar, and leave
+// a misfit for one that is not. The sag is compared with Timoshenko's beam.
 #include "experiments/studies/fit/fit.hpp"
 
 #include "tests/support/rounding_error.hpp"
@@ -36,9 +36,9 @@ TEST(Cantilever, HoldsTheFirstTenthAndHasATip)
     EXPECT_EQ(free, 18u * 9u);
 }
 
-// A cantilever of 1.8 m under its own weight: w L^4 / (8 E I) and w L^2 / (2 k G A), k = 10 (1 + nu) / (12 + 11 nu) (Cowper 1966). The held
-// end keeps the cross-section flat, which stiffens by at most 3 nu^2 h / L of the bending (6.8 %); P2 on this mesh is within 1 % of its
-// limit.
+// A cantilever of 1.8 m under its own weight: w L^4 / (8 E I) and w L^2 / (2 k G A), k = 10 (1 + nu) / (12 + 11 nu)
+// (Cowper 1966). The held end keeps the cross-section flat, which stiffens by at most 3 nu^2 h / L of the bending (6.8
+// %); P2 on this mesh is within 1 % of its limit.
 TEST(ElasticSag, IsThatOfTimoshenkosBeam)
 {
     const ElasticSag sag = elastic_sag(cantilever, options_of(1e5));
@@ -47,18 +47,20 @@ TEST(ElasticSag, IsThatOfTimoshenkosBeam)
     double tip = 0.0, count = 0.0;
     for (Eigen::Index v = 0; v < sagging_bar.rest.rows(); ++v)
         if (sagging_bar.rest(v, 0) > 1.0 - 1e-9) tip -= sag.displacement(v, 2), ++count;
-    const double expected =
-        weight * std::pow(length, 4) / (8.0 * 1e5 * inertia) + weight * length * length / (2.0 * k * shear_pa * side * side);
+    const double expected = weight * std::pow(length, 4) / (8.0 * 1e5 * inertia) +
+                            weight * length * length / (2.0 * k * shear_pa * side * side);
     EXPECT_LT(tip / count, 1.01 * expected);
     EXPECT_GT(tip / count, 0.92 * expected);
 }
 
-// Two linear solutions differ by rounding, eps times some 1e6 of condition, and so do the modulus and the five without a fifth. The half
-// width of the interval is t (n - 1) / sqrt n s, with n = 5, t = 2.776 and a standard deviation s of at most sqrt(5 / 4) times this
-// rounding. The squared misfit is 1 - 2 + 1, of sums of products over the 36 free vertices of a fifth.
+// Two linear solutions differ by rounding, eps times some 1e6 of condition, and so do the modulus and the five without
+// a fifth. The half width of the interval is t (n - 1) / sqrt n s, with n = 5, t = 2.776 and a standard deviation s of
+// at most sqrt(5 / 4) times this rounding. The squared misfit is 1 - 2 + 1, of sums of products over the 36 free
+// vertices of a fifth.
 TEST(YoungFit, FindsTheModulusOfAnElasticBar)
 {
-    const ElasticSag reference = elastic_sag(cantilever, options_of(1.0)), body = elastic_sag(cantilever, options_of(3.7e4));
+    const ElasticSag reference = elastic_sag(cantilever, options_of(1.0)),
+                     body = elastic_sag(cantilever, options_of(3.7e4));
     const YoungFit fit = fit_young(cantilever, reference, 9.81 * body.displacement, 9.81);
     EXPECT_EQ(fit.outcome, "converged");
     EXPECT_TRUE(fit.identifiable);

@@ -70,7 +70,8 @@ void expect_the_lowest_energy_and_the_distance_of_other_tets(const PosedReferenc
     EXPECT_LT(solutions[5].vertices, solutions[7].vertices);
     EXPECT_EQ(reference.reference().element_order, 2);
     const double lowest = reference.reference().energy_j / reference.reference().volume_m3;
-    double largest_pct = reference.distance(solutions[4].positions, solutions[1].positions).joint_pct;  // of the two equilibria
+    // of the two equilibria
+    double largest_pct = reference.distance(solutions[4].positions, solutions[1].positions).joint_pct;
     for (std::size_t i = 0; i < solutions.size(); ++i) {
         ASSERT_TRUE(solutions[i].finished);
         if (solutions[i].element_order == 2) {
@@ -107,7 +108,8 @@ TEST(PosedReference, IsTheFinestOfFourNestedSolutionsAndItsBoundCoversAFinerOne)
     const pbs::Positions finer = solved(pbs::refined(fine), pose, vertices);
     const double to_a_finer_one = reference.error_of(finer).joint_pct;
     EXPECT_GT(reference.bound().joint_pct, to_a_finer_one);
-    EXPECT_LT(reference.bound().joint_pct, reference.error_of(solutions.back().positions).joint_pct);  // of linear elements
+    // of linear elements
+    EXPECT_LT(reference.bound().joint_pct, reference.error_of(solutions.back().positions).joint_pct);
     RecordProperty("bound_pct", std::to_string(reference.bound().joint_pct));
     RecordProperty("to_a_finer_one_pct", std::to_string(to_a_finer_one));
 
@@ -117,8 +119,8 @@ TEST(PosedReference, IsTheFinestOfFourNestedSolutionsAndItsBoundCoversAFinerOne)
     EXPECT_GT(with_other_tets.bound().joint_pct, with_other_tets.error_of(finer).joint_pct);
 }
 
-// Where the equilibrium is unique, the way along the bones ends in the same one, and other tets differ by no more than the bar's own do
-// from tets cut into eight.
+// Where the equilibrium is unique, the way along the bones ends in the same one, and other tets differ by no more than
+// the bar's own do from tets cut into eight.
 TEST(PosedReference, AddsTheDistanceOfOtherTetsToItsBoundWhereNoJointIsBent)
 {
     const PosedReference reference(bar, flesh(), bent(25.0), time_step_s);
@@ -126,19 +128,22 @@ TEST(PosedReference, AddsTheDistanceOfOtherTetsToItsBoundWhereNoJointIsBent)
     ASSERT_EQ(solutions.size(), 7u);
     for (const NestedSolution& solution : solutions) ASSERT_TRUE(solution.finished);
     EXPECT_TRUE(solutions[4].along_the_bones) << "of equal energy within rounding, so that the nested one stays";
-    EXPECT_LT(reference.distance(solutions[4].positions, solutions[1].positions).linf_m, 1e-6);  // of 2 m: Newton's residual is 1e-8
+    // of 2 m: Newton's residual is 1e-8
+    EXPECT_LT(reference.distance(solutions[4].positions, solutions[1].positions).linf_m, 1e-6);
     EXPECT_EQ(&reference.reference(), &solutions[0]);
     for (const unsigned seed : {1, 2}) EXPECT_EQ(solutions[4 + seed].other_tets, seed);
     double largest_pct = reference.distance(solutions[4].positions, solutions[1].positions).joint_pct;
     for (const std::size_t other : {5, 6}) {
         const double to_other_pct = reference.error_of(solutions[other].positions).joint_pct;
         EXPECT_GT(to_other_pct, 0.0);
-        EXPECT_LT(to_other_pct, reference.error_of(solutions[2].positions).joint_pct) << "linear elements cut into eight";
+        EXPECT_LT(to_other_pct, reference.error_of(solutions[2].positions).joint_pct)
+            << "linear elements cut into eight";
         largest_pct = std::max(largest_pct, to_other_pct);
     }
     EXPECT_EQ(reference.spread().joint_pct, largest_pct);
     const PosedReference nested(bar, flesh(), bent(25.0), time_step_s, ReferenceEffort::refined);
-    EXPECT_NEAR(reference.bound().joint_pct, nested.bound().joint_pct + largest_pct, 1e-12);  // sums of numbers below 10
+    // sums of numbers below 10
+    EXPECT_NEAR(reference.bound().joint_pct, nested.bound().joint_pct + largest_pct, 1e-12);
 }
 
 // The spread of meshes is not known where one of them did not finish, whatever comes before and after it.
@@ -157,7 +162,8 @@ TEST(PosedReference, OnTheOwnTetsHasItsBoundFromFinerOnes)
     const PosedReference refined(bar, flesh(), bent(40.0), time_step_s, ReferenceEffort::refined);
     const PosedReference own(bar, flesh(), bent(40.0), time_step_s, ReferenceEffort::own_tets);
     EXPECT_EQ(own.reference().positions, refined.solutions()[1].positions);
-    EXPECT_EQ(refined.bound_on_own_tets().joint_pct, refined.error_of(own.reference().positions).joint_pct + refined.bound().joint_pct);
+    EXPECT_EQ(refined.bound_on_own_tets().joint_pct,
+              refined.error_of(own.reference().positions).joint_pct + refined.bound().joint_pct);
     EXPECT_TRUE(std::isnan(own.bound().joint_pct));
     EXPECT_TRUE(std::isnan(own.bound_on_own_tets().joint_pct));
     const PosedReference linear(bar, hurried(2), bent(40.0), time_step_s, ReferenceEffort::own_tets);
@@ -175,21 +181,27 @@ TEST(Family, HoldsAndCompressesTheFleshInOtherWays)
         const DeformerSpec spec = flesh_of(of_scene, member);
         const auto& options = options_of<FemOptions>(spec);
         const bool is_embedded = member.name == "rigid_capsules", is_held = member.name == "held_parts";
-        EXPECT_EQ(options.attachment, is_embedded ? FemAttachment::embedded : is_held ? FemAttachment::held : FemAttachment::smooth);
-        EXPECT_EQ(options.used_spring_factor(), is_embedded ? 1e4 : member.name.starts_with("stiffer_springs") ? 100.0 : 10.0);
+        EXPECT_EQ(options.attachment, is_embedded ? FemAttachment::embedded
+                                      : is_held   ? FemAttachment::held
+                                                  : FemAttachment::smooth);
+        EXPECT_EQ(options.used_spring_factor(), is_embedded                                  ? 1e4
+                                                : member.name.starts_with("stiffer_springs") ? 100.0
+                                                                                             : 10.0);
         EXPECT_EQ(options.used_core_radius(), is_embedded ? 0.35 : member.name.ends_with("thinner_bones") ? 0.5 : 0.7);
         EXPECT_EQ(options.poisson, member.name == "nu_0.3" ? 0.3 : member.name == "nu_0.49" ? 0.49 : 0.45);
-        EXPECT_EQ(options.formulation,
-                  member.name == "nu_0.49" ? reference_fem::Formulation::mean_dilatation : reference_fem::Formulation::displacement);
+        EXPECT_EQ(options.formulation, member.name == "nu_0.49" ? reference_fem::Formulation::mean_dilatation
+                                                                : reference_fem::Formulation::displacement);
         EXPECT_EQ(options.model, reference_fem::Model::neo_hookean);
     }
 }
 
-// Bones that hold a whole part of the flesh move it rigidly: the bar's ends have no strain, and with springs around the axis alone they do.
+// Bones that hold a whole part of the flesh move it rigidly: the bar's ends have no strain, and with springs around the
+// axis alone they do.
 TEST(Family, HeldPartsAreRigid)
 {
     const auto furthest_m = [](const EnsembleMember& member) {
-        const PosedReference reference(bar, flesh_of(flesh(), member), bent(40.0), time_step_s, ReferenceEffort::own_tets);
+        const PosedReference reference(bar, flesh_of(flesh(), member), bent(40.0), time_step_s,
+                                       ReferenceEffort::own_tets);
         EXPECT_TRUE(reference.is_reached()) << member.name;
         const pbs::Pose pose = bent(40.0);
         const std::vector<int> alone = pbs::bones_that_move_alone(bar);
@@ -197,9 +209,9 @@ TEST(Family, HeldPartsAreRigid)
         for (std::size_t tet = 0; tet < alone.size(); ++tet)
             for (const int v : bar.mesh.tets.row(tet))
                 if (alone[tet] >= 0)
-                    furthest = std::max(
-                        furthest,
-                        (reference.reference().positions.row(v).transpose() - pose[alone[tet]] * pbs::Vec3(bar.mesh.rest.row(v))).norm());
+                    furthest = std::max(furthest, (reference.reference().positions.row(v).transpose() -
+                                                   pose[alone[tet]] * pbs::Vec3(bar.mesh.rest.row(v)))
+                                                      .norm());
         return furthest;
     };
     const double held_m = furthest_m(family().back()), smooth_m = furthest_m(family().front());
@@ -207,14 +219,17 @@ TEST(Family, HeldPartsAreRigid)
     EXPECT_GT(smooth_m, 1e-4);
 }
 
-// A solution that is read from its file has the same wall time as the one that wrote it; a new solve would take another time.
+// A solution that is read from its file has the same wall time as the one that wrote it; a new solve would take another
+// time.
 TEST(PosedReference, FindsTheSolutionsThatItKeepsAndNoOthers)
 {
     const test_support::ScratchFolder folder;
-    pbs::Character moved = bar, thicker = bar;  // by one vertex, and by its distance from the bone, which a bone's radius depends on
+    pbs::Character moved = bar,
+                   thicker = bar;  // by one vertex, and by its distance from the bone, which a bone's radius depends on
     moved.mesh.rest(0, 0) += 1e-9;
     thicker.binding.distance(0) += 1e-9;
-    const auto reference = [&](double angle_deg, double spring_factor = 10.0, double poisson = 0.45, const pbs::Character& body = bar) {
+    const auto reference = [&](double angle_deg, double spring_factor = 10.0, double poisson = 0.45,
+                               const pbs::Character& body = bar) {
         DeformerSpec spec = flesh();
         options_of<FemOptions>(spec).spring_factor = spring_factor;
         options_of<FemOptions>(spec).poisson = poisson;
@@ -231,8 +246,8 @@ TEST(PosedReference, FindsTheSolutionsThatItKeepsAndNoOthers)
         const NestedSolution &one = creased.solutions()[i], &kept = again.solutions()[i];
         EXPECT_EQ(kept.positions, one.positions);
         const auto values = [](const NestedSolution& of) {
-            return std::tie(of.element_order, of.finished, of.energy_j, of.lowest_det_f, of.j_min, of.newton_steps, of.vertices, of.tets,
-                            of.volume_m3, of.edges_per_radius);
+            return std::tie(of.element_order, of.finished, of.energy_j, of.lowest_det_f, of.j_min, of.newton_steps,
+                            of.vertices, of.tets, of.volume_m3, of.edges_per_radius);
         };
         EXPECT_EQ(values(kept), values(one));
         EXPECT_GT(kept.volume_m3, 0.0);
@@ -246,11 +261,13 @@ TEST(PosedReference, FindsTheSolutionsThatItKeepsAndNoOthers)
     EXPECT_TRUE(is_found(reference(15.0), first));
     for (const auto& file : std::filesystem::directory_iterator(folder.path())) std::filesystem::resize_file(file, 100);
     EXPECT_FALSE(is_found(reference(15.0), first)) << "a damaged file";
-    const PosedReference nowhere(bar, flesh(), bent(15.0), time_step_s, ReferenceEffort::own_tets, "/dev/null/solutions");
+    const PosedReference nowhere(bar, flesh(), bent(15.0), time_step_s, ReferenceEffort::own_tets,
+                                 "/dev/null/solutions");
     EXPECT_EQ(nowhere.reference().positions, first.reference().positions) << "a folder that cannot be made";
 }
 
-// By hand: the forearm turns about z, so that the inner side is that of y > 0; the limb's radius is the mean distance of the skin.
+// By hand: the forearm turns about z, so that the inner side is that of y > 0; the limb's radius is the mean distance
+// of the skin.
 TEST(FineAtBentJoints, IsOnTheInnerSideOfAJointThatIsBent)
 {
     const auto fine = fine_at_bent_joints(bar, bent(60.0), 10.0);
@@ -259,8 +276,9 @@ TEST(FineAtBentJoints, IsOnTheInnerSideOfAJointThatIsBent)
     EXPECT_LT((fine[0].centre - pbs::Vec3(0.0, radius_m, 0.0)).norm(), 1e-12);
     EXPECT_DOUBLE_EQ(fine[0].size_m, radius_m / 10.0);
     EXPECT_TRUE(fine_at_bent_joints(bar, bent(20.0), 10.0).empty());
-    EXPECT_TRUE(
-        fine_at_bent_joints(bar, pbs::joint_sweep(bar.skeleton, 1, pbs::Vec3::UnitX(), 90.0, 2, time_step_s).steps.back(), 10.0).empty())
+    EXPECT_TRUE(fine_at_bent_joints(
+                    bar, pbs::joint_sweep(bar.skeleton, 1, pbs::Vec3::UnitX(), 90.0, 2, time_step_s).steps.back(), 10.0)
+                    .empty())
         << "a twist";
 }
 
@@ -298,14 +316,17 @@ TEST(PosedReference, ThatDoesNotArriveIsNotReached)
 
 double smallest_volume_ratio(const pbs::Positions& positions)
 {
-    return pbs::tet_volumes(positions, bar.mesh.tets).cwiseQuotient(pbs::tet_volumes(bar.mesh.rest, bar.mesh.tets)).minCoeff();
+    return pbs::tet_volumes(positions, bar.mesh.tets)
+        .cwiseQuotient(pbs::tet_volumes(bar.mesh.rest, bar.mesh.tets))
+        .minCoeff();
 }
 
-// A volume ratio is a quotient of sums of products of coordinates of at most 2 m, over that of a cell of 2 m / 12 by 1/4 m by 1/4 m.
+// A volume ratio is a quotient of sums of products of coordinates of at most 2 m, over that of a cell of 2 m / 12 by
+// 1/4 m by 1/4 m.
 constexpr double ratio_rounding = 1e-12;
 
-// Linear elements may take four times the steps, which suffice for this pose. Reference: Newton's method alone from the same initial guess,
-// which keeps its last iterate.
+// Linear elements may take four times the steps, which suffice for this pose. Reference: Newton's method alone from the
+// same initial guess, which keeps its last iterate.
 TEST(PosedReference, ThatDoesNotArriveReportsTheWorstTetOfItsLastNewtonState)
 {
     const pbs::Pose pose = bent(40.0);

@@ -1,5 +1,5 @@
-// Reference: theory, and the equilibrium that the same body reaches from its rest pose. Newton's method for finite elements begins at
-// distorted shapes.
+// Reference: theory, and the equilibrium that the same body reaches from its rest pose. Newton's method for finite
+// elements begins at distorted shapes.
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "tests/support/newton_rounding.hpp"
@@ -11,8 +11,8 @@ namespace {
 using namespace experiments;
 using analysis::StabilityOutcome;
 
-// From the study: a limb of 400 vertices bent by 90 degrees. Here the bones are rigid, since the study's weaker springs leave flesh more
-// equilibria.
+// From the study: a limb of 400 vertices bent by 90 degrees. Here the bones are rigid, since the study's weaker springs
+// leave flesh more equilibria.
 StabilityCell cell_of(const std::string& model, Start start)
 {
     for (StabilityCell cell : stability_cells("fem_static")) {
@@ -56,7 +56,9 @@ double newton_error(StabilityCell cell)
     cell.disturbance.start = Start::none;
     cell.disturbance.stays = true;
     StabilityBody body(cell);
-    return 2.0 * test_support::newton_error_m(body.character(), options_of<FemOptions>(cell.spec), body.drive(0).pose, after_a_step(cell)) /
+    return 2.0 *
+           test_support::newton_error_m(body.character(), options_of<FemOptions>(cell.spec), body.drive(0).pose,
+                                        after_a_step(cell)) /
            body.diagonal_m();
 }
 
@@ -74,8 +76,9 @@ TEST(BrokenFemStarts, StableNeoHookeanFleshFindsBackFromBeingMirroredAndFromAPoi
     }
 }
 
-// The corotational energy does not penalise the inversion of a tet: mirrored flesh ends with inverted tets, far from the undisturbed shape.
-// Flattened flesh comes to rest in another equilibrium, without an inverted tet: bounded does not mean correct.
+// The corotational energy does not penalise the inversion of a tet: mirrored flesh ends with inverted tets, far from
+// the undisturbed shape. Flattened flesh comes to rest in another equilibrium, without an inverted tet: bounded does
+// not mean correct.
 TEST(BrokenFemStarts, CorotationalFleshStaysMirroredAndFlattenedFleshRestsElsewhere)
 {
     const CellResult mirrored = run_cell(cell_of("fem_corotational", Start::mirrored));

@@ -1,7 +1,7 @@
-// Reference: another code. CalculiX's kept displacements for the same problems; its elements C3D4 and C3D10 are our P1 and P2, so both
-// solve the same system, and what differs is rounding and the last Newton steps of both. The row of each problem has its tolerance with the
-// derivation: for the smooth attachment by the condition number of this very matrix. The comparison fails for each error that is put into
-// the reference here.
+// Reference: another code. CalculiX's kept displacements for the same problems; its elements C3D4 and C3D10 are our P1
+// and P2, so both solve the same system, and what differs is rounding and the last Newton steps of both. The row of
+// each problem has its tolerance with the derivation: for the smooth attachment by the condition number of this very
+// matrix. The comparison fails for each error that is put into the reference here.
 #include "experiments/studies/verification/problem.hpp"
 #include "pbs/character/bodies.hpp"
 #include "pbs/character/body_cache.hpp"
@@ -26,18 +26,22 @@ pbs::Character limb_with(int vertices)
 std::vector<CalculixLimb> bounded_limbs()
 {
     std::vector<CalculixLimb> limbs = calculix_limbs(false);
-    std::erase_if(limbs, [](const CalculixLimb& limb) { return limb.model == BodyModel::st_venant_kirchhoff && limb.element_order == 2; });
+    std::erase_if(limbs, [](const CalculixLimb& limb) {
+        return limb.model == BodyModel::st_venant_kirchhoff && limb.element_order == 2;
+    });
     return limbs;
 }
 
 class CalculixLimbs : public testing::TestWithParam<CalculixLimb> {};
-INSTANTIATE_TEST_SUITE_P(Kept, CalculixLimbs, testing::ValuesIn(bounded_limbs()), [](const auto& info) { return info.param.problem(); });
+INSTANTIATE_TEST_SUITE_P(Kept, CalculixLimbs, testing::ValuesIn(bounded_limbs()),
+                         [](const auto& info) { return info.param.problem(); });
 
 TEST_P(CalculixLimbs, AreSolvedAlike)
 {
     const pbs::Character character = limb_with(GetParam().vertices);
     const VerificationRow row = calculix_row(character, GetParam(), held_body(character, GetParam(), calculix_flesh));
-    EXPECT_TRUE(holds(row).value_or(false)) << row.value << ", at most " << row.high.value_or(0.0) << ": " << row.bound_from;
+    EXPECT_TRUE(holds(row).value_or(false))
+        << row.value << ", at most " << row.high.value_or(0.0) << ": " << row.bound_from;
     EXPECT_LT(row.high.value_or(1.0), 1e-4) << "a bound that the errors below would pass";
 }
 
@@ -56,19 +60,21 @@ protected:
 };
 INSTANTIATE_TEST_SUITE_P(ElementOrders, CalculixSmoothLimb, testing::Values(1, 2));
 
-// The springs of each of the two bones are attached to the other, of which one is at rest and one turns, so the flesh around the one turns
-// instead of that around the other.
+// The springs of each of the two bones are attached to the other, of which one is at rest and one turns, so the flesh
+// around the one turns instead of that around the other.
 TEST_P(CalculixSmoothLimb, DiffersWithSpringsOfTheWrongBone)
 {
     BoneAttachment bones = bone_attachment(character_, {.attachment = FemAttachment::smooth});
     for (int& bone : bones.spring_bone) bone = bone == 0 ? 1 : 0;
     const pbs::Pose bent = pbs::joint_sweep(character_.skeleton, 1, pbs::Vec3::UnitZ(), 10.0, 2, 0.01).steps.back();
-    EXPECT_GT(difference([&](HeldBody& body) { body.targets_at = [&](double) { return targets(bones, character_.mesh.rest, bent); }; }),
+    EXPECT_GT(difference([&](HeldBody& body) {
+                  body.targets_at = [&](double) { return targets(bones, character_.mesh.rest, bent); };
+              }),
               0.5);
 }
 
-// A kernel that is not normalised has density 2 on the axis. The springs yield to the flesh near the joint by some 1e-2 of the
-// displacement, of which a doubled density leaves half.
+// A kernel that is not normalised has density 2 on the axis. The springs yield to the flesh near the joint by some 1e-2
+// of the displacement, of which a doubled density leaves half.
 TEST_P(CalculixSmoothLimb, DiffersWithAKernelOfTwiceTheDensity)
 {
     EXPECT_GT(difference([](HeldBody& body) { body.attachment.spring_stiffness *= 2.0; }), 1e-3);

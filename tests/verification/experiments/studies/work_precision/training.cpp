@@ -26,11 +26,16 @@ TEST(Training, TriesAllSettingsWithTheFleshOfTheTrainingMembers)
     const test_support::ScratchFolder references;
     const test_support::EnvironmentVariable in_use("PBSKIN_REFERENCES", references.path());
     ComparisonCase of{.body = "limb", .what = Measured::training, .rounds = 1};
-    of.poses = {{"limb_twist_30", {.body = "limb"}, Stratum::training, read_scene("limb_twist", {"character.vertices=300"}), 6}};
+    of.poses = {{"limb_twist_30",
+                 {.body = "limb"},
+                 Stratum::training,
+                 read_scene("limb_twist", {"character.vertices=300"}),
+                 6}};
     const ReferencePose& pose = of.poses.front();
     const pbs::Character limb = pbs::make_character(pose.scene.character);
     const pbs::Pose bones = bones_in(pose, limb.skeleton);
-    KeptReferences kept{.pose = pose.name, .body = "limb", .mesh_hash = pbs::content_hash(limb.mesh), .revision = "", .bones = bones};
+    KeptReferences kept{
+        .pose = pose.name, .body = "limb", .mesh_hash = pbs::content_hash(limb.mesh), .revision = "", .bones = bones};
     for (const EnsembleMember& member : family()) {
         kept.members.push_back({.member = member, .outcome = "reached", .positions = blended(limb, bones)});
         kept.members.back().positions.col(0).array() += 0.01 * static_cast<double>(kept.members.size());
@@ -38,9 +43,11 @@ TEST(Training, TriesAllSettingsWithTheFleshOfTheTrainingMembers)
     }
     references.file("limb_twist_30.ref", packed(kept, limb));
     kept = read_references(pose.name, limb, bones);
-    const pbs::Character diffused = pbs::with_weights(pbs::WeightKind::diffused, limb);  // correctives that move nothing
+    // correctives that move nothing
+    const pbs::Character diffused = pbs::with_weights(pbs::WeightKind::diffused, limb);
     std::filesystem::create_directory(references / "correctives");
-    references.file("correctives/limb.toml", text_of(pbs::fit_correctives(limb.skeleton, limb.mesh.rest, diffused.weights, {}), diffused));
+    references.file("correctives/limb.toml",
+                    text_of(pbs::fit_correctives(limb.skeleton, limb.mesh.rest, diffused.weights, {}), diffused));
     const Measurements measurements = measure(of);
 
     // smooth, nu_0.49 and rigid_capsules
@@ -50,7 +57,8 @@ TEST(Training, TriesAllSettingsWithTheFleshOfTheTrainingMembers)
         EXPECT_TRUE(tried[row.method].emplace(row.setting, &row).second) << row.setting;
         EXPECT_GT(row.ms.value(), 0.0) << row.setting;
         for (std::size_t m = 0; m < members_of_family; ++m)
-            EXPECT_EQ(row.errors[m].has_value(), row.outcome == "finished" && is_training_member(m)) << row.setting << ", " << m;
+            EXPECT_EQ(row.errors[m].has_value(), row.outcome == "finished" && is_training_member(m))
+                << row.setting << ", " << m;
     }
     // A ladder begins with the fewest iterations, and ends where a frame takes too long.
     for (const ComparedMethod& method : methods())
@@ -71,7 +79,9 @@ TEST(Training, TriesAllSettingsWithTheFleshOfTheTrainingMembers)
             const auto deformer = make_deformer(spec_of(setting, pose.scene, limb, family()[m]));
             deformer->reset(limb);
             deformer->advance(bones, pose.scene.motion.time_step_s);
-            EXPECT_DOUBLE_EQ(row.errors[m].value(), metrics.measure(deformer->positions(), kept.members[m].positions).joint_pct) << name;
+            EXPECT_DOUBLE_EQ(row.errors[m].value(),
+                             metrics.measure(deformer->positions(), kept.members[m].positions).joint_pct)
+                << name;
         }
     }
 }
