@@ -46,7 +46,7 @@ if(PBS_WITH_ANALYSIS)
     pbs_install_headers(analysis analysis/metrics analysis/statistics analysis/verdicts analysis/records)
 endif()
 if(PBS_WITH_FEM)
-    pbs_install_libraries(fem reference_fem_laws=fem_laws reference_fem_multigrid=fem_multigrid reference_fem=fem)
+    pbs_install_libraries(fem reference_fem_laws=fem_laws reference_fem=fem)
     pbs_install_headers(fem reference_fem reference_fem/laws reference_fem/newton reference_fem/potentials reference_fem/dynamics)
 endif()
 

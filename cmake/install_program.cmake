@@ -13,9 +13,6 @@ foreach(target IN ITEMS pbskin_cholmod pbskin_fem pbskin_verification)
         list(APPEND modules ${target})
     endif()
 endforeach()
-if(TARGET pbskin_distributed)
-    list(APPEND programs pbskin_distributed)
-endif()
 install(TARGETS ${programs} RUNTIME DESTINATION bin COMPONENT program)
 install(TARGETS ${modules} LIBRARY DESTINATION lib/pbskin COMPONENT program)
 
@@ -31,9 +28,9 @@ install(DIRECTORY experiments/deformers/external/examples DESTINATION ${data_fol
 install(FILES experiments/deformers/external/pbskin_deformer.h DESTINATION include COMPONENT program)
 install(FILES CITATION.cff experiments/verdicts/claims.toml DESTINATION ${data_folder} COMPONENT program)
 
-# Parameter sweeps, as bin/pbskin-sweep. The scaling study of the distributed reference is only part of a checkout.
+# Parameter sweeps, as bin/pbskin-sweep.
 install(DIRECTORY experiments/sweeps DESTINATION ${data_folder} COMPONENT program USE_SOURCE_PERMISSIONS
-    PATTERN __pycache__ EXCLUDE PATTERN distributed* EXCLUDE)
+    PATTERN __pycache__ EXCLUDE)
 file(CREATE_LINK ../${data_folder}/sweeps/sweep.py ${PROJECT_BINARY_DIR}/pbskin-sweep SYMBOLIC)
 install(FILES ${PROJECT_BINARY_DIR}/pbskin-sweep DESTINATION bin COMPONENT program)
 

@@ -22,7 +22,7 @@ set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME pbskin)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
-    "assimp-testmodels, python3, python3-numpy, python3-matplotlib, python3-vtk9, xvfb, xauth, openmpi-bin")
+    "assimp-testmodels, python3, python3-numpy, python3-matplotlib, python3-vtk9, xvfb, xauth")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "libpbs-dev, cube2-data, npm, snakemake, slurm-client")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Static libraries, headers and the CMake package pbs.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpbs-dev)
@@ -30,7 +30,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libtbb-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
     "libvtk9-dev, libassimp-dev, libminizip-dev, libcgal-dev, libpugixml-dev, libtomlplusplus-dev, nlohmann-json3-dev, libgsl-dev, \
-libfmt-dev, libxxhash-dev, libdeal.ii-dev, libsuitesparse-dev, libopenmpi-dev, libtrilinos-ml-dev")
+libfmt-dev, libxxhash-dev, libdeal.ii-dev, libsuitesparse-dev")
 
 # cpack refuses kernels that are built for the instructions of one machine.
 set(CPACK_PBS_NATIVE ${PBS_NATIVE})

@@ -76,9 +76,7 @@ BoundaryValueSolution solve(const pbs::TetMesh& mesh, const ElasticMaterial& mat
     const SparseMatrix stiffness = flesh.stiffness();
     const PrescribedData prescribed = prescribed_data(*space, problem);
     const Eigen::VectorXd load = external_load(*space, problem);
-    const EliminatedSystem system(
-        stiffness, flesh.prescribed(prescribed.held), flesh.solver(problem.solver),
-        problem.solver == LinearSolver::cg_ml ? rigid_body_modes(space->node_positions()) : Eigen::MatrixXd());
+    const EliminatedSystem system(stiffness, flesh.prescribed(prescribed.held), flesh.solver(problem.solver));
     const EliminatedSolution solution = system.solve(flesh.on_unknowns(load), flesh.on_unknowns(prescribed.values));
     return {space,
             flesh.displacement(solution.displacement),

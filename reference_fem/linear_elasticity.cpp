@@ -22,9 +22,7 @@ public:
         held_.springs().add_to(stiffness);
         const double assemble_s = assembly.seconds();
         system_ = std::make_unique<EliminatedSystem>(
-            stiffness, flesh_.prescribed(held_.prescribed()), flesh_.solver(options.solver),
-            options.solver == LinearSolver::cg_ml ? rigid_body_modes(held_.space().node_positions())
-                                                  : Eigen::MatrixXd());
+            stiffness, flesh_.prescribed(held_.prescribed()), flesh_.solver(options.solver));
         setup_ = held_.summary(&system_->factor(), assemble_s);
         setup_.dofs = flesh_.unknowns();
     }
@@ -41,7 +39,7 @@ public:
         displacement_ = flesh_.displacement(solution.displacement);
         pressure_pa_ = flesh_.pressure_pa(solution.displacement);
         positions_ = held_.vertices(displacement_);
-        return {stopwatch.seconds(), solution.residual, displacement_.allFinite(), system_->factor().iterations()};
+        return {stopwatch.seconds(), solution.residual, displacement_.allFinite()};
     }
 
     LinearOptions options_;

@@ -20,16 +20,15 @@ struct LinearOptions {
     double poisson = 0.45;                                // Poisson's ratio, -1 < nu < 0.5; with taylor_hood > 0
     double density_kg_m3 = 1000.0;                        // >= 0; only gravity uses it
     pbs::Vec3 gravity_m_s2 = pbs::Vec3::Zero();           // of solve() without its own
-    LinearSolver solver = LinearSolver::cholmod;          // taylor_hood: UMFPACK for either direct solver
-    Formulation formulation = Formulation::displacement;  // taylor_hood: element_order 2 and a direct solver
+    LinearSolver solver = LinearSolver::cholmod;          // taylor_hood: always UMFPACK
+    Formulation formulation = Formulation::displacement;  // taylor_hood: element_order 2
 };
 
 // Numerical breakdown is reported here, never thrown.
 struct SolveSummary {
     double seconds = 0.0;   // wall time of right-hand side and re-solve
     double residual = 0.0;  // |K u - f| / |f| over the free unknowns; infinite where singular
-    bool finite = true;     // false: the matrix is singular in double, or an iterative solver did not converge
-    int iterations = 0;     // of an iterative solver
+    bool finite = true;     // false: the matrix is singular in double
 };
 
 // Keeps what it needs: mesh, options and attachment may go.

@@ -161,9 +161,7 @@ std::vector<bool> LinearFlesh::prescribed(const std::vector<bool>& of_dofs) cons
 
 LinearSolver LinearFlesh::solver(LinearSolver asked_for) const
 {
-    if (formulation_ != Formulation::taylor_hood) return asked_for;
-    require(asked_for != LinearSolver::cg_ml, "solver", "cg_ml", "expected a direct solver with taylor_hood");
-    return LinearSolver::umfpack;
+    return formulation_ == Formulation::taylor_hood ? LinearSolver::umfpack : asked_for;
 }
 
 Eigen::VectorXd LinearFlesh::on_unknowns(const Eigen::VectorXd& of_dofs) const

@@ -40,7 +40,7 @@ public:
     // mu / (mean tet volume)^(1/3) in SI units; 0 without taylor_hood
     double pressure_unit_pa() const { return pressure_unit_pa_; }
     SparseMatrix stiffness() const;  // unknowns x unknowns, both triangles
-    // that can; pbs::InputError for cg_ml with taylor_hood
+    // the one that can solve this system: always UMFPACK with taylor_hood
     LinearSolver solver(LinearSolver asked_for) const;
 
     // Those that are known beforehand: prescribed degrees of freedom, #dofs, and pressures at vertices that only held

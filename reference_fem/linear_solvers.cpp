@@ -307,19 +307,16 @@ std::unique_ptr<PreparedSolver> prepare_umfpack(const SparseMatrix& matrix)
     return std::make_unique<UmfpackFactor>(matrix);
 }
 
-std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver solver,
-                                        const NearNullSpace& near_null_space)
+std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver solver, int block_size)
 {
     use_one_blas_thread();
     switch (solver) {
         case LinearSolver::umfpack:
             return prepare_umfpack(matrix);
-        case LinearSolver::cg_ml:
-            return prepare_cg_ml(matrix, near_null_space);
         case LinearSolver::cholmod:
             break;
     }
-    return prepare_cholmod(matrix, near_null_space.block_size);
+    return prepare_cholmod(matrix, block_size);
 }
 
 EliminatedSystem::Block EliminatedSystem::block(const SparseMatrix& matrix, const std::vector<int>& rows,
@@ -341,15 +338,13 @@ EliminatedSystem::Block EliminatedSystem::block(const SparseMatrix& matrix, cons
 }
 
 EliminatedSystem::EliminatedSystem(const SparseMatrix& stiffness, const std::vector<bool>& prescribed,
-                                   LinearSolver solver, const Eigen::MatrixXd& near_null_space)
+                                   LinearSolver solver)
 {
     for (std::size_t i = 0; i < prescribed.size(); ++i)
         (prescribed[i] ? prescribed_ : free_).push_back(static_cast<int>(i));
     free_free_ = block(stiffness, free_, free_);
     free_prescribed_ = block(stiffness, free_, prescribed_);
-    NearNullSpace free_space{.block_size = are_whole_nodes(free_) ? 3 : 1};
-    if (near_null_space.rows() == stiffness.rows()) free_space.modes = near_null_space(free_, Eigen::all);
-    factor_ = prepare(free_free_.matrix, solver, free_space);
+    factor_ = prepare(free_free_.matrix, solver, are_whole_nodes(free_) ? 3 : 1);
 }
 
 void EliminatedSystem::update(const SparseMatrix& stiffness)

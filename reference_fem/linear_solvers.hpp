@@ -3,8 +3,7 @@
 //   if (solver->usable()) x = solver->solve(b);
 //   solver->refactor();   // the matrix has other values in the same pattern: a symbolic analysis is kept
 // CHOLMOD (supernodal Cholesky, ordered by AMD, or METIS where that fills in less) is the default; UMFPACK (unsymmetric
-// LU) is the second opinion on the same matrix. Both are SuiteSparse's, called directly. Conjugate gradients with
-// Trilinos ML are for what their factors do not fit in memory for.
+// LU) is the second opinion on the same matrix. Both are SuiteSparse's, called directly.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -15,10 +14,6 @@
 #include <string>
 #include <vector>
 
-namespace Teuchos {
-class ParameterList;
-}
-
 namespace reference_fem {
 
 // Breakdown is never thrown: usable() reports it, or the solution is not finite.
@@ -28,14 +23,13 @@ public:
 
     // only where usable(); not finite where it failed
     virtual Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const = 0;
-    virtual void refactor() = 0;                  // after the matrix's values, not its pattern, have changed
-    virtual std::string name() const = 0;         // library, version and ordering, for records
-    virtual int iterations() const { return 0; }  // of the last solve; 0 of a direct solver
+    virtual void refactor() = 0;           // after the matrix's values, not its pattern, have changed
+    virtual std::string name() const = 0;  // library, version and ordering, for records
 
-    // false: singular in double, or (CHOLMOD) not positive definite, or no hierarchy
+    // false: singular in double, or (CHOLMOD) not positive definite
     bool usable() const { return usable_; }
     double analyse_s() const { return analyse_s_; }  // ordering and symbolic analysis
-    double factor_s() const { return factor_s_; }    // the last numerical factorisation, or hierarchy
+    double factor_s() const { return factor_s_; }    // the last numerical factorisation
     double reciprocal_condition() const { return reciprocal_condition_; }  // the library's own rough estimate; 0: none
 
 protected:
@@ -43,37 +37,15 @@ protected:
     double analyse_s_ = 0.0, factor_s_ = 0.0, reciprocal_condition_ = 0.0;  // [s], [s], [1]
 };
 
-// Modes that an iterative solver's coarse levels must keep, such as rigid_body_modes. Where their rows are whole nodes,
-// block_size is 3. CHOLMOD reads block_size alone.
-struct NearNullSpace {
-    Eigen::MatrixXd modes = {};  // #rows x #modes; empty: constants
-    int block_size = 1;          // 1 or 3
-};
 // Analyses and factors at once. The matrix is symmetric, holds both triangles, is compressed, and outlives the solver.
-// Leaves the BLAS at one thread, for good.
-std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver solver,
-                                        const NearNullSpace& near_null_space = {});
+// Leaves the BLAS at one thread, for good. block_size: 3 where the rows are whole nodes, which CHOLMOD uses.
+std::unique_ptr<PreparedSolver> prepare(const SparseMatrix& matrix, LinearSolver solver, int block_size = 1);
 
 // Reads the upper triangle. The rows come in blocks of block_size with equal patterns, 3 if they are whole nodes,
 // else 1. A block is ordered as one. pbs::InputError unless it divides the number of rows.
 std::unique_ptr<PreparedSolver> prepare_cholmod(const SparseMatrix& matrix, int block_size);
 // by the symmetric strategy, ordered by METIS
 std::unique_ptr<PreparedSolver> prepare_umfpack(const SparseMatrix& matrix);
-// starts MPI
-std::unique_ptr<PreparedSolver> prepare_cg_ml(const SparseMatrix& matrix, const NearNullSpace& near_null_space);
-
-// The null space of a stiffness matrix without supports: the six rigid motions. Smoothed aggregation keeps them on its
-// coarse levels. Three translations and three rotations about `centre` over `length_m`, #dofs x 6; nodes [m], degree of
-// freedom 3 n + c.
-Eigen::MatrixXd rigid_body_modes(const pbs::Positions& nodes, const pbs::Vec3& centre, double length_m);
-// about the middle of their bounding box, over its diagonal
-Eigen::MatrixXd rigid_body_modes(const pbs::Positions& nodes);
-
-// How Trilinos ML builds its hierarchy for elasticity: P. Vanek, J. Mandel, M. Brezina, Algebraic multigrid by smoothed
-// aggregation for second and fourth order elliptic problems, Computing 56, 1996. `modes`: near-null space on this
-// rank's rows, column after column, #rows x #modes; outlives the set-up. `block_size`: 3 where whole nodes are
-// contiguous, 1 otherwise.
-Teuchos::ParameterList smoothed_aggregation(double* modes, int number_of_modes, int block_size);
 
 // Which BLAS the direct solvers really use: on Debian an alternative decides at run time, and the slow one costs a
 // factor 3 to 7.
@@ -94,9 +66,8 @@ struct EliminatedSolution {
 // K_fp is kept, so new loads and new prescribed values cost a right-hand side and a re-solve. The stiffness may go.
 class EliminatedSystem {
 public:
-    // prescribed: #dofs. near_null_space, #dofs x #modes: for an iterative solver, see NearNullSpace.
-    EliminatedSystem(const SparseMatrix& stiffness, const std::vector<bool>& prescribed, LinearSolver solver,
-                     const Eigen::MatrixXd& near_null_space = {});
+    // prescribed: #dofs.
+    EliminatedSystem(const SparseMatrix& stiffness, const std::vector<bool>& prescribed, LinearSolver solver);
 
     // load [N] and prescribed_values [m], #dofs; the latter is read at prescribed degrees of freedom only.
     EliminatedSolution solve(const Eigen::VectorXd& load, const Eigen::VectorXd& prescribed_values) const;

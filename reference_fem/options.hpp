@@ -50,16 +50,9 @@ enum class Dynamics {
     generalized_alpha,  // J. Chung, G. Hulbert, J. Appl. Mech. 60, 1993
 };
 
-// The sparse solver of K u = f: two direct ones of SuiteSparse, and conjugate gradients with Trilinos ML for what does
-// not fit. linear_solvers.hpp describes each of them; cholmod is the default everywhere.
-enum class LinearSolver { cholmod, umfpack, cg_ml };
-
-// When conjugate gradients stop.
-// Limits of each solve; the first of the two that is met ends it.
-struct IterativeOptions {
-    double tolerance = 1e-10;    // of the residual relative to the right-hand side
-    int most_iterations = 1000;  // then it counts as not converged
-};
+// The sparse solver of K u = f, both of SuiteSparse. linear_solvers.hpp describes each of them; cholmod is the default
+// everywhere.
+enum class LinearSolver { cholmod, umfpack };
 
 // Checks of the reference solver's input. Each violation is a pbs::InputError that names the field, the value and the
 // rule. Throws unless it holds; without file and line, since the input is arrays.

@@ -7,9 +7,6 @@ if(TARGET pbskin)
     add_test(NAME robustness/experiments/slurm_sweep
         COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/robustness/experiments/slurm_sweep.py -v)
     set(environment PBSKIN=$<TARGET_FILE:pbskin> PBS_SOURCE=${PROJECT_SOURCE_DIR} PYTHONPATH=${CMAKE_CURRENT_SOURCE_DIR}/support)
-    if(TARGET pbskin_distributed)
-        list(APPEND environment PBSKIN_DISTRIBUTED=$<TARGET_FILE:pbskin_distributed>)
-    endif()
     set_tests_properties(robustness/experiments/slurm_sweep PROPERTIES LABELS robustness SKIP_RETURN_CODE 77 TIMEOUT 1800
         ENVIRONMENT "${environment}")
 endif()

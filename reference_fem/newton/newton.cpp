@@ -72,7 +72,6 @@ struct NewtonMinimiser::State {
 NewtonMinimiser::NewtonMinimiser(const SimplexSpace& space, const std::vector<bool>& prescribed, LinearSolver solver)
     : prescribed_(prescribed),
       solver_(solver),
-      near_null_space_(solver == LinearSolver::cg_ml ? rigid_body_modes(space.node_positions()) : Eigen::MatrixXd()),
       extent_m_((space.node_positions().colwise().maxCoeff() - space.node_positions().colwise().minCoeff()).norm()),
       tets_(space.tet_nodes().rows()),
       hessian_(space)
@@ -151,7 +150,7 @@ bool NewtonMinimiser::factorise_assembled(NewtonSummary& summary)
     if (system_)
         system_->update(hessian_.matrix());
     else
-        system_ = std::make_unique<EliminatedSystem>(hessian_.matrix(), prescribed_, solver_, near_null_space_);
+        system_ = std::make_unique<EliminatedSystem>(hessian_.matrix(), prescribed_, solver_);
     ++summary.factorisations;
     ++work_.factorisations;
     rounding_n_ = 4.0 * std::numeric_limits<double>::epsilon() * extent_m_ * hessian_.matrix().diagonal().norm();

@@ -124,7 +124,6 @@ private:
 
     std::vector<bool> prescribed_;
     LinearSolver solver_;
-    Eigen::MatrixXd near_null_space_;  // of an iterative solver
     double extent_m_;                  // diagonal of the bounding box
     std::int64_t tets_;
     pbs::WorkCounters work_;  // of this minimisation

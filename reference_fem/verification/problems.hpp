@@ -30,7 +30,6 @@ VerificationRows half_turn_rows(const Effort& effort);
 VerificationRows dynamics_rows(const Effort& effort);
 VerificationRows moving_skeleton_rows(const Effort& effort);
 VerificationRows contact_rows(const Effort& effort);
-VerificationRows distributed_rows(const Effort& effort);
 
 // The material that the solver receives in place of `material`: the same, unless the effort asks for an error in
 // lambda.

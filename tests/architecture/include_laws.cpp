@@ -54,7 +54,7 @@ const std::vector<std::string> layers = {
     // the files in the folder itself: study.hpp, the list of studies, plans and costs
     "experiments/studies/(?=[^/]+$)",
     "experiments/studies/[^/]+/",  // the folder of each study
-    "experiments/(verdicts|distributed|sweeps)/",
+    "experiments/(verdicts|sweeps)/",
     "experiments/command_line/",
 };
 
@@ -88,10 +88,7 @@ struct HeavyLibrary {
 };
 
 const std::vector<HeavyLibrary> heavy = {
-    {"deal.II/", {"reference_fem/"}, 4},
-    {"mpi.h", {"reference_fem/"}, 1},
-    {"ml_", {"reference_fem/"}, 2},
-    {"Epetra_", {"reference_fem/"}, 1},
+    {"deal.II/", {"reference_fem/"}, 1},
     {"CGAL/", {"pbs/geometry/"}, 4},
     {"vtk", {"pbs/geometry/"}, 3},
     {"gmsh.h", {}, 0},

@@ -113,7 +113,7 @@ const ForbiddenInclude forbidden[] = {
      "experiments/studies/ambiguity/"},
     {layer_direction, "experiments/studies/shared/x.cpp", "experiments/studies/volume/a.hpp",
      "experiments/studies/shared/"},
-    {layer_direction, "experiments/verdicts/x.cpp", "experiments/distributed/a.hpp", "experiments/verdicts/"},
+    {layer_direction, "experiments/verdicts/x.cpp", "experiments/sweeps/a.hpp", "experiments/verdicts/"},
 };
 
 // Between headers that everything may include: that of its own folder and one of the mesh.

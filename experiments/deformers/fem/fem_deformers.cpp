@@ -29,7 +29,7 @@ void LinearFemDeformer::reset(const pbs::Character& character)
     bones_ = bone_attachment(character, options_);
     elasticity_ =
         std::make_unique<reference_fem::LinearElasticity>(character.mesh, linear_options(options_), bones_.attachment);
-    frames_not_finite_ = most_iterations_ = 0;
+    frames_not_finite_ = 0;
     largest_residual_ = 0.0;
     start(elasticity_->setup().spring_tet, elasticity_->prescribed_vertices());
 }
@@ -50,7 +50,6 @@ pbs::StepSummary LinearFemDeformer::advance(const pbs::Pose& pose, double)
 
     record_frame(frame.pose());
     largest_residual_ = std::max(largest_residual_, solve.residual);
-    most_iterations_ = std::max(most_iterations_, solve.iterations);
     if (solve.finite)
         record_grip(held.springs, (held.springs - elasticity_->spring_points_deformed()).rowwise().norm());
     else
@@ -63,7 +62,6 @@ nlohmann::json LinearFemDeformer::record() const
     if (!elasticity_) return nullptr;
     nlohmann::json json = recorded(elasticity_->setup());
     json.update({{"frames_not_finite", frames_not_finite_}, {"largest_residual", largest_residual_}});
-    if (options_.solver == reference_fem::LinearSolver::cg_ml) json["most_iterations"] = most_iterations_;
     return json;
 }
 

@@ -114,7 +114,6 @@ private:
     std::unique_ptr<reference_fem::LinearElasticity> elasticity_;
     int frames_not_finite_ = 0;
     double largest_residual_ = 0.0;
-    int most_iterations_ = 0;  // of an iterative solver, per frame
 };
 
 // The reference at large rotations: any of the laws on the character's own tets, held by its bones, solved by Newton's

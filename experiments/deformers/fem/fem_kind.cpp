@@ -130,9 +130,7 @@ void add_solver_fields(OptionFields<FemOptions>& fields)
 {
     fields
         .add("solver", &FemOptions::solver,
-             {.meaning = "cholmod; umfpack, for comparison, with the linear model; cg_ml: conjugate gradients with "
-                         "algebraic multigrid, for "
-                         "linear models whose factor does not fit in memory"})
+             {.meaning = "cholmod; umfpack, for comparison, with the linear model"})
         .add("most_newton_steps", &FemOptions::most_newton_steps,
              {.range = {0, 1e9},
               .meaning = "nonlinear model, dynamics quasi_static: no further solve on the way to a stage of a pose "
@@ -153,8 +151,7 @@ void check(const SceneValues& values, const std::string& table, FemOptions& opti
     const bool linear = options.model == reference_fem::Model::linear;
     const bool quasi_static = options.dynamics == reference_fem::Dynamics::quasi_static;
     const bool damped = options.rayleigh_mass_1_s > 0.0 || options.rayleigh_stiffness_s > 0.0;
-    const bool may_be_taylor_hood = linear && quasi_static && options.element_order == 2 && options.poisson > 0.0 &&
-                                    options.solver != reference_fem::LinearSolver::cg_ml;
+    const bool may_be_taylor_hood = linear && quasi_static && options.element_order == 2 && options.poisson > 0.0;
     const bool may_be_nested =
         !options.nested_start ||
         (!linear && quasi_static && (options.element_order == 2 || values.integer("character.refine") != 0));

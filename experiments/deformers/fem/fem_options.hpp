@@ -86,7 +86,7 @@ NAMED_OPTIONS(reference_fem::Formulation, displacement, mean_dilatation, taylor_
 NAMED_OPTIONS(reference_fem::Dynamics, quasi_static, newmark, generalized_alpha)
 NAMED_OPTIONS(FemAttachment, smooth, embedded, nodes, bind, held)
 NAMED_OPTIONS(pbs::AttachmentKernel, biweight, wendland)
-NAMED_OPTIONS(reference_fem::LinearSolver, cholmod, umfpack, cg_ml)
+NAMED_OPTIONS(reference_fem::LinearSolver, cholmod, umfpack)
 
 // The options of the finite element reference in scenes and records: their keys, and how they are read.
 const OptionFields<FemOptions>& fem_fields();

@@ -29,7 +29,6 @@ const std::vector<VerificationProblem>& verification_problems()
         {"moving_skeleton", 2.0, 2.0, moving_skeleton_rows},
         {"contact", 10.0, 40.0, contact_rows},
         {"calculix", 15.0, 20.0, calculix_rows},
-        {"distributed", 5.0, 5.0, distributed_rows},
     };
     return verification_problems;
 }

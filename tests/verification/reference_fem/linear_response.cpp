@@ -58,23 +58,6 @@ TEST_P(LinearResponse, CholmodAndUmfpackAgree)
     EXPECT_LT(other.residual, rounding.relative());
 }
 
-// |e| / |u| <= cond(K) |r| / |f|, and conjugate gradients are asked for |r| / |f| = 1e-10. The residual they report is
-// formed anew from the solution; theirs is updated from step to step, and the two part by rounding.
-TEST_P(LinearResponse, ConjugateGradientsAgreeWithCholmod)
-{
-    LinearOptions second = options;
-    second.solver = LinearSolver::cg_ml;
-    LinearElasticity cholmod(bar, options, springs()), iterative(bar, second, springs());
-    cholmod.solve(moved_points(0.1, 0.1), bar.rest);
-    const SolveSummary summary = iterative.solve(moved_points(0.1, 0.1), bar.rest);
-    EXPECT_TRUE(summary.finite);
-    EXPECT_GT(summary.iterations, 0);
-    const test_support::SolveRounding rounding = rounding_of(cholmod);
-    EXPECT_LT(summary.residual, 1e-10 + rounding.relative());
-    const double bound_m = (1e-10 * rounding.spectrum.condition() + 2.0 * rounding.relative()) * rounding.size_m;
-    EXPECT_LT((cholmod.positions() - iterative.positions()).norm(), bound_m);
-}
-
 TEST_P(LinearResponse, DisplacementsSuperpose)
 {
     LinearElasticity fem(bar, options, springs());

@@ -55,26 +55,6 @@ TEST(FemModule, BringsDealIIOnlyWhenItIsAskedFor)
         << "input errors are caught outside";
 }
 
-// MPI starts with the first multigrid hierarchy and ends with the program. The iteration ends with a residual of 1e-10,
-// so that |error| <= cond(K) 1e-10 |u|, u the displacements of vertices and of as many nodes as there are edges.
-TEST(FemModule, ConjugateGradientsRunInsideIt)
-{
-    const auto character = test_support::bar_character({12, 3, 3});
-    const auto direct = make_fem({.element_order = 2});
-    const auto iterative = make_fem({.element_order = 2, .solver = reference_fem::LinearSolver::cg_ml});
-    for (experiments::Deformer* fem : {direct.get(), iterative.get()}) {
-        fem->reset(character);
-        EXPECT_EQ(fem->advance(turned(), 0.01).outcome, pbs::Outcome::finished);
-    }
-    const double edges = static_cast<double>(pbs::edges_of(character.mesh.tets).rows()),
-                 vertices = character.mesh.rest.rows();
-    const double size_m = (direct->positions() - character.mesh.rest).norm() * std::sqrt(1.0 + edges / vertices);
-    EXPECT_LT((iterative->positions() - direct->positions()).norm(),
-              test_support::quadratic_bar_condition * 1e-10 * size_m);
-    EXPECT_GT(iterative->record()["most_iterations"].get<int>(), 0);
-    EXPECT_FALSE(direct->record().contains("most_iterations"));
-}
-
 // At nu = 0.3 nothing locks, and the formulations differ by their discretisation errors: a few percent of the motion on
 // these tets.
 TEST(FemModule, EveryFormulationOfTheLinearModelKeepsItsFactor)
