@@ -14,21 +14,17 @@ function(pbs_install_libraries component)
     install(EXPORT pbs-${component} FILE pbs-${component}-targets.cmake NAMESPACE pbs:: DESTINATION ${config_folder} COMPONENT ${component})
 endfunction()
 
-# pbs_install_headers(COMPONENT FOLDER...): installs headers by the same paths below include/ as in the sources. Those of pbs/geometry
-# belong to the component of their library.
+# pbs_install_headers(COMPONENT FOLDER...): installs headers by the same paths below include/ as in the sources.
 function(pbs_install_headers component)
     foreach(folder IN LISTS ARGN)
         file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
-        if(component STREQUAL "method")
-            list(FILTER headers EXCLUDE REGEX "/(mesh_io|meshing|module)[a-z_]*\\.hpp$")
-        endif()
         set(no_call_for_users  # headers internal to readers and meshers, to text, files and signals, to solvers, and to parts of bodies
-            "mesh_io_|meshing_|child_process|content_format|deferred_sigterm|guarded_reading"
+            "mesh_io_|meshing_|cgal_versions|source_file|text_words|content_format|guarded_reading|child_process|deferred_sigterm"
             "flesh/(local_shape|packed_|projective_|vbd|xpbd_)"
             "packed/(groups|lanes|parallel|vertex_order)"
             "solver/(algorithm_1|project_plain)"
-            "rig/(assimp_|collada_|fbx_(document|objects|polygons|rig)|gltf_|tiny_gltf)"
-            "character/json_file")
+            "rigs/(assimp_|collada_|fbx_(document|objects|polygons|rig)|gltf_|tiny_gltf)"
+            "characters/json_file")
         list(JOIN no_call_for_users "|" no_call_for_users)
         list(FILTER headers EXCLUDE REGEX "/(${no_call_for_users})[a-z_]*\\.hpp$")
         install(FILES ${headers} DESTINATION include/${folder} COMPONENT ${component})
@@ -36,11 +32,11 @@ function(pbs_install_headers component)
 endfunction()
 
 pbs_install_libraries(method pbs_settings=settings pbs_method=method)
-pbs_install_headers(method pbs/geometry pbs/packed pbs/skinning pbs/constraints pbs/solver pbs/author)
-pbs_install_libraries(mesh_io pbs_module=module pbs_meshing=meshing pbs_mesh_io=mesh_io)
-install(FILES pbs/geometry/mesh_io.hpp pbs/geometry/meshing.hpp pbs/geometry/module.hpp DESTINATION include/pbs/geometry COMPONENT mesh_io)
-pbs_install_libraries(character pbs_rig=rig pbs_flesh=flesh pbs_character=character)
-pbs_install_headers(character pbs/flesh pbs/rig pbs/character)
+pbs_install_headers(method pbs/geometry pbs/system pbs/packed pbs/skinning pbs/constraints pbs/solver pbs/author)
+pbs_install_libraries(meshes pbs_system=system pbs_meshing=meshing pbs_meshes=meshes)
+pbs_install_headers(meshes experiments/meshes)
+pbs_install_libraries(characters pbs_flesh=flesh pbs_rigs=rigs pbs_clips=clips pbs_characters=characters)
+pbs_install_headers(characters pbs/flesh experiments/rigs experiments/clips experiments/characters)
 if(PBS_WITH_ANALYSIS)
     pbs_install_libraries(analysis analysis=analysis)
     pbs_install_headers(analysis analysis/metrics analysis/statistics analysis/verdicts analysis/records)
@@ -50,8 +46,8 @@ if(PBS_WITH_FEM)
     pbs_install_headers(fem reference_fem reference_fem/laws reference_fem/newton reference_fem/potentials reference_fem/dynamics)
 endif()
 
-get_target_property(mesh_io_links pbs_mesh_io LINK_LIBRARIES)
-set(vtk_components ${mesh_io_links})
+get_target_property(mesh_links pbs_meshes LINK_LIBRARIES)
+set(vtk_components ${mesh_links})
 list(FILTER vtk_components INCLUDE REGEX "^VTK::")
 list(TRANSFORM vtk_components REPLACE "^VTK::" "")
 list(JOIN vtk_components " " vtk_components)

@@ -9,7 +9,7 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 
-set(CPACK_COMPONENTS_ALL program method mesh_io character analysis)
+set(CPACK_COMPONENTS_ALL program method meshes characters analysis)
 if(PBS_WITH_FEM)
     list(APPEND CPACK_COMPONENTS_ALL fem)
 endif()

@@ -1,6 +1,6 @@
 #include "reference_fem/assembly.hpp"
 
-#include "pbs/geometry/deferred_sigterm.hpp"
+#include "pbs/system/deferred_sigterm.hpp"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>

@@ -1,7 +1,7 @@
 #include "reference_fem/linear_solvers.hpp"
 
 #include "pbs/geometry/cost.hpp"
-#include "pbs/geometry/deferred_sigterm.hpp"
+#include "pbs/system/deferred_sigterm.hpp"
 
 #include <cholmod.h>
 #include <dlfcn.h>

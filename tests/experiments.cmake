@@ -25,12 +25,13 @@ pbs_tests(unit experiments BLAS
     FILES experiments/deformers/fem/fem_module
     EXCEPT experiments/deformers/fem ${left_out}
     LIBRARIES experiments)
-pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies EXCEPT ${left_out} LIBRARIES experiments)
-pbs_tests(properties experiments FOLDERS experiments LIBRARIES experiments)
+pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies experiments/reproduce EXCEPT ${left_out} LIBRARIES experiments)
+pbs_tests(properties experiments FOLDERS experiments EXCEPT experiments/meshes LIBRARIES experiments)
 pbs_tests(regression experiments FOLDERS experiments LIBRARIES experiments)
 target_compile_definitions(test_regression_experiments PRIVATE ${kept_records})
 pbs_tests(verification experiments BLAS FOLDERS experiments
-    EXCEPT experiments/deformers/fem experiments/studies/verification/calculix experiments/verification_record
+    EXCEPT experiments/meshes experiments/clips experiments/characters experiments/deformers/fem
+        experiments/studies/verification/calculix experiments/verification_record
         experiments/studies/stability/broken_fem_starts ${left_out}
     LIBRARIES experiments)
 if(PBS_WITH_FEM)

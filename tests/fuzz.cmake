@@ -48,42 +48,42 @@ endfunction()
 
 fuzz_target(fuzz/scene.cpp experiments
     experiments/settings/scene_values.cpp experiments/scene/scene_keys.cpp experiments/deformers/pbs_settings.cpp
-    experiments/deformers/fem/fem_kind.cpp experiments/process/machine.cpp pbs/geometry/module.cpp
-    pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
-fuzz_target(fuzz/mesh.cpp pbs_mesh_io
-    pbs/geometry/mesh_checks.cpp pbs/geometry/mesh_repairs.cpp pbs/geometry/files.cpp pbs/geometry/tet_mesh.cpp
+    experiments/deformers/fem/fem_kind.cpp experiments/process/machine.cpp pbs/system/module.cpp
+    pbs/system/files.cpp pbs/geometry/input_error.cpp)
+fuzz_target(fuzz/mesh.cpp pbs_meshes
+    experiments/meshes/mesh_checks.cpp experiments/meshes/mesh_repairs.cpp pbs/system/files.cpp pbs/geometry/tet_mesh.cpp
     pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
-fuzz_target(fuzz/skeleton.cpp pbs_character
-    pbs/character/skeleton_file.cpp pbs/character/folded_skeleton.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
-fuzz_target(fuzz/clip.cpp pbs_character
-    pbs/character/clip.cpp pbs/character/joint_names.cpp pbs/character/retarget.cpp pbs/skinning/pose.cpp pbs/geometry/input_error.cpp)
-fuzz_target(fuzz/rig.cpp pbs_rig
-    pbs/rig/rigged_body.cpp pbs/rig/gltf_rig.cpp pbs/rig/gltf_model.cpp pbs/rig/rig_pose.cpp
-    pbs/rig/rig_reader.cpp pbs/rig/rig_repairs.cpp pbs/skinning/pose.cpp
-    pbs/geometry/content_format.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
+fuzz_target(fuzz/skeleton.cpp pbs_characters
+    experiments/characters/skeleton_file.cpp experiments/characters/folded_skeleton.cpp pbs/system/files.cpp pbs/geometry/input_error.cpp)
+fuzz_target(fuzz/clip.cpp pbs_characters
+    experiments/clips/clip.cpp experiments/clips/joint_names.cpp experiments/clips/retarget.cpp pbs/skinning/pose.cpp pbs/geometry/input_error.cpp)
+fuzz_target(fuzz/rig.cpp pbs_rigs
+    experiments/rigs/rigged_body.cpp experiments/rigs/gltf_rig.cpp experiments/rigs/gltf_model.cpp experiments/rigs/rig_pose.cpp
+    experiments/rigs/rig_reader.cpp experiments/rigs/rig_repairs.cpp pbs/skinning/pose.cpp
+    experiments/meshes/content_format.cpp pbs/system/files.cpp pbs/geometry/input_error.cpp)
 fuzz_target(fuzz/texts.cpp experiments
     analysis/records/tables.cpp analysis/records/record_files.cpp
     experiments/settings/scene_values.cpp experiments/scene/scene_keys.cpp experiments/deformers/pbs_settings.cpp
-    experiments/deformers/fem/fem_kind.cpp experiments/process/machine.cpp pbs/geometry/module.cpp
-    pbs/character/clip.cpp pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
-fuzz_target(fuzz/files.cpp pbs_character
-    pbs/character/frankie.cpp pbs/character/skinning_weights.cpp pbs/skinning/pose.cpp pbs/geometry/mesh_io.cpp
-    pbs/geometry/content_format.cpp pbs/geometry/medit_files.cpp pbs/geometry/msh_files.cpp pbs/geometry/surface_obj.cpp
-    pbs/geometry/text_words.cpp pbs/geometry/mesh_checks.cpp pbs/geometry/mesh_repairs.cpp pbs/geometry/files.cpp
+    experiments/deformers/fem/fem_kind.cpp experiments/process/machine.cpp pbs/system/module.cpp
+    experiments/clips/clip.cpp pbs/system/files.cpp pbs/geometry/input_error.cpp)
+fuzz_target(fuzz/files.cpp pbs_characters
+    experiments/characters/frankie.cpp experiments/characters/skinning_weights.cpp pbs/skinning/pose.cpp experiments/meshes/mesh_io.cpp
+    experiments/meshes/content_format.cpp experiments/meshes/medit_files.cpp experiments/meshes/msh_files.cpp experiments/meshes/surface_obj.cpp
+    experiments/meshes/text_words.cpp experiments/meshes/mesh_checks.cpp experiments/meshes/mesh_repairs.cpp pbs/system/files.cpp
     pbs/geometry/input_error.cpp)
-fuzz_target(fuzz/assimp.cpp pbs_rig
-    pbs/rig/collada_curves.cpp pbs/rig/collada_document.cpp pbs/rig/collada_rig.cpp pbs/rig/fbx_animation.cpp
-    pbs/rig/fbx_document.cpp pbs/rig/fbx_mesh.cpp
-    pbs/rig/fbx_objects.cpp pbs/rig/fbx_polygons.cpp pbs/rig/fbx_rig.cpp pbs/rig/fbx_transform.cpp
-    pbs/rig/rigged_body.cpp pbs/rig/rig_pose.cpp pbs/rig/rig_reader.cpp pbs/rig/rig_repairs.cpp pbs/skinning/pose.cpp
-    pbs/geometry/content_format.cpp
-    pbs/geometry/files.cpp pbs/geometry/input_error.cpp)
+fuzz_target(fuzz/assimp.cpp pbs_rigs
+    experiments/rigs/collada_curves.cpp experiments/rigs/collada_document.cpp experiments/rigs/collada_rig.cpp experiments/rigs/fbx_animation.cpp
+    experiments/rigs/fbx_document.cpp experiments/rigs/fbx_mesh.cpp
+    experiments/rigs/fbx_objects.cpp experiments/rigs/fbx_polygons.cpp experiments/rigs/fbx_rig.cpp experiments/rigs/fbx_transform.cpp
+    experiments/rigs/rigged_body.cpp experiments/rigs/rig_pose.cpp experiments/rigs/rig_reader.cpp experiments/rigs/rig_repairs.cpp pbs/skinning/pose.cpp
+    experiments/meshes/content_format.cpp
+    pbs/system/files.cpp pbs/geometry/input_error.cpp)
 fuzz_libraries(assimp assimp::assimp pugixml::pugixml ${MINIZIP_LIBRARY} ZLIB::ZLIB)
-fuzz_target(fuzz/content.cpp pbs_rig
-    pbs/geometry/content_format.cpp pbs/geometry/mesh_io.cpp pbs/geometry/mesh_checks.cpp pbs/geometry/mesh_repairs.cpp
-    pbs/geometry/msh_files.cpp pbs/geometry/files.cpp pbs/geometry/vtk_files.cpp pbs/rig/surface_reader.cpp
+fuzz_target(fuzz/content.cpp pbs_rigs
+    experiments/meshes/content_format.cpp experiments/meshes/mesh_io.cpp experiments/meshes/mesh_checks.cpp experiments/meshes/mesh_repairs.cpp
+    experiments/meshes/msh_files.cpp pbs/system/files.cpp experiments/meshes/vtk_files.cpp experiments/rigs/surface_reader.cpp
     pbs/geometry/tet_mesh.cpp pbs/geometry/topology.cpp pbs/geometry/input_error.cpp)
-fuzz_libraries(content pbs_mesh_io ${VTK_LIBRARIES})
+fuzz_libraries(content pbs_meshes ${VTK_LIBRARIES})
 if(PBS_WITH_FUZZ)
     set(settings PBS_SOURCE=${PROJECT_SOURCE_DIR} PBS_FUZZ_PROGRAMS=${CMAKE_BINARY_DIR}/tests PBS_FUZZ_FOLDER=${CMAKE_BINARY_DIR}/fuzz
         PYTHONPATH=${CMAKE_CURRENT_SOURCE_DIR}/support)

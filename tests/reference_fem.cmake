@@ -20,7 +20,7 @@ if(NOT PBS_WITH_RIG_IMPORT OR NOT PBS_WITH_CGAL OR NOT PBS_WITH_MESH_IO)
 endif()
 pbs_tests(unit experiments_fem BLAS AT_ONCE FOLDERS experiments/deformers/fem
     EXCEPT experiments/deformers/fem/fem_module
-    LIBRARIES fem_deformer pbs_character reference_fem_verification)
+    LIBRARIES fem_deformer pbs_characters reference_fem_verification)
 pbs_tests(verification experiments_fem BLAS AT_ONCE FOLDERS experiments/deformers/fem
     FILES experiments/studies/stability/broken_fem_starts experiments/studies/verification/calculix experiments/verification_record
     EXCEPT ${left_out}
@@ -28,5 +28,5 @@ pbs_tests(verification experiments_fem BLAS AT_ONCE FOLDERS experiments/deformer
 target_sources(test_verification_experiments_fem PRIVATE support/blas_main.cpp)
 foreach(target unit_reference_fem verification_reference_fem unit_experiments_fem)
     target_sources(test_${target} PRIVATE support/blas_main.cpp ${PROJECT_SOURCE_DIR}/experiments/process/machine.cpp)
-    target_link_libraries(test_${target} PRIVATE pbs_module shared_headers)
+    target_link_libraries(test_${target} PRIVATE pbs_system shared_headers)
 endforeach()

@@ -1,7 +1,7 @@
 #include "analysis/records/record_files.hpp"
 
-#include "pbs/geometry/child_process.hpp"
-#include "pbs/geometry/files.hpp"
+#include "pbs/system/child_process.hpp"
+#include "pbs/system/files.hpp"
 
 #include <unistd.h>
 

@@ -2,8 +2,8 @@
 //   analysis::write_text_atomically(path, record_text(run));
 #pragma once
 
-#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/system/child_process.hpp"
 
 #include <nlohmann/json.hpp>
 #include <nlohmann/json_fwd.hpp>

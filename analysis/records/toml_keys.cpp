@@ -1,6 +1,6 @@
 #include "analysis/records/toml_keys.hpp"
 
-#include "pbs/geometry/files.hpp"
+#include "pbs/system/files.hpp"
 
 #include <fmt/ranges.h>
 

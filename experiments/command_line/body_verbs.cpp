@@ -3,18 +3,18 @@
 // wanted size.
 
 #include "analysis/records/record_files.hpp"
+#include "experiments/characters/bodies.hpp"
+#include "experiments/characters/body_cache.hpp"
+#include "experiments/characters/named_bodies.hpp"
 #include "experiments/command_line/verbs.hpp"
+#include "experiments/meshes/mesh_io.hpp"
+#include "experiments/meshes/meshing.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
-#include "pbs/character/bodies.hpp"
-#include "pbs/character/body_cache.hpp"
-#include "pbs/character/named_bodies.hpp"
-#include "pbs/geometry/child_process.hpp"
+#include "experiments/rigs/surface_reader.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io.hpp"
-#include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "pbs/rig/surface_reader.hpp"
+#include "pbs/system/child_process.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

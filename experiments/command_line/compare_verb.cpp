@@ -3,7 +3,7 @@
 #include "analysis/records/record_files.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/terminal.hpp"
-#include "experiments/studies/comparison.hpp"
+#include "experiments/reproduce/comparison.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

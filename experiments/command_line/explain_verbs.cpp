@@ -3,6 +3,7 @@
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/terminal.hpp"
+#include "experiments/reproduce/studies.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/scene/movements.hpp"
 #include "experiments/scene/scene.hpp"

@@ -1,10 +1,10 @@
 #include "experiments/command_line/verbs.hpp"
 
 #include "analysis/records/record_files.hpp"
+#include "experiments/meshes/content_format.hpp"
+#include "experiments/meshes/mesh_io.hpp"
 #include "experiments/process/terminal.hpp"
-#include "pbs/geometry/content_format.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

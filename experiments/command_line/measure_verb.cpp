@@ -9,9 +9,9 @@
 #include "analysis/records/record_files.hpp"
 #include "experiments/command_line/measure/measured_frames.hpp"
 #include "experiments/command_line/verbs.hpp"
+#include "experiments/rigs/rig_reader.hpp"
+#include "experiments/rigs/surface_reader.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/rig/rig_reader.hpp"
-#include "pbs/rig/surface_reader.hpp"
 
 #include <CLI/CLI.hpp>
 

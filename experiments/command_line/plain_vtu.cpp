@@ -1,8 +1,8 @@
 #include "experiments/command_line/plain_vtu.hpp"
 
 #include "analysis/records/record_files.hpp"
-#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/system/files.hpp"
 
 #include <fmt/format.h>
 #include <pugixml.hpp>

@@ -3,7 +3,7 @@
 //                                   plain_vtu(mesh, {.of_points = {{"displacement", displacement}}, .facts =
 //                                   {{"own_error_pct", 0.4}}}));
 //   const PlainFields fields = read_plain_fields("limb.vtu");
-// Other files are read by pbs/geometry/mesh_io.hpp, which reads the points and tets of these, too.
+// Other files are read by experiments/meshes/mesh_io.hpp, which reads the points and tets of these, too.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"

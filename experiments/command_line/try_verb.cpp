@@ -3,15 +3,15 @@
 
 #include "analysis/records/record_files.hpp"
 #include "experiments/command_line/verbs.hpp"
+#include "experiments/meshes/source_file.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "experiments/trial/bake.hpp"
 #include "experiments/trial/trial.hpp"
-#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/source_file.hpp"
+#include "pbs/system/child_process.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // LBS and DQS, and delta mush, which smooths LBS: no state but the last pose's positions. LBS and DQS blend with the
 // scene's weights; a table [[lbs]] or [[dqs]] adds one with weights, a precision or a code of its own.
+#include "experiments/characters/skinning_weights.hpp"
 #include "experiments/deformers/deformer_kind.hpp"
-#include "pbs/character/skinning_weights.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "pbs/skinning/delta_mush.hpp"
 #include "pbs/skinning/direct_delta_mush.hpp"

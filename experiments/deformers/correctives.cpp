@@ -2,13 +2,13 @@
 #include "experiments/deformers/correctives.hpp"
 
 #include "analysis/records/toml_keys.hpp"
+#include "experiments/characters/body_cache.hpp"
 #include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "pbs/character/body_cache.hpp"
+#include "experiments/meshes/source_file.hpp"
 #include "pbs/geometry/extent.hpp"
-#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/source_file.hpp"
+#include "pbs/system/files.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>

@@ -11,8 +11,8 @@
 // these numbers.
 #pragma once
 
+#include "experiments/characters/character.hpp"
 #include "experiments/deformers/deformer.hpp"
-#include "pbs/character/character.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/correctives.hpp"
 

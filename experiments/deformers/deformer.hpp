@@ -2,7 +2,7 @@
 // scene and metric works for each of them. README.md describes how to add one.
 #pragma once
 
-#include "pbs/character/character.hpp"
+#include "experiments/characters/character.hpp"
 #include "pbs/solver/step_summary.hpp"
 
 #include <nlohmann/json.hpp>

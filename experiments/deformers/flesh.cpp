@@ -3,9 +3,9 @@
 // guess anew, so that it does not depend on the frames before. A further method of this kind is a struct of options
 // that derives from FleshOptions, a class that derives from FleshDeformer, and a kind whose keys begin with
 // flesh_fields.
+#include "experiments/characters/bone_capsules.hpp"
 #include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/process/machine.hpp"
-#include "pbs/character/bone_capsules.hpp"
 #include "pbs/flesh/flesh_energy.hpp"
 #include "pbs/flesh/flesh_system.hpp"
 #include "pbs/flesh/projective_dynamics.hpp"

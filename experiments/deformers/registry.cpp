@@ -1,7 +1,7 @@
 #include "experiments/deformers/registry.hpp"
 
+#include "experiments/characters/skinning_weights.hpp"
 #include "experiments/deformers/deformer_options.hpp"
-#include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/cost.hpp"
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 
 #include "analysis/records/record_files.hpp"
 #include "experiments/process/terminal.hpp"
-#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/system/child_process.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

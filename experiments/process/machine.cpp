@@ -1,7 +1,7 @@
 #include "experiments/process/machine.hpp"
 
-#include "pbs/geometry/deferred_sigterm.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/system/deferred_sigterm.hpp"
 
 #include <dlfcn.h>
 #include <malloc.h>

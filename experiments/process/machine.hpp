@@ -1,7 +1,7 @@
 // The machine: processor time, memory, how many processors other work keeps busy, and the kernels of OpenBLAS.
 #pragma once
 
-#include "pbs/geometry/module.hpp"
+#include "pbs/system/module.hpp"
 
 #include <ctime>
 #include <functional>

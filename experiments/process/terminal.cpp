@@ -1,9 +1,9 @@
 #include "experiments/process/terminal.hpp"
 
 #include "analysis/records/record_files.hpp"
-#include "pbs/geometry/child_process.hpp"
-#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/system/child_process.hpp"
+#include "pbs/system/files.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

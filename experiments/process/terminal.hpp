@@ -37,7 +37,7 @@ Failure caught_failure();
 
 // SIGINT and SIGTERM end this process and its child processes at once, with exit_interrupted: records are written whole
 // or not at all. Unfinished files are removed. SIGTERM waits while METIS orders a matrix
-// (pbs/geometry/deferred_sigterm.hpp). The names of long stages are printed.
+// (pbs/system/deferred_sigterm.hpp). The names of long stages are printed.
 void watch_interrupts();
 
 // While it exists, the first signal is only noted, for work that looks for it several times a second. The next one ends

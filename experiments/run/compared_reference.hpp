@@ -6,12 +6,12 @@
 //   outcome.update(reference.record());   remarks.add(reference.remarks());
 #pragma once
 
+#include "experiments/characters/remark.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/parts_of_one_bone.hpp"
 #include "experiments/run/reference_error_bar.hpp"
 #include "experiments/run/runners.hpp"
 #include "experiments/run/spread_reference.hpp"
-#include "pbs/character/remark.hpp"
 
 #include <nlohmann/json.hpp>
 

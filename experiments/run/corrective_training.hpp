@@ -7,8 +7,8 @@
 // itself and together with its neighbours.
 #pragma once
 
+#include "experiments/characters/character.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "pbs/character/character.hpp"
 #include "pbs/skinning/correctives.hpp"
 
 #include <limits>

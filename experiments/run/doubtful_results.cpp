@@ -1,6 +1,6 @@
 #include "experiments/run/doubtful_results.hpp"
 
-#include "pbs/character/separated_parts.hpp"
+#include "experiments/characters/separated_parts.hpp"
 #include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/input_error.hpp"
 

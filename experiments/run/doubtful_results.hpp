@@ -4,9 +4,9 @@
 //   remarks.add(remarks_on_first_frame(scene, character, motion, runners, measurer));
 #pragma once
 
+#include "experiments/characters/remark.hpp"
 #include "experiments/run/run_folder.hpp"
 #include "experiments/run/runners.hpp"
-#include "pbs/character/remark.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

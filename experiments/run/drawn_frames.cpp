@@ -1,6 +1,6 @@
 #include "experiments/run/drawn_frames.hpp"
 
-#include "pbs/geometry/mesh_io.hpp"
+#include "experiments/meshes/mesh_io.hpp"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "analysis/records/tables.hpp"
-#include "pbs/character/character.hpp"
+#include "experiments/characters/character.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/pose.hpp"
 

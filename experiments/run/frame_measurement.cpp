@@ -1,6 +1,6 @@
 #include "experiments/run/frame_measurement.hpp"
 
-#include "pbs/character/model_character.hpp"
+#include "experiments/characters/model_character.hpp"
 #include "pbs/geometry/extent.hpp"
 
 #include <fmt/format.h>

@@ -6,11 +6,11 @@
 #include "analysis/metrics/error_norms.hpp"
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/metrics/skin_error.hpp"
+#include "experiments/characters/character.hpp"
 #include "experiments/deformers/deformer.hpp"
+#include "experiments/meshes/meshing.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/character/character.hpp"
 #include "pbs/contact/self_contact.hpp"
-#include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/solver/step_summary.hpp"
 

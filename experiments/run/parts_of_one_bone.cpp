@@ -1,7 +1,7 @@
 #include "experiments/run/parts_of_one_bone.hpp"
 
-#include "pbs/character/bone_capsules.hpp"
-#include "pbs/character/model_character.hpp"
+#include "experiments/characters/bone_capsules.hpp"
+#include "experiments/characters/model_character.hpp"
 #include "pbs/geometry/nearest_rotation.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"

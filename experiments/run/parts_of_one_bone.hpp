@@ -5,7 +5,7 @@
 //   lag.turn_deg > 5.0: flesh that the artist tied to lag.bone does not follow it
 #pragma once
 
-#include "pbs/character/character.hpp"
+#include "experiments/characters/character.hpp"
 #include "pbs/skinning/pose.hpp"
 
 #include <Eigen/Core>

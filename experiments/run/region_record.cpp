@@ -1,6 +1,6 @@
 #include "experiments/run/region_record.hpp"
 
-#include "pbs/character/skinning_weights.hpp"
+#include "experiments/characters/skinning_weights.hpp"
 #include "pbs/skinning/weights.hpp"
 
 #include <algorithm>

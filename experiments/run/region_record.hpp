@@ -4,7 +4,7 @@
 
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/records/tables.hpp"
-#include "pbs/character/character.hpp"
+#include "experiments/characters/character.hpp"
 
 #include <string>
 #include <vector>

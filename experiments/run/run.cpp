@@ -1,5 +1,7 @@
 #include "experiments/run/run.hpp"
 
+#include "experiments/characters/bodies.hpp"
+#include "experiments/characters/body_cache.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/broken_frames.hpp"
@@ -9,12 +11,10 @@
 #include "experiments/run/run_folder.hpp"
 #include "experiments/run/run_remarks.hpp"
 #include "experiments/run/runners.hpp"
-#include "pbs/character/bodies.hpp"
-#include "pbs/character/body_cache.hpp"
-#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/cost.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/system/child_process.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "analysis/records/provenance.hpp"
+#include "experiments/meshes/source_file.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/geometry/source_file.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -18,7 +18,7 @@ namespace experiments {
 // nothing), or a frame of a converged reference with inverted tets (it is compared, and marked by their number). Both
 // are recorded. `run`, `check` and `reproduce` end with exit status 3 for bad frames and for breakdowns. In runs of a
 // study that expects bad frames (StudyRun::bad_frames_are_results), `reproduce` only lists them
-// (studies/reproduce.hpp).
+// (reproduce/reproduce.hpp).
 struct RunResult {
     int frames = 0;
     double seconds = 0.0;

@@ -2,15 +2,15 @@
 
 #include "analysis/records/record_files.hpp"
 #include "analysis/statistics/statistics.hpp"
+#include "experiments/characters/body_cache.hpp"
+#include "experiments/characters/model_character.hpp"
+#include "experiments/characters/skinning_weights.hpp"
+#include "experiments/meshes/mesh_io.hpp"
+#include "experiments/rigs/rig_reader.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/run/run.hpp"
-#include "pbs/character/body_cache.hpp"
-#include "pbs/character/model_character.hpp"
-#include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "pbs/rig/rig_reader.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

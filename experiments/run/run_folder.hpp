@@ -6,15 +6,15 @@
 
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/tables.hpp"
+#include "experiments/characters/character.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/rigs/glb_writer.hpp"
 #include "experiments/run/cost_record.hpp"
 #include "experiments/run/drawn_frames.hpp"
 #include "experiments/run/earlier_results.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/region_record.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/character/character.hpp"
-#include "pbs/rig/glb_writer.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

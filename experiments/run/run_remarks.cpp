@@ -1,7 +1,7 @@
 #include "experiments/run/run_remarks.hpp"
 
+#include "experiments/characters/body_cache.hpp"
 #include "experiments/process/terminal.hpp"
-#include "pbs/character/body_cache.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

@@ -5,8 +5,8 @@
 //   remarks.say_all();   outcome["warnings"] = remarks.warnings();   outcome["notes"] = remarks.notes();
 #pragma once
 
+#include "experiments/characters/remark.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/character/remark.hpp"
 
 #include <string>
 #include <vector>

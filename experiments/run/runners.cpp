@@ -1,9 +1,9 @@
 #include "experiments/run/runners.hpp"
 
+#include "experiments/characters/body_cache.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "pbs/character/body_cache.hpp"
-#include "pbs/geometry/child_process.hpp"
-#include "pbs/geometry/mesh_io.hpp"
+#include "experiments/meshes/mesh_io.hpp"
+#include "pbs/system/child_process.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

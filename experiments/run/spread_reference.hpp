@@ -17,10 +17,10 @@
 //       if (reference.advance(pose, dt_s); reference.has_state()) ... reference.positions() ...
 #pragma once
 
+#include "experiments/characters/remark.hpp"
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
-#include "pbs/character/remark.hpp"
 
 #include <functional>
 #include <memory>

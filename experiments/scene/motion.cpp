@@ -1,8 +1,8 @@
 #include "experiments/scene/motion.hpp"
 
+#include "experiments/characters/model_character.hpp"
+#include "experiments/characters/skinning_weights.hpp"
 #include "experiments/scene/movements.hpp"
-#include "pbs/character/model_character.hpp"
-#include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/input_error.hpp"
 

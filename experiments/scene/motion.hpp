@@ -3,9 +3,9 @@
 //   for (const pbs::Pose& pose : motion.motion.steps) ...
 #pragma once
 
-#include "pbs/character/character.hpp"
-#include "pbs/character/clip.hpp"
-#include "pbs/character/remark.hpp"
+#include "experiments/characters/character.hpp"
+#include "experiments/characters/remark.hpp"
+#include "experiments/clips/clip.hpp"
 #include "pbs/skinning/pose.hpp"
 
 #include <nlohmann/json.hpp>

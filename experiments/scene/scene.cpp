@@ -1,15 +1,15 @@
 #include "experiments/scene/scene.hpp"
 
 #include "analysis/records/record_files.hpp"
+#include "experiments/characters/skinning_weights.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/terminal.hpp"
+#include "experiments/rigs/rig_reader.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "generated/scenes_texts.hpp"
-#include "pbs/character/skinning_weights.hpp"
-#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/rig/rig_reader.hpp"
+#include "pbs/system/files.hpp"
 
 #include <algorithm>
 #include <cctype>

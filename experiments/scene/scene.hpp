@@ -2,11 +2,11 @@
 // manual.md explain the keys.
 #pragma once
 
+#include "experiments/characters/bodies.hpp"
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/scene/motion.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "experiments/settings/scene_values.hpp"
-#include "pbs/character/bodies.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -2,8 +2,8 @@
 
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/toml_keys.hpp"
-#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/system/files.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

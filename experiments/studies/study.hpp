@@ -184,12 +184,6 @@ struct Study {
     // verdicts take what is concluded anew from the measured values on record. Null: every value is measured.
     std::vector<analysis::Measurement> (*conclusions)(const std::vector<analysis::Measurement>& measured) = nullptr;
 };
-const std::vector<Study>& studies();
-
-// Writes the tables over all runs, and returns whether the study holds. Without a finished run a study with such tables
-// does not hold, and nothing is written.
-bool study_holds(const Study& study, const FinishedRuns& finished);
-
 // One per folder next to this file, each defined in its study.cpp.
 Study volume_study();
 Study audit_study();
@@ -209,51 +203,6 @@ Study references_study();
 Study work_precision_study();
 Study ensemble_study();
 Study temporal_study();
-
-// True if the run in `folder` finished with this scene or these settings and this revision, so that it need not be
-// repeated.
-bool is_finished(const StudyRun& run, const std::string& folder);
-
-// Does the run and returns what broke down numerically, or "".
-std::string carry_out(const StudyRun& run, const std::string& folder);
-
-// The text that carry_out returned for the finished run in `folder`.
-std::string breakdown_on_record(const StudyRun& run, const std::string& folder);
-
-// The expected and the actual cost of the runs of a study, in DIR/STUDY/costs.csv. The file is kept when a study is
-// resumed.
-//   StudyCosts costs(folder);
-//   costs.add("limb_twist", 80.0, 71.4);
-//   costs.write();
-struct RunCost {
-    std::string run;
-    double expected_s = 0.0, cpu_s = 0.0;  // processor time
-    std::optional<double> wall_s = {};     // wall time; older records have none
-};
-
-class StudyCosts {
-public:
-    explicit StudyCosts(const std::string& folder);  // with the rows of an earlier file, if there is one
-
-    void add(const std::string& run, double expected_s, double cpu_s);
-    // Keeps the rows of the finished runs, in the order of the plan. A finished run without a row, because its
-    // `reproduce` was killed, gets the cost that its run.json has.
-    void complete(const std::string& folder, const StudyPlan& plan);
-    void write() const;
-
-private:
-    std::string file_;
-    std::vector<RunCost> runs_;
-};
-
-// The expected cost of a study, and the wall time with this number of runs in parallel.
-struct ExpectedCost {
-    std::string study;
-    int runs = 0;
-    double cpu_s = 0.0, wall_s = 0.0;
-};
-ExpectedCost expected_cost(const Study& study, const std::vector<StudyRun>& runs, int jobs);
-std::string expected_cost_table(const std::vector<ExpectedCost>& costs);  // one line per study, and their sum
 
 // The claims of claims.toml, which is compiled into the program.
 const std::vector<analysis::Claim>& claims();

@@ -1,7 +1,7 @@
 #include "analysis/records/toml_keys.hpp"
+#include "experiments/characters/bodies.hpp"
 #include "experiments/studies/study.hpp"
 #include "generated/cases_texts.hpp"
-#include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>

@@ -4,8 +4,8 @@
 //   results/hero/frames/correctives.toml and .glb
 #pragma once
 
+#include "experiments/characters/character.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/character/character.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,15 +1,15 @@
 #include "experiments/trial/trial.hpp"
 
 #include "analysis/records/record_files.hpp"
+#include "experiments/characters/body_cache.hpp"
+#include "experiments/clips/clip.hpp"
 #include "experiments/process/machine.hpp"
+#include "experiments/rigs/rig_reader.hpp"
+#include "experiments/rigs/rigged_body.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/character/body_cache.hpp"
-#include "pbs/character/clip.hpp"
 #include "pbs/geometry/extent.hpp"
-#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/rig/rig_reader.hpp"
-#include "pbs/rig/rigged_body.hpp"
+#include "pbs/system/files.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

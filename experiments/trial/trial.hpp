@@ -1,8 +1,8 @@
 // The scene that `pbskin try` makes of a model: all that a user would otherwise write by hand.
 #pragma once
 
+#include "experiments/rigs/rigged_body.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/rig/rigged_body.hpp"
 
 #include <nlohmann/json.hpp>
 

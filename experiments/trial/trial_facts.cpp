@@ -3,9 +3,9 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/records/tables.hpp"
 #include "analysis/statistics/statistics.hpp"
+#include "experiments/characters/json_file.hpp"
 #include "experiments/run/parts_of_one_bone.hpp"
 #include "experiments/trial/trial.hpp"
-#include "pbs/character/json_file.hpp"
 
 #include <nlohmann/json.hpp>
 

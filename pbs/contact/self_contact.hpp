@@ -15,8 +15,8 @@
 // along the way out, as after a teleport; and where a position is not finite.
 #pragma once
 
-#include "pbs/packed/batch.hpp"
 #include "pbs/contact/depth_constraint.hpp"
+#include "pbs/packed/batch.hpp"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 // that the factor is the same for each of its kernels and each number of its threads.
 #include "pbs/flesh/flesh_system.hpp"
 
-#include "pbs/geometry/deferred_sigterm.hpp"
+#include "pbs/system/deferred_sigterm.hpp"
 
 #include <cholmod.h>
 

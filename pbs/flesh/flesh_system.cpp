@@ -2,8 +2,8 @@
 
 #include "pbs/flesh/projective_dynamics.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/module.hpp"
 #include "pbs/packed/groups.hpp"
+#include "pbs/system/module.hpp"
 
 #include <numeric>
 #include <string>

@@ -1,6 +1,6 @@
 #include "pbs/packed/parallel.hpp"
 
-#include "pbs/geometry/deferred_sigterm.hpp"
+#include "pbs/system/deferred_sigterm.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -15,20 +15,19 @@ struct FolderLaw {
 // The first entry whose folder contains a file is the law for that file.
 const std::vector<FolderLaw> folder_laws = {
     {"pbs/geometry/", {"pbs/geometry/"}},
-    {"pbs/packed/", {"pbs/geometry/", "pbs/packed/"}},
+    {"pbs/system/", {"pbs/geometry/", "pbs/system/"}},
+    {"pbs/packed/", {"pbs/geometry/", "pbs/system/", "pbs/packed/"}},
     {"pbs/skinning/", {"pbs/geometry/", "pbs/packed/", "pbs/skinning/"}},
     {"pbs/constraints/", {"pbs/geometry/", "pbs/constraints/"}},
     {"pbs/contact/", {"pbs/geometry/", "pbs/packed/", "pbs/contact/"}},
     {"pbs/solver/", {"pbs/geometry/", "pbs/packed/", "pbs/constraints/", "pbs/contact/", "pbs/solver/"}},
     {"pbs/near_rest/", {"pbs/geometry/", "pbs/constraints/", "pbs/solver/", "pbs/near_rest/"}},
     {"pbs/author/", {"pbs/geometry/", "pbs/skinning/", "pbs/constraints/", "pbs/solver/", "pbs/author/"}},
-    {"pbs/flesh/", {"pbs/geometry/", "pbs/packed/", "pbs/skinning/", "pbs/contact/", "pbs/flesh/"}},
-    {"pbs/rig/", {"pbs/geometry/", "pbs/skinning/", "pbs/rig/"}},
-    {"pbs/character/", {"pbs/"}},
+    {"pbs/flesh/", {"pbs/geometry/", "pbs/system/", "pbs/packed/", "pbs/skinning/", "pbs/contact/", "pbs/flesh/"}},
     {"reference_fem/verification/", {"pbs/geometry/", "reference_fem/", "analysis/records/"}},
     {"reference_fem/laws/", {"pbs/geometry/", "reference_fem/laws/", "reference_fem/options.hpp"}},
-    {"reference_fem/", {"pbs/geometry/", "reference_fem/"}, {"reference_fem/verification/"}},
-    {"analysis/records/", {"pbs/geometry/", "analysis/records/"}},
+    {"reference_fem/", {"pbs/geometry/", "pbs/system/", "reference_fem/"}, {"reference_fem/verification/"}},
+    {"analysis/records/", {"pbs/geometry/", "pbs/system/", "analysis/records/"}},
     {"analysis/statistics/", {"pbs/geometry/", "analysis/records/", "analysis/statistics/"}},
     {"analysis/metrics/", {"pbs/geometry/", "analysis/statistics/", "analysis/metrics/"}},
     {"analysis/verdicts/", {"pbs/geometry/", "analysis/records/", "analysis/statistics/", "analysis/verdicts/"}},
@@ -44,16 +43,20 @@ const std::string generated = "generated/";  // files that the build writes
 // The folders of experiments from the bottom up. A file includes its own folder and lower ones; folders of one line do
 // not include each other.
 const std::vector<std::string> layers = {
-    "experiments/process/",
+    "experiments/(process|meshes)/",
+    "experiments/rigs/",
+    "experiments/clips/",
+    "experiments/characters/",
     "experiments/settings/",
     "experiments/deformers/",
     "experiments/scene/",
     "experiments/run/",
     "experiments/trial/",
     "experiments/studies/shared/",
-    // the files in the folder itself: study.hpp, the list of studies, plans and costs
+    // the files in the folder itself: study.hpp, the cases and the poses of references
     "experiments/studies/(?=[^/]+$)",
     "experiments/studies/[^/]+/",  // the folder of each study
+    "experiments/reproduce/",
     "experiments/(verdicts|sweeps)/",
     "experiments/command_line/",
 };
@@ -89,10 +92,10 @@ struct HeavyLibrary {
 
 const std::vector<HeavyLibrary> heavy = {
     {"deal.II/", {"reference_fem/"}, 1},
-    {"CGAL/", {"pbs/geometry/"}, 4},
-    {"vtk", {"pbs/geometry/"}, 3},
+    {"CGAL/", {"experiments/meshes/"}, 4},
+    {"vtk", {"experiments/meshes/"}, 3},
     {"gmsh.h", {}, 0},
-    {"assimp/", {"pbs/geometry/", "pbs/rig/", "pbs/character/"}, 4},
+    {"assimp/", {"experiments/meshes/", "experiments/rigs/", "experiments/clips/"}, 4},
 };
 
 }  // namespace

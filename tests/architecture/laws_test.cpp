@@ -99,7 +99,7 @@ struct ForbiddenInclude {
 const ForbiddenInclude forbidden[] = {
     {include_direction, "analysis/metrics/x.hpp", "pbs/skinning/a.hpp", "analysis/metrics/"},
     {include_direction, "pbs/solver/x.hpp", "pbs/skinning/a.hpp", "pbs/solver/"},
-    {include_direction, "pbs/character/x.cpp", "tests/support/a.hpp", "pbs/character/"},
+    {include_direction, "pbs/flesh/x.cpp", "tests/support/a.hpp", "pbs/flesh/"},
     {include_direction, "reference_fem/x.cpp", "pbs/solver/b.hpp", "reference_fem/"},
     {include_direction, "reference_fem/x.cpp", "reference_fem/verification/a.hpp", "reference_fem/"},
     {include_direction, "reference_fem/laws/x.cpp", "reference_fem/assembly.hpp", "reference_fem/laws/"},

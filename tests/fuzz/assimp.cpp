@@ -1,10 +1,10 @@
 // Any bytes as FBX, or as COLLADA, which assimp reads in a child process. The result is a rig whose skeleton, surface
 // and poses are finite and whose weights sum to one, or an InputError. A breakdown of assimp itself is counted, since
 // the child contains it for users too; one of the project's conversion is a finding.
-#include "pbs/geometry/content_format.hpp"
-#include "pbs/rig/collada_document.hpp"
-#include "pbs/rig/rig_formats.hpp"
-#include "pbs/rig/rig_reader.hpp"
+#include "experiments/meshes/content_format.hpp"
+#include "experiments/rigs/collada_document.hpp"
+#include "experiments/rigs/rig_formats.hpp"
+#include "experiments/rigs/rig_reader.hpp"
 #include "tests/fuzz/library_child.hpp"
 #include "tests/fuzz/sound_rig.hpp"
 #include "tests/fuzz/token_mutator.hpp"

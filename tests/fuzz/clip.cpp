@@ -1,6 +1,6 @@
 // Any bytes as the numbers of a clip that a library has read, for two skeletons: poses of finite numbers, or an
 // InputError.
-#include "pbs/character/clip.hpp"
+#include "experiments/clips/clip.hpp"
 #include "tests/fuzz/taken_bytes.hpp"
 #include "tests/fuzz/target.hpp"
 

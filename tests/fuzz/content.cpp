@@ -2,12 +2,12 @@
 // second one what is asked for. The format does not depend on the name, and the result is a surface or a mesh with
 // valid indices, or an InputError. assimp and VTK read in a child process. A breakdown of theirs is counted, since the
 // child contains it for users too. CGAL is left out in libFuzzer's program.
-#include "pbs/geometry/content_format.hpp"
-#include "pbs/geometry/guarded_reading.hpp"
+#include "experiments/meshes/content_format.hpp"
+#include "experiments/meshes/guarded_reading.hpp"
+#include "experiments/meshes/mesh_io.hpp"
+#include "experiments/rigs/surface_reader.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
-#include "pbs/rig/surface_reader.hpp"
 #include "tests/fuzz/library_child.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/fuzz/token_mutator.hpp"

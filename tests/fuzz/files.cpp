@@ -1,8 +1,8 @@
 // Any bytes as a file that the program itself reads, selected by their first byte: TetGen's pair (separated by a zero
 // byte), .tobj, .msh, .mesh, .obj, weights and IQM. The result is valid, or an InputError.
-#include "pbs/character/named_bodies.hpp"
-#include "pbs/character/skinning_weights.hpp"
-#include "pbs/geometry/mesh_io_formats.hpp"
+#include "experiments/characters/named_bodies.hpp"
+#include "experiments/characters/skinning_weights.hpp"
+#include "experiments/meshes/mesh_io_formats.hpp"
 #include "tests/fuzz/target.hpp"
 
 #include <algorithm>

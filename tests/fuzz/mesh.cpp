@@ -1,6 +1,6 @@
 // Any bytes as the points and tets that a library has read: a valid mesh in which every tet has a volume, or an
 // InputError.
-#include "pbs/geometry/mesh_io_formats.hpp"
+#include "experiments/meshes/mesh_io_formats.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "tests/fuzz/taken_bytes.hpp"
 #include "tests/fuzz/target.hpp"

@@ -1,7 +1,7 @@
 // Any bytes as a rig, selected by their first byte: glTF as text (g) or as .glb. The result is a rig whose skeleton,
 // surface and poses are finite and whose weights sum to one, or an InputError.
-#include "pbs/rig/rig_formats.hpp"
-#include "pbs/rig/rig_reader.hpp"
+#include "experiments/rigs/rig_formats.hpp"
+#include "experiments/rigs/rig_reader.hpp"
 #include "tests/fuzz/sound_rig.hpp"
 
 void fuzz::try_input(const std::string& bytes)

@@ -1,5 +1,5 @@
 // Any text as a skeleton: bones whose parents precede them, or an InputError.
-#include "pbs/character/skeleton_file.hpp"
+#include "experiments/characters/skeleton_file.hpp"
 #include "tests/fuzz/target.hpp"
 
 void fuzz::try_input(const std::string& text)

@@ -1,7 +1,7 @@
 // Checks a rig that was read: its skeleton, surface and poses are finite, and its weights sum to one.
 #pragma once
 
-#include "pbs/rig/rigged_body.hpp"
+#include "experiments/rigs/rigged_body.hpp"
 #include "tests/fuzz/target.hpp"
 
 #include <cmath>

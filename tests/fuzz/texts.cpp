@@ -1,8 +1,8 @@
 // Any text as one that the program itself reads, selected by its first byte: a BVH, a CSV record, or --set (one per
 // line) on a scene. The result is valid or an InputError.
 #include "analysis/records/tables.hpp"
+#include "experiments/clips/clip.hpp"
 #include "experiments/settings/scene_values.hpp"
-#include "pbs/character/clip.hpp"
 #include "tests/fuzz/fuzzed_schema.hpp"
 #include "tests/fuzz/target.hpp"
 

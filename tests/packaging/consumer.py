@@ -110,7 +110,7 @@ class Consumer(MethodTest):
     def test_components_and_versions_that_are_not_installed_are_named(self):
         for name, components, version, words in (
                 ("absent", "REQUIRED COMPONENTS method fem", "", "component 'fem' is not installed under"),
-                ("unknown", "REQUIRED COMPONENTS skin", "", "there is no component 'skin': expected one of method, mesh_io"),
+                ("unknown", "REQUIRED COMPONENTS skin", "", "there is no component 'skin': expected one of method, meshes"),
                 ("later", "REQUIRED", "99.0", 'compatible with requested version "99.0"')):
             with self.subTest(name):
                 self.refused(asking_for(name, components, version), words)

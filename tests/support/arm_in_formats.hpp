@@ -2,7 +2,7 @@
 // fuzzer. The files' unit is the centimetre.
 #pragma once
 
-#include "pbs/geometry/files.hpp"
+#include "pbs/system/files.hpp"
 
 #include <string>
 #include <utility>

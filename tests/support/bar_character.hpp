@@ -1,7 +1,7 @@
 // The two-bone limb as a character, without files: for functions that take one, and for resetting a deformer.
 #pragma once
 
-#include "pbs/character/character.hpp"
+#include "experiments/characters/character.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
 #include <cmath>

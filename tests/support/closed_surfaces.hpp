@@ -1,7 +1,7 @@
 // Triangulated sphere and torus, oriented outward, vertices on the surface.
 #pragma once
 
-#include "pbs/geometry/mesh_io.hpp"
+#include "experiments/meshes/mesh_io.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 //   folder.file("arm.fbx", file.text());
 #pragma once
 
-#include "pbs/rig/fbx_document.hpp"
+#include "experiments/rigs/fbx_document.hpp"
 
 #include <zlib.h>
 

@@ -7,7 +7,8 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/claims.hpp"
 #include "analysis/verdicts/verdict.hpp"
-#include "experiments/studies/reproduce.hpp"
+#include "experiments/reproduce/reproduce.hpp"
+#include "experiments/reproduce/studies.hpp"
 #include "experiments/studies/study.hpp"
 #include "tests/support/scratch_folder.hpp"
 

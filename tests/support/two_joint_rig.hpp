@@ -2,7 +2,7 @@
 // points. Its animation turns the elbow half round about z within 1 s.
 #pragma once
 
-#include "pbs/rig/rig.hpp"
+#include "experiments/rigs/rig.hpp"
 
 namespace test_support {
 

@@ -1,10 +1,10 @@
 #include "experiments/command_line/measure/frame_points.hpp"
 
 #include "analysis/metrics/frame_metrics.hpp"
+#include "experiments/meshes/guarded_reading.hpp"
+#include "experiments/meshes/mesh_io.hpp"
 #include "pbs/geometry/extent.hpp"
-#include "pbs/geometry/guarded_reading.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -4,12 +4,12 @@
 #include "experiments/command_line/measure/rest_surface.hpp"
 #include "experiments/command_line/verbs.hpp"
 #include "experiments/process/terminal.hpp"
+#include "experiments/rigs/rig_reader.hpp"
+#include "experiments/rigs/rigged_body.hpp"
+#include "experiments/rigs/surface_reader.hpp"
 #include "experiments/trial/trial.hpp"
 #include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/rig/rig_reader.hpp"
-#include "pbs/rig/rigged_body.hpp"
-#include "pbs/rig/surface_reader.hpp"
 
 #include <fmt/format.h>
 

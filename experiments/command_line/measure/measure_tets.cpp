@@ -5,11 +5,11 @@
 #include "experiments/command_line/measure/measured_frames.hpp"
 #include "experiments/command_line/measure/rest_mesh.hpp"
 #include "experiments/command_line/verbs.hpp"
+#include "experiments/meshes/mesh_io.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/broken_frames.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io.hpp"
 
 #include <fmt/format.h>
 

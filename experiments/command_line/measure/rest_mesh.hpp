@@ -5,7 +5,7 @@
 #pragma once
 
 #include "experiments/command_line/plain_vtu.hpp"
-#include "pbs/geometry/mesh_io.hpp"
+#include "experiments/meshes/mesh_io.hpp"
 
 #include <array>
 #include <string>

@@ -1,10 +1,10 @@
 #include "experiments/command_line/measure/rest_surface.hpp"
 
 #include "experiments/command_line/measure/frame_points.hpp"
+#include "experiments/meshes/meshing.hpp"
+#include "experiments/rigs/surface_reader.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "pbs/rig/surface_reader.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

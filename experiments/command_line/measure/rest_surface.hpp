@@ -5,7 +5,7 @@
 #pragma once
 
 #include "analysis/metrics/closed_shells.hpp"
-#include "pbs/geometry/mesh_io.hpp"
+#include "experiments/meshes/mesh_io.hpp"
 
 #include <optional>
 #include <string>

@@ -1,14 +1,14 @@
 #include "experiments/deformers/external/external_deformers.hpp"
 
 #include "analysis/records/record_files.hpp"
+#include "experiments/characters/body_cache.hpp"
 #include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/deformers/external/pbskin_deformer.h"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
-#include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/cost.hpp"
-#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/system/files.hpp"
 
 #include <dlfcn.h>
 #include <fmt/format.h>

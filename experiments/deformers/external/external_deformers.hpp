@@ -2,8 +2,8 @@
 // pbskin_deformer.h.
 #pragma once
 
+#include "experiments/characters/character.hpp"
 #include "experiments/deformers/deformer.hpp"
-#include "pbs/character/character.hpp"
 #include "pbs/skinning/pose.hpp"
 
 #include <memory>

@@ -2,8 +2,8 @@
 // prescribed tets, or bound vertices, each with the bone that moves it.
 #pragma once
 
+#include "experiments/characters/bone_capsules.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "pbs/character/bone_capsules.hpp"
 #include "reference_fem/elastic_body.hpp"
 
 namespace experiments {
@@ -22,7 +22,7 @@ struct BoneAttachment {
 
 // By options.attachment:
 //   smooth    springs over each capsule's volume, of density q E / r^2 times smooth_density
-//   (pbs/character/bone_capsules.hpp) embedded  springs of density q E / r^2 over each capsule's volume held      as
+//   (experiments/characters/bone_capsules.hpp) embedded  springs of density q E / r^2 over each capsule's volume held      as
 //   smooth, and stiff springs throughout the tets that one bone alone moves nodes     whole tets inside the capsules.
 //   No vertex is shared by two bones: the tet of the later bone is left out. A bone that keeps
 //             no tet (fewer than four vertices that are not in one plane) is a pbs::InputError. A refined character has

@@ -1,9 +1,9 @@
 // Options of the finite element reference as a deformer, their names and keys, and the module that makes it.
 #pragma once
 
+#include "experiments/characters/bone_capsules.hpp"
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/settings/option_names.hpp"
-#include "pbs/character/bone_capsules.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "reference_fem/options.hpp"
 

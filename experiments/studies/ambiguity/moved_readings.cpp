@@ -2,10 +2,10 @@
 
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/statistics/statistics.hpp"
+#include "experiments/characters/bodies.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
-#include "pbs/character/bodies.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

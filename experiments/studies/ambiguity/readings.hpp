@@ -8,8 +8,8 @@
 #include "analysis/records/tables.hpp"
 #include "analysis/verdicts/measurement.hpp"
 #include "analysis/verdicts/verdict.hpp"
+#include "experiments/characters/character.hpp"
 #include "experiments/studies/study.hpp"
-#include "pbs/character/character.hpp"
 
 #include <nlohmann/json.hpp>
 

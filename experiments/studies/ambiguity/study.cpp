@@ -5,12 +5,13 @@
 // study takes wall time.
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/headline.hpp"
+#include "experiments/characters/bodies.hpp"
+#include "experiments/characters/body_cache.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/reproduce/studies.hpp"
 #include "experiments/settings/option_fields.hpp"
 #include "experiments/studies/ambiguity/readings.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
-#include "pbs/character/bodies.hpp"
-#include "pbs/character/body_cache.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -9,10 +9,10 @@
 #include "analysis/metrics/cross_section.hpp"
 #include "analysis/records/tables.hpp"
 #include "analysis/verdicts/case_record.hpp"
+#include "experiments/characters/character.hpp"
+#include "experiments/meshes/meshing.hpp"
 #include "experiments/settings/option_names.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
-#include "pbs/character/character.hpp"
-#include "pbs/geometry/meshing.hpp"
 
 #include <string>
 #include <vector>

@@ -2,9 +2,9 @@
 
 #include "analysis/metrics/frame_metrics.hpp"
 #include "analysis/statistics/statistics.hpp"
+#include "experiments/characters/skinning_weights.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/settings/recorded_settings.hpp"
-#include "pbs/character/skinning_weights.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -5,10 +5,10 @@
 
 #include "analysis/records/tables.hpp"
 #include "analysis/verdicts/case_record.hpp"
+#include "experiments/characters/character.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
-#include "pbs/character/character.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <array>

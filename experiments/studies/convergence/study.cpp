@@ -7,6 +7,7 @@
 // ladder without solutions on finer tets, and therefore without a bound.
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/measurement.hpp"
+#include "experiments/characters/skinning_weights.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/scene/movements.hpp"
 #include "experiments/scene/scene.hpp"
@@ -15,7 +16,6 @@
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/author/author_solver.hpp"
-#include "pbs/character/skinning_weights.hpp"
 #include "pbs/solver/options.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 

@@ -9,11 +9,11 @@
 
 #include "analysis/records/record_files.hpp"
 #include "analysis/statistics/statistics.hpp"
+#include "experiments/characters/bodies.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/study.hpp"
-#include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/near_rest/near_rest.hpp"

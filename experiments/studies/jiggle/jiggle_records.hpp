@@ -6,11 +6,11 @@
 #include "analysis/statistics/fits.hpp"
 #include "analysis/verdicts/case_record.hpp"
 #include "analysis/verdicts/measurement.hpp"
+#include "experiments/characters/bone_capsules.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/studies/study.hpp"
-#include "pbs/character/bone_capsules.hpp"
 
 #include <string>
 #include <vector>

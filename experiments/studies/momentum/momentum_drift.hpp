@@ -7,7 +7,7 @@
 // corrections, so that angular momentum is conserved to first order only.
 #pragma once
 
-#include "pbs/character/character.hpp"
+#include "experiments/characters/character.hpp"
 #include "pbs/solver/options.hpp"
 
 namespace experiments {

@@ -10,12 +10,12 @@
 #include "analysis/records/tables.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "analysis/verdicts/measurement.hpp"
+#include "experiments/characters/body_cache.hpp"
+#include "experiments/clips/clip.hpp"
 #include "experiments/run/run.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/study.hpp"
-#include "pbs/character/body_cache.hpp"
-#include "pbs/character/clip.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>

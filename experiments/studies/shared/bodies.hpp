@@ -1,7 +1,7 @@
 // Bodies that hang under gravity, and the bodies of the paper's Table 1.
 #pragma once
 
-#include "pbs/character/character.hpp"
+#include "experiments/characters/character.hpp"
 
 #include <array>
 #include <string>

@@ -15,7 +15,7 @@
 #pragma once
 
 #include "analysis/metrics/frame_metrics.hpp"
-#include "pbs/character/character.hpp"
+#include "experiments/characters/character.hpp"
 #include "pbs/solver/constraint_set.hpp"
 #include "pbs/solver/options.hpp"
 #include "pbs/solver/projection.hpp"

@@ -2,9 +2,9 @@
 
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
+#include "experiments/characters/bodies.hpp"
+#include "experiments/characters/body_cache.hpp"
 #include "experiments/run/run.hpp"
-#include "pbs/character/bodies.hpp"
-#include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/input_error.hpp"
 
 #include <fmt/format.h>

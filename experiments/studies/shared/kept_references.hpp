@@ -5,8 +5,8 @@
 // them.
 #pragma once
 
+#include "experiments/characters/character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
-#include "pbs/character/character.hpp"
 #include "pbs/skinning/pose.hpp"
 
 #include <optional>

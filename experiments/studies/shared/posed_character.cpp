@@ -1,8 +1,8 @@
 #include "experiments/studies/shared/posed_character.hpp"
 
+#include "experiments/characters/skinning_weights.hpp"
 #include "experiments/run/broken_frames.hpp"
 #include "experiments/run/frame_measurement.hpp"
-#include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"

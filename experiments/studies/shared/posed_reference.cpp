@@ -2,19 +2,19 @@
 
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"
+#include "experiments/characters/bodies.hpp"
+#include "experiments/characters/body_cache.hpp"
+#include "experiments/characters/bone_capsules.hpp"
+#include "experiments/characters/embedding.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/run/reference_error_bar.hpp"
 #include "experiments/settings/recorded_settings.hpp"
-#include "pbs/character/bodies.hpp"
-#include "pbs/character/body_cache.hpp"
-#include "pbs/character/bone_capsules.hpp"
-#include "pbs/character/embedding.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/module.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/system/module.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -21,11 +21,11 @@
 #include "analysis/metrics/error_norms.hpp"
 #include "analysis/records/tables.hpp"
 #include "analysis/statistics/grid_convergence.hpp"
+#include "experiments/characters/character.hpp"
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_names.hpp"
-#include "pbs/character/character.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

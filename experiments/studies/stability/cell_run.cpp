@@ -1,10 +1,10 @@
 #include "experiments/studies/stability/stability_cells.hpp"
 
+#include "experiments/characters/bodies.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
-#include "pbs/character/bodies.hpp"
 #include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/skinning/blend.hpp"

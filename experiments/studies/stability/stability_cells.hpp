@@ -3,10 +3,10 @@
 
 #include "analysis/metrics/stability_outcome.hpp"
 #include "analysis/records/tables.hpp"
+#include "experiments/characters/character.hpp"
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/settings/option_names.hpp"
-#include "pbs/character/character.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/step_summary.hpp"
 

@@ -1,8 +1,8 @@
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/measurement.hpp"
+#include "experiments/characters/bodies.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
-#include "pbs/character/bodies.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 #include "pbs/solver/xpbd_solver.hpp"
 

@@ -2,11 +2,11 @@
 // table for reading.
 #include "analysis/records/provenance.hpp"
 #include "analysis/statistics/fits.hpp"
+#include "experiments/meshes/mesh_io.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/timing/bench.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/mesh_io.hpp"
 #include "pbs/solver/batched/pbs_kernels.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 

@@ -5,10 +5,10 @@
 // The record is JSON from the start, since programs read it: README.md lists its members.
 #pragma once
 
+#include "experiments/characters/character.hpp"
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/studies/shared/timed_rounds.hpp"
-#include "pbs/character/character.hpp"
 #include "pbs/solver/step_summary.hpp"
 
 #include <nlohmann/json_fwd.hpp>

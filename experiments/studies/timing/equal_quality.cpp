@@ -2,12 +2,12 @@
 
 #include "analysis/records/record_files.hpp"
 #include "analysis/verdicts/measurement.hpp"
+#include "experiments/characters/bodies.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/timing/bench.hpp"
-#include "pbs/character/bodies.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/batched/pose_projection.hpp"
 

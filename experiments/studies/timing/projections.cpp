@@ -1,11 +1,10 @@
 // The bodies of the bench, and the times of a step of projections on them.
+#include "experiments/characters/bodies.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/studies/timing/bench.hpp"
 #include "experiments/studies/timing/plain_loops.hpp"
-#include "pbs/character/bodies.hpp"
 #include "pbs/geometry/cost.hpp"
-#include "pbs/geometry/module.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/packed/parallel.hpp"
@@ -13,6 +12,7 @@
 #include "pbs/solver/batched/pose_projection.hpp"
 #include "pbs/solver/particles.hpp"
 #include "pbs/solver/step_summary.hpp"
+#include "pbs/system/module.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -11,11 +11,11 @@
 // Writes DIR/timing/RUN/timing.csv and measurements.csv, bench.json and bench.txt, features.csv, or orders.csv and
 // targets.csv; and in DIR/timing timing.csv, real_time.csv, features.csv, answers.csv and bench.txt over all runs.
 #include "analysis/records/record_files.hpp"
+#include "experiments/characters/bodies.hpp"
 #include "experiments/studies/shared/bodies.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/timing/bench.hpp"
 #include "experiments/studies/timing/timing.hpp"
-#include "pbs/character/bodies.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

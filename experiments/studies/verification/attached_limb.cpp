@@ -2,9 +2,9 @@
 //   Young's modulus cancels where displacements alone drive the body. A pose that turns the whole limb does not change
 //   its shape, however the bones hold it. A further frame of the linear reference costs one re-solve.
 
+#include "experiments/characters/bone_capsules.hpp"
 #include "experiments/deformers/fem/fem_deformers.hpp"
 #include "experiments/studies/verification/problem.hpp"
-#include "pbs/character/bone_capsules.hpp"
 #include "pbs/geometry/cost.hpp"
 #include "reference_fem/assembly.hpp"
 #include "reference_fem/newton/newton.hpp"

@@ -10,10 +10,10 @@
 // keeps them.
 
 #include "analysis/records/record_files.hpp"
+#include "experiments/characters/body_cache.hpp"
 #include "experiments/studies/verification/problem.hpp"
-#include "pbs/character/body_cache.hpp"
-#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/system/files.hpp"
 #include "reference_fem/linear_elasticity.hpp"
 #include "reference_fem/linear_flesh.hpp"
 #include "reference_fem/linear_solvers.hpp"

@@ -2,8 +2,8 @@
 // problem_list.cpp.
 #pragma once
 
+#include "experiments/characters/character.hpp"
 #include "experiments/deformers/fem/bone_attachment.hpp"
-#include "pbs/character/character.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "reference_fem/boundary_value_problem.hpp"
 #include "reference_fem/elastic_body.hpp"

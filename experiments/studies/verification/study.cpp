@@ -2,11 +2,11 @@
 // problem a run of its own. No claim depends on it; it shows how far the reference itself can be trusted. The rows are
 // in DIR/verification/verification.csv.
 #include "analysis/records/record_files.hpp"
+#include "experiments/characters/bodies.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/verification/problem.hpp"
-#include "pbs/character/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "reference_fem/verification/verification_record.hpp"
 

@@ -5,6 +5,7 @@
 #include "analysis/metrics/skin_error.hpp"
 #include "analysis/statistics/paired_comparison.hpp"
 #include "analysis/statistics/statistics.hpp"
+#include "experiments/characters/bodies.hpp"
 #include "experiments/deformers/correctives.hpp"
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/registry.hpp"
@@ -13,7 +14,6 @@
 #include "experiments/studies/shared/iteration_path.hpp"
 #include "experiments/studies/shared/kept_references.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
-#include "pbs/character/bodies.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 #include "experiments/studies/work_precision/methods.hpp"
 
+#include "experiments/characters/skinning_weights.hpp"
 #include "experiments/deformers/correctives.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/external/external_deformers.hpp"
@@ -8,12 +9,11 @@
 #include "experiments/settings/scene_values.hpp"
 #include "experiments/studies/study.hpp"
 #include "generated/chosen_texts.hpp"
-#include "pbs/character/skinning_weights.hpp"
-#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/solver/constraint_set.hpp"
 #include "pbs/solver/options.hpp"
+#include "pbs/system/files.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -6,9 +6,9 @@
 #pragma once
 
 #include "analysis/records/tables.hpp"
+#include "experiments/characters/character.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
-#include "pbs/character/character.hpp"
 
 #include <algorithm>
 #include <string>

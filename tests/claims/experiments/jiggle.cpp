@@ -2,9 +2,9 @@
 // the verdicts change. Reference: the project's own claims.toml; invented flesh that comes to rest and whose amplitude
 // falls with k_stretch.
 
+#include "experiments/characters/bone_capsules.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
-#include "pbs/character/bone_capsules.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/broken_solver.hpp"
 #include "tests/support/jiggle_responses.hpp"

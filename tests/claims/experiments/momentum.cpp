@@ -2,8 +2,8 @@
 // third law; projections with the masses of the momentum conserve it, and Eq. 8-9 for m = 1 on unequal masses do not.
 
 #include "experiments/studies/momentum/momentum_drift.hpp"
-#include "tests/support/broken_solver.hpp"
 #include "tests/support/bar_character.hpp"
+#include "tests/support/broken_solver.hpp"
 #include "tests/support/momentum_rounding.hpp"
 #include "tests/support/study_claims.hpp"
 

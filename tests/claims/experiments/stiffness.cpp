@@ -2,8 +2,8 @@
 // claims.toml. The stiffnesses are invented; the values are those that the study computes from them.
 
 #include "analysis/verdicts/measurement.hpp"
+#include "experiments/characters/bodies.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"
-#include "pbs/character/bodies.hpp"
 #include "tests/support/study_claims.hpp"
 
 #include <gtest/gtest.h>

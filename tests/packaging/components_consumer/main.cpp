@@ -1,8 +1,8 @@
 // Makes a limb, writes it, reads it back, holds it at one end and moves it by linear flesh: one call of each component.
 // The flesh follows as a whole and keeps its volume. Prints: tets N, bones N, moved to within X m, volume change X %
 #include "analysis/metrics/frame_metrics.hpp"
-#include "pbs/character/bodies.hpp"
-#include "pbs/geometry/mesh_io.hpp"
+#include "experiments/characters/bodies.hpp"
+#include "experiments/meshes/mesh_io.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "reference_fem/linear_elasticity.hpp"
 

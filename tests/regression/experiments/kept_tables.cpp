@@ -1,6 +1,8 @@
 // The kept records, read as rows and written again, have the same columns and cells. Reference: the files, which
 // earlier versions wrote.
 #include "analysis/records/record_files.hpp"
+#include "experiments/reproduce/reproduce.hpp"
+#include "experiments/reproduce/studies.hpp"
 #include "experiments/run/metrics_table.hpp"
 #include "experiments/run/region_record.hpp"
 #include "experiments/studies/ambiguity/readings.hpp"
@@ -9,7 +11,6 @@
 #include "experiments/studies/ensemble/ensemble.hpp"
 #include "experiments/studies/fit/fit.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
-#include "experiments/studies/reproduce.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
 #include "experiments/studies/stiffness/stiffness_ratios.hpp"

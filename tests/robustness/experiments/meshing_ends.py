@@ -1,5 +1,5 @@
 """Surfaces on which the mesher would go on without end, and work that is interrupted: each ends soon, and leaves nothing half-written.
-Reference: the bounds in pbs/geometry/meshing_surface.cpp and the exit statuses in experiments/command_line/README.md."""
+Reference: the bounds in experiments/meshes/meshing_surface.cpp and the exit statuses in experiments/command_line/README.md."""
 import os
 import signal
 import subprocess

@@ -7,8 +7,8 @@
 #include "reference_fem/linear_flesh.hpp"
 #include "reference_fem/potentials/potentials.hpp"
 
-#include "tests/support/fem_rounding.hpp"
 #include "tests/support/eps_sweep.hpp"
+#include "tests/support/fem_rounding.hpp"
 #include "tests/support/structured_bar.hpp"
 
 #include <Eigen/Eigenvalues>

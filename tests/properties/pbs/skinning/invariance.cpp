@@ -1,7 +1,7 @@
 // Reference: binding and weights are geometry, so they commute with rigid motions, renumbering, mirrors and changes of
 // unit. The same of the skinners: tests/unit/pbs/skinning/contract.cpp.
-#include "tests/support/rounding_error.hpp"
 #include "tests/support/random_points.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/two_bone_limb.hpp"
 
 #include <gtest/gtest.h>

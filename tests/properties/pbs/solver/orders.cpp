@@ -7,7 +7,7 @@
 // 30 % below random orders of the same loops.
 #include "pbs/solver/pbs_solver.hpp"
 
-#include "pbs/geometry/meshing.hpp"
+#include "experiments/meshes/meshing.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/solver/projection.hpp"
 #include "tests/support/step_rounding.hpp"

@@ -31,7 +31,7 @@ protected:
     const fs::path folder = scratch.path();
 };
 
-// Whole files, names and permissions: tests/unit/pbs/geometry/files.cpp.
+// Whole files, names and permissions: tests/unit/pbs/system/files.cpp.
 TEST_F(AtomicFile, ReadOnlyFolderIsRefused)
 {
     fs::permissions(folder,

@@ -1,7 +1,7 @@
 #include "analysis/statistics/fits.hpp"
 #include "analysis/statistics/grid_convergence.hpp"
-#include "tests/support/rounding_error.hpp"
 #include "tests/support/refusal.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <cmath>
 #include <tuple>

@@ -2,11 +2,11 @@
 // that each kind declares. A kind of the registry joins by itself; finite elements, which need a table in the scene,
 // are in `every_deformer`.
 
+#include "experiments/characters/skinning_weights.hpp"
 #include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/character/skinning_weights.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/bar_character.hpp"
 

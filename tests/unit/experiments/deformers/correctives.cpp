@@ -2,14 +2,14 @@
 // the file's header.
 #include "experiments/deformers/correctives.hpp"
 
+#include "experiments/characters/body_cache.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/character/body_cache.hpp"
 #include "pbs/geometry/extent.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/unit/pbs/character/expect_input_error.hpp"
+#include "tests/unit/experiments/characters/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
 

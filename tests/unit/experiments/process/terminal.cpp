@@ -5,10 +5,10 @@
 #include "analysis/records/record_files.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
-#include "pbs/geometry/child_process.hpp"
 #include "pbs/geometry/cost.hpp"
-#include "pbs/geometry/files.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/system/child_process.hpp"
+#include "pbs/system/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <fcntl.h>

@@ -2,8 +2,8 @@
 // (bones and binding), affine maps, which preserve barycentric coordinates inside a tet and outside (embedding), and
 // distances of a few points by hand. Tolerances: the rounding of motions and of distances.
 #include "analysis/records/record_files.hpp"
+#include "experiments/characters/bodies.hpp"
 #include "experiments/run/drawn_frames.hpp"
-#include "pbs/character/bodies.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/rounding_error.hpp"

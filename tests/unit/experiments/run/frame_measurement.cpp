@@ -2,9 +2,9 @@
 // have axes as normals, so that nothing of them is rounded.
 
 #include "analysis/metrics/cross_section.hpp"
+#include "experiments/characters/bodies.hpp"
+#include "experiments/characters/bone_capsules.hpp"
 #include "experiments/run/frame_measurement.hpp"
-#include "pbs/character/bodies.hpp"
-#include "pbs/character/bone_capsules.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/rounding_error.hpp"
 

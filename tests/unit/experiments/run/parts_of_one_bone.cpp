@@ -1,8 +1,8 @@
 // Reference: rigid motions, of which the angle is known.
 
+#include "experiments/characters/bodies.hpp"
+#include "experiments/characters/model_character.hpp"
 #include "experiments/run/parts_of_one_bone.hpp"
-#include "pbs/character/bodies.hpp"
-#include "pbs/character/model_character.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <gtest/gtest.h>

@@ -4,9 +4,9 @@
 // itself may be rounded differently there.
 #include "experiments/run/reference_error_bar.hpp"
 
+#include "experiments/characters/bodies.hpp"
+#include "experiments/characters/character.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
-#include "pbs/character/bodies.hpp"
-#include "pbs/character/character.hpp"
 #include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // A run's record of a rigged model. Reference: a model made by hand.
+#include "experiments/characters/model_character.hpp"
 #include "experiments/run/run_folder.hpp"
-#include "pbs/character/model_character.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // Reference: the angles of experiments/scenes/movements.toml, measured between the bones at the end of each movement.
 #include "experiments/scene/movements.hpp"
 
-#include "tests/unit/pbs/character/expect_input_error.hpp"
+#include "tests/unit/experiments/characters/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
 

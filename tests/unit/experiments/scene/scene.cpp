@@ -1,16 +1,16 @@
 // Scenes as the combination of a file, --set and the defaults. Reference: the contract of scene files
 // (experiments/scene/manual.md) and the options' own defaults.
 
+#include "experiments/characters/model_character.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/scene/scene.hpp"
-#include "pbs/character/model_character.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/gltf_document.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/unit/pbs/character/expect_input_error.hpp"
+#include "tests/unit/experiments/characters/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
 

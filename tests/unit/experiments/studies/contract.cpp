@@ -1,7 +1,8 @@
 // Every study keeps these promises. Reference: the contract of experiments/studies/study.hpp. A study of the list joins
 // by itself.
 
-#include "experiments/studies/reproduce.hpp"
+#include "experiments/reproduce/reproduce.hpp"
+#include "experiments/reproduce/studies.hpp"
 #include "experiments/studies/study.hpp"
 #include "tests/support/scratch_folder.hpp"
 

@@ -3,6 +3,7 @@
 // structs here, each changed in turn.
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/registry.hpp"
+#include "experiments/reproduce/studies.hpp"
 #include "experiments/settings/recorded_settings.hpp"
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/timing/timing.hpp"

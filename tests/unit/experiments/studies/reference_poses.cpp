@@ -2,7 +2,7 @@
 // the limb's poses state.
 #include "experiments/studies/reference_poses.hpp"
 
-#include "pbs/character/bodies.hpp"
+#include "experiments/characters/bodies.hpp"
 #include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>

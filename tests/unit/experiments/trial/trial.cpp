@@ -1,12 +1,12 @@
 // The scene that is made of a model. Reference: the contract of scene files, by reading the scene again, and the
 // options by hand.
 
+#include "experiments/characters/model_character.hpp"
+#include "experiments/clips/clip.hpp"
 #include "experiments/trial/trial.hpp"
-#include "pbs/character/clip.hpp"
-#include "pbs/character/model_character.hpp"
 #include "tests/support/gltf_document.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/unit/pbs/character/expect_input_error.hpp"
+#include "tests/unit/experiments/characters/expect_input_error.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

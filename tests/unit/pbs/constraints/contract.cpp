@@ -6,8 +6,8 @@
 
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/eps_sweep.hpp"
-#include "tests/support/rounding_error.hpp"
 #include "tests/support/projection_rounding.hpp"
+#include "tests/support/rounding_error.hpp"
 #include "tests/support/structured_bar.hpp"
 #include "tests/support/tet_corners.hpp"
 

@@ -5,7 +5,7 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/skinners.hpp"
-#include "tests/unit/pbs/character/expect_input_error.hpp"
+#include "tests/unit/experiments/characters/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "reference_fem/verification/verification_record.hpp"
-#include "tests/support/scratch_folder.hpp"
 #include "tests/support/rounding_error.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <cmath>
 

@@ -7,9 +7,9 @@
 // verify that mesh, poses and metrics are those of the table. Where CGAL makes another mesh the tests fail, because
 // nothing else compares the deformer with the published code.
 #include "analysis/metrics/frame_metrics.hpp"
+#include "experiments/characters/bodies.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "pbs/author/author_solver.hpp"
-#include "pbs/character/bodies.hpp"
 #include "pbs/solver/options.hpp"
 
 #include <gtest/gtest.h>

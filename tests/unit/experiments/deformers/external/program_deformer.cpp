@@ -6,7 +6,7 @@
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/unit/pbs/character/expect_input_error.hpp"
+#include "tests/unit/experiments/characters/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
 

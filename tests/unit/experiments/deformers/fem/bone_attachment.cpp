@@ -1,8 +1,8 @@
 // Reference: the definitions of the attachments (springs of density q E / r^2 over the capsule; whole tets, no vertex
 // of two bones; bind stiffness of density q E / R^2 over the flesh).
 
+#include "experiments/characters/character.hpp"
 #include "experiments/deformers/fem/bone_attachment.hpp"
-#include "pbs/character/character.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/refusal.hpp"

@@ -2,14 +2,14 @@
 // that it deforms correctly. Tolerances between two solutions for one pose: newton_error_m, the error that Newton's
 // method leaves, for each of them.
 
-#include "pbs/geometry/meshing.hpp"
+#include "experiments/meshes/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/fem_bar.hpp"
+#include "tests/support/fem_rounding.hpp"
 #include "tests/support/json_facts.hpp"
 #include "tests/support/newton_rounding.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/rounding_error.hpp"
-#include "tests/support/fem_rounding.hpp"
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include "experiments/deformers/fem/fem_options.hpp"
 
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/geometry/module.hpp"
 #include "pbs/geometry/topology.hpp"
+#include "pbs/system/module.hpp"
 #include "tests/support/bar_character.hpp"
 
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 // cannot change.
 
 #include "analysis/verdicts/measurement.hpp"
+#include "experiments/reproduce/studies.hpp"
 #include "experiments/scene/scene.hpp"
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "experiments/studies/shared/posed_character.hpp"

@@ -4,9 +4,9 @@
 // points at which planes cut edges.
 
 #include "analysis/metrics/cross_section.hpp"
+#include "experiments/characters/bodies.hpp"
+#include "experiments/meshes/meshing.hpp"
 #include "experiments/studies/artefacts/artefact_case.hpp"
-#include "pbs/character/bodies.hpp"
-#include "pbs/geometry/meshing.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/skinning/blend.hpp"
 #include "tests/support/mesher_error.hpp"

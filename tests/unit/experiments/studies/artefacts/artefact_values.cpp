@@ -1,7 +1,7 @@
 // The values of C04 and C05 from invented sections of a small limb. Reference: the ratios of the given sizes.
 
+#include "experiments/characters/bodies.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
-#include "pbs/character/bodies.hpp"
 #include "tests/support/artefact_samples.hpp"
 #include "tests/support/rounding_error.hpp"
 

@@ -4,8 +4,8 @@
 #include "experiments/deformers/deformer_options.hpp"
 #include "pbs/author/author_solver.hpp"
 #include "pbs/solver/pbs_solver.hpp"
-#include "tests/support/iteration_paths.hpp"
 #include "tests/support/bar_character.hpp"
+#include "tests/support/iteration_paths.hpp"
 
 #include <gtest/gtest.h>
 

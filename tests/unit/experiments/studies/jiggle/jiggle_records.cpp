@@ -1,8 +1,8 @@
 // Reference: for the values of C09 from invented responses, the ratios and ranks of the given frequencies.
 
+#include "experiments/characters/bodies.hpp"
+#include "experiments/characters/bone_capsules.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
-#include "pbs/character/bodies.hpp"
-#include "pbs/character/bone_capsules.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/jiggle_responses.hpp"

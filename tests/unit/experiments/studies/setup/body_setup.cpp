@@ -1,7 +1,7 @@
 // Reference: differences of scenes, and shares and means of a few frames, by hand.
 #include "experiments/studies/setup/body_setup.hpp"
 
-#include "pbs/character/bodies.hpp"
+#include "experiments/characters/bodies.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "tests/support/scratch_folder.hpp"
 

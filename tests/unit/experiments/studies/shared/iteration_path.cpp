@@ -3,9 +3,9 @@
 
 #include "experiments/studies/shared/iteration_path.hpp"
 #include "pbs/solver/pbs_solver.hpp"
-#include "tests/support/rounding_error.hpp"
-#include "tests/support/iteration_paths.hpp"
 #include "tests/support/bar_character.hpp"
+#include "tests/support/iteration_paths.hpp"
+#include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>
 

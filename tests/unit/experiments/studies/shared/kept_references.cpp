@@ -3,8 +3,8 @@
 // that.
 #include "experiments/studies/shared/kept_references.hpp"
 
-#include "pbs/character/body_cache.hpp"
-#include "pbs/geometry/mesh_io.hpp"
+#include "experiments/characters/body_cache.hpp"
+#include "experiments/meshes/mesh_io.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/environment_variable.hpp"
 #include "tests/support/random_points.hpp"

@@ -2,12 +2,12 @@
 // way, a rigid motion, whose shapes are known, and the rows of the frames for those of the clip.
 #include "experiments/studies/temporal/temporal.hpp"
 
+#include "experiments/characters/bodies.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/shared/posed_reference.hpp"
 #include "experiments/studies/study.hpp"
-#include "pbs/character/bodies.hpp"
 #include "pbs/geometry/topology.hpp"
 
 #include <Eigen/Geometry>

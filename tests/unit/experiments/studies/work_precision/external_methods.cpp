@@ -1,11 +1,11 @@
 // The file with deformers of the user's own: what is read, and each wrong input with its file, line, field, value and
 // rule.
+#include "experiments/characters/bodies.hpp"
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/work_precision/methods.hpp"
-#include "pbs/character/bodies.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/unit/pbs/character/expect_input_error.hpp"
+#include "tests/unit/experiments/characters/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -3,16 +3,16 @@
 // single precision.
 #include "experiments/studies/work_precision/measuring.hpp"
 
+#include "experiments/characters/body_cache.hpp"
 #include "experiments/deformers/external/external_deformers.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/studies/shared/kept_references.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
-#include "pbs/character/body_cache.hpp"
-#include "pbs/geometry/files.hpp"
+#include "pbs/system/files.hpp"
 #include "tests/support/environment_variable.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/unit/pbs/character/expect_input_error.hpp"
+#include "tests/unit/experiments/characters/expect_input_error.hpp"
 
 #include <gtest/gtest.h>
 

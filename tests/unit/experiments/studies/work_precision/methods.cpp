@@ -2,16 +2,16 @@
 // the study's page lists them.
 #include "experiments/studies/work_precision/methods.hpp"
 
+#include "experiments/characters/bodies.hpp"
+#include "experiments/characters/skinning_weights.hpp"
 #include "experiments/deformers/correctives.hpp"
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/study.hpp"
-#include "pbs/character/bodies.hpp"
-#include "pbs/character/skinning_weights.hpp"
-#include "pbs/geometry/files.hpp"
 #include "pbs/solver/constraint_set.hpp"
 #include "pbs/solver/options.hpp"
+#include "pbs/system/files.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -5,8 +5,8 @@
 #include "experiments/studies/verification/problem.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/fem_bar.hpp"
-#include "tests/support/newton_rounding.hpp"
 #include "tests/support/fem_rounding.hpp"
+#include "tests/support/newton_rounding.hpp"
 #include "tests/support/structured_bar.hpp"
 
 namespace {

@@ -3,8 +3,8 @@
 // 1e4: the fictitious strain 1 - cos(10 deg) = 1.5 %, which the flesh would lose and the springs prevent, times the
 // share that tets with samples of two bones cannot follow; the test requires a tenth of it, 1.5e-3. Needs Debian's
 // assimp-testmodels, which the set-up installs.
+#include "experiments/characters/bodies.hpp"
 #include "experiments/deformers/fem/fem_deformers.hpp"
-#include "pbs/character/bodies.hpp"
 #include "tests/support/rounding_error.hpp"
 
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
 // Reference: the deformer on each mesh by itself, and a solution on tets cut into 64, which the bound must cover.
 #include "experiments/studies/shared/posed_reference.hpp"
 
+#include "experiments/characters/bodies.hpp"
+#include "experiments/characters/bone_capsules.hpp"
+#include "experiments/characters/character.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "pbs/character/bodies.hpp"
-#include "pbs/character/bone_capsules.hpp"
-#include "pbs/character/character.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/long_form.hpp"

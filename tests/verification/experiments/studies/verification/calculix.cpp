@@ -2,9 +2,9 @@
 // and P2, so both solve the same system, and what differs is rounding and the last Newton steps of both. The row of
 // each problem has its tolerance with the derivation: for the smooth attachment by the condition number of this very
 // matrix. The comparison fails for each error that is put into the reference here.
+#include "experiments/characters/bodies.hpp"
+#include "experiments/characters/body_cache.hpp"
 #include "experiments/studies/verification/problem.hpp"
-#include "pbs/character/bodies.hpp"
-#include "pbs/character/body_cache.hpp"
 #include "tests/support/environment_variable.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/scratch_folder.hpp"

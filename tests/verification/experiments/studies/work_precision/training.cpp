@@ -1,11 +1,11 @@
 // All settings in a training pose. Reference: the methods' table, and deformers that are driven by hand.
+#include "experiments/characters/body_cache.hpp"
+#include "experiments/characters/skinning_weights.hpp"
 #include "experiments/deformers/correctives.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "experiments/studies/shared/kept_references.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/work_precision/measuring.hpp"
-#include "pbs/character/body_cache.hpp"
-#include "pbs/character/skinning_weights.hpp"
 #include "tests/support/environment_variable.hpp"
 #include "tests/support/scratch_folder.hpp"
 

@@ -1,0 +1,182 @@
+#include "experiments/reproduce/studies.hpp"
+
+#include "analysis/records/record_files.hpp"
+#include "analysis/records/tables.hpp"
+#include "experiments/process/machine.hpp"
+#include "experiments/run/run.hpp"
+#include "pbs/geometry/cost.hpp"
+#include "pbs/geometry/input_error.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+namespace experiments {
+
+namespace fs = std::filesystem;
+
+const std::vector<Study>& studies()
+{
+    static const std::vector<Study> studies = {
+        volume_study(),         audit_study(),    momentum_study(),     convergence_study(), stability_study(),
+        artefacts_study(),      jiggle_study(),   stiffness_study(),    setup_study(),       ambiguity_study(),
+        frames_study(),         timing_study(),   verification_study(), fit_study(),         references_study(),
+        work_precision_study(), ensemble_study(), temporal_study()};
+    return studies;
+}
+
+namespace {
+
+// All that the result of the run depends on, with its key in run.json.
+std::pair<std::string, nlohmann::json> identity(const StudyRun& run)
+{
+    if (run.work) return {"work", {{"name", run.name}, {"settings", run.settings}}};
+    return {"scene", to_json(run.scene)};
+}
+
+std::string carry_out_work(const StudyRun& run, const std::string& folder)
+{
+    analysis::make_output_folder(folder);
+    const fs::path record = fs::path(folder) / "run.json";
+    analysis::remove_record(record);
+    const pbs::Stopwatch stopwatch;
+    const double cpu_start_s = process_cpu_s();
+    const std::string breakdown = run.work(folder);
+
+    const auto [key, value] = identity(run);
+    nlohmann::json outcome = {
+        {"finished", true}, {"breakdown", breakdown}, {"cpu_seconds", process_cpu_s() - cpu_start_s}};
+    outcome.update(run_end(stopwatch.seconds()));
+    const nlohmann::json json = {
+        {"schema", run_schema}, {key, value}, {"provenance", run_provenance(1)}, {"outcome", outcome}};
+    analysis::write_text_atomically(record.string(), analysis::record_text(json));
+    return breakdown;
+}
+
+struct RecordedCost {
+    std::optional<double> cpu_s;  // of its process with all threads; records of some versions lack it
+    std::optional<double> wall_s;
+};
+
+std::optional<double> number_at(const nlohmann::json& run, const char* pointer)
+{
+    const nlohmann::json::json_pointer place(pointer);
+    return run.contains(place) && run.at(place).is_number() ? std::optional(run.at(place).get<double>()) : std::nullopt;
+}
+
+const analysis::Columns<RunCost> cost_columns =
+    analysis::Columns<RunCost>{
+        {"run", &RunCost::run}, {"expected_cpu_s", &RunCost::expected_s}, {"cpu_s", &RunCost::cpu_s}} +
+    analysis::Columns<RunCost>{{"wall_s", &RunCost::wall_s}}.in_group("wall");
+
+// Nothing if the run did not finish.
+std::optional<RecordedCost> recorded_cost(const fs::path& folder)
+{
+    if (!fs::exists(folder / "run.json")) return std::nullopt;
+    const auto run = nlohmann::json::parse(analysis::read_text((folder / "run.json").string()), nullptr, false);
+    const char* cpu_s = run.contains("cost") ? "/cost/cpu_seconds/total" : "/outcome/cpu_seconds";
+    return RecordedCost{number_at(run, cpu_s), number_at(run, "/outcome/wall_s")};
+}
+
+}  // namespace
+
+bool is_finished(const StudyRun& run, const std::string& folder)
+{
+    const fs::path record = fs::path(folder) / "run.json";
+    if (!fs::exists(record)) return false;
+    const auto json = nlohmann::json::parse(analysis::read_text(record.string()), nullptr, false);
+    const auto [key, value] = identity(run);
+    if (!json.is_object() || json.value("schema", nlohmann::json()) != run_schema) return false;
+    if (json.value(key, nlohmann::json()) != value) return false;
+    const analysis::Provenance now = analysis::collect_provenance(1);
+    const nlohmann::json then = json.value("provenance", nlohmann::json()), none;
+    return then.is_object() && then.value("git_revision", none) == now.git_revision &&
+           then.value("git_dirty", none) == now.git_dirty;
+}
+
+bool study_holds(const Study& study, const FinishedRuns& finished)
+{
+    return !study.conclude || (!finished.none() && study.conclude(finished));
+}
+
+std::string carry_out(const StudyRun& run, const std::string& folder)
+{
+    if (run.work) return carry_out_work(run, folder);
+    const RunResult result = run_scene(run.scene, folder);
+    for (const auto& line : result.lines) spdlog::debug("{}", line);
+    return run.bad_frames_are_results ? result.breakdown : result.failure();
+}
+
+std::string breakdown_on_record(const StudyRun& run, const std::string& folder)
+{
+    return analysis::from_record((fs::path(folder) / "run.json").string(), [&](const nlohmann::json& json) {
+        const nlohmann::json& outcome = json.at("outcome");
+        const auto breakdown = outcome.at("breakdown").get<std::string>();
+        const bool bad_frame_counts = !run.work && !run.bad_frames_are_results && breakdown.empty();
+        return bad_frame_counts ? outcome.at("bad_frame").get<std::string>() : breakdown;
+    });
+}
+
+StudyCosts::StudyCosts(const std::string& folder) : file_((fs::path(folder) / "costs.csv").string())
+{
+    if (!fs::exists(file_)) return;
+    runs_ = rows_of(cost_columns, analysis::read_csv(file_));
+}
+
+void StudyCosts::add(const std::string& run, double expected_s, double cpu_s)
+{
+    std::erase_if(runs_, [&](const RunCost& cost) { return cost.run == run; });
+    runs_.push_back({run, expected_s, cpu_s});
+}
+
+void StudyCosts::complete(const std::string& folder, const StudyPlan& plan)
+{
+    std::vector<RunCost> ordered;
+    for (const StudyRun& run : plan.runs) {
+        const auto recorded = recorded_cost(fs::path(folder) / run.name);
+        if (!recorded) continue;
+        const auto row = std::ranges::find(runs_, run.name, &RunCost::run);
+        if (row == runs_.end() && !recorded->cpu_s) continue;
+        ordered.push_back(row != runs_.end() ? *row : RunCost{run.name, run.cost_s, *recorded->cpu_s});
+        ordered.back().wall_s = recorded->wall_s;
+    }
+    runs_ = ordered;
+}
+
+void StudyCosts::write() const
+{
+    table_of(cost_columns, runs_).write(file_);
+}
+
+ExpectedCost expected_cost(const Study& study, const std::vector<StudyRun>& runs, int jobs)
+{
+    ExpectedCost cost{.study = study.name, .runs = static_cast<int>(runs.size())};
+    double longest_s = 0.0;
+    for (const StudyRun& run : runs) {
+        cost.cpu_s += run.cost_s;
+        longest_s = std::max(longest_s, run.cost_s);
+    }
+    cost.wall_s = std::max(longest_s, cost.cpu_s / (study.alone ? 1 : jobs));
+    return cost;
+}
+
+std::string expected_cost_table(const std::vector<ExpectedCost>& costs)
+{
+    std::string table = fmt::format("{:<16} {:>6} {:>16} {:>10}\n", "study", "runs", "expected cpu [s]", "wall [min]");
+    ExpectedCost sum{.study = "all"};
+    const auto line = [](const ExpectedCost& cost) {
+        return fmt::format("{:<16} {:>6} {:>16.0f} {:>10.1f}\n", cost.study, cost.runs, cost.cpu_s, cost.wall_s / 60.0);
+    };
+    for (const ExpectedCost& cost : costs) {
+        table += line(cost);
+        sum.runs += cost.runs;
+        sum.cpu_s += cost.cpu_s;
+        sum.wall_s += cost.wall_s;
+    }
+    return table + line(sum);
+}
+
+}  // namespace experiments
