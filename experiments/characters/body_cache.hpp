@@ -3,8 +3,8 @@
 //   TetMesh mesh = cached_mesh("limb-1775", [] { return mesh_limb(1775); });
 #pragma once
 
-#include "experiments/meshes/source_file.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
+#include "pbs/system/source_file.hpp"
 
 #include <functional>
 #include <map>

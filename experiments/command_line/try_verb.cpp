@@ -3,7 +3,6 @@
 
 #include "analysis/records/record_files.hpp"
 #include "experiments/command_line/verbs.hpp"
-#include "experiments/meshes/source_file.hpp"
 #include "experiments/process/child_process.hpp"
 #include "experiments/process/terminal.hpp"
 #include "experiments/run/run.hpp"
@@ -12,6 +11,7 @@
 #include "experiments/trial/trial.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/system/child_process.hpp"
+#include "pbs/system/source_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -5,10 +5,10 @@
 #include "experiments/characters/body_cache.hpp"
 #include "experiments/deformers/deformer_kind.hpp"
 #include "experiments/deformers/registry.hpp"
-#include "experiments/meshes/source_file.hpp"
 #include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/system/files.hpp"
+#include "pbs/system/source_file.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>

@@ -1,7 +1,7 @@
 #include "experiments/meshes/content_format.hpp"
 
-#include "experiments/meshes/source_file.hpp"
 #include "experiments/meshes/text_words.hpp"
+#include "pbs/system/source_file.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 //   const TetMesh mesh = read_guarded("arm.vtu", "tets", read_vtk);
 #pragma once
 
-#include "experiments/meshes/source_file.hpp"
+#include "pbs/system/source_file.hpp"
 
 #include <functional>
 #include <string>

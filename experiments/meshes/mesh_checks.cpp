@@ -2,10 +2,10 @@
 #include "experiments/meshes/mesh_io_formats.hpp"
 
 #include "experiments/meshes/meshing.hpp"
-#include "experiments/meshes/source_file.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "pbs/geometry/winding_number.hpp"
+#include "pbs/system/source_file.hpp"
 
 #include <Eigen/Geometry>
 #include <unistd.h>

@@ -2,10 +2,10 @@
 //   collect_messages();  reader->Update();  throw_if_any_message(path);
 
 #include "experiments/meshes/mesh_io_formats.hpp"
-#include "experiments/meshes/source_file.hpp"
 #include "experiments/meshes/text_words.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/system/files.hpp"
+#include "pbs/system/source_file.hpp"
 
 #include <vtkCell.h>
 #include <vtkCellArray.h>

@@ -6,8 +6,8 @@
 #pragma once
 
 #include "experiments/meshes/content_format.hpp"
-#include "experiments/meshes/source_file.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/system/source_file.hpp"
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>

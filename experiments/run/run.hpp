@@ -3,8 +3,8 @@
 #pragma once
 
 #include "analysis/records/provenance.hpp"
-#include "experiments/meshes/source_file.hpp"
 #include "experiments/scene/scene.hpp"
+#include "pbs/system/source_file.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -1,7 +1,7 @@
 #include "pbs/system/files.hpp"
 
-#include "experiments/meshes/source_file.hpp"
 #include "pbs/geometry/input_error.hpp"
+#include "pbs/system/source_file.hpp"
 
 #include <fcntl.h>
 

@@ -1,7 +1,7 @@
 // Reference: the bytes that were written. Two objects share their bytes if they return the same address. The pauses are
 // longer than a tick of the file system's clock.
 
-#include "experiments/meshes/source_file.hpp"
+#include "pbs/system/source_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/experiments/characters/expect_input_error.hpp"
 

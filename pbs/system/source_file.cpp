@@ -1,4 +1,4 @@
-#include "experiments/meshes/source_file.hpp"
+#include "pbs/system/source_file.hpp"
 
 #include "pbs/geometry/input_error.hpp"
 
